@@ -1,0 +1,73 @@
+# EspdiffDependencies.cmake: finds what the project builds on, and keeps account of what is left out and why.
+
+set(ESPDIFF_SUMMARY "")
+function(espdiff_note text)
+  set(ESPDIFF_SUMMARY "${ESPDIFF_SUMMARY}\n  ${text}" CACHE INTERNAL "")
+endfunction()
+set(ESPDIFF_SUMMARY "" CACHE INTERNAL "")
+
+# espdiff_resolve(OPTION found "what" "how to get it"): turns AUTO into ON or OFF and fails on ON when not found.
+function(espdiff_resolve option found what remedy)
+  if(${option} STREQUAL "OFF")
+    espdiff_note("${what}: off (${option}=OFF)")
+    set(${option}_ENABLED OFF PARENT_SCOPE)
+  elseif(found)
+    espdiff_note("${what}: on")
+    set(${option}_ENABLED ON PARENT_SCOPE)
+  elseif(${option} STREQUAL "ON")
+    message(FATAL_ERROR "${what} was asked for (${option}=ON) but ${remedy}")
+  else()
+    espdiff_note("${what}: left out; ${remedy}")
+    set(${option}_ENABLED OFF PARENT_SCOPE)
+  endif()
+endfunction()
+
+function(espdiff_print_summary)
+  message(STATUS "espdiff ${PROJECT_VERSION}:${ESPDIFF_SUMMARY}")
+endfunction()
+
+find_package(Threads REQUIRED)
+find_package(OpenMP REQUIRED COMPONENTS CXX)
+find_package(ZLIB REQUIRED)
+find_package(Eigen3 REQUIRED NO_MODULE)
+find_package(CLI11 REQUIRED)
+find_package(nlohmann_json REQUIRED)
+
+# CUDA: needed by the second back end only.
+if(NOT ESPDIFF_CUDA STREQUAL "OFF")
+  include(CheckLanguage)
+  check_language(CUDA)
+  if(CMAKE_CUDA_COMPILER)
+    if(NOT DEFINED CMAKE_CUDA_ARCHITECTURES)
+      set(CMAKE_CUDA_ARCHITECTURES 90 CACHE STRING "GPU architectures; the release preset takes all")
+    endif()
+    enable_language(CUDA)
+    find_package(CUDAToolkit REQUIRED)
+    set(CMAKE_CUDA_STANDARD 17)
+    set(CMAKE_CUDA_STANDARD_REQUIRED ON)
+  endif()
+endif()
+espdiff_resolve(ESPDIFF_CUDA "${CMAKE_CUDA_COMPILER}" "CUDA back end" "no nvcc was found (set CUDACXX, or install the CUDA toolkit)")
+
+# Thrust for the CPU back end: Debian's, else the CUDA toolkit's.
+find_path(ESPDIFF_THRUST_INCLUDE thrust/for_each.h
+  PATHS /usr/include PATH_SUFFIXES cccl NO_CMAKE_SYSTEM_PATH)
+if(NOT ESPDIFF_THRUST_INCLUDE AND CUDAToolkit_FOUND)
+  find_path(ESPDIFF_THRUST_INCLUDE thrust/for_each.h
+    HINTS ${CUDAToolkit_INCLUDE_DIRS} PATH_SUFFIXES cccl)
+endif()
+if(NOT ESPDIFF_THRUST_INCLUDE)
+  message(FATAL_ERROR "Thrust was not found; install libthrust-dev (Debian) or the CUDA toolkit")
+endif()
+espdiff_note("CPU back end: on (Thrust in ${ESPDIFF_THRUST_INCLUDE}, OpenMP ${OpenMP_CXX_VERSION})")
+
+if(NOT ESPDIFF_GEMMI STREQUAL "OFF")
+  find_package(gemmi CONFIG QUIET)
+endif()
+espdiff_resolve(ESPDIFF_GEMMI "${gemmi_FOUND}" "PDB and mmCIF reader" "gemmi was not found (Debian: gemmi-dev)")
+
+if(NOT ESPDIFF_VTK STREQUAL "OFF")
+  find_package(VTK QUIET COMPONENTS CommonCore CommonDataModel IOXML IOImage FiltersCore FiltersGeneral RenderingCore
+    RenderingOpenGL2 RenderingAnnotation RenderingFreeType RenderingContextOpenGL2 InteractionStyle)
+endif()
+espdiff_resolve(ESPDIFF_VTK "${VTK_FOUND}" "VTI reader and renderer" "VTK 9 was not found (Debian: libvtk9-dev)")

@@ -1,0 +1,104 @@
+// certificate.cu: measures of a mapped mesh against the target's density and surface.
+#include "certificate.h"
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "adjacency.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+namespace {
+
+struct FitSums {
+  double area = 0, corrupt = 0, flipped = 0;
+
+  ESPDIFF_HD FitSums& operator+=(const FitSums& o) {
+    area += o.area;
+    corrupt += o.corrupt;
+    flipped += o.flipped;
+    return *this;
+  }
+};
+
+double mean_umbrella_length(const SurfaceMesh& mesh) {
+  const TopologyView topology = mesh.view();
+  const Vec4f* const x = raw(mesh.positions);
+  const double sum = sum_over<double>(mesh.n_vertices(), [=] ESPDIFF_HD(std::size_t v) {
+    return static_cast<double>(norm(umbrella(topology, x, v).xyz()));
+  });
+  return sum / static_cast<double>(mesh.n_vertices());
+}
+
+}  // namespace
+
+FitReport fit_to_density(const SurfaceMesh& mapped, const AtomCells& target, float isovalue) {
+  const std::size_t n = mapped.n_triangles();
+  const Corners* const corners = raw(mapped.topology->triangles);
+  const Vec4f* const x = raw(mapped.positions);
+  const AtomCellsView atoms = target.view();
+  auto corrupt_flags = std::make_shared<Scalars>();
+  corrupt_flags->values.resize(n);
+  Buffer<std::uint8_t> flipped_flags(n);
+  float* const corrupt = raw(corrupt_flags->values);
+  std::uint8_t* const flipped = raw(flipped_flags);
+  for_each_index(n, [=] ESPDIFF_HD(std::size_t t) {
+    const Corners& c = corners[t];
+    const Vec3f centroid = (1.0F / 3.0F) * (x[c.v[0]].xyz() + x[c.v[1]].xyz() + x[c.v[2]].xyz());
+    const DensitySample density = density_at(atoms, centroid);
+    corrupt[t] = fabsf(density.value - isovalue) > kCorruptDensity ? 1.0F : 0.0F;
+    // The density falls outward: a normal along the gradient points the wrong way.
+    flipped[t] = dot(twice_area_vector(x, c), density.gradient) > 0 ? 1 : 0;
+  });
+  const FitSums sums = sum_over<FitSums>(n, [=] ESPDIFF_HD(std::size_t t) {
+    FitSums s;
+    s.area = 0.5 * static_cast<double>(norm(twice_area_vector(x, corners[t])));
+    s.corrupt = corrupt[t] != 0.0F ? s.area : 0;
+    s.flipped = flipped[t] != 0 ? s.area : 0;
+    return s;
+  });
+  FitReport report;
+  report.area_A2 = sums.area;
+  report.corrupt_area_fraction = sums.corrupt / sums.area;
+  report.flipped_area_fraction = sums.flipped / sums.area;
+  report.irregularity_A = mean_umbrella_length(mapped);
+  report.corrupt = corrupt_flags;
+  return report;
+}
+
+DistanceSummary distance_summary(const SurfaceMesh& from, const SurfaceMesh& to, float limit_A) {
+  const TriangleTree tree_of_target = make_triangle_tree(to);
+  const TriangleTreeView tree = tree_of_target.view();
+  Buffer<float> distances(from.n_vertices());
+  const Vec4f* const x = raw(from.positions);
+  float* const distance = raw(distances);
+  for_each_index(from.n_vertices(), [=] ESPDIFF_HD(std::size_t v) { distance[v] = sqrtf(squared_distance(tree, x[v].xyz(), FLT_MAX)); });
+  const std::vector<float> weights = to_host(vertex_areas(from, triangle_areas(from), nullptr));
+  const std::vector<float> values = to_host(distances);
+
+  std::vector<std::pair<float, float>> by_distance(values.size());
+  double area = 0, sum = 0, beyond = 0;
+  for (std::size_t v = 0; v < values.size(); ++v) {
+    by_distance[v] = {values[v], weights[v]};
+    const double w = static_cast<double>(weights[v]);
+    area += w;
+    sum += w * static_cast<double>(values[v]);
+    if (values[v] > limit_A) beyond += w;
+  }
+  std::sort(by_distance.begin(), by_distance.end());
+  DistanceSummary summary;
+  summary.mean = sum / area;
+  summary.max = static_cast<double>(by_distance.back().first);
+  summary.area_fraction_beyond_limit = beyond / area;
+  double below = 0;
+  for (const auto& [value, weight] : by_distance) {
+    below += static_cast<double>(weight);
+    summary.p95 = static_cast<double>(value);
+    if (below >= 0.95 * area) break;
+  }
+  return summary;
+}
+
+}  // namespace espdiff::ESPDIFF_BACKEND

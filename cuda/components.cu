@@ -1,0 +1,107 @@
+// components.cu: labels by hooking and pointer jumping: each vertex ends with the smallest vertex index of its component, whatever
+// the order in which threads met.
+#include "components.h"
+
+#include <cmath>
+
+#include "base/error.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+namespace {
+
+/// Follows labels to one that labels itself.
+ESPDIFF_INLINE std::uint32_t root_of(const std::uint32_t* label, std::uint32_t v) {
+  std::uint32_t parent = atomic_load(&label[v]);
+  while (parent != v) {
+    v = parent;
+    parent = atomic_load(&label[v]);
+  }
+  return v;
+}
+
+/// [vertex] smallest vertex index of the component.
+Buffer<std::uint32_t> smallest_vertex_labels(const SurfaceMesh& mesh) {
+  Buffer<std::uint32_t> labels(mesh.n_vertices());
+  Buffer<std::uint32_t> changes(1);
+  std::uint32_t* const label = raw(labels);
+  std::uint32_t* const change = raw(changes);
+  const TopologyView topology = mesh.view();
+  for_each_index(labels.size(), [=] ESPDIFF_HD(std::size_t v) { label[v] = static_cast<std::uint32_t>(v); });
+  do {
+    changes[0] = 0;
+    for_each_index(labels.size(), [=] ESPDIFF_HD(std::size_t v) {
+      const std::uint32_t own = root_of(label, static_cast<std::uint32_t>(v));
+      for (std::uint32_t n = topology.first[v]; n < topology.first[v + 1]; ++n) {
+        const std::uint32_t other = root_of(label, topology.neighbour[n]);
+        if (other < own && atomic_minimum(&label[own], other)) atomic_increment(change);
+      }
+    });
+    for_each_index(labels.size(), [=] ESPDIFF_HD(std::size_t v) {
+      atomic_minimum(&label[v], root_of(label, static_cast<std::uint32_t>(v)));
+    });
+  } while (changes[0] != 0);
+  return labels;
+}
+
+}  // namespace
+
+ComponentLabels label_components(const SurfaceMesh& mesh) {
+  ComponentLabels result;
+  result.label = smallest_vertex_labels(mesh);
+  // Roots are few; numbering them and summing areas in a fixed order is a host's work.
+  std::vector<std::uint32_t> label = to_host(result.label);
+  for (std::size_t v = 0; v < label.size(); ++v) {
+    if (label[v] == v) {
+      label[v] = static_cast<std::uint32_t>(result.summaries.size());
+      result.summaries.emplace_back();
+    } else {
+      label[v] = label[label[v]];  // a smaller vertex: numbered already
+    }
+    ++result.summaries[label[v]].n_vertices;
+  }
+  const std::vector<Vec4f> x = to_host(mesh.positions);
+  for (const Corners& t : to_host(mesh.topology->triangles)) {
+    ComponentSummary& component = result.summaries[label[t.v[0]]];
+    const Vec3d a = static_cast<Vec3d>(x[t.v[0]].xyz()), b = static_cast<Vec3d>(x[t.v[1]].xyz()), c = static_cast<Vec3d>(x[t.v[2]].xyz());
+    ++component.n_triangles;
+    component.area_A2 += 0.5 * norm(cross(b - a, c - a));
+    component.volume_A3 += dot(a, cross(b, c)) / 6.0;
+  }
+  result.label = to_device(label);
+  return result;
+}
+
+std::shared_ptr<SurfaceMesh> keep_components(const SurfaceMesh& mesh, const ComponentLabels& labels, const std::vector<bool>& keep) {
+  if (keep.size() != labels.summaries.size()) throw InputError("keep_components: one entry per component is needed");
+  Buffer<std::uint8_t> kept_components(keep.size());
+  for (std::size_t c = 0; c < keep.size(); ++c) kept_components[c] = keep[c] ? 1 : 0;
+  const std::size_t n_vertices = mesh.n_vertices(), n_triangles = mesh.n_triangles();
+  Buffer<std::uint32_t> new_vertex(n_vertices), new_triangle(n_triangles);
+  const std::uint8_t* const kept = raw(kept_components);
+  const std::uint32_t* const label = raw(labels.label);
+  const Corners* const corners = raw(mesh.topology->triangles);
+  const Vec4f* const old_positions = raw(mesh.positions);
+  std::uint32_t* const vertex = raw(new_vertex);
+  std::uint32_t* const triangle = raw(new_triangle);
+  for_each_index(n_vertices, [=] ESPDIFF_HD(std::size_t v) { vertex[v] = kept[label[v]]; });
+  for_each_index(n_triangles, [=] ESPDIFF_HD(std::size_t t) { triangle[t] = kept[label[corners[t].v[0]]]; });
+  const std::uint32_t n_kept_vertices = exclusive_scan_in_place(new_vertex);
+  const std::uint32_t n_kept_triangles = exclusive_scan_in_place(new_triangle);
+
+  auto result = std::make_shared<SurfaceMesh>();
+  result->positions.resize(n_kept_vertices);
+  Buffer<Corners> kept_triangles(n_kept_triangles);
+  Vec4f* const positions = raw(result->positions);
+  Corners* const out = raw(kept_triangles);
+  for_each_index(n_vertices, [=] ESPDIFF_HD(std::size_t v) {
+    if (kept[label[v]] != 0) positions[vertex[v]] = old_positions[v];
+  });
+  for_each_index(n_triangles, [=] ESPDIFF_HD(std::size_t t) {
+    const Corners old = corners[t];
+    if (kept[label[old.v[0]]] != 0) out[triangle[t]] = {{vertex[old.v[0]], vertex[old.v[1]], vertex[old.v[2]]}};
+  });
+  result->topology = make_topology(n_kept_vertices, std::move(kept_triangles));
+  return result;
+}
+
+}  // namespace espdiff::ESPDIFF_BACKEND

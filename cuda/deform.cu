@@ -1,0 +1,112 @@
+// deform.cu: the force iteration, in two passes: umbrella Laplacians, then forces and the move.
+#include "deform.h"
+
+#include <utility>
+
+#include "adjacency.h"
+#include "base/error.h"
+#include "sample.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+namespace {
+
+/// Iterations between checks for convergence and cancellation: a check sums over all vertices and, on a device, waits for it.
+constexpr int kCheckInterval = 5;
+
+void check_options(const DeformOptions& o) {
+  if (!(o.sigma > 0)) throw InputError("sigma " + std::to_string(o.sigma) + " is not positive; 0.1 is usual");
+  if (!(o.mu >= 0 && o.mu <= 1)) throw InputError("mu " + std::to_string(o.mu) + " is not between 0 and 1");
+  if (!(o.rho >= 0 && o.rho <= 1)) throw InputError("rho " + std::to_string(o.rho) + " is not between 0 and 1");
+  if (o.max_iterations < 0) throw InputError("the number of iterations, " + std::to_string(o.max_iterations) + ", is negative");
+  if (!(o.min_displacement_A >= 0)) throw InputError("the smallest displacement, " + std::to_string(o.min_displacement_A) + " A, is negative");
+}
+
+/// What one iteration reads and writes.
+struct Iteration {
+  TopologyView topology;
+  CubicLattice lattice;
+  const Vec4f* field;
+  const Vec4f* from;       // [vertex]
+  const Vec4f* laplacian;  // [vertex] L of `from`
+  Vec4f* to;               // [vertex] w: how far the vertex moved
+  float* strength;         // [vertex] s: positive while outside, negative while inside, halved at each crossing
+  float step_external, step_tension, step_rigidity;  // sigma mu, sigma (1 - mu)(1 - rho), sigma (1 - mu) rho
+  bool tricubic;
+};
+
+ESPDIFF_INLINE Vec4f field_at(const Iteration& it, Vec3f p) {
+  return it.tricubic ? sample_tricubic(it.lattice, it.field, p) : sample_trilinear(it.lattice, it.field, p);
+}
+
+ESPDIFF_INLINE void move_vertex(const Iteration& it, std::size_t v) {
+  const Vec4f x = it.from[v];
+  const Vec4f laplacian = it.laplacian[v];
+  const Vec4f laplacian_squared = umbrella(it.topology, it.laplacian, v);
+  Vec3f internal = (it.step_tension * laplacian - it.step_rigidity * laplacian_squared).xyz();
+
+  const Vec4f sample = field_at(it, x.xyz());
+  float s = it.strength[v];
+  if ((sample.w > 0) == (s > 0)) {
+    s *= -0.5F;
+    it.strength[v] = s;
+  }
+  const float length = norm(sample.xyz());
+  Vec3f moved = internal;
+  if (length > 1e-12F) {
+    const Vec3f n = (1.0F / length) * sample.xyz();
+    moved = internal + (it.step_external * s - dot(internal, n)) * n;
+  }
+  it.to[v] = make_vec4(x.xyz() + moved, norm(moved));
+}
+
+}  // namespace
+
+std::shared_ptr<SurfaceMesh> deform(const SurfaceMesh& mesh, const SurfaceField& field, const DeformOptions& options, const std::string& stage,
+                                    const Progress& progress, DeformReport* report) {
+  check_options(options);
+  const std::size_t n = mesh.n_vertices();
+  Buffer<Vec4f> positions = mesh.positions, moved(n), laplacians(n);
+  Buffer<float> strengths(n);
+  Iteration it{};
+  it.topology = mesh.view();
+  it.lattice = field.lattice;
+  it.field = raw(field.values);
+  it.strength = raw(strengths);
+  it.tricubic = options.interpolation == Interpolation::kTricubic;
+  const double internal = options.sigma * (1 - options.mu);
+  it.step_external = static_cast<float>(options.sigma * options.mu);
+  it.step_tension = static_cast<float>(internal * (1 - options.rho));
+  it.step_rigidity = static_cast<float>(internal * options.rho);
+  {
+    it.from = raw(positions);
+    const Iteration start = it;
+    for_each_index(n, [=] ESPDIFF_HD(std::size_t v) { start.strength[v] = field_at(start, start.from[v].xyz()).w > 0 ? -1.0F : 1.0F; });
+  }
+  Vec4f* const laplacian = raw(laplacians);
+  it.laplacian = laplacian;
+
+  DeformReport result;
+  while (result.iterations < options.max_iterations && !result.converged) {
+    it.from = raw(positions);
+    it.to = raw(moved);
+    const Iteration now = it;
+    for_each_index(n, [=] ESPDIFF_HD(std::size_t v) { laplacian[v] = umbrella(now.topology, now.from, v); });
+    for_each_index(n, [=] ESPDIFF_HD(std::size_t v) { move_vertex(now, v); });
+    positions.swap(moved);
+    ++result.iterations;
+    if (result.iterations % kCheckInterval == 0 || result.iterations == options.max_iterations) {
+      const Vec4f* const x = raw(positions);
+      result.mean_displacement_A = sum_over<double>(n, [=] ESPDIFF_HD(std::size_t v) { return static_cast<double>(x[v].w); }) / static_cast<double>(n);
+      result.converged = result.mean_displacement_A < options.min_displacement_A;
+      progress.report(stage, static_cast<double>(result.iterations) / options.max_iterations);
+    }
+  }
+  progress.report(stage, 1.0);
+  if (report != nullptr) *report = result;
+  auto deformed = std::make_shared<SurfaceMesh>();
+  deformed->topology = mesh.topology;
+  deformed->positions = std::move(positions);
+  return deformed;
+}
+
+}  // namespace espdiff::ESPDIFF_BACKEND

@@ -1,0 +1,15 @@
+// deform.h: the deformable surface: external force along a field's gradient, internal force along the surface.
+#pragma once
+
+#include "base/progress.h"
+#include "grid.h"
+#include "mesh.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+
+/// See Engine::deform(). Each iteration reads the positions of the one before, so that the result does not depend on threads.
+/// @throws InputError (parameters out of range), Cancelled
+std::shared_ptr<SurfaceMesh> deform(const SurfaceMesh& mesh, const SurfaceField& field, const DeformOptions& options, const std::string& stage,
+                                    const Progress& progress, DeformReport* report);
+
+}  // namespace espdiff::ESPDIFF_BACKEND

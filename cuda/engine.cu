@@ -1,0 +1,304 @@
+// engine.cu: implements engine.h for one back end: unwraps the handles and calls the stages.
+#include <omp.h>
+
+#include <algorithm>
+#include <map>
+#include <new>
+#include <string>
+#include <thread>
+
+#include "adjacency.h"
+#include "base/error.h"
+#include "certificate.h"
+#include "components.h"
+#include "deform.h"
+#include "density.h"
+#include "engine/engine.h"
+#include "engine/make_engine.h"
+#include "fields.h"
+#include "isosurface.h"
+#include "metrics.h"
+#include "project.h"
+#include "sample.h"
+
+#if defined(ESPDIFF_BACKEND_CUDA)
+#include <cuda_runtime.h>
+#include <thrust/system_error.h>
+#endif
+
+namespace espdiff::ESPDIFF_BACKEND {
+namespace {
+
+template <typename Derived, typename Base>
+const Derived& unwrap(const std::shared_ptr<Base>& handle) {
+  const auto* derived = dynamic_cast<const Derived*>(handle.get());
+  if (derived == nullptr) throw Error(ErrorClass::kInternal, "a handle of another engine, or of another kind, was passed to a stage");
+  return *derived;
+}
+
+/// Calls a stage; what the back end throws becomes an espdiff error.
+template <typename Stage>
+auto guarded(Stage stage) -> decltype(stage()) {
+  try {
+    return stage();
+  } catch (const Error&) {
+    throw;
+#if defined(ESPDIFF_BACKEND_CUDA)
+  } catch (const thrust::system_error& error) {
+    throw DeviceError(std::string("CUDA failed: ") + error.what() + "; try --device cpu");
+#endif
+  } catch (const std::bad_alloc&) {
+    throw MemoryError("not enough memory for this surface; use a larger grid spacing or fewer atoms");
+  }
+}
+
+/// Every directed edge must have exactly one opposite, else the one-rings are not rings.
+void check_closed(const Mesh& mesh) {
+  std::vector<std::uint64_t> edges;
+  edges.reserve(3 * mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (t[c] >= mesh.positions.size()) throw GeometryError("a triangle names vertex " + std::to_string(t[c]) + ", which does not exist");
+      edges.push_back(static_cast<std::uint64_t>(t[c]) << 32 | t[(c + 1) % 3]);
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const std::uint64_t opposite = edges[e] << 32 | edges[e] >> 32;
+    const bool repeated = e > 0 && edges[e] == edges[e - 1];
+    if (repeated || !std::binary_search(edges.begin(), edges.end(), opposite)) {
+      throw GeometryError("the mesh is not closed or not consistently oriented: edge " + std::to_string(edges[e] >> 32) + " - " +
+                          std::to_string(edges[e] & 0xFFFFFFFFU) + " does not lie in exactly two triangles");
+    }
+  }
+}
+
+class BackEndEngine : public Engine {
+ public:
+  explicit BackEndEngine(int n_threads) : n_threads_(n_threads) {}
+
+#if defined(ESPDIFF_BACKEND_CUDA)
+  std::string back_end() const override { return "cuda"; }
+  std::string description() const override { return cuda_device_description(); }
+  int n_threads() const override { return 0; }
+#else
+  std::string back_end() const override { return "cpu"; }
+  std::string description() const override { return std::to_string(n_threads_) + (n_threads_ == 1 ? " thread" : " OpenMP threads"); }
+  int n_threads() const override { return n_threads_; }
+#endif
+
+  AtomsPtr upload_atoms(const std::vector<Vec3d>& positions, const std::vector<float>& widths,
+                        const std::vector<std::int32_t>& residues) override {
+    if (widths.size() != positions.size() || residues.size() != positions.size()) {
+      throw InputError("upload_atoms: positions, widths and residues differ in number");
+    }
+    return run([&] { return make_atom_cells(positions, widths, residues); });
+  }
+
+  GridPtr density(const AtomsPtr& atoms, double spacing_A) override {
+    return run([&] {
+      const auto& cells = unwrap<AtomCells>(atoms);
+      const CubicLattice lattice = density_lattice(cells, spacing_A);
+#if defined(ESPDIFF_BACKEND_CUDA)
+      return density_by_points(cells, lattice);
+#else
+      return density_by_slabs(cells, lattice);
+#endif
+    });
+  }
+
+  MeshPtr isosurface(const GridPtr& density, float isovalue) override {
+    return run([&] { return ESPDIFF_BACKEND::isosurface(unwrap<DensityGrid>(density), isovalue); });
+  }
+
+  std::vector<ComponentSummary> components(const MeshPtr& mesh) override {
+    return run([&] { return label_components(unwrap<SurfaceMesh>(mesh)).summaries; });
+  }
+
+  MeshPtr keep_components(const MeshPtr& mesh, const std::vector<bool>& keep) override {
+    return run([&] {
+      const auto& surface = unwrap<SurfaceMesh>(mesh);
+      return ESPDIFF_BACKEND::keep_components(surface, label_components(surface), keep);
+    });
+  }
+
+  MeshPtr project(const MeshPtr& mesh, const AtomsPtr& atoms, float isovalue, double max_shift_A) override {
+    return run([&] {
+      return ESPDIFF_BACKEND::project(unwrap<SurfaceMesh>(mesh), unwrap<AtomCells>(atoms), isovalue, static_cast<float>(max_shift_A));
+    });
+  }
+
+  FieldPtr density_field(const GridPtr& density, float isovalue) override {
+    return run([&] { return ESPDIFF_BACKEND::density_field(unwrap<DensityGrid>(density), isovalue); });
+  }
+
+  FieldPtr distance_field(const GridPtr& density, float isovalue, const MeshPtr& surface, double threshold_A,
+                          const Progress& progress) override {
+    return run([&] {
+      return ESPDIFF_BACKEND::distance_field(unwrap<DensityGrid>(density), isovalue, unwrap<SurfaceMesh>(surface),
+                                             static_cast<float>(threshold_A), progress);
+    });
+  }
+
+  MeshPtr deform(const MeshPtr& mesh, const FieldPtr& field, const DeformOptions& options, const std::string& stage,
+                 const Progress& progress, DeformReport* report) override {
+    return run([&] {
+      return ESPDIFF_BACKEND::deform(unwrap<SurfaceMesh>(mesh), unwrap<SurfaceField>(field), options, stage, progress, report);
+    });
+  }
+
+  GridPtr upload_map(const Grid& map, const RigidTransform& to_map) override {
+    return run([&] { return make_map(map, to_map); });
+  }
+
+  ScalarsPtr sample(const GridPtr& map, const MeshPtr& mesh) override {
+    return run([&] { return ESPDIFF_BACKEND::sample(unwrap<MapGrid>(map), unwrap<SurfaceMesh>(mesh)); });
+  }
+
+  Metrics compare(const MeshPtr& source, const MeshPtr& mapped, const ScalarsPtr& source_potential, const ScalarsPtr& target_potential,
+                  const ScalarsPtr& excluded) override {
+    return run([&] {
+      return compare_potentials(unwrap<SurfaceMesh>(source), unwrap<SurfaceMesh>(mapped), unwrap<Scalars>(source_potential),
+                                unwrap<Scalars>(target_potential), excluded ? &unwrap<Scalars>(excluded) : nullptr);
+    });
+  }
+
+  FitReport fit(const MeshPtr& mapped, const AtomsPtr& target_atoms, float isovalue) override {
+    return run([&] { return fit_to_density(unwrap<SurfaceMesh>(mapped), unwrap<AtomCells>(target_atoms), isovalue); });
+  }
+
+  DistanceSummary distances(const MeshPtr& from, const MeshPtr& to, double limit_A) override {
+    return run([&] { return distance_summary(unwrap<SurfaceMesh>(from), unwrap<SurfaceMesh>(to), static_cast<float>(limit_A)); });
+  }
+
+  double area(const MeshPtr& mesh) override {
+    return run([&] { return surface_area(unwrap<SurfaceMesh>(mesh)); });
+  }
+
+  std::vector<std::int32_t> vertex_residues(const MeshPtr& mesh, const AtomsPtr& atoms) override {
+    return run([&] { return to_host(ESPDIFF_BACKEND::vertex_residues(unwrap<SurfaceMesh>(mesh), unwrap<AtomCells>(atoms))); });
+  }
+
+  ScalarsPtr displacement(const MeshPtr& a, const MeshPtr& b) override {
+    return run([&] { return ESPDIFF_BACKEND::displacement(unwrap<SurfaceMesh>(a), unwrap<SurfaceMesh>(b)); });
+  }
+
+  std::size_t n_vertices(const MeshPtr& mesh) const override { return unwrap<SurfaceMesh>(mesh).n_vertices(); }
+  std::size_t n_triangles(const MeshPtr& mesh) const override { return unwrap<SurfaceMesh>(mesh).n_triangles(); }
+
+  MeshPtr upload_mesh(const Mesh& mesh) override {
+    return run([&] {
+      check_closed(mesh);
+      auto result = std::make_shared<SurfaceMesh>();
+      std::vector<Vec4f> positions(mesh.positions.size());
+      std::transform(mesh.positions.begin(), mesh.positions.end(), positions.begin(), [](Vec3f p) { return make_vec4(p, 0.0F); });
+      result->positions = to_device(positions);
+      std::vector<Corners> triangles(mesh.triangles.size());
+      std::transform(mesh.triangles.begin(), mesh.triangles.end(), triangles.begin(), [](const Triangle& t) { return Corners{{t[0], t[1], t[2]}}; });
+      result->topology = make_topology(positions.size(), to_device(triangles));
+      return result;
+    });
+  }
+
+  Mesh download(const MeshPtr& mesh) override {
+    return run([&] {
+      const auto& surface = unwrap<SurfaceMesh>(mesh);
+      Mesh result;
+      for (const Vec4f& p : to_host(surface.positions)) result.positions.push_back(p.xyz());
+      for (const Vec4f& n : to_host(vertex_normals(surface))) result.normals.push_back(n.xyz());
+      for (const Corners& t : to_host(surface.topology->triangles)) result.triangles.push_back({t.v[0], t.v[1], t.v[2]});
+      result.component = to_host(label_components(surface).label);
+      return result;
+    });
+  }
+
+  std::vector<float> download(const ScalarsPtr& scalars) override {
+    return run([&] { return to_host(unwrap<Scalars>(scalars).values); });
+  }
+
+  Grid download(const GridPtr& grid) override {
+    return run([&] {
+      Grid result;
+      if (const auto* map = dynamic_cast<const MapGrid*>(grid.get())) {
+        result.lattice = map->lattice;
+        result.values = to_host(map->values);
+        result.unit = map->unit;
+      } else {
+        const auto& density = unwrap<DensityGrid>(grid);
+        result.lattice = host_lattice(density.lattice);
+        result.values = to_host(density.values);
+      }
+      return result;
+    });
+  }
+
+  Grid download(const FieldPtr& field) override {
+    return run([&] {
+      const auto& surface_field = unwrap<SurfaceField>(field);
+      Grid result;
+      result.lattice = host_lattice(surface_field.lattice);
+      for (const Vec4f& value : to_host(surface_field.values)) result.values.push_back(value.w);
+      return result;
+    });
+  }
+
+  std::vector<float> density_at(const AtomsPtr& atoms, const std::vector<Vec3f>& points) override {
+    return run([&] {
+      const AtomCellsView view = unwrap<AtomCells>(atoms).view();
+      const Buffer<Vec3f> where = to_device(points);
+      Buffer<float> values(points.size());
+      const Vec3f* const p = raw(where);
+      float* const out = raw(values);
+      for_each_index(points.size(), [=] ESPDIFF_HD(std::size_t i) { out[i] = ESPDIFF_BACKEND::density_at(view, p[i]).value; });
+      return to_host(values);
+    });
+  }
+
+ private:
+  /// Sets the number of threads for this call (another engine may have set its own) and guards the stage.
+  template <typename Stage>
+  auto run(Stage stage) const -> decltype(stage()) {
+#if !defined(ESPDIFF_BACKEND_CUDA)
+    omp_set_num_threads(n_threads_);
+#endif
+    return guarded(stage);
+  }
+
+#if defined(ESPDIFF_BACKEND_CUDA)
+  static std::string cuda_device_description() {
+    int device = 0;
+    cudaDeviceProp properties{};
+    if (cudaGetDevice(&device) != cudaSuccess || cudaGetDeviceProperties(&properties, device) != cudaSuccess) return "CUDA device";
+    return std::string(properties.name) + " (compute capability " + std::to_string(properties.major) + "." + std::to_string(properties.minor) + ")";
+  }
+#endif
+
+  int n_threads_;
+};
+
+}  // namespace
+
+Lattice host_lattice(const CubicLattice& lattice) {
+  const double h = static_cast<double>(lattice.spacing);
+  return {{lattice.size[0], lattice.size[1], lattice.size[2]}, static_cast<Vec3d>(lattice.origin), {{{h, 0, 0}, {0, h, 0}, {0, 0, h}}}};
+}
+
+std::unique_ptr<Engine> make_engine(int n_threads) { return std::make_unique<BackEndEngine>(n_threads); }
+
+#if defined(ESPDIFF_BACKEND_CUDA)
+std::string probe_device(bool* available) {
+  int n = 0;
+  const cudaError_t status = cudaGetDeviceCount(&n);
+  *available = status == cudaSuccess && n > 0;
+  if (status == cudaErrorNoDevice || (status == cudaSuccess && n == 0)) return "no NVIDIA GPU was found; use --device cpu";
+  if (status == cudaErrorInsufficientDriver) {
+    return "no NVIDIA driver, or one older than this build needs, is installed; install or update it, or use --device cpu";
+  }
+  if (status != cudaSuccess) return std::string("the CUDA runtime says: ") + cudaGetErrorString(status) + "; use --device cpu";
+  cudaDeviceProp properties{};
+  cudaGetDeviceProperties(&properties, 0);
+  return properties.name;
+}
+#endif
+
+}  // namespace espdiff::ESPDIFF_BACKEND

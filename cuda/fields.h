@@ -1,0 +1,18 @@
+// fields.h: the fields that deform() follows: density, and distance where it is far from the surface.
+#pragma once
+
+#include "base/progress.h"
+#include "grid.h"
+#include "mesh.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+
+/// value = density - isovalue, gradient by central differences.
+std::shared_ptr<SurfaceField> density_field(const DensityGrid& density, float isovalue);
+
+/// Signed distance to the surface (positive inside) where its magnitude exceeds the threshold, with its gradient; the density
+/// field elsewhere. Both point inward and vanish on the surface, so that a vertex passes from one to the other smoothly.
+std::shared_ptr<SurfaceField> distance_field(const DensityGrid& density, float isovalue, const SurfaceMesh& surface, float threshold_A,
+                                             const Progress& progress);
+
+}  // namespace espdiff::ESPDIFF_BACKEND

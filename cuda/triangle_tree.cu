@@ -1,0 +1,94 @@
+// triangle_tree.cu: builds the tree: Morton order, leaves, boxes level by level.
+#include "triangle_tree.h"
+
+#include <thrust/sort.h>
+
+#include <cfloat>
+#include <cmath>
+
+namespace espdiff::ESPDIFF_BACKEND {
+namespace {
+
+ESPDIFF_INLINE Box empty_box() { return {{FLT_MAX, FLT_MAX, FLT_MAX}, {-FLT_MAX, -FLT_MAX, -FLT_MAX}}; }
+
+ESPDIFF_INLINE Box join(Box a, Box b) {
+  return {{fminf(a.lower.x, b.lower.x), fminf(a.lower.y, b.lower.y), fminf(a.lower.z, b.lower.z)},
+          {fmaxf(a.upper.x, b.upper.x), fmaxf(a.upper.y, b.upper.y), fmaxf(a.upper.z, b.upper.z)}};
+}
+
+ESPDIFF_INLINE Box box_of(const PlacedTriangle& t) { return join(join({t.a, t.a}, {t.b, t.b}), {t.c, t.c}); }
+
+/// Spreads the lowest 10 bits to every third bit.
+ESPDIFF_INLINE std::uint32_t spread_bits(std::uint32_t v) {
+  v = (v | v << 16) & 0x030000FFU;
+  v = (v | v << 8) & 0x0300F00FU;
+  v = (v | v << 4) & 0x030C30C3U;
+  return (v | v << 2) & 0x09249249U;
+}
+
+/// Joins boxes where sum_over() adds.
+struct BoxSum {
+  Box box = {{FLT_MAX, FLT_MAX, FLT_MAX}, {-FLT_MAX, -FLT_MAX, -FLT_MAX}};
+  ESPDIFF_HD BoxSum& operator+=(const BoxSum& other) {
+    box = join(box, other.box);
+    return *this;
+  }
+};
+
+Box mesh_box(const SurfaceMesh& mesh) {
+  const Vec4f* const x = raw(mesh.positions);
+  return sum_over<BoxSum>(mesh.n_vertices(), [=] ESPDIFF_HD(std::size_t v) {
+           BoxSum point;
+           point.box = {x[v].xyz(), x[v].xyz()};
+           return point;
+         }).box;
+}
+
+}  // namespace
+
+TriangleTree make_triangle_tree(const SurfaceMesh& mesh) {
+  const std::uint32_t n = static_cast<std::uint32_t>(mesh.n_triangles());
+  const Box bounds = mesh_box(mesh);
+  const Vec3f extent = bounds.upper - bounds.lower;
+  const float scale = 1023.0F / fmaxf(fmaxf(extent.x, extent.y), fmaxf(extent.z, 1e-6F));
+  const Corners* const corners = raw(mesh.topology->triangles);
+  const Vec4f* const x = raw(mesh.positions);
+
+  Buffer<std::uint64_t> codes(n);  // the triangle's index in the low bits makes every key different
+  std::uint64_t* const code = raw(codes);
+  for_each_index(n, [=] ESPDIFF_HD(std::size_t t) {
+    const Vec3f sum = x[corners[t].v[0]].xyz() + x[corners[t].v[1]].xyz() + x[corners[t].v[2]].xyz();
+    const Vec3f c = scale * ((1.0F / 3.0F) * sum - bounds.lower);
+    const std::uint32_t morton = spread_bits(static_cast<std::uint32_t>(c.x)) | spread_bits(static_cast<std::uint32_t>(c.y)) << 1 |
+                                 spread_bits(static_cast<std::uint32_t>(c.z)) << 2;
+    code[t] = static_cast<std::uint64_t>(morton) << 32 | t;
+  });
+  thrust::sort(thrust::device, codes.begin(), codes.end());
+
+  TriangleTree tree;
+  tree.n_leaves = 1;
+  while (tree.n_leaves * kTrianglesPerLeaf < n) tree.n_leaves *= 2;
+  tree.triangles.resize(n);
+  tree.boxes.resize(2 * static_cast<std::size_t>(tree.n_leaves) - 1);
+  PlacedTriangle* const placed = raw(tree.triangles);
+  Box* const boxes = raw(tree.boxes);
+  for_each_index(n, [=] ESPDIFF_HD(std::size_t place) {
+    const Corners t = corners[static_cast<std::uint32_t>(code[place])];
+    placed[place] = {x[t.v[0]].xyz(), x[t.v[1]].xyz(), x[t.v[2]].xyz()};
+  });
+  const std::size_t n_leaves = tree.n_leaves;
+  for_each_index(n_leaves, [=] ESPDIFF_HD(std::size_t leaf) {
+    Box box = empty_box();
+    for (std::size_t t = leaf * kTrianglesPerLeaf; t < (leaf + 1) * kTrianglesPerLeaf && t < n; ++t) box = join(box, box_of(placed[t]));
+    boxes[n_leaves - 1 + leaf] = box;
+  });
+  for (std::size_t width = n_leaves / 2; width > 0; width /= 2) {
+    for_each_index(width, [=] ESPDIFF_HD(std::size_t i) {
+      const std::size_t node = width - 1 + i;
+      boxes[node] = join(boxes[2 * node + 1], boxes[2 * node + 2]);
+    });
+  }
+  return tree;
+}
+
+}  // namespace espdiff::ESPDIFF_BACKEND

@@ -1,0 +1,102 @@
+// triangle_tree.h: the triangle nearest to a point, by a bounding-volume tree.
+//
+// Triangles are ordered by the Morton code of their centroids and put by fours into the leaves of a complete binary tree, whose
+// boxes are built level by level. No pointers, no order of insertion: the tree is a function of the mesh alone. After the linear
+// BVH of Lauterbach et al., Comput. Graph. Forum 28, 375 (2009), with the hierarchy replaced by the complete tree.
+#pragma once
+
+#include "mesh.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+
+constexpr std::uint32_t kTrianglesPerLeaf = 4;
+
+struct Box {
+  Vec3f lower, upper;
+};
+
+struct PlacedTriangle {
+  Vec3f a, b, c;
+};
+
+struct TriangleTreeView {
+  const Box* boxes;                 ///< [node] children of n are 2n+1 and 2n+2; leaves are the last n_leaves nodes
+  const PlacedTriangle* triangles;  ///< [place] in leaf order
+  std::uint32_t n_leaves;           ///< a power of two
+  std::uint32_t n_triangles;
+};
+
+struct TriangleTree {
+  Buffer<Box> boxes;
+  Buffer<PlacedTriangle> triangles;
+  std::uint32_t n_leaves = 0;
+
+  TriangleTreeView view() const { return {raw(boxes), raw(triangles), n_leaves, static_cast<std::uint32_t>(triangles.size())}; }
+};
+
+TriangleTree make_triangle_tree(const SurfaceMesh& mesh);
+
+/// Squared distance of p to a triangle (degenerate ones count as segments or points). The nearest point lies inside the face, on an
+/// edge or at a corner: where the foot on the plane falls outside the face, the nearest of the three edges holds it.
+ESPDIFF_INLINE float squared_distance_to_segment(Vec3f p, Vec3f a, Vec3f b) {
+  const Vec3f ab = b - a, ap = p - a;
+  const float length_squared = dot(ab, ab);
+  const float t = length_squared > 0 ? fminf(fmaxf(dot(ap, ab) / length_squared, 0.0F), 1.0F) : 0.0F;
+  const Vec3f d = ap - t * ab;
+  return dot(d, d);
+}
+
+ESPDIFF_INLINE float squared_distance_to_triangle(Vec3f p, const PlacedTriangle& t) {
+  const Vec3f n = cross(t.b - t.a, t.c - t.a);
+  const float nn = dot(n, n);
+  const Vec3f pa = p - t.a, pb = p - t.b, pc = p - t.c;
+  const bool over_face = nn > 0 && dot(cross(t.b - t.a, pa), n) >= 0 && dot(cross(t.c - t.b, pb), n) >= 0 && dot(cross(t.a - t.c, pc), n) >= 0;
+  if (over_face) {
+    const float height = dot(pa, n);
+    return height * height / nn;
+  }
+  return fminf(squared_distance_to_segment(p, t.a, t.b),
+               fminf(squared_distance_to_segment(p, t.b, t.c), squared_distance_to_segment(p, t.c, t.a)));
+}
+
+ESPDIFF_INLINE float squared_distance_to_box(Vec3f p, const Box& box) {
+  const float dx = fmaxf(fmaxf(box.lower.x - p.x, p.x - box.upper.x), 0.0F);
+  const float dy = fmaxf(fmaxf(box.lower.y - p.y, p.y - box.upper.y), 0.0F);
+  const float dz = fmaxf(fmaxf(box.lower.z - p.z, p.z - box.upper.z), 0.0F);
+  return dx * dx + dy * dy + dz * dz;
+}
+
+/// Squared distance of p to the nearest triangle, or `bound` if none is nearer than that.
+ESPDIFF_INLINE float squared_distance(const TriangleTreeView& tree, Vec3f p, float bound) {
+  struct Pending {
+    std::uint32_t node;
+    float distance;
+  };
+  Pending stack[32];
+  int depth = 0;
+  std::uint32_t node = 0;
+  float node_distance = squared_distance_to_box(p, tree.boxes[0]);
+  for (;;) {
+    if (node_distance < bound) {
+      if (node + 1 >= tree.n_leaves) {
+        const std::uint32_t begin = (node + 1 - tree.n_leaves) * kTrianglesPerLeaf;
+        const std::uint32_t end = begin + kTrianglesPerLeaf < tree.n_triangles ? begin + kTrianglesPerLeaf : tree.n_triangles;
+        for (std::uint32_t t = begin; t < end; ++t) bound = fminf(bound, squared_distance_to_triangle(p, tree.triangles[t]));
+      } else {
+        const std::uint32_t left = 2 * node + 1;
+        const float d_left = squared_distance_to_box(p, tree.boxes[left]), d_right = squared_distance_to_box(p, tree.boxes[left + 1]);
+        const bool left_first = d_left <= d_right;
+        stack[depth++] = {left_first ? left + 1 : left, left_first ? d_right : d_left};
+        node = left_first ? left : left + 1;
+        node_distance = left_first ? d_left : d_right;
+        continue;
+      }
+    }
+    if (depth == 0) return bound;
+    --depth;
+    node = stack[depth].node;
+    node_distance = stack[depth].distance;
+  }
+}
+
+}  // namespace espdiff::ESPDIFF_BACKEND

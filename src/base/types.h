@@ -1,0 +1,76 @@
+// types.h: the plain host data that the stages pass on: molecule, grid, mesh.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/units.h"
+#include "base/vector.h"
+
+namespace espdiff {
+
+/// What a structure file says of one atom, besides numbers.
+struct Atom {
+  std::string name;     ///< "CA", without padding
+  std::string element;  ///< "C", "Na"; empty when neither file nor name tells
+  std::int32_t residue = 0;  ///< index into Molecule::residues
+  bool hetero = false;  ///< from a HETATM record
+};
+
+/// A residue: atoms that share chain, number, insertion code and name, in file order.
+struct Residue {
+  std::string name;   ///< "ALA", without padding
+  std::string chain;  ///< empty when the file has none
+  std::int32_t number = 0;
+  char insertion_code = ' ';
+};
+
+/// Where a molecule's radii or charges come from; a result says so.
+enum class ValueOrigin { kNone, kFile, kElement };
+
+/// One conformation of a molecule: arrays of one length, in file order.
+struct Molecule {
+  std::vector<Atom> atoms;
+  std::vector<Residue> residues;
+  std::vector<Vec3d> positions;  ///< [atom], Angstrom
+  std::vector<float> radii;      ///< [atom], Angstrom; 0 adds no density
+  std::vector<float> charges;    ///< [atom], elementary charges; empty when the file has none
+  ValueOrigin radii_origin = ValueOrigin::kNone;
+  std::string name;              ///< for messages: the path, or VMD's molecule name
+
+  std::size_t size() const { return atoms.size(); }
+};
+
+/// A lattice of points: origin + i*step[0] + j*step[1] + k*step[2], 0 <= i < size[0] and so on. Angstrom. Axes may be skewed.
+struct Lattice {
+  std::array<int, 3> size{0, 0, 0};
+  Vec3d origin{};
+  std::array<Vec3d, 3> step{};
+
+  std::size_t n_points() const {
+    return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(size[2]);
+  }
+};
+
+/// A scalar on a lattice, i fastest: values[i + size[0]*(j + size[1]*k)].
+struct Grid {
+  Lattice lattice;
+  std::vector<float> values;
+  PotentialUnit unit = PotentialUnit::kUnknown;
+  std::string name;  ///< for messages: the path
+};
+
+using Triangle = std::array<std::uint32_t, 3>;  ///< vertex indices, counter-clockwise seen from outside
+
+/// A triangle mesh on the host.
+struct Mesh {
+  std::vector<Vec3f> positions;              ///< [vertex], Angstrom
+  std::vector<Vec3f> normals;                ///< [vertex], unit, outward; empty when not asked for
+  std::vector<Triangle> triangles;           ///< [triangle]
+  std::vector<std::uint32_t> component;      ///< [vertex], index of its connected component; empty when not asked for
+};
+
+}  // namespace espdiff

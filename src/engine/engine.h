@@ -1,0 +1,182 @@
+// engine.h: what a back end offers: the numerical stages, on data that stays on its device.
+//
+// One source in cuda/ implements this interface twice, for OpenMP threads and for CUDA. The pipeline calls the stages in
+// order and passes opaque handles; nothing is copied to the host but what a download function or a returned struct holds.
+//
+// Frame: every position is relative to the *common frame* that the pipeline chooses (source and target superposed, origin near
+// the molecules), so that single precision suffices. Maps keep their own frame; sample() gets the transform into it.
+//
+// Same input, same bits, at any number of threads. Density is high inside: *inside* means density > isovalue.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "base/types.h"
+
+namespace espdiff {
+
+/// Opaque device objects. Each belongs to the engine that made it and may not outlive it.
+struct DeviceAtoms { virtual ~DeviceAtoms() = default; };        ///< atoms sorted into a cell list
+struct DeviceGrid { virtual ~DeviceGrid() = default; };          ///< a scalar on a lattice
+struct DeviceField { virtual ~DeviceField() = default; };        ///< a scalar and its gradient on a lattice
+struct DeviceMesh { virtual ~DeviceMesh() = default; };          ///< positions and shared topology (triangles, one-rings)
+struct DeviceScalars { virtual ~DeviceScalars() = default; };    ///< one float per vertex or per triangle
+
+using AtomsPtr = std::shared_ptr<const DeviceAtoms>;
+using GridPtr = std::shared_ptr<const DeviceGrid>;
+using FieldPtr = std::shared_ptr<const DeviceField>;
+using MeshPtr = std::shared_ptr<const DeviceMesh>;
+using ScalarsPtr = std::shared_ptr<const DeviceScalars>;
+
+enum class Interpolation { kTrilinear, kTricubic };
+
+/// A connected component of a closed mesh.
+struct ComponentSummary {
+  std::uint32_t n_vertices = 0;
+  std::uint32_t n_triangles = 0;
+  double area_A2 = 0;
+  double volume_A3 = 0;  ///< signed: negative for a cavity, whose normals point into the void
+};
+
+/// Parameters of the force iteration (thesis section 3.5.4); defaults are its study's values for the mapping.
+struct DeformOptions {
+  double sigma = 0.1;               ///< step scale, > 0
+  double mu = 0.75;                 ///< weight of the external against the internal force, 0 to 1
+  double rho = 0.3;                 ///< rigidity (thin plate) against tension (membrane), 0 to 1
+  double min_displacement_A = 1e-3; ///< converged when the mean displacement of an iteration falls below it
+  int max_iterations = 1000;
+  Interpolation interpolation = Interpolation::kTrilinear;
+};
+
+struct DeformReport {
+  int iterations = 0;
+  double mean_displacement_A = 0;  ///< of the last iteration
+  bool converged = false;
+};
+
+/// Area-weighted comparison of two potentials on the mapped mesh. Weights are a third of the area of each counted triangle
+/// at each of its vertices. Potentials in the unit of the samples.
+struct Metrics {
+  double area_A2 = 0;  ///< of the counted triangles of the mapped mesh; all else is NaN when it is 0
+  double mean_abs_difference = 0;
+  double rms_difference = 0;
+  double mean_signed_difference = 0;     ///< target - source
+  double sign_change_area_fraction = 0;  ///< a vertex with a potential of exactly 0 agrees with anything
+  double hodgkin_index = 0;              ///< 2<ab> / (<aa> + <bb>)
+  double carbo_index = 0;                ///< <ab> / sqrt(<aa><bb>)
+  double mean_displacement_A = 0;        ///< |mapped - source| in the common frame
+};
+
+/// Distances of one surface's vertices to the other surface's triangles, area-weighted over its vertices. Angstrom.
+struct DistanceSummary {
+  double mean = 0;
+  double p95 = 0;  ///< 95 % of the area lies nearer
+  double max = 0;
+  double area_fraction_beyond_limit = 0;
+};
+
+/// How well a mapped mesh fits its target.
+struct FitReport {
+  double corrupt_area_fraction = 0;  ///< triangles whose analytic density at the centroid is off the isovalue by more than 0.1
+  double flipped_area_fraction = 0;  ///< triangles whose normal opposes the density's outward normal at their centroid
+  double irregularity_A = 0;         ///< mean length of the umbrella Laplacian
+  double area_A2 = 0;
+  ScalarsPtr corrupt;                ///< [triangle] 1 where corrupt, else 0
+};
+
+/// One back end on one device.
+class Engine {
+ public:
+  virtual ~Engine() = default;
+
+  /// "cpu" or "cuda".
+  virtual std::string back_end() const = 0;
+  /// The device in words, such as "16 OpenMP threads".
+  virtual std::string description() const = 0;
+  /// Threads used by the CPU back end; 0 on a device.
+  virtual int n_threads() const = 0;
+
+  /// Sorts atoms into a cell list.
+  /// @param positions [atom] Angstrom, common frame
+  /// @param widths    [atom] standard deviation s = radius scale * radius of each Gaussian, Angstrom; atoms of width 0 are left out
+  /// @param residues  [atom] residue index that vertex_residues() reports
+  /// @throws InputError if no atom has a positive width, MemoryError
+  virtual AtomsPtr upload_atoms(const std::vector<Vec3d>& positions, const std::vector<float>& widths,
+                                const std::vector<std::int32_t>& residues) = 0;
+
+  /// rho(x) = sum_i exp(-|x - x_i|^2 / (2 s_i^2)) (thesis eq. 3.1) on a cubic lattice of the given spacing that reaches so far
+  /// beyond the atoms that rho vanishes on its border. Terms beyond 4.75 s are dropped: the sum errs by less than 1e-3.
+  /// @throws InputError (spacing), MemoryError (more lattice points than memory holds; says which spacing would fit)
+  virtual GridPtr density(const AtomsPtr& atoms, double spacing_A) = 0;
+
+  /// Marching tetrahedra on the Freudenthal division: a closed, welded, consistently oriented mesh with its one-rings.
+  /// @throws GeometryError when no lattice point is inside
+  virtual MeshPtr isosurface(const GridPtr& density, float isovalue) = 0;
+
+  /// Connected components in the order of their first vertex.
+  virtual std::vector<ComponentSummary> components(const MeshPtr& mesh) = 0;
+  /// The mesh without the components whose entry is false. `keep` has one entry per component.
+  virtual MeshPtr keep_components(const MeshPtr& mesh, const std::vector<bool>& keep) = 0;
+
+  /// Moves each vertex by Newton steps along the gradient onto the analytic isosurface; a vertex that would have to move
+  /// farther than `max_shift_A` stays where it is.
+  virtual MeshPtr project(const MeshPtr& mesh, const AtomsPtr& atoms, float isovalue, double max_shift_A) = 0;
+
+  /// Density and gradient for deform().
+  virtual FieldPtr density_field(const GridPtr& density, float isovalue) = 0;
+  /// Signed distance to `surface` (positive inside) where it exceeds `threshold_A` in magnitude, the density elsewhere (thesis
+  /// section 3.5.3). The distance is exact: to triangles.
+  virtual FieldPtr distance_field(const GridPtr& density, float isovalue, const MeshPtr& surface, double threshold_A,
+                                  const Progress& progress) = 0;
+
+  /// Iterates x += sigma (mu f_ext + (1 - mu) f_int) until converged (thesis section 3.5 with its errata): f_ext along the unit
+  /// gradient of the field toward its surface, halved and turned at each crossing; f_int the tangential part of
+  /// (1 - rho) L - rho L^2, L the uniform umbrella Laplacian. Topology is shared with `mesh`.
+  /// @param stage name for progress reports
+  /// @throws Cancelled
+  virtual MeshPtr deform(const MeshPtr& mesh, const FieldPtr& field, const DeformOptions& options, const std::string& stage,
+                         const Progress& progress, DeformReport* report) = 0;
+
+  /// @param map         potential
+  /// @param to_map      common frame -> the map's frame
+  virtual GridPtr upload_map(const Grid& map, const RigidTransform& to_map) = 0;
+  /// [vertex] trilinear samples of a map; NaN where the vertex lies outside the map.
+  virtual ScalarsPtr sample(const GridPtr& map, const MeshPtr& mesh) = 0;
+
+  /// Compares potentials at counterparts.
+  /// @param source, mapped  meshes of one topology: where each vertex comes from, and where it lies on the target
+  /// @param source_potential, target_potential [vertex]
+  /// @param excluded [triangle] not counted where nonzero; null counts all. Triangles with a NaN sample are never counted.
+  virtual Metrics compare(const MeshPtr& source, const MeshPtr& mapped, const ScalarsPtr& source_potential,
+                          const ScalarsPtr& target_potential, const ScalarsPtr& excluded) = 0;
+
+  virtual FitReport fit(const MeshPtr& mapped, const AtomsPtr& target_atoms, float isovalue) = 0;
+  /// Distances from the vertices of `from` to the triangles of `to`, exact.
+  virtual DistanceSummary distances(const MeshPtr& from, const MeshPtr& to, double limit_A) = 0;
+  virtual double area(const MeshPtr& mesh) = 0;
+
+  /// [vertex] index of the residue with the largest density at the vertex; -1 where no atom reaches.
+  virtual std::vector<std::int32_t> vertex_residues(const MeshPtr& mesh, const AtomsPtr& atoms) = 0;
+  /// [vertex] |a - b| for two meshes of one topology, Angstrom.
+  virtual ScalarsPtr displacement(const MeshPtr& a, const MeshPtr& b) = 0;
+
+  virtual std::size_t n_vertices(const MeshPtr& mesh) const = 0;
+  virtual std::size_t n_triangles(const MeshPtr& mesh) const = 0;
+  /// A mesh made elsewhere. Closed and consistently oriented, else:
+  /// @throws GeometryError naming the first edge that does not lie in exactly two triangles
+  virtual MeshPtr upload_mesh(const Mesh& mesh) = 0;
+  /// Positions, triangles, component labels and outward vertex normals (area-weighted mean of the triangles').
+  virtual Mesh download(const MeshPtr& mesh) = 0;
+  virtual std::vector<float> download(const ScalarsPtr& scalars) = 0;
+  virtual Grid download(const GridPtr& grid) = 0;
+  /// The field's scalar.
+  virtual Grid download(const FieldPtr& field) = 0;
+  /// Analytic density at points [point] of the common frame.
+  virtual std::vector<float> density_at(const AtomsPtr& atoms, const std::vector<Vec3f>& points) = 0;
+};
+
+}  // namespace espdiff

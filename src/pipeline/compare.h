@@ -1,0 +1,133 @@
+// compare.h: one pair of molecules from atoms and maps to metrics and certificate; the only code that knows the order of the stages.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "align/pair_atoms.h"
+#include "base/progress.h"
+#include "base/types.h"
+#include "engine/engine.h"
+
+namespace espdiff {
+
+enum class FieldKind { kDensity, kDistance };
+FieldKind parse_field_kind(const std::string& text);
+Interpolation parse_interpolation(const std::string& text);
+
+/// How a surface is made of a molecule.
+struct SurfaceOptions {
+  double grid_spacing_A = 1.0;
+  double radius_scale = 1.0;
+  double isovalue = 0.5;
+  bool cavities = false;  ///< keep closed cavities; else they are counted and left out
+  bool project = true;    ///< move vertices onto the analytic isosurface
+};
+
+/// All parameters of a comparison; defaults are the study's values of the thesis where it has them.
+struct CompareOptions {
+  SurfaceOptions surface;
+  AlignAtoms align = AlignAtoms::kAll;
+  FieldKind field = FieldKind::kDistance;
+  double distance_threshold_A = 0.75;
+  DeformOptions regularize{0.1, 0.5, 0.3, 1e-3, 500, Interpolation::kTrilinear};
+  DeformOptions deform{0.1, 0.75, 0.3, 1e-3, 1000, Interpolation::kTrilinear};
+  double min_displacement_per_spacing = 1e-3;  ///< sets min_displacement_A of both: times the grid spacing
+  double temperature_K = 300;                  ///< for converting between kT/e and other units
+};
+
+struct SurfaceSummary {
+  std::size_t n_vertices = 0;
+  std::size_t n_triangles = 0;
+  std::size_t n_components = 0;       ///< after leaving out cavities
+  std::size_t n_cavities_left_out = 0;
+  double area_A2 = 0;
+  double cavity_area_A2 = 0;          ///< of the cavities left out
+};
+
+/// Per-residue averages over the mapped surface, source residues. Area-weighted; NaN where no valid area.
+struct ResidueRow {
+  std::size_t residue = 0;  ///< index into the source's residues
+  double area_A2 = 0;       ///< of mapped surface that is counted
+  double mean_abs_difference = 0;
+  double mean_signed_difference = 0;  ///< target - source
+  double mean_source = 0;
+  double mean_target = 0;
+  double sign_change_area_fraction = 0;
+  double mean_displacement_A = 0;
+};
+
+struct Certificate {
+  double corrupt_area_fraction = 0;
+  double flipped_area_fraction = 0;
+  double irregularity_A = 0;
+  DistanceSummary mapped_to_target;
+  DistanceSummary target_to_mapped;
+  double no_counterpart_source = 0;  ///< share of the mapped area farther than 1 A from the target
+  double no_counterpart_target = 0;  ///< share of the target's area farther than 1 A from the mapped surface
+  bool converged = false;
+  bool trustworthy = false;
+  std::vector<std::string> reasons;      ///< why not
+  std::vector<std::string> not_checked;  ///< what this version does not check
+};
+
+/// Per-vertex arrays of the mapped surface.
+struct MappedSurface {
+  std::vector<Vec3d> positions;         ///< [vertex] in the target's own frame
+  std::vector<Vec3d> source_positions;  ///< [vertex] in the source's own frame (regularized, not superposed)
+  std::vector<Vec3f> normals;           ///< [vertex] outward, target's frame
+  std::vector<Triangle> triangles;
+  std::vector<float> potential_source, potential_target;  ///< [vertex]; empty without maps; NaN outside a map
+  std::vector<float> displacement;                        ///< [vertex]
+  std::vector<std::int32_t> residue;                      ///< [vertex] index of the source residue, -1 for none
+  std::vector<std::uint8_t> corrupt;                      ///< [triangle]
+};
+
+struct CompareResult {
+  double rmsd_A = 0;
+  AtomPairing pairing;
+  std::size_t n_superposed_atoms = 0;
+  RigidTransform source_to_target;  ///< the superposition
+  bool has_potential = false;
+  PotentialUnit unit = PotentialUnit::kUnknown;
+  Metrics metrics;      ///< over valid triangles
+  Metrics metrics_all;  ///< over all triangles with samples
+  std::size_t n_outside_source_map = 0, n_outside_target_map = 0;  ///< vertices
+  SurfaceSummary source_surface, target_surface;
+  double area_mapped_A2 = 0;
+  Certificate certificate;
+  DeformReport regularize_report, deform_report;
+  std::vector<ResidueRow> residues;
+  MappedSurface surface;
+  std::vector<std::pair<std::string, double>> time_ms;  ///< stage, in order, and last "total"
+};
+
+/// One side of a comparison. Maps may be absent on both sides: then shapes are compared only.
+struct CompareInput {
+  const Molecule* molecule = nullptr;
+  const Grid* map = nullptr;
+};
+
+/// Compares two molecules.
+/// @throws InputError (no common atoms; a map on one side only; a map that misses the surface entirely; units that differ and one
+///         unknown), GeometryError, MemoryError, Cancelled
+CompareResult compare(Engine& engine, const CompareInput& source, const CompareInput& target, const CompareOptions& options,
+                      const Progress& progress);
+
+/// A molecule's surface in its own frame, for the `surface` verb.
+struct SurfaceResult {
+  Mesh mesh;                               ///< positions in the molecule's frame
+  std::vector<Vec3d> positions;            ///< [vertex] double precision, the molecule's frame
+  std::vector<std::int32_t> residue;       ///< [vertex]
+  std::vector<float> potential;            ///< [vertex], empty without a map
+  SurfaceSummary summary;
+  std::vector<ComponentSummary> components;  ///< all, cavities included
+  DeformReport regularize_report;
+  std::vector<std::pair<std::string, double>> time_ms;
+};
+SurfaceResult make_surface(Engine& engine, const CompareInput& input, const SurfaceOptions& options,
+                           const DeformOptions* regularize, const Progress& progress);
+
+}  // namespace espdiff
