@@ -62,12 +62,16 @@ endif()
 espdiff_note("CPU back end: on (Thrust in ${ESPDIFF_THRUST_INCLUDE}, OpenMP ${OpenMP_CXX_VERSION})")
 
 if(NOT ESPDIFF_GEMMI STREQUAL "OFF")
-  find_package(gemmi CONFIG QUIET)
+  find_path(ESPDIFF_GEMMI_INCLUDE gemmi/cif.hpp)
+  find_path(ESPDIFF_PEGTL_INCLUDE tao/pegtl.hpp)  # gemmi's CIF reader includes it
 endif()
-espdiff_resolve(ESPDIFF_GEMMI "${gemmi_FOUND}" "PDB and mmCIF reader" "gemmi was not found (Debian: gemmi-dev)")
+if(ESPDIFF_GEMMI_INCLUDE AND ESPDIFF_PEGTL_INCLUDE)
+  set(gemmi_found TRUE)
+endif()
+espdiff_resolve(ESPDIFF_GEMMI "${gemmi_found}" "PDB and mmCIF reader" "gemmi was not found (Debian: gemmi-dev tao-pegtl-dev)")
 
 if(NOT ESPDIFF_VTK STREQUAL "OFF")
-  find_package(VTK QUIET COMPONENTS CommonCore CommonDataModel IOXML IOImage FiltersCore FiltersGeneral RenderingCore
-    RenderingOpenGL2 RenderingAnnotation RenderingFreeType RenderingContextOpenGL2 InteractionStyle)
+  find_package(VTK QUIET COMPONENTS CommonCore CommonDataModel IOXML IOImage FiltersCore RenderingCore RenderingOpenGL2
+    RenderingFreeType)
 endif()
 espdiff_resolve(ESPDIFF_VTK "${VTK_FOUND}" "VTI reader and renderer" "VTK 9 was not found (Debian: libvtk9-dev)")

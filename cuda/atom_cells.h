@@ -16,7 +16,7 @@ struct AtomCellsView {
   const float* y;
   const float* z;
   const float* exponent;  ///< [sorted atom] -1 / (2 s^2), 1/Angstrom^2
-  const float* reach;     ///< [sorted atom] 4.75 s, Angstrom
+  const float* reach;     ///< [sorted atom] 4.5 s, Angstrom
   const std::int32_t* residue;
   const std::uint32_t* first;  ///< [cell + 1]
   int size[3];
@@ -113,7 +113,7 @@ ESPDIFF_INLINE DensitySample density_at_inline(const AtomCellsView& atoms, Vec3f
   return sample;
 }
 
-/// Density (thesis eq. 3.1, truncated at 4.75 s) and gradient at p.
+/// Density (thesis eq. 3.1, truncated at 4.5 s) and gradient at p.
 #if defined(__CUDACC__)
 ESPDIFF_INLINE DensitySample density_at(const AtomCellsView& atoms, Vec3f p) { return density_at_inline(atoms, p); }
 #else

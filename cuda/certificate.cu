@@ -2,7 +2,6 @@
 #include "certificate.h"
 
 #include <algorithm>
-#include <cfloat>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -11,6 +10,9 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
+
+/// Vertices handled one after the other: neighbours in the list are neighbours in space, so the last one's triangle is a good guess.
+constexpr std::size_t kRun = 32;
 
 struct FitSums {
   double area = 0, corrupt = 0, flipped = 0;
@@ -74,7 +76,15 @@ DistanceSummary distance_summary(const SurfaceMesh& from, const SurfaceMesh& to,
   Buffer<float> distances(from.n_vertices());
   const Vec4f* const x = raw(from.positions);
   float* const distance = raw(distances);
-  for_each_index(from.n_vertices(), [=] ESPDIFF_HD(std::size_t v) { distance[v] = sqrtf(squared_distance(tree, x[v].xyz(), FLT_MAX)); });
+  const std::size_t n = from.n_vertices();
+  for_each_index((n + kRun - 1) / kRun, [=] ESPDIFF_HD(std::size_t run) {
+    std::uint32_t guess = 0;
+    for (std::size_t v = run * kRun; v < (run + 1) * kRun && v < n; ++v) {
+      const NearestTriangle nearest = nearest_triangle(tree, x[v].xyz(), guess);
+      distance[v] = sqrtf(nearest.squared_distance);
+      guess = nearest.place;
+    }
+  });
   const std::vector<float> weights = to_host(vertex_areas(from, triangle_areas(from), nullptr));
   const std::vector<float> values = to_host(distances);
 

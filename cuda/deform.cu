@@ -13,10 +13,21 @@ namespace {
 /// Iterations between checks for convergence and cancellation: a check sums over all vertices and, on a device, waits for it.
 constexpr int kCheckInterval = 5;
 
+/// Eigenvalues of the umbrella operator lie in [-2, 0], so that an explicit step along (1 - rho) L - rho L^2 is stable for every rho
+/// while it is below 2 / 4.
+constexpr double kLargestInternalStep = 0.5;
+
+double internal_step(const DeformOptions& o) { return o.sigma * (1 - o.mu) * o.tangential_gain; }
+
 void check_options(const DeformOptions& o) {
   if (!(o.sigma > 0)) throw InputError("sigma " + std::to_string(o.sigma) + " is not positive; 0.1 is usual");
   if (!(o.mu >= 0 && o.mu <= 1)) throw InputError("mu " + std::to_string(o.mu) + " is not between 0 and 1");
   if (!(o.rho >= 0 && o.rho <= 1)) throw InputError("rho " + std::to_string(o.rho) + " is not between 0 and 1");
+  if (!(o.tangential_gain >= 0)) throw InputError("the tangential gain, " + std::to_string(o.tangential_gain) + ", is negative; 1 is the plain iteration");
+  if (internal_step(o) > kLargestInternalStep) {
+    throw InputError("sigma (1 - mu) times the tangential gain is " + std::to_string(internal_step(o)) + ", beyond " +
+                     std::to_string(kLargestInternalStep) + " where the iteration becomes unstable; lower one of them");
+  }
   if (o.max_iterations < 0) throw InputError("the number of iterations, " + std::to_string(o.max_iterations) + ", is negative");
   if (!(o.min_displacement_A >= 0)) throw InputError("the smallest displacement, " + std::to_string(o.min_displacement_A) + " A, is negative");
 }
@@ -30,7 +41,7 @@ struct Iteration {
   const Vec4f* laplacian;  // [vertex] L of `from`
   Vec4f* to;               // [vertex] w: how far the vertex moved
   float* strength;         // [vertex] s: positive while outside, negative while inside, halved at each crossing
-  float step_external, step_tension, step_rigidity;  // sigma mu, sigma (1 - mu)(1 - rho), sigma (1 - mu) rho
+  float step_external, step_tension, step_rigidity;  // sigma mu, g sigma (1 - mu)(1 - rho), g sigma (1 - mu) rho
   bool tricubic;
 };
 
@@ -73,7 +84,7 @@ std::shared_ptr<SurfaceMesh> deform(const SurfaceMesh& mesh, const SurfaceField&
   it.field = raw(field.values);
   it.strength = raw(strengths);
   it.tricubic = options.interpolation == Interpolation::kTricubic;
-  const double internal = options.sigma * (1 - options.mu);
+  const double internal = internal_step(options);
   it.step_external = static_cast<float>(options.sigma * options.mu);
   it.step_tension = static_cast<float>(internal * (1 - options.rho));
   it.step_rigidity = static_cast<float>(internal * options.rho);

@@ -13,6 +13,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "base/vector.h"
@@ -109,12 +110,14 @@ ESPDIFF_INLINE std::uint32_t atomic_increment(std::uint32_t* counter) {
 #endif
 }
 
-/// Lowers *value to candidate if that is smaller; returns whether it did.
-ESPDIFF_INLINE bool atomic_minimum(std::uint32_t* value, std::uint32_t candidate) {
+/// Lowers *value to candidate if that is smaller; returns whether it did. T is a 32- or 64-bit unsigned integer.
+template <typename T>
+ESPDIFF_INLINE bool atomic_minimum(T* value, T candidate) {
 #if defined(__CUDA_ARCH__)
-  return atomicMin(value, candidate) > candidate;
+  using Native = std::conditional_t<sizeof(T) == 8, unsigned long long, unsigned int>;
+  return atomicMin(reinterpret_cast<Native*>(value), static_cast<Native>(candidate)) > candidate;
 #else
-  std::uint32_t current = __atomic_load_n(value, __ATOMIC_RELAXED);
+  T current = __atomic_load_n(value, __ATOMIC_RELAXED);
   while (candidate < current) {
     if (__atomic_compare_exchange_n(value, &current, candidate, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) return true;
   }

@@ -11,7 +11,8 @@ namespace espdiff::ESPDIFF_BACKEND {
 std::shared_ptr<SurfaceField> density_field(const DensityGrid& density, float isovalue);
 
 /// Signed distance to the surface (positive inside) where its magnitude exceeds the threshold, with its gradient; the density
-/// field elsewhere. Both point inward and vanish on the surface, so that a vertex passes from one to the other smoothly.
+/// field elsewhere. The distance is that to the triangles around the nearest vertex, which is found by sweeps along the lattice's
+/// rows; it is compared with exact distances in the tests. Both point inward and vanish on the surface, so that a vertex passes from one to the other smoothly.
 std::shared_ptr<SurfaceField> distance_field(const DensityGrid& density, float isovalue, const SurfaceMesh& surface, float threshold_A,
                                              const Progress& progress);
 

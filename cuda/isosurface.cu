@@ -44,6 +44,7 @@ ESPDIFF_INLINE unsigned bit_count(unsigned bits) {
 #endif
 }
 
+#if !defined(__CUDACC__)
 ESPDIFF_MULTIVERSION void classify_row_impl(const std::uint8_t* __restrict inside, std::size_t nx, std::size_t nxy, int n_cells,
                                             std::uint8_t* __restrict cases) {
   for (int i = 0; i < n_cells; ++i) {
@@ -53,20 +54,19 @@ ESPDIFF_MULTIVERSION void classify_row_impl(const std::uint8_t* __restrict insid
   }
 }
 
+#endif
+
 /// Cases of a row of cells.
 ESPDIFF_HD inline void classify_row(const Extraction& e, std::size_t row_start) {
-  const std::size_t nx = static_cast<std::size_t>(e.lattice.size[0]), nxy = nx * static_cast<std::size_t>(e.lattice.size[1]);
-#if defined(__CUDA_ARCH__)
+#if defined(__CUDACC__)
   for (int i = 0; i < e.lattice.size[0] - 1; ++i) {
+    const std::size_t point = row_start + static_cast<std::size_t>(i);
     unsigned cell_case = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-      cell_case |= static_cast<unsigned>(e.inside[e.corner_point(row_start + static_cast<std::size_t>(i), corner)]) << corner;
-    }
-    e.cases[row_start + static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(cell_case);
+    for (int corner = 0; corner < 8; ++corner) cell_case |= static_cast<unsigned>(e.inside[e.corner_point(point, corner)]) << corner;
+    e.cases[point] = static_cast<std::uint8_t>(cell_case);
   }
-  (void)nx;
-  (void)nxy;
-#elif !defined(__CUDACC__)
+#else
+  const std::size_t nx = static_cast<std::size_t>(e.lattice.size[0]), nxy = nx * static_cast<std::size_t>(e.lattice.size[1]);
   classify_row_impl(e.inside + row_start, nx, nxy, e.lattice.size[0] - 1, e.cases + row_start);
 #endif
 }

@@ -5,7 +5,8 @@ namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
 constexpr int kMaxNewtonSteps = 6;
-constexpr float kDensityTolerance = 1e-4F;
+/// Within this of the isovalue one more step lands on it to 1e-4: Newton's error is the square of this times the curvature.
+constexpr float kLastStepDensity = 0.01F;
 /// A step may be no longer than this part of the whole shift allowed: the density is far from linear over longer ones.
 constexpr float kStepShare = 0.5F;
 
@@ -14,7 +15,6 @@ ESPDIFF_INLINE Vec3f newton(const AtomCellsView& atoms, Vec3f start, float isova
   for (int step = 0; step < kMaxNewtonSteps; ++step) {
     const DensitySample sample = density_at(atoms, p);
     const float excess = sample.value - isovalue;
-    if (fabsf(excess) < kDensityTolerance) return p;
     const float slope_squared = dot(sample.gradient, sample.gradient);
     if (!(slope_squared > 1e-12F)) return start;
     Vec3f shift = (-excess / slope_squared) * sample.gradient;
@@ -22,6 +22,7 @@ ESPDIFF_INLINE Vec3f newton(const AtomCellsView& atoms, Vec3f start, float isova
     if (length > kStepShare * max_shift) shift = (kStepShare * max_shift / length) * shift;
     p += shift;
     if (norm(p - start) > max_shift) return start;
+    if (fabsf(excess) < kLastStepDensity) return p;
   }
   return p;
 }

@@ -31,10 +31,17 @@ std::shared_ptr<MapGrid> make_map(const Grid& map, const RigidTransform& to_map)
   return result;
 }
 
+namespace {
+
+/// Row-major 3 x 4, passed to the kernel by value.
+struct Affine {
+  double m[12];
+};
+
+}  // namespace
+
 std::shared_ptr<Scalars> sample(const MapGrid& map, const SurfaceMesh& mesh) {
-  struct Affine {
-    double m[12];
-  } to_index;
+  Affine to_index;
   for (int i = 0; i < 12; ++i) to_index.m[i] = map.to_index[i];
   auto result = std::make_shared<Scalars>();
   result->values.resize(mesh.n_vertices());

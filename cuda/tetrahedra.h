@@ -8,6 +8,8 @@
 #include <array>
 #include <cstdint>
 
+#include "base/vector.h"
+
 namespace espdiff {
 
 /// A cell's edge that carries a vertex: the lattice point at corner `low`, direction 1..7.
@@ -29,15 +31,9 @@ constexpr std::array<std::array<int, 4>, 6> kFreudenthalTetrahedra = {
     {{0, 1, 3, 7}, {0, 1, 5, 7}, {0, 2, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 4, 6, 7}}};
 
 /// Directions in which the edge from the cell's corner 0 crosses the surface: bit d-1 for direction d.
-constexpr std::uint8_t crossing_mask(std::uint8_t cell_case) {
+ESPDIFF_HD constexpr std::uint8_t crossing_mask(std::uint8_t cell_case) {
   const unsigned others = static_cast<unsigned>(cell_case) >> 1;
   return static_cast<std::uint8_t>((cell_case & 1U) != 0 ? ~others & 0x7FU : others);
-}
-
-constexpr int count_bits(unsigned bits) {
-  int n = 0;
-  for (; bits != 0; bits &= bits - 1) ++n;
-  return n;
 }
 
 namespace detail {

@@ -66,23 +66,27 @@ ESPDIFF_INLINE float squared_distance_to_box(Vec3f p, const Box& box) {
   return dx * dx + dy * dy + dz * dz;
 }
 
-/// Squared distance of p to the nearest triangle, or `bound` if none is nearer than that.
-ESPDIFF_INLINE float squared_distance(const TriangleTreeView& tree, Vec3f p, float bound) {
+/// The triangle nearest to a point: its place in leaf order, and the squared distance to it.
+struct NearestTriangle {
+  std::uint32_t place;
+  float squared_distance;
+};
+
+/// Nearest triangle of the tree. `guess` is the place of any triangle: the nearer it is, the less of the tree is visited; the
+/// distance does not depend on it.
+ESPDIFF_INLINE NearestTriangle nearest_triangle(const TriangleTreeView& tree, Vec3f p, std::uint32_t guess) {
   struct Pending {
     std::uint32_t node;
     float distance;
   };
   Pending stack[32];
   int depth = 0;
+  NearestTriangle nearest{guess, squared_distance_to_triangle(p, tree.triangles[guess])};
   std::uint32_t node = 0;
   float node_distance = squared_distance_to_box(p, tree.boxes[0]);
   for (;;) {
-    if (node_distance < bound) {
-      if (node + 1 >= tree.n_leaves) {
-        const std::uint32_t begin = (node + 1 - tree.n_leaves) * kTrianglesPerLeaf;
-        const std::uint32_t end = begin + kTrianglesPerLeaf < tree.n_triangles ? begin + kTrianglesPerLeaf : tree.n_triangles;
-        for (std::uint32_t t = begin; t < end; ++t) bound = fminf(bound, squared_distance_to_triangle(p, tree.triangles[t]));
-      } else {
+    if (node_distance < nearest.squared_distance) {
+      if (node + 1 < tree.n_leaves) {
         const std::uint32_t left = 2 * node + 1;
         const float d_left = squared_distance_to_box(p, tree.boxes[left]), d_right = squared_distance_to_box(p, tree.boxes[left + 1]);
         const bool left_first = d_left <= d_right;
@@ -91,9 +95,17 @@ ESPDIFF_INLINE float squared_distance(const TriangleTreeView& tree, Vec3f p, flo
         node_distance = left_first ? d_left : d_right;
         continue;
       }
+      const std::uint32_t begin = (node + 1 - tree.n_leaves) * kTrianglesPerLeaf;
+      const std::uint32_t end = begin + kTrianglesPerLeaf < tree.n_triangles ? begin + kTrianglesPerLeaf : tree.n_triangles;
+      for (std::uint32_t t = begin; t < end; ++t) {
+        const float d = squared_distance_to_triangle(p, tree.triangles[t]);
+        if (d < nearest.squared_distance) nearest = {t, d};
+      }
     }
-    if (depth == 0) return bound;
-    --depth;
+    do {
+      if (depth == 0) return nearest;
+      --depth;
+    } while (!(stack[depth].distance < nearest.squared_distance));
     node = stack[depth].node;
     node_distance = stack[depth].distance;
   }

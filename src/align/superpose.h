@@ -14,8 +14,9 @@ struct Superposition {
   double rmsd_A = 0;         ///< over the pairs, after the transform
 };
 
-/// Kabsch's method: both point sets centred at the origin, R = W diag(1,1,d) V^T from the singular value decomposition of their
-/// covariance, d = +-1 so that R is a rotation (Kabsch, Acta Cryst. A32, 922 (1976); thesis eq. 3.3-3.7 with errata).
+/// Kabsch's method: both point sets centred at the origin, R = W diag(1,1,d) V^T from the singular value decomposition
+/// of their covariance, d = +-1 so that R is a rotation (Kabsch, Acta Cryst. A32, 922 (1976); thesis eq. 3.3-3.7 with
+/// errata).
 /// @param pairs (index into moving, index into fixed)
 /// @throws GeometryError with fewer than 3 pairs or when the points lie on a line (the rotation is not determined)
 Superposition superpose(const std::vector<Vec3d>& moving, const std::vector<Vec3d>& fixed,
@@ -29,8 +30,9 @@ RigidTransform inverse(const RigidTransform& transform);
 /// x -> outer(inner(x)).
 RigidTransform compose(const RigidTransform& outer, const RigidTransform& inner);
 
-/// The frame of a molecule itself: origin at the centroid, axes along the principal axes of its atoms (largest extent first),
-/// signs by third moments, right-handed. Depends on shape alone, so a rigid motion or another atom order changes nothing.
+/// The frame of a molecule itself: origin at the centroid, axes along the principal axes of its atoms (largest extent
+/// first), signs by third moments, right-handed. Depends on shape alone, so a rigid motion or another atom order
+/// changes nothing.
 /// @returns original coordinates -> principal frame
 RigidTransform principal_frame(const std::vector<Vec3d>& positions);
 

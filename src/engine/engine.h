@@ -50,6 +50,9 @@ struct DeformOptions {
   double min_displacement_A = 1e-3; ///< converged when the mean displacement of an iteration falls below it
   int max_iterations = 1000;
   Interpolation interpolation = Interpolation::kTrilinear;
+  /// Multiplies the internal force; 1 is the thesis' iteration. That force moves vertices along the surface only, so a larger one
+  /// lets them spread into what the surface has been drawn into sooner, and the surface itself no less exact.
+  double tangential_gain = 1;
 };
 
 struct DeformReport {
@@ -109,7 +112,7 @@ class Engine {
                                 const std::vector<std::int32_t>& residues) = 0;
 
   /// rho(x) = sum_i exp(-|x - x_i|^2 / (2 s_i^2)) (thesis eq. 3.1) on a cubic lattice of the given spacing that reaches so far
-  /// beyond the atoms that rho vanishes on its border. Terms beyond 4.75 s are dropped: the sum errs by less than 1e-3.
+  /// beyond the atoms that rho vanishes on its border. Terms beyond 4.5 s are dropped: the sum errs by less than 1e-3.
   /// @throws InputError (spacing), MemoryError (more lattice points than memory holds; says which spacing would fit)
   virtual GridPtr density(const AtomsPtr& atoms, double spacing_A) = 0;
 
@@ -129,7 +132,7 @@ class Engine {
   /// Density and gradient for deform().
   virtual FieldPtr density_field(const GridPtr& density, float isovalue) = 0;
   /// Signed distance to `surface` (positive inside) where it exceeds `threshold_A` in magnitude, the density elsewhere (thesis
-  /// section 3.5.3). The distance is exact: to triangles.
+  /// section 3.5.3). The distance is that to the triangles around the nearest vertex.
   virtual FieldPtr distance_field(const GridPtr& density, float isovalue, const MeshPtr& surface, double threshold_A,
                                   const Progress& progress) = 0;
 

@@ -8,23 +8,24 @@
 namespace espdiff {
 
 struct StructureOptions {
-  int model = 1;                 ///< which model of a multi-model file, from 1
-  bool include_hetero = true;    ///< HETATM records: ligands, ions
-  bool include_water = false;    ///< HOH, WAT, TIP3 and the like
+  int model = 1;               ///< which model of a multi-model file, from 1
+  bool include_hetero = true;  ///< HETATM records: ligands, ions
+  bool include_water = false;  ///< HOH, WAT, TIP3 and the like
 };
 
-/// Reads one conformation. The format is found from the content (a PQR, PDB or mmCIF under any name is read as what it is).
-/// Alternate locations: the one of highest occupancy per residue (the first on ties). Radii: the file's (PQR), else
-/// Bondi's by element; charges: the file's, else none. Units: Angstrom, elementary charges.
-/// @throws IoError (missing, directory, unreadable), FormatError (with line: bad number, NaN, short record, negative radius),
+/// Reads one conformation. The format is found from the content (a PQR, PDB or mmCIF under any name is read as what it
+/// is). Alternate locations: the one of highest occupancy per residue (the first on ties). Radii: the file's (PQR),
+/// else Bondi's by element; charges: the file's, else none. Units: Angstrom, elementary charges.
+/// @throws IoError (missing, directory, unreadable), FormatError (with line: bad number, NaN, short record, negative
+/// radius),
 ///         InputError (no atoms, model out of range, format not supported by this build, with remedy)
 Molecule read_structure(const std::string& path, const StructureOptions& options = {});
 
 /// Number of models in the file.
 int count_models(const std::string& path);
 
-/// Van der Waals radius by element, Angstrom. Bondi, J. Phys. Chem. 68, 441 (1964); elements he does not give: Alvarez, Dalton
-/// Trans. 42, 8617 (2013). `element` in any case; 1.7 for unknown (empty) ones.
+/// Van der Waals radius by element, Angstrom. Bondi, J. Phys. Chem. 68, 441 (1964); elements he does not give: Alvarez,
+/// Dalton Trans. 42, 8617 (2013). `element` in any case; 1.7 for unknown (empty) ones.
 float element_radius(const std::string& element);
 
 /// Guesses the element from a PDB-style atom name and its residue ("CA" in ALA is carbon, "CA" in CA calcium).

@@ -26,14 +26,15 @@ struct SurfaceOptions {
   bool project = true;    ///< move vertices onto the analytic isosurface
 };
 
-/// All parameters of a comparison; defaults are the study's values of the thesis where it has them.
+/// All parameters of a comparison; defaults are the study's values of the thesis where it has them. Not in the thesis: the
+/// tangential gain (1 would be its iteration) and the projection onto the exact isosurface.
 struct CompareOptions {
   SurfaceOptions surface;
   AlignAtoms align = AlignAtoms::kAll;
   FieldKind field = FieldKind::kDistance;
   double distance_threshold_A = 0.75;
-  DeformOptions regularize{0.1, 0.5, 0.3, 1e-3, 500, Interpolation::kTrilinear};
-  DeformOptions deform{0.1, 0.75, 0.3, 1e-3, 1000, Interpolation::kTrilinear};
+  DeformOptions regularize{0.1, 0.5, 0.3, 1e-3, 500, Interpolation::kTrilinear, 1};
+  DeformOptions deform{0.1, 0.75, 0.3, 1e-3, 3000, Interpolation::kTrilinear, 8};
   double min_displacement_per_spacing = 1e-3;  ///< sets min_displacement_A of both: times the grid spacing
   double temperature_K = 300;                  ///< for converting between kT/e and other units
 };

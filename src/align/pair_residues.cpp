@@ -1,0 +1,244 @@
+// pair_residues.cpp: chains by their sequences, then all that is not a chain by name and number.
+#include "align/pair_residues.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <tuple>
+
+#include "align/align_sequences.h"
+
+namespace espdiff {
+namespace {
+
+using IndexPairs = std::vector<std::pair<std::size_t, std::size_t>>;
+
+/// A leftover shorter than this is an insertion, not a chain that waits for its counterpart.
+constexpr std::size_t kMinLeftover = 10;
+/// Share of the lower self score that related sequences reach; a quarter of identical residues gives about 0.13.
+constexpr double kMinScoreShare = 0.1;
+/// Scale of BLOSUM62 in nats: random sequences of lengths n and m reach about ln(n m) / lambda (Karlin and Altschul,
+/// Proc. Natl. Acad. Sci. USA 87, 2264 (1990)).
+constexpr double kLambda = 0.318;
+/// What the same chain name is worth, as a share of the lower self score: some residues missing here or there must not
+/// swap the chains of a dimer.
+constexpr double kSameNameShare = 0.1;
+
+/// A chain, or what is left of one: residues with their codes, in the order of the file.
+struct Chain {
+  std::string name;
+  ResidueKind kind = ResidueKind::kAminoAcid;
+  std::vector<std::size_t> residues;
+  Sequence sequence;
+  std::vector<std::int32_t> numbers;
+
+  void append(std::size_t residue, ResidueCode code, std::int32_t number) {
+    residues.push_back(residue);
+    sequence.push_back(code);
+    numbers.push_back(number);
+  }
+};
+
+/// Splits a molecule's amino acids and nucleotides into chains. Where the file has no chain names, a number that falls
+/// starts a new chain.
+std::vector<Chain> chains_of(const ResidueView& view, SequenceEncoder& encoder) {
+  std::vector<Chain> chains;
+  std::map<std::pair<std::string, ResidueKind>, std::size_t> open;
+  for (std::size_t r = 0; r < view.kinds.size(); ++r) {
+    const Residue& residue = view.molecule->residues[r];
+    const ResidueKind kind = view.kinds[r];
+    if (kind != ResidueKind::kAminoAcid && kind != ResidueKind::kNucleotide) continue;
+    const auto [entry, is_new] = open.try_emplace({residue.chain, kind}, chains.size());
+    const bool restarts = !is_new && residue.chain.empty() && residue.number < chains[entry->second].numbers.back();
+    if (is_new || restarts) {
+      entry->second = chains.size();
+      chains.push_back({residue.chain, kind, {}, {}, {}});
+    }
+    chains[entry->second].append(r, encoder.encode(residue.name), residue.number);
+  }
+  return chains;
+}
+
+/// Alignment scores, each computed once for each two sequences: in a large assembly most chains are copies.
+class ScoreTable {
+ public:
+  int score(const Sequence& a, const Sequence& b) {
+    if (a == b) return self_score(a);
+    const auto [entry, is_new] = scores_.try_emplace({id(a), id(b)}, 0);
+    if (is_new) entry->second = alignment_score(a, b);
+    return entry->second;
+  }
+
+ private:
+  std::size_t id(const Sequence& sequence) { return ids_.emplace(sequence, ids_.size()).first->second; }
+
+  std::map<Sequence, std::size_t> ids_;
+  std::map<std::pair<std::size_t, std::size_t>, int> scores_;
+};
+
+struct Candidate {
+  double rank;
+  std::size_t source, target;
+
+  bool operator<(const Candidate& other) const {
+    return std::tie(other.rank, source, target) < std::tie(rank, other.source, other.target);
+  }
+};
+
+std::optional<Candidate> consider(const std::vector<Chain>& source, std::size_t i, const std::vector<Chain>& target,
+                                  std::size_t j, ScoreTable& scores) {
+  const Chain &a = source[i], &b = target[j];
+  if (a.kind != b.kind) return std::nullopt;
+  const double lower_self = std::min(self_score(a.sequence), self_score(b.sequence));
+  const double score = scores.score(a.sequence, b.sequence);
+  const double chance =
+      std::log(static_cast<double>(a.sequence.size()) * static_cast<double>(b.sequence.size())) / kLambda;
+  if (score <= chance || score < kMinScoreShare * lower_self) return std::nullopt;
+  return Candidate{score + (a.name == b.name ? kSameNameShare * lower_self : 0.0), i, j};
+}
+
+/// Moves the stretches of a chain before, between and after its paired positions to `leftovers`.
+void keep_leftovers(const Chain& chain, const std::vector<std::size_t>& paired, std::vector<Chain>& leftovers) {
+  std::size_t begin = 0;
+  for (std::size_t k = 0; k <= paired.size(); ++k) {
+    const std::size_t end = k < paired.size() ? paired[k] : chain.residues.size();
+    if (end - begin >= kMinLeftover) {
+      Chain part{chain.name, chain.kind, {}, {}, {}};
+      for (std::size_t p = begin; p < end; ++p) part.append(chain.residues[p], chain.sequence[p], chain.numbers[p]);
+      leftovers.push_back(std::move(part));
+    }
+    begin = end + 1;
+  }
+}
+
+/// Aligns the chains that match best, best first. Chains and stretches that stay unpaired remain in `source` and
+/// `target`.
+/// @returns whether any residues were paired
+bool pair_chains(std::vector<Chain>& source, std::vector<Chain>& target, ScoreTable& scores, IndexPairs& pairs) {
+  std::vector<Candidate> candidates;
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    for (std::size_t j = 0; j < target.size(); ++j) {
+      if (const auto candidate = consider(source, i, target, j, scores)) candidates.push_back(*candidate);
+    }
+  }
+  std::sort(candidates.begin(), candidates.end());
+  std::vector<bool> source_taken(source.size(), false), target_taken(target.size(), false);
+  std::vector<Chain> source_left, target_left;
+  const std::size_t n_before = pairs.size();
+  for (const Candidate& best : candidates) {
+    if (source_taken[best.source] || target_taken[best.target]) continue;
+    source_taken[best.source] = target_taken[best.target] = true;
+    const Chain &a = source[best.source], &b = target[best.target];
+    std::vector<std::size_t> paired_a, paired_b;
+    for (const auto& [p, q] : align_sequences(a.sequence, b.sequence, a.numbers, b.numbers)) {
+      pairs.emplace_back(a.residues[p], b.residues[q]);
+      paired_a.push_back(p);
+      paired_b.push_back(q);
+    }
+    keep_leftovers(a, paired_a, source_left);
+    keep_leftovers(b, paired_b, target_left);
+  }
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    if (!source_taken[i]) source_left.push_back(std::move(source[i]));
+  }
+  for (std::size_t j = 0; j < target.size(); ++j) {
+    if (!target_taken[j]) target_left.push_back(std::move(target[j]));
+  }
+  source = std::move(source_left);
+  target = std::move(target_left);
+  return pairs.size() > n_before;
+}
+
+/// [source chain name] the target chain with which most of its residues pair.
+std::map<std::string, std::string> corresponding_chains(const ResidueView& source, const ResidueView& target,
+                                                        const IndexPairs& pairs) {
+  std::map<std::string, std::map<std::string, std::size_t>> votes;
+  for (const auto& [a, b] : pairs) ++votes[source.molecule->residues[a].chain][target.molecule->residues[b].chain];
+  std::map<std::string, std::string> chains;
+  for (const auto& [name, counts] : votes) {
+    const auto most = std::max_element(counts.begin(), counts.end(),
+                                       [](const auto& x, const auto& y) { return x.second < y.second; });
+    chains[name] = most->first;
+  }
+  return chains;
+}
+
+/// Residues of one name that wait for a counterpart, by number.
+using Waiting = std::set<std::pair<std::int32_t, std::size_t>>;
+
+/// Takes the residue with the number closest to `number`, the lower one on ties.
+std::optional<std::size_t> take_closest(Waiting& waiting, std::int32_t number) {
+  if (waiting.empty()) return std::nullopt;
+  auto closest = waiting.lower_bound({number, 0});
+  if (closest == waiting.end()) {
+    --closest;
+  } else if (closest != waiting.begin()) {
+    const auto below = std::prev(closest);
+    const auto distance = [&](std::int32_t n) { return std::abs(static_cast<std::int64_t>(n) - number); };
+    if (distance(below->first) <= distance(closest->first)) closest = below;
+  }
+  const std::size_t residue = closest->second;
+  waiting.erase(closest);
+  return residue;
+}
+
+/// Pairs what is not in a sequence: equal numbers in corresponding chains, then the closest number there, then
+/// anywhere.
+void pair_others(const ResidueView& source, const ResidueView& target, IndexPairs& pairs) {
+  const auto chains = corresponding_chains(source, target, pairs);
+  const auto chain_in_target = [&](const std::string& name) {
+    const auto known = chains.find(name);
+    return known == chains.end() ? name : known->second;
+  };
+  std::vector<std::size_t> open;
+  for (std::size_t r = 0; r < source.kinds.size(); ++r) {
+    if (source.kinds[r] == ResidueKind::kOther) open.push_back(r);
+  }
+  // Three rounds, from strict to lax; `key` says which residues compete with each other.
+  for (const int round : {0, 1, 2}) {
+    const auto key = [&](const Residue& residue, const std::string& chain) {
+      return std::make_tuple(residue.name, round < 2 ? chain : std::string(), round < 1 ? residue.number : 0);
+    };
+    std::map<std::tuple<std::string, std::string, std::int32_t>, Waiting> waiting;
+    std::set<std::size_t> taken;
+    for (const auto& pair : pairs) taken.insert(pair.second);
+    for (std::size_t r = 0; r < target.kinds.size(); ++r) {
+      const Residue& residue = target.molecule->residues[r];
+      if (target.kinds[r] != ResidueKind::kOther || taken.count(r) != 0) continue;
+      waiting[key(residue, residue.chain)].emplace(residue.number, r);
+    }
+    std::vector<std::size_t> still_open;
+    for (const std::size_t r : open) {
+      const Residue& residue = source.molecule->residues[r];
+      const auto same = waiting.find(key(residue, chain_in_target(residue.chain)));
+      const auto found = same == waiting.end() ? std::nullopt : take_closest(same->second, residue.number);
+      if (found) {
+        pairs.emplace_back(r, *found);
+      } else {
+        still_open.push_back(r);
+      }
+    }
+    open = std::move(still_open);
+  }
+}
+
+}  // namespace
+
+IndexPairs pair_residues(const ResidueView& source, const ResidueView& target) {
+  SequenceEncoder encoder;
+  std::vector<Chain> source_chains = chains_of(source, encoder), target_chains = chains_of(target, encoder);
+  ScoreTable scores;
+  IndexPairs pairs;
+  while (pair_chains(source_chains, target_chains, scores, pairs)) {
+  }
+  pair_others(source, target, pairs);
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+}  // namespace espdiff

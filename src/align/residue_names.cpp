@@ -1,0 +1,138 @@
+// residue_names.cpp: the tables of residue and atom names.
+#include "align/residue_names.h"
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+#include <unordered_map>
+
+namespace espdiff {
+namespace {
+
+using LetterTable = std::unordered_map<std::string_view, char>;
+
+/// One line a letter: PDB's name, then protonation states of Amber, CHARMM and Gromacs, then modified forms.
+const LetterTable& letters() {
+  static const LetterTable table = {
+      {"ALA", 'A'},  {"ARG", 'R'},  {"ARN", 'R'},  {"AR0", 'R'},  {"ASN", 'N'},  {"ASP", 'D'},  {"ASH", 'D'},
+      {"ASPP", 'D'}, {"CYS", 'C'},  {"CYX", 'C'},  {"CYM", 'C'},  {"CYS2", 'C'}, {"CSO", 'C'},  {"CME", 'C'},
+      {"OCS", 'C'},  {"CSD", 'C'},  {"GLN", 'Q'},  {"GLU", 'E'},  {"GLH", 'E'},  {"GLUP", 'E'}, {"PCA", 'E'},
+      {"GLY", 'G'},  {"HIS", 'H'},  {"HSD", 'H'},  {"HSE", 'H'},  {"HSP", 'H'},  {"HID", 'H'},  {"HIE", 'H'},
+      {"HIP", 'H'},  {"HISD", 'H'}, {"HISE", 'H'}, {"HISH", 'H'}, {"ILE", 'I'},  {"LEU", 'L'},  {"LYS", 'K'},
+      {"LYN", 'K'},  {"LSN", 'K'},  {"MLY", 'K'},  {"M3L", 'K'},  {"KCX", 'K'},  {"LLP", 'K'},  {"MET", 'M'},
+      {"MSE", 'M'},  {"PHE", 'F'},  {"PRO", 'P'},  {"HYP", 'P'},  {"SER", 'S'},  {"SEP", 'S'},  {"THR", 'T'},
+      {"TPO", 'T'},  {"TRP", 'W'},  {"TYR", 'Y'},  {"TYM", 'Y'},  {"PTR", 'Y'},  {"TYS", 'Y'},  {"VAL", 'V'},
+      {"A", 'a'},    {"DA", 'a'},   {"RA", 'a'},   {"ADE", 'a'},  {"C", 'c'},    {"DC", 'c'},   {"RC", 'c'},
+      {"CYT", 'c'},  {"G", 'g'},    {"DG", 'g'},   {"RG", 'g'},   {"GUA", 'g'},  {"T", 't'},    {"DT", 't'},
+      {"THY", 't'},  {"U", 'u'},    {"RU", 'u'},   {"URA", 'u'},  {"URI", 'u'},
+  };
+  return table;
+}
+
+char find_letter(const std::string& name) {
+  const auto found = letters().find(name);
+  return found == letters().end() ? '?' : found->second;
+}
+
+std::string upper_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+bool is_water(const std::string& name) {
+  static const std::vector<std::string> names = {"HOH",  "WAT",  "H2O",  "DOD", "SOL", "TIP", "TP3",
+                                                 "TIP3", "TIP4", "TIP5", "T3P", "T4P", "SPC"};
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+ResidueKind kind_of(const std::string& residue_name, const std::vector<std::string>& atom_names) {
+  const char letter = residue_letter(residue_name);
+  if (letter >= 'A' && letter <= 'Z') return ResidueKind::kAminoAcid;
+  if (letter >= 'a' && letter <= 'z') return ResidueKind::kNucleotide;
+  if (is_water(upper_case(residue_name))) return ResidueKind::kWater;
+  const auto has = [&](const char* name) {
+    return std::find(atom_names.begin(), atom_names.end(), name) != atom_names.end();
+  };
+  if (has("N") && has("CA") && has("C")) return ResidueKind::kAminoAcid;
+  if (has("P") && has("C1'") && has("C3'") && has("C4'") && has("O3'")) return ResidueKind::kNucleotide;
+  return ResidueKind::kOther;
+}
+
+}  // namespace
+
+char residue_letter(const std::string& residue_name) {
+  std::string name = upper_case(residue_name);
+  const char letter = find_letter(name);
+  if (letter != '?' || name.size() < 2) return letter;
+  // Amber marks termini: NALA, CALA, and DA5, RU3 for nucleotides.
+  if (name.size() == 4 && (name[0] == 'N' || name[0] == 'C')) {
+    const char inner = find_letter(name.substr(1));
+    return inner >= 'A' && inner <= 'Z' ? inner : '?';
+  }
+  if (name.back() == '5' || name.back() == '3') {
+    name.pop_back();
+    const char inner = find_letter(name);
+    return inner >= 'a' && inner <= 'z' ? inner : '?';
+  }
+  return '?';
+}
+
+bool same_residue_name(const std::string& a, const std::string& b) {
+  if (a == b) return true;
+  const char letter = residue_letter(a);
+  return letter != '?' && letter == residue_letter(b);
+}
+
+std::string normalized_atom_name(const std::string& atom_name, char letter) {
+  std::string name;
+  for (const char c : atom_name) {
+    if (c == '*') {
+      name += '\'';
+    } else if (c == '"') {
+      name += "''";
+    } else if (c != ' ') {
+      name += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    }
+  }
+  const auto first_letter = std::find_if_not(name.begin(), name.end(), is_digit);
+  if (first_letter != name.begin() && first_letter != name.end()) {
+    const std::string digits(name.begin(), first_letter);
+    name.erase(name.begin(), first_letter);
+    // 1H5* and 2H5* are today's H5' and H5''.
+    if (name.back() == '\'' && (digits == "1" || digits == "2")) return digits == "1" ? name : name + '\'';
+    name += digits;
+  }
+  if (letter == 'I' && name == "CD") return "CD1";
+  if (letter == 'I' && name.size() == 3 && name.compare(0, 2, "HD") == 0) return "HD1" + name.substr(2);
+  static const std::unordered_map<std::string_view, const char*> synonyms = {
+      {"HN", "H"},  {"HT1", "H1"},  {"HT2", "H2"}, {"HT3", "H3"},  {"HN1", "H1"},  {"HN2", "H2"},  {"HN3", "H3"},
+      {"OT1", "O"}, {"OT2", "OXT"}, {"OT", "OXT"}, {"O1P", "OP1"}, {"O2P", "OP2"}, {"O5T", "O5'"}, {"O3T", "O3'"}};
+  const auto synonym = synonyms.find(name);
+  return synonym == synonyms.end() ? name : synonym->second;
+}
+
+std::vector<std::vector<std::size_t>> atoms_of_residues(const Molecule& molecule) {
+  std::vector<std::vector<std::size_t>> atoms(molecule.residues.size());
+  for (std::size_t i = 0; i < molecule.size(); ++i) {
+    atoms[static_cast<std::size_t>(molecule.atoms[i].residue)].push_back(i);
+  }
+  return atoms;
+}
+
+std::vector<ResidueKind> residue_kinds(const Molecule& molecule,
+                                       const std::vector<std::vector<std::size_t>>& residue_atoms) {
+  std::vector<ResidueKind> kinds;
+  kinds.reserve(residue_atoms.size());
+  std::vector<std::string> names;
+  for (std::size_t r = 0; r < residue_atoms.size(); ++r) {
+    names.clear();
+    for (const std::size_t i : residue_atoms[r]) names.push_back(normalized_atom_name(molecule.atoms[i].name));
+    kinds.push_back(kind_of(molecule.residues[r].name, names));
+  }
+  return kinds;
+}
+
+}  // namespace espdiff

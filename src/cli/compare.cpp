@@ -1,0 +1,129 @@
+// compare.cpp: `espdiff compare SOURCE TARGET -o OUT`.
+#include <iostream>
+
+#include "cli/options.h"
+#include "cli/verbs.h"
+#include "io/atomic_file.h"
+#include "io/sha256.h"
+#include "pipeline/write_compare.h"
+
+namespace espdiff::cli {
+namespace {
+
+struct Arguments {
+  std::string source, target, output;
+  std::string source_map, target_map, source_map_unit, target_map_unit, map_array, potential;
+  int source_model = 1, target_model = 1;
+  std::string method = "deform", align = "all", field = "distance", interpolation = "trilinear";
+  bool quiet = false;
+  StructureOptions structure;
+  DeviceArguments device;
+  CompareOptions options;
+};
+
+void add_input_options(CLI::App& p, Arguments& a) {
+  p.add_option("SOURCE", a.source, "Structure of the first state: PQR, PDB or mmCIF")->required();
+  p.add_option("TARGET", a.target, "Structure of the second state")->required();
+  p.add_option("-o,--output", a.output, "Prefix of the results OUT.json, OUT.vtp and OUT.residues.csv")->required();
+  p.add_option("--source-map", a.source_map, "Potential around the source: DX, VTI or cube, in the structure file's coordinates")->group("Potentials");
+  p.add_option("--target-map", a.target_map, "Potential around the target")->group("Potentials");
+  p.add_option("--source-map-unit", a.source_map_unit, "Unit of the source map if the file does not say: kT/e, mV, V, kcal/mol/e, hartree/e")->group("Potentials");
+  p.add_option("--target-map-unit", a.target_map_unit, "Unit of the target map if the file does not say")->group("Potentials");
+  p.add_option("--map-array", a.map_array, "Array to take from VTI maps that hold several")->group("Potentials");
+  p.add_option("--temperature", a.options.temperature_K, "Temperature for converting between kT/e and other units, K")->capture_default_str()->group("Potentials");
+  p.add_option("--potential", a.potential, "Compute the potentials instead of reading maps: pme (not in this version)")->group("Potentials");
+  p.add_option("--source-model", a.source_model, "Model of a multi-model source file, from 1")->check(CLI::PositiveNumber)->capture_default_str()->group("Molecules");
+  p.add_option("--target-model", a.target_model, "Model of a multi-model target file, from 1")->check(CLI::PositiveNumber)->capture_default_str()->group("Molecules");
+  p.add_option("--align", a.align, "Paired atoms that are superposed; none compares as given")->check(CLI::IsMember({"all", "backbone", "ca", "none"}))->capture_default_str()->group("Molecules");
+}
+
+void add_iteration_options(CLI::App& p, const std::string& prefix, DeformOptions& o, const std::string& group) {
+  p.add_option("--" + prefix + "sigma", o.sigma, "Step scale")->capture_default_str()->group(group);
+  p.add_option("--" + prefix + "mu", o.mu, "Weight of the external against the internal force, 0 to 1")->capture_default_str()->group(group);
+  p.add_option("--" + prefix + "rho", o.rho, "Rigidity against tension, 0 to 1")->capture_default_str()->group(group);
+  p.add_option("--" + prefix + "tangential-gain", o.tangential_gain, "Multiplies the internal force, which moves vertices along the surface; 1 is the thesis' iteration")->capture_default_str()->group(group);
+  p.add_option("--" + prefix + "max-iterations", o.max_iterations, "Iterations at most")->capture_default_str()->group(group);
+}
+
+void add_mapping_options(CLI::App& p, Arguments& a) {
+  const std::string group = "Mapping";
+  p.add_option("--method", a.method, "How the source surface is mapped: deform (morph is not in this version)")->capture_default_str()->group(group);
+  p.add_option("--field", a.field, "What draws the surface: density, or the distance where it is far")->capture_default_str()->group(group);
+  p.add_option("--distance-threshold", a.options.distance_threshold_A, "Distance beyond which the distance field draws, Angstrom")->check(CLI::NonNegativeNumber)->capture_default_str()->group(group);
+  p.add_option("--interpolation", a.interpolation, "Sampling of the field: trilinear or tricubic")->capture_default_str()->group(group);
+  add_iteration_options(p, "", a.options.deform, group);
+  p.add_option("--min-displacement", a.options.min_displacement_per_spacing, "Converged when the mean displacement of an iteration falls below this many grid spacings")->capture_default_str()->group(group);
+  add_iteration_options(p, "regularize-", a.options.regularize, "Regularization");
+}
+
+void interpret(Arguments& a) {
+  if (a.method == "morph") throw InputError("--method morph is not in this version; use deform");
+  if (a.method != "deform") throw InputError("unknown method '" + a.method + "'; use deform");
+  if (!a.potential.empty()) throw InputError("--potential " + a.potential + " is not in this version; compute maps with APBS or PMEPot and give --source-map and --target-map");
+  a.options.align = parse_align_atoms(a.align);
+  a.options.field = parse_field_kind(a.field);
+  a.options.deform.interpolation = a.options.regularize.interpolation = parse_interpolation(a.interpolation);
+}
+
+Molecule read_model(const Arguments& a, const std::string& path, int model) {
+  StructureOptions options = a.structure;
+  options.model = model;
+  return read_structure(path, options);
+}
+
+int run(Arguments& a, const Context& context) {
+  interpret(a);
+  // An output that cannot be written is better found before the work than after it.
+  for (const char* suffix : {".json", ".vtp", ".residues.csv"}) AtomicFile probe(a.output + suffix);
+
+  context.progress->report("read", 0.0);
+  const Molecule source = read_model(a, a.source, a.source_model), target = read_model(a, a.target, a.target_model);
+  CompareInput source_input{&source, nullptr}, target_input{&target, nullptr};
+  Grid source_map, target_map;
+  Provenance provenance;
+  provenance.command_line = context.command_line;
+  provenance.inputs = {{"source", a.source, sha256_of_file(a.source)}, {"target", a.target, sha256_of_file(a.target)}};
+  if (!a.source_map.empty()) {
+    source_map = read_map(a.source_map, a.map_array, a.source_map_unit);
+    source_input.map = &source_map;
+    provenance.inputs.push_back({"source_map", a.source_map, sha256_of_file(a.source_map)});
+  }
+  if (!a.target_map.empty()) {
+    target_map = read_map(a.target_map, a.map_array, a.target_map_unit);
+    target_input.map = &target_map;
+    provenance.inputs.push_back({"target_map", a.target_map, sha256_of_file(a.target_map)});
+  }
+  const std::unique_ptr<Engine> engine = make_engine(a.device);
+  provenance.device = engine->back_end();
+  provenance.device_description = engine->description();
+  provenance.threads = engine->n_threads();
+  const CompareResult result = compare(*engine, source_input, target_input, a.options, *context.progress);
+  context.progress->report("write", 0.0);
+  write_compare(a.output, source, target, result, a.options, provenance);
+  context.progress->report("write", 1.0);
+  if (!a.quiet) print_table(std::cout, source, target, result);
+  return 0;
+}
+
+}  // namespace
+
+Verb add_compare(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* parser = app.add_subcommand("compare", "Compare the electrostatic surface potentials of two states of a molecule");
+  parser->footer(
+      "Each point of the source's surface is mapped to its counterpart on the target's, the potentials there are compared, and the\n"
+      "result says how far it can be trusted. Without maps the shapes alone are compared.\n\n"
+      "Example:\n"
+      "  espdiff compare wild.pqr mutant.pqr --source-map wild.dx --target-map mutant.dx -o result\n\n"
+      "Writes result.json (numbers, certificate, provenance), result.vtp (mapped surface, for ParaView) and result.residues.csv.\n"
+      "Exit status: 0 done, 1 could not be computed, 2 wrong usage or input.");
+  add_input_options(*parser, *arguments);
+  add_structure_options(*parser, arguments->structure);
+  add_surface_options(*parser, arguments->options.surface);
+  add_mapping_options(*parser, *arguments);
+  add_device_options(*parser, arguments->device);
+  parser->add_flag("-q,--quiet", arguments->quiet, "Print no table");
+  return {parser, [arguments](const Context& context) { return run(*arguments, context); }};
+}
+
+}  // namespace espdiff::cli

@@ -1,0 +1,65 @@
+// main.cpp: parses the command line, runs the verb, and turns errors into one line and an exit status.
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/version.h"
+#include "cli/terminal_progress.h"
+#include "cli/verbs.h"
+
+namespace {
+
+std::string joined(int argc, char** argv) {
+  std::string line = "espdiff";
+  for (int i = 1; i < argc; ++i) line += std::string(" ") + argv[i];
+  return line;
+}
+
+/// Runs the verb that was chosen; what it throws becomes one line on standard error.
+int run_verb(const espdiff::cli::Verb& verb, const std::string& command_line) {
+  espdiff::cli::TerminalProgress terminal;
+  const auto fail = [&](const char* message, int status) {
+    terminal.clear();
+    std::fprintf(stderr, "espdiff: %s\n", message);
+    return status;
+  };
+  try {
+    espdiff::cli::Context context;
+    context.command_line = command_line;
+    context.progress = &terminal.progress();
+    return verb.run(context);
+  } catch (const espdiff::Error& error) {
+    return fail(error.what(), error.exit_status());
+  } catch (const std::bad_alloc&) {
+    return fail("not enough memory; use a larger --grid-spacing or fewer atoms", 1);
+  } catch (const std::exception& error) {
+    return fail((std::string("internal error: ") + error.what() + "; please report it with the command line").c_str(), 1);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("espdiff shows where and by how much the electrostatic surface potential differs between two states of a molecule, and how "
+               "far the answer can be trusted.");
+  app.name("espdiff");
+  app.set_version_flag("--version", std::string("espdiff ") + espdiff::kVersion);
+  app.require_subcommand(1);
+  std::vector<espdiff::cli::Verb> verbs = {espdiff::cli::add_compare(app), espdiff::cli::add_surface(app), espdiff::cli::add_render(app),
+                                           espdiff::cli::add_doctor(app)};
+  for (const auto& verb : espdiff::cli::add_announced(app)) verbs.push_back(verb);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    std::fprintf(stderr, "espdiff: %s\nTry 'espdiff --help' or 'espdiff VERB --help'.\n", error.what());
+    return 2;
+  }
+  for (const auto& verb : verbs) {
+    if (verb.parser->parsed()) return run_verb(verb, joined(argc, argv));
+  }
+  return 2;
+}

@@ -1,0 +1,59 @@
+// terminal_progress.cpp: a progress bar on standard error, and Ctrl-C as a request to stop.
+#include "cli/terminal_progress.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+
+namespace espdiff::cli {
+namespace {
+
+Progress* interruptible = nullptr;
+
+/// Only sets a flag: the stages look at it between their steps, and leave nothing half written.
+extern "C" void on_interrupt(int) {
+  if (interruptible != nullptr) interruptible->request_cancel();
+}
+
+constexpr int kBarWidth = 30;
+constexpr std::chrono::milliseconds kRedrawInterval{50};
+
+}  // namespace
+
+TerminalProgress::TerminalProgress()
+    : is_terminal_(isatty(STDERR_FILENO) != 0), progress_([this](const std::string& stage, double fraction) { draw(stage, fraction); }) {
+  interruptible = &progress_;
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+}
+
+TerminalProgress::~TerminalProgress() {
+  clear();
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+  interruptible = nullptr;
+}
+
+void TerminalProgress::draw(const std::string& stage, double fraction) {
+  if (!is_terminal_) return;
+  const auto now = std::chrono::steady_clock::now();
+  if (stage == stage_ && now - last_draw_ < kRedrawInterval) return;
+  last_draw_ = now;
+  stage_ = stage;
+  const int filled = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * kBarWidth);
+  const std::string bar = std::string(static_cast<std::size_t>(filled), '#') + std::string(static_cast<std::size_t>(kBarWidth - filled), '.');
+  std::fprintf(stderr, "\r\033[K%-16s [%s] %3.0f %%", stage.c_str(), bar.c_str(), 100 * std::clamp(fraction, 0.0, 1.0));
+  std::fflush(stderr);
+  drawn_ = true;
+}
+
+void TerminalProgress::clear() {
+  if (!drawn_) return;
+  std::fputs("\r\033[K", stderr);
+  std::fflush(stderr);
+  drawn_ = false;
+}
+
+}  // namespace espdiff::cli

@@ -1,0 +1,36 @@
+// verbs.h: the verbs of the command line; each adds its options to the parser and runs when it was chosen.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+
+namespace espdiff::cli {
+
+/// What every verb is given.
+struct Context {
+  std::string command_line;  ///< as typed, for the provenance of a result
+  Progress* progress = nullptr;
+};
+
+/// A verb's work: runs after parsing when the verb was chosen; returns the exit status.
+using Run = std::function<int(const Context&)>;
+
+/// A verb as the parser knows it, and its work.
+struct Verb {
+  CLI::App* parser;
+  Run run;
+};
+
+Verb add_compare(CLI::App& app);
+Verb add_surface(CLI::App& app);
+Verb add_render(CLI::App& app);
+Verb add_doctor(CLI::App& app);
+/// Verbs of the design that this version does not have; they say so.
+std::vector<Verb> add_announced(CLI::App& app);
+
+}  // namespace espdiff::cli

@@ -1,0 +1,41 @@
+// file_kind.h: tells file formats apart by their content, so that a wrong file is called by its name.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace espdiff {
+
+enum class FileKind {
+  kUnknownText,
+  kUnknownBinary,
+  kAtomRecords,  ///< PDB or PQR: which of them, see looks_like_pqr()
+  kMmcif,        ///< any CIF
+  kMmjson,
+  kBinaryCif,
+  kMmtf,
+  kMol2,
+  kPsf,
+  kPrmtop,
+  kDcd,
+  kNetcdf,
+  kHdf5,
+  kDx,
+  kCube,
+  kVti,
+  kVtkXml,  ///< VTK XML, but no image data
+  kVtkLegacy,
+  kCcp4
+};
+
+/// How many bytes recognise() needs to see at most; more do no harm.
+constexpr std::size_t kRecogniseBytes = 65536;
+
+/// The format of a file that begins with `head`.
+FileKind recognise(std::string_view head);
+
+/// With its article, for "this looks like ...": "an OpenDX map".
+std::string describe(FileKind kind);
+
+}  // namespace espdiff

@@ -1,0 +1,122 @@
+// molecule_builder.cpp: residues, checks and filters that all structure formats share.
+#include "io/molecule_builder.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "base/error.h"
+
+namespace espdiff {
+namespace {
+
+template <std::size_t N>
+bool is_one_of(const std::string& name, const std::array<const char*, N>& names) {
+  return std::any_of(names.begin(), names.end(), [&](const char* other) { return name == other; });
+}
+
+std::string element_of(const AtomEntry& entry) {
+  return entry.element.empty() ? element_from_atom_name(entry.name, entry.residue_name) : entry.element;
+}
+
+}  // namespace
+
+bool is_water_name(const std::string& residue_name) {
+  static constexpr std::array<const char*, 18> kNames = {"HOH",  "WAT",  "H2O",  "DOD",  "TIP", "TIP2",
+                                                         "TIP3", "TIP4", "TIP5", "TP3",  "TP4", "TP5",
+                                                         "T3P",  "T4P",  "SPC",  "SPCE", "SOL", "OH2"};
+  return is_one_of(residue_name, kNames);
+}
+
+bool is_standard_residue(const std::string& residue_name) {
+  static constexpr std::array<const char*, 60> kNames = {
+      "ALA", "ARG", "ASN", "ASP", "CYS", "GLN", "GLU", "GLY", "HIS", "ILE", "LEU", "LYS", "MET", "PHE", "PRO",
+      "SER", "THR", "TRP", "TYR", "VAL", "ASH", "GLH", "LYN", "LYP", "ARN", "TYM", "CYX", "CYM", "HID", "HIE",
+      "HIP", "HSD", "HSE", "HSP", "MSE", "NTE", "CTE", "ACE", "NME", "NMA", "A",   "C",   "G",   "U",   "T",
+      "DA",  "DC",  "DG",  "DT",  "DU",  "RA",  "RC",  "RG",  "RU",  "ADE", "CYT", "GUA", "THY", "URA", "ASX"};
+  return is_one_of(residue_name, kNames);
+}
+
+MoleculeBuilder::MoleculeBuilder(std::string path, const StructureOptions& options)
+    : path_(std::move(path)), options_(options) {
+  molecule_.name = path_;
+}
+
+bool MoleculeBuilder::wants(const std::string& residue_name, bool hetero) {
+  if (!options_.include_water && is_water_name(residue_name)) {
+    ++n_water_;
+    return false;
+  }
+  if (!options_.include_hetero && hetero && !is_water_name(residue_name)) {
+    ++n_hetero_;
+    return false;
+  }
+  return true;
+}
+
+std::int32_t MoleculeBuilder::find_residue(const AtomEntry& entry) {
+  std::vector<Residue>& residues = molecule_.residues;
+  std::string identity = entry.chain + '\n' + std::to_string(entry.residue_number) + entry.insertion_code + '\n';
+  identity += entry.residue_name;
+  const auto [found, is_new] = latest_residue_.emplace(std::move(identity), static_cast<std::int32_t>(residues.size()));
+  if (!is_new) {
+    const auto& atoms = residue_atoms_[static_cast<std::size_t>(found->second)];
+    const bool is_last = static_cast<std::size_t>(found->second) + 1 == residues.size();
+    const bool has_name = !is_last && std::any_of(atoms.begin(), atoms.end(), [&](std::size_t atom) {
+      return molecule_.atoms[atom].name == entry.name;
+    });
+    if (!has_name) return found->second;
+    found->second = static_cast<std::int32_t>(residues.size());
+  }
+  residues.push_back({entry.residue_name, entry.chain, entry.residue_number, entry.insertion_code});
+  residue_atoms_.emplace_back();
+  return found->second;
+}
+
+void MoleculeBuilder::append(const AtomEntry& entry, const std::string& element, float radius) {
+  constexpr double kFarthest = 1e6;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double x = entry.position[axis];
+    if (std::isfinite(x) && std::abs(x) <= kFarthest) continue;
+    throw FormatError(path_, entry.line,
+                      std::string(1, "xyz"[axis]) + " coordinate of atom '" + entry.name + "' is " + std::to_string(x) +
+                          "; a number of Angstrom between -1e6 and 1e6 was expected");
+  }
+  const std::int32_t residue = find_residue(entry);
+  residue_atoms_[static_cast<std::size_t>(residue)].push_back(molecule_.atoms.size());
+  molecule_.atoms.push_back({entry.name, element, residue, entry.hetero});
+  molecule_.positions.push_back(entry.position);
+  molecule_.radii.push_back(radius);
+}
+
+void MoleculeBuilder::add(const AtomEntry& entry) {
+  const std::string element = element_of(entry);
+  append(entry, element, element_radius(element));
+  molecule_.radii_origin = ValueOrigin::kElement;
+}
+
+void MoleculeBuilder::add(const AtomEntry& entry, double charge, double radius) {
+  if (!std::isfinite(charge) || !std::isfinite(radius)) {
+    throw FormatError(path_, entry.line, "charge or radius of atom '" + entry.name + "' is not a finite number");
+  }
+  if (radius < 0) {
+    throw FormatError(path_, entry.line,
+                      "radius of atom '" + entry.name + "' is " + std::to_string(radius) +
+                          "; 0 or more was expected (are charge and radius swapped?)");
+  }
+  append(entry, element_of(entry), static_cast<float>(radius));
+  molecule_.charges.push_back(static_cast<float>(charge));
+  molecule_.radii_origin = ValueOrigin::kFile;
+}
+
+Molecule MoleculeBuilder::finish() {
+  if (molecule_.atoms.empty()) {
+    if (n_water_ + n_hetero_ == 0) throw InputError(path_ + ": has no atoms; give a structure with atoms");
+    throw InputError(path_ + ": no atoms are left: " + std::to_string(n_water_) + " are water and " +
+                     std::to_string(n_hetero_) + " are HETATM records that were not asked for; include them");
+  }
+  return std::move(molecule_);
+}
+
+}  // namespace espdiff

@@ -1,0 +1,244 @@
+// read_gemmi.cpp: from gemmi's structures to ours: alternate locations, elements, file order.
+#include "io/read_gemmi.h"
+
+#include <algorithm>
+#include <cmath>
+#include <gemmi/cif.hpp>    // for read_memory
+#include <gemmi/mmcif.hpp>  // for make_structure
+#include <gemmi/pdb.hpp>    // for read_pdb_from_memory
+#include <set>
+#include <stdexcept>
+#include <string_view>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "io/molecule_builder.h"
+#include "io/pdb_text.h"
+#include "io/text_cursor.h"
+
+namespace espdiff {
+namespace {
+
+struct ChosenAtom {
+  const gemmi::Chain* chain;
+  const gemmi::Residue* residue;
+  const gemmi::Atom* atom;
+};
+
+float occupancy(const gemmi::Atom& atom) { return std::isfinite(atom.occ) ? atom.occ : 0.0F; }
+
+/// Residues of different name at one place (a mutation in part of the crystal): every atom of theirs has a location.
+bool are_alternatives(const gemmi::Residue& a, const gemmi::Residue& b) {
+  const auto has_location = [](const gemmi::Atom& atom) { return atom.has_altloc(); };
+  return a.seqid == b.seqid && std::all_of(a.atoms.begin(), a.atoms.end(), has_location) &&
+         std::all_of(b.atoms.begin(), b.atoms.end(), has_location);
+}
+
+/// The location of highest mean occupancy among residues [begin, end), the first on ties; '\0' when there is none.
+char best_location(const gemmi::Residue* begin, const gemmi::Residue* end) {
+  struct Sum {
+    char location;
+    double occupancy;
+    int n;
+  };
+  std::vector<Sum> sums;
+  for (const gemmi::Residue* residue = begin; residue != end; ++residue) {
+    for (const gemmi::Atom& atom : residue->atoms) {
+      if (!atom.has_altloc()) continue;
+      auto found = std::find_if(sums.begin(), sums.end(), [&](const Sum& sum) { return sum.location == atom.altloc; });
+      if (found == sums.end()) found = sums.insert(sums.end(), {atom.altloc, 0, 0});
+      found->occupancy += occupancy(atom);
+      ++found->n;
+    }
+  }
+  const auto best = std::max_element(sums.begin(), sums.end(), [](const Sum& a, const Sum& b) {
+    constexpr double kTie = 1e-6;  // occupancies are given with two decimals
+    return a.occupancy / a.n + kTie < b.occupancy / b.n;
+  });
+  return best == sums.end() ? '\0' : best->location;
+}
+
+/// Keeps one atom of each name that has locations, and all atoms of names that have none (but not twice at one place).
+void choose_atoms(const gemmi::Chain& chain, const gemmi::Residue& residue, char best,
+                  std::vector<ChosenAtom>& chosen) {
+  std::unordered_map<std::string, const gemmi::Atom*> of_name;  // the choice, for names with locations
+  for (const gemmi::Atom& atom : residue.atoms) {
+    if (atom.has_altloc()) of_name.emplace(atom.name, nullptr);
+  }
+  for (const gemmi::Atom& atom : residue.atoms) {
+    const auto found = of_name.find(atom.name);
+    if (found == of_name.end()) continue;
+    const gemmi::Atom*& choice = found->second;
+    const bool is_best = atom.altloc == best;
+    const bool choice_is_best = choice != nullptr && choice->altloc == best;
+    const bool more = choice == nullptr || occupancy(atom) > occupancy(*choice);
+    if (is_best ? !choice_is_best : !choice_is_best && more) choice = &atom;
+  }
+  std::set<std::tuple<std::string, double, double, double>> seen;
+  for (const gemmi::Atom& atom : residue.atoms) {
+    const auto found = of_name.find(atom.name);
+    const bool keep = found == of_name.end() ? seen.emplace(atom.name, atom.pos.x, atom.pos.y, atom.pos.z).second
+                                             : found->second == &atom;
+    if (keep) chosen.push_back({&chain, &residue, &atom});
+  }
+}
+
+/// One conformation of the model, by serial number, which is file order (gemmi gathers the atoms of a chain's residue).
+std::vector<ChosenAtom> choose_conformation(const gemmi::Model& model) {
+  std::vector<ChosenAtom> chosen;
+  for (const gemmi::Chain& chain : model.chains) {
+    const gemmi::Residue* const end = chain.residues.data() + chain.residues.size();
+    for (const gemmi::Residue* begin = chain.residues.data(); begin != end;) {
+      const gemmi::Residue* group_end = begin + 1;
+      while (group_end != end && are_alternatives(*begin, *group_end)) ++group_end;
+      const char best = best_location(begin, group_end);
+      const bool only_one = group_end - begin > 1;
+      for (; begin != group_end; ++begin) {
+        const bool has_best = std::any_of(begin->atoms.begin(), begin->atoms.end(),
+                                          [&](const gemmi::Atom& atom) { return atom.altloc == best; });
+        if (!only_one || has_best) choose_atoms(chain, *begin, best, chosen);
+      }
+    }
+  }
+  std::stable_sort(chosen.begin(), chosen.end(),
+                   [](const ChosenAtom& a, const ChosenAtom& b) { return a.atom->serial < b.atom->serial; });
+  return chosen;
+}
+
+AtomEntry make_entry(const ChosenAtom& chosen) {
+  AtomEntry entry;
+  entry.name = chosen.atom->name;
+  if (chosen.atom->element != gemmi::El::X) entry.element = chosen.atom->element.name();
+  entry.residue_name = chosen.residue->name;
+  entry.chain = chosen.chain->name;
+  entry.residue_number = chosen.residue->seqid.num.has_value() ? *chosen.residue->seqid.num : 0;
+  entry.insertion_code = chosen.residue->seqid.has_icode() ? chosen.residue->seqid.icode : ' ';
+  entry.hetero = chosen.residue->het_flag == 'H';
+  entry.position = {chosen.atom->pos.x, chosen.atom->pos.y, chosen.atom->pos.z};
+  return entry;
+}
+
+/// gemmi's messages can have several lines; ours have one.
+std::string one_line(std::string message) {
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  return message;
+}
+
+// ---- mmCIF ----
+
+/// Parses the file and keeps the atoms only, so that a mistake elsewhere in it does no harm.
+gemmi::cif::Document parse_atom_site(const std::string& path, const std::string& text) {
+  gemmi::cif::Document document;
+  try {
+    document = gemmi::cif::read_memory(text.data(), text.size(), path.c_str());
+  } catch (const tao::pegtl::parse_error& error) {
+    throw FormatError(path, static_cast<long>(error.positions().front().line),
+                      "not valid CIF: " + one_line(std::string(error.message())));
+  } catch (const std::runtime_error& error) {
+    throw FormatError(path, 0, "not valid CIF: " + one_line(error.what()));
+  }
+  for (gemmi::cif::Block& block : document.blocks) {
+    std::vector<gemmi::cif::Item> kept;  // not erase(): assigning items loses their line numbers
+    for (gemmi::cif::Item& item : block.items) {
+      if (item.has_prefix("_atom_site.")) kept.push_back(std::move(item));
+    }
+    block.items = std::move(kept);
+  }
+  return document;
+}
+
+/// Line of a table's row, where the file has one row a line and no comments between (all known writers); else the
+/// table's.
+long row_line(const std::string& text, const gemmi::cif::Item& item, std::size_t row, const std::string& value) {
+  const long first = item.line_number > 0 ? item.line_number : 0;
+  if (item.type != gemmi::cif::ItemType::Loop) return first;
+  for (long guess : {first + static_cast<long>(item.loop.tags.size() + row),
+                     first + 1 + static_cast<long>(item.loop.tags.size() + row)}) {
+    TextCursor cursor(text, value);
+    for (long i = 1; i < guess; ++i) cursor.rest_of_line();
+    const auto words = split_words(cursor.rest_of_line());
+    if (words.size() == item.loop.tags.size() && std::find(words.begin(), words.end(), value) != words.end())
+      return guess;
+  }
+  return first;
+}
+
+void check_atom_site(const std::string& path, const std::string& text, gemmi::cif::Block& block) {
+  for (const char* column : {"id", "type_symbol", "label_alt_id", "label_asym_id", "Cartn_x", "Cartn_y", "Cartn_z",
+                             "occupancy", "B_iso_or_equiv", "auth_seq_id"}) {
+    if (!block.find_values(std::string("_atom_site.") + column)) {
+      throw InputError(path + ": mmCIF without the column _atom_site." + column +
+                       (block.items.empty() ? " (no atoms at all)" : "") +
+                       "; give a macromolecular mmCIF with coordinates");
+    }
+  }
+  gemmi::cif::Table table = block.find("_atom_site.", {"Cartn_x", "Cartn_y", "Cartn_z"});
+  for (std::size_t row = 0; row < table.length(); ++row) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::string& value = table[row][axis];
+      if (std::isfinite(gemmi::cif::as_number(value))) continue;
+      throw FormatError(path, row_line(text, block.items.front(), row, value),
+                        std::string("_atom_site.Cartn_") + "xyz"[axis] + " of atom " + std::to_string(row + 1) +
+                            " is " + in_quotes(value) + "; a finite number was expected");
+    }
+  }
+}
+
+gemmi::Structure parse_mmcif(const std::string& path, const std::string& text) {
+  gemmi::cif::Document document = parse_atom_site(path, text);
+  if (document.blocks.empty()) throw InputError(path + ": CIF without a data block; give an mmCIF with coordinates");
+  check_atom_site(path, text, document.blocks.front());
+  try {
+    return gemmi::make_structure(document);
+  } catch (const std::runtime_error& error) {
+    throw FormatError(path, 0, "the mmCIF cannot be read: " + one_line(error.what()));
+  }
+}
+
+}  // namespace
+
+Molecule read_pdb(const std::string& path, const AtomModel& model, const StructureOptions& options) {
+  MoleculeBuilder builder(path, options);
+  const CheckedPdb checked = check_pdb(path, model, builder);
+  gemmi::Structure structure;
+  try {
+    structure = gemmi::read_pdb_from_memory(checked.text.data(), checked.text.size(), path);
+  } catch (const std::runtime_error& error) {
+    throw FormatError(path, 0, "the PDB cannot be read: " + one_line(error.what()));
+  }
+  for (const ChosenAtom& chosen : choose_conformation(structure.first_model())) {
+    const AtomLine& line = checked.lines.at(static_cast<std::size_t>(chosen.atom->serial) - 1);
+    AtomEntry entry = make_entry(chosen);
+    entry.residue_name = pdb_residue_name(line);
+    entry.chain = pdb_chain_name(line);
+    entry.hetero = line.is_hetatm();
+    entry.line = line.number;
+    if (!has_pdb_element(line)) entry.element.clear();  // gemmi's guess does not know the residue
+    builder.add(entry);
+  }
+  return builder.finish();
+}
+
+Molecule read_mmcif(const std::string& path, const std::string& text, const StructureOptions& options) {
+  const gemmi::Structure structure = parse_mmcif(path, text);
+  const int n_models = static_cast<int>(structure.models.size());
+  if (options.model < 1 || options.model > n_models) {
+    throw InputError(path + ": model " + std::to_string(options.model) +
+                     " was asked for, but the file has models 1 to " + std::to_string(n_models));
+  }
+  MoleculeBuilder builder(path, options);
+  for (const ChosenAtom& chosen : choose_conformation(structure.models[static_cast<std::size_t>(options.model) - 1])) {
+    const AtomEntry entry = make_entry(chosen);
+    if (builder.wants(entry.residue_name, entry.hetero)) builder.add(entry);
+  }
+  return builder.finish();
+}
+
+int count_mmcif_models(const std::string& path, const std::string& text) {
+  return static_cast<int>(parse_mmcif(path, text).models.size());
+}
+
+}  // namespace espdiff

@@ -1,0 +1,50 @@
+// display.cpp: tries the X server with the library that VTK uses, found at run time so that nothing here links X11.
+#include "view/display.h"
+
+#include <dlfcn.h>
+
+#include <cstdlib>
+
+namespace espdiff {
+namespace {
+
+constexpr const char* kRemedy = "put `xvfb-run -a` before the command (Debian: packages xvfb and xauth)";
+
+/// The few entry points of Xlib that are needed; a Display is opaque here.
+using OpenDisplay = void* (*)(const char*);
+using CloseDisplay = int (*)(void*);
+using QueryExtension = int (*)(void*, const char*, int*, int*, int*);
+
+template <typename Function>
+Function find_function(void* library, const char* name) {
+  return reinterpret_cast<Function>(dlsym(library, name));
+}
+
+}  // namespace
+
+std::string display_problem() {
+  const char* name = std::getenv("DISPLAY");
+  if (name == nullptr || *name == '\0') {
+    return std::string("drawing needs an X display and DISPLAY is not set; ") + kRemedy;
+  }
+  // Never closed: VTK keeps it loaded anyway, and Xlib leaves handlers behind that point into it.
+  void* library = dlopen("libX11.so.6", RTLD_NOW | RTLD_GLOBAL);
+  if (library == nullptr) return "drawing needs libX11.so.6, which cannot be loaded; install it (Debian: libx11-6)";
+  const auto open_display = find_function<OpenDisplay>(library, "XOpenDisplay");
+  const auto close_display = find_function<CloseDisplay>(library, "XCloseDisplay");
+  const auto query_extension = find_function<QueryExtension>(library, "XQueryExtension");
+  if (open_display == nullptr || close_display == nullptr || query_extension == nullptr) {
+    return "drawing needs libX11.so.6, and the one found lacks XOpenDisplay; install the system's (Debian: libx11-6)";
+  }
+  void* display = open_display(nullptr);
+  if (display == nullptr) {
+    return std::string("the X display '") + name + "' (DISPLAY) cannot be opened; " + kRemedy;
+  }
+  int opcode = 0, first_event = 0, first_error = 0;
+  const bool has_glx = query_extension(display, "GLX", &opcode, &first_event, &first_error) != 0;
+  close_display(display);
+  if (!has_glx) return std::string("the X display '") + name + "' (DISPLAY) offers no OpenGL (GLX); " + kRemedy;
+  return {};
+}
+
+}  // namespace espdiff

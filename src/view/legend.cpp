@@ -1,0 +1,182 @@
+// legend.cpp: builds the legend from flat polygons and text, so that its place and size are ours to the pixel.
+#include "view/legend.h"
+
+#include <vtkActor2D.h>
+#include <vtkCellArray.h>
+#include <vtkFreeTypeTools.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper2D.h>
+#include <vtkProperty2D.h>
+#include <vtkRenderer.h>
+#include <vtkTextActor.h>
+#include <vtkTextProperty.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+namespace espdiff {
+namespace {
+
+constexpr double kInk = 0.1;
+
+struct Point2 {
+  double x, y;
+};
+
+void add_polygon(vtkRenderer* renderer, const std::vector<Point2>& corners, Rgb colour, double opacity) {
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> cells;
+  cells->InsertNextCell(static_cast<int>(corners.size()));
+  for (const Point2& corner : corners) cells->InsertCellPoint(points->InsertNextPoint(corner.x, corner.y, 0));
+  vtkNew<vtkPolyData> shape;
+  shape->SetPoints(points);
+  shape->SetPolys(cells);
+  vtkNew<vtkPolyDataMapper2D> mapper;
+  mapper->SetInputData(shape);
+  vtkNew<vtkActor2D> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
+  actor->GetProperty()->SetOpacity(opacity);
+  renderer->AddActor2D(actor);
+}
+
+}  // namespace
+
+std::string readable_number(double value) {
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%.4g", std::abs(value));
+  return (value < 0 ? "\xE2\x88\x92" : "") + std::string(digits);
+}
+
+double round_down_to_length(double value) {
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double factor : {5.0, 2.0}) {
+    if (factor * power <= value) return factor * power;
+  }
+  return power;
+}
+
+Legend::Legend(vtkRenderer* renderer, double text_height) : renderer_(renderer), text_height_(text_height) {
+  // VTK's own copy of the font: the system's choice for "Arial" differs between machines.
+  vtkFreeTypeTools::GetInstance()->ForceCompiledFontsOn();
+}
+
+void Legend::text(double x, double y, const std::string& words, Align align, double factor) {
+  vtkNew<vtkTextActor> actor;
+  actor->SetInput(words.c_str());
+  actor->SetTextScaleModeToNone();
+  actor->SetPosition(x, y);
+  vtkTextProperty* style = actor->GetTextProperty();
+  style->SetFontFamilyToArial();
+  style->SetFontSize(static_cast<int>(std::lround(text_height_ * factor)));
+  style->SetColor(kInk, kInk, kInk);
+  style->SetVerticalJustificationToCentered();
+  if (align == Align::kCentre) style->SetJustificationToCentered();
+  if (align == Align::kRight) style->SetJustificationToRight();
+  renderer_->AddActor2D(actor);
+}
+
+void Legend::rectangle(const PixelBox& box, Rgb colour, double opacity) {
+  add_polygon(renderer_, {{box.left, box.bottom}, {box.right, box.bottom}, {box.right, box.top}, {box.left, box.top}},
+              colour, opacity);
+}
+
+void Legend::triangle(double x0, double y0, double x1, double y1, double x2, double y2, Rgb colour) {
+  add_polygon(renderer_, {{x0, y0}, {x1, y1}, {x2, y2}}, colour, 1.0);
+}
+
+void Legend::frame(const PixelBox& box) {
+  const double line = std::max(1.0, text_height_ / 16);
+  constexpr Rgb kLine{90, 90, 90};
+  rectangle({box.left - line, box.bottom - line, box.right + line, box.bottom}, kLine);
+  rectangle({box.left - line, box.top, box.right + line, box.top + line}, kLine);
+  rectangle({box.left - line, box.bottom, box.left, box.top}, kLine);
+  rectangle({box.right, box.bottom, box.right + line, box.top}, kLine);
+}
+
+double Legend::text_width(const std::string& words) const {
+  // Close enough to place what follows; the font's true widths differ by a few per cent.
+  return 0.52 * text_height_ * static_cast<double>(words.size());
+}
+
+double Legend::key(double x, double y, Rgb colour, double opacity, const std::string& meaning) {
+  const double side = text_height_;
+  const PixelBox box{x, y - side / 2, x + side, y + side / 2};
+  rectangle(box, colour, opacity);
+  frame(box);
+  text(x + 1.5 * side, y, meaning, Align::kLeft);
+  return 1.5 * side + text_width(meaning);
+}
+
+void Legend::colours(const PixelBox& bar, const ColourScale& scale, const std::string& title) {
+  const double middle = (bar.left + bar.right) / 2;
+  text(middle, bar.top + text_height_, title, Align::kCentre, 1.1);
+  if (scale.two_classes()) {
+    const double y = (bar.bottom + bar.top) / 2;
+    key(bar.left, y, kSameSignColour, 1, "same");
+    key(middle, y, kSignChangeColour, 1, "changed");
+    return;
+  }
+  constexpr int kSteps = 256;
+  for (int i = 0; i < kSteps; ++i) {
+    const double value = scale.low() + (scale.high() - scale.low()) * (i + 0.5) / kSteps;
+    rectangle({bar.left + bar.width() * i / kSteps, bar.bottom, bar.left + bar.width() * (i + 1) / kSteps, bar.top},
+              scale.colour(static_cast<float>(value)));
+  }
+  frame(bar);
+  const double gap = text_height_ / 6;
+  const double middle_y = (bar.bottom + bar.top) / 2;
+  const double point = bar.height() * 0.8;
+  if (scale.exceeds_low()) {
+    triangle(bar.left - gap, bar.bottom, bar.left - gap, bar.top, bar.left - gap - point, middle_y,
+             scale.colour(static_cast<float>(scale.low())));
+  }
+  if (scale.exceeds_high()) {
+    triangle(bar.right + gap, bar.bottom, bar.right + gap + point, middle_y, bar.right + gap, bar.top,
+             scale.colour(static_cast<float>(scale.high())));
+  }
+  constexpr int kTicks = 4;
+  const double tick = text_height_ / 4;
+  for (int i = 0; i <= kTicks; ++i) {
+    const double x = bar.left + bar.width() * i / kTicks;
+    const double half_line = std::max(1.0, text_height_ / 16) / 2;
+    rectangle({x - half_line, bar.bottom - tick, x + half_line, bar.bottom}, {90, 90, 90});
+    text(x, bar.bottom - tick - 0.7 * text_height_,
+         readable_number(scale.low() + (scale.high() - scale.low()) * i / kTicks), Align::kCentre);
+  }
+}
+
+void Legend::length(double x, double y, double max_pixels, double pixels_per_A) {
+  const double length_A = round_down_to_length(max_pixels / pixels_per_A);
+  const double right = x + length_A * pixels_per_A;
+  const double line = std::max(2.0, text_height_ / 8);
+  const double end = text_height_ / 3;
+  constexpr Rgb kLine{26, 26, 26};
+  rectangle({x, y - line / 2, right, y + line / 2}, kLine);
+  rectangle({x, y - end, x + line, y + end}, kLine);
+  rectangle({right - line, y - end, right, y + end}, kLine);
+  text((x + right) / 2, y - 1.1 * text_height_, readable_number(length_A) + " \xC3\x85", Align::kCentre);
+}
+
+void Legend::opacity(const PixelBox& bar, const OpacityScale& scale) {
+  text((bar.left + bar.right) / 2, bar.top + text_height_, "faint: far from its counterpart", Align::kCentre);
+  const double highest_A = scale.faint_above_A * 1.2;
+  constexpr int kSteps = 64;
+  for (int i = 0; i < kSteps; ++i) {
+    rectangle({bar.left + bar.width() * i / kSteps, bar.bottom, bar.left + bar.width() * (i + 1) / kSteps, bar.top},
+              {110, 110, 110}, scale.opacity(highest_A * (i + 0.5) / kSteps));
+  }
+  frame(bar);
+  for (const double value : {scale.opaque_below_A, scale.faint_above_A}) {
+    const double x = bar.left + bar.width() * std::clamp(value / highest_A, 0.0, 1.0);
+    const double tick = text_height_ / 4;
+    rectangle({x - 1, bar.bottom - tick, x + 1, bar.bottom}, {90, 90, 90});
+    text(x, bar.bottom - tick - 0.7 * text_height_, readable_number(value) + " \xC3\x85", Align::kCentre);
+  }
+}
+
+}  // namespace espdiff

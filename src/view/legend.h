@@ -1,0 +1,62 @@
+// legend.h: what stands around the surfaces: title, colour bar, length bar, opacity key, in pixels from the lower left
+// corner.
+#pragma once
+
+#include <string>
+
+#include "view/colour_map.h"
+#include "view/colour_scale.h"
+
+class vtkRenderer;
+
+namespace espdiff {
+
+struct PixelBox {
+  double left = 0, bottom = 0, right = 0, top = 0;
+
+  double width() const { return right - left; }
+  double height() const { return top - bottom; }
+};
+
+enum class Align { kLeft, kCentre, kRight };
+
+/// Draws two-dimensional things into a renderer that covers the whole picture.
+class Legend {
+ public:
+  /// @param text_height font size in pixels; everything else is in proportion to it
+  Legend(vtkRenderer* renderer, double text_height);
+
+  /// @param y      middle of the line of text
+  /// @param factor of the text height
+  void text(double x, double y, const std::string& words, Align align, double factor = 1.0);
+
+  /// The scale with its title above and its numbers below; pointed ends where values exceed it. For two classes, two
+  /// squares with their meaning.
+  void colours(const PixelBox& bar, const ColourScale& scale, const std::string& title);
+
+  /// A bar of a round length that takes at most `max_pixels`.
+  void length(double x, double y, double max_pixels, double pixels_per_A);
+
+  /// How opacity fades with the displacement. Shown on the colour that the surface's neutral parts have.
+  void opacity(const PixelBox& bar, const OpacityScale& scale);
+
+  /// A square of a colour with its meaning to the right. @return the width that it takes
+  double key(double x, double y, Rgb colour, double opacity, const std::string& meaning);
+
+ private:
+  void rectangle(const PixelBox& box, Rgb colour, double opacity = 1.0);
+  void triangle(double x0, double y0, double x1, double y1, double x2, double y2, Rgb colour);
+  void frame(const PixelBox& box);
+  double text_width(const std::string& words) const;
+
+  vtkRenderer* renderer_;
+  double text_height_;
+};
+
+/// A number as a reader writes it: "0.5", "-12", without trailing zeros, with a true minus sign.
+std::string readable_number(double value);
+
+/// The largest of 1, 2, 5 times a power of ten that is not above `value`; `value` > 0.
+double round_down_to_length(double value);
+
+}  // namespace espdiff

@@ -1,0 +1,160 @@
+// surface_file.cpp: takes a .vtp apart with VTK's reader and checks what it says.
+#include "view/surface_file.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataNormals.h>
+#include <vtkStringArray.h>
+#include <vtkXMLPolyDataReader.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "base/error.h"
+#include "view/vtk_messages.h"
+
+namespace espdiff {
+namespace {
+
+std::string names_of(vtkPointData* arrays) {
+  std::string names;
+  for (int i = 0; i < arrays->GetNumberOfArrays(); ++i) {
+    const char* name = arrays->GetArrayName(i);
+    if (name != nullptr) names += (names.empty() ? "" : ", ") + std::string(name);
+  }
+  return names.empty() ? "none" : names;
+}
+
+std::vector<float> scalars(vtkDataArray* array) {
+  std::vector<float> values(static_cast<std::size_t>(array->GetNumberOfTuples()));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = static_cast<float>(array->GetComponent(static_cast<vtkIdType>(i), 0));
+  }
+  return values;
+}
+
+vtkDataArray* scalar_array(vtkFieldData* arrays, const char* name) {
+  vtkDataArray* array = arrays->GetArray(name);
+  return array != nullptr && array->GetNumberOfComponents() == 1 ? array : nullptr;
+}
+
+std::vector<Vec3f> normals_of(vtkPolyData* surface) {
+  vtkDataArray* array = surface->GetPointData()->GetArray("normal");
+  vtkNew<vtkPolyDataNormals> filter;
+  if (array == nullptr || array->GetNumberOfComponents() != 3) {
+    filter->SetInputData(surface);
+    filter->SplittingOff();
+    filter->ConsistencyOff();
+    filter->Update();
+    array = filter->GetOutput()->GetPointData()->GetNormals();
+  }
+  std::vector<Vec3f> normals(static_cast<std::size_t>(surface->GetNumberOfPoints()));
+  if (array == nullptr) return normals;
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    double normal[3];
+    array->GetTuple(static_cast<vtkIdType>(i), normal);
+    normals[i] = static_cast<Vec3f>(Vec3d{normal[0], normal[1], normal[2]});
+  }
+  return normals;
+}
+
+std::vector<Triangle> triangles_of(const std::string& path, vtkPolyData* surface) {
+  const auto n_vertices = surface->GetNumberOfPoints();
+  std::vector<Triangle> triangles;
+  triangles.reserve(static_cast<std::size_t>(surface->GetNumberOfPolys()));
+  vtkCellArray* cells = surface->GetPolys();
+  vtkIdType n_corners = 0;
+  const vtkIdType* corners = nullptr;
+  for (cells->InitTraversal(); cells->GetNextCell(n_corners, corners) != 0;) {
+    if (n_corners != 3) {
+      throw FormatError(path, 0,
+                        "a polygon has " + std::to_string(n_corners) + " corners; espdiff draws triangles only");
+    }
+    Triangle triangle{};
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      if (corners[corner] < 0 || corners[corner] >= n_vertices) {
+        throw FormatError(path, 0,
+                          "a triangle refers to vertex " + std::to_string(corners[corner]) + " of " +
+                              std::to_string(n_vertices) + "; write the file again");
+      }
+      triangle[corner] = static_cast<std::uint32_t>(corners[corner]);
+    }
+    triangles.push_back(triangle);
+  }
+  return triangles;
+}
+
+void check_exists(const std::string& path) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path, ignored);
+  if (!std::filesystem::exists(status))
+    throw IoError(path, "no such file; `espdiff compare SOURCE TARGET -o OUT` writes OUT.vtp");
+  if (std::filesystem::is_directory(status)) throw IoError(path, "is a directory; name the .vtp file in it");
+}
+
+}  // namespace
+
+SurfaceFile read_surface_file(const std::string& path, const std::string& array) {
+  check_exists(path);
+  const VtkMessages messages;
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName(path.c_str());
+  if (reader->CanReadFile(path.c_str()) == 0) {
+    throw FormatError(path, 0, "not a VTK PolyData file (.vtp); `espdiff compare SOURCE TARGET -o OUT` writes OUT.vtp");
+  }
+  reader->Update();
+  if (messages.has_error())
+    throw FormatError(path, 0, "damaged .vtp file (" + messages.first_error() + "); write it again");
+
+  vtkPolyData* surface = reader->GetOutput();
+  SurfaceFile file;
+  file.triangles = triangles_of(path, surface);
+  if (file.triangles.empty()) throw FormatError(path, 0, "the surface has no triangles; nothing to draw");
+  file.positions.resize(static_cast<std::size_t>(surface->GetNumberOfPoints()));
+  for (std::size_t i = 0; i < file.positions.size(); ++i) {
+    double point[3];
+    surface->GetPoint(static_cast<vtkIdType>(i), point);
+    if (!std::isfinite(point[0] + point[1] + point[2])) {
+      throw FormatError(path, 0,
+                        "the position of vertex " + std::to_string(i) + " is not finite; write the file again");
+    }
+    file.positions[i] = {point[0], point[1], point[2]};
+  }
+  file.normals = normals_of(surface);
+
+  vtkPointData* point_arrays = surface->GetPointData();
+  vtkDataArray* values = scalar_array(point_arrays, array.c_str());
+  if (values == nullptr) {
+    throw InputError(path + ": no point array '" + array + "' (there are: " + names_of(point_arrays) +
+                     "); colour by another, or compare with --source-map and --target-map");
+  }
+  file.values = scalars(values);
+  vtkDataArray* difference = scalar_array(point_arrays, "potential_difference");
+  if (array == "sign_change" && difference != nullptr) {
+    for (std::size_t i = 0; i < file.values.size(); ++i) {
+      if (std::isnan(difference->GetComponent(static_cast<vtkIdType>(i), 0))) {
+        file.values[i] = std::numeric_limits<float>::quiet_NaN();
+      }
+    }
+  }
+  if (vtkDataArray* displacement = scalar_array(point_arrays, "displacement"))
+    file.displacement = scalars(displacement);
+  // Lines or points in the file would come before the polygons in cell data; espdiff writes none.
+  vtkDataArray* corrupt = scalar_array(surface->GetCellData(), "corrupt");
+  if (corrupt != nullptr && corrupt->GetNumberOfTuples() == surface->GetNumberOfPolys()) {
+    for (vtkIdType i = 0; i < corrupt->GetNumberOfTuples(); ++i) {
+      file.corrupt.push_back(corrupt->GetComponent(i, 0) != 0 ? 1 : 0);
+    }
+  }
+  auto* unit = vtkStringArray::SafeDownCast(surface->GetFieldData()->GetAbstractArray("potential_unit"));
+  if (unit != nullptr && unit->GetNumberOfValues() > 0) file.potential_unit = unit->GetValue(0);
+  return file;
+}
+
+}  // namespace espdiff

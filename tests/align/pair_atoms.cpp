@@ -1,0 +1,243 @@
+// pair_atoms.cpp: which atoms correspond, on made molecules and on real pairs.
+#include "align/pair_atoms.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "../support/test_data.h"
+#include "base/error.h"
+#include "made_molecule.h"
+
+using namespace espdiff;
+using espdiff_test::MadeMolecule;
+using espdiff_test::message_of;
+
+namespace {
+
+/// The pairs as "RES1:NAME=RES2:NAME" words.
+std::string written(const AtomPairing& pairing, const Molecule& source, const Molecule& target) {
+  const auto label = [](const Molecule& molecule, std::size_t i) {
+    const Atom& atom = molecule.atoms[i];
+    const Residue& residue = molecule.residues[static_cast<std::size_t>(atom.residue)];
+    return residue.chain + std::to_string(residue.number) + ":" + atom.name;
+  };
+  std::string text;
+  for (const auto& [a, b] : pairing.pairs)
+    text += (text.empty() ? "" : " ") + label(source, a) + "=" + label(target, b);
+  return text;
+}
+
+bool has_pair(const AtomPairing& pairing, const Molecule& source, const Molecule& target, const std::string& word) {
+  return (" " + written(pairing, source, target) + " ").find(" " + word + " ") != std::string::npos;
+}
+
+const char* const kSequence = "MKTAYIAKQRQISFVKSHFSRQLEERLGLIEVQ";
+
+}  // namespace
+
+TEST_CASE("the same atoms in the same order pair one to one, whatever the chains are called") {
+  MadeMolecule a, b;
+  a.peptide("A", 1, "MKT");
+  b.peptide("X", 1, "MKT");
+  const AtomPairing pairing = pair_atoms(a.molecule, b.molecule);
+  CHECK(pairing.method == "same order");
+  CHECK(pairing.pairs.size() == 15);
+  CHECK(pairing.n_aligned_residues == 3);
+  CHECK(pairing.n_substituted_residues == 0);
+  for (const auto& [i, j] : pairing.pairs) CHECK(i == j);
+}
+
+TEST_CASE("spellings of one residue or atom do not break the order") {
+  MadeMolecule a, b;
+  a.residue("", 1, "HSD", {"N", "HN", "CA", "1HB"});
+  b.residue("A", 1, "HIS", {"N", "H", "CA", "HB1"});
+  CHECK(pair_atoms(a.molecule, b.molecule).method == "same order");
+}
+
+TEST_CASE("other numbers mean that the order alone is not trusted") {
+  MadeMolecule a, b;
+  a.peptide("A", 1, "MKTAYIAK");
+  b.peptide("A", 101, "MKTAYIAK");
+  const AtomPairing pairing = pair_atoms(a.molecule, b.molecule);
+  CHECK(pairing.method == "sequence alignment");
+  CHECK(pairing.pairs.size() == a.molecule.size());
+}
+
+TEST_CASE("a substituted residue pairs backbone and C-beta only") {
+  MadeMolecule a, b;
+  a.peptide("A", 1, kSequence);
+  b.peptide("A", 1, kSequence);
+  a.residue("A", 34, "PHE", {"N", "H", "CA", "HA", "CB", "HB2", "CG", "CD1", "C", "O"});
+  b.residue("A", 34, "TYR", {"N", "HN", "CA", "HA", "CB", "HB2", "CG", "CD1", "OH", "C", "OT1", "OT2"});
+  const AtomPairing pairing = pair_atoms(a.molecule, b.molecule);
+  CHECK(pairing.n_aligned_residues == 34);
+  CHECK(pairing.n_substituted_residues == 1);
+  CHECK(pairing.pairs.size() == 33 * 5 + 7);
+  CHECK(has_pair(pairing, a.molecule, b.molecule, "A34:H=A34:HN"));
+  CHECK(has_pair(pairing, a.molecule, b.molecule, "A34:O=A34:OT1"));
+  CHECK_FALSE(has_pair(pairing, a.molecule, b.molecule, "A34:CG=A34:CG"));
+}
+
+TEST_CASE("pairs ascend in the source atom and use each atom once") {
+  MadeMolecule a, b;
+  a.peptide("A", 1, "MKTAYIAKQRQ");
+  b.peptide("A", 3, "TAYWAKQRQIS");
+  const AtomPairing pairing = pair_atoms(a.molecule, b.molecule);
+  CHECK(std::is_sorted(pairing.pairs.begin(), pairing.pairs.end()));
+  std::vector<std::size_t> targets;
+  for (std::size_t k = 0; k < pairing.pairs.size(); ++k) {
+    targets.push_back(pairing.pairs[k].second);
+    if (k > 0) CHECK(pairing.pairs[k].first > pairing.pairs[k - 1].first);
+  }
+  std::sort(targets.begin(), targets.end());
+  CHECK(std::adjacent_find(targets.begin(), targets.end()) == targets.end());
+  CHECK(has_pair(pairing, a.molecule, b.molecule, "A3:CA=A3:CA"));
+  CHECK(has_pair(pairing, a.molecule, b.molecule, "A6:CB=A6:CB"));
+}
+
+TEST_CASE("hydrogens that two schemes number differently pair in order") {
+  MadeMolecule a, b;
+  a.residue("A", 1, "LEU", {"N", "CA", "HB1", "HB2", "CB", "C"});
+  b.residue("A", 1, "LEU", {"N", "CA", "CB", "HB3", "HB2", "C"});
+  CHECK(written(pair_atoms(a.molecule, b.molecule), a.molecule, b.molecule) ==
+        "A1:N=A1:N A1:CA=A1:CA A1:HB1=A1:HB2 A1:HB2=A1:HB3 A1:CB=A1:CB A1:C=A1:C");
+}
+
+TEST_CASE("a hydrogen that only one side has does not shift the others") {
+  MadeMolecule a, b;
+  a.residue("A", 1, "LYS", {"N", "CA", "C", "NZ", "HZ1", "HZ2", "HZ3"});
+  b.residue("A", 1, "LYN", {"N", "CA", "C", "NZ", "HZ2", "HZ3"});
+  const AtomPairing pairing = pair_atoms(a.molecule, b.molecule);
+  CHECK(pairing.n_substituted_residues == 0);
+  CHECK(has_pair(pairing, a.molecule, b.molecule, "A1:HZ2=A1:HZ2"));
+  CHECK(has_pair(pairing, a.molecule, b.molecule, "A1:HZ3=A1:HZ3"));
+  CHECK(pairing.pairs.size() == 6);
+}
+
+TEST_CASE("atoms of one name pair in file order, as many as both sides have") {
+  MadeMolecule a, b;
+  a.residue("A", 1, "SER", {"N", "CA", "CB", "CB", "OG", "OG", "OG"});
+  b.residue("A", 1, "SER", {"N", "CA", "CB", "OG", "OG"});
+  CHECK(pair_atoms(a.molecule, b.molecule).pairs.size() == 5);
+}
+
+TEST_CASE("chains are found by sequence, and by name where sequences agree") {
+  const std::string other = "GSHMWDPCLLNEVTYRWQGHPDFNACKEWG";
+  MadeMolecule a, b;
+  a.peptide("A", 1, kSequence);
+  a.peptide("B", 1, other);
+  b.peptide("H", 1, other.substr(2));
+  b.peptide("L", 1, kSequence);
+  AtomPairing pairing = pair_atoms(a.molecule, b.molecule);
+  CHECK(has_pair(pairing, a.molecule, b.molecule, "A1:CA=L1:CA"));
+  CHECK(has_pair(pairing, a.molecule, b.molecule, "B3:CA=H1:CA"));
+  CHECK(pairing.n_aligned_residues == 33 + 28);
+
+  // A dimer whose chains miss residues here and there: the longer match is A with B, but the names say otherwise.
+  const std::string full = kSequence;
+  MadeMolecule c, d;
+  c.peptide("A", 1, full);
+  c.peptide("B", 1, full.substr(0, 32));
+  d.peptide("A", 1, full.substr(0, 32));
+  d.peptide("B", 1, full);
+  pairing = pair_atoms(c.molecule, d.molecule);
+  CHECK(has_pair(pairing, c.molecule, d.molecule, "A5:CA=A5:CA"));
+  CHECK(has_pair(pairing, c.molecule, d.molecule, "B5:CA=B5:CA"));
+}
+
+TEST_CASE("a file without chain names meets one with them, numbered on or from the start") {
+  const std::string second = "GSHMWDPCLLNEVTYRWQGHPDFNACKEWG";
+  MadeMolecule named, continued, restarted;
+  named.peptide("A", 1, kSequence);
+  named.peptide("B", 1, second);
+  continued.peptide("", 1, kSequence + second);
+  restarted.peptide("", 1, kSequence);
+  restarted.peptide("", 1, second);
+  named.residue("B", 31, "LYS", {"N", "CA"});  // keeps the order from being the same
+  for (const MadeMolecule* plain : {&continued, &restarted}) {
+    CHECK(pair_atoms(named.molecule, plain->molecule).n_aligned_residues == 33 + 30);
+    CHECK(pair_atoms(plain->molecule, named.molecule).n_aligned_residues == 33 + 30);
+  }
+}
+
+TEST_CASE("ligands and ions pair by name with the closest number, waters not at all") {
+  MadeMolecule a, b;
+  a.peptide("A", 1, "MKTAYIAKQRQ");
+  a.residue("A", 201, "NA", {"NA"});
+  a.residue("A", 301, "NA", {"NA"});
+  a.residue("A", 401, "DMS", {"S", "O", "C1", "C2"});
+  a.residue("A", 501, "HOH", {"O"});
+  b.peptide("B", 1, "MKTAYIAKQRQI");
+  b.residue("B", 205, "NA", {"NA"});
+  b.residue("B", 301, "NA", {"NA"});
+  b.residue("C", 401, "DSS", {"S", "O", "C1", "C2"});
+  b.residue("C", 9, "DMS", {"S", "O", "C1"});
+  b.residue("B", 501, "HOH", {"O"});
+  const AtomPairing pairing = pair_atoms(a.molecule, b.molecule);
+  CHECK(has_pair(pairing, a.molecule, b.molecule, "A301:NA=B301:NA"));
+  CHECK(has_pair(pairing, a.molecule, b.molecule, "A201:NA=B205:NA"));
+  CHECK(has_pair(pairing, a.molecule, b.molecule, "A401:S=C9:S"));
+  CHECK(pairing.pairs.size() == 11 * 5 + 2 + 3);
+}
+
+TEST_CASE("molecules with nothing in common are refused, with counts, examples and the remedy") {
+  MadeMolecule protein("prot.pqr"), ligand("lig.pqr");
+  protein.peptide("A", 7, kSequence);
+  ligand.residue("", 108, "DMS", {"S", "O", "C1", "C2"});
+  CHECK_THROWS_AS(pair_atoms(protein.molecule, ligand.molecule), InputError);
+  const std::string message = message_of([&] { pair_atoms(protein.molecule, ligand.molecule); });
+  for (const char* part :
+       {"only 0 atoms", "source prot.pqr: 165 atoms in 33 residues (such as MET 7 of chain A, LYS 8",
+        "target lig.pqr: 4 atoms in 1 residues (such as DMS 108)", "no residues correspond", "--align none"}) {
+    CHECK_MESSAGE(message.find(part) != std::string::npos, part, " not in: ", message);
+  }
+  CHECK(message.find('\n') == std::string::npos);
+}
+
+TEST_CASE("unrelated chains stay unpaired, though some alignment always exists") {
+  MadeMolecule a, b;
+  a.peptide("A", 1, kSequence);
+  b.peptide("A", 1, "GGWPNDGHCGWPNDGHCPGWPNDCHGGWPNDGHC");
+  CHECK(message_of([&] { pair_atoms(a.molecule, b.molecule); }).find("no residues correspond") != std::string::npos);
+}
+
+TEST_CASE("residues that correspond but share no atom names are named in the message") {
+  MadeMolecule a, b;
+  for (int i = 1; i <= 10; ++i) {
+    a.residue("A", i, "TRP", {"Q1", "Q2"});
+    b.residue("A", i, "TRP", {"B1", "B2"});
+  }
+  const std::string message = message_of([&] { pair_atoms(a.molecule, b.molecule); });
+  CHECK(message.find(
+            "10 residues correspond, but hardly any of their atom names (Q1 of TRP 1 of chain A against B1 of TRP 1") !=
+        std::string::npos);
+}
+
+TEST_CASE("the choice of atoms to align") {
+  MadeMolecule a;
+  a.peptide("A", 1, "MKT");
+  a.residue("A", 9, "CA", {"CA"});
+  const AtomPairing pairing = pair_atoms(a.molecule, a.molecule);
+  CHECK(select_pairs(pairing, a.molecule, AlignAtoms::kAll).size() == 16);
+  CHECK(select_pairs(pairing, a.molecule, AlignAtoms::kBackbone).size() == 12);
+  CHECK(select_pairs(pairing, a.molecule, AlignAtoms::kCAlpha).size() == 3);  // not the calcium
+  CHECK(select_pairs(pairing, a.molecule, AlignAtoms::kNone).empty());
+
+  MadeMolecule rna;
+  rna.residue("A", 1, "A", {"P", "O5*", "C5*", "C4*", "C3*", "O3*", "N9"});
+  const AtomPairing own = pair_atoms(rna.molecule, rna.molecule);
+  CHECK(select_pairs(own, rna.molecule, AlignAtoms::kBackbone).size() == 6);
+  CHECK(message_of([&] { select_pairs(own, rna.molecule, AlignAtoms::kCAlpha); }) ==
+        "--align ca selects 0 of 7 paired atoms, at least 3 are needed; use --align all (7 pairs), --align backbone (6 "
+        "pairs), "
+        "or --align none");
+}
+
+TEST_CASE("the choice of atoms is read as it is written") {
+  for (const AlignAtoms atoms : {AlignAtoms::kAll, AlignAtoms::kBackbone, AlignAtoms::kCAlpha, AlignAtoms::kNone}) {
+    CHECK(parse_align_atoms(to_string(atoms)) == atoms);
+  }
+  CHECK(message_of([] { parse_align_atoms("CA"); }) ==
+        "unknown choice of atoms to align 'CA'; use all, backbone, ca or none");
+}

@@ -1,0 +1,64 @@
+// residue_names.cpp: spellings that mean the same, and what a residue is.
+#include "align/residue_names.h"
+
+#include <doctest/doctest.h>
+
+#include "made_molecule.h"
+
+using namespace espdiff;
+using espdiff_test::MadeMolecule;
+
+TEST_CASE("residue names of force fields stand for the amino acid that they are forms of") {
+  for (const char* name : {"HIS", "HSD", "HSE", "HSP", "HID", "HIE", "HIP", "hie", "NHIE"})
+    CHECK(residue_letter(name) == 'H');
+  for (const char* name : {"CYS", "CYX", "CYM", "CCYX"}) CHECK(residue_letter(name) == 'C');
+  CHECK(residue_letter("ASH") == 'D');
+  CHECK(residue_letter("GLH") == 'E');
+  CHECK(residue_letter("LYN") == 'K');
+  CHECK(residue_letter("MSE") == 'M');
+  CHECK(residue_letter("NTE") == '?');
+  CHECK(residue_letter("CTE") == '?');
+  CHECK(residue_letter("DMS") == '?');
+  CHECK(residue_letter("") == '?');
+}
+
+TEST_CASE("nucleotides have letters of their own, so that A is not alanine") {
+  for (const char* name : {"A", "DA", "RA", "ADE", "A5", "DA3", "RA5"}) CHECK(residue_letter(name) == 'a');
+  CHECK(residue_letter("DT") == 't');
+  CHECK(residue_letter("U") == 'u');
+  CHECK_FALSE(same_residue_name("A", "ALA"));
+  CHECK(same_residue_name("HSD", "HIE"));
+  CHECK(same_residue_name("NTE", "NTE"));
+  CHECK_FALSE(same_residue_name("NTE", "CTE"));
+}
+
+TEST_CASE("atom names of old, CHARMM and current files come to one spelling") {
+  CHECK(normalized_atom_name("1HB") == "HB1");
+  CHECK(normalized_atom_name("2HG1") == "HG12");
+  CHECK(normalized_atom_name(" HN ") == "H");
+  CHECK(normalized_atom_name("OT2") == "OXT");
+  CHECK(normalized_atom_name("O1P") == "OP1");
+  CHECK(normalized_atom_name("C5*") == "C5'");
+  CHECK(normalized_atom_name("1H5*") == "H5'");
+  CHECK(normalized_atom_name("2H5*") == "H5''");
+  CHECK(normalized_atom_name("H5\"") == "H5''");
+  CHECK(normalized_atom_name("ca") == "CA");
+  CHECK(normalized_atom_name("123") == "123");
+  CHECK(normalized_atom_name("CD", 'I') == "CD1");
+  CHECK(normalized_atom_name("HD2", 'I') == "HD12");
+  CHECK(normalized_atom_name("CD", 'K') == "CD");
+}
+
+TEST_CASE("a residue is known by its name, else by its atoms") {
+  MadeMolecule made;
+  made.residue("A", 1, "ALA", {"CA"});
+  made.residue("A", 2, "XAA", {"N", "CA", "C", "O"});
+  made.residue("A", 3, "PSU", {"P", "C1'", "C3*", "C4'", "O3'"});
+  made.residue("A", 4, "CA", {"CA"});
+  made.residue("A", 5, "HOH", {"O"});
+  made.residue("A", 6, "DMS", {"S", "O", "C1", "C2"});
+  const auto kinds = residue_kinds(made.molecule, atoms_of_residues(made.molecule));
+  const std::vector<ResidueKind> expected = {ResidueKind::kAminoAcid, ResidueKind::kAminoAcid, ResidueKind::kNucleotide,
+                                             ResidueKind::kOther,     ResidueKind::kWater,     ResidueKind::kOther};
+  CHECK(kinds == expected);
+}

@@ -1,0 +1,115 @@
+// mesh_checks.h: what must hold for any surface mesh, and hashes to compare results bit by bit.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/types.h"
+
+namespace espdiff_test {
+
+/// Empty when the mesh is a closed, consistently oriented 2-manifold without unused vertices; else what is wrong.
+inline std::string manifold_fault(const espdiff::Mesh& mesh) {
+  // Directed edge v -> a with the third vertex of its triangle: sorted, the entries of v are its fan.
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> edges;
+  for (const auto& t : mesh.triangles) {
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return "a triangle names a vertex twice";
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (t[c] >= mesh.positions.size()) return "a triangle names a vertex that does not exist";
+      edges.emplace_back(static_cast<std::uint64_t>(t[c]) << 32 | t[(c + 1) % 3], t[(c + 2) % 3]);
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  const auto find = [&](std::uint64_t v, std::uint64_t a) {
+    const auto at = std::lower_bound(edges.begin(), edges.end(), std::make_pair(v << 32 | a, std::uint32_t{0}));
+    return at != edges.end() && at->first == (v << 32 | a) ? at : edges.end();
+  };
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    if (e > 0 && edges[e].first == edges[e - 1].first) return "a directed edge lies in two triangles";
+    if (find(edges[e].first & 0xFFFFFFFFU, edges[e].first >> 32) == edges.end()) return "an edge has no opposite";
+  }
+  std::size_t begin = 0;
+  for (std::uint64_t v = 0; v < mesh.positions.size(); ++v) {
+    std::size_t end = begin;
+    while (end < edges.size() && edges[end].first >> 32 == v) ++end;
+    if (end == begin) return "a vertex lies in no triangle";
+    std::size_t n = 0;
+    std::uint32_t a = static_cast<std::uint32_t>(edges[begin].first);
+    const std::uint32_t start = a;
+    do {
+      a = find(v, a)->second;
+      ++n;
+    } while (a != start && n < end - begin);
+    if (n != end - begin || a != start) return "the triangles around a vertex form more than one fan";
+    begin = end;
+  }
+  return "";
+}
+
+/// V - E + F; every edge of a closed mesh lies in two triangles.
+inline long euler_characteristic(const espdiff::Mesh& mesh) {
+  return static_cast<long>(mesh.positions.size()) - static_cast<long>(mesh.triangles.size()) / 2;
+}
+
+inline double signed_volume(const espdiff::Mesh& mesh) {
+  double sum = 0;
+  for (const auto& t : mesh.triangles) {
+    const auto at = [&](int c) { return static_cast<espdiff::Vec3d>(mesh.positions[t[static_cast<std::size_t>(c)]]); };
+    sum += dot(at(0), cross(at(1), at(2))) / 6;
+  }
+  return sum;
+}
+
+/// [vertex] component in the order of their first vertex, by union-find.
+inline std::vector<std::uint32_t> components_oracle(const espdiff::Mesh& mesh) {
+  std::vector<std::uint32_t> parent(mesh.positions.size());
+  std::iota(parent.begin(), parent.end(), 0U);
+  const auto root = [&](std::uint32_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const auto& t : mesh.triangles) {
+    for (const std::uint32_t v : t) parent[std::max(root(t[0]), root(v))] = std::min(root(t[0]), root(v));
+  }
+  std::vector<std::uint32_t> label(parent.size());
+  std::uint32_t n = 0;
+  for (std::uint32_t v = 0; v < label.size(); ++v) label[v] = root(v) == v ? n++ : label[root(v)];
+  return label;
+}
+
+/// FNV-1a over the bits of what is added.
+class Hash {
+ public:
+  template <typename T>
+  Hash& add(const T& value) {
+    static_assert(std::is_arithmetic_v<T>, "padding has no defined bits");
+    unsigned char bytes[sizeof(T)];
+    std::memcpy(bytes, &value, sizeof(T));
+    for (const unsigned char byte : bytes) state_ = (state_ ^ byte) * 1099511628211ULL;
+    return *this;
+  }
+  template <typename T>
+  Hash& add(const espdiff::Vec3<T>& v) {
+    return add(v.x).add(v.y).add(v.z);
+  }
+  template <typename T>
+  Hash& add(const std::vector<T>& values) {
+    for (const T& value : values) add(value);
+    return add(values.size());
+  }
+  Hash& add(const espdiff::Triangle& t) { return add(t[0]).add(t[1]).add(t[2]); }
+  Hash& add(const espdiff::Mesh& mesh) {
+    return add(mesh.positions).add(mesh.normals).add(mesh.triangles).add(mesh.component);
+  }
+  std::uint64_t value() const { return state_; }
+
+ private:
+  std::uint64_t state_ = 14695981039346656037ULL;
+};
+
+}  // namespace espdiff_test

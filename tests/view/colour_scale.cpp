@@ -1,0 +1,85 @@
+// colour_scale.cpp: ranges, round numbers, opacity, and the names that users type.
+#include "view/colour_scale.h"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "base/error.h"
+#include "support/test_data.h"
+
+using namespace espdiff;  // NOLINT: a test of one header
+
+namespace {
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+}
+
+TEST_CASE("round_up_nicely gives the next round number") {
+  CHECK(round_up_nicely(0.97) == doctest::Approx(1));
+  CHECK(round_up_nicely(1.2) == doctest::Approx(1.5));
+  CHECK(round_up_nicely(0.3) == doctest::Approx(0.3));
+  CHECK(round_up_nicely(31) == doctest::Approx(40));
+  CHECK(round_up_nicely(8.2) == doctest::Approx(10));
+  CHECK(round_up_nicely(0.00061) == doctest::Approx(0.0008));
+  CHECK(round_up_nicely(0) == 1);
+}
+
+TEST_CASE("automatic range leaves out the two per cent of extreme values, on both sides of zero") {
+  std::vector<float> values(99, -1.9F);
+  values.push_back(400);
+  const ColourScale scale(RenderArray::kDifference, values, 0);
+  CHECK(scale.high() == doctest::Approx(2));
+  CHECK(scale.low() == doctest::Approx(-2));
+  CHECK(scale.exceeds_high());
+  CHECK_FALSE(scale.exceeds_low());
+  CHECK(scale.colour(0) == Rgb{221, 221, 221});
+  CHECK(scale.colour(400) == diverging_colour(1));
+  CHECK(scale.colour(kNan) == kNoValueColour);
+}
+
+TEST_CASE("a given limit is taken as it is, and a displacement starts at zero") {
+  const ColourScale scale(RenderArray::kDisplacement, {0.5F, 7, kNan}, 3.3);
+  CHECK(scale.low() == 0);
+  CHECK(scale.high() == 3.3);
+  CHECK(scale.has_missing());
+  CHECK(scale.exceeds_high());
+}
+
+TEST_CASE("a surface without any difference is drawn in the neutral colour") {
+  const ColourScale scale(RenderArray::kDifference, {0, 0, 0}, 0);
+  CHECK(scale.high() == 1);
+  CHECK(scale.colour(0) == Rgb{221, 221, 221});
+}
+
+TEST_CASE("the sign change has two colours") {
+  const ColourScale scale(RenderArray::kSign, {0, 1, 1}, 0);
+  CHECK(scale.two_classes());
+  CHECK(scale.colour(0) == kSameSignColour);
+  CHECK(scale.colour(1) == kSignChangeColour);
+}
+
+TEST_CASE("a range or values that cannot be drawn are refused") {
+  CHECK_THROWS_AS(ColourScale(RenderArray::kDifference, {1}, -2), InputError);
+  CHECK_THROWS_AS(ColourScale(RenderArray::kDifference, {1}, kNan), InputError);
+  const std::string message = espdiff_test::message_of([] { ColourScale(RenderArray::kDifference, {kNan, kNan}, 0); });
+  CHECK(message.find("no vertex has a value in 'potential_difference'") != std::string::npos);
+}
+
+TEST_CASE("opacity falls linearly from 1 between the two displacements") {
+  const OpacityScale scale{0.5, 2.5, 0.25};
+  CHECK(scale.opacity(0) == 1);
+  CHECK(scale.opacity(0.5) == 1);
+  CHECK(scale.opacity(1.5) == doctest::Approx(0.625));
+  CHECK(scale.opacity(9) == 0.25);
+  CHECK(scale.opacity(kNan) == 0.25);
+}
+
+TEST_CASE("array names are read and explained") {
+  CHECK(parse_render_array("sign") == RenderArray::kSign);
+  CHECK(std::string(array_name(RenderArray::kDifference)) == "potential_difference");
+  CHECK(legend_title(RenderArray::kSource, "mV") == "potential of the source (mV)");
+  CHECK(legend_title(RenderArray::kSource, "") == "potential of the source");
+  CHECK(legend_title(RenderArray::kSign, "mV").find("mV") == std::string::npos);
+  CHECK(espdiff_test::message_of([] { parse_render_array("charge"); }) ==
+        "cannot colour by 'charge'; use difference, source, target, sign or displacement");
+}
