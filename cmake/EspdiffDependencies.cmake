@@ -1,10 +1,9 @@
 # EspdiffDependencies.cmake: finds what the project builds on, and keeps account of what is left out and why.
 
-set(ESPDIFF_SUMMARY "")
+set_property(GLOBAL PROPERTY ESPDIFF_SUMMARY "")
 function(espdiff_note text)
-  set(ESPDIFF_SUMMARY "${ESPDIFF_SUMMARY}\n  ${text}" CACHE INTERNAL "")
+  set_property(GLOBAL APPEND_STRING PROPERTY ESPDIFF_SUMMARY "\n  ${text}")
 endfunction()
-set(ESPDIFF_SUMMARY "" CACHE INTERNAL "")
 
 # espdiff_resolve(OPTION found "what" "how to get it"): turns AUTO into ON or OFF and fails on ON when not found.
 function(espdiff_resolve option found what remedy)
@@ -23,6 +22,7 @@ function(espdiff_resolve option found what remedy)
 endfunction()
 
 function(espdiff_print_summary)
+  get_property(ESPDIFF_SUMMARY GLOBAL PROPERTY ESPDIFF_SUMMARY)
   message(STATUS "espdiff ${PROJECT_VERSION}:${ESPDIFF_SUMMARY}")
 endfunction()
 

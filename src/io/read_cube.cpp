@@ -13,7 +13,7 @@
 namespace espdiff {
 namespace {
 
-constexpr double kBohr_A = 0.529177210903;  // CODATA 2018
+constexpr double kBohrInAngstrom = 0.529177210903;  // CODATA 2018
 
 struct CubeHeader {
   Lattice lattice;
@@ -68,7 +68,7 @@ CubeHeader read_header(TextCursor& cursor, const std::string& path) {
     count = std::llabs(count);
   }
   header.lattice.size = check_counts(counts, path, header.counts_line);
-  const double unit = in_angstrom ? 1.0 : kBohr_A;
+  const double unit = in_angstrom ? 1.0 : kBohrInAngstrom;
   header.lattice.origin = unit * atoms.vector;
   for (Vec3d& step : header.lattice.step) step = unit * step;
   check_axes(header.lattice, path, header.counts_line);

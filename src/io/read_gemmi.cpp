@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <gemmi/cif.hpp>    // for read_memory
 #include <gemmi/mmcif.hpp>  // for make_structure
 #include <gemmi/pdb.hpp>    // for read_pdb_from_memory
+#include <new>
 #include <set>
-#include <stdexcept>
 #include <string_view>
 #include <tuple>
 #include <unordered_map>
@@ -127,19 +128,27 @@ std::string one_line(std::string message) {
   return message;
 }
 
+/// Calls gemmi; whatever it throws (runtime_error, invalid_argument, PEGTL's parse_error) becomes ours.
+template <typename Call>
+auto call_gemmi(const std::string& path, const char* problem, Call call) -> decltype(call()) {
+  try {
+    return call();
+  } catch (const tao::pegtl::parse_error& error) {
+    throw FormatError(path, static_cast<long>(error.positions().front().line),
+                      problem + one_line(std::string(error.message())));
+  } catch (const std::bad_alloc&) {
+    throw MemoryError(path + ": the structure does not fit into memory");
+  } catch (const std::exception& error) {
+    throw FormatError(path, 0, problem + one_line(error.what()));
+  }
+}
+
 // ---- mmCIF ----
 
 /// Parses the file and keeps the atoms only, so that a mistake elsewhere in it does no harm.
 gemmi::cif::Document parse_atom_site(const std::string& path, const std::string& text) {
-  gemmi::cif::Document document;
-  try {
-    document = gemmi::cif::read_memory(text.data(), text.size(), path.c_str());
-  } catch (const tao::pegtl::parse_error& error) {
-    throw FormatError(path, static_cast<long>(error.positions().front().line),
-                      "not valid CIF: " + one_line(std::string(error.message())));
-  } catch (const std::runtime_error& error) {
-    throw FormatError(path, 0, "not valid CIF: " + one_line(error.what()));
-  }
+  gemmi::cif::Document document = call_gemmi(
+      path, "not valid CIF: ", [&] { return gemmi::cif::read_memory(text.data(), text.size(), path.c_str()); });
   for (gemmi::cif::Block& block : document.blocks) {
     std::vector<gemmi::cif::Item> kept;  // not erase(): assigning items loses their line numbers
     for (gemmi::cif::Item& item : block.items) {
@@ -191,11 +200,7 @@ gemmi::Structure parse_mmcif(const std::string& path, const std::string& text) {
   gemmi::cif::Document document = parse_atom_site(path, text);
   if (document.blocks.empty()) throw InputError(path + ": CIF without a data block; give an mmCIF with coordinates");
   check_atom_site(path, text, document.blocks.front());
-  try {
-    return gemmi::make_structure(document);
-  } catch (const std::runtime_error& error) {
-    throw FormatError(path, 0, "the mmCIF cannot be read: " + one_line(error.what()));
-  }
+  return call_gemmi(path, "the mmCIF cannot be read: ", [&] { return gemmi::make_structure(document); });
 }
 
 }  // namespace
@@ -203,13 +208,10 @@ gemmi::Structure parse_mmcif(const std::string& path, const std::string& text) {
 Molecule read_pdb(const std::string& path, const AtomModel& model, const StructureOptions& options) {
   MoleculeBuilder builder(path, options);
   const CheckedPdb checked = check_pdb(path, model, builder);
-  gemmi::Structure structure;
-  try {
-    structure = gemmi::read_pdb_from_memory(checked.text.data(), checked.text.size(), path);
-  } catch (const std::runtime_error& error) {
-    throw FormatError(path, 0, "the PDB cannot be read: " + one_line(error.what()));
-  }
-  for (const ChosenAtom& chosen : choose_conformation(structure.first_model())) {
+  const gemmi::Structure structure = call_gemmi(path, "the PDB cannot be read: ", [&] {
+    return gemmi::read_pdb_from_memory(checked.text.data(), checked.text.size(), path);
+  });
+  for (const ChosenAtom& chosen : choose_conformation(structure.models.front())) {
     const AtomLine& line = checked.lines.at(static_cast<std::size_t>(chosen.atom->serial) - 1);
     AtomEntry entry = make_entry(chosen);
     entry.residue_name = pdb_residue_name(line);

@@ -11,14 +11,14 @@ struct GridOptions {
   std::string array;  ///< VTI point array to take; empty takes the active scalars, or the only array
 };
 
-/// Reads a grid. DX as APBS and PMEPot write it (any axes; gzip too), VTI by VTK (ascii, binary, appended; any number
-/// type), Gaussian cube (Bohr or, with negative counts, Angstrom; converted to Angstrom; first volume of several).
-/// Files are re-ordered to x fastest. The unit is taken from the file where it says one (APBS: "kT/e" in a comment),
-/// else unknown.
-/// @throws IoError, FormatError (with line: fewer or more values than promised, NaN or infinite values, zero or
-/// negative
-///         counts, degenerate axes), InputError (unknown format, array missing, VTI in a build without VTK, with
-///         remedy)
+/// Reads a grid: OpenDX as APBS, PMEPot and VMD write it (any axes; gzip too), VTI by VTK (ascii, binary, appended; any
+/// number type), Gaussian cube (Bohr or, with negative counts, Angstrom; converted to Angstrom; first volume of
+/// several). The format is found from the content. Values are re-ordered to x fastest. The unit is taken from the file
+/// where it says one ("POTENTIAL (kT/e)"), else unknown. A header that promises more than the file can hold is refused
+/// before anything is allocated.
+/// @throws IoError (missing, directory, unreadable)
+/// @throws FormatError (with line: fewer or more values than promised, not finite, counts below 2, degenerate axes)
+/// @throws InputError (format not read, array missing, VTI in a build without VTK, with remedy), MemoryError
 Grid read_grid(const std::string& path, const GridOptions& options = {});
 
 }  // namespace espdiff

@@ -13,15 +13,18 @@ struct StructureOptions {
   bool include_water = false;  ///< HOH, WAT, TIP3 and the like
 };
 
-/// Reads one conformation. The format is found from the content (a PQR, PDB or mmCIF under any name is read as what it
-/// is). Alternate locations: the one of highest occupancy per residue (the first on ties). Radii: the file's (PQR),
-/// else Bondi's by element; charges: the file's, else none. Units: Angstrom, elementary charges.
-/// @throws IoError (missing, directory, unreadable), FormatError (with line: bad number, NaN, short record, negative
-/// radius),
-///         InputError (no atoms, model out of range, format not supported by this build, with remedy)
+/// Reads one conformation. The format is found from the content: a PQR, PDB or mmCIF under any name, also packed by
+/// gzip, is read as what it is. Atoms keep file order. Alternate locations: the one of highest mean occupancy in the
+/// residue (the first on ties). Models: MODEL records; without them (PDB, PQR) atoms that go on after END are the next
+/// model. Radii: the file's (PQR), else Bondi's by element; charges: the file's, else none. Units: Angstrom, elementary
+/// charges.
+/// @throws IoError (missing, directory, unreadable)
+/// @throws FormatError (with line: bad number, NaN, short record, negative radius)
+/// @throws InputError (no atoms, model out of range, format not read or not supported by this build, with remedy)
 Molecule read_structure(const std::string& path, const StructureOptions& options = {});
 
 /// Number of models in the file.
+/// @throws as read_structure()
 int count_models(const std::string& path);
 
 /// Van der Waals radius by element, Angstrom. Bondi, J. Phys. Chem. 68, 441 (1964); elements he does not give: Alvarez,

@@ -57,14 +57,14 @@ TEST_CASE("density truncation: a random cloud errs by less than 1e-3") {
 }
 
 TEST_CASE("density truncation: real proteins err by less than 1e-3") {
-  for (const char* name : {"pair_tim_maps/scTIM_chainA.pqr", "ref_apbs/1tca.pqr"}) {
+  for (const std::string name : {"pair_tim_maps/scTIM_chainA.pqr", "ref_apbs/1tca.pqr"}) {
     const auto path = real_input(name);
     if (!path) return;
     const AtomSet atoms = read_atoms(*path);
     for (const auto& engine : back_ends()) {
       const auto grid = engine->download(engine->density(upload(*engine, atoms), 1.0));
       const double worst = largest_error(grid, atoms, 61);  // a prime: all places in the rows
-      std::printf("density truncation, %s, %s: largest error %.2e\n", engine->back_end().c_str(), name, worst);
+      std::printf("density truncation, %s, %s: largest error %.2e\n", engine->back_end().c_str(), name.c_str(), worst);
       CHECK(worst < 1e-3);
       check_border(grid);
     }

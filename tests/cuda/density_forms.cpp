@@ -80,7 +80,7 @@ TEST_CASE("slabs and points agree on atoms that sit on lattice points, cell bord
 }
 
 TEST_CASE("slabs and points agree on real proteins") {
-  for (const char* name : {"ubq/ubq.pqr", "pair_t4l_maps/3lzm.pqr", "calb/1TCA.cif"}) {
+  for (const std::string name : {"ubq/ubq.pqr", "pair_t4l_maps/3lzm.pqr", "calb/1TCA.cif"}) {
     const auto path = real_input(name);
     if (!path) return;
     CAPTURE(name);

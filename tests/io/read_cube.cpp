@@ -10,7 +10,7 @@ using namespace espdiff_test;
 
 namespace {
 
-constexpr double kBohr_A = 0.529177210903;
+constexpr double kBohrInAngstrom = 0.529177210903;
 
 std::string cube(const std::string& third, const std::string& sizes, const std::string& rest) {
   std::istringstream counts(sizes);
@@ -31,9 +31,9 @@ const std::string kEight = "0 1 10 11\n100 101 110 111\n";  // 100 i + 10 j + k
 TEST_CASE("read_cube: Bohr, z fastest in the file") {
   const Grid grid = read_cube("f.cube", cube("1 1 2 3", "2 2 2", kAtomLine + kEight));
   CHECK(grid.lattice.size == std::array<int, 3>{2, 2, 2});
-  CHECK(grid.lattice.origin.y == doctest::Approx(2 * kBohr_A).epsilon(1e-14));
-  CHECK(grid.lattice.step[1].y == doctest::Approx(2 * kBohr_A).epsilon(1e-14));
-  CHECK(grid.lattice.step[2].x == doctest::Approx(0.5 * kBohr_A).epsilon(1e-14));
+  CHECK(grid.lattice.origin.y == doctest::Approx(2 * kBohrInAngstrom).epsilon(1e-14));
+  CHECK(grid.lattice.step[1].y == doctest::Approx(2 * kBohrInAngstrom).epsilon(1e-14));
+  CHECK(grid.lattice.step[2].x == doctest::Approx(0.5 * kBohrInAngstrom).epsilon(1e-14));
   CHECK(grid.values == std::vector<float>{0, 100, 10, 110, 1, 101, 11, 111});
   CHECK(grid.unit == PotentialUnit::kUnknown);
 }
@@ -86,8 +86,8 @@ TEST_CASE("read_cube: benzene's orbital 21") {
   if (!path) return;
   const Grid grid = read_grid(*path);
   CHECK(grid.lattice.size == std::array<int, 3>{55, 55, 40});
-  CHECK(grid.lattice.origin.x == doctest::Approx(-9.021977 * kBohr_A).epsilon(1e-14));
-  CHECK(grid.lattice.step[0].x == doctest::Approx(0.333333 * kBohr_A).epsilon(1e-14));
+  CHECK(grid.lattice.origin.x == doctest::Approx(-9.021977 * kBohrInAngstrom).epsilon(1e-14));
+  CHECK(grid.lattice.step[0].x == doctest::Approx(0.333333 * kBohrInAngstrom).epsilon(1e-14));
   // python3: v = ' '.join(open(f).read().split('\n')[19:]).split(); v[k+40*(j+55*i)]
   const auto value = [&](int i, int j, int k) { return grid.values[static_cast<std::size_t>(i + 55 * (j + 55 * k))]; };
   CHECK(value(0, 0, 0) == 1.35128E-12F);

@@ -72,13 +72,15 @@ TEST_CASE("read_mmcif: coordinates that are no numbers are refused with line and
 }
 
 TEST_CASE("read_mmcif: bad syntax, no atoms, missing columns, missing model") {
-  CHECK(error(kHead + "ATOM 1 N N\n").find("a.cif:20: not valid CIF: Wrong number of values in the loop") == 0);
+  CHECK(error(kHead + "ATOM 1 N N\n").find("a.cif:3: not valid CIF: Wrong number of values in the loop") == 0);
   CHECK(
       error("data_X\n_cell.length_a 1\n") ==
       "a.cif: mmCIF without the column _atom_site.id (no atoms at all); give a macromolecular mmCIF with coordinates");
   std::string without = kHead + "ATOM 1 N N . ALA A ? 1.0 2.0 3.0 1.0 5 7 X 1\n";
   without.replace(without.find("auth_seq_id"), 11, "auth_seq_ix");
   CHECK(error(without).find("a.cif: mmCIF without the column _atom_site.auth_seq_id;") == 0);
+  CHECK(error(kHead + "ATOM 1 N N . ALA A ? 1.0 2.0 3.0 1.0 5 7a1b X 1\n") ==
+        "a.cif: the mmCIF cannot be read: not an integer: 7a");
   StructureOptions options;
   options.model = 3;
   CHECK(message_of([&] {

@@ -1,0 +1,175 @@
+// atomic_file.cpp: write aside, check, rename.
+#include "io/atomic_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <locale>
+#include <utility>
+
+#include "base/error.h"
+
+namespace espdiff {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string system_message(int error_number) { return std::strerror(error_number); }
+
+std::string folder_of(const std::string& path) {
+  const std::string folder = fs::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
+/// Says for the errors that users meet what they can do about them.
+std::string with_remedy(int error_number) {
+  const std::string reason = system_message(error_number);
+  switch (error_number) {
+    case EACCES:
+    case EPERM: return reason + "; write to a folder that you may write to, or change its permissions";
+    case EROFS: return reason + "; write to another folder";
+    case ENOSPC:
+    case EDQUOT:
+    case EFBIG: return reason + "; free some space or write to another folder";
+    case ENAMETOOLONG: return reason + "; choose a shorter name";
+    default: return reason;
+  }
+}
+
+/// The file that `path` means once symbolic links are followed.
+std::string follow_links(const std::string& path) {
+  fs::path current = path;
+  std::error_code error;
+  for (int depth = 0; depth < 40 && fs::is_symlink(fs::symlink_status(current, error)); ++depth) {
+    const fs::path next = fs::read_symlink(current, error);
+    if (error) break;
+    current = next.is_absolute() ? next : current.parent_path() / next;
+  }
+  return current.string();
+}
+
+/// Refuses what no rename can replace, before any work is done.
+void check_target(const std::string& path, const std::string& target) {
+  if (path.empty()) throw IoError("(empty name)", "cannot write to a file without a name; name the output");
+  std::error_code error;
+  const fs::file_status status = fs::status(target, error);
+  if (fs::is_directory(status)) throw IoError(path, "cannot write: this is a folder; name a file in it");
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    throw IoError(path, "cannot write: this is not a regular file; choose another name");
+  }
+  const std::string folder = folder_of(target);
+  const fs::file_status folder_status = fs::status(folder, error);
+  if (!fs::exists(folder_status))
+    throw IoError(path, "cannot write: the folder " + folder + " does not exist; create it first");
+  if (!fs::is_directory(folder_status))
+    throw IoError(path, "cannot write: " + folder + " is not a folder; choose another name");
+  if (fs::exists(status) && ::access(target.c_str(), W_OK) != 0) {
+    throw IoError(path, "cannot write: the file exists and is read-only; remove it or choose another name");
+  }
+}
+
+/// A name beside `target` that no other process or thread uses.
+std::string sibling(const std::string& target, const char* suffix) {
+  static std::atomic<unsigned> counter{0};
+  return target + "." + suffix + std::to_string(::getpid()) + "-" + std::to_string(counter++);
+}
+
+/// Creates the temporary file, with the permissions that any new file gets.
+std::string create_sibling(const std::string& path, const std::string& target) {
+  for (;;) {
+    const std::string name = sibling(target, "tmp");
+    const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor >= 0) {
+      ::close(descriptor);
+      return name;
+    }
+    if (errno != EEXIST) throw IoError(path, "cannot write: " + with_remedy(errno));
+  }
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), target_(follow_links(path_)) {
+  check_target(path_, target_);
+  temporary_ = create_sibling(path_, target_);
+  stream_.imbue(std::locale::classic());
+  errno = 0;
+  stream_.open(temporary_, std::ios::binary | std::ios::trunc);
+  if (stream_) return;
+  const int error_number = errno;
+  ::unlink(temporary_.c_str());
+  throw IoError(path_, "cannot write: " + with_remedy(error_number));
+}
+
+AtomicFile::~AtomicFile() {
+  stream_.close();
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+/// Brings everything to the file system; a write that failed earlier shows here at the latest.
+void AtomicFile::finish() {
+  errno = 0;
+  const bool written = static_cast<bool>(stream_.flush());
+  const int flush_error = errno;
+  stream_.close();
+  if (written && stream_) return;
+  const int error_number = written ? errno : flush_error;
+  throw IoError(path_,
+                "not written: " + (error_number != 0 ? with_remedy(error_number)
+                                                     : std::string("a write failed; see that the disk is not full")));
+}
+
+void AtomicFile::rename_to_target() {
+  std::error_code error;
+  if (fs::is_directory(target_, error))
+    throw IoError(path_, "not written: this has become a folder; choose another name");
+  if (fs::exists(target_, error)) {
+    // A second link keeps the older file; where the file system has no links, it steps aside.
+    std::string aside = sibling(target_, "old");
+    if (::link(target_.c_str(), aside.c_str()) == 0 || ::rename(target_.c_str(), aside.c_str()) == 0) previous_ = aside;
+  }
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) {
+    const int error_number = errno;
+    restore_target();
+    throw IoError(path_, "not written: " + with_remedy(error_number));
+  }
+  temporary_.clear();
+  renamed_ = true;
+}
+
+/// Undoes rename_to_target(): the older file comes back, or nothing has this name.
+void AtomicFile::restore_target() {
+  if (!previous_.empty()) {
+    if (::rename(previous_.c_str(), target_.c_str()) != 0) return;  // keep the copy rather than lose it
+    ::unlink(previous_.c_str());  // still there when both names were links to one file
+    previous_.clear();
+  } else if (renamed_) {
+    ::unlink(target_.c_str());
+  }
+  renamed_ = false;
+}
+
+void AtomicFile::forget_previous() {
+  if (!previous_.empty()) ::unlink(previous_.c_str());
+  previous_.clear();
+}
+
+void AtomicFile::commit() { commit_all({this}); }
+
+void commit_all(std::initializer_list<AtomicFile*> files) {
+  for (AtomicFile* file : files) file->finish();
+  try {
+    for (AtomicFile* file : files) file->rename_to_target();
+  } catch (...) {
+    for (AtomicFile* file : files) file->restore_target();
+    throw;
+  }
+  for (AtomicFile* file : files) file->forget_previous();
+}
+
+}  // namespace espdiff

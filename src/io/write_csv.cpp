@@ -1,0 +1,34 @@
+// write_csv.cpp: numbers and fields as text.
+#include "io/write_csv.h"
+
+#include <charconv>
+#include <cmath>
+
+namespace espdiff {
+namespace {
+
+std::string quoted(const std::string& field) {
+  if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
+  std::string result = "\"";
+  for (const char c : field) {
+    if (c == '"') result += '"';
+    result += c;
+  }
+  return result + '"';
+}
+
+}  // namespace
+
+std::string csv_number(double value, int n_digits) {
+  if (std::isnan(value)) return {};
+  char text[64];
+  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, n_digits).ptr;
+  return {text, end};
+}
+
+void write_csv_row(std::ostream& out, const std::vector<std::string>& fields) {
+  for (std::size_t i = 0; i < fields.size(); ++i) out << (i == 0 ? "" : ",") << quoted(fields[i]);
+  out << '\n';
+}
+
+}  // namespace espdiff

@@ -1,0 +1,24 @@
+// write_csv.cpp: numbers and quoting.
+#include "io/write_csv.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <sstream>
+
+using namespace espdiff;
+
+TEST_CASE("numbers are short, and no value is an empty field") {
+  CHECK(csv_number(0.5) == "0.5");
+  CHECK(csv_number(-1234567.0) == "-1.23457e+06");
+  CHECK(csv_number(1.0 / 3) == "0.333333");
+  CHECK(csv_number(1.0 / 3, 3) == "0.333");
+  CHECK(csv_number(std::nan("")).empty());
+}
+
+TEST_CASE("fields that would break the row are quoted") {
+  std::ostringstream out;
+  write_csv_row(out, {"A", "", "a,b", "say \"hi\"", "two\nlines"});
+  write_csv_row(out, {"kcal/(mol e)"});
+  CHECK(out.str() == "A,,\"a,b\",\"say \"\"hi\"\"\",\"two\nlines\"\nkcal/(mol e)\n");
+}
