@@ -38,7 +38,7 @@ struct Iteration {
   CubicLattice lattice;
   const Vec4f* field;
   const Vec4f* from;       // [vertex]
-  const Vec4f* laplacian;  // [vertex] L of `from`
+  const Vec4f* laplacian;  // [vertex] L of `from`, less that of the rest shape
   Vec4f* to;               // [vertex] w: how far the vertex moved
   float* strength;         // [vertex] s: positive while outside, negative while inside, halved at each crossing
   float step_external, step_tension, step_rigidity;  // sigma mu, g sigma (1 - mu)(1 - rho), g sigma (1 - mu) rho
@@ -95,13 +95,20 @@ std::shared_ptr<SurfaceMesh> deform(const SurfaceMesh& mesh, const SurfaceField&
   }
   Vec4f* const laplacian = raw(laplacians);
   it.laplacian = laplacian;
+  Buffer<Vec4f> rest_laplacians(n, Vec4f{});
+  Vec4f* const rest = raw(rest_laplacians);
+  if (options.rest_shape) {
+    it.from = raw(positions);
+    const Iteration start = it;
+    for_each_index(n, [=] ESPDIFF_HD(std::size_t v) { rest[v] = umbrella(start.topology, start.from, v); });
+  }
 
   DeformReport result;
   while (result.iterations < options.max_iterations && !result.converged) {
     it.from = raw(positions);
     it.to = raw(moved);
     const Iteration now = it;
-    for_each_index(n, [=] ESPDIFF_HD(std::size_t v) { laplacian[v] = umbrella(now.topology, now.from, v); });
+    for_each_index(n, [=] ESPDIFF_HD(std::size_t v) { laplacian[v] = umbrella(now.topology, now.from, v) - rest[v]; });
     for_each_index(n, [=] ESPDIFF_HD(std::size_t v) { move_vertex(now, v); });
     positions.swap(moved);
     ++result.iterations;

@@ -18,8 +18,8 @@ using IndexPairs = std::vector<std::pair<std::size_t, std::size_t>>;
 constexpr std::size_t kMinPairs = 3;
 constexpr std::size_t kMaxExamples = 4;
 
-template <std::size_t n>
-bool is_one_of(const std::array<std::string_view, n>& names, const std::string& name) {
+template <std::size_t Size>
+bool is_one_of(const std::array<std::string_view, Size>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
@@ -76,26 +76,27 @@ std::map<std::string, NamedAtoms> group_by_stem(const ResidueView& view, std::si
   return groups;
 }
 
-bool same_names(const NamedAtoms& a, const NamedAtoms& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const auto& x, const auto& y) { return x.first == y.first; });
-}
-
 void pair_firsts(const std::vector<std::size_t>& a, const std::vector<std::size_t>& b, IndexPairs& pairs) {
   for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k) pairs.emplace_back(a[k], b[k]);
 }
 
-/// Pairs atoms of one stem: by name, or by rank where there are as many but numbered from another start.
+/// Pairs atoms of one stem by name. Where two naming schemes count alike but number differently, what is left pairs in
+/// order: CHARMM's HB1, HB2 are HB3, HB2 elsewhere, and its HT1, HT2, HT3 are H, H2, H3.
 void pair_stem(const NamedAtoms& source, const NamedAtoms& target, IndexPairs& pairs) {
-  if (source.size() == target.size() && !same_names(source, target)) {
-    for (auto a = source.begin(), b = target.begin(); a != source.end(); ++a, ++b)
-      pair_firsts(a->second, b->second, pairs);
-    return;
-  }
+  std::vector<const std::vector<std::size_t>*> source_left, target_left;
   for (const auto& [name, atoms] : source) {
     const auto same = target.find(name);
-    if (same != target.end()) pair_firsts(atoms, same->second, pairs);
+    if (same != target.end()) {
+      pair_firsts(atoms, same->second, pairs);
+    } else {
+      source_left.push_back(&atoms);
+    }
   }
+  if (source.size() != target.size()) return;
+  for (const auto& [name, atoms] : target) {
+    if (source.find(name) == source.end()) target_left.push_back(&atoms);
+  }
+  for (std::size_t k = 0; k < source_left.size(); ++k) pair_firsts(*source_left[k], *target_left[k], pairs);
 }
 
 /// Pairs the atoms of two corresponding residues by name.

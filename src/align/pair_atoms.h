@@ -28,9 +28,9 @@ struct AtomPairing {
 /// Pairs all atoms: same count, names and residues in the same order pair one to one (chain names may differ); else
 /// residues are paired by a global alignment of the sequences, chain by chain (pair_residues.h), and atoms within
 /// paired residues by name. Where the residue is substituted only backbone and C-beta atoms pair: N, H, CA, HA, C, O,
-/// OXT, CB, or phosphate and sugar. Names are compared in one spelling (residue_names.h); hydrogens that two naming
-/// schemes number differently (HB1, HB2 against HB2, HB3) pair in the order of their names. Each atom pairs at most
-/// once.
+/// OXT, CB, or phosphate and sugar. Names are compared in one spelling (residue_names.h). Hydrogens that two naming
+/// schemes number differently (HB1, HB2 against HB2, HB3): equal names first, then the others in order. Each atom pairs
+/// at most once.
 /// @throws InputError that lists what did not match, when fewer than 3 atoms pair
 AtomPairing pair_atoms(const Molecule& source, const Molecule& target);
 

@@ -38,9 +38,10 @@ Eigen::Matrix3d rotation_of(const RigidTransform& transform) {
 
 /// Rotation R with the least sum of |fixed - R moving|^2, from their covariance sum of moving * fixed^T.
 Eigen::Matrix3d best_rotation(const Eigen::Matrix3d& covariance) {
+  if (!covariance.allFinite()) throw GeometryError("the position of a paired atom is not a finite number");
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Vector3d& singular = svd.singularValues();
-  if (!(singular(1) > kCollinear * singular(0))) {  // also when a position is not a number
+  if (!(singular(1) > kCollinear * singular(0))) {
     throw GeometryError(
         "the paired atoms lie on a line or in a point, so that no rotation superposes them best; pair more atoms "
         "(--align all) or use --align none");

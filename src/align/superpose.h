@@ -18,7 +18,9 @@ struct Superposition {
 /// of their covariance, d = +-1 so that R is a rotation (Kabsch, Acta Cryst. A32, 922 (1976); thesis eq. 3.3-3.7 with
 /// errata).
 /// @param pairs (index into moving, index into fixed)
-/// @throws GeometryError with fewer than 3 pairs or when the points lie on a line (the rotation is not determined)
+/// @throws GeometryError with fewer than 3 pairs or when the points lie on a line (the rotation is not determined), or
+/// when a
+///         position is not finite
 Superposition superpose(const std::vector<Vec3d>& moving, const std::vector<Vec3d>& fixed,
                         const std::vector<std::pair<std::size_t, std::size_t>>& pairs);
 

@@ -14,7 +14,8 @@ struct Arguments {
   std::string source, target, output;
   std::string source_map, target_map, source_map_unit, target_map_unit, map_array, potential;
   int source_model = 1, target_model = 1;
-  std::string method = "deform", align = "all", field = "distance", interpolation = "trilinear";
+  std::string method = "deform", align = "all", field = "distance", interpolation = "trilinear", rest_shape = "source";
+  bool thesis = false;
   bool quiet = false;
   StructureOptions structure;
   DeviceArguments device;
@@ -37,29 +38,62 @@ void add_input_options(CLI::App& p, Arguments& a) {
   p.add_option("--align", a.align, "Paired atoms that are superposed; none compares as given")->check(CLI::IsMember({"all", "backbone", "ca", "none"}))->capture_default_str()->group("Molecules");
 }
 
-void add_iteration_options(CLI::App& p, const std::string& prefix, DeformOptions& o, const std::string& group) {
-  p.add_option("--" + prefix + "sigma", o.sigma, "Step scale")->capture_default_str()->group(group);
-  p.add_option("--" + prefix + "mu", o.mu, "Weight of the external against the internal force, 0 to 1")->capture_default_str()->group(group);
-  p.add_option("--" + prefix + "rho", o.rho, "Rigidity against tension, 0 to 1")->capture_default_str()->group(group);
-  p.add_option("--" + prefix + "tangential-gain", o.tangential_gain, "Multiplies the internal force, which moves vertices along the surface; 1 is the thesis' iteration")->capture_default_str()->group(group);
-  p.add_option("--" + prefix + "max-iterations", o.max_iterations, "Iterations at most")->capture_default_str()->group(group);
+/// `prefix` is "" for the mapping and "regularize-" for the regularization.
+void add_iteration_options(CLI::App& p, const std::string& prefix, DeformOptions& o, double& min_displacement, const std::string& group) {
+  const auto add = [&](const char* name, auto& value, const char* help) {
+    p.add_option("--" + prefix + name, value, help)->capture_default_str()->group(group);
+  };
+  add("sigma", o.sigma, "Step scale");
+  add("mu", o.mu, "Weight of the external against the internal force, 0 to 1");
+  add("rho", o.rho, "Rigidity against tension, 0 to 1");
+  add("tangential-gain", o.tangential_gain, "Multiplies the internal force, which moves vertices along the surface");
+  add("max-iterations", o.max_iterations, "Iterations at most");
+  add("min-displacement", min_displacement, "Converged when the mean displacement of an iteration falls below this many grid spacings");
 }
 
 void add_mapping_options(CLI::App& p, Arguments& a) {
   const std::string group = "Mapping";
   p.add_option("--method", a.method, "How the source surface is mapped: deform (morph is not in this version)")->capture_default_str()->group(group);
   p.add_option("--field", a.field, "What draws the surface: density, or the distance where it is far")->capture_default_str()->group(group);
-  p.add_option("--distance-threshold", a.options.distance_threshold_A, "Distance beyond which the distance field draws, Angstrom")->check(CLI::NonNegativeNumber)->capture_default_str()->group(group);
+  p.add_option("--distance-threshold", a.options.distance_threshold_A, "Distance beyond which the distance field draws, Angstrom")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str()
+      ->group(group);
   p.add_option("--interpolation", a.interpolation, "Sampling of the field: trilinear or tricubic")->capture_default_str()->group(group);
-  add_iteration_options(p, "", a.options.deform, group);
-  p.add_option("--min-displacement", a.options.min_displacement_per_spacing, "Converged when the mean displacement of an iteration falls below this many grid spacings")->capture_default_str()->group(group);
-  add_iteration_options(p, "regularize-", a.options.regularize, "Regularization");
+  p.add_option("--rest-shape", a.rest_shape, "What the internal force restores: the source's shape, or none but equal edges")
+      ->check(CLI::IsMember({"source", "none"}))
+      ->capture_default_str()
+      ->group(group);
+  add_iteration_options(p, "", a.options.deform, a.options.deform_min_displacement, group);
+  add_iteration_options(p, "regularize-", a.options.regularize, a.options.regularize_min_displacement, "Regularization");
+  p.add_flag("--thesis", a.thesis,
+             "The thesis' iteration as it stands: tangential gains 1, rest shape none, smallest displacements 0.001, cavities, no projection. "
+             "Options given beside it still count")
+      ->group(group);
 }
 
-void interpret(Arguments& a) {
+/// Takes the thesis' values where the user gave none.
+void apply_thesis(const CLI::App& p, Arguments& a) {
+  const CompareOptions thesis = thesis_options();
+  const auto given = [&](const char* name) { return p.count(name) > 0; };
+  CompareOptions& o = a.options;
+  if (!given("--no-project")) o.surface.project = thesis.surface.project;
+  if (!given("--cavities")) o.surface.cavities = thesis.surface.cavities;
+  if (!given("--tangential-gain")) o.deform.tangential_gain = thesis.deform.tangential_gain;
+  if (!given("--regularize-tangential-gain")) o.regularize.tangential_gain = thesis.regularize.tangential_gain;
+  if (!given("--min-displacement")) o.deform_min_displacement = thesis.deform_min_displacement;
+  if (!given("--regularize-min-displacement")) o.regularize_min_displacement = thesis.regularize_min_displacement;
+  if (!given("--rest-shape")) a.rest_shape = "none";
+}
+
+void interpret(const CLI::App& parser, Arguments& a) {
   if (a.method == "morph") throw InputError("--method morph is not in this version; use deform");
   if (a.method != "deform") throw InputError("unknown method '" + a.method + "'; use deform");
-  if (!a.potential.empty()) throw InputError("--potential " + a.potential + " is not in this version; compute maps with APBS or PMEPot and give --source-map and --target-map");
+  if (!a.potential.empty()) {
+    throw InputError("--potential " + a.potential + " is not in this version; compute maps with APBS or PMEPot and give --source-map and --target-map");
+  }
+  if (a.thesis) apply_thesis(parser, a);
+  a.options.deform.rest_shape = a.rest_shape == "source";
   a.options.align = parse_align_atoms(a.align);
   a.options.field = parse_field_kind(a.field);
   a.options.deform.interpolation = a.options.regularize.interpolation = parse_interpolation(a.interpolation);
@@ -71,8 +105,8 @@ Molecule read_model(const Arguments& a, const std::string& path, int model) {
   return read_structure(path, options);
 }
 
-int run(Arguments& a, const Context& context) {
-  interpret(a);
+int run(const CLI::App& parser, Arguments& a, const Context& context) {
+  interpret(parser, a);
   // An output that cannot be written is better found before the work than after it.
   for (const char* suffix : {".json", ".vtp", ".residues.csv"}) AtomicFile probe(a.output + suffix);
 
@@ -123,7 +157,7 @@ Verb add_compare(CLI::App& app) {
   add_mapping_options(*parser, *arguments);
   add_device_options(*parser, arguments->device);
   parser->add_flag("-q,--quiet", arguments->quiet, "Print no table");
-  return {parser, [arguments](const Context& context) { return run(*arguments, context); }};
+  return {parser, [arguments, parser](const Context& context) { return run(*parser, *arguments, context); }};
 }
 
 }  // namespace espdiff::cli

@@ -53,6 +53,9 @@ struct DeformOptions {
   /// Multiplies the internal force; 1 is the thesis' iteration. That force moves vertices along the surface only, so a larger one
   /// lets them spread into what the surface has been drawn into sooner, and the surface itself no less exact.
   double tangential_gain = 1;
+  /// Measures the internal force from the shape that deform() starts with, so that it resists distortion; else from equal edges
+  /// (the thesis), so that the mesh goes on sliding along the surface even when nothing is to be deformed.
+  bool rest_shape = false;
 };
 
 struct DeformReport {

@@ -17,8 +17,7 @@ bool contains(std::string_view text, std::string_view part) { return text.find(p
 FileKind recognise_binary(std::string_view head) {
   constexpr std::size_t kCcp4MarkAt = 208;
   if (head.size() > kCcp4MarkAt + 4 && head.substr(kCcp4MarkAt, 4) == "MAP ") return FileKind::kCcp4;
-  // A Fortran record of 84 bytes that starts with CORD (or VELD); the record mark has 4 or 8 bytes, in either byte
-  // order.
+  // A Fortran record of 84 bytes that starts with CORD; the record mark has 4 or 8 bytes, in either byte order.
   if (head.size() > 12 && (head.substr(4, 4) == "CORD" || head.substr(8, 4) == "CORD")) return FileKind::kDcd;
   if (starts_with(head, "CDF\x01") || starts_with(head, "CDF\x02")) return FileKind::kNetcdf;
   if (starts_with(head, "\x89HDF")) return FileKind::kHdf5;

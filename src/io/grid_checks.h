@@ -9,12 +9,10 @@
 namespace espdiff {
 
 /// Grid counts from a file.
-/// @throws FormatError at `line` when one is below 2 (nothing can be interpolated) or the product does not fit a 32-bit
-/// int (about 1290 points cubed)
+/// @throws FormatError at `line` when one is below 2 (nothing can be interpolated) or the product is above 2^31 - 1
 std::array<int, 3> check_counts(const std::array<long long, 3>& counts, const std::string& path, long line);
 
-/// @throws FormatError at `line` when origin or steps are not finite, or the steps lie in a plane (relative volume <
-/// 1e-6)
+/// @throws FormatError at `line` when origin or steps are not finite, or the steps lie in one plane
 void check_axes(const Lattice& lattice, const std::string& path, long line);
 
 /// A header that promises more values than its file can hold is wrong, and must not make us allocate.
@@ -23,7 +21,7 @@ void check_axes(const Lattice& lattice, const std::string& path, long line);
 void check_size_promise(std::size_t n_values, std::size_t least_bytes, std::size_t bytes_left, const std::string& path,
                         long line);
 
-/// @throws MemoryError when `n_values` floats cannot be allocated
+/// @throws MemoryError when the lattice's values cannot be allocated
 void allocate_values(Grid& grid);
 
 }  // namespace espdiff

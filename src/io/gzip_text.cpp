@@ -66,8 +66,7 @@ class Inflater {
   Inflater(const Inflater&) = delete;
   Inflater& operator=(const Inflater&) = delete;
 
-  /// Decompresses up to `limit` bytes. `complete` says that `packed` is the whole file, so that its end is a
-  /// truncation.
+  /// Decompresses up to `limit` bytes. `complete`: `packed` is the whole file, so that it must not end early.
   std::string inflate_all(const std::string& packed, std::size_t limit, bool complete) {
     std::string text;
     std::size_t consumed = 0;

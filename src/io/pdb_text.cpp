@@ -20,8 +20,7 @@ std::string_view columns(std::string_view line, std::size_t begin, std::size_t w
   return begin < line.size() ? line.substr(begin, width) : std::string_view();
 }
 
-/// Columns 21 and 22 are a chain name of two characters where the residue is one of those that never have a fourth
-/// letter.
+/// Columns 21 and 22 are a chain name of two characters behind residues whose names never have a fourth letter.
 bool has_long_chain_name(std::string_view line) {
   return line[20] != ' ' && is_standard_residue(std::string(trimmed(line.substr(17, 3))));
 }

@@ -15,8 +15,7 @@ struct CheckedPdb {
   std::vector<AtomLine> lines;  ///< [serial - 1], the original lines
 };
 
-/// The name in columns 18 to 20, with column 21 as its fourth letter (TIP3, POPC) unless the three are a standard
-/// residue.
+/// Columns 18 to 20, and column 21 as the name's fourth letter (TIP3, POPC) unless the three are a standard residue.
 std::string pdb_residue_name(const AtomLine& line);
 
 /// Column 22, with column 21 in front of it when that is not part of the residue's name.

@@ -18,8 +18,7 @@ namespace espdiff {
 Molecule read_pdb(const std::string& path, const AtomModel& model, const StructureOptions& options);
 
 /// Reads one model of an mmCIF file; author's names and numbers, alternate locations as for PDB.
-/// @throws FormatError (syntax, coordinates that are not numbers), InputError (no atoms, columns missing, no such
-/// model)
+/// @throws FormatError (syntax, coordinates that are not numbers), InputError (no atoms, columns or model)
 Molecule read_mmcif(const std::string& path, const std::string& text, const StructureOptions& options);
 
 /// Number of models in an mmCIF file. @throws FormatError, InputError as read_mmcif()

@@ -132,11 +132,22 @@ Attempt read_by_columns(std::string_view line) {
   return {std::move(atom), {}};
 }
 
+/// Five characters are more than names have columns: "HD21AASN A 5" is atom, location and residue run together, and by
+/// blanks looks like residue A without chain; "TIP3W 5" is residue and chain.
+bool has_glued_names(const AtomEntry& entry) {
+  constexpr std::size_t kWidest = 4;
+  return entry.name.size() > kWidest || entry.residue_name.size() > kWidest;
+}
+
 PqrAtom read_atom(const std::string& path, const AtomLine& line) {
   Attempt by_words = read_by_words(line.text);
-  if (by_words.atom) return *std::move(by_words.atom);
+  if (by_words.atom && !has_glued_names(by_words.atom->entry)) return *std::move(by_words.atom);
   Attempt by_columns = read_by_columns(line.text);
+  if (by_words.atom && by_columns.atom && !(by_words.atom->entry.position == by_columns.atom->entry.position)) {
+    return *std::move(by_words.atom);  // a long name in a line that has other columns
+  }
   if (by_columns.atom) return *std::move(by_columns.atom);
+  if (by_words.atom) return *std::move(by_words.atom);
   throw FormatError(
       path, line.number,
       "this PQR line cannot be read: by blanks, " + by_words.problem + "; by columns, " + by_columns.problem +

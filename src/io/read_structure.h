@@ -16,8 +16,7 @@ struct StructureOptions {
 /// Reads one conformation. The format is found from the content: a PQR, PDB or mmCIF under any name, also packed by
 /// gzip, is read as what it is. Atoms keep file order. Alternate locations: the one of highest mean occupancy in the
 /// residue (the first on ties). Models: MODEL records; without them (PDB, PQR) atoms that go on after END are the next
-/// model. Radii: the file's (PQR), else Bondi's by element; charges: the file's, else none. Units: Angstrom, elementary
-/// charges.
+/// model. Radii: the file's (PQR), else Bondi's by element. Charges: the file's, else none. Unit: elementary charge.
 /// @throws IoError (missing, directory, unreadable)
 /// @throws FormatError (with line: bad number, NaN, short record, negative radius)
 /// @throws InputError (no atoms, model out of range, format not read or not supported by this build, with remedy)

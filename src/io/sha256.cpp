@@ -35,12 +35,12 @@ constexpr std::uint32_t root_fraction(unsigned n, int power) {
   return static_cast<std::uint32_t>(root);
 }
 
-/// Root fractions of the first n primes.
-template <std::size_t n>
-constexpr std::array<std::uint32_t, n> prime_root_fractions(int power) {
-  std::array<std::uint32_t, n> fractions{};
+/// Root fractions of the first primes.
+template <std::size_t Size>
+constexpr std::array<std::uint32_t, Size> prime_root_fractions(int power) {
+  std::array<std::uint32_t, Size> fractions{};
   unsigned candidate = 2;
-  for (std::size_t i = 0; i < n; ++candidate) {
+  for (std::size_t i = 0; i < Size; ++candidate) {
     if (is_prime(candidate)) fractions[i++] = root_fraction(candidate, power);
   }
   return fractions;

@@ -51,8 +51,7 @@ class TextCursor {
   /// Next word as an integer. @throws FormatError
   long long next_integer(const char* what);
 
-  /// As next_number(), but returns false when the next word is not a finite number or there is none, and then stays
-  /// put.
+  /// As next_number(), but returns false, and stays put, when there is no next word or it is not a finite number.
   bool try_number(double& value);
 
   /// As try_number(), for grid values: numbers beyond the range of float are refused, those too small become 0.

@@ -28,6 +28,16 @@ Interpolation parse_interpolation(const std::string& text) {
   throw InputError("unknown interpolation '" + text + "'; use trilinear or tricubic");
 }
 
+CompareOptions thesis_options() {
+  CompareOptions options;
+  options.surface.project = false;
+  options.surface.cavities = true;
+  options.regularize.tangential_gain = options.deform.tangential_gain = 1;
+  options.deform.rest_shape = false;
+  options.deform_min_displacement = options.regularize_min_displacement = 1e-3;
+  return options;
+}
+
 namespace {
 
 /// A vertex farther than this from the other surface has no counterpart there.
@@ -121,8 +131,8 @@ Surface build_surface(Engine& engine, const Molecule& molecule, const RigidTrans
   return surface;
 }
 
-DeformOptions with_threshold(DeformOptions deform, const CompareOptions& options) {
-  deform.min_displacement_A = options.min_displacement_per_spacing * options.surface.grid_spacing_A;
+DeformOptions with_threshold(DeformOptions deform, double min_displacement_in_spacings, double spacing_A) {
+  deform.min_displacement_A = min_displacement_in_spacings * spacing_A;
   return deform;
 }
 
@@ -264,16 +274,13 @@ void judge(Certificate& c, const CompareResult& result) {
   c.not_checked = {"self_intersecting_pairs"};
 }
 
-Certificate certify(Engine& engine, const MeshPtr& mapped, const Surface& target, const FitReport& fit, const SurfaceOptions& options,
-                    const MeshPtr& target_reference) {
-  (void)options;
-  (void)target;
+Certificate certify(Engine& engine, const MeshPtr& mapped, const MeshPtr& target, const FitReport& fit) {
   Certificate c;
   c.corrupt_area_fraction = fit.corrupt_area_fraction;
   c.flipped_area_fraction = fit.flipped_area_fraction;
   c.irregularity_A = fit.irregularity_A;
-  c.mapped_to_target = engine.distances(mapped, target_reference, kCounterpartLimit_A);
-  c.target_to_mapped = engine.distances(target_reference, mapped, kCounterpartLimit_A);
+  c.mapped_to_target = engine.distances(mapped, target, kCounterpartLimit_A);
+  c.target_to_mapped = engine.distances(target, mapped, kCounterpartLimit_A);
   c.no_counterpart_source = c.mapped_to_target.area_fraction_beyond_limit;
   c.no_counterpart_target = c.target_to_mapped.area_fraction_beyond_limit;
   return c;
@@ -346,8 +353,10 @@ CompareResult compare(Engine& engine, const CompareInput& source, const CompareI
   const Surface target_surface = build_surface(engine, *target.molecule, frame.from_target, options.surface, progress, clock);
   result.source_surface = source_surface.summary;
   result.target_surface = target_surface.summary;
-  const MeshPtr start = regularize(engine, source_surface, options.surface, with_threshold(options.regularize, options), progress,
-                                   &result.regularize_report);
+  const double spacing = options.surface.grid_spacing_A;
+  const MeshPtr start =
+      regularize(engine, source_surface, options.surface,
+                 with_threshold(options.regularize, options.regularize_min_displacement, spacing), progress, &result.regularize_report);
   clock.lap("regularize");
 
   const float isovalue = static_cast<float>(options.surface.isovalue);
@@ -355,14 +364,14 @@ CompareResult compare(Engine& engine, const CompareInput& source, const CompareI
                              ? engine.density_field(target_surface.density, isovalue)
                              : engine.distance_field(target_surface.density, isovalue, target_surface.mesh, options.distance_threshold_A, progress);
   clock.lap("field");
-  MeshPtr mapped = engine.deform(start, field, with_threshold(options.deform, options), "deform", progress, &result.deform_report);
+  MeshPtr mapped = engine.deform(start, field, with_threshold(options.deform, options.deform_min_displacement, spacing), "deform", progress, &result.deform_report);
   if (options.surface.project) mapped = engine.project(mapped, target_surface.atoms, isovalue, kProjectionShare * options.surface.grid_spacing_A);
   clock.lap("deform");
 
   progress.report("certificate", 0.0);
   const FitReport fit = engine.fit(mapped, target_surface.atoms, isovalue);
   result.area_mapped_A2 = fit.area_A2;
-  result.certificate = certify(engine, mapped, target_surface, fit, options.surface, target_surface.mesh);
+  result.certificate = certify(engine, mapped, target_surface.mesh, fit);
   result.certificate.converged = result.deform_report.converged;
   clock.lap("certificate");
 

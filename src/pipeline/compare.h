@@ -26,18 +26,22 @@ struct SurfaceOptions {
   bool project = true;    ///< move vertices onto the analytic isosurface
 };
 
-/// All parameters of a comparison; defaults are the study's values of the thesis where it has them. Not in the thesis: the
-/// tangential gain (1 would be its iteration) and the projection onto the exact isosurface.
+/// All parameters of a comparison; defaults are the study's values of the thesis where it has them. Not in the thesis: tangential
+/// gains other than 1, the rest shape, the projection onto the exact isosurface, and the mapping's smaller min_displacement.
 struct CompareOptions {
   SurfaceOptions surface;
   AlignAtoms align = AlignAtoms::kAll;
   FieldKind field = FieldKind::kDistance;
   double distance_threshold_A = 0.75;
-  DeformOptions regularize{0.1, 0.5, 0.3, 1e-3, 500, Interpolation::kTrilinear, 1};
-  DeformOptions deform{0.1, 0.75, 0.3, 1e-3, 3000, Interpolation::kTrilinear, 8};
-  double min_displacement_per_spacing = 1e-3;  ///< sets min_displacement_A of both: times the grid spacing
-  double temperature_K = 300;                  ///< for converting between kT/e and other units
+  DeformOptions regularize{0.1, 0.5, 0.3, 1e-3, 500, Interpolation::kTrilinear, 4, false};
+  DeformOptions deform{0.1, 0.75, 0.3, 1e-3, 3000, Interpolation::kTrilinear, 8, true};
+  /// In grid spacings; they set min_displacement_A. The thesis' 1e-3 lets the mapping end while a few vertices still travel.
+  double regularize_min_displacement = 1e-3, deform_min_displacement = 5e-4;
+  double temperature_K = 300;  ///< for converting between kT/e and other units
 };
+
+/// The thesis' iteration as it stands, for comparing with its results.
+CompareOptions thesis_options();
 
 struct SurfaceSummary {
   std::size_t n_vertices = 0;

@@ -95,11 +95,12 @@ Json iteration_options(const DeformOptions& o, double min_displacement_A) {
           {"rho", o.rho},
           {"max_iterations", o.max_iterations},
           {"min_displacement_A", min_displacement_A},
-          {"interpolation", name_of(o.interpolation)}};
+          {"interpolation", name_of(o.interpolation)},
+          {"tangential_gain", o.tangential_gain},
+          {"rest_shape", o.rest_shape}};
 }
 
 Json echo(const CompareOptions& o) {
-  const double min_displacement_A = o.min_displacement_per_spacing * o.surface.grid_spacing_A;
   Json json;
   json["method"] = "deform";
   json["align"] = to_string(o.align);
@@ -110,10 +111,9 @@ Json echo(const CompareOptions& o) {
   json["project"] = o.surface.project;
   json["field"] = name_of(o.field);
   json["distance_threshold_A"] = o.distance_threshold_A;
-  json["min_displacement_per_spacing"] = o.min_displacement_per_spacing;
   json["temperature_K"] = o.temperature_K;
-  json["regularize"] = iteration_options(o.regularize, min_displacement_A);
-  json["deform"] = iteration_options(o.deform, min_displacement_A);
+  json["regularize"] = iteration_options(o.regularize, o.regularize_min_displacement * o.surface.grid_spacing_A);
+  json["deform"] = iteration_options(o.deform, o.deform_min_displacement * o.surface.grid_spacing_A);
   return json;
 }
 

@@ -14,9 +14,9 @@ using namespace espdiff;
 namespace {
 
 Sequence encode(const std::string& letters) {
-  static const std::string kOrder = "ARNDCQEGHILKMFPSTWYV";
+  static const std::string order = "ARNDCQEGHILKMFPSTWYV";
   Sequence sequence;
-  for (const char letter : letters) sequence.push_back(static_cast<ResidueCode>(kOrder.find(letter)));
+  for (const char letter : letters) sequence.push_back(static_cast<ResidueCode>(order.find(letter)));
   return sequence;
 }
 

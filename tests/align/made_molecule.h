@@ -29,12 +29,12 @@ struct MadeMolecule {
 
   /// One residue for each letter (one-letter amino acids), with backbone and C-beta, numbered from `first`.
   void peptide(const std::string& chain, int first, const std::string& letters) {
-    static const std::pair<char, const char*> kNames[] = {
+    static const std::pair<char, const char*> names[] = {
         {'A', "ALA"}, {'R', "ARG"}, {'N', "ASN"}, {'D', "ASP"}, {'C', "CYS"}, {'Q', "GLN"}, {'E', "GLU"},
         {'G', "GLY"}, {'H', "HIS"}, {'I', "ILE"}, {'L', "LEU"}, {'K', "LYS"}, {'M', "MET"}, {'F', "PHE"},
         {'P', "PRO"}, {'S', "SER"}, {'T', "THR"}, {'W', "TRP"}, {'Y', "TYR"}, {'V', "VAL"}};
     for (const char letter : letters) {
-      for (const auto& [code, name] : kNames) {
+      for (const auto& [code, name] : names) {
         if (code == letter) residue(chain, first, name, {"N", "CA", "C", "O", "CB"});
       }
       ++first;

@@ -86,6 +86,21 @@ TEST_CASE("read_pqr: columns that run together are read by PDB's columns") {
   CHECK(m.radii[2] == 10.2245F);
 }
 
+TEST_CASE("read_pqr: names that run together do not shift the fields") {
+  const Molecule m = read(
+      "ATOM   3777 HD21AASN A 248     105.096  37.745  54.659  0.3200 0.2245\n"
+      "ATOM   3778  P   POPCM   7       1.000   2.000   3.000  0.3200 0.2245\n"
+      "ATOM 3779 LONGNAME LIGAND 9 1 2 3 0 1\n");
+  REQUIRE(m.size() == 3);
+  CHECK(m.atoms[0].name == "HD21");
+  CHECK(m.residues[0].name == "ASN");
+  CHECK(m.residues[0].chain == "A");
+  CHECK(m.residues[1].name == "POPC");
+  CHECK(m.residues[1].chain == "M");
+  CHECK(m.atoms[2].name == "LONGNAME");
+  CHECK(m.residues[2].name == "LIGAND");
+}
+
 TEST_CASE("read_pqr: a glued serial number in free format") {
   const Molecule m = read("HETATM10000 C ALA 1 1 2 3 0.5 1.5\n");
   CHECK(m.positions[0] == Vec3d{1, 2, 3});

@@ -164,7 +164,10 @@ TEST_CASE("OUT.json echoes all options under their names") {
   CHECK(json["deform"]["interpolation"] == "tricubic");
   CHECK(json["regularize"]["interpolation"] == "trilinear");
   CHECK(json["deform"]["mu"] == 0.75);
-  CHECK(json["deform"]["min_displacement_A"] == 0.0005);  // what takes effect: per spacing
+  CHECK(json["deform"]["min_displacement_A"] == 0.00025);      // what takes effect: 5e-4 spacings
+  CHECK(json["regularize"]["min_displacement_A"] == 0.0005);  // 1e-3 spacings
+  CHECK(json["deform"]["rest_shape"] == true);
+  CHECK(json["deform"]["tangential_gain"] == 8);
   for (const char* key :
        {"method", "radius_scale", "isovalue", "cavities", "project", "distance_threshold_A", "temperature_K"}) {
     CHECK_MESSAGE(json.contains(key), key);

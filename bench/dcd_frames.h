@@ -1,0 +1,25 @@
+// dcd_frames.h: frames of a trajectory from PSF and DCD files; test input for the benchmarks only, not a reader of
+// espdiff.
+#pragma once
+
+#include <string>
+
+#include "base/types.h"
+
+namespace espdiff_bench {
+
+/// Atoms, residues and charges of a CHARMM, X-PLOR or NAMD PSF file. Radii by element, the element from the mass where
+/// it tells (H, C, N, O, P, S), else from the name. Positions are all zero.
+/// @throws IoError, FormatError
+espdiff::Molecule read_psf(const std::string& path);
+
+/// The molecule with the positions of one frame, in Angstrom.
+///
+/// Reads little-endian DCD files with 4-byte record marks, with or without unit cell and fourth coordinate. The number
+/// of frames is taken from the file's length: the header's is often wrong.
+/// @param frame from 0
+/// @throws IoError; FormatError for anything else than the above, another number of atoms, or a truncated frame;
+///         InputError for a frame that the file does not have
+espdiff::Molecule read_frame(const espdiff::Molecule& psf, const std::string& dcd_path, std::size_t frame);
+
+}  // namespace espdiff_bench

@@ -1,0 +1,46 @@
+// pair_row.h: what one comparison reached, as a row of a table and as a line of a CSV file.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pipeline/compare.h"
+#include "real_pairs.h"
+
+namespace espdiff_bench {
+
+struct PairRow {
+  std::string name;
+  double rmsd_A = 0, n_vertices = 0, regularize_iterations = 0, deform_iterations = 0;
+  bool converged = false;
+  double corrupt_percent = 0, flipped_percent = 0;
+  double mapped_to_target_mean_A = 0, mapped_to_target_p95_A = 0, mapped_to_target_max_A = 0;
+  double target_to_mapped_mean_A = 0, target_to_mapped_max_A = 0;
+  double no_counterpart_source_percent = 0, no_counterpart_target_percent = 0;
+  double cavities_left_out = 0;                         ///< of both sides
+  std::vector<std::pair<std::string, double>> time_ms;  ///< stage, in order, and last "total"
+  std::optional<PrototypeRow> prototype;
+
+  double time_of(const std::string& stage) const;  ///< NaN where there is no such stage
+};
+
+PairRow make_row(const std::string& name, const espdiff::CompareResult& result);
+
+double median(std::vector<double> values);
+
+enum class Summary { kMedian, kWorst };
+/// Medians of each column, or the value of each column that is worst. Times have no stages but the total.
+PairRow summarize(const std::vector<PairRow>& rows, Summary summary);
+
+/// "", or which of the prototype's figures (corrupt area, coverage) the row misses and by how much; half of the last
+/// digit that they were written with counts as reached.
+std::string missed(const PairRow& row);
+
+void print_heading();
+void print_row(const PairRow& row);
+std::string csv_header();
+std::string csv_line(const PairRow& row, const std::string& field, int n_threads);
+
+}  // namespace espdiff_bench

@@ -1,0 +1,46 @@
+// real_pairs.h: the pairs of real structures that the mapping is judged by, with what is known of each.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/types.h"
+
+namespace espdiff_bench {
+
+/// The row of the throwaway prototype's `deform` (density field, 1 A grid, radius scale 1) for one pair, from the table
+/// "Where a throwaway prototype stood" of the project's figures to beat (BARS.md). For a group of pairs: medians.
+struct PrototypeRow {
+  double rmsd_A = 0;
+  double n_vertices = 0;  ///< 0 where not given
+  double corrupt_percent = 0;
+  double coverage_max_A = 0;  ///< largest distance from the target's vertices to the mapped surface
+};
+
+using MoleculePair = std::pair<espdiff::Molecule, espdiff::Molecule>;
+
+struct RealPair {
+  std::string name;
+  std::string group;               ///< pairs of one group are summed up in one row; empty for a row of its own
+  std::vector<std::string> files;  ///< what load() reads
+  std::function<MoleculePair()> load;
+  std::optional<PrototypeRow> prototype;
+};
+
+/// What the prototype reached on the group "series19"; the second member is the worst of its 32 pairs.
+std::pair<PrototypeRow, PrototypeRow> series19_prototype();
+
+/// $ESPDIFF_DATA, else shared/data beside the checkout; empty when neither exists.
+std::string data_folder();
+
+/// All pairs, whether their files exist or not. Files are looked for in data_folder() and where Debian's apbs-data and
+/// freesasa put them.
+std::vector<RealPair> real_pairs();
+
+/// The first file of the pair that does not exist; empty when all do.
+std::string missing_file(const RealPair& pair);
+
+}  // namespace espdiff_bench

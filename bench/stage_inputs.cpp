@@ -1,0 +1,93 @@
+// stage_inputs.cpp: makes the inputs of the stages.
+#include "stage_inputs.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include "cuda/mesh_checks.h"
+#include "engine/select_engine.h"
+#include "io/read_structure.h"
+#include "real_pairs.h"
+#include "synthetic_protein.h"
+
+namespace espdiff_bench {
+namespace {
+
+using espdiff::Vec3d;
+
+void centre(espdiff::Molecule& molecule) {
+  Vec3d sum{};
+  for (const Vec3d& p : molecule.positions) sum += p;
+  const Vec3d centroid = (1.0 / static_cast<double>(molecule.size())) * sum;
+  for (Vec3d& p : molecule.positions) p = p - centroid;
+}
+
+Side make_side(espdiff::Engine& engine, const espdiff::Molecule& molecule, const StageInputs& inputs) {
+  Side side;
+  side.molecule = molecule;
+  for (std::size_t i = 0; i < molecule.size(); ++i) {
+    side.widths.push_back(static_cast<float>(inputs.options.surface.radius_scale) * molecule.radii[i]);
+    side.residues.push_back(molecule.atoms[i].residue);
+  }
+  side.atoms = engine.upload_atoms(molecule.positions, side.widths, side.residues);
+  side.density = engine.density(side.atoms, inputs.spacing_A());
+  side.raw = engine.isosurface(side.density, inputs.isovalue());
+  std::vector<bool> keep;
+  for (const espdiff::ComponentSummary& component : engine.components(side.raw))
+    keep.push_back(component.volume_A3 > 0);
+  side.surface = engine.project(engine.keep_components(side.raw, keep), side.atoms, inputs.isovalue(),
+                                inputs.projection_limit_A());
+  return side;
+}
+
+}  // namespace
+
+std::vector<Case> cases() {
+  std::vector<Case> all{{"1k", 1000, "", 0},    {"5k", 5000, "", 0},      {"20k", 20000, "", 10.7},
+                        {"50k", 50000, "", 38}, {"100k", 100000, "", 77}, {"123k", 123000, "", 0}};
+  const std::string file = data_folder() + "/ref_apbs/1tca.pqr";
+  if (std::filesystem::exists(file)) all.push_back({"1tca", 0, file, 4.3});
+  return all;
+}
+
+StageInputs::StageInputs(const Case& of, int n_threads)
+    : engine(espdiff::select_engine(espdiff::DeviceChoice::kCpu, n_threads)) {
+  constexpr double kDisplacement_A = 0.5;
+  const espdiff::Progress silent;
+  espdiff::Molecule molecule = of.n_atoms > 0 ? synthetic_protein(of.n_atoms) : espdiff::read_structure(of.file);
+  centre(molecule);
+  source = make_side(*engine, molecule, *this);
+  target = make_side(*engine, displaced_smoothly(molecule, kDisplacement_A), *this);
+  const espdiff::Mesh raw = engine->download(source.raw);
+  fault = espdiff_test::manifold_fault(raw);
+  n_components = engine->components(source.raw).size();
+  own_field = engine->density_field(source.density, isovalue());
+  target_density_field = engine->density_field(target.density, isovalue());
+  target_distance_field =
+      engine->distance_field(target.density, isovalue(), target.surface, options.distance_threshold_A, silent);
+  espdiff::DeformReport report;
+  start = engine->project(engine->deform(source.surface, own_field, options.regularize, "regularize", silent, &report),
+                          source.atoms, isovalue(), projection_limit_A());
+  mapped = engine->project(engine->deform(start, target_distance_field, options.deform, "deform", silent, &report),
+                           target.atoms, isovalue(), projection_limit_A());
+  map = smooth_map(molecule);
+#if defined(ESPDIFF_HAVE_VTK)
+  const espdiff::Grid density = engine->download(source.density);
+  marching_cubes = vtk_marching_cubes(density, isovalue());
+  flying_edges = vtk_flying_edges(density, isovalue());
+#endif
+}
+
+const StageInputs& stage_inputs(const Case& of, int n_threads) {
+  static std::unique_ptr<StageInputs> last;
+  static std::string last_key;
+  const std::string key = of.name + "/" + std::to_string(n_threads);
+  if (key != last_key) {
+    last.reset();  // two of the largest would take twice the memory
+    last = std::make_unique<StageInputs>(of, n_threads);
+    last_key = key;
+  }
+  return *last;
+}
+
+}  // namespace espdiff_bench

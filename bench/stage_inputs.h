@@ -1,0 +1,60 @@
+// stage_inputs.h: what the stages are timed on: one molecule and its displaced copy, taken through the pipeline once.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/types.h"
+#include "engine/engine.h"
+#include "marching_cubes_peer.h"
+#include "pipeline/compare.h"
+
+namespace espdiff_bench {
+
+/// A molecule to benchmark with.
+struct Case {
+  std::string name;         ///< "20k", "1tca"
+  std::size_t n_atoms = 0;  ///< of a generated molecule; 0 reads the file
+  std::string file;
+  double quicksurf_ms = 0;  ///< bar of density and isosurface at 1 A on one thread (BARS.md); 0 where there is none
+};
+
+/// The generated sizes, and the real 1tca.pqr when it is there.
+std::vector<Case> cases();
+
+/// One side of a pair on the engine, in the frame of the molecule's centroid.
+struct Side {
+  espdiff::Molecule molecule;
+  std::vector<float> widths;
+  std::vector<std::int32_t> residues;
+  espdiff::AtomsPtr atoms;
+  espdiff::GridPtr density;
+  espdiff::MeshPtr raw;      ///< isosurface as it comes from the grid, cavities included
+  espdiff::MeshPtr surface;  ///< projected, without cavities, as the pipeline uses it
+};
+
+/// All inputs of the stages for one case and number of threads, made with the pipeline's default options.
+struct StageInputs {
+  StageInputs(const Case& of, int n_threads);
+
+  std::unique_ptr<espdiff::Engine> engine;
+  espdiff::CompareOptions options;
+  Side source, target;  ///< the target is the source displaced smoothly by 0.5 A
+  espdiff::FieldPtr own_field, target_density_field, target_distance_field;
+  espdiff::MeshPtr start;   ///< regularized source
+  espdiff::MeshPtr mapped;  ///< deformed onto the target by the default field
+  espdiff::Grid map;
+  std::string fault;  ///< of the raw surface as a closed manifold; empty for none
+  std::size_t n_components = 0;
+  PeerSurface marching_cubes, flying_edges;  ///< of the same density; zero without VTK
+
+  float isovalue() const { return static_cast<float>(options.surface.isovalue); }
+  double spacing_A() const { return options.surface.grid_spacing_A; }
+  double projection_limit_A() const { return 0.5 * spacing_A(); }
+};
+
+/// The inputs of a case; the last ones are kept, so that stages of one case share them.
+const StageInputs& stage_inputs(const Case& of, int n_threads);
+
+}  // namespace espdiff_bench

@@ -1,0 +1,298 @@
+// stages.cpp: times every stage of the pipeline and the whole of it, and prints beside each time how good its result
+// is.
+#include <benchmark/benchmark.h>
+
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/version.h"
+#include "stage_inputs.h"
+
+namespace {
+
+using benchmark::State;
+using espdiff::DeformOptions;
+using espdiff::MeshPtr;
+using espdiff_bench::Case;
+using espdiff_bench::StageInputs;
+
+const espdiff::Progress kSilent;
+
+/// One benchmark: called with the inputs of a case; loops over `state`.
+struct Stage {
+  std::string name;
+  std::function<void(State&, const StageInputs&)> run;
+  bool slow = false;  ///< seconds rather than milliseconds: fewer repetitions
+  bool manual_time = false;
+};
+
+void count_mesh(State& state, const StageInputs& in, const MeshPtr& mesh) {
+  state.counters["vertices"] = static_cast<double>(in.engine->n_vertices(mesh));
+  state.counters["triangles"] = static_cast<double>(in.engine->n_triangles(mesh));
+}
+
+void count_fit(State& state, const espdiff::FitReport& fit) {
+  state.counters["corrupt_percent"] = 100 * fit.corrupt_area_fraction;
+  state.counters["flipped_percent"] = 100 * fit.flipped_area_fraction;
+}
+
+void density(State& state, const StageInputs& in) {
+  espdiff::GridPtr grid;
+  for (auto _ : state) grid = in.engine->density(in.source.atoms, in.spacing_A());
+  state.counters["lattice_points"] = static_cast<double>(in.engine->download(grid).values.size());
+}
+
+void upload_atoms(State& state, const StageInputs& in) {
+  for (auto _ : state)
+    benchmark::DoNotOptimize(
+        in.engine->upload_atoms(in.source.molecule.positions, in.source.widths, in.source.residues));
+  state.counters["atoms"] = static_cast<double>(in.source.molecule.size());
+}
+
+void count_surface(State& state, const StageInputs& in) {
+  count_mesh(state, in, in.source.raw);
+  state.counters["components"] = static_cast<double>(in.n_components);
+  state.counters["closed_manifold"] = in.fault.empty() ? 1 : 0;
+  if (in.marching_cubes.n_triangles == 0) return;
+  state.counters["marching_cubes_triangles"] = static_cast<double>(in.marching_cubes.n_triangles);
+  state.counters["marching_cubes_ms"] = in.marching_cubes.ms;
+  state.counters["flying_edges_ms"] = in.flying_edges.ms;
+}
+
+void isosurface(State& state, const StageInputs& in) {
+  for (auto _ : state) benchmark::DoNotOptimize(in.engine->isosurface(in.source.density, in.isovalue()));
+  count_surface(state, in);
+}
+
+/// From atoms to triangles, the sorting of the atoms included: what a peer's surface has to be set against. The bar is
+/// the peer's time, times our triangles over those of marching cubes on the same grid.
+void density_and_isosurface(State& state, const StageInputs& in, double quicksurf_ms) {
+  for (auto _ : state) {
+    const auto atoms = in.engine->upload_atoms(in.source.molecule.positions, in.source.widths, in.source.residues);
+    benchmark::DoNotOptimize(in.engine->isosurface(in.engine->density(atoms, in.spacing_A()), in.isovalue()));
+  }
+  count_surface(state, in);
+  if (in.marching_cubes.n_triangles == 0) return;
+  const double ratio =
+      static_cast<double>(in.engine->n_triangles(in.source.raw)) / static_cast<double>(in.marching_cubes.n_triangles);
+  state.counters["triangle_ratio"] = ratio;
+  if (quicksurf_ms > 0 && in.engine->n_threads() == 1) state.counters["bar_ms"] = quicksurf_ms * ratio;
+}
+
+void components(State& state, const StageInputs& in) {
+  for (auto _ : state) benchmark::DoNotOptimize(in.engine->components(in.source.raw));
+  state.counters["components"] = static_cast<double>(in.n_components);
+}
+
+void project(State& state, const StageInputs& in) {
+  MeshPtr mesh;
+  for (auto _ : state)
+    mesh = in.engine->project(in.source.raw, in.source.atoms, in.isovalue(), in.projection_limit_A());
+  count_mesh(state, in, mesh);
+  count_fit(state, in.engine->fit(mesh, in.source.atoms, in.isovalue()));
+}
+
+void density_field(State& state, const StageInputs& in) {
+  for (auto _ : state) benchmark::DoNotOptimize(in.engine->density_field(in.target.density, in.isovalue()));
+}
+
+void distance_field(State& state, const StageInputs& in) {
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(in.engine->distance_field(in.target.density, in.isovalue(), in.target.surface,
+                                                       in.options.distance_threshold_A, kSilent));
+  }
+}
+
+/// The mean time of an iteration over a run of many, as the whole is run.
+void per_iteration(State& state, const StageInputs& in, const MeshPtr& mesh, const espdiff::FieldPtr& field,
+                   DeformOptions options) {
+  constexpr int kIterations = 50;
+  options.max_iterations = kIterations;
+  options.min_displacement_A = 0;
+  espdiff::DeformReport report;
+  for (auto _ : state) {
+    const auto start = std::chrono::steady_clock::now();
+    benchmark::DoNotOptimize(in.engine->deform(mesh, field, options, "deform", kSilent, &report));
+    state.SetIterationTime(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() /
+                           kIterations);
+  }
+  count_mesh(state, in, mesh);
+}
+
+void count_report(State& state, const espdiff::DeformReport& report) {
+  state.counters["iterations"] = report.iterations;
+  state.counters["converged"] = report.converged ? 1 : 0;
+}
+
+void regularize(State& state, const StageInputs& in) {
+  espdiff::DeformReport report;
+  MeshPtr mesh;
+  for (auto _ : state)
+    mesh = in.engine->deform(in.source.surface, in.own_field, in.options.regularize, "regularize", kSilent, &report);
+  count_mesh(state, in, mesh);
+  count_report(state, report);
+  const espdiff::FitReport fit = in.engine->fit(mesh, in.source.atoms, in.isovalue());
+  count_fit(state, fit);
+  state.counters["irregularity_A"] = fit.irregularity_A;
+}
+
+void deform(State& state, const StageInputs& in, const espdiff::FieldPtr& field) {
+  espdiff::DeformReport report;
+  MeshPtr mesh;
+  for (auto _ : state) mesh = in.engine->deform(in.start, field, in.options.deform, "deform", kSilent, &report);
+  count_mesh(state, in, mesh);
+  count_report(state, report);
+  count_fit(state, in.engine->fit(mesh, in.target.atoms, in.isovalue()));
+  state.counters["mean_distance_A"] = in.engine->distances(mesh, in.target.surface, 1.0).mean;
+}
+
+void fit(State& state, const StageInputs& in) {
+  espdiff::FitReport report;
+  for (auto _ : state) report = in.engine->fit(in.mapped, in.target.atoms, in.isovalue());
+  count_fit(state, report);
+}
+
+/// Both directions, as the certificate takes them.
+void distances(State& state, const StageInputs& in) {
+  espdiff::DistanceSummary there, back;
+  for (auto _ : state) {
+    there = in.engine->distances(in.mapped, in.target.surface, 1.0);
+    back = in.engine->distances(in.target.surface, in.mapped, 1.0);
+  }
+  state.counters["mean_distance_A"] = there.mean;
+  state.counters["mean_distance_back_A"] = back.mean;
+  state.counters["max_distance_back_A"] = back.max;
+}
+
+/// Sampling of both potentials and their comparison; the maps are on the device already.
+void sample_and_metrics(State& state, const StageInputs& in) {
+  const auto map = in.engine->upload_map(in.map, espdiff::RigidTransform{});
+  const auto corrupt = in.engine->fit(in.mapped, in.target.atoms, in.isovalue()).corrupt;
+  espdiff::Metrics metrics;
+  for (auto _ : state) {
+    metrics = in.engine->compare(in.start, in.mapped, in.engine->sample(map, in.start),
+                                 in.engine->sample(map, in.mapped), corrupt);
+  }
+  state.counters["mean_displacement_A"] = metrics.mean_displacement_A;
+  state.counters["area_A2"] = metrics.area_A2;
+}
+
+void vertex_residues(State& state, const StageInputs& in) {
+  for (auto _ : state) benchmark::DoNotOptimize(in.engine->vertex_residues(in.start, in.source.atoms));
+}
+
+/// Everything from atoms and maps to metrics and certificate, with the pipeline's default options.
+void compare(State& state, const StageInputs& in) {
+  espdiff::CompareResult result;
+  for (auto _ : state) {
+    result = espdiff::compare(*in.engine, {&in.source.molecule, &in.map}, {&in.target.molecule, &in.map}, in.options,
+                              kSilent);
+  }
+  const espdiff::Certificate& c = result.certificate;
+  state.counters["vertices"] = static_cast<double>(result.surface.positions.size());
+  state.counters["rmsd_A"] = result.rmsd_A;
+  state.counters["corrupt_percent"] = 100 * c.corrupt_area_fraction;
+  state.counters["flipped_percent"] = 100 * c.flipped_area_fraction;
+  state.counters["mean_distance_A"] = c.mapped_to_target.mean;
+  state.counters["mean_distance_back_A"] = c.target_to_mapped.mean;
+  state.counters["iterations"] = result.deform_report.iterations;
+  state.counters["regularize_iterations"] = result.regularize_report.iterations;
+  state.counters["converged"] = c.converged ? 1 : 0;
+  for (const auto& [stage, ms] : result.time_ms) state.counters["ms_" + stage] = ms;
+}
+
+/// In the order of the data flow.
+std::vector<Stage> stages(double quicksurf_ms) {
+  const auto tricubic = [](DeformOptions options) {
+    options.interpolation = espdiff::Interpolation::kTricubic;
+    return options;
+  };
+  return {
+      {"upload_atoms", upload_atoms},
+      {"density", density},
+      {"isosurface", isosurface},
+      {"density_and_isosurface", [=](State& s, const StageInputs& in) { density_and_isosurface(s, in, quicksurf_ms); }},
+      {"components", components},
+      {"project", project},
+      {"density_field", density_field},
+      {"distance_field", distance_field},
+      {"regularize_iteration",
+       [](State& s, const StageInputs& in) {
+         per_iteration(s, in, in.source.surface, in.own_field, in.options.regularize);
+       },
+       false, true},
+      {"regularize", regularize, true},
+      {"deform_iteration",
+       [](State& s, const StageInputs& in) {
+         per_iteration(s, in, in.start, in.target_distance_field, in.options.deform);
+       },
+       false, true},
+      {"deform_iteration_tricubic",
+       [=](State& s, const StageInputs& in) {
+         per_iteration(s, in, in.start, in.target_distance_field, tricubic(in.options.deform));
+       },
+       false, true},
+      {"deform_density_field", [](State& s, const StageInputs& in) { deform(s, in, in.target_density_field); }, true},
+      {"deform_distance_field", [](State& s, const StageInputs& in) { deform(s, in, in.target_distance_field); }, true},
+      {"fit", fit},
+      {"distances", distances},
+      {"sample_and_metrics", sample_and_metrics},
+      {"vertex_residues", vertex_residues},
+      {"compare", compare, true},
+  };
+}
+
+void register_benchmarks() {
+  constexpr int kRepetitions = 5, kSlowRepetitions = 3;
+  for (const Case& of : espdiff_bench::cases()) {
+    for (const int n_threads : {1, 2}) {
+      for (const Stage& stage : stages(of.quicksurf_ms)) {
+        const auto run = [=](State& state) {
+          try {
+            stage.run(state, espdiff_bench::stage_inputs(of, n_threads));
+          } catch (const std::exception& error) {
+            state.SkipWithError(error.what());
+          }
+        };
+        const std::string name = stage.name + "/" + of.name + "/threads:" + std::to_string(n_threads);
+        auto* registered = benchmark::RegisterBenchmark(name.c_str(), run)->Unit(benchmark::kMillisecond);
+        registered->Repetitions(stage.slow ? kSlowRepetitions : kRepetitions)->ReportAggregatesOnly(true);
+        if (stage.slow)
+          registered->Iterations(1);
+        else
+          registered->MinTime(0.1);
+        if (stage.manual_time)
+          registered->UseManualTime();
+        else
+          registered->UseRealTime();
+      }
+    }
+  }
+}
+
+std::string cpu_model() {
+  std::ifstream in("/proc/cpuinfo");
+  std::string line;
+  while (std::getline(in, line)) {
+    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+  }
+  return "unknown";
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::AddCustomContext("cpu_model", cpu_model());
+  benchmark::AddCustomContext("espdiff_version", espdiff::kVersion);
+  register_benchmarks();
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  return 0;
+}

@@ -1,0 +1,93 @@
+// layers.cpp: no room includes what it may not know: reads every include of src/ and cuda/.
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <string>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Rooms = std::map<std::string, std::set<std::string>>;
+
+/// What each room may include besides itself. Nobody looks up.
+const Rooms kAllowed = {
+    {"base", {}},
+    {"io", {"base"}},
+    {"align", {"base"}},
+    {"engine", {"base"}},
+    {"cuda", {"base", "engine"}},
+    {"pipeline", {"base", "align", "engine", "io"}},
+    {"view", {"base", "io"}},
+    {"cli", {"base", "align", "engine", "io", "pipeline", "view"}},
+};
+
+std::string quoted_include(const std::string& line) {
+  const std::string start = "#include \"";
+  if (line.compare(0, start.size(), start) != 0) return "";
+  return line.substr(start.size(), line.find('"', start.size()) - start.size());
+}
+
+/// Checks one file; returns how many includes of other rooms it has.
+int check_file(const fs::path& file, const std::string& room) {
+  std::ifstream in(file);
+  int n = 0;
+  for (std::string line; std::getline(in, line);) {
+    const std::string include = quoted_include(line);
+    const std::size_t slash = include.find('/');
+    if (slash == std::string::npos) continue;  // a file of the same folder
+    const std::string other = include.substr(0, slash);
+    if (other == room) continue;
+    ++n;
+    INFO(file.string(), " includes ", include);
+    CHECK(kAllowed.at(room).count(other) == 1);
+  }
+  return n;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("layers");
+
+TEST_CASE("rooms include only rooms below them") {
+  const fs::path root = ESPDIFF_SOURCE_DIR;
+  int n_files = 0, n_includes = 0;
+  for (const auto& [room, allowed] : kAllowed) {
+    const fs::path folder = room == "cuda" ? root / "cuda" : root / "src" / room;
+    if (!fs::is_directory(folder)) continue;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+      const std::string extension = entry.path().extension().string();
+      if (extension != ".h" && extension != ".cpp" && extension != ".cu") continue;
+      ++n_files;
+      n_includes += check_file(entry.path(), room);
+    }
+  }
+  CHECK(n_files > 40);
+  CHECK(n_includes > 40);
+}
+
+TEST_CASE("every folder of src has its rule") {
+  for (const auto& entry : fs::directory_iterator(fs::path(ESPDIFF_SOURCE_DIR) / "src")) {
+    if (!entry.is_directory()) continue;
+    INFO(entry.path().string());
+    CHECK(kAllowed.count(entry.path().filename().string()) == 1);
+  }
+}
+
+TEST_CASE("every source file says in its first line what it is for") {
+  for (const char* folder : {"src", "cuda"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(ESPDIFF_SOURCE_DIR) / folder)) {
+      const std::string extension = entry.path().extension().string();
+      if (extension != ".h" && extension != ".cpp" && extension != ".cu") continue;
+      std::ifstream in(entry.path());
+      std::string line;
+      std::getline(in, line);
+      INFO(entry.path().string());
+      CHECK(line.find("// " + entry.path().filename().string() + ": ") == 0);
+    }
+  }
+}
+
+TEST_SUITE_END();

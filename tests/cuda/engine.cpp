@@ -1,0 +1,89 @@
+// engine.cpp: choosing a back end, and what it says of itself; handles that do not fit a stage.
+#include <doctest/doctest.h>
+
+#include <memory>
+
+#include "base/error.h"
+#include "cuda/shapes.h"
+
+using namespace espdiff_test;
+using espdiff::DeviceChoice;
+
+TEST_SUITE_BEGIN("engine");
+
+TEST_CASE("the CPU back end is always there and has the threads asked for") {
+  CHECK(espdiff::cpu_status().available);
+  CHECK(espdiff::cpu_status().name == "cpu");
+  for (const int n : {1, 2, 4}) {
+    const auto engine = espdiff::select_engine(DeviceChoice::kCpu, n);
+    CHECK(engine->back_end() == "cpu");
+    CHECK(engine->n_threads() == n);
+    CHECK(engine->description().find(std::to_string(n)) == 0);
+  }
+  CHECK(espdiff::select_engine(DeviceChoice::kCpu, 0)->n_threads() >= 1);
+}
+
+TEST_CASE("auto takes the device where there is one; an explicit cuda without one is an error with a remedy") {
+  const espdiff::BackEndStatus cuda = espdiff::cuda_status();
+  CHECK(cuda.name == "cuda");
+  CHECK(espdiff::select_engine(DeviceChoice::kAuto, 1)->back_end() == (cuda.available ? "cuda" : "cpu"));
+  if (cuda.available) {
+    const auto engine = espdiff::select_engine(DeviceChoice::kCuda, 3);
+    CHECK(engine->n_threads() == 0);
+    CHECK(engine->description().find(cuda.description) == 0);
+  } else {
+    CHECK_THROWS_AS(espdiff::select_engine(DeviceChoice::kCuda, 0), espdiff::DeviceError);
+    const std::string text = message_of([] { espdiff::select_engine(DeviceChoice::kCuda, 0); });
+    CHECK(text == "--device cuda: " + cuda.description);
+    CHECK(text.find("--device cpu") != std::string::npos);
+  }
+}
+
+TEST_CASE("device names and thread counts that do not exist are refused") {
+  CHECK(espdiff::parse_device_choice("auto") == DeviceChoice::kAuto);
+  CHECK(espdiff::parse_device_choice("cpu") == DeviceChoice::kCpu);
+  CHECK(espdiff::parse_device_choice("cuda") == DeviceChoice::kCuda);
+  CHECK_THROWS_AS(espdiff::parse_device_choice("CPU"), espdiff::InputError);
+  CHECK(message_of([] { espdiff::parse_device_choice("gpu"); }) == "unknown device 'gpu'; use auto, cpu or cuda");
+  CHECK(message_of([] { espdiff::select_engine(DeviceChoice::kCpu, -2); }) == "the number of threads, -2, is negative; 0 takes all");
+}
+
+TEST_CASE("a handle of another kind is an internal error, not a crash") {
+  struct Stranger : espdiff::DeviceMesh {};
+  for (const auto& engine : back_ends()) {
+    const auto stranger = std::make_shared<Stranger>();
+    const auto map = engine->upload_map(
+        [] {
+          espdiff::Grid grid;
+          grid.lattice.size = {2, 2, 2};
+          grid.lattice.step = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+          grid.values.assign(8, 1.0F);
+          return grid;
+        }(),
+        {});
+    for (const auto& call : {std::function<void()>([&] { engine->area(stranger); }), std::function<void()>([&] { engine->area(nullptr); }),
+                             std::function<void()>([&] { engine->isosurface(map, 0.5F); })}) {
+      try {
+        call();
+        FAIL("nothing was thrown");
+      } catch (const espdiff::Error& error) {
+        CHECK(error.error_class() == espdiff::ErrorClass::kInternal);
+      }
+    }
+  }
+}
+
+TEST_CASE("results outlive the handles that they were made from") {
+  for (const auto& engine : back_ends()) {
+    espdiff::MeshPtr mapped;
+    {
+      const auto atoms = upload(*engine, random_cloud(50, 160));
+      const auto surface = engine->isosurface(engine->density(atoms, 1.0), 0.5F);
+      mapped = engine->project(surface, atoms, 0.5F, 0.5);
+    }
+    CHECK(engine->area(mapped) > 0);
+    CHECK(engine->download(mapped).triangles.size() == engine->n_triangles(mapped));
+  }
+}
+
+TEST_SUITE_END();
