@@ -20,11 +20,11 @@ namespace {
 using namespace espdiff_bench;
 
 struct Settings {
-  std::string field = "distance", interpolation = "trilinear", align = "all", csv, only;
+  std::string field = "distance", interpolation = "trilinear", align = "all", rest_shape, csv, only;
   int threads = 0, repeats = 1;
-  std::optional<double> tangential_gain, sigma, mu, rho, spacing;
+  std::optional<double> tangential_gain, sigma, mu, rho, spacing, min_displacement;
   std::optional<int> max_iterations;
-  bool cavities = false, skip_series = false;
+  bool thesis = false, cavities = false, skip_series = false;
 };
 
 void define_options(CLI::App& app, Settings& s) {
@@ -34,6 +34,10 @@ void define_options(CLI::App& app, Settings& s) {
   app.add_option("--sigma", s.sigma, "Step scale of the mapping");
   app.add_option("--mu", s.mu, "Weight of the mapping's external force");
   app.add_option("--rho", s.rho, "Rigidity of the mapping");
+  app.add_option("--rest-shape", s.rest_shape, "What the mapping's internal force restores: source or none")
+      ->check(CLI::IsMember({"source", "none"}));
+  app.add_option("--min-displacement", s.min_displacement, "The mapping ends below it; grid spacings");
+  app.add_flag("--thesis", s.thesis, "Start from the options of the thesis' iteration as it stands");
   app.add_option("--max-iterations", s.max_iterations, "Limit of the mapping's iterations");
   app.add_option("--grid-spacing", s.spacing, "Angstrom");
   app.add_option("--align", s.align, "Atoms to superpose: all, backbone, ca or none")->capture_default_str();
@@ -48,7 +52,7 @@ void define_options(CLI::App& app, Settings& s) {
 }
 
 espdiff::CompareOptions compare_options(const Settings& s) {
-  espdiff::CompareOptions options;
+  espdiff::CompareOptions options = s.thesis ? espdiff::thesis_options() : espdiff::CompareOptions{};
   options.field = espdiff::parse_field_kind(s.field);
   options.align = espdiff::parse_align_atoms(s.align);
   options.deform.interpolation = options.regularize.interpolation = espdiff::parse_interpolation(s.interpolation);
@@ -58,7 +62,9 @@ espdiff::CompareOptions compare_options(const Settings& s) {
   options.deform.rho = s.rho.value_or(options.deform.rho);
   options.deform.max_iterations = s.max_iterations.value_or(options.deform.max_iterations);
   options.surface.grid_spacing_A = s.spacing.value_or(options.surface.grid_spacing_A);
-  options.surface.cavities = s.cavities;
+  options.deform_min_displacement = s.min_displacement.value_or(options.deform_min_displacement);
+  if (!s.rest_shape.empty()) options.deform.rest_shape = s.rest_shape == "source";
+  if (s.cavities) options.surface.cavities = true;
   return options;
 }
 
@@ -99,8 +105,8 @@ int run(const Settings& settings) {
     if (!csv) throw espdiff::IoError(settings.csv, "cannot be written");
     csv << csv_header() << '\n';
   }
-  std::printf("field %s, %s, %d threads, times: median of %d\n", settings.field.c_str(), settings.interpolation.c_str(),
-              engine->n_threads(), settings.repeats);
+  std::printf("%sfield %s, %s, %d threads, times: median of %d\n", settings.thesis ? "the thesis' options, " : "",
+              settings.field.c_str(), settings.interpolation.c_str(), engine->n_threads(), settings.repeats);
   print_heading();
   std::map<std::string, std::vector<PairRow>> groups;
   int n_failed = 0;

@@ -53,6 +53,8 @@ std::vector<Case> cases() {
 StageInputs::StageInputs(const Case& of, int n_threads)
     : engine(espdiff::select_engine(espdiff::DeviceChoice::kCpu, n_threads)) {
   constexpr double kDisplacement_A = 0.5;
+  options.regularize.min_displacement_A = options.regularize_min_displacement * spacing_A();
+  options.deform.min_displacement_A = options.deform_min_displacement * spacing_A();
   const espdiff::Progress silent;
   espdiff::Molecule molecule = of.n_atoms > 0 ? synthetic_protein(of.n_atoms) : espdiff::read_structure(of.file);
   centre(molecule);

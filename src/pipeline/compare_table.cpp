@@ -124,6 +124,7 @@ void print_certificate(std::ostream& out, const CompareResult& result) {
            counted(static_cast<std::size_t>(std::max(result.deform_report.iterations, 0)), "iteration"));
   std::string not_checked;
   for (const std::string& name : c.not_checked) not_checked += (not_checked.empty() ? "" : ", ") + name;
+  std::replace(not_checked.begin(), not_checked.end(), '_', ' ');
   if (!not_checked.empty()) line(out, "not checked", not_checked);
 }
 

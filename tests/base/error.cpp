@@ -17,11 +17,13 @@ TEST_CASE("input, format and I/O errors exit with 2, all others with 1") {
   std::set<std::string> names;
   for (int c = 0; c <= static_cast<int>(ErrorClass::kInternal); ++c) {
     const ErrorClass error_class = static_cast<ErrorClass>(c);
-    const bool by_user = error_class == ErrorClass::kInput || error_class == ErrorClass::kFormat || error_class == ErrorClass::kIo;
+    const bool by_user =
+        error_class == ErrorClass::kInput || error_class == ErrorClass::kFormat || error_class == ErrorClass::kIo;
     CHECK(Error(error_class, "text").exit_status() == (by_user ? 2 : 1));
     names.insert(espdiff::error_class_name(error_class));
   }
-  CHECK(names == std::set<std::string>{"INPUT", "FORMAT", "IO", "GEOMETRY", "CONVERGENCE", "DEVICE", "MEMORY", "CANCELLED", "INTERNAL"});
+  CHECK(names == std::set<std::string>{"INPUT", "FORMAT", "IO", "GEOMETRY", "CONVERGENCE", "DEVICE", "MEMORY",
+                                       "CANCELLED", "INTERNAL"});
 }
 
 TEST_CASE("each kind carries its class") {

@@ -13,8 +13,9 @@ using espdiff_test::message_of;
 
 namespace {
 
-constexpr PotentialUnit kUnits[] = {PotentialUnit::kKtPerE,       PotentialUnit::kMillivolt,  PotentialUnit::kVolt,
-                                    PotentialUnit::kKcalPerMolE, PotentialUnit::kKjPerMolE, PotentialUnit::kHartreePerE};
+constexpr PotentialUnit kUnits[] = {PotentialUnit::kKtPerE,    PotentialUnit::kMillivolt,
+                                    PotentialUnit::kVolt,      PotentialUnit::kKcalPerMolE,
+                                    PotentialUnit::kKjPerMolE, PotentialUnit::kHartreePerE};
 
 }  // namespace
 
@@ -26,24 +27,29 @@ TEST_CASE("the written form is read back") {
 }
 
 TEST_CASE("common spellings are read") {
-  for (const char* text : {"kT/e", "kt/e", "KT/E", "kT_e", "kT e^-1", "kbT/e"}) CHECK(parse_potential_unit(text) == PotentialUnit::kKtPerE);
+  for (const char* text : {"kT/e", "kt/e", "KT/E", "kT_e", "kT e^-1", "kbT/e"})
+    CHECK(parse_potential_unit(text) == PotentialUnit::kKtPerE);
   for (const char* text : {"V", "volt", "Volts"}) CHECK(parse_potential_unit(text) == PotentialUnit::kVolt);
   CHECK(parse_potential_unit("mV") == PotentialUnit::kMillivolt);
   CHECK(parse_potential_unit("kcal/mol/e") == PotentialUnit::kKcalPerMolE);
   CHECK(parse_potential_unit("kJ/mol/e") == PotentialUnit::kKjPerMolE);
   CHECK(parse_potential_unit("a.u.") == PotentialUnit::kHartreePerE);
   CHECK_THROWS_AS(parse_potential_unit("furlong"), espdiff::InputError);
-  CHECK(message_of([] { parse_potential_unit(""); }).find("use kT/e, mV, V, kcal/mol/e, kJ/mol/e or hartree/e") != std::string::npos);
+  CHECK(message_of([] { parse_potential_unit(""); }).find("use kT/e, mV, V, kcal/mol/e, kJ/mol/e or hartree/e") !=
+        std::string::npos);
 }
 
 TEST_CASE("factors are those of CODATA 2018") {
   using U = PotentialUnit;
-  CHECK(conversion_factor(U::kKtPerE, U::kMillivolt, 298.15) == doctest::Approx(25.6925791).epsilon(1e-8));  // the thermal voltage
+  CHECK(conversion_factor(U::kKtPerE, U::kMillivolt, 298.15) ==
+        doctest::Approx(25.6925791).epsilon(1e-8));  // the thermal voltage
   CHECK(conversion_factor(U::kVolt, U::kMillivolt, 300) == doctest::Approx(1000).epsilon(1e-14));
   CHECK(conversion_factor(U::kHartreePerE, U::kVolt, 300) == doctest::Approx(27.211386245988).epsilon(1e-12));
-  CHECK(conversion_factor(U::kVolt, U::kKjPerMolE, 300) == doctest::Approx(96.4853321233).epsilon(1e-11));  // Faraday's constant
+  CHECK(conversion_factor(U::kVolt, U::kKjPerMolE, 300) ==
+        doctest::Approx(96.4853321233).epsilon(1e-11));  // Faraday's constant
   CHECK(conversion_factor(U::kKcalPerMolE, U::kKjPerMolE, 300) == doctest::Approx(4.184).epsilon(1e-14));
-  CHECK(conversion_factor(U::kKtPerE, U::kKcalPerMolE, 300) == doctest::Approx(0.5961613).epsilon(1e-6));  // RT at 300 K
+  CHECK(conversion_factor(U::kKtPerE, U::kKcalPerMolE, 300) ==
+        doctest::Approx(0.5961613).epsilon(1e-6));  // RT at 300 K
 }
 
 TEST_CASE("factors there and back cancel, and chain") {

@@ -46,7 +46,8 @@ TEST_CASE("the corrupt band is a density within 0.1 of the isovalue") {
   const auto radius_at = [](double density) { return kWidth * std::sqrt(-2 * std::log(density)); };
   for (const auto& engine : back_ends()) {
     // The centroids of facets lie inside the sphere by less than 0.4 %, 0.005 in density here.
-    for (const double density : {0.42, 0.5, 0.58}) CHECK(fit(*engine, icosphere(3, radius_at(density))).corrupt_area_fraction == 0);
+    for (const double density : {0.42, 0.5, 0.58})
+      CHECK(fit(*engine, icosphere(3, radius_at(density))).corrupt_area_fraction == 0);
     for (const double density : {0.1, 0.38, 0.62, 0.9}) {
       const FitReport report = fit(*engine, icosphere(3, radius_at(density)));
       CHECK(report.corrupt_area_fraction == doctest::Approx(1).epsilon(1e-12));
@@ -98,9 +99,11 @@ TEST_CASE("irregularity is the mean length of the umbrella Laplacian") {
   }
   double mean = 0;
   for (std::size_t v = 0; v < sums.size(); ++v) {
-    mean += norm((1.0 / degree[v]) * sums[v] - static_cast<Vec3d>(mesh.positions[v])) / static_cast<double>(sums.size());
+    mean +=
+        norm((1.0 / degree[v]) * sums[v] - static_cast<Vec3d>(mesh.positions[v])) / static_cast<double>(sums.size());
   }
-  for (const auto& engine : back_ends()) CHECK(fit(*engine, mesh).irregularity_A == doctest::Approx(mean).epsilon(1e-5));
+  for (const auto& engine : back_ends())
+    CHECK(fit(*engine, mesh).irregularity_A == doctest::Approx(mean).epsilon(1e-5));
 }
 
 TEST_CASE("a projected real surface fits its own density") {
@@ -111,8 +114,9 @@ TEST_CASE("a projected real surface fits its own density") {
     const auto uploaded = upload(*engine, atoms);
     const auto surface = engine->isosurface(engine->density(uploaded, 1.0), 0.5F);
     const FitReport report = engine->fit(engine->project(surface, uploaded, 0.5F, 0.5), uploaded, 0.5F);
-    std::printf("own surface of ubiquitin, %s: corrupt %.3f %%, flipped %.3f %%, irregularity %.3f A\n", engine->back_end().c_str(),
-                100 * report.corrupt_area_fraction, 100 * report.flipped_area_fraction, report.irregularity_A);
+    std::printf("own surface of ubiquitin, %s: corrupt %.3f %%, flipped %.3f %%, irregularity %.3f A\n",
+                engine->back_end().c_str(), 100 * report.corrupt_area_fraction, 100 * report.flipped_area_fraction,
+                report.irregularity_A);
     CHECK(report.corrupt_area_fraction < 0.01);
     CHECK(report.flipped_area_fraction < 0.005);
     CHECK(report.irregularity_A < 0.4);

@@ -1,4 +1,5 @@
-// deform.cpp: the force iteration on shapes of known answers: spheres onto spheres, a surface onto itself, options, cancelling.
+// deform.cpp: the force iteration on shapes of known answers: spheres onto spheres, a surface onto itself, options,
+// cancelling.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -32,20 +33,22 @@ Target sphere_target(Engine& engine, Vec3d centre, double width, bool distance) 
   const auto atoms = upload(engine, one_gaussian(centre, width));
   const auto density = engine.density(atoms, kSpacing);
   const auto surface = engine.project(engine.isosurface(density, 0.5F), atoms, 0.5F, 0.5);
-  return {distance ? engine.distance_field(density, 0.5F, surface, 0.75, {}) : engine.density_field(density, 0.5F), centre,
-          width * kRadiusPerWidth};
+  return {distance ? engine.distance_field(density, 0.5F, surface, 0.75, {}) : engine.density_field(density, 0.5F),
+          centre, width * kRadiusPerWidth};
 }
 
 /// Largest distance of a vertex from the sphere.
 double worst_miss(const Mesh& mesh, const Target& target) {
   double worst = 0;
-  for (const Vec3f& p : mesh.positions) worst = std::max(worst, std::fabs(norm(static_cast<Vec3d>(p) - target.centre) - target.radius));
+  for (const Vec3f& p : mesh.positions)
+    worst = std::max(worst, std::fabs(norm(static_cast<Vec3d>(p) - target.centre) - target.radius));
   return worst;
 }
 
 double mean_distance(const Mesh& a, const Mesh& b) {
   double sum = 0;
-  for (std::size_t v = 0; v < a.positions.size(); ++v) sum += norm(static_cast<Vec3d>(a.positions[v]) - static_cast<Vec3d>(b.positions[v]));
+  for (std::size_t v = 0; v < a.positions.size(); ++v)
+    sum += norm(static_cast<Vec3d>(a.positions[v]) - static_cast<Vec3d>(b.positions[v]));
   return sum / static_cast<double>(a.positions.size());
 }
 
@@ -64,11 +67,13 @@ TEST_CASE("a sphere deforms onto a shifted, a larger and a smaller sphere, in bo
   for (const auto& engine : back_ends()) {
     const auto source = engine->upload_mesh(icosphere(3, 2.5 * kRadiusPerWidth));
     for (const bool distance : {false, true}) {
-      for (const auto& [centre, width] : {std::pair<Vec3d, double>{{0.9, -0.5, 0.4}, 2.5}, {{0, 0, 0}, 3.3}, {{0.2, 0.1, 0}, 1.9}}) {
+      for (const auto& [centre, width] :
+           {std::pair<Vec3d, double>{{0.9, -0.5, 0.4}, 2.5}, {{0, 0, 0}, 3.3}, {{0.2, 0.1, 0}, 1.9}}) {
         for (const Interpolation interpolation : {Interpolation::kTrilinear, Interpolation::kTricubic}) {
           const Target target = sphere_target(*engine, centre, width, distance);
           DeformReport report;
-          const MeshPtr mapped = engine->deform(source, target.field, options_with(interpolation), "deform", {}, &report);
+          const MeshPtr mapped =
+              engine->deform(source, target.field, options_with(interpolation), "deform", {}, &report);
           const Mesh mesh = engine->download(mapped);
           CAPTURE(distance);
           CAPTURE(width);
@@ -79,9 +84,9 @@ TEST_CASE("a sphere deforms onto a shifted, a larger and a smaller sphere, in bo
           CHECK(mesh.triangles == icosphere(3, 1).triangles);
           CHECK(manifold_fault(mesh) == "");
           CHECK(signed_volume(mesh) > 0);
-          // Linear interpolation of a Gaussian errs by spacing^2 / 8 times its curvature over its slope: 0.05 A at 0.8 A. In the
-          // distance field a cell mixes densities and distances, which moves the crossing: 0.15 A measured with linear
-          // interpolation, and see below for the cubic one.
+          // Linear interpolation of a Gaussian errs by spacing^2 / 8 times its curvature over its slope: 0.05 A at 0.8
+          // A. In the distance field a cell mixes densities and distances, which moves the crossing: 0.15 A measured
+          // with linear interpolation, and see below for the cubic one.
           if (!distance || interpolation == Interpolation::kTrilinear) {
             CHECK(worst_miss(mesh, target) < (distance ? 0.2 : interpolation == Interpolation::kTricubic ? 0.05 : 0.1));
           }
@@ -114,7 +119,8 @@ TEST_CASE("tricubic sampling of the distance field finds the surface as well as 
       return worst_miss(engine->download(mapped), target);
     };
     const double linear = miss(Interpolation::kTrilinear), cubic = miss(Interpolation::kTricubic);
-    std::printf("distance field, %s: trilinear misses the sphere by %.3f A, tricubic by %.3f A\n", engine->back_end().c_str(), linear, cubic);
+    std::printf("distance field, %s: trilinear misses the sphere by %.3f A, tricubic by %.3f A\n",
+                engine->back_end().c_str(), linear, cubic);
     CHECK(cubic < 0.2);
   }
 }
@@ -154,7 +160,8 @@ TEST_CASE("the first step toward a far surface is sigma mu along the field") {
       DeformOptions options = options_with(Interpolation::kTricubic);
       options.mu = 1;
       options.max_iterations = 1;
-      const Mesh after = engine->download(engine->deform(engine->upload_mesh(sphere), target.field, options, "deform", {}, nullptr));
+      const Mesh after =
+          engine->download(engine->deform(engine->upload_mesh(sphere), target.field, options, "deform", {}, nullptr));
       double worst = 0;
       for (std::size_t v = 0; v < after.positions.size(); ++v) {
         const Vec3d before = static_cast<Vec3d>(sphere.positions[v]);
@@ -177,15 +184,18 @@ TEST_CASE("a regularized surface mapped onto itself stays where it is") {
     regularize.mu = 0.5;
     regularize.max_iterations = 500;
     const auto field = engine->density_field(density, 0.5F);
-    const auto start = engine->project(engine->deform(surface, field, regularize, "regularize", {}, nullptr), uploaded, 0.5F, 0.5);
+    const auto start =
+        engine->project(engine->deform(surface, field, regularize, "regularize", {}, nullptr), uploaded, 0.5F, 0.5);
     DeformReport report;
-    const auto mapped = engine->project(engine->deform(start, field, DeformOptions{}, "deform", {}, &report), uploaded, 0.5F, 0.5);
+    const auto mapped =
+        engine->project(engine->deform(start, field, DeformOptions{}, "deform", {}, &report), uploaded, 0.5F, 0.5);
     std::vector<float> moved_by = engine->download(engine->displacement(start, mapped));
     std::sort(moved_by.begin(), moved_by.end());
     double mean = 0;
     for (const float d : moved_by) mean += static_cast<double>(d) / static_cast<double>(moved_by.size());
-    std::printf("self-map, %s: mean %.4f A, 95 %% %.4f A, largest %.3f A, %d iterations\n", engine->back_end().c_str(), mean,
-                static_cast<double>(moved_by[moved_by.size() * 95 / 100]), static_cast<double>(moved_by.back()), report.iterations);
+    std::printf("self-map, %s: mean %.4f A, 95 %% %.4f A, largest %.3f A, %d iterations\n", engine->back_end().c_str(),
+                mean, static_cast<double>(moved_by[moved_by.size() * 95 / 100]), static_cast<double>(moved_by.back()),
+                report.iterations);
     CHECK(report.converged);
     CHECK(mean < 0.03);  // what is left of the tangential creep, a tenth of an edge at the most
     CHECK(moved_by.back() < 0.5F);
@@ -208,7 +218,8 @@ TEST_CASE("deform: parameters out of range are refused with the value") {
     CHECK(message([](DeformOptions& o) { o.mu = 1.5; }) == "mu 1.500000 is not between 0 and 1");
     CHECK(message([](DeformOptions& o) { o.rho = -0.5; }) == "rho -0.500000 is not between 0 and 1");
     CHECK(message([](DeformOptions& o) { o.max_iterations = -1; }) == "the number of iterations, -1, is negative");
-    CHECK(message([](DeformOptions& o) { o.min_displacement_A = -1; }) == "the smallest displacement, -1.000000 A, is negative");
+    CHECK(message([](DeformOptions& o) { o.min_displacement_A = -1; }) ==
+          "the smallest displacement, -1.000000 A, is negative");
     message([&](DeformOptions& o) { o.sigma = nan; });
     message([&](DeformOptions& o) { o.mu = nan; });
     message([&](DeformOptions& o) { o.rho = nan; });

@@ -82,17 +82,20 @@ TEST_CASE("the density at points is that of the lattice and of the sum") {
     REQUIRE(values.size() == points.size());
     double worst = 0;
     for (std::size_t n = 0; n < points.size(); ++n) {
-      worst = std::max(worst, std::fabs(static_cast<double>(values[n]) - density_oracle(atoms, static_cast<Vec3d>(points[n]))));
+      worst = std::max(
+          worst, std::fabs(static_cast<double>(values[n]) - density_oracle(atoms, static_cast<Vec3d>(points[n]))));
     }
     CHECK(worst < 1e-3);
 
     // Lattice and points cut the Gaussian off in different ways (box and ball), which leaves the terms between the two.
     const auto grid = engine->download(engine->density(uploaded, 1.0));
     std::vector<Vec3f> lattice_points;
-    for (std::size_t p = 0; p < grid.values.size(); ++p) lattice_points.push_back(static_cast<Vec3f>(lattice_point(grid.lattice, p)));
+    for (std::size_t p = 0; p < grid.values.size(); ++p)
+      lattice_points.push_back(static_cast<Vec3f>(lattice_point(grid.lattice, p)));
     const std::vector<float> there = engine->density_at(uploaded, lattice_points);
     float difference = 0;
-    for (std::size_t p = 0; p < there.size(); ++p) difference = std::max(difference, std::fabs(there[p] - grid.values[p]));
+    for (std::size_t p = 0; p < there.size(); ++p)
+      difference = std::max(difference, std::fabs(there[p] - grid.values[p]));
     CHECK(difference < 1e-3F);
   }
 }
@@ -118,7 +121,8 @@ TEST_CASE("the order of the atoms does not matter") {
   std::vector<std::size_t> order(atoms.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
-  for (const std::size_t i : order) permuted.add(atoms.positions[i], static_cast<double>(atoms.widths[i]), atoms.residues[i]);
+  for (const std::size_t i : order)
+    permuted.add(atoms.positions[i], static_cast<double>(atoms.widths[i]), atoms.residues[i]);
   for (const auto& engine : back_ends()) {
     const auto a = engine->download(engine->density(upload(*engine, atoms), 1.0));
     const auto b = engine->download(engine->density(upload(*engine, permuted), 1.0));
@@ -159,7 +163,8 @@ TEST_CASE("density: wrong input is refused with the value and a remedy") {
     CHECK_THROWS_AS(upload(*engine, broken), espdiff::InputError);
 
     const auto atoms = upload(*engine, random_cloud(5, 8));
-    CHECK(message_of([&] { engine->density(atoms, 0); }) == "grid spacing 0.000000 A is not a positive number; 1 is usual");
+    CHECK(message_of([&] { engine->density(atoms, 0); }) ==
+          "grid spacing 0.000000 A is not a positive number; 1 is usual");
     for (const double spacing : {-1.0, nan, std::numeric_limits<double>::infinity()}) {
       CHECK_THROWS_AS(engine->density(atoms, spacing), espdiff::InputError);
     }

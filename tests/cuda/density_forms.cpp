@@ -1,5 +1,5 @@
-// density_forms.cpp: the slab form and the point form of the density agree to the last bit. Compiled with the CPU back end's
-// flags, because the engine's interface offers one of the two only.
+// density_forms.cpp: the slab form and the point form of the density agree to the last bit. Compiled with the CPU back
+// end's flags, because the engine's interface offers one of the two only.
 #include <doctest/doctest.h>
 
 #include <cstring>
@@ -93,7 +93,8 @@ TEST_CASE("the slab form gives the same bits for any number of threads") {
   std::uint64_t first = 0;
   for (const int n_threads : {1, 2, 3, 4}) {
     const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, n_threads);
-    const std::uint64_t hash = Hash().add(engine->download(engine->density(upload(*engine, atoms), 0.6)).values).value();
+    const std::uint64_t hash =
+        Hash().add(engine->download(engine->density(upload(*engine, atoms), 0.6)).values).value();
     if (n_threads == 1) first = hash;
     CHECK(hash == first);
   }

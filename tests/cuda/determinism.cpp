@@ -41,7 +41,9 @@ espdiff::Grid wave_map() {
 
 Hashes run_all_stages(Engine& engine, const AtomSet& source_atoms, const AtomSet& target_atoms) {
   Hashes hashes;
-  const auto hash_mesh = [&](const std::string& stage, const espdiff::MeshPtr& mesh) { hashes[stage] = Hash().add(engine.download(mesh)).value(); };
+  const auto hash_mesh = [&](const std::string& stage, const espdiff::MeshPtr& mesh) {
+    hashes[stage] = Hash().add(engine.download(mesh)).value();
+  };
   const auto source = upload(engine, source_atoms), target = upload(engine, target_atoms);
   const auto density = engine.density(source, 1.0), target_density = engine.density(target, 1.0);
   hashes["density"] = Hash().add(engine.download(density).values).value();
@@ -133,7 +135,8 @@ TEST_CASE("every back end repeats itself to the bit and finds the CPU's topology
 }
 
 TEST_CASE("two engines of different thread counts can be used in turn") {
-  const auto one = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 1), two = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
+  const auto one = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 1),
+             two = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
   const AtomSet atoms = random_cloud(200, 154);
   const auto a = upload(*one, atoms), b = upload(*two, atoms);
   const auto density_one = one->density(a, 1.0), density_two = two->density(b, 1.0);

@@ -47,8 +47,8 @@ FieldErrors field_errors(Engine& engine, const Surface& surface, double threshol
     const double value = static_cast<double>(field.values[p]), excess = static_cast<double>(density.values[p]) - 0.5;
     errors.n_wrong_sign += (value > 0) == (excess > 0) ? 0 : 1;
     if (std::fabs(value - excess) < 1e-6) {
-      // The density: right where the exact distance is within the threshold. The field's distance is never too small, so a
-      // point beyond the threshold never falls back to the density.
+      // The density: right where the exact distance is within the threshold. The field's distance is never too small,
+      // so a point beyond the threshold never falls back to the density.
       errors.n_wrong_density += exact > threshold + 1e-4 ? 1 : 0;
       continue;
     }
@@ -67,8 +67,8 @@ FieldErrors field_errors(Engine& engine, const Surface& surface, double threshol
   return errors;
 }
 
-/// The vertex that the sweeps find is near the nearest, not always it: the farther out, the more often. Measured on scTIM at a
-/// spacing of 1 A: mean 0.022 and largest 0.51 A; within 2 A of the surface 0.010 and 0.21 A.
+/// The vertex that the sweeps find is near the nearest, not always it: the farther out, the more often. Measured on
+/// scTIM at a spacing of 1 A: mean 0.022 and largest 0.51 A; within 2 A of the surface 0.010 and 0.21 A.
 void check_errors(const FieldErrors& e) {
   CHECK(e.n_wrong_sign == 0);
   CHECK(e.n_wrong_density == 0);
@@ -118,9 +118,10 @@ TEST_CASE("the distance field of a real protein errs little against exact distan
   const AtomSet atoms = read_atoms(*path);
   for (const auto& engine : back_ends()) {
     const FieldErrors e = field_errors(*engine, make_surface(*engine, atoms, 1.0), 0.75, 2000);
-    std::printf("distance field, %s, scTIM: %zu points beyond the threshold, mean error %.5f A, largest %.4f A; of them "
-                "%zu within 2 A, %.5f and %.4f A\n",
-                engine->back_end().c_str(), e.n_far, e.mean, e.max, e.n_near, e.near_mean, e.near_max);
+    std::printf(
+        "distance field, %s, scTIM: %zu points beyond the threshold, mean error %.5f A, largest %.4f A; of them "
+        "%zu within 2 A, %.5f and %.4f A\n",
+        engine->back_end().c_str(), e.n_far, e.mean, e.max, e.n_near, e.near_mean, e.near_max);
     CHECK(e.n_far > 1000);
     check_errors(e);
   }
@@ -130,10 +131,12 @@ TEST_CASE("with a threshold beyond the lattice the field is the density, with on
   for (const auto& engine : back_ends()) {
     const Surface surface = make_surface(*engine, random_cloud(60, 122), 1.0);
     const Grid density = engine->download(engine->density_field(surface.density, 0.5F));
-    CHECK(engine->download(engine->distance_field(surface.density, 0.5F, surface.mesh, 1e6, {})).values == density.values);
+    CHECK(engine->download(engine->distance_field(surface.density, 0.5F, surface.mesh, 1e6, {})).values ==
+          density.values);
     const Grid raw_density = engine->download(surface.density);
     std::size_t n_different = 0;
-    for (std::size_t p = 0; p < density.values.size(); ++p) n_different += density.values[p] == raw_density.values[p] - 0.5F ? 0 : 1;
+    for (std::size_t p = 0; p < density.values.size(); ++p)
+      n_different += density.values[p] == raw_density.values[p] - 0.5F ? 0 : 1;
     CHECK(n_different == 0);
     const FieldErrors e = field_errors(*engine, surface, 0.0, 500);
     CHECK(e.n_far > 490);

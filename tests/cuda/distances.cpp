@@ -16,12 +16,13 @@ Mesh random_potato(int levels, double radius, double noise, std::uint64_t seed, 
   return moved(icosphere(levels, radius, centre), [&](Vec3d p) { return p + random.in_box(noise); });
 }
 
-/// The distance of one point to a mesh: a vertex alone carries the area of a mesh whose other vertices lie in the target.
+/// The distance of one point to a mesh: a vertex alone carries the area of a mesh whose other vertices lie in the
+/// target.
 double point_distance(Engine& engine, Vec3d p, const Mesh& target) {
   Mesh probe;  // a tetrahedron around p: every corner at p but for rounding would have no area, so measure the maximum
   const double e = 1e-4;
-  probe.positions = {static_cast<Vec3f>(p), static_cast<Vec3f>(p + Vec3d{e, 0, 0}), static_cast<Vec3f>(p + Vec3d{0, e, 0}),
-                     static_cast<Vec3f>(p + Vec3d{0, 0, e})};
+  probe.positions = {static_cast<Vec3f>(p), static_cast<Vec3f>(p + Vec3d{e, 0, 0}),
+                     static_cast<Vec3f>(p + Vec3d{0, e, 0}), static_cast<Vec3f>(p + Vec3d{0, 0, e})};
   probe.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
   return engine.distances(engine.upload_mesh(probe), engine.upload_mesh(target), 1).max;
 }
@@ -42,9 +43,11 @@ TEST_CASE("distances between random meshes are those of a brute-force search") {
   for (const auto& engine : back_ends()) {
     for (std::uint64_t seed = 70; seed < 78; ++seed) {
       const int levels = static_cast<int>(seed % 4);  // 20 to 1280 triangles: trees of one leaf to hundreds
-      const Mesh a = random_potato(3, 4.0, 0.5, seed), b = random_potato(levels, 4.3, 0.4, seed + 100, {0.3, -0.5, 0.2});
+      const Mesh a = random_potato(3, 4.0, 0.5, seed),
+                 b = random_potato(levels, 4.3, 0.4, seed + 100, {0.3, -0.5, 0.2});
       CAPTURE(seed);
-      check_summary(engine->distances(engine->upload_mesh(a), engine->upload_mesh(b), 0.7), distances_oracle(a, b, 0.7));
+      check_summary(engine->distances(engine->upload_mesh(a), engine->upload_mesh(b), 0.7),
+                    distances_oracle(a, b, 0.7));
     }
     // Far apart, so that the tree's boxes say little.
     const Mesh a = random_potato(2, 2.0, 0.2, 78), b = random_potato(3, 3.0, 0.3, 79, {40, 5, -9});
@@ -56,7 +59,8 @@ TEST_CASE("concentric spheres lie apart by the difference of their radii") {
   for (const auto& engine : back_ends()) {
     const auto inner = engine->upload_mesh(icosphere(4, 5.0)), outer = engine->upload_mesh(icosphere(4, 5.5));
     const DistanceSummary d = engine->distances(inner, outer, 0.4);
-    // The inner vertices see the outer sphere's chords, up to 5.5 (1 - cos(half an edge's angle)) nearer than the sphere.
+    // The inner vertices see the outer sphere's chords, up to 5.5 (1 - cos(half an edge's angle)) nearer than the
+    // sphere.
     CHECK(d.max < 0.5 + 1e-5);
     CHECK(d.mean > 0.49);
     CHECK(d.area_fraction_beyond_limit == doctest::Approx(1.0));
@@ -90,7 +94,8 @@ TEST_CASE("a point finds the face, each edge and each corner of a triangle") {
   for (const auto& engine : back_ends()) {
     for (const auto& c : cases) {
       CAPTURE(std::string(c.where));
-      CHECK(triangle_distance_oracle(c.point, {0, 0, 0}, {4, 0, 0}, {0, 3, 0}) == doctest::Approx(c.distance).epsilon(1e-12));
+      CHECK(triangle_distance_oracle(c.point, {0, 0, 0}, {4, 0, 0}, {0, 3, 0}) ==
+            doctest::Approx(c.distance).epsilon(1e-12));
       CHECK(std::fabs(point_distance(*engine, c.point, target) - c.distance) < 2e-4);  // the probe's own size
     }
   }
@@ -98,12 +103,14 @@ TEST_CASE("a point finds the face, each edge and each corner of a triangle") {
 
 TEST_CASE("degenerate triangles count as segments and points") {
   Mesh target = icosphere(1, 3.0);
-  for (const std::uint32_t v : target.triangles[0]) target.positions[v] = target.positions[target.triangles[0][0]];  // a point
+  for (const std::uint32_t v : target.triangles[0])
+    target.positions[v] = target.positions[target.triangles[0][0]];  // a point
   const auto& t = target.triangles[40];
   target.positions[t[1]] = 0.5F * (target.positions[t[0]] + target.positions[t[2]]);  // a segment
   const Mesh probe = random_potato(3, 3.2, 0.3, 80);
   for (const auto& engine : back_ends()) {
-    check_summary(engine->distances(engine->upload_mesh(probe), engine->upload_mesh(target), 0.2), distances_oracle(probe, target, 0.2));
+    check_summary(engine->distances(engine->upload_mesh(probe), engine->upload_mesh(target), 0.2),
+                  distances_oracle(probe, target, 0.2));
   }
 }
 
@@ -128,11 +135,12 @@ TEST_CASE("distances between real surfaces are exact") {
         probes.triangles.push_back({first + t[0], first + t[1], first + t[2]});
       }
     }
-    const DistanceSummary found = engine->distances(engine->upload_mesh(probes), b, 1.0), exact = distances_oracle(probes, b_mesh, 1.0);
+    const DistanceSummary found = engine->distances(engine->upload_mesh(probes), b, 1.0),
+                          exact = distances_oracle(probes, b_mesh, 1.0);
     worst = std::fabs(found.mean - exact.mean);
     largest = std::fabs(found.max - exact.max);
-    std::printf("distances, %s: mean %.4f A (off by %.1e), max %.4f A (off by %.1e)\n", engine->back_end().c_str(), found.mean, worst,
-                found.max, largest);
+    std::printf("distances, %s: mean %.4f A (off by %.1e), max %.4f A (off by %.1e)\n", engine->back_end().c_str(),
+                found.mean, worst, found.max, largest);
     CHECK(worst < 1e-5);
     CHECK(largest < 1e-5);
   }

@@ -45,7 +45,8 @@ TEST_CASE("device names and thread counts that do not exist are refused") {
   CHECK(espdiff::parse_device_choice("cuda") == DeviceChoice::kCuda);
   CHECK_THROWS_AS(espdiff::parse_device_choice("CPU"), espdiff::InputError);
   CHECK(message_of([] { espdiff::parse_device_choice("gpu"); }) == "unknown device 'gpu'; use auto, cpu or cuda");
-  CHECK(message_of([] { espdiff::select_engine(DeviceChoice::kCpu, -2); }) == "the number of threads, -2, is negative; 0 takes all");
+  CHECK(message_of([] { espdiff::select_engine(DeviceChoice::kCpu, -2); }) ==
+        "the number of threads, -2, is negative; 0 takes all");
 }
 
 TEST_CASE("a handle of another kind is an internal error, not a crash") {
@@ -61,8 +62,9 @@ TEST_CASE("a handle of another kind is an internal error, not a crash") {
           return grid;
         }(),
         {});
-    for (const auto& call : {std::function<void()>([&] { engine->area(stranger); }), std::function<void()>([&] { engine->area(nullptr); }),
-                             std::function<void()>([&] { engine->isosurface(map, 0.5F); })}) {
+    for (const auto& call :
+         {std::function<void()>([&] { engine->area(stranger); }), std::function<void()>([&] { engine->area(nullptr); }),
+          std::function<void()>([&] { engine->isosurface(map, 0.5F); })}) {
       try {
         call();
         FAIL("nothing was thrown");

@@ -1,4 +1,5 @@
-// metrics.cpp: the comparison of two potentials on one mesh: constants, linear functions, sign rule, exclusions, an oracle.
+// metrics.cpp: the comparison of two potentials on one mesh: constants, linear functions, sign rule, exclusions, an
+// oracle.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -13,9 +14,8 @@ using espdiff::ScalarsPtr;
 
 namespace {
 
-/// Uploads values: samples of a map are the only way to make scalars, so vertex v of a made-up mesh is sampled at point v of a
-/// row; NaN outside the map. Its triangles only have to
-/// close.
+/// Uploads values: samples of a map are the only way to make scalars, so vertex v of a made-up mesh is sampled at point
+/// v of a row; NaN outside the map. Its triangles only have to close.
 ScalarsPtr scalars(Engine& engine, const std::vector<float>& values) {
   espdiff::Grid grid;
   const int n = static_cast<int>(values.size());
@@ -37,20 +37,22 @@ ScalarsPtr scalars(Engine& engine, const std::vector<float>& values) {
 
 struct Case {
   Mesh source, mapped;
-  std::vector<float> a, b;       // [vertex]
-  std::vector<float> excluded;   // [triangle]
+  std::vector<float> a, b;      // [vertex]
+  std::vector<float> excluded;  // [triangle]
 };
 
 Metrics metrics_of(Engine& engine, const Case& c) {
   REQUIRE(c.source.positions == c.mapped.positions);
   const auto source = engine.upload_mesh(c.source);
-  return engine.compare(source, source, scalars(engine, c.a), scalars(engine, c.b), c.excluded.empty() ? nullptr : scalars(engine, c.excluded));
+  return engine.compare(source, source, scalars(engine, c.a), scalars(engine, c.b),
+                        c.excluded.empty() ? nullptr : scalars(engine, c.excluded));
 }
 
 Metrics metrics_oracle(const Case& c) {
   const auto w = vertex_weights(c.mapped, [&](std::size_t t) {
     bool counts = c.excluded.empty() || c.excluded[t] == 0;
-    for (const std::uint32_t v : c.mapped.triangles[t]) counts = counts && std::isfinite(c.a[v]) && std::isfinite(c.b[v]);
+    for (const std::uint32_t v : c.mapped.triangles[t])
+      counts = counts && std::isfinite(c.a[v]) && std::isfinite(c.b[v]);
     return counts;
   });
   double area = 0, abs_sum = 0, square = 0, sum = 0, sign = 0, aa = 0, bb = 0, ab = 0, displacement = 0;
@@ -135,7 +137,7 @@ TEST_CASE("equal potentials have indices of 1, opposite ones of -1") {
     CHECK(opposite.sign_change_area_fraction == doctest::Approx(1));
     for (std::size_t v = 0; v < c.a.size(); ++v) c.b[v] = 3 * c.a[v];
     const Metrics scaled = metrics_of(*engine, c);
-    CHECK(scaled.carbo_index == doctest::Approx(1).epsilon(1e-6));    // blind to scale
+    CHECK(scaled.carbo_index == doctest::Approx(1).epsilon(1e-6));      // blind to scale
     CHECK(scaled.hodgkin_index == doctest::Approx(0.6).epsilon(1e-6));  // 2*3 / (1 + 9)
   }
 }
@@ -187,7 +189,8 @@ TEST_CASE("excluded triangles and triangles with a NaN sample are not counted") 
     c.excluded.assign(c.mapped.triangles.size(), 0.0F);
     for (std::size_t t = 0; t < c.mapped.triangles.size(); t += 3) c.excluded[t] = 1.0F;
     check_close(metrics_of(*engine, c), metrics_oracle(c));
-    for (std::size_t v = 0; v < c.a.size(); v += 50) (v % 100 == 0 ? c.a : c.b)[v] = std::numeric_limits<float>::quiet_NaN();
+    for (std::size_t v = 0; v < c.a.size(); v += 50)
+      (v % 100 == 0 ? c.a : c.b)[v] = std::numeric_limits<float>::quiet_NaN();
     const Metrics m = metrics_of(*engine, c);
     check_close(m, metrics_oracle(c));
     CHECK(m.area_A2 < area_oracle(c.mapped) * 0.66);
@@ -198,8 +201,8 @@ TEST_CASE("with nothing to count every figure is NaN but the area") {
   for (const auto& engine : back_ends()) {
     const Metrics m = metrics_of(*engine, sphere_case(std::numeric_limits<double>::quiet_NaN(), 1));
     CHECK(m.area_A2 == 0);
-    for (const double value : {m.mean_abs_difference, m.rms_difference, m.mean_signed_difference, m.sign_change_area_fraction,
-                               m.hodgkin_index, m.carbo_index, m.mean_displacement_A}) {
+    for (const double value : {m.mean_abs_difference, m.rms_difference, m.mean_signed_difference,
+                               m.sign_change_area_fraction, m.hodgkin_index, m.carbo_index, m.mean_displacement_A}) {
       CHECK(std::isnan(value));
     }
   }
@@ -230,9 +233,12 @@ TEST_CASE("weights and displacement are those of the mapped mesh") {
 TEST_CASE("compare refuses other topologies and other numbers of samples") {
   for (const auto& engine : back_ends()) {
     const auto a = engine->upload_mesh(icosphere(2, 3.0)), b = engine->upload_mesh(icosphere(2, 3.0));
-    const auto samples = scalars(*engine, std::vector<float>(162, 1.0F)), few = scalars(*engine, std::vector<float>(42, 1.0F));
-    CHECK(message_of([&] { engine->compare(a, a, samples, few, nullptr); }) == "compare: one potential per vertex of the mapped mesh is needed");
-    CHECK(message_of([&] { engine->compare(a, b, samples, samples, nullptr); }) == "compare: source and mapped mesh must share their topology");
+    const auto samples = scalars(*engine, std::vector<float>(162, 1.0F)),
+               few = scalars(*engine, std::vector<float>(42, 1.0F));
+    CHECK(message_of([&] { engine->compare(a, a, samples, few, nullptr); }) ==
+          "compare: one potential per vertex of the mapped mesh is needed");
+    CHECK(message_of([&] { engine->compare(a, b, samples, samples, nullptr); }) ==
+          "compare: source and mapped mesh must share their topology");
     CHECK_THROWS_AS(engine->compare(a, b, samples, samples, nullptr), espdiff::InputError);
   }
 }
@@ -240,7 +246,8 @@ TEST_CASE("compare refuses other topologies and other numbers of samples") {
 TEST_CASE("an exclusion list of the wrong length is refused") {
   for (const auto& engine : back_ends()) {
     const auto mesh = engine->upload_mesh(icosphere(2, 3.0));
-    const auto samples = scalars(*engine, std::vector<float>(162, 1.0F)), few = scalars(*engine, std::vector<float>(42, 0.0F));
+    const auto samples = scalars(*engine, std::vector<float>(162, 1.0F)),
+               few = scalars(*engine, std::vector<float>(42, 0.0F));
     CHECK_THROWS_AS(engine->compare(mesh, mesh, samples, samples, few), espdiff::InputError);
   }
 }

@@ -22,8 +22,8 @@ inline double density_oracle(const AtomSet& atoms, Vec3d p) {
   return sum;
 }
 
-/// Distance of a point to a triangle: the nearest of the foot within the face, the edges and the corners, after Ericson,
-/// Real-Time Collision Detection (2005), section 5.1.5, by the regions of the plane.
+/// Distance of a point to a triangle: the nearest of the foot within the face, the edges and the corners, after
+/// Ericson, Real-Time Collision Detection (2005), section 5.1.5, by the regions of the plane.
 inline double triangle_distance_oracle(Vec3d p, Vec3d a, Vec3d b, Vec3d c) {
   const Vec3d ab = b - a, ac = c - a, ap = p - a;
   const double d1 = dot(ab, ap), d2 = dot(ac, ap);

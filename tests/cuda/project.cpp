@@ -20,7 +20,8 @@ struct Projection {
 Projection measure(Engine& engine, const AtomSet& atoms, float isovalue, double spacing, double max_shift) {
   const auto uploaded = upload(engine, atoms);
   const auto surface = engine.isosurface(engine.density(uploaded, spacing), isovalue);
-  const Mesh before = engine.download(surface), after = engine.download(engine.project(surface, uploaded, isovalue, max_shift));
+  const Mesh before = engine.download(surface),
+             after = engine.download(engine.project(surface, uploaded, isovalue, max_shift));
   CHECK(after.triangles == before.triangles);
   const std::vector<float> density = engine.density_at(uploaded, after.positions);
   Projection result;

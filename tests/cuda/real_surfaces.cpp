@@ -1,4 +1,5 @@
-// real_surfaces.cpp: every real structure, badly written ones included, has closed manifold surfaces of even Euler characteristic.
+// real_surfaces.cpp: every real structure, badly written ones included, has closed manifold surfaces of even Euler
+// characteristic.
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -26,7 +26,8 @@ Grid skewed_grid() {
 
 template <typename Function>
 void fill(Grid& grid, Function f) {
-  for (std::size_t p = 0; p < grid.values.size(); ++p) grid.values[p] = static_cast<float>(f(lattice_point(grid.lattice, p)));
+  for (std::size_t p = 0; p < grid.values.size(); ++p)
+    grid.values[p] = static_cast<float>(f(lattice_point(grid.lattice, p)));
 }
 
 RigidTransform inverse_of(const RigidTransform& t) {
@@ -100,7 +101,8 @@ TEST_CASE("affine functions are sampled exactly on skewed lattices in any frame"
     for (int trial = 0; trial < 8; ++trial) {
       const RigidTransform to_map = random_rigid(random, 40), to_common = inverse_of(to_map);
       const Mesh mesh = mesh_at(grid, to_common, random, 1e-4, 1 - 1e-4);
-      const auto samples = engine->download(engine->sample(engine->upload_map(grid, to_map), engine->upload_mesh(mesh)));
+      const auto samples =
+          engine->download(engine->sample(engine->upload_map(grid, to_map), engine->upload_mesh(mesh)));
       REQUIRE(samples.size() == mesh.positions.size());
       double worst = 0;
       for (std::size_t v = 0; v < samples.size(); ++v) {
@@ -155,7 +157,8 @@ TEST_CASE("the border belongs to the map") {
   for (const auto& engine : back_ends()) {
     for (int corner = 0; corner < 8; ++corner) {
       const std::size_t i = (corner & 1) != 0 ? 3 : 0, j = (corner & 2) != 0 ? 2 : 0, k = (corner & 4) != 0 ? 4 : 0;
-      const Vec3d p{-1 + 0.5 * static_cast<double>(i), -2 + 0.25 * static_cast<double>(j), -3 + 2 * static_cast<double>(k)};
+      const Vec3d p{-1 + 0.5 * static_cast<double>(i), -2 + 0.25 * static_cast<double>(j),
+                    -3 + 2 * static_cast<double>(k)};
       CHECK(sample_at(*engine, p) == static_cast<float>(i + 4 * (j + 3 * k)));
       for (int axis = 0; axis < 3; ++axis) {
         Vec3d outside = p;

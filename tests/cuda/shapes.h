@@ -110,7 +110,8 @@ inline AtomSet random_cloud(std::size_t n, std::uint64_t seed) {
 inline AtomSet hollow_ball(Vec3d centre, double radius, std::size_t n) {
   AtomSet atoms;
   for (std::size_t i = 0; i < n; ++i) {  // a spiral of equal steps in height, Fibonacci's angle apart
-    const double z = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(n), angle = 2.39996323 * static_cast<double>(i);
+    const double z = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(n),
+                 angle = 2.39996323 * static_cast<double>(i);
     const double r = std::sqrt(1 - z * z);
     atoms.add(centre + radius * Vec3d{r * std::cos(angle), r * std::sin(angle), z}, 1.5);
   }
@@ -133,12 +134,12 @@ inline AtomSet read_atoms(const std::string& path) { return atoms_of(espdiff::re
 /// A sphere of 20 * 4^levels triangles.
 inline Mesh icosphere(int levels, double radius, Vec3d centre = {}) {
   const double g = (1 + std::sqrt(5.0)) / 2;
-  std::vector<Vec3d> points = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-                               {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
+  std::vector<Vec3d> points = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                               {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
   Mesh mesh;
-  mesh.triangles = {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                    {11, 10, 2}, {10, 7, 6}, {7, 1, 8}, {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8},
-                    {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
+  mesh.triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                    {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                    {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
   for (; levels > 0; --levels) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middle;
     const auto between = [&](std::uint32_t a, std::uint32_t b) {
@@ -197,7 +198,8 @@ inline espdiff::RigidTransform random_rigid(Random& random, double shift) {
 inline Vec3d lattice_point(const espdiff::Lattice& lattice, std::size_t index) {
   const std::size_t nx = static_cast<std::size_t>(lattice.size[0]), ny = static_cast<std::size_t>(lattice.size[1]);
   return lattice.origin + static_cast<double>(index % nx) * lattice.step[0] +
-         static_cast<double>(index / nx % ny) * lattice.step[1] + static_cast<double>(index / (nx * ny)) * lattice.step[2];
+         static_cast<double>(index / nx % ny) * lattice.step[1] +
+         static_cast<double>(index / (nx * ny)) * lattice.step[2];
 }
 
 }  // namespace espdiff_test

@@ -23,7 +23,8 @@ Errors sphere_errors(Engine& engine, double width, float isovalue, double spacin
   const auto atoms = upload(engine, one_gaussian({0.137, -0.291, 0.418}, width));
   const auto mesh = engine.isosurface(engine.density(atoms, spacing), isovalue);
   const double r = sphere_radius(width, static_cast<double>(isovalue));
-  return {engine.area(mesh) / (4 * kPi * r * r) - 1, signed_volume(engine.download(mesh)) / (4 * kPi / 3 * r * r * r) - 1};
+  return {engine.area(mesh) / (4 * kPi * r * r) - 1,
+          signed_volume(engine.download(mesh)) / (4 * kPi / 3 * r * r * r) - 1};
 }
 
 }  // namespace
@@ -41,7 +42,8 @@ TEST_CASE("one Gaussian gives a sphere: projected vertices lie on it") {
         const Mesh mesh = engine->download(engine->project(surface, atoms, isovalue, 0.25));
         const double r = sphere_radius(width, static_cast<double>(isovalue));
         double worst = 0;
-        for (const Vec3f& p : mesh.positions) worst = std::max(worst, std::fabs(norm(static_cast<Vec3d>(p) - centre) - r));
+        for (const Vec3f& p : mesh.positions)
+          worst = std::max(worst, std::fabs(norm(static_cast<Vec3d>(p) - centre) - r));
         CAPTURE(width);
         CAPTURE(isovalue);
         // The density converges to 1e-4; where it is flat, at other isovalues, that leaves more in the place.
@@ -60,7 +62,8 @@ TEST_CASE("area and volume of the sphere converge with the second order of the s
     const double area_order = std::log2(std::fabs(coarse.area / fine.area)) / 2;
     const double volume_order = std::log2(std::fabs(coarse.volume / fine.volume)) / 2;
     std::printf("sphere, %s: area off by %.2e and %.2e, order %.2f; volume %.2e and %.2e, order %.2f\n",
-                engine->back_end().c_str(), coarse.area, fine.area, area_order, coarse.volume, fine.volume, volume_order);
+                engine->back_end().c_str(), coarse.area, fine.area, area_order, coarse.volume, fine.volume,
+                volume_order);
     CHECK(area_order == doctest::Approx(2).epsilon(0.1));
     CHECK(volume_order == doctest::Approx(2).epsilon(0.1));
     CHECK(std::fabs(fine.area) < 2e-3);

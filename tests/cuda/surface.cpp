@@ -21,8 +21,8 @@ AtomSet scattered_atoms(std::uint64_t seed) {
   return atoms;
 }
 
-/// How many of the seven edges of every lattice point join an inside and an outside point, and how many triangles the six
-/// tetrahedra of every cell ask for.
+/// How many of the seven edges of every lattice point join an inside and an outside point, and how many triangles the
+/// six tetrahedra of every cell ask for.
 struct Counts {
   std::size_t vertices = 0, triangles = 0;
 };
@@ -30,9 +30,10 @@ struct Counts {
 Counts expected_counts(const Grid& grid, float isovalue) {
   const int nx = grid.lattice.size[0], ny = grid.lattice.size[1], nz = grid.lattice.size[2];
   const auto inside = [&](int i, int j, int k, int corner) {
-    const std::size_t p = static_cast<std::size_t>(i + (corner & 1)) +
-                          static_cast<std::size_t>(nx) * (static_cast<std::size_t>(j + (corner >> 1 & 1)) +
-                                                          static_cast<std::size_t>(ny) * static_cast<std::size_t>(k + (corner >> 2)));
+    const std::size_t p =
+        static_cast<std::size_t>(i + (corner & 1)) +
+        static_cast<std::size_t>(nx) * (static_cast<std::size_t>(j + (corner >> 1 & 1)) +
+                                        static_cast<std::size_t>(ny) * static_cast<std::size_t>(k + (corner >> 2)));
     return grid.values[p] > isovalue;
   };
   Counts counts;
@@ -43,7 +44,8 @@ Counts expected_counts(const Grid& grid, float isovalue) {
         for (const int first : {1, 2, 4}) {  // the paths 0 -> one axis -> two axes -> 7
           for (const int second : {1, 2, 4}) {
             if (second == first) continue;
-            const int n = inside(i, j, k, 0) + inside(i, j, k, first) + inside(i, j, k, first + second) + inside(i, j, k, 7);
+            const int n =
+                inside(i, j, k, 0) + inside(i, j, k, first) + inside(i, j, k, first + second) + inside(i, j, k, 7);
             counts.triangles += n == 2 ? 2 : n == 1 || n == 3 ? 1 : 0;
           }
         }
@@ -57,7 +59,8 @@ Counts expected_counts(const Grid& grid, float isovalue) {
 
 TEST_SUITE_BEGIN("surface");
 
-TEST_CASE("random clouds give closed, consistently oriented manifolds with the vertices that the lattice has crossings") {
+TEST_CASE(
+    "random clouds give closed, consistently oriented manifolds with the vertices that the lattice has crossings") {
   for (const auto& engine : back_ends()) {
     for (std::uint64_t seed = 20; seed < 28; ++seed) {
       const AtomSet atoms = random_cloud(40 + 40 * (seed - 20), seed);
@@ -105,7 +108,8 @@ TEST_CASE("vertices lie on the lattice's edges where the density, taken as linea
       }
       REQUIRE(step > 0);
       const double a = static_cast<double>(grid.values[index]), b = static_cast<double>(grid.values[index + step]);
-      if (std::fabs(a - b) < 1e-2 || part < 2e-3 || part > 1 - 2e-3) continue;  // moved off the lattice point on purpose
+      if (std::fabs(a - b) < 1e-2 || part < 2e-3 || part > 1 - 2e-3)
+        continue;  // moved off the lattice point on purpose
       worst = std::max(worst, std::fabs(a + part * (b - a) - 0.5));
     }
     CHECK(worst < 1e-4);  // single precision of the coordinates, times the slope
@@ -190,7 +194,8 @@ TEST_CASE("keep_components keeps vertices and triangles of the kept in order") {
     CHECK(kept.triangles == triangles);
 
     keep.pop_back();
-    CHECK(message_of([&] { engine->keep_components(surface, keep); }) == "keep_components: one entry per component is needed");
+    CHECK(message_of([&] { engine->keep_components(surface, keep); }) ==
+          "keep_components: one entry per component is needed");
   }
 }
 

@@ -69,14 +69,13 @@ TEST_CASE("the Freudenthal tetrahedra fill the cube") {
   double total = 0;
   for (const auto& t : kFreudenthalTetrahedra) {
     const Vec3d a = corner_at(t[0]);
-    const double volume =
-        std::fabs(dot(corner_at(t[1]) - a, cross(corner_at(t[2]) - a, corner_at(t[3]) - a))) / 6;
+    const double volume = std::fabs(dot(corner_at(t[1]) - a, cross(corner_at(t[2]) - a, corner_at(t[3]) - a))) / 6;
     CHECK(volume == doctest::Approx(1.0 / 6).epsilon(1e-14));
     total += volume;
   }
   CHECK(total == doctest::Approx(1).epsilon(1e-14));
-  // They do not overlap: a point with coordinates in strict order lies in the one tetrahedron whose path adds the axes in that
-  // order, and every order occurs once.
+  // They do not overlap: a point with coordinates in strict order lies in the one tetrahedron whose path adds the axes
+  // in that order, and every order occurs once.
   std::set<std::pair<int, int>> paths;
   for (const auto& t : kFreudenthalTetrahedra) {
     CHECK(t[0] == 0);
@@ -171,8 +170,7 @@ TEST_CASE("the patches of neighbouring cells meet on their face with opposite ed
         int high_case = 0, n_far = 0;
         for (int corner = 0; corner < 8; ++corner) {
           const bool far_side = (corner >> axis & 1) != 0;
-          const bool inside =
-              far_side ? (far_corners >> n_far & 1) != 0 : is_inside(low_case, corner | 1 << axis);
+          const bool inside = far_side ? (far_corners >> n_far & 1) != 0 : is_inside(low_case, corner | 1 << axis);
           if (far_side) ++n_far;
           high_case |= (inside ? 1 : 0) << corner;
         }

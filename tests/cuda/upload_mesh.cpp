@@ -57,7 +57,8 @@ TEST_CASE("displacement is the distance of vertices of one index") {
       worst = std::max(worst, std::fabs(static_cast<double>(d[v]) - exact));
     }
     CHECK(worst < 1e-6);
-    CHECK_THROWS_AS(engine->displacement(engine->upload_mesh(sphere), engine->upload_mesh(icosphere(1, 3))), espdiff::InputError);
+    CHECK_THROWS_AS(engine->displacement(engine->upload_mesh(sphere), engine->upload_mesh(icosphere(1, 3))),
+                    espdiff::InputError);
   }
 }
 
@@ -76,9 +77,12 @@ TEST_CASE("meshes that are not closed or not consistent are refused, and the edg
     for (const Mesh* mesh : {&open, &flipped, &doubled, &out_of_range}) {
       CHECK_THROWS_AS(engine->upload_mesh(*mesh), espdiff::GeometryError);
     }
-    CHECK(message(open) == "the mesh is not closed or not consistently oriented: edge 0 - 5 does not lie in exactly two triangles");
-    CHECK(message(flipped) == "the mesh is not closed or not consistently oriented: edge 0 - 5 does not lie in exactly two triangles");
-    CHECK(message(doubled) == "the mesh is not closed or not consistently oriented: edge 0 - 11 does not lie in exactly two triangles");
+    CHECK(message(open) ==
+          "the mesh is not closed or not consistently oriented: edge 0 - 5 does not lie in exactly two triangles");
+    CHECK(message(flipped) ==
+          "the mesh is not closed or not consistently oriented: edge 0 - 5 does not lie in exactly two triangles");
+    CHECK(message(doubled) ==
+          "the mesh is not closed or not consistently oriented: edge 0 - 11 does not lie in exactly two triangles");
     CHECK(message(out_of_range) == "a triangle names vertex 12, which does not exist");
   }
 }
@@ -105,8 +109,8 @@ TEST_CASE("a vertex in no triangle does not move under deform") {
     espdiff::DeformOptions options;
     options.mu = 0;
     options.max_iterations = 5;
-    const Mesh after =
-        engine->download(engine->deform(uploaded, engine->density_field(density, 0.5F), options, "deform", {}, nullptr));
+    const Mesh after = engine->download(
+        engine->deform(uploaded, engine->density_field(density, 0.5F), options, "deform", {}, nullptr));
     CHECK(norm(after.positions.back() - mesh.positions.back()) < 1e-6F);
   }
 }

@@ -164,7 +164,7 @@ TEST_CASE("OUT.json echoes all options under their names") {
   CHECK(json["deform"]["interpolation"] == "tricubic");
   CHECK(json["regularize"]["interpolation"] == "trilinear");
   CHECK(json["deform"]["mu"] == 0.75);
-  CHECK(json["deform"]["min_displacement_A"] == 0.00025);      // what takes effect: 5e-4 spacings
+  CHECK(json["deform"]["min_displacement_A"] == 0.00025);     // what takes effect: 5e-4 spacings
   CHECK(json["regularize"]["min_displacement_A"] == 0.0005);  // 1e-3 spacings
   CHECK(json["deform"]["rest_shape"] == true);
   CHECK(json["deform"]["tangential_gain"] == 8);
@@ -288,7 +288,7 @@ TEST_CASE("the table gives the verdict with its reasons, and units") {
   for (const char* part :
        {"a.pqr", "3 atoms, by sequence alignment (1 of 3 residues substituted)", "RMSD", "kT/e", "A^2",
         "converged after 42 iterations", "NOT TRUSTWORTHY:\n  - 12.5 % of the mapped area is corrupt", "not checked",
-        "self_intersecting_pairs"}) {
+        "self intersecting pairs"}) {
     CHECK_MESSAGE(table.find(part) != std::string::npos, part, " not in\n", table);
   }
   CHECK(table.find("nan") == std::string::npos);
