@@ -5,7 +5,8 @@ namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
 /// Orders a row by triangle, since the order in which threads filled it is chance.
-ESPDIFF_INLINE void sort_row(std::uint32_t* incident, std::uint32_t* neighbour, std::uint32_t begin, std::uint32_t end) {
+ESPDIFF_INLINE void sort_row(std::uint32_t* incident, std::uint32_t* neighbour, std::uint32_t begin,
+                             std::uint32_t end) {
   for (std::uint32_t i = begin + 1; i < end; ++i) {
     const std::uint32_t triangle = incident[i], vertex = neighbour[i];
     std::uint32_t j = i;

@@ -1,4 +1,5 @@
-// adjacency.h: what follows from a mesh's triangles alone: one-rings, vertex normals, vertex areas, umbrella Laplacians.
+// adjacency.h: what follows from a mesh's triangles alone: one-rings, vertex normals, vertex areas, umbrella
+// Laplacians.
 #pragma once
 
 #include "mesh.h"
@@ -14,13 +15,13 @@ Buffer<float> triangle_areas(const SurfaceMesh& mesh);
 /// [vertex] a third of the area of the incident triangles whose entry in `counted` is nonzero (null counts all).
 Buffer<float> vertex_areas(const SurfaceMesh& mesh, const Buffer<float>& areas, const std::uint8_t* counted);
 
-/// Uniform umbrella Laplacian at v: mean of the one-ring minus v.
+/// Uniform umbrella Laplacian at v: mean of the one-ring minus v; zero for a vertex in no triangle.
 ESPDIFF_INLINE Vec4f umbrella(const TopologyView& topology, const Vec4f* x, std::size_t v) {
   const std::uint32_t begin = topology.first[v], end = topology.first[v + 1];
   Vec4f sum{};
   for (std::uint32_t n = begin; n < end; ++n) sum = sum + x[topology.neighbour[n]];
-  const float scale = end > begin ? 1.0F / static_cast<float>(end - begin) : 0.0F;
-  return scale * sum - x[v];
+  if (begin == end) return {};  // a vertex in no triangle stays where it is
+  return (1.0F / static_cast<float>(end - begin)) * sum - x[v];
 }
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -10,7 +10,9 @@
 namespace espdiff::ESPDIFF_BACKEND {
 
 #if !defined(__CUDACC__)
-ESPDIFF_MULTIVERSION DensitySample density_at(const AtomCellsView& atoms, Vec3f p) { return density_at_inline(atoms, p); }
+ESPDIFF_MULTIVERSION DensitySample density_at(const AtomCellsView& atoms, Vec3f p) {
+  return density_at_inline(atoms, p);
+}
 #endif
 
 namespace {
@@ -20,7 +22,7 @@ constexpr float kCellsPerReach = 3.0F;
 constexpr double kMaxCells = 6.4e7;
 
 struct HostAtoms {
-  std::vector<std::size_t> kept;  // input indices of atoms with a positive width
+  std::vector<std::size_t> kept;                                    // input indices of atoms with a positive width
   Vec3d lower{1e300, 1e300, 1e300}, upper{-1e300, -1e300, -1e300};  // of the centres
   float max_reach = 0;
 };
@@ -43,7 +45,8 @@ HostAtoms check_atoms(const std::vector<Vec3d>& positions, const std::vector<flo
       cells.upper[axis] = std::max(cells.upper[axis], c + reach);
     }
   }
-  if (atoms.kept.empty()) throw InputError("no atom has a positive radius, so there is no surface; check the radii or the selection");
+  if (atoms.kept.empty())
+    throw InputError("no atom has a positive radius, so there is no surface; check the radii or the selection");
   return atoms;
 }
 
@@ -64,8 +67,8 @@ void choose_cells(const HostAtoms& atoms, AtomCells& cells) {
 }  // namespace
 
 AtomCellsView AtomCells::view() const {
-  return {raw(x), raw(y), raw(z), raw(exponent), raw(reach), raw(residue), raw(first), {size[0], size[1], size[2]}, origin, cell,
-          max_reach};
+  return {raw(x), raw(y), raw(z),   raw(exponent), raw(reach), raw(residue), raw(first), {size[0], size[1], size[2]},
+          origin, cell,   max_reach};
 }
 
 std::shared_ptr<AtomCells> make_atom_cells(const std::vector<Vec3d>& positions, const std::vector<float>& widths,
@@ -75,7 +78,8 @@ std::shared_ptr<AtomCells> make_atom_cells(const std::vector<Vec3d>& positions, 
   choose_cells(atoms, *cells);
 
   const auto& size = cells->size;
-  const std::size_t n_cells = static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(size[2]);
+  const std::size_t n_cells =
+      static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(size[2]);
   std::vector<std::uint32_t> first(n_cells + 1, 0);
   std::vector<std::size_t> cell_of(atoms.kept.size());
   AtomCellsView locate{};
@@ -85,8 +89,9 @@ std::shared_ptr<AtomCells> make_atom_cells(const std::vector<Vec3d>& positions, 
   for (std::size_t n = 0; n < atoms.kept.size(); ++n) {
     const Vec3f p = static_cast<Vec3f>(positions[atoms.kept[n]]);
     cell_of[n] = static_cast<std::size_t>(locate.clamped_cell(p.x, 0)) +
-                 static_cast<std::size_t>(size[0]) * (static_cast<std::size_t>(locate.clamped_cell(p.y, 1)) +
-                                                      static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(locate.clamped_cell(p.z, 2)));
+                 static_cast<std::size_t>(size[0]) *
+                     (static_cast<std::size_t>(locate.clamped_cell(p.y, 1)) +
+                      static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(locate.clamped_cell(p.z, 2)));
     ++first[cell_of[n] + 1];
   }
   for (std::size_t c = 0; c < n_cells; ++c) first[c + 1] += first[c];

@@ -9,10 +9,10 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
-/// What kernels see of the atoms. Cells are numbered x fastest, z slowest; the atoms of cell c are first[c] .. first[c+1]-1, in
-/// input order, so that a run of cells along x is one range of atoms.
+/// What kernels see of the atoms. Cells are numbered x fastest, z slowest; the atoms of cell c are first[c] ..
+/// first[c+1]-1, in input order, so that a run of cells along x is one range of atoms.
 struct AtomCellsView {
-  const float* x;         ///< [sorted atom] Angstrom
+  const float* x;  ///< [sorted atom] Angstrom
   const float* y;
   const float* z;
   const float* exponent;  ///< [sorted atom] -1 / (2 s^2), 1/Angstrom^2
@@ -57,8 +57,8 @@ struct DensitySample {
 constexpr int kLanes = 8;
 
 /// Adds the atoms begin..end-1 to the lanes; the order of additions is fixed by position in the list alone.
-ESPDIFF_INLINE void add_atoms(const AtomCellsView& atoms, Vec3f p, std::uint32_t begin, std::uint32_t end, float (&value)[kLanes],
-                              float (&gx)[kLanes], float (&gy)[kLanes], float (&gz)[kLanes]) {
+ESPDIFF_INLINE void add_atoms(const AtomCellsView& atoms, Vec3f p, std::uint32_t begin, std::uint32_t end,
+                              float (&value)[kLanes], float (&gx)[kLanes], float (&gy)[kLanes], float (&gz)[kLanes]) {
   for (std::uint32_t i = begin; i < end; i += kLanes) {
     // The arrays end in kLanes atoms of no weight, so that reading past `end` is safe.
     for (int lane = 0; lane < kLanes; ++lane) {

@@ -11,7 +11,8 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// Vertices handled one after the other: neighbours in the list are neighbours in space, so the last one's triangle is a good guess.
+/// Vertices handled one after the other: neighbours in the list are neighbours in space, so the last one's triangle is
+/// a good guess.
 constexpr std::size_t kRun = 32;
 
 struct FitSums {

@@ -1,5 +1,5 @@
-// components.cu: labels by hooking and pointer jumping: each vertex ends with the smallest vertex index of its component, whatever
-// the order in which threads met.
+// components.cu: labels by hooking and pointer jumping: each vertex ends with the smallest vertex index of its
+// component, whatever the order in which threads met.
 #include "components.h"
 
 #include <cmath>
@@ -62,7 +62,8 @@ ComponentLabels label_components(const SurfaceMesh& mesh) {
   const std::vector<Vec4f> x = to_host(mesh.positions);
   for (const Corners& t : to_host(mesh.topology->triangles)) {
     ComponentSummary& component = result.summaries[label[t.v[0]]];
-    const Vec3d a = static_cast<Vec3d>(x[t.v[0]].xyz()), b = static_cast<Vec3d>(x[t.v[1]].xyz()), c = static_cast<Vec3d>(x[t.v[2]].xyz());
+    const Vec3d a = static_cast<Vec3d>(x[t.v[0]].xyz()), b = static_cast<Vec3d>(x[t.v[1]].xyz()),
+                c = static_cast<Vec3d>(x[t.v[2]].xyz());
     ++component.n_triangles;
     component.area_A2 += 0.5 * norm(cross(b - a, c - a));
     component.volume_A3 += dot(a, cross(b, c)) / 6.0;
@@ -71,7 +72,8 @@ ComponentLabels label_components(const SurfaceMesh& mesh) {
   return result;
 }
 
-std::shared_ptr<SurfaceMesh> keep_components(const SurfaceMesh& mesh, const ComponentLabels& labels, const std::vector<bool>& keep) {
+std::shared_ptr<SurfaceMesh> keep_components(const SurfaceMesh& mesh, const ComponentLabels& labels,
+                                             const std::vector<bool>& keep) {
   if (keep.size() != labels.summaries.size()) throw InputError("keep_components: one entry per component is needed");
   Buffer<std::uint8_t> kept_components(keep.size());
   for (std::size_t c = 0; c < keep.size(); ++c) kept_components[c] = keep[c] ? 1 : 0;

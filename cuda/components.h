@@ -15,6 +15,7 @@ struct ComponentLabels {
 ComponentLabels label_components(const SurfaceMesh& mesh);
 
 /// The mesh of the components whose entry in `keep` is true; vertices and triangles keep their order.
-std::shared_ptr<SurfaceMesh> keep_components(const SurfaceMesh& mesh, const ComponentLabels& labels, const std::vector<bool>& keep);
+std::shared_ptr<SurfaceMesh> keep_components(const SurfaceMesh& mesh, const ComponentLabels& labels,
+                                             const std::vector<bool>& keep);
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -10,11 +10,12 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// Iterations between checks for convergence and cancellation: a check sums over all vertices and, on a device, waits for it.
+/// Iterations between checks for convergence and cancellation: a check sums over all vertices and, on a device, waits
+/// for it.
 constexpr int kCheckInterval = 5;
 
-/// Eigenvalues of the umbrella operator lie in [-2, 0], so that an explicit step along (1 - rho) L - rho L^2 is stable for every rho
-/// while it is below 2 / 4.
+/// Eigenvalues of the umbrella operator lie in [-2, 0], so that an explicit step along (1 - rho) L - rho L^2 is stable
+/// for every rho while it is below 2 / 4.
 constexpr double kLargestInternalStep = 0.5;
 
 double internal_step(const DeformOptions& o) { return o.sigma * (1 - o.mu) * o.tangential_gain; }
@@ -23,13 +24,17 @@ void check_options(const DeformOptions& o) {
   if (!(o.sigma > 0)) throw InputError("sigma " + std::to_string(o.sigma) + " is not positive; 0.1 is usual");
   if (!(o.mu >= 0 && o.mu <= 1)) throw InputError("mu " + std::to_string(o.mu) + " is not between 0 and 1");
   if (!(o.rho >= 0 && o.rho <= 1)) throw InputError("rho " + std::to_string(o.rho) + " is not between 0 and 1");
-  if (!(o.tangential_gain >= 0)) throw InputError("the tangential gain, " + std::to_string(o.tangential_gain) + ", is negative; 1 is the plain iteration");
+  if (!(o.tangential_gain >= 0))
+    throw InputError("the tangential gain, " + std::to_string(o.tangential_gain) +
+                     ", is negative; 1 is the plain iteration");
   if (internal_step(o) > kLargestInternalStep) {
     throw InputError("sigma (1 - mu) times the tangential gain is " + std::to_string(internal_step(o)) + ", beyond " +
                      std::to_string(kLargestInternalStep) + " where the iteration becomes unstable; lower one of them");
   }
-  if (o.max_iterations < 0) throw InputError("the number of iterations, " + std::to_string(o.max_iterations) + ", is negative");
-  if (!(o.min_displacement_A >= 0)) throw InputError("the smallest displacement, " + std::to_string(o.min_displacement_A) + " A, is negative");
+  if (o.max_iterations < 0)
+    throw InputError("the number of iterations, " + std::to_string(o.max_iterations) + ", is negative");
+  if (!(o.min_displacement_A >= 0))
+    throw InputError("the smallest displacement, " + std::to_string(o.min_displacement_A) + " A, is negative");
 }
 
 /// What one iteration reads and writes.
@@ -63,7 +68,8 @@ ESPDIFF_INLINE void move_vertex(const Iteration& it, std::size_t v) {
   }
   const float length = norm(sample.xyz());
   Vec3f moved = internal;
-  if (length > 1e-12F) {
+  const bool has_neighbours = it.topology.first[v + 1] > it.topology.first[v];
+  if (length > 1e-12F && has_neighbours) {
     const Vec3f n = (1.0F / length) * sample.xyz();
     moved = internal + (it.step_external * s - dot(internal, n)) * n;
   }
@@ -72,8 +78,8 @@ ESPDIFF_INLINE void move_vertex(const Iteration& it, std::size_t v) {
 
 }  // namespace
 
-std::shared_ptr<SurfaceMesh> deform(const SurfaceMesh& mesh, const SurfaceField& field, const DeformOptions& options, const std::string& stage,
-                                    const Progress& progress, DeformReport* report) {
+std::shared_ptr<SurfaceMesh> deform(const SurfaceMesh& mesh, const SurfaceField& field, const DeformOptions& options,
+                                    const std::string& stage, const Progress& progress, DeformReport* report) {
   check_options(options);
   const std::size_t n = mesh.n_vertices();
   Buffer<Vec4f> positions = mesh.positions, moved(n), laplacians(n);
@@ -91,7 +97,9 @@ std::shared_ptr<SurfaceMesh> deform(const SurfaceMesh& mesh, const SurfaceField&
   {
     it.from = raw(positions);
     const Iteration start = it;
-    for_each_index(n, [=] ESPDIFF_HD(std::size_t v) { start.strength[v] = field_at(start, start.from[v].xyz()).w > 0 ? -1.0F : 1.0F; });
+    for_each_index(n, [=] ESPDIFF_HD(std::size_t v) {
+      start.strength[v] = field_at(start, start.from[v].xyz()).w > 0 ? -1.0F : 1.0F;
+    });
   }
   Vec4f* const laplacian = raw(laplacians);
   it.laplacian = laplacian;
@@ -114,7 +122,9 @@ std::shared_ptr<SurfaceMesh> deform(const SurfaceMesh& mesh, const SurfaceField&
     ++result.iterations;
     if (result.iterations % kCheckInterval == 0 || result.iterations == options.max_iterations) {
       const Vec4f* const x = raw(positions);
-      result.mean_displacement_A = sum_over<double>(n, [=] ESPDIFF_HD(std::size_t v) { return static_cast<double>(x[v].w); }) / static_cast<double>(n);
+      result.mean_displacement_A =
+          sum_over<double>(n, [=] ESPDIFF_HD(std::size_t v) { return static_cast<double>(x[v].w); }) /
+          static_cast<double>(n);
       result.converged = result.mean_displacement_A < options.min_displacement_A;
       progress.report(stage, static_cast<double>(result.iterations) / options.max_iterations);
     }

@@ -7,9 +7,10 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
-/// See Engine::deform(). Each iteration reads the positions of the one before, so that the result does not depend on threads.
+/// See Engine::deform(). Each iteration reads the positions of the one before, so that the result does not depend on
+/// threads.
 /// @throws InputError (parameters out of range), Cancelled
-std::shared_ptr<SurfaceMesh> deform(const SurfaceMesh& mesh, const SurfaceField& field, const DeformOptions& options, const std::string& stage,
-                                    const Progress& progress, DeformReport* report);
+std::shared_ptr<SurfaceMesh> deform(const SurfaceMesh& mesh, const SurfaceField& field, const DeformOptions& options,
+                                    const std::string& stage, const Progress& progress, DeformReport* report);
 
 }  // namespace espdiff::ESPDIFF_BACKEND

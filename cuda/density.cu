@@ -1,7 +1,8 @@
 // density.cu: the Gaussian density of the atoms on a lattice, as a gather by points and as a sweep by slabs.
 //
-// Both add the same terms in the same order, atoms ascending in the cell list, hence agree to the last bit. A term counts where
-// the point lies within the atom's reach along each axis and the Gaussian of its (y, z) distance is above the cutoff.
+// Both add the same terms in the same order, atoms ascending in the cell list, hence agree to the last bit. A term
+// counts where the point lies within the atom's reach along each axis and the Gaussian of its (y, z) distance is above
+// the cutoff.
 #include "density.h"
 
 #include <unistd.h>
@@ -23,7 +24,9 @@ double available_bytes() {
   return pages > 0 && page_size > 0 ? 0.8 * static_cast<double>(pages) * static_cast<double>(page_size) : 1e18;
 }
 
-ESPDIFF_INLINE float axis_gaussian(float exponent, float delta) { return exp_of_negative(fmaxf(exponent * delta * delta, -80.0F)); }
+ESPDIFF_INLINE float axis_gaussian(float exponent, float delta) {
+  return exp_of_negative(fmaxf(exponent * delta * delta, -80.0F));
+}
 
 /// Smallest product of the y and z Gaussians that still counts.
 ESPDIFF_INLINE float row_floor() { return exp_of_negative(kCutoffExponent); }
@@ -61,18 +64,17 @@ CubicLattice density_lattice(const AtomCells& atoms, double spacing_A) {
   double n_points = 1;
   CubicLattice lattice{};
   for (int axis = 0; axis < 3; ++axis) {
-    const double n = std::ceil(extent[axis] / spacing_A) + 3;
-    n_points *= n;
-    lattice.size[axis] = n < 1e6 ? static_cast<int>(n) : 1000000;
+    n_points *= std::ceil(extent[axis] / spacing_A) + 3;
   }
-  const double limit = std::min(available_bytes() / kBytesPerPoint, 4.0e9);
+  const double limit = std::min(available_bytes() / kBytesPerPoint, 2.0e9);
   if (n_points > limit) {
     const double fitting = spacing_A * std::cbrt(n_points / limit);
     throw MemoryError("a grid of spacing " + std::to_string(spacing_A) + " A over " + std::to_string(extent.x) + " x " +
-                      std::to_string(extent.y) + " x " + std::to_string(extent.z) + " A has " + std::to_string(n_points) +
-                      " points, more than memory holds (" + std::to_string(limit) + "); a spacing of " + std::to_string(fitting) +
-                      " A would fit, or select fewer atoms");
+                      std::to_string(extent.y) + " x " + std::to_string(extent.z) + " A has " +
+                      std::to_string(n_points) + " points, more than memory holds (" + std::to_string(limit) +
+                      "); a spacing of " + std::to_string(fitting) + " A would fit, or select fewer atoms");
   }
+  for (int axis = 0; axis < 3; ++axis) lattice.size[axis] = static_cast<int>(std::ceil(extent[axis] / spacing_A) + 3);
   lattice.spacing = static_cast<float>(spacing_A);
   lattice.origin = static_cast<Vec3f>(atoms.lower - Vec3d{spacing_A, spacing_A, spacing_A});
   return lattice;
@@ -98,15 +100,17 @@ std::shared_ptr<DensityGrid> density_by_points(const AtomCells& atoms, const Cub
 namespace {
 
 constexpr int kSlabLayers = 4;
-constexpr int kVector = 8;      // row weights are added in groups of this many points
-constexpr int kMaxAxis = 512;   // lattice points an atom may reach along an axis; beyond it the gather form takes over
+constexpr int kVector = 8;     // row weights are added in groups of this many points
+constexpr int kMaxAxis = 512;  // lattice points an atom may reach along an axis; beyond it the gather form takes over
 
 struct AxisRange {
   int begin, end;
 };
 
-/// Lattice points of [begin, end) within reach of the atom; the test is the gather form's, so that both agree at the border.
-ESPDIFF_INLINE AxisRange points_in_reach(const CubicLattice& lattice, int axis, float centre, float reach, int begin, int end) {
+/// Lattice points of [begin, end) within reach of the atom; the test is the gather form's, so that both agree at the
+/// border.
+ESPDIFF_INLINE AxisRange points_in_reach(const CubicLattice& lattice, int axis, float centre, float reach, int begin,
+                                         int end) {
   const float first = (centre - reach - lattice.origin[axis]) / lattice.spacing;
   const float last = (centre + reach - lattice.origin[axis]) / lattice.spacing;
   int from = std::max(begin, static_cast<int>(first) - 1), to = std::min(end, static_cast<int>(last) + 3);
@@ -130,8 +134,8 @@ ESPDIFF_INLINE void add_row_of(int groups, float* row, const float* gaussian, fl
   }
 }
 
-ESPDIFF_INLINE void axis_gaussians(const CubicLattice& lattice, int axis, AxisRange range, int padded, float centre, float k, float reach,
-                           float* gaussian) {
+ESPDIFF_INLINE void axis_gaussians(const CubicLattice& lattice, int axis, AxisRange range, int padded, float centre,
+                                   float k, float reach, float* gaussian) {
   for (int i = 0; i < padded; ++i) {
     const float delta = lattice.coordinate(axis, range.begin + i) - centre;
     const float value = axis_gaussian(k, delta);
@@ -140,15 +144,16 @@ ESPDIFF_INLINE void axis_gaussians(const CubicLattice& lattice, int axis, AxisRa
 }
 
 /// Adds one atom to the layers [z_begin, z_end).
-ESPDIFF_INLINE void add_atom(const AtomCellsView& atoms, std::uint32_t a, const CubicLattice& lattice, int z_begin, int z_end,
-                             float* values) {
+ESPDIFF_INLINE void add_atom(const AtomCellsView& atoms, std::uint32_t a, const CubicLattice& lattice, int z_begin,
+                             int z_end, float* values) {
   const float reach = atoms.reach[a], k = atoms.exponent[a];
   const AxisRange zs = points_in_reach(lattice, 2, atoms.z[a], reach, z_begin, z_end);
   if (zs.begin >= zs.end) return;
   const AxisRange ys = points_in_reach(lattice, 1, atoms.y[a], reach, 0, lattice.size[1]);
   AxisRange xs = points_in_reach(lattice, 0, atoms.x[a], reach, 0, lattice.size[0]);
   if (ys.begin >= ys.end || xs.begin >= xs.end) return;
-  // Whole groups only: a row never runs past its end, which belongs to another thread. The points added get a weight of 0.
+  // Whole groups only: a row never runs past its end, which belongs to another thread. The points added get a weight of
+  // 0.
   const int groups = (xs.end - xs.begin + kVector - 1) / kVector;
   xs.begin = std::min(xs.begin, lattice.size[0] - groups * kVector);
   alignas(64) float gaussian_x[kMaxAxis], gaussian_y[kMaxAxis], gaussian_z[kMaxAxis];
@@ -165,7 +170,8 @@ ESPDIFF_INLINE void add_atom(const AtomCellsView& atoms, std::uint32_t a, const 
   }
 }
 
-ESPDIFF_MULTIVERSION void add_slab(const AtomCellsView& atoms, const CubicLattice& lattice, int z_begin, int z_end, float* values) {
+ESPDIFF_MULTIVERSION void add_slab(const AtomCellsView& atoms, const CubicLattice& lattice, int z_begin, int z_end,
+                                   float* values) {
   const int layer = atoms.size[0] * atoms.size[1];
   const int z0 = atoms.clamped_cell(lattice.coordinate(2, z_begin) - atoms.max_reach, 2);
   const int z1 = atoms.clamped_cell(lattice.coordinate(2, z_end - 1) + atoms.max_reach, 2);
@@ -177,7 +183,8 @@ ESPDIFF_MULTIVERSION void add_slab(const AtomCellsView& atoms, const CubicLattic
 
 std::shared_ptr<DensityGrid> density_by_slabs(const AtomCells& atoms, const CubicLattice& lattice) {
   const float widest_row = 2 * atoms.max_reach / lattice.spacing + 2 * kVector;
-  if (widest_row > static_cast<float>(kMaxAxis) || lattice.size[0] < 2 * kVector) return density_by_points(atoms, lattice);
+  if (widest_row > static_cast<float>(kMaxAxis) || lattice.size[0] < 2 * kVector)
+    return density_by_points(atoms, lattice);
   auto grid = std::make_shared<DensityGrid>();
   grid->lattice = lattice;
   grid->values.resize(lattice.n_points());

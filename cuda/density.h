@@ -16,8 +16,8 @@ CubicLattice density_lattice(const AtomCells& atoms, double spacing_A);
 std::shared_ptr<DensityGrid> density_by_points(const AtomCells& atoms, const CubicLattice& lattice);
 
 #if !defined(ESPDIFF_BACKEND_CUDA)
-/// The same bits, slab by slab: each atom adds its separable Gaussian to the rows of the slab. The form for a CPU's caches and
-/// vector units.
+/// The same bits, slab by slab: each atom adds its separable Gaussian to the rows of the slab. The form for a CPU's
+/// caches and vector units.
 std::shared_ptr<DensityGrid> density_by_slabs(const AtomCells& atoms, const CubicLattice& lattice);
 #endif
 

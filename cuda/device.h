@@ -18,9 +18,10 @@
 
 #include "base/vector.h"
 
-// Compiles a hot host function for several instruction sets and picks one at load time. Without contraction all give the same
-// bits, so the choice changes speed alone.
-#if defined(__GNUC__) && !defined(__CUDACC__) && defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+// Compiles a hot host function for several instruction sets and picks one at load time. Without contraction all give
+// the same bits, so the choice changes speed alone.
+#if defined(__GNUC__) && !defined(__CUDACC__) && defined(__x86_64__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__)
 #define ESPDIFF_MULTIVERSION __attribute__((target_clones("default", "arch=haswell", "arch=skylake-avx512")))
 #else
 #define ESPDIFF_MULTIVERSION
@@ -71,8 +72,8 @@ void for_each_index(std::size_t n, Body body) {
 
 constexpr std::size_t kReductionChunk = 2048;
 
-/// Sum of term(i) over [0, n) as a T (with operator+=, value-initialized to zero): chunks of fixed size in order, then the chunks in
-/// order, so that the result does not depend on the number of threads.
+/// Sum of term(i) over [0, n) as a T (with operator+=, value-initialized to zero): chunks of fixed size in order, then
+/// the chunks in order, so that the result does not depend on the number of threads.
 template <typename T, typename Term>
 T sum_over(std::size_t n, Term term) {
   const std::size_t n_chunks = (n + kReductionChunk - 1) / kReductionChunk;
@@ -101,7 +102,8 @@ T exclusive_scan_in_place(Buffer<T>& counts) {
 /// False for NaN and infinities; std::isfinite is not for device code.
 ESPDIFF_INLINE bool is_finite(float x) { return x - x == 0.0F; }
 
-/// Adds to a counter that other threads add to as well; returns its value before. Integers only: their sum has no order.
+/// Adds to a counter that other threads add to as well; returns its value before. Integers only: their sum has no
+/// order.
 ESPDIFF_INLINE std::uint32_t atomic_increment(std::uint32_t* counter) {
 #if defined(__CUDA_ARCH__)
   return atomicAdd(counter, 1U);

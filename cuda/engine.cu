@@ -32,7 +32,8 @@ namespace {
 template <typename Derived, typename Base>
 const Derived& unwrap(const std::shared_ptr<Base>& handle) {
   const auto* derived = dynamic_cast<const Derived*>(handle.get());
-  if (derived == nullptr) throw Error(ErrorClass::kInternal, "a handle of another engine, or of another kind, was passed to a stage");
+  if (derived == nullptr)
+    throw Error(ErrorClass::kInternal, "a handle of another engine, or of another kind, was passed to a stage");
   return *derived;
 }
 
@@ -58,7 +59,9 @@ void check_closed(const Mesh& mesh) {
   edges.reserve(3 * mesh.triangles.size());
   for (const Triangle& t : mesh.triangles) {
     for (std::size_t c = 0; c < 3; ++c) {
-      if (t[c] >= mesh.positions.size()) throw GeometryError("a triangle names vertex " + std::to_string(t[c]) + ", which does not exist");
+      if (t[c] >= mesh.positions.size())
+        throw GeometryError("a triangle names vertex " + std::to_string(t[c]) + ", which does not exist");
+      if (t[c] == t[(c + 1) % 3]) throw GeometryError("a triangle names vertex " + std::to_string(t[c]) + " twice");
       edges.push_back(static_cast<std::uint64_t>(t[c]) << 32 | t[(c + 1) % 3]);
     }
   }
@@ -67,8 +70,9 @@ void check_closed(const Mesh& mesh) {
     const std::uint64_t opposite = edges[e] << 32 | edges[e] >> 32;
     const bool repeated = e > 0 && edges[e] == edges[e - 1];
     if (repeated || !std::binary_search(edges.begin(), edges.end(), opposite)) {
-      throw GeometryError("the mesh is not closed or not consistently oriented: edge " + std::to_string(edges[e] >> 32) + " - " +
-                          std::to_string(edges[e] & 0xFFFFFFFFU) + " does not lie in exactly two triangles");
+      throw GeometryError("the mesh is not closed or not consistently oriented: edge " +
+                          std::to_string(edges[e] >> 32) + " - " + std::to_string(edges[e] & 0xFFFFFFFFU) +
+                          " does not lie in exactly two triangles");
     }
   }
 }
@@ -83,7 +87,9 @@ class BackEndEngine : public Engine {
   int n_threads() const override { return 0; }
 #else
   std::string back_end() const override { return "cpu"; }
-  std::string description() const override { return std::to_string(n_threads_) + (n_threads_ == 1 ? " thread" : " OpenMP threads"); }
+  std::string description() const override {
+    return std::to_string(n_threads_) + (n_threads_ == 1 ? " thread" : " OpenMP threads");
+  }
   int n_threads() const override { return n_threads_; }
 #endif
 
@@ -124,7 +130,8 @@ class BackEndEngine : public Engine {
 
   MeshPtr project(const MeshPtr& mesh, const AtomsPtr& atoms, float isovalue, double max_shift_A) override {
     return run([&] {
-      return ESPDIFF_BACKEND::project(unwrap<SurfaceMesh>(mesh), unwrap<AtomCells>(atoms), isovalue, static_cast<float>(max_shift_A));
+      return ESPDIFF_BACKEND::project(unwrap<SurfaceMesh>(mesh), unwrap<AtomCells>(atoms), isovalue,
+                                      static_cast<float>(max_shift_A));
     });
   }
 
@@ -143,7 +150,8 @@ class BackEndEngine : public Engine {
   MeshPtr deform(const MeshPtr& mesh, const FieldPtr& field, const DeformOptions& options, const std::string& stage,
                  const Progress& progress, DeformReport* report) override {
     return run([&] {
-      return ESPDIFF_BACKEND::deform(unwrap<SurfaceMesh>(mesh), unwrap<SurfaceField>(field), options, stage, progress, report);
+      return ESPDIFF_BACKEND::deform(unwrap<SurfaceMesh>(mesh), unwrap<SurfaceField>(field), options, stage, progress,
+                                     report);
     });
   }
 
@@ -155,11 +163,12 @@ class BackEndEngine : public Engine {
     return run([&] { return ESPDIFF_BACKEND::sample(unwrap<MapGrid>(map), unwrap<SurfaceMesh>(mesh)); });
   }
 
-  Metrics compare(const MeshPtr& source, const MeshPtr& mapped, const ScalarsPtr& source_potential, const ScalarsPtr& target_potential,
-                  const ScalarsPtr& excluded) override {
+  Metrics compare(const MeshPtr& source, const MeshPtr& mapped, const ScalarsPtr& source_potential,
+                  const ScalarsPtr& target_potential, const ScalarsPtr& excluded) override {
     return run([&] {
-      return compare_potentials(unwrap<SurfaceMesh>(source), unwrap<SurfaceMesh>(mapped), unwrap<Scalars>(source_potential),
-                                unwrap<Scalars>(target_potential), excluded ? &unwrap<Scalars>(excluded) : nullptr);
+      return compare_potentials(unwrap<SurfaceMesh>(source), unwrap<SurfaceMesh>(mapped),
+                                unwrap<Scalars>(source_potential), unwrap<Scalars>(target_potential),
+                                excluded ? &unwrap<Scalars>(excluded) : nullptr);
     });
   }
 
@@ -168,7 +177,9 @@ class BackEndEngine : public Engine {
   }
 
   DistanceSummary distances(const MeshPtr& from, const MeshPtr& to, double limit_A) override {
-    return run([&] { return distance_summary(unwrap<SurfaceMesh>(from), unwrap<SurfaceMesh>(to), static_cast<float>(limit_A)); });
+    return run([&] {
+      return distance_summary(unwrap<SurfaceMesh>(from), unwrap<SurfaceMesh>(to), static_cast<float>(limit_A));
+    });
   }
 
   double area(const MeshPtr& mesh) override {
@@ -176,7 +187,8 @@ class BackEndEngine : public Engine {
   }
 
   std::vector<std::int32_t> vertex_residues(const MeshPtr& mesh, const AtomsPtr& atoms) override {
-    return run([&] { return to_host(ESPDIFF_BACKEND::vertex_residues(unwrap<SurfaceMesh>(mesh), unwrap<AtomCells>(atoms))); });
+    return run(
+        [&] { return to_host(ESPDIFF_BACKEND::vertex_residues(unwrap<SurfaceMesh>(mesh), unwrap<AtomCells>(atoms))); });
   }
 
   ScalarsPtr displacement(const MeshPtr& a, const MeshPtr& b) override {
@@ -191,10 +203,13 @@ class BackEndEngine : public Engine {
       check_closed(mesh);
       auto result = std::make_shared<SurfaceMesh>();
       std::vector<Vec4f> positions(mesh.positions.size());
-      std::transform(mesh.positions.begin(), mesh.positions.end(), positions.begin(), [](Vec3f p) { return make_vec4(p, 0.0F); });
+      std::transform(mesh.positions.begin(), mesh.positions.end(), positions.begin(),
+                     [](Vec3f p) { return make_vec4(p, 0.0F); });
       result->positions = to_device(positions);
       std::vector<Corners> triangles(mesh.triangles.size());
-      std::transform(mesh.triangles.begin(), mesh.triangles.end(), triangles.begin(), [](const Triangle& t) { return Corners{{t[0], t[1], t[2]}}; });
+      std::transform(mesh.triangles.begin(), mesh.triangles.end(), triangles.begin(), [](const Triangle& t) {
+        return Corners{{t[0], t[1], t[2]}};
+      });
       result->topology = make_topology(positions.size(), to_device(triangles));
       return result;
     });
@@ -206,7 +221,8 @@ class BackEndEngine : public Engine {
       Mesh result;
       for (const Vec4f& p : to_host(surface.positions)) result.positions.push_back(p.xyz());
       for (const Vec4f& n : to_host(vertex_normals(surface))) result.normals.push_back(n.xyz());
-      for (const Corners& t : to_host(surface.topology->triangles)) result.triangles.push_back({t.v[0], t.v[1], t.v[2]});
+      for (const Corners& t : to_host(surface.topology->triangles))
+        result.triangles.push_back({t.v[0], t.v[1], t.v[2]});
       result.component = to_host(label_components(surface).label);
       return result;
     });
@@ -249,7 +265,8 @@ class BackEndEngine : public Engine {
       Buffer<float> values(points.size());
       const Vec3f* const p = raw(where);
       float* const out = raw(values);
-      for_each_index(points.size(), [=] ESPDIFF_HD(std::size_t i) { out[i] = ESPDIFF_BACKEND::density_at(view, p[i]).value; });
+      for_each_index(points.size(),
+                     [=] ESPDIFF_HD(std::size_t i) { out[i] = ESPDIFF_BACKEND::density_at(view, p[i]).value; });
       return to_host(values);
     });
   }
@@ -268,8 +285,10 @@ class BackEndEngine : public Engine {
   static std::string cuda_device_description() {
     int device = 0;
     cudaDeviceProp properties{};
-    if (cudaGetDevice(&device) != cudaSuccess || cudaGetDeviceProperties(&properties, device) != cudaSuccess) return "CUDA device";
-    return std::string(properties.name) + " (compute capability " + std::to_string(properties.major) + "." + std::to_string(properties.minor) + ")";
+    if (cudaGetDevice(&device) != cudaSuccess || cudaGetDeviceProperties(&properties, device) != cudaSuccess)
+      return "CUDA device";
+    return std::string(properties.name) + " (compute capability " + std::to_string(properties.major) + "." +
+           std::to_string(properties.minor) + ")";
   }
 #endif
 
@@ -280,7 +299,9 @@ class BackEndEngine : public Engine {
 
 Lattice host_lattice(const CubicLattice& lattice) {
   const double h = static_cast<double>(lattice.spacing);
-  return {{lattice.size[0], lattice.size[1], lattice.size[2]}, static_cast<Vec3d>(lattice.origin), {{{h, 0, 0}, {0, h, 0}, {0, 0, h}}}};
+  return {{lattice.size[0], lattice.size[1], lattice.size[2]},
+          static_cast<Vec3d>(lattice.origin),
+          {{{h, 0, 0}, {0, h, 0}, {0, 0, h}}}};
 }
 
 std::unique_ptr<Engine> make_engine(int n_threads) { return std::make_unique<BackEndEngine>(n_threads); }
@@ -290,11 +311,14 @@ std::string probe_device(bool* available) {
   int n = 0;
   const cudaError_t status = cudaGetDeviceCount(&n);
   *available = status == cudaSuccess && n > 0;
-  if (status == cudaErrorNoDevice || (status == cudaSuccess && n == 0)) return "no NVIDIA GPU was found; use --device cpu";
+  if (status == cudaErrorNoDevice || (status == cudaSuccess && n == 0))
+    return "no NVIDIA GPU was found; use --device cpu";
   if (status == cudaErrorInsufficientDriver) {
-    return "no NVIDIA driver, or one older than this build needs, is installed; install or update it, or use --device cpu";
+    return "no NVIDIA driver, or one older than this build needs, is installed; install or update it, or use --device "
+           "cpu";
   }
-  if (status != cudaSuccess) return std::string("the CUDA runtime says: ") + cudaGetErrorString(status) + "; use --device cpu";
+  if (status != cudaSuccess)
+    return std::string("the CUDA runtime says: ") + cudaGetErrorString(status) + "; use --device cpu";
   cudaDeviceProp properties{};
   cudaGetDeviceProperties(&properties, 0);
   return properties.name;

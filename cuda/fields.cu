@@ -24,17 +24,44 @@ ESPDIFF_INLINE Vec3f lattice_gradient(const CubicLattice& lattice, const float* 
   return gradient;
 }
 
-std::size_t n_rows(const CubicLattice& lattice) { return static_cast<std::size_t>(lattice.size[1]) * static_cast<std::size_t>(lattice.size[2]); }
+/// Mean slope of the density near the surface, 1/Angstrom: turns the density's excess into a length. 1 where the
+/// lattice has no point near the surface.
+struct SlopeSum {
+  double slope = 0, n = 0;
+  ESPDIFF_HD SlopeSum& operator+=(const SlopeSum& other) {
+    slope += other.slope;
+    n += other.n;
+    return *this;
+  }
+};
 
-// Nearest vertices by propagation: a lattice point takes over the nearest vertex of a neighbour where that is nearer than its own.
-// Rows along each axis are swept in both directions, each row by one thread, so that nothing depends on their order. After
-// Danielsson's vector distance transform, Comput. Graph. Image Process. 14, 227 (1980).
+float surface_slope(const SurfaceField& density_field, float isovalue) {
+  const Vec4f* const values = raw(density_field.values);
+  const float near_surface = 0.3F * isovalue;
+  const SlopeSum sum = sum_over<SlopeSum>(density_field.values.size(), [=] ESPDIFF_HD(std::size_t point) {
+    SlopeSum s;
+    if (fabsf(values[point].w) < near_surface) {
+      s.slope = static_cast<double>(norm(values[point].xyz()));
+      s.n = 1;
+    }
+    return s;
+  });
+  return sum.slope > 0 ? static_cast<float>(sum.slope / sum.n) : 1.0F;
+}
+
+std::size_t n_rows(const CubicLattice& lattice) {
+  return static_cast<std::size_t>(lattice.size[1]) * static_cast<std::size_t>(lattice.size[2]);
+}
+
+// Nearest vertices by propagation: a lattice point takes over the nearest vertex of a neighbour where that is nearer
+// than its own. Rows along each axis are swept in both directions, each row by one thread, so that nothing depends on
+// their order. After Danielsson's vector distance transform, Comput. Graph. Image Process. 14, 227 (1980).
 
 constexpr std::uint64_t kNoVertex = ~0ULL;
 constexpr int kRounds = 2;
 
-/// Squared distance in the high half (positive floats order like integers), vertex in the low half: the smaller key is nearer, and
-/// of two at one distance the one of smaller index.
+/// Squared distance in the high half (positive floats order like integers), vertex in the low half: the smaller key is
+/// nearer, and of two at one distance the one of smaller index.
 ESPDIFF_INLINE std::uint64_t vertex_key(float squared_distance, std::uint32_t vertex) {
   std::uint32_t bits;
   std::memcpy(&bits, &squared_distance, sizeof bits);
@@ -54,7 +81,8 @@ ESPDIFF_INLINE void seed_corners(const CubicLattice& lattice, Vec3f p, std::uint
 }
 
 /// Sweeps the row of points (start + n * direction) forth and back.
-ESPDIFF_INLINE void sweep_row(const CubicLattice& lattice, const Vec4f* vertices, int axis, int u, int v, std::uint64_t* keys) {
+ESPDIFF_INLINE void sweep_row(const CubicLattice& lattice, const Vec4f* vertices, int axis, int u, int v,
+                              std::uint64_t* keys) {
   const int n = lattice.size[axis];
   const auto visit = [&](int at, std::uint64_t carried) {
     int place[3];
@@ -76,15 +104,19 @@ ESPDIFF_INLINE void sweep_row(const CubicLattice& lattice, const Vec4f* vertices
 }
 
 /// [point] nearest vertex, as a key.
-Buffer<std::uint64_t> nearest_vertices(const CubicLattice& lattice, const SurfaceMesh& surface, const Progress& progress) {
+Buffer<std::uint64_t> nearest_vertices(const CubicLattice& lattice, const SurfaceMesh& surface,
+                                       const Progress& progress) {
   Buffer<std::uint64_t> nearest(lattice.n_points(), kNoVertex);
   std::uint64_t* const keys = raw(nearest);
   const Vec4f* const x = raw(surface.positions);
-  for_each_index(surface.n_vertices(), [=] ESPDIFF_HD(std::size_t v) { seed_corners(lattice, x[v].xyz(), static_cast<std::uint32_t>(v), keys); });
+  for_each_index(surface.n_vertices(), [=] ESPDIFF_HD(std::size_t v) {
+    seed_corners(lattice, x[v].xyz(), static_cast<std::uint32_t>(v), keys);
+  });
   for (int pass = 0; pass < 3 * kRounds; ++pass) {
     progress.report("distance field", static_cast<double>(pass) / (3 * kRounds));
     const int axis = pass % 3;
-    const std::size_t n_u = static_cast<std::size_t>(lattice.size[(axis + 1) % 3]), n_v = static_cast<std::size_t>(lattice.size[(axis + 2) % 3]);
+    const std::size_t n_u = static_cast<std::size_t>(lattice.size[(axis + 1) % 3]),
+                      n_v = static_cast<std::size_t>(lattice.size[(axis + 2) % 3]);
     for_each_index(n_u * n_v, [=] ESPDIFF_HD(std::size_t row) {
       sweep_row(lattice, x, axis, static_cast<int>(row % n_u), static_cast<int>(row / n_u), keys);
     });
@@ -120,8 +152,8 @@ std::shared_ptr<SurfaceField> density_field(const DensityGrid& density, float is
   return field;
 }
 
-std::shared_ptr<SurfaceField> distance_field(const DensityGrid& density, float isovalue, const SurfaceMesh& surface, float threshold_A,
-                                             const Progress& progress) {
+std::shared_ptr<SurfaceField> distance_field(const DensityGrid& density, float isovalue, const SurfaceMesh& surface,
+                                             float threshold_A, const Progress& progress) {
   std::shared_ptr<SurfaceField> field = density_field(density, isovalue);
   const CubicLattice lattice = field->lattice;
   const Buffer<std::uint64_t> nearest = nearest_vertices(lattice, surface, progress);
@@ -140,13 +172,15 @@ std::shared_ptr<SurfaceField> distance_field(const DensityGrid& density, float i
       distance[point] = values[point] > isovalue ? length : -length;
     }
   });
+  const float per_slope = 1.0F / surface_slope(*field, isovalue);
   for_each_index(n_rows(lattice), [=] ESPDIFF_HD(std::size_t row) {
     const LatticeRow at = lattice_row(lattice, row);
     for (int i = 0; i < lattice.size[0]; ++i) {
       const std::size_t point = lattice.index(i, at.j, at.k);
-      if (fabsf(distance[point]) > threshold_A) {
-        out[point] = make_vec4(lattice_gradient(lattice, distance, i, at.j, at.k), distance[point]);
-      }
+      // Both parts as lengths: interpolation across the threshold would overshoot a jump between them.
+      out[point] = fabsf(distance[point]) > threshold_A
+                       ? make_vec4(lattice_gradient(lattice, distance, i, at.j, at.k), distance[point])
+                       : per_slope * out[point];
     }
   });
   progress.report("distance field", 1.0);

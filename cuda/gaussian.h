@@ -8,8 +8,8 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
-/// Gaussians end at this many standard deviations. The sum over a protein's atoms (about 0.1 per A^3, s up to 2.3 A) then errs by
-/// less than 1e-3; see the test "density truncation".
+/// Gaussians end at this many standard deviations. The sum over a protein's atoms (about 0.1 per A^3, s up to 2.3 A)
+/// then errs by less than 1e-3; see the test "density truncation".
 constexpr float kCutoffInWidths = 4.5F;
 /// The exponent there: -4.5^2 / 2.
 constexpr float kCutoffExponent = -0.5F * kCutoffInWidths * kCutoffInWidths;

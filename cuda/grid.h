@@ -8,7 +8,8 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
-/// A cubic lattice, x fastest: point (i, j, k) lies at origin + spacing * (i, j, k) and has index i + size[0]*(j + size[1]*k).
+/// A cubic lattice, x fastest: point (i, j, k) lies at origin + spacing * (i, j, k) and has index i + size[0]*(j +
+/// size[1]*k).
 struct CubicLattice {
   int size[3];
   Vec3f origin;   ///< Angstrom, common frame
@@ -19,10 +20,13 @@ struct CubicLattice {
   }
   ESPDIFF_INLINE std::size_t index(int i, int j, int k) const {
     return static_cast<std::size_t>(i) +
-           static_cast<std::size_t>(size[0]) * (static_cast<std::size_t>(j) + static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(k));
+           static_cast<std::size_t>(size[0]) *
+               (static_cast<std::size_t>(j) + static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(k));
   }
   ESPDIFF_INLINE float coordinate(int axis, int i) const { return origin[axis] + spacing * static_cast<float>(i); }
-  ESPDIFF_INLINE Vec3f point(int i, int j, int k) const { return {coordinate(0, i), coordinate(1, j), coordinate(2, k)}; }
+  ESPDIFF_INLINE Vec3f point(int i, int j, int k) const {
+    return {coordinate(0, i), coordinate(1, j), coordinate(2, k)};
+  }
 };
 
 /// A lattice row (j, k) from its number.
@@ -30,7 +34,8 @@ struct LatticeRow {
   int j, k;
 };
 ESPDIFF_INLINE LatticeRow lattice_row(const CubicLattice& lattice, std::size_t row) {
-  return {static_cast<int>(row % static_cast<std::size_t>(lattice.size[1])), static_cast<int>(row / static_cast<std::size_t>(lattice.size[1]))};
+  return {static_cast<int>(row % static_cast<std::size_t>(lattice.size[1])),
+          static_cast<int>(row / static_cast<std::size_t>(lattice.size[1]))};
 }
 
 /// The density on a cubic lattice.

@@ -30,7 +30,8 @@ struct Extraction {
 
   ESPDIFF_INLINE bool is_active(std::size_t point) const { return cases[point] != 0 && cases[point] != 255; }
   ESPDIFF_INLINE std::size_t corner_point(std::size_t point, int corner) const {
-    const std::size_t nx = static_cast<std::size_t>(lattice.size[0]), nxy = nx * static_cast<std::size_t>(lattice.size[1]);
+    const std::size_t nx = static_cast<std::size_t>(lattice.size[0]),
+                      nxy = nx * static_cast<std::size_t>(lattice.size[1]);
     return point + static_cast<std::size_t>(corner & 1) + nx * static_cast<std::size_t>(corner >> 1 & 1) +
            nxy * static_cast<std::size_t>(corner >> 2 & 1);
   }
@@ -45,11 +46,12 @@ ESPDIFF_INLINE unsigned bit_count(unsigned bits) {
 }
 
 #if !defined(__CUDACC__)
-ESPDIFF_MULTIVERSION void classify_row_impl(const std::uint8_t* __restrict inside, std::size_t nx, std::size_t nxy, int n_cells,
-                                            std::uint8_t* __restrict cases) {
+ESPDIFF_MULTIVERSION void classify_row_impl(const std::uint8_t* __restrict inside, std::size_t nx, std::size_t nxy,
+                                            int n_cells, std::uint8_t* __restrict cases) {
   for (int i = 0; i < n_cells; ++i) {
     const unsigned low = inside[i] | inside[i + 1] << 1 | inside[i + nx] << 2 | inside[i + nx + 1] << 3;
-    const unsigned high = inside[i + nxy] | inside[i + nxy + 1] << 1 | inside[i + nxy + nx] << 2 | inside[i + nxy + nx + 1] << 3;
+    const unsigned high =
+        inside[i + nxy] | inside[i + nxy + 1] << 1 | inside[i + nxy + nx] << 2 | inside[i + nxy + nx + 1] << 3;
     cases[i] = static_cast<std::uint8_t>(low | high << 4);
   }
 }
@@ -62,11 +64,13 @@ ESPDIFF_HD inline void classify_row(const Extraction& e, std::size_t row_start) 
   for (int i = 0; i < e.lattice.size[0] - 1; ++i) {
     const std::size_t point = row_start + static_cast<std::size_t>(i);
     unsigned cell_case = 0;
-    for (int corner = 0; corner < 8; ++corner) cell_case |= static_cast<unsigned>(e.inside[e.corner_point(point, corner)]) << corner;
+    for (int corner = 0; corner < 8; ++corner)
+      cell_case |= static_cast<unsigned>(e.inside[e.corner_point(point, corner)]) << corner;
     e.cases[point] = static_cast<std::uint8_t>(cell_case);
   }
 #else
-  const std::size_t nx = static_cast<std::size_t>(e.lattice.size[0]), nxy = nx * static_cast<std::size_t>(e.lattice.size[1]);
+  const std::size_t nx = static_cast<std::size_t>(e.lattice.size[0]),
+                    nxy = nx * static_cast<std::size_t>(e.lattice.size[1]);
   classify_row_impl(e.inside + row_start, nx, nxy, e.lattice.size[0] - 1, e.cases + row_start);
 #endif
 }
@@ -98,9 +102,11 @@ ESPDIFF_INLINE std::uint32_t vertex_index(const Extraction& e, std::size_t point
   const float highest = *std::max_element(values.begin(), values.end());
   char text[256];
   std::snprintf(text, sizeof text,
-                "no surface: the density reaches %.3g on a lattice of %.3g A and never exceeds the isovalue %.3g; lower the isovalue or "
+                "no surface: the density reaches %.3g on a lattice of %.3g A and never exceeds the isovalue %.3g; "
+                "lower the isovalue or "
                 "the grid spacing, or raise the radius scale",
-                static_cast<double>(highest), static_cast<double>(density.lattice.spacing), static_cast<double>(isovalue));
+                static_cast<double>(highest), static_cast<double>(density.lattice.spacing),
+                static_cast<double>(isovalue));
   throw GeometryError(text);
 }
 
@@ -115,13 +121,14 @@ ESPDIFF_INLINE LatticeRow cell_row(const CubicLattice& lattice, std::size_t row)
 std::shared_ptr<SurfaceMesh> isosurface(const DensityGrid& density, float isovalue) {
   const CubicLattice lattice = density.lattice;
   const std::size_t n_points = lattice.n_points();
-  const std::size_t n_rows = static_cast<std::size_t>(lattice.size[1] - 1) * static_cast<std::size_t>(lattice.size[2] - 1);
+  const std::size_t n_rows =
+      static_cast<std::size_t>(lattice.size[1] - 1) * static_cast<std::size_t>(lattice.size[2] - 1);
   Buffer<std::uint8_t> inside(n_points), cases(n_points);
   Buffer<std::uint32_t> first_vertex(n_points);
   Buffer<RowCounts> rows(n_rows);
   const Buffer<CellCase> cell_cases(kCellCases.begin(), kCellCases.end());
-  Extraction e{lattice,   raw(density.values), isovalue, raw(cell_cases), raw(inside), raw(cases), raw(first_vertex),
-               nullptr, nullptr};
+  Extraction e{lattice,    raw(density.values), isovalue, raw(cell_cases), raw(inside),
+               raw(cases), raw(first_vertex),   nullptr,  nullptr};
   RowCounts* const row_counts = raw(rows);
 
   for_each_index((n_points + 63) / 64, [=] ESPDIFF_HD(std::size_t block) {
@@ -152,7 +159,8 @@ std::shared_ptr<SurfaceMesh> isosurface(const DensityGrid& density, float isoval
     n_triangles += counts.triangles;
   }
   if (n_triangles == 0) throw_no_surface(density, isovalue);
-  if (3 * n_triangles > 0xFFFFFFFFULL) throw MemoryError("the surface has more than 2^32 corners; use a larger grid spacing or fewer atoms");
+  if (3 * n_triangles > 0xFFFFFFFFULL)
+    throw MemoryError("the surface has more than 2^32 corners; use a larger grid spacing or fewer atoms");
   rows = to_device(host_rows);
 
   auto mesh = std::make_shared<SurfaceMesh>();

@@ -14,8 +14,9 @@ struct Corners {
   std::uint32_t v[3];
 };
 
-/// Triangles and one-rings. Row v of the compressed rows, first[v] .. first[v+1]-1, holds for each triangle at v the triangle and
-/// the vertex that follows v in it; in a closed, consistently oriented mesh these vertices are the one-ring, each once.
+/// Triangles and one-rings. Row v of the compressed rows, first[v] .. first[v+1]-1, holds for each triangle at v the
+/// triangle and the vertex that follows v in it; in a closed, consistently oriented mesh these vertices are the
+/// one-ring, each once.
 struct Topology {
   std::size_t n_vertices = 0;
   Buffer<Corners> triangles;
@@ -42,8 +43,8 @@ struct SurfaceMesh : DeviceMesh {
   std::size_t n_vertices() const { return positions.size(); }
   std::size_t n_triangles() const { return topology->triangles.size(); }
   TopologyView view() const {
-    return {positions.size(), topology->triangles.size(), raw(topology->triangles), raw(topology->first), raw(topology->neighbour),
-            raw(topology->incident)};
+    return {positions.size(),     topology->triangles.size(), raw(topology->triangles),
+            raw(topology->first), raw(topology->neighbour),   raw(topology->incident)};
   }
 };
 

@@ -43,7 +43,8 @@ Metrics finish(const Sums& sums) {
 }
 
 void check_sizes(std::size_t n, const Scalars& a, const Scalars& b) {
-  if (a.values.size() != n || b.values.size() != n) throw InputError("compare: one potential per vertex of the mapped mesh is needed");
+  if (a.values.size() != n || b.values.size() != n)
+    throw InputError("compare: one potential per vertex of the mapped mesh is needed");
 }
 
 }  // namespace
@@ -57,6 +58,9 @@ Metrics compare_potentials(const SurfaceMesh& source, const SurfaceMesh& mapped,
   const Vec4f* const to = raw(mapped.positions);
   const float* const a = raw(source_potential.values);
   const float* const b = raw(target_potential.values);
+  if (excluded != nullptr && excluded->values.size() != mapped.n_triangles()) {
+    throw InputError("compare: one entry per triangle is needed for what is excluded");
+  }
   const float* const leave_out = excluded != nullptr ? raw(excluded->values) : nullptr;
 
   Buffer<std::uint8_t> counted_triangles(topology.n_triangles);
@@ -75,7 +79,8 @@ Metrics compare_potentials(const SurfaceMesh& source, const SurfaceMesh& mapped,
   return finish(sum_over<Sums>(mapped.n_vertices(), [=] ESPDIFF_HD(std::size_t v) {
     Sums s;
     if (!(weight[v] > 0)) return s;
-    const double w = static_cast<double>(weight[v]), pa = static_cast<double>(a[v]), pb = static_cast<double>(b[v]), d = pb - pa;
+    const double w = static_cast<double>(weight[v]), pa = static_cast<double>(a[v]), pb = static_cast<double>(b[v]),
+                 d = pb - pa;
     s.area = w;
     s.abs_difference = w * fabs(d);
     s.squared_difference = w * d * d;
@@ -102,11 +107,10 @@ std::shared_ptr<Scalars> displacement(const SurfaceMesh& a, const SurfaceMesh& b
 
 namespace {
 
-/// Densities by residue at one point. Contributions below e^-6 of an atom's peak cannot decide which residue a surface point
-/// belongs to and are left out; if more residues than the table holds still reach the point, the weakest gives way.
+/// Densities by residue at one point. If more residues than the table holds reach the point, the weakest gives way: it
+/// is one of many at the end of their atoms' reach.
 struct ResidueTally {
-  static constexpr int kCapacity = 32;
-  static constexpr float kSmallestExponent = -6.0F;
+  static constexpr int kCapacity = 64;
   std::int32_t residue[kCapacity];
   float density[kCapacity];
   int n = 0;
@@ -140,7 +144,8 @@ struct ResidueTally {
   ESPDIFF_INLINE std::int32_t strongest() const {
     int best = -1;
     for (int i = 0; i < n; ++i) {
-      if (best < 0 || density[i] > density[best] || (density[i] == density[best] && residue[i] < residue[best])) best = i;
+      if (best < 0 || density[i] > density[best] || (density[i] == density[best] && residue[i] < residue[best]))
+        best = i;
     }
     return best < 0 ? -1 : residue[best];
   }
@@ -148,12 +153,11 @@ struct ResidueTally {
 
 ESPDIFF_INLINE std::int32_t residue_at(const AtomCellsView& atoms, Vec3f p) {
   ResidueTally tally;
-  const float reach = atoms.max_reach * (sqrtf(-2.0F * ResidueTally::kSmallestExponent) / kCutoffInWidths);
-  visit_atom_runs(atoms, p, reach, [&](std::uint32_t begin, std::uint32_t end) {
+  visit_atom_runs(atoms, p, atoms.max_reach, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t a = begin; a < end; ++a) {
       const float dx = p.x - atoms.x[a], dy = p.y - atoms.y[a], dz = p.z - atoms.z[a];
       const float exponent = atoms.exponent[a] * (dx * dx + dy * dy + dz * dz);
-      if (exponent > ResidueTally::kSmallestExponent) tally.add(atoms.residue[a], exp_of_negative(exponent));
+      if (exponent > kCutoffExponent) tally.add(atoms.residue[a], exp_of_negative(exponent));
     }
   });
   return tally.strongest();
@@ -173,7 +177,9 @@ Buffer<std::int32_t> vertex_residues(const SurfaceMesh& mesh, const AtomCells& a
 double surface_area(const SurfaceMesh& mesh) {
   const Corners* const corners = raw(mesh.topology->triangles);
   const Vec4f* const x = raw(mesh.positions);
-  return sum_over<double>(mesh.n_triangles(), [=] ESPDIFF_HD(std::size_t t) { return 0.5 * static_cast<double>(norm(twice_area_vector(x, corners[t]))); });
+  return sum_over<double>(mesh.n_triangles(), [=] ESPDIFF_HD(std::size_t t) {
+    return 0.5 * static_cast<double>(norm(twice_area_vector(x, corners[t])));
+  });
 }
 
 }  // namespace espdiff::ESPDIFF_BACKEND

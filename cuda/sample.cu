@@ -15,7 +15,8 @@ std::shared_ptr<MapGrid> make_map(const Grid& map, const RigidTransform& to_map)
   result->values = to_device(map.values);
   const auto& step = map.lattice.step;
   const double volume = dot(step[0], cross(step[1], step[2]));
-  if (!(std::fabs(volume) > 0) || !std::isfinite(volume)) throw InputError(map.name + ": the map's axes do not span space");
+  if (!(std::fabs(volume) > 0) || !std::isfinite(volume))
+    throw InputError(map.name + ": the map's axes do not span space");
   // Rows of the inverse of the matrix whose columns are the steps.
   const Vec3d inverse[3] = {(1.0 / volume) * cross(step[1], step[2]), (1.0 / volume) * cross(step[2], step[0]),
                             (1.0 / volume) * cross(step[0], step[1])};
@@ -58,7 +59,8 @@ std::shared_ptr<Scalars> sample(const MapGrid& map, const SurfaceMesh& mesh) {
     double part[3];
     for (int axis = 0; axis < 3; ++axis) {
       const double* const row = to_index.m + 4 * axis;
-      double c = row[0] * static_cast<double>(x[v].x) + row[1] * static_cast<double>(x[v].y) + row[2] * static_cast<double>(x[v].z) + row[3];
+      double c = row[0] * static_cast<double>(x[v].x) + row[1] * static_cast<double>(x[v].y) +
+                 row[2] * static_cast<double>(x[v].z) + row[3];
       const double last = static_cast<double>(size[axis] - 1);
       if (!(c >= -kSlack && c <= last + kSlack) || size[axis] < 2) {
         out[v] = kNan;
@@ -72,7 +74,8 @@ std::shared_ptr<Scalars> sample(const MapGrid& map, const SurfaceMesh& mesh) {
     double sum = 0;
     for (int corner = 0; corner < 8; ++corner) {
       const int dx = corner & 1, dy = corner >> 1 & 1, dz = corner >> 2;
-      const double weight = (dx != 0 ? part[0] : 1 - part[0]) * (dy != 0 ? part[1] : 1 - part[1]) * (dz != 0 ? part[2] : 1 - part[2]);
+      const double weight =
+          (dx != 0 ? part[0] : 1 - part[0]) * (dy != 0 ? part[1] : 1 - part[1]) * (dz != 0 ? part[2] : 1 - part[2]);
       sum += weight * static_cast<double>(values[base[0] + dx + nx * (base[1] + dy + ny * (base[2] + dz))]);
     }
     out[v] = static_cast<float>(sum);

@@ -8,10 +8,10 @@ namespace espdiff::ESPDIFF_BACKEND {
 
 /// A potential map with the way into it from the common frame.
 struct MapGrid : DeviceGrid {
-  Lattice lattice;             ///< the map's own frame
+  Lattice lattice;  ///< the map's own frame
   PotentialUnit unit = PotentialUnit::kUnknown;
-  Buffer<float> values;        ///< [point] x fastest
-  double to_index[12] = {};    ///< row-major 3 x 4: common frame -> lattice indices
+  Buffer<float> values;      ///< [point] x fastest
+  double to_index[12] = {};  ///< row-major 3 x 4: common frame -> lattice indices
 };
 
 /// @throws InputError when the map's axes do not span space
@@ -21,8 +21,8 @@ std::shared_ptr<MapGrid> make_map(const Grid& map, const RigidTransform& to_map)
 std::shared_ptr<Scalars> sample(const MapGrid& map, const SurfaceMesh& mesh);
 
 struct CellPosition {
-  int base[3];   ///< lattice point below
-  float part[3]; ///< 0 to 1 within the cell
+  int base[3];    ///< lattice point below
+  float part[3];  ///< 0 to 1 within the cell
 };
 
 /// Where p lies in the lattice, clamped so that `margin` points exist below the base and `margin` + 1 above it.
@@ -45,7 +45,8 @@ ESPDIFF_INLINE Vec4f mix(Vec4f a, Vec4f b, float t) { return a + t * (b - a); }
 /// Trilinear interpolation; clamped at the border.
 ESPDIFF_INLINE Vec4f sample_trilinear(const CubicLattice& lattice, const Vec4f* values, Vec3f p) {
   const CellPosition at = locate(lattice, p, 0);
-  const std::size_t nx = static_cast<std::size_t>(lattice.size[0]), nxy = nx * static_cast<std::size_t>(lattice.size[1]);
+  const std::size_t nx = static_cast<std::size_t>(lattice.size[0]),
+                    nxy = nx * static_cast<std::size_t>(lattice.size[1]);
   const Vec4f* const v = values + lattice.index(at.base[0], at.base[1], at.base[2]);
   const Vec4f near_low = mix(v[0], v[1], at.part[0]), near_high = mix(v[nx], v[nx + 1], at.part[0]);
   const Vec4f far_low = mix(v[nxy], v[nxy + 1], at.part[0]), far_high = mix(v[nxy + nx], v[nxy + nx + 1], at.part[0]);

@@ -1,8 +1,10 @@
-// tetrahedra.h: the Freudenthal division of a cell into tetrahedra, and the triangles of every case, computed at compile time.
+// tetrahedra.h: the Freudenthal division of a cell into tetrahedra, and the triangles of every case, computed at
+// compile time.
 //
-// Corner c of a cell lies at (c & 1, c >> 1 & 1, c >> 2 & 1). The six tetrahedra are the monotone paths 0 -> 1 axis -> 2 axes -> 7.
-// Every edge therefore joins a corner `low` to a corner that is not smaller along any axis; it belongs to the lattice point at `low`
-// and its direction 1..7 is the difference: seven candidate vertices per lattice point, and cells that share an edge name it alike.
+// Corner c of a cell lies at (c & 1, c >> 1 & 1, c >> 2 & 1). The six tetrahedra are the monotone paths 0 -> 1 axis ->
+// 2 axes -> 7. Every edge therefore joins a corner `low` to a corner that is not smaller along any axis; it belongs to
+// the lattice point at `low` and its direction 1..7 is the difference: seven candidate vertices per lattice point, and
+// cells that share an edge name it alike.
 #pragma once
 
 #include <array>
@@ -56,7 +58,8 @@ constexpr CellEdge make_edge(int a, int b) {
 constexpr int orientation(CellEdge e0, CellEdge e1, CellEdge e2, IntVec outward) {
   const IntVec a = twice_midpoint(e0), b = twice_midpoint(e1), c = twice_midpoint(e2);
   const IntVec u{b.x - a.x, b.y - a.y, b.z - a.z}, v{c.x - a.x, c.y - a.y, c.z - a.z};
-  return (u.y * v.z - u.z * v.y) * outward.x + (u.z * v.x - u.x * v.z) * outward.y + (u.x * v.y - u.y * v.x) * outward.z;
+  return (u.y * v.z - u.z * v.y) * outward.x + (u.z * v.x - u.x * v.z) * outward.y +
+         (u.x * v.y - u.y * v.x) * outward.z;
 }
 
 constexpr void add_triangle(CellCase& cell, CellEdge e0, CellEdge e1, CellEdge e2, IntVec outward) {
@@ -89,9 +92,11 @@ constexpr void add_tetrahedron(CellCase& cell, unsigned cell_case, const std::ar
     outward = {outward.x - n_outside * p.x, outward.y - n_outside * p.y, outward.z - n_outside * p.z};
   }
   if (n_inside == 1) {
-    add_triangle(cell, make_edge(inside[0], outside[0]), make_edge(inside[0], outside[1]), make_edge(inside[0], outside[2]), outward);
+    add_triangle(cell, make_edge(inside[0], outside[0]), make_edge(inside[0], outside[1]),
+                 make_edge(inside[0], outside[2]), outward);
   } else if (n_outside == 1) {
-    add_triangle(cell, make_edge(inside[0], outside[0]), make_edge(inside[1], outside[0]), make_edge(inside[2], outside[0]), outward);
+    add_triangle(cell, make_edge(inside[0], outside[0]), make_edge(inside[1], outside[0]),
+                 make_edge(inside[2], outside[0]), outward);
   } else {
     const CellEdge a = make_edge(inside[0], outside[0]), b = make_edge(inside[0], outside[1]);
     const CellEdge c = make_edge(inside[1], outside[1]), d = make_edge(inside[1], outside[0]);

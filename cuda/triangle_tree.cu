@@ -37,11 +37,13 @@ struct BoxSum {
 
 Box mesh_box(const SurfaceMesh& mesh) {
   const Vec4f* const x = raw(mesh.positions);
-  return sum_over<BoxSum>(mesh.n_vertices(), [=] ESPDIFF_HD(std::size_t v) {
-           BoxSum point;
-           point.box = {x[v].xyz(), x[v].xyz()};
-           return point;
-         }).box;
+  return sum_over<BoxSum>(mesh.n_vertices(),
+                          [=] ESPDIFF_HD(std::size_t v) {
+                            BoxSum point;
+                            point.box = {x[v].xyz(), x[v].xyz()};
+                            return point;
+                          })
+      .box;
 }
 
 }  // namespace
@@ -59,7 +61,8 @@ TriangleTree make_triangle_tree(const SurfaceMesh& mesh) {
   for_each_index(n, [=] ESPDIFF_HD(std::size_t t) {
     const Vec3f sum = x[corners[t].v[0]].xyz() + x[corners[t].v[1]].xyz() + x[corners[t].v[2]].xyz();
     const Vec3f c = scale * ((1.0F / 3.0F) * sum - bounds.lower);
-    const std::uint32_t morton = spread_bits(static_cast<std::uint32_t>(c.x)) | spread_bits(static_cast<std::uint32_t>(c.y)) << 1 |
+    const std::uint32_t morton = spread_bits(static_cast<std::uint32_t>(c.x)) |
+                                 spread_bits(static_cast<std::uint32_t>(c.y)) << 1 |
                                  spread_bits(static_cast<std::uint32_t>(c.z)) << 2;
     code[t] = static_cast<std::uint64_t>(morton) << 32 | t;
   });
@@ -79,7 +82,8 @@ TriangleTree make_triangle_tree(const SurfaceMesh& mesh) {
   const std::size_t n_leaves = tree.n_leaves;
   for_each_index(n_leaves, [=] ESPDIFF_HD(std::size_t leaf) {
     Box box = empty_box();
-    for (std::size_t t = leaf * kTrianglesPerLeaf; t < (leaf + 1) * kTrianglesPerLeaf && t < n; ++t) box = join(box, box_of(placed[t]));
+    for (std::size_t t = leaf * kTrianglesPerLeaf; t < (leaf + 1) * kTrianglesPerLeaf && t < n; ++t)
+      box = join(box, box_of(placed[t]));
     boxes[n_leaves - 1 + leaf] = box;
   });
   for (std::size_t width = n_leaves / 2; width > 0; width /= 2) {

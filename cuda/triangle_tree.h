@@ -1,8 +1,9 @@
 // triangle_tree.h: the triangle nearest to a point, by a bounding-volume tree.
 //
-// Triangles are ordered by the Morton code of their centroids and put by fours into the leaves of a complete binary tree, whose
-// boxes are built level by level. No pointers, no order of insertion: the tree is a function of the mesh alone. After the linear
-// BVH of Lauterbach et al., Comput. Graph. Forum 28, 375 (2009), with the hierarchy replaced by the complete tree.
+// Triangles are ordered by the Morton code of their centroids and put by fours into the leaves of a complete binary
+// tree, whose boxes are built level by level. No pointers, no order of insertion: the tree is a function of the mesh
+// alone. After the linear BVH of Lauterbach et al., Comput. Graph. Forum 28, 375 (2009), with the hierarchy replaced by
+// the complete tree.
 #pragma once
 
 #include "mesh.h"
@@ -31,13 +32,16 @@ struct TriangleTree {
   Buffer<PlacedTriangle> triangles;
   std::uint32_t n_leaves = 0;
 
-  TriangleTreeView view() const { return {raw(boxes), raw(triangles), n_leaves, static_cast<std::uint32_t>(triangles.size())}; }
+  TriangleTreeView view() const {
+    return {raw(boxes), raw(triangles), n_leaves, static_cast<std::uint32_t>(triangles.size())};
+  }
 };
 
 TriangleTree make_triangle_tree(const SurfaceMesh& mesh);
 
-/// Squared distance of p to a triangle (degenerate ones count as segments or points). The nearest point lies inside the face, on an
-/// edge or at a corner: where the foot on the plane falls outside the face, the nearest of the three edges holds it.
+/// Squared distance of p to a triangle (degenerate ones count as segments or points). The nearest point lies inside the
+/// face, on an edge or at a corner: where the foot on the plane falls outside the face, the nearest of the three edges
+/// holds it.
 ESPDIFF_INLINE float squared_distance_to_segment(Vec3f p, Vec3f a, Vec3f b) {
   const Vec3f ab = b - a, ap = p - a;
   const float length_squared = dot(ab, ab);
@@ -50,7 +54,8 @@ ESPDIFF_INLINE float squared_distance_to_triangle(Vec3f p, const PlacedTriangle&
   const Vec3f n = cross(t.b - t.a, t.c - t.a);
   const float nn = dot(n, n);
   const Vec3f pa = p - t.a, pb = p - t.b, pc = p - t.c;
-  const bool over_face = nn > 0 && dot(cross(t.b - t.a, pa), n) >= 0 && dot(cross(t.c - t.b, pb), n) >= 0 && dot(cross(t.a - t.c, pc), n) >= 0;
+  const bool over_face = nn > 0 && dot(cross(t.b - t.a, pa), n) >= 0 && dot(cross(t.c - t.b, pb), n) >= 0 &&
+                         dot(cross(t.a - t.c, pc), n) >= 0;
   if (over_face) {
     const float height = dot(pa, n);
     return height * height / nn;
@@ -72,8 +77,8 @@ struct NearestTriangle {
   float squared_distance;
 };
 
-/// Nearest triangle of the tree. `guess` is the place of any triangle: the nearer it is, the less of the tree is visited; the
-/// distance does not depend on it.
+/// Nearest triangle of the tree. `guess` is the place of any triangle: the nearer it is, the less of the tree is
+/// visited; the distance does not depend on it.
 ESPDIFF_INLINE NearestTriangle nearest_triangle(const TriangleTreeView& tree, Vec3f p, std::uint32_t guess) {
   struct Pending {
     std::uint32_t node;
@@ -88,7 +93,8 @@ ESPDIFF_INLINE NearestTriangle nearest_triangle(const TriangleTreeView& tree, Ve
     if (node_distance < nearest.squared_distance) {
       if (node + 1 < tree.n_leaves) {
         const std::uint32_t left = 2 * node + 1;
-        const float d_left = squared_distance_to_box(p, tree.boxes[left]), d_right = squared_distance_to_box(p, tree.boxes[left + 1]);
+        const float d_left = squared_distance_to_box(p, tree.boxes[left]),
+                    d_right = squared_distance_to_box(p, tree.boxes[left + 1]);
         const bool left_first = d_left <= d_right;
         stack[depth++] = {left_first ? left + 1 : left, left_first ? d_right : d_left};
         node = left_first ? left : left + 1;
@@ -96,7 +102,8 @@ ESPDIFF_INLINE NearestTriangle nearest_triangle(const TriangleTreeView& tree, Ve
         continue;
       }
       const std::uint32_t begin = (node + 1 - tree.n_leaves) * kTrianglesPerLeaf;
-      const std::uint32_t end = begin + kTrianglesPerLeaf < tree.n_triangles ? begin + kTrianglesPerLeaf : tree.n_triangles;
+      const std::uint32_t end =
+          begin + kTrianglesPerLeaf < tree.n_triangles ? begin + kTrianglesPerLeaf : tree.n_triangles;
       for (std::uint32_t t = begin; t < end; ++t) {
         const float d = squared_distance_to_triangle(p, tree.triangles[t]);
         if (d < nearest.squared_distance) nearest = {t, d};

@@ -30,7 +30,6 @@ int Error::exit_status() const {
 FormatError::FormatError(const std::string& path, long line, const std::string& message)
     : Error(ErrorClass::kFormat, path + (line > 0 ? ":" + std::to_string(line) : std::string()) + ": " + message) {}
 
-IoError::IoError(const std::string& path, const std::string& message)
-    : Error(ErrorClass::kIo, path + ": " + message) {}
+IoError::IoError(const std::string& path, const std::string& message) : Error(ErrorClass::kIo, path + ": " + message) {}
 
 }  // namespace espdiff

@@ -14,10 +14,10 @@ namespace espdiff {
 
 /// What a structure file says of one atom, besides numbers.
 struct Atom {
-  std::string name;     ///< "CA", without padding
-  std::string element;  ///< "C", "Na"; empty when neither file nor name tells
+  std::string name;          ///< "CA", without padding
+  std::string element;       ///< "C", "Na"; empty when neither file nor name tells
   std::int32_t residue = 0;  ///< index into Molecule::residues
-  bool hetero = false;  ///< from a HETATM record
+  bool hetero = false;       ///< from a HETATM record
 };
 
 /// A residue: atoms that share chain, number, insertion code and name, in file order.
@@ -39,12 +39,13 @@ struct Molecule {
   std::vector<float> radii;      ///< [atom], Angstrom; 0 adds no density
   std::vector<float> charges;    ///< [atom], elementary charges; empty when the file has none
   ValueOrigin radii_origin = ValueOrigin::kNone;
-  std::string name;              ///< for messages: the path, or VMD's molecule name
+  std::string name;  ///< for messages: the path, or VMD's molecule name
 
   std::size_t size() const { return atoms.size(); }
 };
 
-/// A lattice of points: origin + i*step[0] + j*step[1] + k*step[2], 0 <= i < size[0] and so on. Angstrom. Axes may be skewed.
+/// A lattice of points: origin + i*step[0] + j*step[1] + k*step[2], 0 <= i < size[0] and so on. Angstrom. Axes may be
+/// skewed.
 struct Lattice {
   std::array<int, 3> size{0, 0, 0};
   Vec3d origin{};
@@ -67,10 +68,10 @@ using Triangle = std::array<std::uint32_t, 3>;  ///< vertex indices, counter-clo
 
 /// A triangle mesh on the host.
 struct Mesh {
-  std::vector<Vec3f> positions;              ///< [vertex], Angstrom
-  std::vector<Vec3f> normals;                ///< [vertex], unit, outward; empty when not asked for
-  std::vector<Triangle> triangles;           ///< [triangle]
-  std::vector<std::uint32_t> component;      ///< [vertex], index of its connected component; empty when not asked for
+  std::vector<Vec3f> positions;          ///< [vertex], Angstrom
+  std::vector<Vec3f> normals;            ///< [vertex], unit, outward; empty when not asked for
+  std::vector<Triangle> triangles;       ///< [triangle]
+  std::vector<std::uint32_t> component;  ///< [vertex], index of its connected component; empty when not asked for
 };
 
 }  // namespace espdiff

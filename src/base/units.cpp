@@ -9,11 +9,11 @@
 namespace espdiff {
 namespace {
 
-constexpr double kElementaryCharge = 1.602176634e-19;   // C
-constexpr double kBoltzmann = 1.380649e-23;             // J/K
-constexpr double kAvogadro = 6.02214076e23;             // 1/mol
-constexpr double kHartree = 4.3597447222071e-18;        // J
-constexpr double kCalorie = 4.184;                      // J
+constexpr double kElementaryCharge = 1.602176634e-19;  // C
+constexpr double kBoltzmann = 1.380649e-23;            // J/K
+constexpr double kAvogadro = 6.02214076e23;            // 1/mol
+constexpr double kHartree = 4.3597447222071e-18;       // J
+constexpr double kCalorie = 4.184;                     // J
 
 double in_volt(PotentialUnit unit, double temperature_K) {
   switch (unit) {
@@ -25,7 +25,8 @@ double in_volt(PotentialUnit unit, double temperature_K) {
     case PotentialUnit::kHartreePerE: return kHartree / kElementaryCharge;
     case PotentialUnit::kUnknown: break;
   }
-  throw InputError("a potential of unknown unit cannot be converted; name its unit (kT/e, mV, V, kcal/mol/e, kJ/mol/e, hartree/e)");
+  throw InputError(
+      "a potential of unknown unit cannot be converted; name its unit (kT/e, mV, V, kcal/mol/e, kJ/mol/e, hartree/e)");
 }
 
 }  // namespace
@@ -46,7 +47,8 @@ std::string to_string(PotentialUnit unit) {
 PotentialUnit parse_potential_unit(const std::string& text) {
   std::string key;
   for (const char c : text) {
-    if (std::isalpha(static_cast<unsigned char>(c)) != 0) key += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (std::isalpha(static_cast<unsigned char>(c)) != 0)
+      key += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   }
   if (key == "kte" || key == "kt" || key == "kbte") return PotentialUnit::kKtPerE;
   if (key == "mv" || key == "millivolt") return PotentialUnit::kMillivolt;

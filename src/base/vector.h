@@ -76,7 +76,8 @@ ESPDIFF_HD constexpr Vec4f operator-(Vec4f a, Vec4f b) { return {a.x - b.x, a.y 
 ESPDIFF_HD constexpr Vec4f operator*(float s, Vec4f a) { return {s * a.x, s * a.y, s * a.z, s * a.w}; }
 ESPDIFF_HD constexpr Vec4f make_vec4(Vec3f a, float w) { return {a.x, a.y, a.z, w}; }
 
-/// x -> rotation * x + translation. `rotation` is row-major and orthonormal with determinant +1; `translation` in Angstrom.
+/// x -> rotation * x + translation. `rotation` is row-major and orthonormal with determinant +1; `translation` in
+/// Angstrom.
 struct RigidTransform {
   double rotation[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   Vec3d translation{};

@@ -10,7 +10,8 @@ std::vector<Verb> add_announced(CLI::App& app) {
     parser->allow_extras();
     parser->group("Not in this version");
     verbs.push_back({parser, [name](const Context&) -> int {
-                       throw InputError(std::string("'") + name + "' is not in this version; `espdiff --help` lists what is");
+                       throw InputError(std::string("'") + name +
+                                        "' is not in this version; `espdiff --help` lists what is");
                      }});
   }
   return verbs;

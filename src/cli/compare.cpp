@@ -26,20 +26,38 @@ void add_input_options(CLI::App& p, Arguments& a) {
   p.add_option("SOURCE", a.source, "Structure of the first state: PQR, PDB or mmCIF")->required();
   p.add_option("TARGET", a.target, "Structure of the second state")->required();
   p.add_option("-o,--output", a.output, "Prefix of the results OUT.json, OUT.vtp and OUT.residues.csv")->required();
-  p.add_option("--source-map", a.source_map, "Potential around the source: DX, VTI or cube, in the structure file's coordinates")->group("Potentials");
+  p.add_option("--source-map", a.source_map,
+               "Potential around the source: DX, VTI or cube, in the structure file's coordinates")
+      ->group("Potentials");
   p.add_option("--target-map", a.target_map, "Potential around the target")->group("Potentials");
-  p.add_option("--source-map-unit", a.source_map_unit, "Unit of the source map if the file does not say: kT/e, mV, V, kcal/mol/e, hartree/e")->group("Potentials");
-  p.add_option("--target-map-unit", a.target_map_unit, "Unit of the target map if the file does not say")->group("Potentials");
+  p.add_option("--source-map-unit", a.source_map_unit,
+               "Unit of the source map if the file does not say: kT/e, mV, V, kcal/mol/e, hartree/e")
+      ->group("Potentials");
+  p.add_option("--target-map-unit", a.target_map_unit, "Unit of the target map if the file does not say")
+      ->group("Potentials");
   p.add_option("--map-array", a.map_array, "Array to take from VTI maps that hold several")->group("Potentials");
-  p.add_option("--temperature", a.options.temperature_K, "Temperature for converting between kT/e and other units, K")->capture_default_str()->group("Potentials");
-  p.add_option("--potential", a.potential, "Compute the potentials instead of reading maps: pme (not in this version)")->group("Potentials");
-  p.add_option("--source-model", a.source_model, "Model of a multi-model source file, from 1")->check(CLI::PositiveNumber)->capture_default_str()->group("Molecules");
-  p.add_option("--target-model", a.target_model, "Model of a multi-model target file, from 1")->check(CLI::PositiveNumber)->capture_default_str()->group("Molecules");
-  p.add_option("--align", a.align, "Paired atoms that are superposed; none compares as given")->check(CLI::IsMember({"all", "backbone", "ca", "none"}))->capture_default_str()->group("Molecules");
+  p.add_option("--temperature", a.options.temperature_K, "Temperature for converting between kT/e and other units, K")
+      ->capture_default_str()
+      ->group("Potentials");
+  p.add_option("--potential", a.potential, "Compute the potentials instead of reading maps: pme (not in this version)")
+      ->group("Potentials");
+  p.add_option("--source-model", a.source_model, "Model of a multi-model source file, from 1")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str()
+      ->group("Molecules");
+  p.add_option("--target-model", a.target_model, "Model of a multi-model target file, from 1")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str()
+      ->group("Molecules");
+  p.add_option("--align", a.align, "Paired atoms that are superposed; none compares as given")
+      ->check(CLI::IsMember({"all", "backbone", "ca", "none"}))
+      ->capture_default_str()
+      ->group("Molecules");
 }
 
 /// `prefix` is "" for the mapping and "regularize-" for the regularization.
-void add_iteration_options(CLI::App& p, const std::string& prefix, DeformOptions& o, double& min_displacement, const std::string& group) {
+void add_iteration_options(CLI::App& p, const std::string& prefix, DeformOptions& o, double& min_displacement,
+                           const std::string& group) {
   const auto add = [&](const char* name, auto& value, const char* help) {
     p.add_option("--" + prefix + name, value, help)->capture_default_str()->group(group);
   };
@@ -48,26 +66,37 @@ void add_iteration_options(CLI::App& p, const std::string& prefix, DeformOptions
   add("rho", o.rho, "Rigidity against tension, 0 to 1");
   add("tangential-gain", o.tangential_gain, "Multiplies the internal force, which moves vertices along the surface");
   add("max-iterations", o.max_iterations, "Iterations at most");
-  add("min-displacement", min_displacement, "Converged when the mean displacement of an iteration falls below this many grid spacings");
+  add("min-displacement", min_displacement,
+      "Converged when the mean displacement of an iteration falls below this many grid spacings");
 }
 
 void add_mapping_options(CLI::App& p, Arguments& a) {
   const std::string group = "Mapping";
-  p.add_option("--method", a.method, "How the source surface is mapped: deform (morph is not in this version)")->capture_default_str()->group(group);
-  p.add_option("--field", a.field, "What draws the surface: density, or the distance where it is far")->capture_default_str()->group(group);
-  p.add_option("--distance-threshold", a.options.distance_threshold_A, "Distance beyond which the distance field draws, Angstrom")
+  p.add_option("--method", a.method, "How the source surface is mapped: deform (morph is not in this version)")
+      ->capture_default_str()
+      ->group(group);
+  p.add_option("--field", a.field, "What draws the surface: density, or the distance where it is far")
+      ->capture_default_str()
+      ->group(group);
+  p.add_option("--distance-threshold", a.options.distance_threshold_A,
+               "Distance beyond which the distance field draws, Angstrom")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str()
       ->group(group);
-  p.add_option("--interpolation", a.interpolation, "Sampling of the field: trilinear or tricubic")->capture_default_str()->group(group);
-  p.add_option("--rest-shape", a.rest_shape, "What the internal force restores: the source's shape, or none but equal edges")
+  p.add_option("--interpolation", a.interpolation, "Sampling of the field: trilinear or tricubic")
+      ->capture_default_str()
+      ->group(group);
+  p.add_option("--rest-shape", a.rest_shape,
+               "What the internal force restores: the source's shape, or none but equal edges")
       ->check(CLI::IsMember({"source", "none"}))
       ->capture_default_str()
       ->group(group);
   add_iteration_options(p, "", a.options.deform, a.options.deform_min_displacement, group);
-  add_iteration_options(p, "regularize-", a.options.regularize, a.options.regularize_min_displacement, "Regularization");
+  add_iteration_options(p, "regularize-", a.options.regularize, a.options.regularize_min_displacement,
+                        "Regularization");
   p.add_flag("--thesis", a.thesis,
-             "The thesis' iteration as it stands: tangential gains 1, rest shape none, smallest displacements 0.001, cavities, no projection. "
+             "The thesis' iteration as it stands: tangential gains 1, rest shape none, smallest displacements 0.001, "
+             "cavities, no projection. "
              "Options given beside it still count")
       ->group(group);
 }
@@ -90,7 +119,9 @@ void interpret(const CLI::App& parser, Arguments& a) {
   if (a.method == "morph") throw InputError("--method morph is not in this version; use deform");
   if (a.method != "deform") throw InputError("unknown method '" + a.method + "'; use deform");
   if (!a.potential.empty()) {
-    throw InputError("--potential " + a.potential + " is not in this version; compute maps with APBS or PMEPot and give --source-map and --target-map");
+    throw InputError(
+        "--potential " + a.potential +
+        " is not in this version; compute maps with APBS or PMEPot and give --source-map and --target-map");
   }
   if (a.thesis) apply_thesis(parser, a);
   a.options.deform.rest_shape = a.rest_shape == "source";
@@ -143,13 +174,16 @@ int run(const CLI::App& parser, Arguments& a, const Context& context) {
 
 Verb add_compare(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* parser = app.add_subcommand("compare", "Compare the electrostatic surface potentials of two states of a molecule");
+  CLI::App* parser =
+      app.add_subcommand("compare", "Compare the electrostatic surface potentials of two states of a molecule");
   parser->footer(
-      "Each point of the source's surface is mapped to its counterpart on the target's, the potentials there are compared, and the\n"
+      "Each point of the source's surface is mapped to its counterpart on the target's, the potentials there are "
+      "compared, and the\n"
       "result says how far it can be trusted. Without maps the shapes alone are compared.\n\n"
       "Example:\n"
       "  espdiff compare wild.pqr mutant.pqr --source-map wild.dx --target-map mutant.dx -o result\n\n"
-      "Writes result.json (numbers, certificate, provenance), result.vtp (mapped surface, for ParaView) and result.residues.csv.\n"
+      "Writes result.json (numbers, certificate, provenance), result.vtp (mapped surface, for ParaView) and "
+      "result.residues.csv.\n"
       "Exit status: 0 done, 1 could not be computed, 2 wrong usage or input.");
   add_input_options(*parser, *arguments);
   add_structure_options(*parser, arguments->structure);

@@ -9,7 +9,9 @@
 namespace espdiff::cli {
 namespace {
 
-void line(const char* what, bool good, const std::string& text) { std::printf("%-14s %-4s %s\n", what, good ? "ok" : "--", text.c_str()); }
+void line(const char* what, bool good, const std::string& text) {
+  std::printf("%-14s %-4s %s\n", what, good ? "ok" : "--", text.c_str());
+}
 
 int run() {
   std::printf("espdiff %s\n", kVersion);
@@ -26,7 +28,9 @@ int run() {
   line("maps", true, "DX, cube, VTI");
   const char* display = std::getenv("DISPLAY");
   const bool has_display = display != nullptr && *display != '\0';
-  line("render", has_display, has_display ? std::string("display ") + display : "no DISPLAY; run `xvfb-run -a espdiff render ...` (Debian: xvfb, xauth)");
+  line("render", has_display,
+       has_display ? std::string("display ") + display
+                   : "no DISPLAY; run `xvfb-run -a espdiff render ...` (Debian: xvfb, xauth)");
 #else
   line("maps", false, "DX and cube; no VTI: VTK 9 was not found when this was built (Debian: libvtk9-dev)");
   line("render", false, "VTK 9 was not found when this was built (Debian: libvtk9-dev)");
@@ -38,7 +42,8 @@ int run() {
 }  // namespace
 
 Verb add_doctor(CLI::App& app) {
-  CLI::App* parser = app.add_subcommand("doctor", "Say what this build and this machine offer, and how to get what is missing");
+  CLI::App* parser =
+      app.add_subcommand("doctor", "Say what this build and this machine offer, and how to get what is missing");
   return {parser, [](const Context&) { return run(); }};
 }
 

@@ -36,20 +36,23 @@ int run_verb(const espdiff::cli::Verb& verb, const std::string& command_line) {
   } catch (const std::bad_alloc&) {
     return fail("not enough memory; use a larger --grid-spacing or fewer atoms", 1);
   } catch (const std::exception& error) {
-    return fail((std::string("internal error: ") + error.what() + "; please report it with the command line").c_str(), 1);
+    return fail((std::string("internal error: ") + error.what() + "; please report it with the command line").c_str(),
+                1);
   }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("espdiff shows where and by how much the electrostatic surface potential differs between two states of a molecule, and how "
-               "far the answer can be trusted.");
+  CLI::App app(
+      "espdiff shows where and by how much the electrostatic surface potential differs between two states of a "
+      "molecule, and how "
+      "far the answer can be trusted.");
   app.name("espdiff");
   app.set_version_flag("--version", std::string("espdiff ") + espdiff::kVersion);
-  app.require_subcommand(1);
-  std::vector<espdiff::cli::Verb> verbs = {espdiff::cli::add_compare(app), espdiff::cli::add_surface(app), espdiff::cli::add_render(app),
-                                           espdiff::cli::add_doctor(app)};
+  app.require_subcommand(0, 1);
+  std::vector<espdiff::cli::Verb> verbs = {espdiff::cli::add_compare(app), espdiff::cli::add_surface(app),
+                                           espdiff::cli::add_render(app), espdiff::cli::add_doctor(app)};
   for (const auto& verb : espdiff::cli::add_announced(app)) verbs.push_back(verb);
   try {
     app.parse(argc, argv);
@@ -61,5 +64,6 @@ int main(int argc, char** argv) {
   for (const auto& verb : verbs) {
     if (verb.parser->parsed()) return run_verb(verb, joined(argc, argv));
   }
+  std::fputs("espdiff: a subcommand is missing: compare, surface, render or doctor\nTry 'espdiff --help'.\n", stderr);
   return 2;
 }

@@ -22,8 +22,10 @@ std::unique_ptr<Engine> make_engine(const DeviceArguments& arguments) {
 }
 
 void add_structure_options(CLI::App& parser, StructureOptions& options) {
-  parser.add_flag("!--no-hetero", options.include_hetero, "Leave out HETATM records (ligands, ions)")->group("Molecules");
-  parser.add_flag("--water", options.include_water, "Keep water molecules, which are left out else")->group("Molecules");
+  parser.add_flag("!--no-hetero", options.include_hetero, "Leave out HETATM records (ligands, ions)")
+      ->group("Molecules");
+  parser.add_flag("--water", options.include_water, "Keep water molecules, which are left out else")
+      ->group("Molecules");
 }
 
 void add_surface_options(CLI::App& parser, SurfaceOptions& options) {
@@ -39,8 +41,12 @@ void add_surface_options(CLI::App& parser, SurfaceOptions& options) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str()
       ->group("Surface");
-  parser.add_flag("--cavities", options.cavities, "Keep closed cavities; they are counted and left out else")->group("Surface");
-  parser.add_flag("!--no-project", options.project, "Leave vertices where the lattice puts them, not on the exact isosurface")->group("Surface");
+  parser.add_flag("--cavities", options.cavities, "Keep closed cavities; they are counted and left out else")
+      ->group("Surface");
+  parser
+      .add_flag("!--no-project", options.project,
+                "Leave vertices where the lattice puts them, not on the exact isosurface")
+      ->group("Surface");
 }
 
 Grid read_map(const std::string& path, const std::string& array, const std::string& unit) {

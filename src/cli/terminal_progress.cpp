@@ -23,7 +23,8 @@ constexpr std::chrono::milliseconds kRedrawInterval{50};
 }  // namespace
 
 TerminalProgress::TerminalProgress()
-    : is_terminal_(isatty(STDERR_FILENO) != 0), progress_([this](const std::string& stage, double fraction) { draw(stage, fraction); }) {
+    : is_terminal_(isatty(STDERR_FILENO) != 0),
+      progress_([this](const std::string& stage, double fraction) { draw(stage, fraction); }) {
   interruptible = &progress_;
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
@@ -43,7 +44,8 @@ void TerminalProgress::draw(const std::string& stage, double fraction) {
   last_draw_ = now;
   stage_ = stage;
   const int filled = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * kBarWidth);
-  const std::string bar = std::string(static_cast<std::size_t>(filled), '#') + std::string(static_cast<std::size_t>(kBarWidth - filled), '.');
+  const std::string bar = std::string(static_cast<std::size_t>(filled), '#') +
+                          std::string(static_cast<std::size_t>(kBarWidth - filled), '.');
   std::fprintf(stderr, "\r\033[K%-16s [%s] %3.0f %%", stage.c_str(), bar.c_str(), 100 * std::clamp(fraction, 0.0, 1.0));
   std::fflush(stderr);
   drawn_ = true;

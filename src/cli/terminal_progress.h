@@ -8,7 +8,8 @@
 
 namespace espdiff::cli {
 
-/// Draws one line that is rewritten, when standard error is a terminal; else nothing. While it lives, SIGINT and SIGTERM cancel.
+/// Draws one line that is rewritten, when standard error is a terminal; else nothing. While it lives, SIGINT and
+/// SIGTERM cancel.
 class TerminalProgress {
  public:
   TerminalProgress();

@@ -1,10 +1,12 @@
 // engine.h: what a back end offers: the numerical stages, on data that stays on its device.
 //
-// One source in cuda/ implements this interface twice, for OpenMP threads and for CUDA. The pipeline calls the stages in
-// order and passes opaque handles; nothing is copied to the host but what a download function or a returned struct holds.
+// One source in cuda/ implements this interface twice, for OpenMP threads and for CUDA. The pipeline calls the stages
+// in order and passes opaque handles; nothing is copied to the host but what a download function or a returned struct
+// holds.
 //
-// Frame: every position is relative to the *common frame* that the pipeline chooses (source and target superposed, origin near
-// the molecules), so that single precision suffices. Maps keep their own frame; sample() gets the transform into it.
+// Frame: every position is relative to the *common frame* that the pipeline chooses (source and target superposed,
+// origin near the molecules), so that single precision suffices. Maps keep their own frame; sample() gets the transform
+// into it.
 //
 // Same input, same bits, at any number of threads. Density is high inside: *inside* means density > isovalue.
 #pragma once
@@ -20,11 +22,21 @@
 namespace espdiff {
 
 /// Opaque device objects. Each belongs to the engine that made it and may not outlive it.
-struct DeviceAtoms { virtual ~DeviceAtoms() = default; };        ///< atoms sorted into a cell list
-struct DeviceGrid { virtual ~DeviceGrid() = default; };          ///< a scalar on a lattice
-struct DeviceField { virtual ~DeviceField() = default; };        ///< a scalar and its gradient on a lattice
-struct DeviceMesh { virtual ~DeviceMesh() = default; };          ///< positions and shared topology (triangles, one-rings)
-struct DeviceScalars { virtual ~DeviceScalars() = default; };    ///< one float per vertex or per triangle
+struct DeviceAtoms {
+  virtual ~DeviceAtoms() = default;
+};  ///< atoms sorted into a cell list
+struct DeviceGrid {
+  virtual ~DeviceGrid() = default;
+};  ///< a scalar on a lattice
+struct DeviceField {
+  virtual ~DeviceField() = default;
+};  ///< a scalar and its gradient on a lattice
+struct DeviceMesh {
+  virtual ~DeviceMesh() = default;
+};  ///< positions and shared topology (triangles, one-rings)
+struct DeviceScalars {
+  virtual ~DeviceScalars() = default;
+};  ///< one float per vertex or per triangle
 
 using AtomsPtr = std::shared_ptr<const DeviceAtoms>;
 using GridPtr = std::shared_ptr<const DeviceGrid>;
@@ -44,17 +56,18 @@ struct ComponentSummary {
 
 /// Parameters of the force iteration (thesis section 3.5.4); defaults are its study's values for the mapping.
 struct DeformOptions {
-  double sigma = 0.1;               ///< step scale, > 0
-  double mu = 0.75;                 ///< weight of the external against the internal force, 0 to 1
-  double rho = 0.3;                 ///< rigidity (thin plate) against tension (membrane), 0 to 1
-  double min_displacement_A = 1e-3; ///< converged when the mean displacement of an iteration falls below it
+  double sigma = 0.1;                ///< step scale, > 0
+  double mu = 0.75;                  ///< weight of the external against the internal force, 0 to 1
+  double rho = 0.3;                  ///< rigidity (thin plate) against tension (membrane), 0 to 1
+  double min_displacement_A = 1e-3;  ///< converged when the mean displacement of an iteration falls below it
   int max_iterations = 1000;
   Interpolation interpolation = Interpolation::kTrilinear;
-  /// Multiplies the internal force; 1 is the thesis' iteration. That force moves vertices along the surface only, so a larger one
-  /// lets them spread into what the surface has been drawn into sooner, and the surface itself no less exact.
+  /// Multiplies the internal force; 1 is the thesis' iteration. That force moves vertices along the surface only, so a
+  /// larger one lets them spread into what the surface has been drawn into sooner, and the surface itself no less
+  /// exact.
   double tangential_gain = 1;
-  /// Measures the internal force from the shape that deform() starts with, so that it resists distortion; else from equal edges
-  /// (the thesis), so that the mesh goes on sliding along the surface even when nothing is to be deformed.
+  /// Measures the internal force from the shape that deform() starts with, so that it resists distortion; else from
+  /// equal edges (the thesis), so that the mesh goes on sliding along the surface even when nothing is to be deformed.
   bool rest_shape = false;
 };
 
@@ -64,8 +77,8 @@ struct DeformReport {
   bool converged = false;
 };
 
-/// Area-weighted comparison of two potentials on the mapped mesh. Weights are a third of the area of each counted triangle
-/// at each of its vertices. Potentials in the unit of the samples.
+/// Area-weighted comparison of two potentials on the mapped mesh. Weights are a third of the area of each counted
+/// triangle at each of its vertices. Potentials in the unit of the samples.
 struct Metrics {
   double area_A2 = 0;  ///< of the counted triangles of the mapped mesh; all else is NaN when it is 0
   double mean_abs_difference = 0;
@@ -87,11 +100,12 @@ struct DistanceSummary {
 
 /// How well a mapped mesh fits its target.
 struct FitReport {
-  double corrupt_area_fraction = 0;  ///< triangles whose analytic density at the centroid is off the isovalue by more than 0.1
+  double corrupt_area_fraction =
+      0;  ///< triangles whose analytic density at the centroid is off the isovalue by more than 0.1
   double flipped_area_fraction = 0;  ///< triangles whose normal opposes the density's outward normal at their centroid
   double irregularity_A = 0;         ///< mean length of the umbrella Laplacian
   double area_A2 = 0;
-  ScalarsPtr corrupt;                ///< [triangle] 1 where corrupt, else 0
+  ScalarsPtr corrupt;  ///< [triangle] 1 where corrupt, else 0
 };
 
 /// One back end on one device.
@@ -108,14 +122,16 @@ class Engine {
 
   /// Sorts atoms into a cell list.
   /// @param positions [atom] Angstrom, common frame
-  /// @param widths    [atom] standard deviation s = radius scale * radius of each Gaussian, Angstrom; atoms of width 0 are left out
+  /// @param widths    [atom] standard deviation s = radius scale * radius of each Gaussian, Angstrom; atoms of width 0
+  /// are left out
   /// @param residues  [atom] residue index that vertex_residues() reports
   /// @throws InputError if no atom has a positive width, MemoryError
   virtual AtomsPtr upload_atoms(const std::vector<Vec3d>& positions, const std::vector<float>& widths,
                                 const std::vector<std::int32_t>& residues) = 0;
 
-  /// rho(x) = sum_i exp(-|x - x_i|^2 / (2 s_i^2)) (thesis eq. 3.1) on a cubic lattice of the given spacing that reaches so far
-  /// beyond the atoms that rho vanishes on its border. Terms beyond 4.5 s are dropped: the sum errs by less than 1e-3.
+  /// rho(x) = sum_i exp(-|x - x_i|^2 / (2 s_i^2)) (thesis eq. 3.1) on a cubic lattice of the given spacing that reaches
+  /// so far beyond the atoms that rho vanishes on its border. Terms beyond 4.5 s are dropped: the sum errs by less than
+  /// 1e-3.
   /// @throws InputError (spacing), MemoryError (more lattice points than memory holds; says which spacing would fit)
   virtual GridPtr density(const AtomsPtr& atoms, double spacing_A) = 0;
 
@@ -128,24 +144,24 @@ class Engine {
   /// The mesh without the components whose entry is false. `keep` has one entry per component.
   virtual MeshPtr keep_components(const MeshPtr& mesh, const std::vector<bool>& keep) = 0;
 
-  /// Moves each vertex by Newton steps along the gradient onto the analytic isosurface; a vertex that would have to move
-  /// farther than `max_shift_A` stays where it is.
+  /// Moves each vertex by Newton steps along the gradient onto the analytic isosurface; a vertex that would have to
+  /// move farther than `max_shift_A` stays where it is.
   virtual MeshPtr project(const MeshPtr& mesh, const AtomsPtr& atoms, float isovalue, double max_shift_A) = 0;
 
   /// Density and gradient for deform().
   virtual FieldPtr density_field(const GridPtr& density, float isovalue) = 0;
-  /// Signed distance to `surface` (positive inside) where it exceeds `threshold_A` in magnitude, the density elsewhere (thesis
-  /// section 3.5.3). The distance is that to the triangles around the nearest vertex.
+  /// Signed distance to `surface` (positive inside) where it exceeds `threshold_A` in magnitude, the density elsewhere
+  /// (thesis section 3.5.3). The distance is that to the triangles around the nearest vertex.
   virtual FieldPtr distance_field(const GridPtr& density, float isovalue, const MeshPtr& surface, double threshold_A,
                                   const Progress& progress) = 0;
 
-  /// Iterates x += sigma (mu f_ext + (1 - mu) f_int) until converged (thesis section 3.5 with its errata): f_ext along the unit
-  /// gradient of the field toward its surface, halved and turned at each crossing; f_int the tangential part of
-  /// (1 - rho) L - rho L^2, L the uniform umbrella Laplacian. Topology is shared with `mesh`.
+  /// Iterates x += sigma (mu f_ext + (1 - mu) f_int) until converged (thesis section 3.5 with its errata): f_ext along
+  /// the unit gradient of the field toward its surface, halved and turned at each crossing; f_int the tangential part
+  /// of (1 - rho) L - rho L^2, L the uniform umbrella Laplacian. Topology is shared with `mesh`.
   /// @param stage name for progress reports
   /// @throws Cancelled
-  virtual MeshPtr deform(const MeshPtr& mesh, const FieldPtr& field, const DeformOptions& options, const std::string& stage,
-                         const Progress& progress, DeformReport* report) = 0;
+  virtual MeshPtr deform(const MeshPtr& mesh, const FieldPtr& field, const DeformOptions& options,
+                         const std::string& stage, const Progress& progress, DeformReport* report) = 0;
 
   /// @param map         potential
   /// @param to_map      common frame -> the map's frame
@@ -156,7 +172,8 @@ class Engine {
   /// Compares potentials at counterparts.
   /// @param source, mapped  meshes of one topology: where each vertex comes from, and where it lies on the target
   /// @param source_potential, target_potential [vertex]
-  /// @param excluded [triangle] not counted where nonzero; null counts all. Triangles with a NaN sample are never counted.
+  /// @param excluded [triangle] not counted where nonzero; null counts all. Triangles with a NaN sample are never
+  /// counted.
   virtual Metrics compare(const MeshPtr& source, const MeshPtr& mapped, const ScalarsPtr& source_potential,
                           const ScalarsPtr& target_potential, const ScalarsPtr& excluded) = 0;
 

@@ -26,13 +26,15 @@ BackEndStatus cuda_status() {
 #if defined(ESPDIFF_HAVE_CUDA)
   status.description = cuda_backend::probe_device(&status.available);
 #else
-  status.description = "this build has no CUDA back end; configure with -DESPDIFF_CUDA=ON where nvcc is installed, or use --device cpu";
+  status.description =
+      "this build has no CUDA back end; configure with -DESPDIFF_CUDA=ON where nvcc is installed, or use --device cpu";
 #endif
   return status;
 }
 
 std::unique_ptr<Engine> select_engine(DeviceChoice choice, int n_threads) {
-  if (n_threads < 0) throw InputError("the number of threads, " + std::to_string(n_threads) + ", is negative; 0 takes all");
+  if (n_threads < 0)
+    throw InputError("the number of threads, " + std::to_string(n_threads) + ", is negative; 0 takes all");
   if (choice != DeviceChoice::kCpu) {
     const BackEndStatus cuda = cuda_status();
     if (choice == DeviceChoice::kCuda && !cuda.available) throw DeviceError("--device cuda: " + cuda.description);

@@ -15,7 +15,7 @@ DeviceChoice parse_device_choice(const std::string& text);
 
 /// What selecting would do, for `doctor`.
 struct BackEndStatus {
-  std::string name;         ///< "cpu" or "cuda"
+  std::string name;  ///< "cpu" or "cuda"
   bool available = false;
   std::string description;  ///< the device, or why there is none and the remedy
 };

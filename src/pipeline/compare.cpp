@@ -42,7 +42,8 @@ namespace {
 
 /// A vertex farther than this from the other surface has no counterpart there.
 constexpr double kCounterpartLimit_A = 1.0;
-/// How far a vertex may move onto the analytic surface, in grid spacings: linear interpolation errs by less than a tenth.
+/// How far a vertex may move onto the analytic surface, in grid spacings: linear interpolation errs by less than a
+/// tenth.
 constexpr double kProjectionShare = 0.5;
 
 /// Adds up the wall time of the stages.
@@ -54,7 +55,8 @@ class StageClock {
     const auto now = std::chrono::steady_clock::now();
     const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
     last_ = now;
-    const auto known = std::find_if(times_.begin(), times_.end(), [&](const auto& entry) { return entry.first == stage; });
+    const auto known =
+        std::find_if(times_.begin(), times_.end(), [&](const auto& entry) { return entry.first == stage; });
     if (known == times_.end()) {
       times_.emplace_back(stage, ms);
     } else {
@@ -62,7 +64,8 @@ class StageClock {
     }
   }
   void finish() {
-    times_.emplace_back("total", std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count());
+    times_.emplace_back("total",
+                        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count());
   }
 
  private:
@@ -71,8 +74,10 @@ class StageClock {
 };
 
 void check_options(const SurfaceOptions& options) {
-  if (!(options.radius_scale > 0)) throw InputError("radius scale " + std::to_string(options.radius_scale) + " is not positive; 1 is usual");
-  if (!(options.isovalue > 0)) throw InputError("isovalue " + std::to_string(options.isovalue) + " is not positive; 0.5 is usual");
+  if (!(options.radius_scale > 0))
+    throw InputError("radius scale " + std::to_string(options.radius_scale) + " is not positive; 1 is usual");
+  if (!(options.isovalue > 0))
+    throw InputError("isovalue " + std::to_string(options.isovalue) + " is not positive; 0.5 is usual");
 }
 
 AtomsPtr upload(Engine& engine, const Molecule& molecule, const RigidTransform& to_common, double radius_scale) {
@@ -108,8 +113,8 @@ void drop_cavities(Engine& engine, Surface& surface) {
   if (surface.summary.n_cavities_left_out > 0) surface.mesh = engine.keep_components(surface.mesh, keep);
 }
 
-Surface build_surface(Engine& engine, const Molecule& molecule, const RigidTransform& to_common, const SurfaceOptions& options,
-                      const Progress& progress, StageClock& clock) {
+Surface build_surface(Engine& engine, const Molecule& molecule, const RigidTransform& to_common,
+                      const SurfaceOptions& options, const Progress& progress, StageClock& clock) {
   check_options(options);
   Surface surface;
   const float isovalue = static_cast<float>(options.isovalue);
@@ -122,7 +127,8 @@ Surface build_surface(Engine& engine, const Molecule& molecule, const RigidTrans
   surface.components = engine.components(surface.mesh);
   if (!options.cavities) drop_cavities(engine, surface);
   clock.lap("surface");
-  if (options.project) surface.mesh = engine.project(surface.mesh, surface.atoms, isovalue, kProjectionShare * options.grid_spacing_A);
+  if (options.project)
+    surface.mesh = engine.project(surface.mesh, surface.atoms, isovalue, kProjectionShare * options.grid_spacing_A);
   clock.lap("project");
   surface.summary.n_vertices = engine.n_vertices(surface.mesh);
   surface.summary.n_triangles = engine.n_triangles(surface.mesh);
@@ -136,8 +142,8 @@ DeformOptions with_threshold(DeformOptions deform, double min_displacement_in_sp
   return deform;
 }
 
-MeshPtr regularize(Engine& engine, const Surface& surface, const SurfaceOptions& options, const DeformOptions& deform, const Progress& progress,
-                   DeformReport* report) {
+MeshPtr regularize(Engine& engine, const Surface& surface, const SurfaceOptions& options, const DeformOptions& deform,
+                   const Progress& progress, DeformReport* report) {
   const float isovalue = static_cast<float>(options.isovalue);
   const FieldPtr own = engine.density_field(surface.density, isovalue);
   MeshPtr mesh = engine.deform(surface.mesh, own, deform, "regularize", progress, report);
@@ -145,8 +151,8 @@ MeshPtr regularize(Engine& engine, const Surface& surface, const SurfaceOptions&
   return mesh;
 }
 
-/// Where both molecules meet: the source's principal frame, into which the target is superposed. Grids are thus laid along
-/// axes of the shape itself, and a rigid motion of either input changes nothing but rounding.
+/// Where both molecules meet: the source's principal frame, into which the target is superposed. Grids are thus laid
+/// along axes of the shape itself, and a rigid motion of either input changes nothing but rounding.
 struct CommonFrame {
   RigidTransform from_source, from_target;  // own frame -> common frame
 };
@@ -190,13 +196,16 @@ Grid in_unit(const Grid& map, PotentialUnit unit, double temperature_K) {
 }
 
 std::size_t count_outside(const std::vector<float>& samples) {
-  return static_cast<std::size_t>(std::count_if(samples.begin(), samples.end(), [](float value) { return !std::isfinite(value); }));
+  return static_cast<std::size_t>(
+      std::count_if(samples.begin(), samples.end(), [](float value) { return !std::isfinite(value); }));
 }
 
 void require_coverage(const Grid& map, std::size_t n_outside, std::size_t n_vertices) {
   if (n_outside < n_vertices) return;
-  throw InputError(map.name + ": the map does not cover the molecule: no vertex of the surface lies in it; compute the map around this "
-                   "molecule, in the coordinates of the structure file");
+  throw InputError(
+      map.name +
+      ": the map does not cover the molecule: no vertex of the surface lies in it; compute the map around this "
+      "molecule, in the coordinates of the structure file");
 }
 
 void check_maps(const CompareInput& source, const CompareInput& target) {
@@ -207,12 +216,14 @@ void check_maps(const CompareInput& source, const CompareInput& target) {
   if (source.map == nullptr || source.map->unit == target.map->unit) return;
   if (source.map->unit == PotentialUnit::kUnknown || target.map->unit == PotentialUnit::kUnknown) {
     throw InputError("the maps are in two units: " + to_string(source.map->unit) + " (" + source.map->name + ") and " +
-                     to_string(target.map->unit) + " (" + target.map->name + "); name the unknown one with --source-map-unit or --target-map-unit");
+                     to_string(target.map->unit) + " (" + target.map->name +
+                     "); name the unknown one with --source-map-unit or --target-map-unit");
   }
 }
 
-Potentials sample_potentials(Engine& engine, const CompareInput& source, const CompareInput& target, const CommonFrame& frame,
-                             const MeshPtr& source_mesh, const MeshPtr& mapped, double temperature_K, CompareResult& result) {
+Potentials sample_potentials(Engine& engine, const CompareInput& source, const CompareInput& target,
+                             const CommonFrame& frame, const MeshPtr& source_mesh, const MeshPtr& mapped,
+                             double temperature_K, CompareResult& result) {
   result.unit = source.map->unit;
   Grid converted;
   const Grid* target_map = target.map;
@@ -257,16 +268,21 @@ void judge(Certificate& c, const CompareResult& result) {
     if (bad) c.reasons.push_back(reason);
   };
   refuse(!c.converged, "the mapping did not converge; raise --max-iterations");
-  refuse(c.corrupt_area_fraction > Limits::kCorruptArea,
-         percent(c.corrupt_area_fraction) + " of the mapped area is corrupt (limit " + percent(Limits::kCorruptArea) + ")");
-  refuse(c.flipped_area_fraction > Limits::kFlippedArea, percent(c.flipped_area_fraction) + " of the mapped area is flipped (limit 0 %)");
-  refuse(c.mapped_to_target.mean > Limits::kMeanDistance_A, "the mapped surface lies " + angstrom(c.mapped_to_target.mean) +
-                                                                " from the target on average (limit " + angstrom(Limits::kMeanDistance_A) + ")");
+  refuse(c.corrupt_area_fraction > Limits::kCorruptArea, percent(c.corrupt_area_fraction) +
+                                                             " of the mapped area is corrupt (limit " +
+                                                             percent(Limits::kCorruptArea) + ")");
+  refuse(c.flipped_area_fraction > Limits::kFlippedArea,
+         percent(c.flipped_area_fraction) + " of the mapped area is flipped (limit 0 %)");
+  refuse(c.mapped_to_target.mean > Limits::kMeanDistance_A,
+         "the mapped surface lies " + angstrom(c.mapped_to_target.mean) + " from the target on average (limit " +
+             angstrom(Limits::kMeanDistance_A) + ")");
   refuse(c.target_to_mapped.mean > Limits::kMeanDistance_A, "the target lies " + angstrom(c.target_to_mapped.mean) +
-                                                                " from the mapped surface on average (limit " + angstrom(Limits::kMeanDistance_A) + ")");
+                                                                " from the mapped surface on average (limit " +
+                                                                angstrom(Limits::kMeanDistance_A) + ")");
   refuse(c.no_counterpart_source > Limits::kNoCounterpart || c.no_counterpart_target > Limits::kNoCounterpart,
-         percent(std::max(c.no_counterpart_source, c.no_counterpart_target)) + " of the area has no counterpart within " +
-             angstrom(kCounterpartLimit_A) + " (limit " + percent(Limits::kNoCounterpart) + ")");
+         percent(std::max(c.no_counterpart_source, c.no_counterpart_target)) +
+             " of the area has no counterpart within " + angstrom(kCounterpartLimit_A) + " (limit " +
+             percent(Limits::kNoCounterpart) + ")");
   const double n = static_cast<double>(result.surface.positions.size());
   const double outside = static_cast<double>(std::max(result.n_outside_source_map, result.n_outside_target_map));
   refuse(outside > 0, percent(outside / n) + " of the vertices lie outside a map");
@@ -288,14 +304,16 @@ Certificate certify(Engine& engine, const MeshPtr& mapped, const MeshPtr& target
 
 bool signs_differ(double a, double b) { return (a < 0 && b > 0) || (a > 0 && b < 0); }
 
-/// Averages over the valid area of each residue, weighted like the metrics: a third of each counted triangle at each vertex.
+/// Averages over the valid area of each residue, weighted like the metrics: a third of each counted triangle at each
+/// vertex.
 std::vector<ResidueRow> residue_rows(const MappedSurface& s, std::size_t n_residues, bool has_potential) {
   std::vector<double> weight(s.positions.size(), 0.0);
   for (std::size_t t = 0; t < s.triangles.size(); ++t) {
     const Triangle& v = s.triangles[t];
     bool counts = s.corrupt[t] == 0;
     for (const std::uint32_t c : v) {
-      counts = counts && (!has_potential || (std::isfinite(s.potential_source[c]) && std::isfinite(s.potential_target[c])));
+      counts =
+          counts && (!has_potential || (std::isfinite(s.potential_source[c]) && std::isfinite(s.potential_target[c])));
     }
     if (!counts) continue;
     const double area = 0.5 * norm(cross(s.positions[v[1]] - s.positions[v[0]], s.positions[v[2]] - s.positions[v[0]]));
@@ -321,27 +339,31 @@ std::vector<ResidueRow> residue_rows(const MappedSurface& s, std::size_t n_resid
     row.residue = r;
     const double scale = row.area_A2 > 0 ? 1 / row.area_A2 : kNan;
     row.mean_displacement_A *= scale;
-    for (double* value : {&row.mean_abs_difference, &row.mean_signed_difference, &row.mean_source, &row.mean_target, &row.sign_change_area_fraction}) {
+    for (double* value : {&row.mean_abs_difference, &row.mean_signed_difference, &row.mean_source, &row.mean_target,
+                          &row.sign_change_area_fraction}) {
       *value *= has_potential ? scale : kNan;
     }
   }
   return rows;
 }
 
-void download_surface(Engine& engine, const MeshPtr& source, const MeshPtr& mapped, const CommonFrame& frame, MappedSurface& surface) {
+void download_surface(Engine& engine, const MeshPtr& source, const MeshPtr& mapped, const CommonFrame& frame,
+                      MappedSurface& surface) {
   const RigidTransform to_source = inverse(frame.from_source), to_target = inverse(frame.from_target);
   const Mesh mapped_mesh = engine.download(mapped);
   surface.triangles = mapped_mesh.triangles;
   for (const Vec3f& p : mapped_mesh.positions) surface.positions.push_back(to_target.apply(static_cast<Vec3d>(p)));
-  for (const Vec3f& n : mapped_mesh.normals) surface.normals.push_back(static_cast<Vec3f>(to_target.rotate(static_cast<Vec3d>(n))));
-  for (const Vec3f& p : engine.download(source).positions) surface.source_positions.push_back(to_source.apply(static_cast<Vec3d>(p)));
+  for (const Vec3f& n : mapped_mesh.normals)
+    surface.normals.push_back(static_cast<Vec3f>(to_target.rotate(static_cast<Vec3d>(n))));
+  for (const Vec3f& p : engine.download(source).positions)
+    surface.source_positions.push_back(to_source.apply(static_cast<Vec3d>(p)));
   surface.displacement = engine.download(engine.displacement(source, mapped));
 }
 
 }  // namespace
 
-CompareResult compare(Engine& engine, const CompareInput& source, const CompareInput& target, const CompareOptions& options,
-                      const Progress& progress) {
+CompareResult compare(Engine& engine, const CompareInput& source, const CompareInput& target,
+                      const CompareOptions& options, const Progress& progress) {
   CompareResult result;
   StageClock clock(result.time_ms);
   check_maps(source, target);
@@ -349,23 +371,28 @@ CompareResult compare(Engine& engine, const CompareInput& source, const CompareI
   const CommonFrame frame = align(*source.molecule, *target.molecule, options.align, result);
   clock.lap("align");
 
-  const Surface source_surface = build_surface(engine, *source.molecule, frame.from_source, options.surface, progress, clock);
-  const Surface target_surface = build_surface(engine, *target.molecule, frame.from_target, options.surface, progress, clock);
+  const Surface source_surface =
+      build_surface(engine, *source.molecule, frame.from_source, options.surface, progress, clock);
+  const Surface target_surface =
+      build_surface(engine, *target.molecule, frame.from_target, options.surface, progress, clock);
   result.source_surface = source_surface.summary;
   result.target_surface = target_surface.summary;
   const double spacing = options.surface.grid_spacing_A;
-  const MeshPtr start =
-      regularize(engine, source_surface, options.surface,
-                 with_threshold(options.regularize, options.regularize_min_displacement, spacing), progress, &result.regularize_report);
+  const MeshPtr start = regularize(engine, source_surface, options.surface,
+                                   with_threshold(options.regularize, options.regularize_min_displacement, spacing),
+                                   progress, &result.regularize_report);
   clock.lap("regularize");
 
   const float isovalue = static_cast<float>(options.surface.isovalue);
   const FieldPtr field = options.field == FieldKind::kDensity
                              ? engine.density_field(target_surface.density, isovalue)
-                             : engine.distance_field(target_surface.density, isovalue, target_surface.mesh, options.distance_threshold_A, progress);
+                             : engine.distance_field(target_surface.density, isovalue, target_surface.mesh,
+                                                     options.distance_threshold_A, progress);
   clock.lap("field");
-  MeshPtr mapped = engine.deform(start, field, with_threshold(options.deform, options.deform_min_displacement, spacing), "deform", progress, &result.deform_report);
-  if (options.surface.project) mapped = engine.project(mapped, target_surface.atoms, isovalue, kProjectionShare * options.surface.grid_spacing_A);
+  MeshPtr mapped = engine.deform(start, field, with_threshold(options.deform, options.deform_min_displacement, spacing),
+                                 "deform", progress, &result.deform_report);
+  if (options.surface.project)
+    mapped = engine.project(mapped, target_surface.atoms, isovalue, kProjectionShare * options.surface.grid_spacing_A);
   clock.lap("deform");
 
   progress.report("certificate", 0.0);
@@ -394,8 +421,8 @@ CompareResult compare(Engine& engine, const CompareInput& source, const CompareI
   return result;
 }
 
-SurfaceResult make_surface(Engine& engine, const CompareInput& input, const SurfaceOptions& options, const DeformOptions* regularize_options,
-                           const Progress& progress) {
+SurfaceResult make_surface(Engine& engine, const CompareInput& input, const SurfaceOptions& options,
+                           const DeformOptions* regularize_options, const Progress& progress) {
   SurfaceResult result;
   StageClock clock(result.time_ms);
   const RigidTransform to_common = principal_frame(input.molecule->positions), from_common = inverse(to_common);
@@ -411,7 +438,8 @@ SurfaceResult make_surface(Engine& engine, const CompareInput& input, const Surf
   result.mesh = engine.download(surface.mesh);
   for (const Vec3f& p : result.mesh.positions) result.positions.push_back(from_common.apply(static_cast<Vec3d>(p)));
   for (Vec3f& n : result.mesh.normals) n = static_cast<Vec3f>(from_common.rotate(static_cast<Vec3d>(n)));
-  for (std::size_t v = 0; v < result.positions.size(); ++v) result.mesh.positions[v] = static_cast<Vec3f>(result.positions[v]);
+  for (std::size_t v = 0; v < result.positions.size(); ++v)
+    result.mesh.positions[v] = static_cast<Vec3f>(result.positions[v]);
   result.residue = engine.vertex_residues(surface.mesh, surface.atoms);
   if (input.map != nullptr) {
     result.potential = engine.download(engine.sample(engine.upload_map(*input.map, from_common), surface.mesh));

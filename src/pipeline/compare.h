@@ -1,4 +1,5 @@
-// compare.h: one pair of molecules from atoms and maps to metrics and certificate; the only code that knows the order of the stages.
+// compare.h: one pair of molecules from atoms and maps to metrics and certificate; the only code that knows the order
+// of the stages.
 #pragma once
 
 #include <optional>
@@ -26,8 +27,9 @@ struct SurfaceOptions {
   bool project = true;    ///< move vertices onto the analytic isosurface
 };
 
-/// All parameters of a comparison; defaults are the study's values of the thesis where it has them. Not in the thesis: tangential
-/// gains other than 1, the rest shape, the projection onto the exact isosurface, and the mapping's smaller min_displacement.
+/// All parameters of a comparison; defaults are the study's values of the thesis where it has them. Not in the thesis:
+/// tangential gains other than 1, the rest shape, the projection onto the exact isosurface, and the mapping's smaller
+/// min_displacement.
 struct CompareOptions {
   SurfaceOptions surface;
   AlignAtoms align = AlignAtoms::kAll;
@@ -35,7 +37,8 @@ struct CompareOptions {
   double distance_threshold_A = 0.75;
   DeformOptions regularize{0.1, 0.5, 0.3, 1e-3, 500, Interpolation::kTrilinear, 4, false};
   DeformOptions deform{0.1, 0.75, 0.3, 1e-3, 3000, Interpolation::kTrilinear, 8, true};
-  /// In grid spacings; they set min_displacement_A. The thesis' 1e-3 lets the mapping end while a few vertices still travel.
+  /// In grid spacings; they set min_displacement_A. The thesis' 1e-3 lets the mapping end while a few vertices still
+  /// travel.
   double regularize_min_displacement = 1e-3, deform_min_displacement = 5e-4;
   double temperature_K = 300;  ///< for converting between kT/e and other units
 };
@@ -46,10 +49,10 @@ CompareOptions thesis_options();
 struct SurfaceSummary {
   std::size_t n_vertices = 0;
   std::size_t n_triangles = 0;
-  std::size_t n_components = 0;       ///< after leaving out cavities
+  std::size_t n_components = 0;  ///< after leaving out cavities
   std::size_t n_cavities_left_out = 0;
   double area_A2 = 0;
-  double cavity_area_A2 = 0;          ///< of the cavities left out
+  double cavity_area_A2 = 0;  ///< of the cavities left out
 };
 
 /// Per-residue averages over the mapped surface, source residues. Area-weighted; NaN where no valid area.
@@ -97,8 +100,8 @@ struct CompareResult {
   RigidTransform source_to_target;  ///< the superposition
   bool has_potential = false;
   PotentialUnit unit = PotentialUnit::kUnknown;
-  Metrics metrics;      ///< over valid triangles
-  Metrics metrics_all;  ///< over all triangles with samples
+  Metrics metrics;                                                 ///< over valid triangles
+  Metrics metrics_all;                                             ///< over all triangles with samples
   std::size_t n_outside_source_map = 0, n_outside_target_map = 0;  ///< vertices
   SurfaceSummary source_surface, target_surface;
   double area_mapped_A2 = 0;
@@ -116,17 +119,18 @@ struct CompareInput {
 };
 
 /// Compares two molecules.
-/// @throws InputError (no common atoms; a map on one side only; a map that misses the surface entirely; units that differ and one
+/// @throws InputError (no common atoms; a map on one side only; a map that misses the surface entirely; units that
+/// differ and one
 ///         unknown), GeometryError, MemoryError, Cancelled
-CompareResult compare(Engine& engine, const CompareInput& source, const CompareInput& target, const CompareOptions& options,
-                      const Progress& progress);
+CompareResult compare(Engine& engine, const CompareInput& source, const CompareInput& target,
+                      const CompareOptions& options, const Progress& progress);
 
 /// A molecule's surface in its own frame, for the `surface` verb.
 struct SurfaceResult {
-  Mesh mesh;                               ///< positions in the molecule's frame
-  std::vector<Vec3d> positions;            ///< [vertex] double precision, the molecule's frame
-  std::vector<std::int32_t> residue;       ///< [vertex]
-  std::vector<float> potential;            ///< [vertex], empty without a map
+  Mesh mesh;                          ///< positions in the molecule's frame
+  std::vector<Vec3d> positions;       ///< [vertex] double precision, the molecule's frame
+  std::vector<std::int32_t> residue;  ///< [vertex]
+  std::vector<float> potential;       ///< [vertex], empty without a map
   SurfaceSummary summary;
   std::vector<ComponentSummary> components;  ///< all, cavities included
   DeformReport regularize_report;

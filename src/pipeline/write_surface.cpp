@@ -16,7 +16,8 @@ void write_surface(const std::string& path, const Molecule& molecule, const Surf
   VtpSurface surface;
   surface.points = VtpArray("points", result.positions);
   surface.triangles = &result.mesh.triangles;
-  surface.point_arrays = {{"normal", result.mesh.normals}, {"component", component}, {"residue_number", residue_numbers}};
+  surface.point_arrays = {
+      {"normal", result.mesh.normals}, {"component", component}, {"residue_number", residue_numbers}};
   surface.active_normals = "normal";
   if (!result.potential.empty()) {
     surface.point_arrays.emplace_back("potential", result.potential);

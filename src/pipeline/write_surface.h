@@ -7,7 +7,8 @@
 
 namespace espdiff {
 
-/// Point arrays: normal, component, residue_number (0 where no atom reaches) and, with a map, potential (NaN outside the map).
+/// Point arrays: normal, component, residue_number (0 where no atom reaches) and, with a map, potential (NaN outside
+/// the map).
 /// @param unit of the potential
 /// @throws IoError; then nothing is written
 void write_surface(const std::string& path, const Molecule& molecule, const SurfaceResult& result, PotentialUnit unit);

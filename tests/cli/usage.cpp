@@ -16,8 +16,9 @@ TEST_CASE("help and version exit 0 and say what there is") {
     CHECK(contains(outcome.out, "Usage: espdiff " + std::string(verb)));
   }
   const Outcome compare = run_espdiff("compare --help");
-  for (const char* option : {"--source-map", "--target-map", "--potential", "--method", "--field", "--align", "--grid-spacing", "--radius-scale",
-                             "--isovalue", "--device", "--threads", "--sigma", "--mu", "--rho", "--max-iterations"}) {
+  for (const char* option :
+       {"--source-map", "--target-map", "--potential", "--method", "--field", "--align", "--grid-spacing",
+        "--radius-scale", "--isovalue", "--device", "--threads", "--sigma", "--mu", "--rho", "--max-iterations"}) {
     CHECK_MESSAGE(contains(compare.out, option), option);
   }
 }
@@ -27,9 +28,14 @@ TEST_CASE("wrong usage exits 2 with one line that says what and where to look") 
     const char* arguments;
     const char* expected;
   };
-  for (const Case& c : {Case{"", "subcommand"}, {"frobnicate", "frobnicate"}, {"compare", "SOURCE"}, {"compare a.pqr b.pqr", "--output"},
-                        {"compare a b -o x --device tpu", "--device"}, {"compare a b -o x --threads -1", "--threads"},
-                        {"compare a b -o x --grid-spacing 0", "--grid-spacing"}, {"compare a b -o x --no-such-option", "--no-such-option"}}) {
+  for (const Case& c : {Case{"", "subcommand"},
+                        {"frobnicate", "frobnicate"},
+                        {"compare", "SOURCE"},
+                        {"compare a.pqr b.pqr", "--output"},
+                        {"compare a b -o x --device tpu", "--device"},
+                        {"compare a b -o x --threads -1", "--threads"},
+                        {"compare a b -o x --grid-spacing 0", "--grid-spacing"},
+                        {"compare a b -o x --no-such-option", "--no-such-option"}}) {
     const Outcome outcome = run_espdiff(c.arguments);
     CHECK_MESSAGE(outcome.status == 2, c.arguments);
     CHECK_MESSAGE(contains(outcome.err, c.expected), outcome.err);
@@ -46,7 +52,8 @@ TEST_CASE("what this version does not have says so") {
   const ScratchFolder folder;
   const std::string molecule = folder.write("a.pqr", row_of_atoms(6));
   for (const char* option : {"--method morph", "--field gvf", "--potential pme"}) {
-    const Outcome outcome = run_espdiff("compare " + molecule + " " + molecule + " -o " + folder.file("out") + " " + option);
+    const Outcome outcome =
+        run_espdiff("compare " + molecule + " " + molecule + " -o " + folder.file("out") + " " + option);
     CHECK(outcome.status == 2);
     CHECK_MESSAGE(contains(outcome.err, "not in this version"), outcome.err);
   }
@@ -57,7 +64,8 @@ TEST_CASE("doctor names the back ends and the readers") {
   const Outcome outcome = run_espdiff("doctor");
   CHECK(outcome.status == 0);
   CHECK(contains(outcome.out, "espdiff " ESPDIFF_VERSION));
-  for (const char* line : {"cpu            ok", "cuda", "--device auto", "structures", "maps"}) CHECK_MESSAGE(contains(outcome.out, line), line);
+  for (const char* line : {"cpu            ok", "cuda", "--device auto", "structures", "maps"})
+    CHECK_MESSAGE(contains(outcome.out, line), line);
 }
 
 TEST_CASE("an explicit cuda that is not there is an error, not a silent cpu run") {
@@ -67,7 +75,8 @@ TEST_CASE("an explicit cuda that is not there is an error, not a silent cpu run"
   }
   const ScratchFolder folder;
   const std::string molecule = folder.write("a.pqr", row_of_atoms(6));
-  const Outcome outcome = run_espdiff("compare " + molecule + " " + molecule + " -o " + folder.file("out") + " --device cuda");
+  const Outcome outcome =
+      run_espdiff("compare " + molecule + " " + molecule + " -o " + folder.file("out") + " --device cuda");
   CHECK(outcome.status == 1);
   CHECK_MESSAGE(contains(outcome.err, "--device cpu"), outcome.err);
   CHECK(folder.n_files() == 1);

@@ -1,4 +1,5 @@
-// wrong_input.cpp: every wrong input of the issue list gives one clear line, the right exit status, and leaves nothing behind.
+// wrong_input.cpp: every wrong input of the issue list gives one clear line, the right exit status, and leaves nothing
+// behind.
 #include <doctest/doctest.h>
 
 #include <filesystem>
@@ -20,8 +21,8 @@ struct Inputs {
 
   Outcome compare(const std::string& more = "", const std::string& output = "") {
     n_before = folder.n_files();
-    return run_espdiff("compare " + source + " " + target + " --source-map " + source_map + " --target-map " + target_map + " -o " +
-                       (output.empty() ? folder.file("out") : output) + " " + more);
+    return run_espdiff("compare " + source + " " + target + " --source-map " + source_map + " --target-map " +
+                       target_map + " -o " + (output.empty() ? folder.file("out") : output) + " " + more);
   }
   void check_refused(const Outcome& outcome, int status, const std::string& expected) {
     CHECK_MESSAGE(outcome.status == status, outcome.err);
@@ -38,7 +39,8 @@ TEST_CASE("good input: the files, and a constant difference") {
   Inputs in;
   const Outcome outcome = in.compare();
   CHECK_MESSAGE(outcome.status == 0, outcome.err);
-  for (const char* suffix : {".json", ".vtp", ".residues.csv"}) CHECK(std::filesystem::exists(in.folder.file("out") + suffix));
+  for (const char* suffix : {".json", ".vtp", ".residues.csv"})
+    CHECK(std::filesystem::exists(in.folder.file("out") + suffix));
   CHECK(contains(read_file(in.folder.file("out.json")), "\"mean_signed_difference\": 2.0"));
   CHECK(contains(outcome.out, "kT/e"));
 }
@@ -96,7 +98,8 @@ TEST_CASE("a map that does not cover the molecule") {
 TEST_CASE("a map on one side only") {
   Inputs in;
   in.n_before = in.folder.n_files();
-  const Outcome outcome = run_espdiff("compare " + in.source + " " + in.target + " --source-map " + in.source_map + " -o " + in.folder.file("out"));
+  const Outcome outcome = run_espdiff("compare " + in.source + " " + in.target + " --source-map " + in.source_map +
+                                      " -o " + in.folder.file("out"));
   in.check_refused(outcome, 2, "--target-map");
 }
 
@@ -154,8 +157,9 @@ TEST_CASE("Ctrl-C in the middle leaves nothing half written") {
   const auto path = real_input("ref_apbs/1tca.pqr");
   if (!path) return;
   const ScratchFolder folder;
-  const Outcome outcome =
-      run_espdiff("compare " + *path + " " + *path + " --grid-spacing 0.4 --min-displacement 0 -o " + folder.file("out"), "timeout -s INT 1.5");
+  const Outcome outcome = run_espdiff(
+      "compare " + *path + " " + *path + " --grid-spacing 0.4 --min-displacement 0 -o " + folder.file("out"),
+      "timeout -s INT 1.5");
   CHECK_MESSAGE(outcome.status == 124, outcome.status);  // of timeout: the time was up
   CHECK_MESSAGE(contains(outcome.err, "cancelled; nothing was written"), outcome.err);
   CHECK(folder.n_files() == 0);

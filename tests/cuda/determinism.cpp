@@ -64,7 +64,7 @@ Hashes run_all_stages(Engine& engine, const AtomSet& source_atoms, const AtomSet
   const auto own = engine.density_field(density, 0.5F);
   hashes["density field"] = Hash().add(engine.download(own).values).value();
   espdiff::DeformOptions options;
-  options.max_iterations = 60;
+  options.max_iterations = 30;
   const auto start = engine.deform(surface, own, options, "regularize", {}, nullptr);
   hash_mesh("regularize", start);
   const auto target_surface = engine.isosurface(target_density, 0.5F);
@@ -111,21 +111,21 @@ void check_same(const Hashes& expected, const Hashes& found, const std::string& 
 
 TEST_SUITE_BEGIN("determinism");
 
-TEST_CASE("every stage gives the same bits for 1, 2, 3 and 4 threads, and again") {
+TEST_CASE("every stage gives the same bits for 1, 2 and 4 threads, and again") {
   const auto path = real_input("series19_ubq_2k39/m00.pqr"), other = real_input("series19_ubq_2k39/m01.pqr");
   const AtomSet source = path ? read_atoms(*path) : random_cloud(400, 150);
   const AtomSet target = path ? read_atoms(*other) : random_cloud(400, 151);
   const auto one = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 1);
   const Hashes expected = run_all_stages(*one, source, target);
   check_same(expected, run_all_stages(*one, source, target), "1 thread, again");
-  for (const int n_threads : {2, 3, 4}) {
+  for (const int n_threads : {2, 4}) {
     const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, n_threads);
     check_same(expected, run_all_stages(*engine, source, target), std::to_string(n_threads) + " threads");
   }
 }
 
 TEST_CASE("every back end repeats itself to the bit and finds the CPU's topology") {
-  const AtomSet source = random_cloud(300, 152), target = random_cloud(300, 153);
+  const AtomSet source = random_cloud(150, 152), target = random_cloud(150, 153);
   std::vector<Mesh> surfaces;
   for (const auto& engine : back_ends()) {
     check_same(run_all_stages(*engine, source, target), run_all_stages(*engine, source, target), engine->back_end());

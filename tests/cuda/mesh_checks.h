@@ -15,38 +15,44 @@ namespace espdiff_test {
 
 /// Empty when the mesh is a closed, consistently oriented 2-manifold without unused vertices; else what is wrong.
 inline std::string manifold_fault(const espdiff::Mesh& mesh) {
-  // Directed edge v -> a with the third vertex of its triangle: sorted, the entries of v are its fan.
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> edges;
+  struct Spoke {
+    std::uint32_t to, third;  // the directed edge vertex -> to, and the third vertex of its triangle
+  };
+  const std::size_t n = mesh.positions.size();
+  std::vector<std::size_t> first(n + 1, 0);
   for (const auto& t : mesh.triangles) {
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return "a triangle names a vertex twice";
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (t[c] >= mesh.positions.size()) return "a triangle names a vertex that does not exist";
-      edges.emplace_back(static_cast<std::uint64_t>(t[c]) << 32 | t[(c + 1) % 3], t[(c + 2) % 3]);
+    for (const std::uint32_t v : t) {
+      if (v >= n) return "a triangle names a vertex that does not exist";
+      ++first[v + 1];
     }
   }
-  std::sort(edges.begin(), edges.end());
-  const auto find = [&](std::uint64_t v, std::uint64_t a) {
-    const auto at = std::lower_bound(edges.begin(), edges.end(), std::make_pair(v << 32 | a, std::uint32_t{0}));
-    return at != edges.end() && at->first == (v << 32 | a) ? at : edges.end();
-  };
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    if (e > 0 && edges[e].first == edges[e - 1].first) return "a directed edge lies in two triangles";
-    if (find(edges[e].first & 0xFFFFFFFFU, edges[e].first >> 32) == edges.end()) return "an edge has no opposite";
+  for (std::size_t v = 0; v < n; ++v) first[v + 1] += first[v];
+  std::vector<std::size_t> next(first.begin(), first.end() - 1);
+  std::vector<Spoke> spokes(3 * mesh.triangles.size());
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t c = 0; c < 3; ++c) spokes[next[t[c]]++] = {t[(c + 1) % 3], t[(c + 2) % 3]};
   }
-  std::size_t begin = 0;
-  for (std::uint64_t v = 0; v < mesh.positions.size(); ++v) {
-    std::size_t end = begin;
-    while (end < edges.size() && edges[end].first >> 32 == v) ++end;
-    if (end == begin) return "a vertex lies in no triangle";
-    std::size_t n = 0;
-    std::uint32_t a = static_cast<std::uint32_t>(edges[begin].first);
-    const std::uint32_t start = a;
+  const auto count = [&](std::uint32_t v, std::uint32_t to) {
+    return std::count_if(&spokes[first[v]], &spokes[first[v]] + (first[v + 1] - first[v]),
+                         [&](const Spoke& s) { return s.to == to; });
+  };
+  for (std::uint32_t v = 0; v < n; ++v) {
+    const std::size_t degree = first[v + 1] - first[v];
+    if (degree == 0) return "a vertex lies in no triangle";
+    const Spoke* const fan = &spokes[first[v]];
+    for (std::size_t s = 0; s < degree; ++s) {
+      if (count(v, fan[s].to) != 1) return "a directed edge lies in two triangles";
+      if (count(fan[s].to, v) != 1) return "an edge has no opposite";
+    }
+    std::size_t n_walked = 0;
+    std::uint32_t at = fan[0].to;
     do {
-      a = find(v, a)->second;
-      ++n;
-    } while (a != start && n < end - begin);
-    if (n != end - begin || a != start) return "the triangles around a vertex form more than one fan";
-    begin = end;
+      const Spoke* const spoke = std::find_if(fan, fan + degree, [&](const Spoke& s) { return s.to == at; });
+      at = spoke->third;
+      ++n_walked;
+    } while (at != fan[0].to && n_walked < degree);
+    if (n_walked != degree || at != fan[0].to) return "the triangles around a vertex form more than one fan";
   }
   return "";
 }
