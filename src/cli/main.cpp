@@ -1,5 +1,8 @@
 // main.cpp: parses the command line, runs the verb, and turns errors into one line and an exit status.
+#include <unistd.h>
+
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <string>
@@ -16,6 +19,15 @@ std::string joined(int argc, char** argv) {
   std::string line = "espdiff";
   for (int i = 1; i < argc; ++i) line += std::string(" ") + argv[i];
   return line;
+}
+
+/// OpenMP threads spin while they wait for each other, unless told otherwise before the program starts; on a machine
+/// that is busy with something else that makes a run up to ten times as long. So the program tells itself, and starts
+/// again. Who sets either variable keeps his choice.
+void start_again_without_spinning(char** argv) {
+  if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
+  setenv("OMP_WAIT_POLICY", "passive", 1);
+  execv("/proc/self/exe", argv);  // returns only where there is no /proc: then it spins
 }
 
 /// Runs the verb that was chosen; what it throws becomes one line on standard error.
@@ -44,6 +56,7 @@ int run_verb(const espdiff::cli::Verb& verb, const std::string& command_line) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  start_again_without_spinning(argv);
   CLI::App app(
       "espdiff shows where and by how much the electrostatic surface potential differs between two states of a "
       "molecule, and how "
