@@ -125,7 +125,7 @@ void per_iteration(State& state, const StageInputs& in, const MeshPtr& mesh, con
 }
 
 void count_report(State& state, const espdiff::DeformReport& report) {
-  state.counters["iterations"] = report.iterations;
+  state.counters["deform_iterations"] = report.iterations;
   state.counters["converged"] = report.converged ? 1 : 0;
 }
 
@@ -200,7 +200,7 @@ void compare(State& state, const StageInputs& in) {
   state.counters["flipped_percent"] = 100 * c.flipped_area_fraction;
   state.counters["mean_distance_A"] = c.mapped_to_target.mean;
   state.counters["mean_distance_back_A"] = c.target_to_mapped.mean;
-  state.counters["iterations"] = result.deform_report.iterations;
+  state.counters["deform_iterations"] = result.deform_report.iterations;
   state.counters["regularize_iterations"] = result.regularize_report.iterations;
   state.counters["converged"] = c.converged ? 1 : 0;
   for (const auto& [stage, ms] : result.time_ms) state.counters["ms_" + stage] = ms;

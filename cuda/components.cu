@@ -2,6 +2,7 @@
 // component, whatever the order in which threads met.
 #include "components.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
@@ -75,6 +76,8 @@ ComponentLabels label_components(const SurfaceMesh& mesh) {
 std::shared_ptr<SurfaceMesh> keep_components(const SurfaceMesh& mesh, const ComponentLabels& labels,
                                              const std::vector<bool>& keep) {
   if (keep.size() != labels.summaries.size()) throw InputError("keep_components: one entry per component is needed");
+  if (std::find(keep.begin(), keep.end(), true) == keep.end())
+    throw GeometryError("no component of the surface is left");
   Buffer<std::uint8_t> kept_components(keep.size());
   for (std::size_t c = 0; c < keep.size(); ++c) kept_components[c] = keep[c] ? 1 : 0;
   const std::size_t n_vertices = mesh.n_vertices(), n_triangles = mesh.n_triangles();

@@ -183,8 +183,10 @@ ESPDIFF_MULTIVERSION void add_slab(const AtomCellsView& atoms, const CubicLattic
 
 std::shared_ptr<DensityGrid> density_by_slabs(const AtomCells& atoms, const CubicLattice& lattice) {
   const float widest_row = 2 * atoms.max_reach / lattice.spacing + 2 * kVector;
-  if (widest_row > static_cast<float>(kMaxAxis) || lattice.size[0] < 2 * kVector)
+  // A row padded to whole groups must fit into the lattice and into an atom's buffers.
+  if (widest_row > static_cast<float>(kMaxAxis) || static_cast<float>(lattice.size[0]) < widest_row) {
     return density_by_points(atoms, lattice);
+  }
   auto grid = std::make_shared<DensityGrid>();
   grid->lattice = lattice;
   grid->values.resize(lattice.n_points());

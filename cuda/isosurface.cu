@@ -119,6 +119,7 @@ ESPDIFF_INLINE LatticeRow cell_row(const CubicLattice& lattice, std::size_t row)
 }  // namespace
 
 std::shared_ptr<SurfaceMesh> isosurface(const DensityGrid& density, float isovalue) {
+  if (!(isovalue > 0)) throw InputError("isovalue " + std::to_string(isovalue) + " is not positive; 0.5 is usual");
   const CubicLattice lattice = density.lattice;
   const std::size_t n_points = lattice.n_points();
   const std::size_t n_rows =

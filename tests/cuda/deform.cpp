@@ -202,6 +202,32 @@ TEST_CASE("a regularized surface mapped onto itself stays where it is") {
   }
 }
 
+TEST_CASE("with a rest shape a surface mapped onto itself does not creep") {
+  const AtomSet atoms = random_cloud(250, 131);
+  for (const auto& engine : back_ends()) {
+    const auto uploaded = upload(*engine, atoms);
+    const auto density = engine->density(uploaded, 1.0);
+    const auto start = engine->project(engine->isosurface(density, 0.5F), uploaded, 0.5F, 0.5);
+    const auto field = engine->density_field(density, 0.5F);
+    const auto mean_shift = [&](bool rest_shape) {
+      DeformOptions options;
+      options.rest_shape = rest_shape;
+      options.min_displacement_A = 0;
+      options.max_iterations = 200;
+      const auto mapped =
+          engine->project(engine->deform(start, field, options, "deform", {}, nullptr), uploaded, 0.5F, 0.5);
+      double sum = 0;
+      for (const float d : engine->download(engine->displacement(start, mapped))) sum += static_cast<double>(d);
+      return sum / static_cast<double>(engine->n_vertices(start));
+    };
+    const double resting = mean_shift(true), creeping = mean_shift(false);
+    std::printf("self-map of a raw surface, %s: mean shift %.4f A with a rest shape, %.4f A without\n",
+                engine->back_end().c_str(), resting, creeping);
+    CHECK(resting < 0.02);
+    CHECK(creeping > 5 * resting);
+  }
+}
+
 TEST_CASE("deform: parameters out of range are refused with the value") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const auto& engine : back_ends()) {
@@ -220,6 +246,11 @@ TEST_CASE("deform: parameters out of range are refused with the value") {
     CHECK(message([](DeformOptions& o) { o.max_iterations = -1; }) == "the number of iterations, -1, is negative");
     CHECK(message([](DeformOptions& o) { o.min_displacement_A = -1; }) ==
           "the smallest displacement, -1.000000 A, is negative");
+    CHECK(message([](DeformOptions& o) { o.tangential_gain = -1; }) ==
+          "the tangential gain, -1.000000, is negative; 1 is the plain iteration");
+    CHECK(message([](DeformOptions& o) { o.tangential_gain = 100; }).find("where the iteration becomes unstable") !=
+          std::string::npos);
+    message([&](DeformOptions& o) { o.tangential_gain = nan; });
     message([&](DeformOptions& o) { o.sigma = nan; });
     message([&](DeformOptions& o) { o.mu = nan; });
     message([&](DeformOptions& o) { o.rho = nan; });

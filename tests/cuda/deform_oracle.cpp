@@ -82,7 +82,8 @@ struct OracleResult {
   std::vector<double> closest_call;  ///< [vertex] smallest |field| at which its side was decided
 };
 
-/// DESIGN: x += sigma (mu f_ext + (1 - mu) f_int), f_ext = s n, f_int the tangential part of (1 - rho) L - rho L2.
+/// x += sigma (mu f_ext + (1 - mu) g f_int), f_ext = s n, f_int the tangential part of (1 - rho) L - rho L2, where L
+/// may be taken relative to its values at the start.
 OracleResult deform_oracle(const Mesh& mesh, const FieldOracle& field, const DeformOptions& options) {
   const std::size_t n = mesh.positions.size();
   std::vector<std::set<std::uint32_t>> ring(n);
@@ -111,8 +112,11 @@ OracleResult deform_oracle(const Mesh& mesh, const FieldOracle& field, const Def
     strength[v] = was_inside[v] ? -1 : 1;
     result.closest_call[v] = std::fabs(value);
   }
+  const std::vector<Vec3d> rest = umbrella(result.positions);
   for (int iteration = 0; iteration < options.max_iterations; ++iteration) {
-    const std::vector<Vec3d> l = umbrella(result.positions), l2 = umbrella(l);
+    std::vector<Vec3d> l = umbrella(result.positions);
+    for (std::size_t v = 0; v < n && options.rest_shape; ++v) l[v] = l[v] - rest[v];
+    const std::vector<Vec3d> l2 = umbrella(l);
     for (std::size_t v = 0; v < n; ++v) {
       const auto sample = field.at(result.positions[v]);
       result.closest_call[v] = std::min(result.closest_call[v], std::fabs(sample.value));
@@ -123,7 +127,8 @@ OracleResult deform_oracle(const Mesh& mesh, const FieldOracle& field, const Def
       const Vec3d normal = (1 / norm(sample.gradient)) * sample.gradient;
       const Vec3d internal = (1 - options.rho) * l[v] - options.rho * l2[v];
       const Vec3d tangential = internal - dot(internal, normal) * normal;
-      result.positions[v] += options.sigma * (options.mu * strength[v] * normal + (1 - options.mu) * tangential);
+      result.positions[v] +=
+          options.sigma * (options.mu * strength[v] * normal + (1 - options.mu) * options.tangential_gain * tangential);
     }
   }
   return result;
@@ -134,18 +139,13 @@ struct Comparison {
   std::size_t n = 0, n_undecided = 0;
 };
 
-Comparison compare_to_oracle(Engine& engine, const AtomSet& atoms, Interpolation interpolation, int n_iterations,
-                             double mu) {
+Comparison compare_to_oracle(Engine& engine, const AtomSet& atoms, const DeformOptions& options) {
   const auto density = engine.density(upload(engine, atoms), 1.0);
   // From the surface at 0.4 to that at 0.55: the vertices cross it on the way, and not all at once.
   const auto start = engine.isosurface(density, 0.4F);
   const auto field = engine.density_field(density, 0.55F);
-  DeformOptions options;
-  options.mu = mu;
-  options.max_iterations = n_iterations;
-  options.interpolation = interpolation;
   const Mesh after = engine.download(engine.deform(start, field, options, "deform", {}, nullptr));
-  const FieldOracle field_oracle(engine.download(field), interpolation == Interpolation::kTricubic);
+  const FieldOracle field_oracle(engine.download(field), options.interpolation == Interpolation::kTricubic);
   const OracleResult exact = deform_oracle(engine.download(start), field_oracle, options);
   Comparison c;
   std::vector<double> errors;
@@ -168,7 +168,10 @@ void check_against_oracle(const AtomSet& atoms, const char* name) {
   for (const auto& engine : back_ends()) {
     for (const Interpolation interpolation : {Interpolation::kTrilinear, Interpolation::kTricubic}) {
       for (const int n_iterations : {1, 2, 10}) {
-        const Comparison c = compare_to_oracle(*engine, atoms, interpolation, n_iterations, 0.75);
+        DeformOptions options;
+        options.interpolation = interpolation;
+        options.max_iterations = n_iterations;
+        const Comparison c = compare_to_oracle(*engine, atoms, options);
         std::printf(
             "deform, %s, %s, %s, %d iterations: 99.9 %% of the vertices within %.1e A, all within %.1e A (%zu of %zu "
             "undecided)\n",
@@ -197,10 +200,26 @@ TEST_CASE("iterations on a real surface are those of a serial double-precision f
   check_against_oracle(read_atoms(*path), "1AJJ");
 }
 
-TEST_CASE("internal force alone, with all of either kind, is that of the serial form") {
+TEST_CASE("each force alone, a gain and a rest shape are those of the serial form") {
+  const AtomSet atoms = random_cloud(100, 141);
   for (const auto& engine : back_ends()) {
-    CHECK(compare_to_oracle(*engine, random_cloud(100, 141), Interpolation::kTrilinear, 5, 0.0).worst < 1e-5);
-    CHECK(compare_to_oracle(*engine, random_cloud(100, 141), Interpolation::kTrilinear, 5, 1.0).worst < 1e-5);
+    for (const double mu : {0.0, 0.5, 1.0}) {
+      for (const double gain : {0.0, 1.0, 3.0}) {
+        for (const bool rest_shape : {false, true}) {
+          DeformOptions options;
+          options.mu = mu;
+          options.tangential_gain = gain;
+          options.rest_shape = rest_shape;
+          options.max_iterations = 5;
+          CAPTURE(mu);
+          CAPTURE(gain);
+          CAPTURE(rest_shape);
+          const Comparison c = compare_to_oracle(*engine, atoms, options);
+          CHECK(c.worst < 1e-5);
+          CHECK(c.n_undecided * 300 <= c.n);
+        }
+      }
+    }
   }
 }
 

@@ -35,18 +35,29 @@ struct FieldErrors {
   std::size_t n_wrong_sign = 0, n_wrong_density = 0;
 };
 
+/// What the densities are multiplied with to make them lengths: the same all over the lattice.
+/// @param beyond_all the field with a threshold that no distance exceeds
+double density_scale(const Grid& beyond_all, const Grid& density) {
+  std::size_t top = 0;
+  for (std::size_t p = 0; p < density.values.size(); ++p) top = density.values[p] > density.values[top] ? p : top;
+  return static_cast<double>(beyond_all.values[top]) / (static_cast<double>(density.values[top]) - 0.5);
+}
+
 FieldErrors field_errors(Engine& engine, const Surface& surface, double threshold, std::size_t n_samples) {
   const Grid field = engine.download(engine.distance_field(surface.density, 0.5F, surface.mesh, threshold, {}));
   const Grid density = engine.download(surface.density);
+  const double scale =
+      density_scale(engine.download(engine.distance_field(surface.density, 0.5F, surface.mesh, 1e6, {})), density);
   const Mesh mesh = engine.download(surface.mesh);
   Random random(120);
   FieldErrors errors;
   for (std::size_t n = 0; n < n_samples; ++n) {
     const std::size_t p = random.below(field.values.size());
     const double exact = mesh_distance_oracle(mesh, lattice_point(field.lattice, p));
-    const double value = static_cast<double>(field.values[p]), excess = static_cast<double>(density.values[p]) - 0.5;
+    const double value = static_cast<double>(field.values[p]);
+    const double excess = scale * (static_cast<double>(density.values[p]) - 0.5);
     errors.n_wrong_sign += (value > 0) == (excess > 0) ? 0 : 1;
-    if (std::fabs(value - excess) < 1e-6) {
+    if (std::fabs(value - excess) < 1e-5) {
       // The density: right where the exact distance is within the threshold. The field's distance is never too small,
       // so a point beyond the threshold never falls back to the density.
       errors.n_wrong_density += exact > threshold + 1e-4 ? 1 : 0;
@@ -100,6 +111,17 @@ TEST_CASE("the distance field of a sphere is the distance to it") {
   }
 }
 
+TEST_CASE("the density's part of the distance field meets the distance: its slope at the surface is 1") {
+  for (const auto& engine : back_ends()) {
+    const double width = 3.0, r = width * std::sqrt(2 * std::log(2.0));
+    const Surface surface = make_surface(*engine, one_gaussian({0.2, 0.1, -0.3}, width), 0.5);
+    const Grid field = engine->download(engine->distance_field(surface.density, 0.5F, surface.mesh, 1e6, {}));
+    // The Gaussian's slope at its isosurface of 0.5 is 0.5 r / s^2.
+    CHECK(density_scale(field, engine->download(surface.density)) ==
+          doctest::Approx(width * width / (0.5 * r)).epsilon(0.05));
+  }
+}
+
 TEST_CASE("the distance field of a random cloud: sign, threshold, size") {
   for (const auto& engine : back_ends()) {
     const Surface surface = make_surface(*engine, random_cloud(250, 121), 1.0);
@@ -127,17 +149,22 @@ TEST_CASE("the distance field of a real protein errs little against exact distan
   }
 }
 
-TEST_CASE("with a threshold beyond the lattice the field is the density, with one of 0 the distance") {
+TEST_CASE("with a threshold beyond the lattice the field is the density in lengths, with one of 0 the distance") {
   for (const auto& engine : back_ends()) {
     const Surface surface = make_surface(*engine, random_cloud(60, 122), 1.0);
     const Grid density = engine->download(engine->density_field(surface.density, 0.5F));
-    CHECK(engine->download(engine->distance_field(surface.density, 0.5F, surface.mesh, 1e6, {})).values ==
-          density.values);
+    const Grid field = engine->download(engine->distance_field(surface.density, 0.5F, surface.mesh, 1e6, {}));
     const Grid raw_density = engine->download(surface.density);
+    const double scale = density_scale(field, raw_density);
     std::size_t n_different = 0;
-    for (std::size_t p = 0; p < density.values.size(); ++p)
+    double worst = 0;
+    for (std::size_t p = 0; p < density.values.size(); ++p) {
       n_different += density.values[p] == raw_density.values[p] - 0.5F ? 0 : 1;
+      worst = std::max(
+          worst, std::fabs(static_cast<double>(field.values[p]) - scale * static_cast<double>(density.values[p])));
+    }
     CHECK(n_different == 0);
+    CHECK(worst < 1e-5);
     const FieldErrors e = field_errors(*engine, surface, 0.0, 500);
     CHECK(e.n_far > 490);
     check_errors(e);
