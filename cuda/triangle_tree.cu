@@ -74,10 +74,16 @@ TriangleTree make_triangle_tree(const SurfaceMesh& mesh) {
   tree.triangles.resize(n);
   tree.boxes.resize(2 * static_cast<std::size_t>(tree.n_leaves) - 1);
   PlacedTriangle* const placed = raw(tree.triangles);
+  tree.spheres.resize(n);
   Box* const boxes = raw(tree.boxes);
+  Vec4f* const spheres = raw(tree.spheres);
   for_each_index(n, [=] ESPDIFF_HD(std::size_t place) {
     const Corners t = corners[static_cast<std::uint32_t>(code[place])];
-    placed[place] = {x[t.v[0]].xyz(), x[t.v[1]].xyz(), x[t.v[2]].xyz()};
+    const PlacedTriangle corner = {x[t.v[0]].xyz(), x[t.v[1]].xyz(), x[t.v[2]].xyz()};
+    const Vec3f centre = (1.0F / 3.0F) * (corner.a + corner.b + corner.c);
+    placed[place] = corner;
+    spheres[place] =
+        make_vec4(centre, fmaxf(norm(corner.a - centre), fmaxf(norm(corner.b - centre), norm(corner.c - centre))));
   });
   const std::size_t n_leaves = tree.n_leaves;
   for_each_index(n_leaves, [=] ESPDIFF_HD(std::size_t leaf) {

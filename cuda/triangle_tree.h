@@ -23,6 +23,7 @@ struct PlacedTriangle {
 struct TriangleTreeView {
   const Box* boxes;                 ///< [node] children of n are 2n+1 and 2n+2; leaves are the last n_leaves nodes
   const PlacedTriangle* triangles;  ///< [place] in leaf order
+  const Vec4f* spheres;             ///< [place] a sphere around the triangle: centroid, and radius in w
   std::uint32_t n_leaves;           ///< a power of two
   std::uint32_t n_triangles;
 };
@@ -30,10 +31,11 @@ struct TriangleTreeView {
 struct TriangleTree {
   Buffer<Box> boxes;
   Buffer<PlacedTriangle> triangles;
+  Buffer<Vec4f> spheres;
   std::uint32_t n_leaves = 0;
 
   TriangleTreeView view() const {
-    return {raw(boxes), raw(triangles), n_leaves, static_cast<std::uint32_t>(triangles.size())};
+    return {raw(boxes), raw(triangles), raw(spheres), n_leaves, static_cast<std::uint32_t>(triangles.size())};
   }
 };
 
@@ -87,6 +89,7 @@ ESPDIFF_INLINE NearestTriangle nearest_triangle(const TriangleTreeView& tree, Ve
   Pending stack[32];
   int depth = 0;
   NearestTriangle nearest{guess, squared_distance_to_triangle(p, tree.triangles[guess])};
+  float nearest_distance = sqrtf(nearest.squared_distance);
   std::uint32_t node = 0;
   float node_distance = squared_distance_to_box(p, tree.boxes[0]);
   for (;;) {
@@ -105,8 +108,16 @@ ESPDIFF_INLINE NearestTriangle nearest_triangle(const TriangleTreeView& tree, Ve
       const std::uint32_t end =
           begin + kTrianglesPerLeaf < tree.n_triangles ? begin + kTrianglesPerLeaf : tree.n_triangles;
       for (std::uint32_t t = begin; t < end; ++t) {
+        // Most triangles of a leaf are ruled out by the sphere around them; the slack covers rounding.
+        const Vec4f sphere = tree.spheres[t];
+        const float reach = 1.0001F * (nearest_distance + sphere.w);
+        const Vec3f to_centre = p - sphere.xyz();
+        if (dot(to_centre, to_centre) > reach * reach) continue;
         const float d = squared_distance_to_triangle(p, tree.triangles[t]);
-        if (d < nearest.squared_distance) nearest = {t, d};
+        if (d < nearest.squared_distance) {
+          nearest = {t, d};
+          nearest_distance = sqrtf(d);
+        }
       }
     }
     do {
