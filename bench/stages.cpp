@@ -249,6 +249,7 @@ std::vector<Stage> stages(double quicksurf_ms) {
 
 void register_benchmarks() {
   constexpr int kRepetitions = 5, kSlowRepetitions = 3;
+  constexpr std::size_t kLarge = 30000;  // atoms; seconds per stage: once will do
   for (const Case& of : espdiff_bench::cases()) {
     for (const int n_threads : {1, 2}) {
       for (const Stage& stage : stages(of.quicksurf_ms)) {
@@ -261,11 +262,13 @@ void register_benchmarks() {
         };
         const std::string name = stage.name + "/" + of.name + "/threads:" + std::to_string(n_threads);
         auto* registered = benchmark::RegisterBenchmark(name.c_str(), run)->Unit(benchmark::kMillisecond);
-        registered->Repetitions(stage.slow ? kSlowRepetitions : kRepetitions)->ReportAggregatesOnly(true);
-        if (stage.slow)
+        const int slow = of.n_atoms > kLarge ? 1 : kSlowRepetitions;
+        registered->Repetitions(stage.slow ? slow : kRepetitions)->ReportAggregatesOnly(true);
+        if (stage.slow || stage.manual_time) {
           registered->Iterations(1);
-        else
-          registered->MinTime(0.1);
+        } else {
+          registered->MinTime(0.05);
+        }
         if (stage.manual_time)
           registered->UseManualTime();
         else

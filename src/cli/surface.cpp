@@ -4,13 +4,14 @@
 
 #include "cli/options.h"
 #include "cli/verbs.h"
+#include "io/write_grid.h"
 #include "pipeline/write_surface.h"
 
 namespace espdiff::cli {
 namespace {
 
 struct Arguments {
-  std::string molecule, output, map, map_unit, map_array;
+  std::string molecule, output, density, map, map_unit, map_array;
   bool regularize = false;
   bool quiet = false;
   StructureOptions structure;
@@ -45,6 +46,7 @@ int run(Arguments& a, const Context& context) {
   const SurfaceResult result =
       make_surface(*engine, input, a.surface, a.regularize ? &a.deform : nullptr, *context.progress);
   write_surface(a.output, molecule, result, map.unit);
+  if (!a.density.empty()) write_dx(a.density, result.density);
   context.progress->report("write", 1.0);
   if (!a.quiet) print_summary(result);
   return 0;
@@ -67,6 +69,7 @@ Verb add_surface(CLI::App& app) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str()
       ->group("Molecules");
+  parser->add_option("--density", a->density, "Also write the density that the surface is cut from (.dx, for VMD)");
   parser->add_flag("--regularize", a->regularize, "Even out the triangles first");
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
   add_structure_options(*parser, a->structure);

@@ -127,6 +127,7 @@ CompareResult compare(Engine& engine, const CompareInput& source, const CompareI
 
 /// A molecule's surface in its own frame, for the `surface` verb.
 struct SurfaceResult {
+  Grid density;                       ///< on its lattice, in the molecule's frame; no unit
   Mesh mesh;                          ///< positions in the molecule's frame
   std::vector<Vec3d> positions;       ///< [vertex] double precision, the molecule's frame
   std::vector<std::int32_t> residue;  ///< [vertex]

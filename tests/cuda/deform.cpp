@@ -76,7 +76,8 @@ TEST_CASE("a sphere deforms onto a shifted, a larger and a smaller sphere, in bo
               engine->deform(source, target.field, options_with(interpolation), "deform", {}, &report);
           const Mesh mesh = engine->download(mapped);
           CAPTURE(distance);
-          CAPTURE(width);
+          const double captured_width = width;  // a structured binding cannot be captured
+          CAPTURE(captured_width);
           CAPTURE(static_cast<int>(interpolation));
           CHECK(report.converged);
           CHECK(report.mean_displacement_A < 1e-3 * kSpacing);

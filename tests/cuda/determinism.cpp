@@ -101,7 +101,8 @@ Hashes run_all_stages(Engine& engine, const AtomSet& source_atoms, const AtomSet
 void check_same(const Hashes& expected, const Hashes& found, const std::string& what) {
   REQUIRE(found.size() == expected.size());
   for (const auto& [stage, hash] : expected) {
-    CAPTURE(stage);
+    const std::string captured_stage = stage;  // a structured binding cannot be captured
+    CAPTURE(captured_stage);
     CAPTURE(what);
     CHECK(found.at(stage) == hash);
   }

@@ -53,7 +53,9 @@ TEST_CASE("file_kind: real files") {
                                                     {"map_ngl/benzene-homo.cube", FileKind::kCube},
                                                     {"map_vti/hydrogen.vti", FileKind::kVti},
                                                     {"tim/dTIM_seq.csv", FileKind::kUnknownText}};
-  for (const auto& [name, kind] : files) {
+  for (const auto& file : files) {
+    const auto name = file.first;  // a structured binding cannot be captured by CHECK_MESSAGE
+    const auto kind = file.second;
     const auto path = real_input(name);
     if (!path) return;
     CHECK_MESSAGE(recognise(peek_text_file(*path, kRecogniseBytes)) == kind, name);

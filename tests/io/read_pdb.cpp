@@ -220,10 +220,10 @@ TEST_CASE("read_pdb: real files with alternate locations, ligands and waters") {
   const std::pair<const char*, std::size_t> files[] = {{"bad_parmed/2igd.pdb", 468}, {"fv_d13/1a2y.pdb", 2733},
                                                        {"fv_d13/1vfb.pdb", 3408},    {"tim/2YPI.pdb", 3784},
                                                        {"t4l/181L.pdb", 1305},       {"pqr_pdb2pqr/1AJJ.pdb", 285}};
-  for (const auto& [name, n_atoms] : files) {
-    const auto path = real_input(name);
+  for (const auto& file : files) {
+    const auto path = real_input(file.first);
     if (!path) return;
-    CHECK_MESSAGE(read_structure(*path).size() == n_atoms, name);
+    CHECK_MESSAGE(read_structure(*path).size() == file.second, file.first);
   }
   const Molecule m = read_structure(*real_input("bad_parmed/2igd.pdb"));
   CHECK(m.atoms[4].name == "CB");

@@ -1,0 +1,130 @@
+// build_surface.cpp: density, surface, components, projection and regularization of one molecule.
+#include "pipeline/build_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "align/superpose.h"
+#include "base/error.h"
+
+namespace espdiff {
+namespace {
+
+void check_options(const SurfaceOptions& options) {
+  if (!(options.radius_scale > 0))
+    throw InputError("radius scale " + std::to_string(options.radius_scale) + " is not positive; 1 is usual");
+  if (!(options.isovalue > 0))
+    throw InputError("isovalue " + std::to_string(options.isovalue) + " is not positive; 0.5 is usual");
+}
+
+AtomsPtr upload(Engine& engine, const Molecule& molecule, const RigidTransform& to_common, double radius_scale) {
+  std::vector<Vec3d> positions(molecule.size());
+  std::vector<float> widths(molecule.size());
+  std::vector<std::int32_t> residues(molecule.size());
+  for (std::size_t i = 0; i < molecule.size(); ++i) {
+    positions[i] = to_common.apply(molecule.positions[i]);
+    widths[i] = static_cast<float>(radius_scale) * molecule.radii[i];
+    residues[i] = molecule.atoms[i].residue;
+  }
+  return engine.upload_atoms(positions, widths, residues);
+}
+
+/// Leaves out closed cavities: components whose normals point into a void.
+void drop_cavities(Engine& engine, Surface& surface) {
+  std::vector<bool> keep;
+  for (const ComponentSummary& component : surface.components) {
+    keep.push_back(component.volume_A3 > 0);
+    if (keep.back()) continue;
+    ++surface.summary.n_cavities_left_out;
+    surface.summary.cavity_area_A2 += component.area_A2;
+  }
+  if (surface.summary.n_cavities_left_out > 0) surface.mesh = engine.keep_components(surface.mesh, keep);
+}
+
+/// The density's lattice in the molecule's own frame.
+Grid in_own_frame(Grid grid, const RigidTransform& from_common) {
+  grid.lattice.origin = from_common.apply(grid.lattice.origin);
+  for (Vec3d& step : grid.lattice.step) step = from_common.rotate(step);
+  return grid;
+}
+
+}  // namespace
+
+Surface build_surface(Engine& engine, const Molecule& molecule, const RigidTransform& to_common,
+                      const SurfaceOptions& options, const Progress& progress, StageClock& clock) {
+  check_options(options);
+  Surface surface;
+  const float isovalue = static_cast<float>(options.isovalue);
+  progress.report("density", 0.0);
+  surface.atoms = upload(engine, molecule, to_common, options.radius_scale);
+  surface.density = engine.density(surface.atoms, options.grid_spacing_A);
+  clock.lap("density");
+  progress.report("surface", 0.0);
+  surface.mesh = engine.isosurface(surface.density, isovalue);
+  surface.components = engine.components(surface.mesh);
+  if (!options.cavities) drop_cavities(engine, surface);
+  clock.lap("surface");
+  if (options.project)
+    surface.mesh = engine.project(surface.mesh, surface.atoms, isovalue, kProjectionShare * options.grid_spacing_A);
+  clock.lap("project");
+  surface.summary.n_vertices = engine.n_vertices(surface.mesh);
+  surface.summary.n_triangles = engine.n_triangles(surface.mesh);
+  surface.summary.n_components = surface.components.size() - surface.summary.n_cavities_left_out;
+  surface.summary.area_A2 = engine.area(surface.mesh);
+  return surface;
+}
+
+MeshPtr regularize(Engine& engine, const Surface& surface, const SurfaceOptions& options, const DeformOptions& deform,
+                   const Progress& progress, DeformReport* report) {
+  const float isovalue = static_cast<float>(options.isovalue);
+  const FieldPtr own = engine.density_field(surface.density, isovalue);
+  MeshPtr mesh = engine.deform(surface.mesh, own, deform, "regularize", progress, report);
+  if (options.project) mesh = engine.project(mesh, surface.atoms, isovalue, kProjectionShare * options.grid_spacing_A);
+  return mesh;
+}
+
+std::size_t count_outside(const std::vector<float>& samples) {
+  return static_cast<std::size_t>(
+      std::count_if(samples.begin(), samples.end(), [](float value) { return !std::isfinite(value); }));
+}
+
+void require_coverage(const Grid& map, std::size_t n_outside, std::size_t n_vertices) {
+  if (n_outside < n_vertices) return;
+  throw InputError(
+      map.name +
+      ": the map does not cover the molecule: no vertex of the surface lies in it; compute the map around this "
+      "molecule, in the coordinates of the structure file");
+}
+
+SurfaceResult make_surface(Engine& engine, const CompareInput& input, const SurfaceOptions& options,
+                           const DeformOptions* regularize_options, const Progress& progress) {
+  SurfaceResult result;
+  StageClock clock(result.time_ms);
+  const RigidTransform to_common = principal_frame(input.molecule->positions), from_common = inverse(to_common);
+  clock.lap("align");
+  Surface surface = build_surface(engine, *input.molecule, to_common, options, progress, clock);
+  result.summary = surface.summary;
+  result.components = surface.components;
+  if (regularize_options != nullptr) {
+    surface.mesh = regularize(engine, surface, options, *regularize_options, progress, &result.regularize_report);
+    result.summary.area_A2 = engine.area(surface.mesh);
+    clock.lap("regularize");
+  }
+  result.density = in_own_frame(engine.download(surface.density), from_common);
+  result.mesh = engine.download(surface.mesh);
+  for (const Vec3f& p : result.mesh.positions) result.positions.push_back(from_common.apply(static_cast<Vec3d>(p)));
+  for (Vec3f& n : result.mesh.normals) n = static_cast<Vec3f>(from_common.rotate(static_cast<Vec3d>(n)));
+  for (std::size_t v = 0; v < result.positions.size(); ++v)
+    result.mesh.positions[v] = static_cast<Vec3f>(result.positions[v]);
+  result.residue = engine.vertex_residues(surface.mesh, surface.atoms);
+  if (input.map != nullptr) {
+    result.potential = engine.download(engine.sample(engine.upload_map(*input.map, from_common), surface.mesh));
+    require_coverage(*input.map, count_outside(result.potential), result.potential.size());
+  }
+  clock.lap("attributes");
+  clock.finish();
+  progress.report("attributes", 1.0);
+  return result;
+}
+
+}  // namespace espdiff

@@ -1,0 +1,40 @@
+// build_surface.h: from a molecule to its surface in the common frame, for every verb that needs one.
+#pragma once
+
+#include <vector>
+
+#include "pipeline/compare.h"
+#include "pipeline/stage_clock.h"
+
+namespace espdiff {
+
+/// How far a vertex may move onto the analytic surface, in grid spacings: linear interpolation errs by less than a
+/// tenth.
+constexpr double kProjectionShare = 0.5;
+
+/// One molecule's surface in the common frame.
+struct Surface {
+  AtomsPtr atoms;
+  GridPtr density;
+  MeshPtr mesh;
+  std::vector<ComponentSummary> components;  // all
+  SurfaceSummary summary;
+};
+
+/// Density, surface, components, projection; adds its times to the clock.
+/// @param to_common the molecule's own frame -> the common frame
+/// @throws InputError (options, radii), GeometryError (no surface), MemoryError, Cancelled
+Surface build_surface(Engine& engine, const Molecule& molecule, const RigidTransform& to_common,
+                      const SurfaceOptions& options, const Progress& progress, StageClock& clock);
+
+/// The surface with its triangles evened out on its own density (thesis section 3.5.5).
+MeshPtr regularize(Engine& engine, const Surface& surface, const SurfaceOptions& options, const DeformOptions& deform,
+                   const Progress& progress, DeformReport* report);
+
+/// How many samples lie outside the map.
+std::size_t count_outside(const std::vector<float>& samples);
+
+/// @throws InputError when every vertex lies outside the map
+void require_coverage(const Grid& map, std::size_t n_outside, std::size_t n_vertices);
+
+}  // namespace espdiff

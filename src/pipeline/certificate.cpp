@@ -1,0 +1,73 @@
+// certificate.cpp: the limits of a trustworthy mapping, and the words for what exceeds them.
+#include "pipeline/certificate.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace espdiff {
+namespace {
+
+/// A vertex farther than this from the other surface has no counterpart there.
+constexpr double kCounterpartLimit_A = 1.0;
+
+/// The limits within which a result counts as trustworthy.
+struct Limits {
+  static constexpr double kCorruptArea = 1e-3;
+  static constexpr double kFlippedArea = 0.0;
+  static constexpr double kMeanDistance_A = 0.05;
+  static constexpr double kNoCounterpart = 0.05;
+};
+
+std::string percent(double fraction) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g %%", 100 * fraction);
+  return text;
+}
+std::string angstrom(double length) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g A", length);
+  return text;
+}
+
+}  // namespace
+
+Certificate certify(Engine& engine, const MeshPtr& mapped, const MeshPtr& target, const FitReport& fit) {
+  Certificate c;
+  c.corrupt_area_fraction = fit.corrupt_area_fraction;
+  c.flipped_area_fraction = fit.flipped_area_fraction;
+  c.irregularity_A = fit.irregularity_A;
+  c.mapped_to_target = engine.distances(mapped, target, kCounterpartLimit_A);
+  c.target_to_mapped = engine.distances(target, mapped, kCounterpartLimit_A);
+  c.no_counterpart_source = c.mapped_to_target.area_fraction_beyond_limit;
+  c.no_counterpart_target = c.target_to_mapped.area_fraction_beyond_limit;
+  return c;
+}
+
+void judge(Certificate& c, const CompareResult& result) {
+  const auto refuse = [&](bool bad, const std::string& reason) {
+    if (bad) c.reasons.push_back(reason);
+  };
+  refuse(!c.converged, "the mapping did not converge; raise --max-iterations");
+  refuse(c.corrupt_area_fraction > Limits::kCorruptArea, percent(c.corrupt_area_fraction) +
+                                                             " of the mapped area is corrupt (limit " +
+                                                             percent(Limits::kCorruptArea) + ")");
+  refuse(c.flipped_area_fraction > Limits::kFlippedArea,
+         percent(c.flipped_area_fraction) + " of the mapped area is flipped (limit 0 %)");
+  refuse(c.mapped_to_target.mean > Limits::kMeanDistance_A,
+         "the mapped surface lies " + angstrom(c.mapped_to_target.mean) + " from the target on average (limit " +
+             angstrom(Limits::kMeanDistance_A) + ")");
+  refuse(c.target_to_mapped.mean > Limits::kMeanDistance_A, "the target lies " + angstrom(c.target_to_mapped.mean) +
+                                                                " from the mapped surface on average (limit " +
+                                                                angstrom(Limits::kMeanDistance_A) + ")");
+  refuse(c.no_counterpart_source > Limits::kNoCounterpart || c.no_counterpart_target > Limits::kNoCounterpart,
+         percent(std::max(c.no_counterpart_source, c.no_counterpart_target)) +
+             " of the area has no counterpart within " + angstrom(kCounterpartLimit_A) + " (limit " +
+             percent(Limits::kNoCounterpart) + ")");
+  const double n = static_cast<double>(result.surface.positions.size());
+  const double outside = static_cast<double>(std::max(result.n_outside_source_map, result.n_outside_target_map));
+  refuse(outside > 0, percent(outside / n) + " of the vertices lie outside a map");
+  c.trustworthy = c.reasons.empty();
+  c.not_checked = {"self_intersecting_pairs"};
+}
+
+}  // namespace espdiff

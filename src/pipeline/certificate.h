@@ -1,0 +1,14 @@
+// certificate.h: whether a comparison can be trusted, and why not.
+#pragma once
+
+#include "pipeline/compare.h"
+
+namespace espdiff {
+
+/// Distances both ways and the fit of the mapped mesh; not yet judged.
+Certificate certify(Engine& engine, const MeshPtr& mapped, const MeshPtr& target, const FitReport& fit);
+
+/// Fills in trustworthy, reasons and not_checked.
+void judge(Certificate& certificate, const CompareResult& result);
+
+}  // namespace espdiff
