@@ -46,7 +46,7 @@ int run(Arguments& a, const Context& context) {
   const SurfaceResult result =
       make_surface(*engine, input, a.surface, a.regularize ? &a.deform : nullptr, *context.progress);
   write_surface(a.output, molecule, result, map.unit);
-  if (!a.density.empty()) write_dx(a.density, result.density);
+  if (!a.density.empty()) write_dx(a.density, make_density(*engine, molecule, a.surface));
   context.progress->report("write", 1.0);
   if (!a.quiet) print_summary(result);
   return 0;

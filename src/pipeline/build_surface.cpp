@@ -41,13 +41,6 @@ void drop_cavities(Engine& engine, Surface& surface) {
   if (surface.summary.n_cavities_left_out > 0) surface.mesh = engine.keep_components(surface.mesh, keep);
 }
 
-/// The density's lattice in the molecule's own frame.
-Grid in_own_frame(Grid grid, const RigidTransform& from_common) {
-  grid.lattice.origin = from_common.apply(grid.lattice.origin);
-  for (Vec3d& step : grid.lattice.step) step = from_common.rotate(step);
-  return grid;
-}
-
 }  // namespace
 
 Surface build_surface(Engine& engine, const Molecule& molecule, const RigidTransform& to_common,
@@ -110,7 +103,6 @@ SurfaceResult make_surface(Engine& engine, const CompareInput& input, const Surf
     result.summary.area_A2 = engine.area(surface.mesh);
     clock.lap("regularize");
   }
-  result.density = in_own_frame(engine.download(surface.density), from_common);
   result.mesh = engine.download(surface.mesh);
   for (const Vec3f& p : result.mesh.positions) result.positions.push_back(from_common.apply(static_cast<Vec3d>(p)));
   for (Vec3f& n : result.mesh.normals) n = static_cast<Vec3f>(from_common.rotate(static_cast<Vec3d>(n)));
@@ -125,6 +117,17 @@ SurfaceResult make_surface(Engine& engine, const CompareInput& input, const Surf
   clock.finish();
   progress.report("attributes", 1.0);
   return result;
+}
+
+Grid make_density(Engine& engine, const Molecule& molecule, const SurfaceOptions& options) {
+  check_options(options);
+  RigidTransform to_centre;  // only moved: single precision wants the origin near
+  for (const Vec3d& p : molecule.positions) to_centre.translation += (-1.0 / static_cast<double>(molecule.size())) * p;
+  Grid density = engine.download(
+      engine.density(upload(engine, molecule, to_centre, options.radius_scale), options.grid_spacing_A));
+  density.lattice.origin = density.lattice.origin - to_centre.translation;
+  density.name = molecule.name;
+  return density;
 }
 
 }  // namespace espdiff

@@ -127,7 +127,6 @@ CompareResult compare(Engine& engine, const CompareInput& source, const CompareI
 
 /// A molecule's surface in its own frame, for the `surface` verb.
 struct SurfaceResult {
-  Grid density;                       ///< on its lattice, in the molecule's frame; no unit
   Mesh mesh;                          ///< positions in the molecule's frame
   std::vector<Vec3d> positions;       ///< [vertex] double precision, the molecule's frame
   std::vector<std::int32_t> residue;  ///< [vertex]
@@ -139,5 +138,9 @@ struct SurfaceResult {
 };
 SurfaceResult make_surface(Engine& engine, const CompareInput& input, const SurfaceOptions& options,
                            const DeformOptions* regularize, const Progress& progress);
+
+/// A molecule's density on a lattice along the coordinate axes of its own frame: VMD's interpolation (1.9.4) takes no
+/// other.
+Grid make_density(Engine& engine, const Molecule& molecule, const SurfaceOptions& options);
 
 }  // namespace espdiff
