@@ -1,8 +1,6 @@
 // render_surface.cpp: draws at twice the size, averages down, and writes the PNG.
 #include "view/render_surface.h"
 
-#include <sys/stat.h>
-#include <unistd.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
@@ -11,15 +9,14 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <vector>
 
 #include "base/error.h"
+#include "io/atomic_file.h"
 #include "view/display.h"
 #include "view/legend.h"
 #include "view/surface_file.h"
@@ -131,47 +128,6 @@ vtkSmartPointer<vtkUnsignedCharArray> encode_png(vtkImageData* image, const std:
   return writer->GetResult();
 }
 
-/// A file beside the final one, so that renaming it is atomic; removed unless renamed.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const std::string& final_path) : final_path_(final_path), path_(final_path + ".XXXXXX") {
-    if (std::filesystem::is_directory(final_path)) throw IoError(final_path, "is a directory; name a .png file");
-    descriptor_ = mkstemp(path_.data());
-    if (descriptor_ < 0) fail("cannot be written");
-  }
-  ~TemporaryFile() {
-    if (descriptor_ >= 0) close(descriptor_);
-    if (!renamed_) unlink(path_.c_str());
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  void finish(const unsigned char* bytes, std::size_t n_bytes) {
-    for (std::size_t done = 0; done < n_bytes;) {
-      const ssize_t n = write(descriptor_, bytes + done, n_bytes - done);
-      if (n < 0 && errno == EINTR) continue;
-      if (n < 0) fail("cannot be written");
-      done += static_cast<std::size_t>(n);
-    }
-    // mkstemp gives the owner alone access; a result is as readable as the user's other files.
-    const mode_t mask = umask(0);
-    umask(mask);
-    if (fchmod(descriptor_, 0666 & ~mask) != 0 || fsync(descriptor_) != 0) fail("cannot be written");
-    if (std::rename(path_.c_str(), final_path_.c_str()) != 0) fail("cannot be replaced");
-    renamed_ = true;
-  }
-
- private:
-  [[noreturn]] void fail(const std::string& what) const {
-    throw IoError(final_path_, what + " (" + std::strerror(errno) + "); choose another path with -o");
-  }
-
-  std::string final_path_;
-  std::string path_;
-  int descriptor_ = -1;
-  bool renamed_ = false;
-};
-
 }  // namespace
 
 void render_surface(const std::string& vtp_path, const std::string& png_path, const RenderOptions& options) {
@@ -179,12 +135,13 @@ void render_surface(const std::string& vtp_path, const std::string& png_path, co
   const SurfaceFile surface = read_surface_file(vtp_path, array_name(options.array));
   const ColourScale scale(options.array, surface.values, options.limit);
   const std::string unit = options.unit.empty() ? surface.potential_unit : options.unit;
-  TemporaryFile file(png_path);
+  AtomicFile file(png_path);  // before the drawing: an output that cannot be written is better found early
   vtkNew<vtkImageData> image = draw(surface, scale, options, unit);
   const auto png = encode_png(image, vtp_path, describe(scale, options, unit), options.title);
   if (png == nullptr || png->GetNumberOfValues() == 0)
     throw IoError(png_path, "the picture could not be encoded as PNG");
-  file.finish(png->GetPointer(0), static_cast<std::size_t>(png->GetNumberOfValues()));
+  file.stream().write(reinterpret_cast<const char*>(png->GetPointer(0)), png->GetNumberOfValues());
+  file.commit();
 }
 
 }  // namespace espdiff
