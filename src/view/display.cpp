@@ -42,7 +42,14 @@ std::string display_problem() {
   }
   int opcode = 0, first_event = 0, first_error = 0;
   const bool has_glx = query_extension(display, "GLX", &opcode, &first_event, &first_error) != 0;
-  close_display(display);
+  // An X server whose last client leaves starts over, and refuses whoever comes meanwhile, which VTK would answer with
+  // abort(). So the first good connection to a display stays until the process ends.
+  static std::string held_name;
+  if (has_glx && held_name != name) {
+    held_name = name;
+  } else {
+    close_display(display);
+  }
   if (!has_glx) return std::string("the X display '") + name + "' (DISPLAY) offers no OpenGL (GLX); " + kRemedy;
   return {};
 }

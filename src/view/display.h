@@ -6,7 +6,9 @@
 namespace espdiff {
 
 /// Asks the X server named by $DISPLAY for a connection and for GLX, as VTK is about to do.
-/// @return why drawing is not possible, with the remedy; empty where it is. Cost: one connection.
+/// @return why drawing is not possible, with the remedy; empty where it is. Cost: one connection,
+/// which stays open: a server without clients, as Xvfb is between two pictures, would start over just when VTK
+/// connects.
 std::string display_problem();
 
 }  // namespace espdiff
