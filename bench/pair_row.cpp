@@ -26,7 +26,7 @@ constexpr Column kColumns[] = {
     {"corrupt_percent", &PairRow::corrupt_percent},
     {"flipped_percent", &PairRow::flipped_percent},
     {"mapped_to_target_mean_A", &PairRow::mapped_to_target_mean_A},
-    {"mapped_to_target_p95_A", &PairRow::mapped_to_target_p95_A},
+    {"mapped_to_target_p95_A", &PairRow::mapped_to_target_p95},
     {"mapped_to_target_max_A", &PairRow::mapped_to_target_max_A},
     {"target_to_mapped_mean_A", &PairRow::target_to_mapped_mean_A},
     {"target_to_mapped_max_A", &PairRow::target_to_mapped_max_A},
@@ -63,7 +63,7 @@ PairRow make_row(const std::string& name, const espdiff::CompareResult& result) 
   row.corrupt_percent = 100 * c.corrupt_area_fraction;
   row.flipped_percent = 100 * c.flipped_area_fraction;
   row.mapped_to_target_mean_A = c.mapped_to_target.mean;
-  row.mapped_to_target_p95_A = c.mapped_to_target.p95;
+  row.mapped_to_target_p95 = c.mapped_to_target.p95;
   row.mapped_to_target_max_A = c.mapped_to_target.max;
   row.target_to_mapped_mean_A = c.target_to_mapped.mean;
   row.target_to_mapped_max_A = c.target_to_mapped.max;
@@ -128,7 +128,7 @@ void print_row(const PairRow& row) {
   std::printf("%-26s %5.2f %7.0f %5.0f/%-4.0f%c %8.3f %8.3f  %.4f %.3f %6.2f  %.4f %6.2f  %4.2f %5.2f %9.1f",
               row.name.c_str(), row.rmsd_A, row.n_vertices, row.regularize_iterations, row.deform_iterations,
               row.converged ? ' ' : '!', row.corrupt_percent, row.flipped_percent, row.mapped_to_target_mean_A,
-              row.mapped_to_target_p95_A, row.mapped_to_target_max_A, row.target_to_mapped_mean_A,
+              row.mapped_to_target_p95, row.mapped_to_target_max_A, row.target_to_mapped_mean_A,
               row.target_to_mapped_max_A, row.no_counterpart_source_percent, row.no_counterpart_target_percent,
               row.time_of("total"));
   if (row.prototype) {

@@ -16,7 +16,7 @@ struct PairRow {
   double rmsd_A = 0, n_vertices = 0, regularize_iterations = 0, deform_iterations = 0;
   bool converged = false;
   double corrupt_percent = 0, flipped_percent = 0;
-  double mapped_to_target_mean_A = 0, mapped_to_target_p95_A = 0, mapped_to_target_max_A = 0;
+  double mapped_to_target_mean_A = 0, mapped_to_target_p95 = 0, mapped_to_target_max_A = 0;
   double target_to_mapped_mean_A = 0, target_to_mapped_max_A = 0;
   double no_counterpart_source_percent = 0, no_counterpart_target_percent = 0;
   double cavities_left_out = 0;                         ///< of both sides

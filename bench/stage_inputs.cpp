@@ -30,13 +30,13 @@ Side make_side(espdiff::Engine& engine, const espdiff::Molecule& molecule, const
     side.residues.push_back(molecule.atoms[i].residue);
   }
   side.atoms = engine.upload_atoms(molecule.positions, side.widths, side.residues);
-  side.density = engine.density(side.atoms, inputs.spacing_A());
+  side.density = engine.density(side.atoms, inputs.spacing());
   side.raw = engine.isosurface(side.density, inputs.isovalue());
   std::vector<bool> keep;
   for (const espdiff::ComponentSummary& component : engine.components(side.raw))
     keep.push_back(component.volume_A3 > 0);
-  side.surface = engine.project(engine.keep_components(side.raw, keep), side.atoms, inputs.isovalue(),
-                                inputs.projection_limit_A());
+  side.surface =
+      engine.project(engine.keep_components(side.raw, keep), side.atoms, inputs.isovalue(), inputs.projection_limit());
   return side;
 }
 
@@ -53,8 +53,8 @@ std::vector<Case> cases() {
 StageInputs::StageInputs(const Case& of, int n_threads)
     : engine(espdiff::select_engine(espdiff::DeviceChoice::kCpu, n_threads)) {
   constexpr double kDisplacement_A = 0.5;
-  options.regularize.min_displacement_A = options.regularize_min_displacement * spacing_A();
-  options.deform.min_displacement_A = options.deform_min_displacement * spacing_A();
+  options.regularize.min_displacement_A = options.regularize_min_displacement * spacing();
+  options.deform.min_displacement_A = options.deform_min_displacement * spacing();
   const espdiff::Progress silent;
   espdiff::Molecule molecule = of.n_atoms > 0 ? synthetic_protein(of.n_atoms) : espdiff::read_structure(of.file);
   centre(molecule);
@@ -69,9 +69,9 @@ StageInputs::StageInputs(const Case& of, int n_threads)
       engine->distance_field(target.density, isovalue(), target.surface, options.distance_threshold_A, silent);
   espdiff::DeformReport report;
   start = engine->project(engine->deform(source.surface, own_field, options.regularize, "regularize", silent, &report),
-                          source.atoms, isovalue(), projection_limit_A());
+                          source.atoms, isovalue(), projection_limit());
   mapped = engine->project(engine->deform(start, target_distance_field, options.deform, "deform", silent, &report),
-                           target.atoms, isovalue(), projection_limit_A());
+                           target.atoms, isovalue(), projection_limit());
   map = smooth_map(molecule);
 #if defined(ESPDIFF_HAVE_VTK)
   const espdiff::Grid density = engine->download(source.density);

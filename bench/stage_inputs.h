@@ -50,8 +50,8 @@ struct StageInputs {
   PeerSurface marching_cubes, flying_edges;  ///< of the same density; zero without VTK
 
   float isovalue() const { return static_cast<float>(options.surface.isovalue); }
-  double spacing_A() const { return options.surface.grid_spacing_A; }
-  double projection_limit_A() const { return 0.5 * spacing_A(); }
+  double spacing() const { return options.surface.grid_spacing_A; }  ///< Angstrom, as the next
+  double projection_limit() const { return 0.5 * spacing(); }
 };
 
 /// The inputs of a case; the last ones are kept, so that stages of one case share them.

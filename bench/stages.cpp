@@ -43,7 +43,7 @@ void count_fit(State& state, const espdiff::FitReport& fit) {
 
 void density(State& state, const StageInputs& in) {
   espdiff::GridPtr grid;
-  for (auto _ : state) grid = in.engine->density(in.source.atoms, in.spacing_A());
+  for (auto _ : state) grid = in.engine->density(in.source.atoms, in.spacing());
   state.counters["lattice_points"] = static_cast<double>(in.engine->download(grid).values.size());
 }
 
@@ -74,7 +74,7 @@ void isosurface(State& state, const StageInputs& in) {
 void density_and_isosurface(State& state, const StageInputs& in, double quicksurf_ms) {
   for (auto _ : state) {
     const auto atoms = in.engine->upload_atoms(in.source.molecule.positions, in.source.widths, in.source.residues);
-    benchmark::DoNotOptimize(in.engine->isosurface(in.engine->density(atoms, in.spacing_A()), in.isovalue()));
+    benchmark::DoNotOptimize(in.engine->isosurface(in.engine->density(atoms, in.spacing()), in.isovalue()));
   }
   count_surface(state, in);
   if (in.marching_cubes.n_triangles == 0) return;
@@ -91,8 +91,7 @@ void components(State& state, const StageInputs& in) {
 
 void project(State& state, const StageInputs& in) {
   MeshPtr mesh;
-  for (auto _ : state)
-    mesh = in.engine->project(in.source.raw, in.source.atoms, in.isovalue(), in.projection_limit_A());
+  for (auto _ : state) mesh = in.engine->project(in.source.raw, in.source.atoms, in.isovalue(), in.projection_limit());
   count_mesh(state, in, mesh);
   count_fit(state, in.engine->fit(mesh, in.source.atoms, in.isovalue()));
 }
