@@ -14,12 +14,10 @@ struct Arguments {
   std::string source, target, output;
   std::string source_map, target_map, source_map_unit, target_map_unit, map_array, potential;
   int source_model = 1, target_model = 1;
-  std::string method = "deform", align = "all", field = "distance", interpolation = "trilinear", rest_shape = "source";
-  bool thesis = false;
   bool quiet = false;
   StructureOptions structure;
   DeviceArguments device;
-  CompareOptions options;
+  GivenSettings settings;
 };
 
 void add_input_options(CLI::App& p, Arguments& a) {
@@ -36,9 +34,6 @@ void add_input_options(CLI::App& p, Arguments& a) {
   p.add_option("--target-map-unit", a.target_map_unit, "Unit of the target map if the file does not say")
       ->group("Potentials");
   p.add_option("--map-array", a.map_array, "Array to take from VTI maps that hold several")->group("Potentials");
-  p.add_option("--temperature", a.options.temperature_K, "Temperature for converting between kT/e and other units, K")
-      ->capture_default_str()
-      ->group("Potentials");
   p.add_option("--potential", a.potential, "Compute the potentials instead of reading maps: pme (not in this version)")
       ->group("Potentials");
   p.add_option("--source-model", a.source_model, "Model of a multi-model source file, from 1")
@@ -49,85 +44,6 @@ void add_input_options(CLI::App& p, Arguments& a) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str()
       ->group("Molecules");
-  p.add_option("--align", a.align, "Paired atoms that are superposed; none compares as given")
-      ->check(CLI::IsMember({"all", "backbone", "ca", "none"}))
-      ->capture_default_str()
-      ->group("Molecules");
-}
-
-/// `prefix` is "" for the mapping and "regularize-" for the regularization.
-void add_iteration_options(CLI::App& p, const std::string& prefix, DeformOptions& o, double& min_displacement,
-                           const std::string& group) {
-  const auto add = [&](const char* name, auto& value, const char* help) {
-    p.add_option("--" + prefix + name, value, help)->capture_default_str()->group(group);
-  };
-  add("sigma", o.sigma, "Step scale");
-  add("mu", o.mu, "Weight of the external against the internal force, 0 to 1");
-  add("rho", o.rho, "Rigidity against tension, 0 to 1");
-  add("tangential-gain", o.tangential_gain, "Multiplies the internal force, which moves vertices along the surface");
-  add("max-iterations", o.max_iterations, "Iterations at most");
-  add("min-displacement", min_displacement,
-      "Converged when the mean displacement of an iteration falls below this many grid spacings");
-}
-
-void add_mapping_options(CLI::App& p, Arguments& a) {
-  const std::string group = "Mapping";
-  p.add_option("--method", a.method, "How the source surface is mapped: deform (morph is not in this version)")
-      ->capture_default_str()
-      ->group(group);
-  p.add_option("--field", a.field, "What draws the surface: density, or the distance where it is far")
-      ->capture_default_str()
-      ->group(group);
-  p.add_option("--distance-threshold", a.options.distance_threshold_A,
-               "Distance beyond which the distance field draws, Angstrom")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str()
-      ->group(group);
-  p.add_option("--interpolation", a.interpolation, "Sampling of the field: trilinear or tricubic")
-      ->capture_default_str()
-      ->group(group);
-  p.add_option("--rest-shape", a.rest_shape,
-               "What the internal force restores: the source's shape, or none but equal edges")
-      ->check(CLI::IsMember({"source", "none"}))
-      ->capture_default_str()
-      ->group(group);
-  add_iteration_options(p, "", a.options.deform, a.options.deform_min_displacement, group);
-  add_iteration_options(p, "regularize-", a.options.regularize, a.options.regularize_min_displacement,
-                        "Regularization");
-  p.add_flag("--thesis", a.thesis,
-             "The thesis' iteration as it stands: tangential gains 1, rest shape none, smallest displacements 0.001, "
-             "cavities, no projection. "
-             "Options given beside it still count")
-      ->group(group);
-}
-
-/// Takes the thesis' values where the user gave none.
-void apply_thesis(const CLI::App& p, Arguments& a) {
-  const CompareOptions thesis = thesis_options();
-  const auto given = [&](const char* name) { return p.count(name) > 0; };
-  CompareOptions& o = a.options;
-  if (!given("--no-project")) o.surface.project = thesis.surface.project;
-  if (!given("--cavities")) o.surface.cavities = thesis.surface.cavities;
-  if (!given("--tangential-gain")) o.deform.tangential_gain = thesis.deform.tangential_gain;
-  if (!given("--regularize-tangential-gain")) o.regularize.tangential_gain = thesis.regularize.tangential_gain;
-  if (!given("--min-displacement")) o.deform_min_displacement = thesis.deform_min_displacement;
-  if (!given("--regularize-min-displacement")) o.regularize_min_displacement = thesis.regularize_min_displacement;
-  if (!given("--rest-shape")) a.rest_shape = "none";
-}
-
-void interpret(const CLI::App& parser, Arguments& a) {
-  if (a.method == "morph") throw InputError("--method morph is not in this version; use deform");
-  if (a.method != "deform") throw InputError("unknown method '" + a.method + "'; use deform");
-  if (!a.potential.empty()) {
-    throw InputError(
-        "--potential " + a.potential +
-        " is not in this version; compute maps with APBS or PMEPot and give --source-map and --target-map");
-  }
-  if (a.thesis) apply_thesis(parser, a);
-  a.options.deform.rest_shape = a.rest_shape == "source";
-  a.options.align = parse_align_atoms(a.align);
-  a.options.field = parse_field_kind(a.field);
-  a.options.deform.interpolation = a.options.regularize.interpolation = parse_interpolation(a.interpolation);
 }
 
 Molecule read_model(const Arguments& a, const std::string& path, int model) {
@@ -136,8 +52,13 @@ Molecule read_model(const Arguments& a, const std::string& path, int model) {
   return read_structure(path, options);
 }
 
-int run(const CLI::App& parser, Arguments& a, const Context& context) {
-  interpret(parser, a);
+int run(const Arguments& a, const Context& context) {
+  if (!a.potential.empty()) {
+    throw InputError(
+        "--potential " + a.potential +
+        " is not in this version; compute maps with APBS or PMEPot and give --source-map and --target-map");
+  }
+  const CompareOptions options = make_options(a.settings);
   // An output that cannot be written is better found before the work than after it.
   for (const char* suffix : {".json", ".vtp", ".residues.csv"}) AtomicFile probe(a.output + suffix);
 
@@ -162,9 +83,9 @@ int run(const CLI::App& parser, Arguments& a, const Context& context) {
   provenance.device = engine->back_end();
   provenance.device_description = engine->description();
   provenance.threads = engine->n_threads();
-  const CompareResult result = compare(*engine, source_input, target_input, a.options, *context.progress);
+  const CompareResult result = compare(*engine, source_input, target_input, options, *context.progress);
   context.progress->report("write", 0.0);
-  write_compare(a.output, source, target, result, a.options, provenance);
+  write_compare(a.output, source, target, result, options, provenance);
   context.progress->report("write", 1.0);
   if (!a.quiet) print_table(std::cout, source, target, result);
   return 0;
@@ -187,11 +108,10 @@ Verb add_compare(CLI::App& app) {
       "Exit status: 0 done, 1 could not be computed, 2 wrong usage or input.");
   add_input_options(*parser, *arguments);
   add_structure_options(*parser, arguments->structure);
-  add_surface_options(*parser, arguments->options.surface);
-  add_mapping_options(*parser, *arguments);
+  add_settings(*parser, arguments->settings, false);
   add_device_options(*parser, arguments->device);
   parser->add_flag("-q,--quiet", arguments->quiet, "Print no table");
-  return {parser, [arguments, parser](const Context& context) { return run(*parser, *arguments, context); }};
+  return {parser, [arguments](const Context& context) { return run(*arguments, context); }};
 }
 
 }  // namespace espdiff::cli

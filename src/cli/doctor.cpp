@@ -1,6 +1,11 @@
 // doctor.cpp: `espdiff doctor`: what this build and this machine offer, and how to get what is missing.
+#include <unistd.h>
+
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <sstream>
+#include <string>
 
 #include "base/version.h"
 #include "cli/verbs.h"
@@ -11,6 +16,25 @@ namespace {
 
 void line(const char* what, bool good, const std::string& text) {
   std::printf("%-14s %-4s %s\n", what, good ? "ok" : "--", text.c_str());
+}
+
+/// The module in the tree that this program was built in; empty when there is none.
+std::string vmd_module() {
+  std::error_code ignored;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  const auto module = program.parent_path().parent_path() / "vmd" / "molfile" / "espdiffplugin.so";
+  return std::filesystem::exists(module, ignored) ? module.string() : std::string();
+}
+
+/// The program of that name that a shell would start; empty when there is none.
+std::string on_path(const std::string& name) {
+  const char* const path = std::getenv("PATH");
+  std::istringstream folders(path != nullptr ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const std::string program = folder + "/" + name;
+    if (!folder.empty() && access(program.c_str(), X_OK) == 0) return program;
+  }
+  return {};
 }
 
 int run() {
@@ -35,7 +59,15 @@ int run() {
   line("maps", false, "DX and cube; no VTI: VTK 9 was not found when this was built (Debian: libvtk9-dev)");
   line("render", false, "VTK 9 was not found when this was built (Debian: libvtk9-dev)");
 #endif
-  line("vmd", false, "the VMD plugin is not in this version");
+  const std::string module = vmd_module();
+  line("vmd module", !module.empty(),
+       !module.empty()
+           ? module + "; scripts/install-vmd puts it where VMD finds it"
+           : "not built beside this program: Tcl 8.6 was not found when this was built (Debian: tcl8.6-dev), "
+             "or it is installed elsewhere; `espdiff doctor` in VMD tells more");
+  const std::string vmd = on_path("vmd");
+  line("vmd", !vmd.empty(),
+       !vmd.empty() ? vmd : "no program `vmd` on PATH; everything but the VMD module works without");
   return 0;
 }
 

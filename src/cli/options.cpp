@@ -5,6 +5,15 @@
 #include "io/read_grid.h"
 
 namespace espdiff::cli {
+namespace {
+
+std::string joined(const std::vector<std::string>& words, const char* between) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
+  return text;
+}
+
+}  // namespace
 
 void add_device_options(CLI::App& parser, DeviceArguments& arguments) {
   parser.add_option("--device", arguments.device, "Where to compute: auto takes a GPU if one answers")
@@ -28,25 +37,38 @@ void add_structure_options(CLI::App& parser, StructureOptions& options) {
       ->group("Molecules");
 }
 
-void add_surface_options(CLI::App& parser, SurfaceOptions& options) {
-  parser.add_option("--grid-spacing", options.grid_spacing_A, "Lattice spacing of the density, Angstrom")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str()
-      ->group("Surface");
-  parser.add_option("--radius-scale", options.radius_scale, "Width of each atom's Gaussian in units of its radius")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str()
-      ->group("Surface");
-  parser.add_option("--isovalue", options.isovalue, "Density at which the surface lies; higher is tighter")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str()
-      ->group("Surface");
-  parser.add_flag("--cavities", options.cavities, "Keep closed cavities; they are counted and left out else")
-      ->group("Surface");
-  parser
-      .add_flag("!--no-project", options.project,
-                "Leave vertices where the lattice puts them, not on the exact isosurface")
-      ->group("Surface");
+void add_settings(CLI::App& parser, GivenSettings& given, bool of_surface_only) {
+  const CompareOptions defaults;
+  for (const Setting& setting : settings()) {
+    if (of_surface_only && !setting.of_surface) continue;
+    const std::string name = setting.name, value = setting.get(defaults);
+    if (setting.kind == SettingKind::kBoolean) {
+      const bool on = value == "1";
+      parser
+          .add_flag_callback((on ? "--no-" : "--") + name,
+                             [&given, name, on] { given.emplace_back(name, on ? "0" : "1"); },
+                             (on ? "Not: " : "") + setting.help)
+          ->group(setting.group);
+      continue;
+    }
+    // Checked while the line is parsed, so that the message names the option.
+    const auto check = [&setting](const std::string& text) {
+      CompareOptions scratch;
+      try {
+        setting.set(scratch, text);
+      } catch (const InputError& error) {
+        return std::string(error.what());
+      }
+      return std::string();
+    };
+    parser
+        .add_option_function<std::string>(
+            "--" + name, [&given, name](const std::string& text) { given.emplace_back(name, text); }, setting.help)
+        ->check(CLI::Validator(check, ""))
+        ->type_name(setting.kind == SettingKind::kChoice ? joined(setting.choices, "|") : "NUMBER")
+        ->default_str(value)
+        ->group(setting.group);
+  }
 }
 
 Grid read_map(const std::string& path, const std::string& array, const std::string& unit) {

@@ -4,10 +4,12 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "engine/engine.h"
 #include "io/read_structure.h"
-#include "pipeline/compare.h"
+#include "pipeline/settings.h"
 
 namespace espdiff::cli {
 
@@ -19,7 +21,11 @@ void add_device_options(CLI::App& parser, DeviceArguments& arguments);
 std::unique_ptr<Engine> make_engine(const DeviceArguments& arguments);
 
 void add_structure_options(CLI::App& parser, StructureOptions& options);
-void add_surface_options(CLI::App& parser, SurfaceOptions& options);
+/// The settings of a comparison that were given, by name; make_options() takes them.
+using GivenSettings = std::vector<std::pair<std::string, std::string>>;
+/// Adds every setting as an option `--name`; a boolean one as a flag, `--no-name` where it is on by default.
+/// @param of_surface_only leaves out what only a mapping depends on
+void add_settings(CLI::App& parser, GivenSettings& given, bool of_surface_only);
 
 /// Reads a potential map and, where `unit` is not empty, declares its unit.
 Grid read_map(const std::string& path, const std::string& array, const std::string& unit);

@@ -16,8 +16,7 @@ struct Arguments {
   bool quiet = false;
   StructureOptions structure;
   DeviceArguments device;
-  SurfaceOptions surface;
-  DeformOptions deform = CompareOptions{}.regularize;
+  GivenSettings settings;
 };
 
 void print_summary(const SurfaceResult& result) {
@@ -33,7 +32,8 @@ void print_summary(const SurfaceResult& result) {
   }
 }
 
-int run(Arguments& a, const Context& context) {
+int run(const Arguments& a, const Context& context) {
+  const CompareOptions options = make_options(a.settings);
   context.progress->report("read", 0.0);
   const Molecule molecule = read_structure(a.molecule, a.structure);
   CompareInput input{&molecule, nullptr};
@@ -43,10 +43,9 @@ int run(Arguments& a, const Context& context) {
     input.map = &map;
   }
   const std::unique_ptr<Engine> engine = make_engine(a.device);
-  const SurfaceResult result =
-      make_surface(*engine, input, a.surface, a.regularize ? &a.deform : nullptr, *context.progress);
+  const SurfaceResult result = make_surface(*engine, input, options, a.regularize, *context.progress);
   write_surface(a.output, molecule, result, map.unit);
-  if (!a.density.empty()) write_dx(a.density, make_density(*engine, molecule, a.surface));
+  if (!a.density.empty()) write_dx(a.density, make_density(*engine, molecule, options.surface));
   context.progress->report("write", 1.0);
   if (!a.quiet) print_summary(result);
   return 0;
@@ -73,7 +72,7 @@ Verb add_surface(CLI::App& app) {
   parser->add_flag("--regularize", a->regularize, "Even out the triangles first");
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
   add_structure_options(*parser, a->structure);
-  add_surface_options(*parser, a->surface);
+  add_settings(*parser, a->settings, true);
   add_device_options(*parser, a->device);
   return {parser, [a](const Context& context) { return run(*a, context); }};
 }

@@ -1,0 +1,236 @@
+// settings.cpp: the table of a comparison's settings.
+#include "pipeline/settings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <locale>
+#include <sstream>
+
+#include "base/error.h"
+
+namespace espdiff {
+namespace {
+
+[[noreturn]] void refuse(const std::string& name, const std::string& text, const std::string& accepted) {
+  throw InputError(name + ": '" + text + "' is not " + accepted);
+}
+
+/// A number in the C locale, whatever the program that hosts us has set.
+template <typename Number>
+bool parse(const std::string& text, Number& value) {
+  std::istringstream in(text);
+  in.imbue(std::locale::classic());
+  return static_cast<bool>(in >> value) && (in >> std::ws).eof();
+}
+
+template <typename Number>
+std::string written(Number value) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out << value;
+  return out.str();
+}
+
+/// Which numbers a setting accepts.
+struct Range {
+  double low;
+  bool low_included;
+  const char* words;
+};
+constexpr Range kPositive{0, false, "a positive number"}, kNotNegative{0, true, "a number of 0 or more"},
+    kAnyNumber{-HUGE_VAL, false, "a number"}, kCount{0, true, "a whole number of 0 or more"};
+
+bool within(const Range& range, double value) {
+  return std::isfinite(value) && (range.low_included ? value >= range.low : value > range.low);
+}
+
+/// A setting that is a number; `at` finds it in the options.
+template <typename At>
+Setting number(const std::string& name, const std::string& group, Range range, At at, const std::string& help) {
+  Setting s{name, group, SettingKind::kNumber, {}, help, false, nullptr, nullptr};
+  s.set = [name, range, at](CompareOptions& o, const std::string& text) {
+    double value = 0;
+    if (!parse(text, value) || !within(range, value)) refuse(name, text, range.words);
+    at(o) = value;
+  };
+  s.get = [at](const CompareOptions& o) { return written(at(o)); };
+  return s;
+}
+
+template <typename At>
+Setting count(const std::string& name, const std::string& group, At at, const std::string& help) {
+  Setting s{name, group, SettingKind::kInteger, {}, help, false, nullptr, nullptr};
+  s.set = [name, at](CompareOptions& o, const std::string& text) {
+    int value = 0;
+    if (!parse(text, value) || value < 0) refuse(name, text, kCount.words);
+    at(o) = value;
+  };
+  s.get = [at](const CompareOptions& o) { return written(at(o)); };
+  return s;
+}
+
+template <typename At>
+Setting boolean(const std::string& name, const std::string& group, At at, const std::string& help) {
+  Setting s{name, group, SettingKind::kBoolean, {}, help, false, nullptr, nullptr};
+  s.set = [name, at](CompareOptions& o, const std::string& text) {
+    if (text != "0" && text != "1") refuse(name, text, "0 or 1");
+    at(o) = text == "1";
+  };
+  s.get = [at](const CompareOptions& o) { return at(o) ? "1" : "0"; };
+  return s;
+}
+
+/// A setting with named values; `absent` are values that this version knows of and does not have.
+template <typename Set, typename Get>
+Setting choice(const std::string& name, const std::string& group, std::vector<std::string> choices,
+               std::vector<std::string> absent, Set set, Get get, const std::string& help) {
+  std::string list;
+  for (std::size_t i = 0; i < choices.size(); ++i)
+    list += (i == 0 ? "" : i + 1 == choices.size() ? " or " : ", ") + choices[i];
+  Setting s{name, group, SettingKind::kChoice, choices, help, false, nullptr, get};
+  s.set = [=](CompareOptions& o, const std::string& text) {
+    if (std::find(absent.begin(), absent.end(), text) != absent.end())
+      throw InputError(name + ": '" + text + "' is not in this version; use " + list);
+    if (std::find(choices.begin(), choices.end(), text) == choices.end()) refuse(name, text, list);
+    set(o, text);
+  };
+  return s;
+}
+
+Setting of_surface(Setting s) {
+  s.of_surface = true;
+  return s;
+}
+
+void add_surface_settings(std::vector<Setting>& all) {
+  const std::string group = "Surface";
+  all.push_back(of_surface(number(
+      "grid-spacing", group, kPositive, [](auto& o) -> auto& { return o.surface.grid_spacing_A; },
+      "Lattice spacing of the density, Angstrom")));
+  all.push_back(of_surface(number(
+      "radius-scale", group, kPositive, [](auto& o) -> auto& { return o.surface.radius_scale; },
+      "Width of each atom's Gaussian in units of its radius")));
+  all.push_back(of_surface(number(
+      "isovalue", group, kPositive, [](auto& o) -> auto& { return o.surface.isovalue; },
+      "Density at which the surface lies; higher is tighter")));
+  all.push_back(of_surface(boolean(
+      "cavities", group, [](auto& o) -> auto& { return o.surface.cavities; },
+      "Keep closed cavities; they are counted and left out else")));
+  all.push_back(of_surface(boolean(
+      "project", group, [](auto& o) -> auto& { return o.surface.project; },
+      "Vertices on the exact isosurface, instead of where the lattice puts them")));
+}
+
+/// `prefix` is "" for the mapping and "regularize-" for the regularization.
+template <typename Iteration, typename Displacement>
+void add_iteration_settings(std::vector<Setting>& all, const std::string& prefix, const std::string& group,
+                            Iteration iteration, Displacement min_displacement) {
+  const auto add = [&](const char* name, Range range, double DeformOptions::*member, const char* help) {
+    all.push_back(number(
+        prefix + name, group, range, [ iteration, member ](auto& o) -> auto& { return iteration(o).*member; }, help));
+  };
+  add("sigma", kPositive, &DeformOptions::sigma, "Step scale");
+  add("mu", kAnyNumber, &DeformOptions::mu, "Weight of the external against the internal force, 0 to 1");
+  add("rho", kAnyNumber, &DeformOptions::rho, "Rigidity against tension, 0 to 1");
+  add("tangential-gain", kNotNegative, &DeformOptions::tangential_gain,
+      "Multiplies the internal force, which moves vertices along the surface");
+  all.push_back(count(
+      prefix + "max-iterations", group, [iteration](auto& o) -> auto& { return iteration(o).max_iterations; },
+      "Iterations at most"));
+  all.push_back(number(prefix + "min-displacement", group, kNotNegative, min_displacement,
+                       "Converged when the mean displacement of an iteration falls below this many grid spacings"));
+}
+
+void add_mapping_settings(std::vector<Setting>& all) {
+  const std::string group = "Mapping";
+  all.push_back(choice(
+      "method", group, {"deform"}, {"morph"}, [](CompareOptions&, const std::string&) {},
+      [](const CompareOptions&) { return "deform"; },
+      "How the source surface is mapped: deform (morph is not in this version)"));
+  all.push_back(choice(
+      "field", group, {"density", "distance"}, {"gvf", "gvf2"},
+      [](CompareOptions& o, const std::string& text) { o.field = parse_field_kind(text); },
+      [](const CompareOptions& o) { return o.field == FieldKind::kDensity ? "density" : "distance"; },
+      "What draws the surface: density, or the distance where it is far"));
+  all.push_back(number(
+      "distance-threshold", group, kNotNegative, [](auto& o) -> auto& { return o.distance_threshold_A; },
+      "Distance beyond which the distance field draws, Angstrom"));
+  all.push_back(choice(
+      "interpolation", group, {"trilinear", "tricubic"}, {},
+      [](CompareOptions& o, const std::string& text) {
+        o.deform.interpolation = o.regularize.interpolation = parse_interpolation(text);
+      },
+      [](const CompareOptions& o) {
+        return o.deform.interpolation == Interpolation::kTricubic ? "tricubic" : "trilinear";
+      },
+      "Sampling of the field"));
+  all.push_back(choice(
+      "rest-shape", group, {"source", "none"}, {},
+      [](CompareOptions& o, const std::string& text) { o.deform.rest_shape = text == "source"; },
+      [](const CompareOptions& o) { return o.deform.rest_shape ? "source" : "none"; },
+      "What the internal force restores: the source's shape, or none but equal edges"));
+  add_iteration_settings(
+      all, "", group, [](auto& o) -> auto& { return o.deform; },
+      [](auto& o) -> auto& { return o.deform_min_displacement; });
+  Setting thesis{
+      kThesisSetting,
+      group,
+      SettingKind::kBoolean,
+      {},
+      "The thesis' iteration as it stands: tangential gains 1, rest shape none, smallest displacements 0.001, "
+      "cavities, no projection. Settings given beside it still count",
+      true,
+      nullptr,
+      nullptr};
+  thesis.set = [](CompareOptions&, const std::string& text) {
+    if (text != "0" && text != "1") refuse(kThesisSetting, text, "0 or 1");
+  };
+  thesis.get = [](const CompareOptions&) { return "0"; };
+  all.push_back(thesis);
+}
+
+std::vector<Setting> make_settings() {
+  std::vector<Setting> all;
+  all.push_back(choice(
+      "align", "Molecules", {"all", "backbone", "ca", "none"}, {},
+      [](CompareOptions& o, const std::string& text) { o.align = parse_align_atoms(text); },
+      [](const CompareOptions& o) { return to_string(o.align); },
+      "Paired atoms that are superposed; none compares as given"));
+  all.push_back(number(
+      "temperature", "Potentials", kPositive, [](auto& o) -> auto& { return o.temperature_K; },
+      "Temperature for converting between kT/e and other units, K"));
+  add_surface_settings(all);
+  add_mapping_settings(all);
+  const std::size_t first = all.size();
+  add_iteration_settings(
+      all, "regularize-", "Regularization", [](auto& o) -> auto& { return o.regularize; },
+      [](auto& o) -> auto& { return o.regularize_min_displacement; });
+  for (std::size_t i = first; i < all.size(); ++i) all[i].of_surface = true;
+  return all;
+}
+
+}  // namespace
+
+const std::vector<Setting>& settings() {
+  static const std::vector<Setting> all = make_settings();
+  return all;
+}
+
+const Setting& find_setting(const std::string& name) {
+  for (const Setting& setting : settings()) {
+    if (setting.name == name) return setting;
+  }
+  throw InputError("there is no setting '" + name + "'");
+}
+
+CompareOptions make_options(const std::vector<std::pair<std::string, std::string>>& given) {
+  const bool thesis = std::any_of(given.begin(), given.end(), [](const auto& setting) {
+    return setting.first == kThesisSetting && setting.second == "1";
+  });
+  CompareOptions options = thesis ? thesis_options() : CompareOptions{};
+  for (const auto& [name, text] : given) find_setting(name).set(options, text);
+  return options;
+}
+
+}  // namespace espdiff

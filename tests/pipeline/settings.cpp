@@ -1,0 +1,86 @@
+// settings.cpp: every setting by name: its default, what it accepts, and how it refuses the rest.
+#include "pipeline/settings.h"
+
+#include <doctest/doctest.h>
+
+#include <set>
+
+#include "support/test_data.h"
+
+using espdiff::CompareOptions;
+using espdiff::find_setting;
+using espdiff::make_options;
+using espdiff::Setting;
+using espdiff::SettingKind;
+using espdiff_test::message_of;
+
+TEST_SUITE_BEGIN("settings");
+
+TEST_CASE("each setting takes its own default back, and each choice") {
+  std::set<std::string> names;
+  for (const Setting& setting : espdiff::settings()) {
+    INFO(setting.name);
+    CHECK(names.insert(setting.name).second);
+    CHECK_FALSE(setting.help.empty());
+    CompareOptions options;
+    const std::string value = setting.get(options);
+    setting.set(options, value);
+    CHECK(setting.get(options) == value);
+    for (const std::string& choice : setting.choices) {
+      setting.set(options, choice);
+      CHECK(setting.get(options) == choice);
+    }
+    if (setting.kind == SettingKind::kNumber || setting.kind == SettingKind::kInteger) {
+      setting.set(options, "7");
+      CHECK(setting.get(options) == "7");
+    }
+  }
+  CHECK(names.size() > 20);
+}
+
+TEST_CASE("a setting changes what it names") {
+  const CompareOptions o = make_options({{"grid-spacing", "0.5"},
+                                         {"regularize-mu", "0.4"},
+                                         {"mu", "0.6"},
+                                         {"field", "density"},
+                                         {"project", "0"},
+                                         {"interpolation", "tricubic"},
+                                         {"max-iterations", "12"}});
+  CHECK(o.surface.grid_spacing_A == 0.5);
+  CHECK(o.regularize.mu == 0.4);
+  CHECK(o.deform.mu == 0.6);
+  CHECK(o.field == espdiff::FieldKind::kDensity);
+  CHECK_FALSE(o.surface.project);
+  CHECK(o.regularize.interpolation == espdiff::Interpolation::kTricubic);
+  CHECK(o.deform.max_iterations == 12);
+}
+
+TEST_CASE("thesis is the base of the others, in any order") {
+  const CompareOptions thesis = espdiff::thesis_options();
+  for (const auto& given : {std::vector<std::pair<std::string, std::string>>{{"thesis", "1"}, {"tangential-gain", "3"}},
+                            {{"tangential-gain", "3"}, {"thesis", "1"}}}) {
+    const CompareOptions o = make_options(given);
+    CHECK(o.deform.tangential_gain == 3);
+    CHECK(o.regularize.tangential_gain == thesis.regularize.tangential_gain);
+    CHECK(o.surface.cavities == thesis.surface.cavities);
+  }
+  CHECK(make_options({{"thesis", "0"}}).surface.project);
+}
+
+TEST_CASE("what a setting does not accept is named with what it does") {
+  const auto message = [](const std::string& name, const std::string& value) {
+    return message_of([&] { make_options({{name, value}}); });
+  };
+  CHECK(message("grid-spacing", "0") == "grid-spacing: '0' is not a positive number");
+  CHECK(message("grid-spacing", "1 A") == "grid-spacing: '1 A' is not a positive number");
+  CHECK(message("isovalue", "nan") == "isovalue: 'nan' is not a positive number");
+  CHECK(message("distance-threshold", "-1") == "distance-threshold: '-1' is not a number of 0 or more");
+  CHECK(message("max-iterations", "2.5") == "max-iterations: '2.5' is not a whole number of 0 or more");
+  CHECK(message("cavities", "yes") == "cavities: 'yes' is not 0 or 1");
+  CHECK(message("align", "heavy") == "align: 'heavy' is not all, backbone, ca or none");
+  CHECK(message("field", "gvf") == "field: 'gvf' is not in this version; use density or distance");
+  CHECK(message("method", "morph") == "method: 'morph' is not in this version; use deform");
+  CHECK(message("sigmas", "1") == "there is no setting 'sigmas'");
+}
+
+TEST_SUITE_END();
