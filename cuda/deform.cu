@@ -78,10 +78,14 @@ ESPDIFF_INLINE void move_vertex(const Iteration& it, std::size_t v) {
 
 }  // namespace
 
-std::shared_ptr<SurfaceMesh> deform(const SurfaceMesh& mesh, const SurfaceField& field, const DeformOptions& options,
-                                    const std::string& stage, const Progress& progress, DeformReport* report) {
+std::shared_ptr<SurfaceMesh> deform(const SurfaceMesh& mesh, const SurfaceMesh& rest_mesh, const SurfaceField& field,
+                                    const DeformOptions& options, const std::string& stage, const Progress& progress,
+                                    DeformReport* report) {
   check_options(options);
   const std::size_t n = mesh.n_vertices();
+  if (rest_mesh.n_vertices() != n)
+    throw GeometryError("the rest shape has " + std::to_string(rest_mesh.n_vertices()) + " vertices, the mesh " +
+                        std::to_string(n) + "; both must be of one topology");
   Buffer<Vec4f> positions = mesh.positions, moved(n), laplacians(n);
   Buffer<float> strengths(n);
   Iteration it{};
@@ -106,9 +110,9 @@ std::shared_ptr<SurfaceMesh> deform(const SurfaceMesh& mesh, const SurfaceField&
   Buffer<Vec4f> rest_laplacians(n, Vec4f{});
   Vec4f* const rest = raw(rest_laplacians);
   if (options.rest_shape) {
-    it.from = raw(positions);
-    const Iteration start = it;
-    for_each_index(n, [=] ESPDIFF_HD(std::size_t v) { rest[v] = umbrella(start.topology, start.from, v); });
+    const TopologyView topology = it.topology;
+    const Vec4f* const shape = raw(rest_mesh.positions);
+    for_each_index(n, [=] ESPDIFF_HD(std::size_t v) { rest[v] = umbrella(topology, shape, v); });
   }
 
   DeformReport result;

@@ -9,8 +9,9 @@ namespace espdiff::ESPDIFF_BACKEND {
 
 /// See Engine::deform(). Each iteration reads the positions of the one before, so that the result does not depend on
 /// threads.
-/// @throws InputError (parameters out of range), Cancelled
-std::shared_ptr<SurfaceMesh> deform(const SurfaceMesh& mesh, const SurfaceField& field, const DeformOptions& options,
-                                    const std::string& stage, const Progress& progress, DeformReport* report);
+/// @throws InputError (parameters out of range), GeometryError (rest shape of another topology), Cancelled
+std::shared_ptr<SurfaceMesh> deform(const SurfaceMesh& mesh, const SurfaceMesh& rest_mesh, const SurfaceField& field,
+                                    const DeformOptions& options, const std::string& stage, const Progress& progress,
+                                    DeformReport* report);
 
 }  // namespace espdiff::ESPDIFF_BACKEND

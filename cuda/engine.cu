@@ -148,10 +148,10 @@ class BackEndEngine : public Engine {
   }
 
   MeshPtr deform(const MeshPtr& mesh, const FieldPtr& field, const DeformOptions& options, const std::string& stage,
-                 const Progress& progress, DeformReport* report) override {
+                 const Progress& progress, DeformReport* report, const MeshPtr& rest) override {
     return run([&] {
-      return ESPDIFF_BACKEND::deform(unwrap<SurfaceMesh>(mesh), unwrap<SurfaceField>(field), options, stage, progress,
-                                     report);
+      return ESPDIFF_BACKEND::deform(unwrap<SurfaceMesh>(mesh), unwrap<SurfaceMesh>(rest ? rest : mesh),
+                                     unwrap<SurfaceField>(field), options, stage, progress, report);
     });
   }
 
@@ -202,15 +202,25 @@ class BackEndEngine : public Engine {
     return run([&] {
       check_closed(mesh);
       auto result = std::make_shared<SurfaceMesh>();
-      std::vector<Vec4f> positions(mesh.positions.size());
-      std::transform(mesh.positions.begin(), mesh.positions.end(), positions.begin(),
-                     [](Vec3f p) { return make_vec4(p, 0.0F); });
-      result->positions = to_device(positions);
+      result->positions = upload_positions(mesh.positions);
       std::vector<Corners> triangles(mesh.triangles.size());
       std::transform(mesh.triangles.begin(), mesh.triangles.end(), triangles.begin(), [](const Triangle& t) {
         return Corners{{t[0], t[1], t[2]}};
       });
-      result->topology = make_topology(positions.size(), to_device(triangles));
+      result->topology = make_topology(mesh.positions.size(), to_device(triangles));
+      return result;
+    });
+  }
+
+  MeshPtr with_positions(const MeshPtr& mesh, const std::vector<Vec3f>& positions) override {
+    return run([&] {
+      const auto& surface = unwrap<SurfaceMesh>(mesh);
+      if (positions.size() != surface.n_vertices())
+        throw GeometryError(std::to_string(positions.size()) + " positions for a mesh of " +
+                            std::to_string(surface.n_vertices()) + " vertices");
+      auto result = std::make_shared<SurfaceMesh>();
+      result->topology = surface.topology;
+      result->positions = upload_positions(positions);
       return result;
     });
   }
@@ -272,6 +282,12 @@ class BackEndEngine : public Engine {
   }
 
  private:
+  static Buffer<Vec4f> upload_positions(const std::vector<Vec3f>& positions) {
+    std::vector<Vec4f> padded(positions.size());
+    std::transform(positions.begin(), positions.end(), padded.begin(), [](Vec3f p) { return make_vec4(p, 0.0F); });
+    return to_device(padded);
+  }
+
   /// Sets the number of threads for this call (another engine may have set its own) and guards the stage.
   template <typename Stage>
   auto run(Stage stage) const -> decltype(stage()) {

@@ -28,8 +28,9 @@ struct Residue {
   char insertion_code = ' ';
 };
 
-/// Where a molecule's radii or charges come from; a result says so.
-enum class ValueOrigin { kNone, kFile, kElement };
+/// Where a molecule's radii or charges come from; a result says so. kVmd: VMD, which guesses radii from names, or its
+/// user.
+enum class ValueOrigin { kNone, kFile, kElement, kVmd };
 
 /// One conformation of a molecule: arrays of one length, in file order.
 struct Molecule {

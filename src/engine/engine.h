@@ -66,7 +66,7 @@ struct DeformOptions {
   /// larger one lets them spread into what the surface has been drawn into sooner, and the surface itself no less
   /// exact.
   double tangential_gain = 1;
-  /// Measures the internal force from the shape that deform() starts with, so that it resists distortion; else from
+  /// Measures the internal force from a rest shape (see Engine::deform), so that it resists distortion; else from
   /// equal edges (the thesis), so that the mesh goes on sliding along the surface even when nothing is to be deformed.
   bool rest_shape = false;
 };
@@ -159,9 +159,11 @@ class Engine {
   /// the unit gradient of the field toward its surface, halved and turned at each crossing; f_int the tangential part
   /// of (1 - rho) L - rho L^2, L the uniform umbrella Laplacian. Topology is shared with `mesh`.
   /// @param stage name for progress reports
+  /// @param rest  the shape that options.rest_shape measures from, of the same topology; null takes `mesh` itself
   /// @throws Cancelled
   virtual MeshPtr deform(const MeshPtr& mesh, const FieldPtr& field, const DeformOptions& options,
-                         const std::string& stage, const Progress& progress, DeformReport* report) = 0;
+                         const std::string& stage, const Progress& progress, DeformReport* report,
+                         const MeshPtr& rest = nullptr) = 0;
 
   /// @param map         potential
   /// @param to_map      common frame -> the map's frame
@@ -192,6 +194,10 @@ class Engine {
   /// A mesh made elsewhere. Closed and consistently oriented, else:
   /// @throws GeometryError naming the first edge that does not lie in exactly two triangles
   virtual MeshPtr upload_mesh(const Mesh& mesh) = 0;
+  /// A mesh that shares the topology of `mesh`, with its vertices elsewhere.
+  /// @param positions [vertex]
+  /// @throws GeometryError when the numbers of vertices differ
+  virtual MeshPtr with_positions(const MeshPtr& mesh, const std::vector<Vec3f>& positions) = 0;
   /// Positions, triangles, component labels and outward vertex normals (area-weighted mean of the triangles').
   virtual Mesh download(const MeshPtr& mesh) = 0;
   virtual std::vector<float> download(const ScalarsPtr& scalars) = 0;

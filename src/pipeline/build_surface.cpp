@@ -67,12 +67,15 @@ Surface build_surface(Engine& engine, const Molecule& molecule, const RigidTrans
   return surface;
 }
 
-MeshPtr regularize(Engine& engine, const Surface& surface, const SurfaceOptions& options, const DeformOptions& deform,
-                   const Progress& progress, DeformReport* report) {
-  const float isovalue = static_cast<float>(options.isovalue);
+MeshPtr regularize(Engine& engine, const Surface& surface, const CompareOptions& options, const Progress& progress,
+                   DeformReport* report) {
+  const float isovalue = static_cast<float>(options.surface.isovalue);
+  const double spacing = options.surface.grid_spacing_A;
   const FieldPtr own = engine.density_field(surface.density, isovalue);
-  MeshPtr mesh = engine.deform(surface.mesh, own, deform, "regularize", progress, report);
-  if (options.project) mesh = engine.project(mesh, surface.atoms, isovalue, kProjectionShare * options.grid_spacing_A);
+  DeformOptions iteration = options.regularize;
+  iteration.min_displacement_A = options.regularize_min_displacement * spacing;
+  MeshPtr mesh = engine.deform(surface.mesh, own, iteration, "regularize", progress, report);
+  if (options.surface.project) mesh = engine.project(mesh, surface.atoms, isovalue, kProjectionShare * spacing);
   return mesh;
 }
 
@@ -89,17 +92,17 @@ void require_coverage(const Grid& map, std::size_t n_outside, std::size_t n_vert
       "molecule, in the coordinates of the structure file");
 }
 
-SurfaceResult make_surface(Engine& engine, const CompareInput& input, const SurfaceOptions& options,
-                           const DeformOptions* regularize_options, const Progress& progress) {
+SurfaceResult make_surface(Engine& engine, const CompareInput& input, const CompareOptions& options, bool regularized,
+                           const Progress& progress) {
   SurfaceResult result;
   StageClock clock(result.time_ms);
   const RigidTransform to_common = principal_frame(input.molecule->positions), from_common = inverse(to_common);
   clock.lap("align");
-  Surface surface = build_surface(engine, *input.molecule, to_common, options, progress, clock);
+  Surface surface = build_surface(engine, *input.molecule, to_common, options.surface, progress, clock);
   result.summary = surface.summary;
   result.components = surface.components;
-  if (regularize_options != nullptr) {
-    surface.mesh = regularize(engine, surface, options, *regularize_options, progress, &result.regularize_report);
+  if (regularized) {
+    surface.mesh = regularize(engine, surface, options, progress, &result.regularize_report);
     result.summary.area_A2 = engine.area(surface.mesh);
     clock.lap("regularize");
   }

@@ -28,8 +28,8 @@ Surface build_surface(Engine& engine, const Molecule& molecule, const RigidTrans
                       const SurfaceOptions& options, const Progress& progress, StageClock& clock);
 
 /// The surface with its triangles evened out on its own density (thesis section 3.5.5).
-MeshPtr regularize(Engine& engine, const Surface& surface, const SurfaceOptions& options, const DeformOptions& deform,
-                   const Progress& progress, DeformReport* report);
+MeshPtr regularize(Engine& engine, const Surface& surface, const CompareOptions& options, const Progress& progress,
+                   DeformReport* report);
 
 /// How many samples lie outside the map.
 std::size_t count_outside(const std::vector<float>& samples);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "align/superpose.h"
 #include "base/error.h"
@@ -39,11 +40,6 @@ CompareOptions thesis_options() {
 }
 
 namespace {
-
-DeformOptions with_threshold(DeformOptions deform, double min_displacement_in_spacings, double spacing_A) {
-  deform.min_displacement_A = min_displacement_in_spacings * spacing_A;
-  return deform;
-}
 
 /// Where both molecules meet: the source's principal frame, into which the target is superposed. Grids are thus laid
 /// along axes of the shape itself, and a rigid motion of either input changes nothing but rounding.
@@ -91,14 +87,18 @@ Grid in_unit(const Grid& map, PotentialUnit unit, double temperature_K) {
 
 void check_maps(const CompareInput& source, const CompareInput& target) {
   if ((source.map == nullptr) != (target.map == nullptr)) {
-    throw InputError(std::string("a potential map was given for the ") + (source.map != nullptr ? "source" : "target") +
-                     " only; give both --source-map and --target-map, or neither to compare shapes alone");
+    const bool source_has = source.map != nullptr;
+    throw InputError(std::string("a potential map was given for the ") + (source_has ? "source" : "target") +
+                     " only; give one for the " +
+                     (source_has ? "target too (--target-map" : "source too (--source-map") +
+                     "; `map` in Tcl), or none to compare shapes alone");
   }
   if (source.map == nullptr || source.map->unit == target.map->unit) return;
   if (source.map->unit == PotentialUnit::kUnknown || target.map->unit == PotentialUnit::kUnknown) {
+    const bool source_unknown = source.map->unit == PotentialUnit::kUnknown;
     throw InputError("the maps are in two units: " + to_string(source.map->unit) + " (" + source.map->name + ") and " +
-                     to_string(target.map->unit) + " (" + target.map->name +
-                     "); name the unknown one with --source-map-unit or --target-map-unit");
+                     to_string(target.map->unit) + " (" + target.map->name + "); name the unknown one's unit (" +
+                     (source_unknown ? "--source-map-unit" : "--target-map-unit") + "; `unit` in Tcl)");
   }
 }
 
@@ -140,63 +140,171 @@ void download_surface(Engine& engine, const MeshPtr& source, const MeshPtr& mapp
 
 }  // namespace
 
-CompareResult compare(Engine& engine, const CompareInput& source, const CompareInput& target,
-                      const CompareOptions& options, const Progress& progress) {
+namespace {
+
+/// Where each source atom's counterpart lies, in the common frame.
+std::vector<Vec3d> counterparts(const Molecule& source, const Molecule& target, const AtomPairing& pairing,
+                                const RigidTransform& to_common) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  std::vector<Vec3d> positions(source.size(), Vec3d{kNan, kNan, kNan});
+  for (const auto& pair : pairing.pairs) positions[pair.first] = to_common.apply(target.positions[pair.second]);
+  return positions;
+}
+
+/// Root mean square distance over the atoms that both have; NaN when there are none.
+double rms_distance(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
+  double sum = 0;
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) {
+    const Vec3d d = a[i] - b[i];
+    const double square = dot(d, d);
+    if (!std::isfinite(square)) continue;
+    sum += square;
+    ++n;
+  }
+  return n > 0 ? std::sqrt(sum / static_cast<double>(n)) : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+/// The stages of a step, and what is kept from one to the next; all in the common frame, which is the source's own.
+struct Series::Steps {
+  Engine& engine;
+  CompareInput source;
+  CompareOptions options;
+  bool prepared = false;
+  Surface surface;
+  MeshPtr regularized;
+  DeformReport regularize_report;
+  MeshPtr last_mapped;             ///< null where the next step starts from the source
+  std::vector<Vec3d> last_target;  ///< see SeriesState
+  std::optional<SeriesState> restored;
+
+  void prepare(const RigidTransform& to_common, const Progress& progress, StageClock& clock) {
+    if (prepared) return;
+    surface = build_surface(engine, *source.molecule, to_common, options.surface, progress, clock);
+    regularized = regularize(engine, surface, options, progress, &regularize_report);
+    clock.lap("regularize");
+    prepared = true;
+    take_up_restored();
+  }
+
+  void take_up_restored() {
+    if (!restored) return;
+    const std::size_t n = engine.n_vertices(regularized);
+    if (n != restored->mapped.size())
+      throw InputError("the saved state is of a surface with " + std::to_string(restored->mapped.size()) +
+                       " vertices, this one has " + std::to_string(n) + "; start the series anew");
+    last_mapped = engine.with_positions(regularized, restored->mapped);
+    last_target = restored->target;
+    restored.reset();
+  }
+
+  MeshPtr map(const Surface& target, const MeshPtr& start, DeformReport& report, const Progress& progress,
+              StageClock& clock) {
+    const float isovalue = static_cast<float>(options.surface.isovalue);
+    const double spacing = options.surface.grid_spacing_A;
+    const FieldPtr field =
+        options.field == FieldKind::kDensity
+            ? engine.density_field(target.density, isovalue)
+            : engine.distance_field(target.density, isovalue, target.mesh, options.distance_threshold_A, progress);
+    clock.lap("field");
+    DeformOptions iteration = options.deform;
+    iteration.min_displacement_A = options.deform_min_displacement * spacing;
+    MeshPtr mapped = engine.deform(start, field, iteration, "deform", progress, &report, regularized);
+    if (options.surface.project) mapped = engine.project(mapped, target.atoms, isovalue, kProjectionShare * spacing);
+    clock.lap("deform");
+    return mapped;
+  }
+
+  /// Fills in what the mapping gave: certificate, per-vertex arrays, potentials, metrics, residues.
+  void evaluate(const CompareInput& target, const CommonFrame& frame, const Surface& target_surface,
+                const MeshPtr& mapped, CompareResult& result, const Progress& progress, StageClock& clock) {
+    progress.report("certificate", 0.0);
+    const FitReport fit = engine.fit(mapped, target_surface.atoms, static_cast<float>(options.surface.isovalue));
+    result.area_mapped_A2 = fit.area_A2;
+    result.certificate = certify(engine, mapped, target_surface.mesh, fit);
+    result.certificate.converged = result.deform_report.converged;
+    clock.lap("certificate");
+
+    progress.report("metrics", 0.0);
+    download_surface(engine, regularized, mapped, frame, result.surface);
+    const std::vector<float> corrupt = engine.download(fit.corrupt);
+    result.surface.corrupt.assign(corrupt.begin(), corrupt.end());
+    result.surface.residue = engine.vertex_residues(regularized, surface.atoms);
+    if (source.map != nullptr) {
+      const Potentials potentials =
+          sample_potentials(engine, source, target, frame, regularized, mapped, options.temperature_K, result);
+      result.metrics = engine.compare(regularized, mapped, potentials.source, potentials.target, fit.corrupt);
+      result.metrics_all = engine.compare(regularized, mapped, potentials.source, potentials.target, nullptr);
+    }
+    result.residues = residue_rows(result.surface, source.molecule->residues.size(), result.has_potential);
+    judge(result.certificate, result);
+    clock.lap("metrics");
+  }
+};
+
+Series::Series(Engine& engine, const CompareInput& source, const CompareOptions& options)
+    : steps_(new Steps{engine, source, options, false, {}, nullptr, {}, nullptr, {}, {}}) {}
+Series::~Series() = default;
+
+CompareResult Series::step(const CompareInput& target, StartFrom start, const Progress& progress) {
+  Steps& steps = *steps_;
+  const Molecule& source = *steps.source.molecule;
   CompareResult result;
   StageClock clock(result.time_ms);
-  check_maps(source, target);
+  check_maps(steps.source, target);
   progress.report("align", 0.0);
-  const CommonFrame frame = align(*source.molecule, *target.molecule, options.align, result);
+  const CommonFrame frame = align(source, *target.molecule, steps.options.align, result);
   clock.lap("align");
 
-  const Surface source_surface =
-      build_surface(engine, *source.molecule, frame.from_source, options.surface, progress, clock);
+  steps.prepare(frame.from_source, progress, clock);
   const Surface target_surface =
-      build_surface(engine, *target.molecule, frame.from_target, options.surface, progress, clock);
-  result.source_surface = source_surface.summary;
+      build_surface(steps.engine, *target.molecule, frame.from_target, steps.options.surface, progress, clock);
+  result.source_surface = steps.surface.summary;
   result.target_surface = target_surface.summary;
-  const double spacing = options.surface.grid_spacing_A;
-  const MeshPtr start = regularize(engine, source_surface, options.surface,
-                                   with_threshold(options.regularize, options.regularize_min_displacement, spacing),
-                                   progress, &result.regularize_report);
-  clock.lap("regularize");
+  result.regularize_report = steps.regularize_report;
 
-  const float isovalue = static_cast<float>(options.surface.isovalue);
-  const FieldPtr field = options.field == FieldKind::kDensity
-                             ? engine.density_field(target_surface.density, isovalue)
-                             : engine.distance_field(target_surface.density, isovalue, target_surface.mesh,
-                                                     options.distance_threshold_A, progress);
-  clock.lap("field");
-  MeshPtr mapped = engine.deform(start, field, with_threshold(options.deform, options.deform_min_displacement, spacing),
-                                 "deform", progress, &result.deform_report);
-  if (options.surface.project)
-    mapped = engine.project(mapped, target_surface.atoms, isovalue, kProjectionShare * options.surface.grid_spacing_A);
-  clock.lap("deform");
-
-  progress.report("certificate", 0.0);
-  const FitReport fit = engine.fit(mapped, target_surface.atoms, isovalue);
-  result.area_mapped_A2 = fit.area_A2;
-  result.certificate = certify(engine, mapped, target_surface.mesh, fit);
-  result.certificate.converged = result.deform_report.converged;
-  clock.lap("certificate");
-
-  progress.report("metrics", 0.0);
-  download_surface(engine, start, mapped, frame, result.surface);
-  const std::vector<float> corrupt = engine.download(fit.corrupt);
-  result.surface.corrupt.assign(corrupt.begin(), corrupt.end());
-  result.surface.residue = engine.vertex_residues(start, source_surface.atoms);
-  if (source.map != nullptr) {
-    const Potentials potentials =
-        sample_potentials(engine, source, target, frame, start, mapped, options.temperature_K, result);
-    result.metrics = engine.compare(start, mapped, potentials.source, potentials.target, fit.corrupt);
-    result.metrics_all = engine.compare(start, mapped, potentials.source, potentials.target, nullptr);
+  std::vector<Vec3d> target_atoms = counterparts(source, *target.molecule, result.pairing, frame.from_target);
+  const MeshPtr last = std::exchange(steps.last_mapped, nullptr);
+  if (start == StartFrom::kPrevious && last != nullptr) {
+    std::vector<Vec3d> source_atoms;
+    for (const Vec3d& p : source.positions) source_atoms.push_back(frame.from_source.apply(p));
+    if (rms_distance(steps.last_target, target_atoms) < rms_distance(source_atoms, target_atoms))
+      result.start = StartFrom::kPrevious;
   }
-  result.residues = residue_rows(result.surface, source.molecule->residues.size(), result.has_potential);
-  judge(result.certificate, result);
-  clock.lap("metrics");
+  const MeshPtr mapped = steps.map(target_surface, result.start == StartFrom::kPrevious ? last : steps.regularized,
+                                   result.deform_report, progress, clock);
+  steps.evaluate(target, frame, target_surface, mapped, result, progress, clock);
+  if (result.deform_report.converged) {
+    steps.last_mapped = mapped;
+    steps.last_target = std::move(target_atoms);
+  }
   clock.finish();
   progress.report("metrics", 1.0);
   return result;
+}
+
+std::optional<SeriesState> Series::state() const {
+  const Steps& steps = *steps_;
+  if (steps.restored) return steps.restored;
+  if (steps.last_mapped == nullptr) return std::nullopt;
+  return SeriesState{steps.engine.download(steps.last_mapped).positions, steps.last_target};
+}
+
+void Series::restore(SeriesState state) {
+  Steps& steps = *steps_;
+  if (state.target.size() != steps.source.molecule->size())
+    throw InputError("the saved state is of a source with " + std::to_string(state.target.size()) +
+                     " atoms, this one has " + std::to_string(steps.source.molecule->size()) +
+                     "; start the series anew");
+  steps.restored = std::move(state);
+  if (steps.prepared) steps.take_up_restored();
+}
+
+CompareResult compare(Engine& engine, const CompareInput& source, const CompareInput& target,
+                      const CompareOptions& options, const Progress& progress) {
+  return Series(engine, source, options).step(target, StartFrom::kSource, progress);
 }
 
 }  // namespace espdiff

@@ -2,6 +2,7 @@
 // of the stages.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -93,6 +94,10 @@ struct MappedSurface {
   std::vector<std::uint8_t> corrupt;                      ///< [triangle]
 };
 
+/// Where the mapping of a target starts: from the source's surface, or from that of the target before, which is nearer
+/// when targets are the frames of a trajectory.
+enum class StartFrom { kSource, kPrevious };
+
 struct CompareResult {
   double rmsd_A = 0;
   AtomPairing pairing;
@@ -106,6 +111,7 @@ struct CompareResult {
   SurfaceSummary source_surface, target_surface;
   double area_mapped_A2 = 0;
   Certificate certificate;
+  StartFrom start = StartFrom::kSource;  ///< where the mapping started
   DeformReport regularize_report, deform_report;
   std::vector<ResidueRow> residues;
   MappedSurface surface;
@@ -118,7 +124,39 @@ struct CompareInput {
   const Grid* map = nullptr;
 };
 
-/// Compares two molecules.
+/// What a series hands from one step to the next, all in the source's principal frame. Angstrom.
+struct SeriesState {
+  std::vector<Vec3f> mapped;  ///< [vertex] the last step's mapped surface
+  std::vector<Vec3d> target;  ///< [atom of the source] where the last target's counterpart lay; NaN where there is none
+};
+
+/// Many targets compared with one source, whose surface is made and regularized once, for the first of them.
+class Series {
+ public:
+  /// Keeps references to all but the options.
+  Series(Engine& engine, const CompareInput& source, const CompareOptions& options);
+  ~Series();
+
+  /// Compares the source with one target. `start` kPrevious takes effect where the last step's mapping converged and
+  /// its target lies nearer to this one than the source does (RMSD of the paired atoms, as superposed);
+  /// CompareResult::start says what happened. The internal force is measured from the source's shape in both cases.
+  /// After an error or a cancellation the next step starts from the source.
+  /// @throws as compare()
+  CompareResult step(const CompareInput& target, StartFrom start, const Progress& progress);
+
+  /// What the next step may start from; nothing when that is the source.
+  std::optional<SeriesState> state() const;
+  /// Goes on from a state() of an equal series: the next step then gives the same bits as there.
+  /// @throws InputError when the state is of another source (told by the numbers of atoms or, at the next step, of
+  /// vertices)
+  void restore(SeriesState state);
+
+ private:
+  struct Steps;
+  std::unique_ptr<Steps> steps_;
+};
+
+/// Compares two molecules: a series of one.
 /// @throws InputError (no common atoms; a map on one side only; a map that misses the surface entirely; units that
 /// differ and one
 ///         unknown), GeometryError, MemoryError, Cancelled
@@ -136,8 +174,9 @@ struct SurfaceResult {
   DeformReport regularize_report;
   std::vector<std::pair<std::string, double>> time_ms;
 };
-SurfaceResult make_surface(Engine& engine, const CompareInput& input, const SurfaceOptions& options,
-                           const DeformOptions* regularize, const Progress& progress);
+/// @param regularize evens out the triangles, as for the source of a comparison
+SurfaceResult make_surface(Engine& engine, const CompareInput& input, const CompareOptions& options, bool regularize,
+                           const Progress& progress);
 
 /// A molecule's density on a lattice along the coordinate axes of its own frame: VMD's interpolation (1.9.4) takes no
 /// other.

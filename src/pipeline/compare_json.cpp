@@ -25,6 +25,7 @@ const char* name_of(ValueOrigin origin) {
   switch (origin) {
     case ValueOrigin::kFile: return "file";
     case ValueOrigin::kElement: return "element";
+    case ValueOrigin::kVmd: return "vmd";
     case ValueOrigin::kNone: break;
   }
   return "none";
@@ -146,6 +147,7 @@ void add_results(Json& json, const CompareResult& result) {
                                  {"target", result.target_surface.n_cavities_left_out}};
   json["n_vertices_outside_map"] = {{"source", result.n_outside_source_map}, {"target", result.n_outside_target_map}};
   json["surfaces"] = {{"source", surface(result.source_surface)}, {"target", surface(result.target_surface)}};
+  json["start"] = result.start == StartFrom::kPrevious ? "previous" : "source";
   json["iterations"] = result.deform_report.iterations;
   json["iterations_regularize"] = result.regularize_report.iterations;
 }

@@ -115,4 +115,18 @@ TEST_CASE("a vertex in no triangle does not move under deform") {
   }
 }
 
+TEST_CASE("a mesh with its vertices elsewhere has the same topology") {
+  for (const auto& engine : back_ends()) {
+    Mesh mesh = icosphere(1, 5.0, {0, 0, 0});
+    const espdiff::MeshPtr first = engine->upload_mesh(mesh);
+    for (Vec3f& p : mesh.positions) p = 2.0F * p;
+    const espdiff::MeshPtr moved = engine->with_positions(first, mesh.positions);
+    CHECK(engine->area(moved) == doctest::Approx(4 * engine->area(first)));
+    CHECK(engine->download(moved).triangles == mesh.triangles);
+    mesh.positions.pop_back();
+    CHECK(message_of([&] { engine->with_positions(first, mesh.positions); }) ==
+          "41 positions for a mesh of 42 vertices");
+  }
+}
+
 TEST_SUITE_END();
