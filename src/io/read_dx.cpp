@@ -11,25 +11,6 @@
 namespace espdiff {
 namespace {
 
-/// The unit in "... POTENTIAL (kT/e) ...", up to the closing parenthesis or a comma; unknown when there is none.
-PotentialUnit unit_in(std::string_view line) {
-  const std::string lower = lower_case(line);
-  const std::size_t word = lower.find("potential");
-  const std::size_t open = word == std::string::npos ? word : lower.find('(', word);
-  if (open == std::string::npos) return PotentialUnit::kUnknown;
-  std::size_t end = open + 1;
-  for (int depth = 1; end < lower.size(); ++end) {
-    if (lower[end] == '(') ++depth;
-    if (lower[end] == ')' && --depth == 0) break;
-    if (lower[end] == ',' && depth == 1) break;
-  }
-  try {
-    return parse_potential_unit(std::string(trimmed(line.substr(open + 1, end - open - 1))));
-  } catch (const InputError&) {
-    return PotentialUnit::kUnknown;  // some other quantity, such as "(e/A^3)"
-  }
-}
-
 /// Reads from top to bottom; each member function consumes one part of the file.
 class DxReader {
  public:
@@ -170,7 +151,7 @@ class DxReader {
   }
 
   void note_unit(std::string_view line) {
-    if (grid_.unit == PotentialUnit::kUnknown) grid_.unit = unit_in(line);
+    if (grid_.unit == PotentialUnit::kUnknown) grid_.unit = find_potential_unit(line);
   }
 
   Vec3d read_vector(const char* what) {
@@ -198,6 +179,24 @@ class DxReader {
 };
 
 }  // namespace
+
+PotentialUnit find_potential_unit(std::string_view text) {
+  const std::string lower = lower_case(text);
+  const std::size_t word = lower.find("potential");
+  const std::size_t open = word == std::string::npos ? word : lower.find('(', word);
+  if (open == std::string::npos) return PotentialUnit::kUnknown;
+  std::size_t end = open + 1;
+  for (int depth = 1; end < lower.size(); ++end) {
+    if (lower[end] == '(') ++depth;
+    if (lower[end] == ')' && --depth == 0) break;
+    if (lower[end] == ',' && depth == 1) break;
+  }
+  try {
+    return parse_potential_unit(std::string(trimmed(text.substr(open + 1, end - open - 1))));
+  } catch (const InputError&) {
+    return PotentialUnit::kUnknown;  // some other quantity, such as "(e/A^3)"
+  }
+}
 
 Grid read_dx(const std::string& path, std::string_view text) { return DxReader(path, text).read(); }
 

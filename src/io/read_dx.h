@@ -8,9 +8,13 @@
 
 namespace espdiff {
 
+/// The unit in parentheses behind the word "potential" in a comment or name, up to a comma: "POTENTIAL (kT/e)" as APBS
+/// writes, "PME potential (kT/e, T=300K)" as PMEPot does. Unknown when there is none, or no unit of a potential.
+PotentialUnit find_potential_unit(std::string_view text);
+
 /// Reads an OpenDX scalar field on a regular grid: gridpositions (any axes) and one text array, z fastest in the file.
-/// The unit is that in parentheses behind the word "potential", in a comment or the field's name: "POTENTIAL (kT/e)" as
-/// APBS writes, "PME potential (kT/e, T=300K)" as PMEPot does. `path` is for messages. Takes about 30 ns a value.
+/// The unit is find_potential_unit() of a comment or of the field's name. `path` is for messages. Takes about 30 ns a
+/// value.
 /// @throws FormatError (fewer or more values than promised, not finite, counts, axes)
 /// @throws InputError (binary or vector arrays)
 Grid read_dx(const std::string& path, std::string_view text);

@@ -5,10 +5,12 @@
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
 #include <vtkDataCompressor.h>
+#include <vtkDataObject.h>
 #include <vtkErrorCode.h>
 #include <vtkExecutive.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
+#include <vtkInformationVector.h>
 #include <vtkMatrix3x3.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -191,29 +193,38 @@ void copy_values(vtkDataArray* array, Grid& grid) {
   }
 }
 
-Grid read_with(vtkXMLImageDataReader* reader, const std::string& path, const GridOptions& options) {
-  vtkNew<ErrorListener> listener;
+/// Throws when anything was reported since the reader was connected.
+void check_reader(vtkXMLImageDataReader* reader, const std::string& path, const ErrorListener& listener) {
+  if (listener.heard_any() || reader->GetErrorCode() != vtkErrorCode::NoError) {
+    fail_as_damaged(path, listener, reader->GetErrorCode());
+  }
+}
+
+/// Connects the listener and reads the header. Returns the file's bytes.
+std::string open_image(vtkXMLImageDataReader* reader, const std::string& path, ErrorListener* listener) {
   listen(reader, listener);
   listen(reader->GetExecutive(), listener);
   reader->SetReaderErrorObserver(listener);
   reader->SetParserErrorObserver(listener);
   reader->SetFileName(path.c_str());
 
-  const std::string bytes = read_text_file(path);
+  std::string bytes = read_text_file(path);
   check_end_tag(path, bytes);
   reader->UpdateInformation();
-  if (listener->heard_any() || reader->GetErrorCode() != vtkErrorCode::NoError) {
-    fail_as_damaged(path, *listener, reader->GetErrorCode());
-  }
+  check_reader(reader, path, *listener);
+  return bytes;
+}
+
+Grid read_with(vtkXMLImageDataReader* reader, const std::string& path, const GridOptions& options) {
+  vtkNew<ErrorListener> listener;
+  const std::string bytes = open_image(reader, path, listener);
   Grid grid;
   grid.name = path;
   grid.lattice = read_lattice(reader, path, bytes);
   // The compressor exists only now; its errors would go to the terminal.
   if (vtkDataCompressor* const compressor = reader->GetXMLParser()->GetCompressor()) listen(compressor, listener);
   reader->Update();
-  if (listener->heard_any() || reader->GetErrorCode() != vtkErrorCode::NoError) {
-    fail_as_damaged(path, *listener, reader->GetErrorCode());
-  }
+  check_reader(reader, path, *listener);
   place_lattice(reader->GetOutput(), grid.lattice);
   check_axes(grid.lattice, path, 0);
   copy_values(choose_array(reader->GetOutput(), options.array, path), grid);
@@ -229,6 +240,22 @@ Grid read_vti(const std::string& path, const GridOptions& options) {
   } catch (const std::bad_alloc&) {
     throw MemoryError(path + ": the VTI map does not fit into memory; crop or coarsen it");
   }
+}
+
+std::vector<std::string> list_vti_scalars(const std::string& path) {
+  vtkNew<vtkXMLImageDataReader> reader;
+  vtkNew<ErrorListener> listener;
+  open_image(reader, path, listener);
+  std::vector<std::string> names;
+  vtkInformationVector* const arrays = reader->GetOutputInformation(0)->Get(vtkDataObject::POINT_DATA_VECTOR());
+  const int n_arrays = arrays != nullptr ? arrays->GetNumberOfInformationObjects() : 0;
+  for (int i = 0; i < n_arrays; ++i) {
+    vtkInformation* const array = arrays->GetInformationObject(i);
+    const char* const name = array->Get(vtkDataObject::FIELD_NAME());
+    const bool is_scalar = array->Get(vtkDataObject::FIELD_NUMBER_OF_COMPONENTS()) == 1;
+    if (is_scalar) names.emplace_back(name != nullptr ? name : "");
+  }
+  return names;
 }
 
 }  // namespace espdiff

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "base/types.h"
 #include "io/read_grid.h"
@@ -14,5 +15,10 @@ namespace espdiff {
 /// @throws FormatError (damaged or truncated, sizes that do not agree, values that are not finite),
 ///         InputError (no such array, several to choose from, vectors), MemoryError
 Grid read_vti(const std::string& path, const GridOptions& options);
+
+/// Names of the point arrays of a VTI file that have one number a point, in file order: those that read_vti() can take.
+/// Reads the header only; damaged values are found by read_vti().
+/// @throws FormatError (damaged or cut short), IoError
+std::vector<std::string> list_vti_scalars(const std::string& path);
 
 }  // namespace espdiff

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "io/read_grid.h"
+#include "io/read_vti.h"
 #include "support/test_data.h"
 
 #ifdef ESPDIFF_HAVE_VTK
@@ -181,6 +182,25 @@ TEST_CASE("read_vti: arrays by name, by being the scalars, by being the only one
   CHECK(vectors.message == "a.vti: point array 'v' has 2 components; one number a point was expected");
 }
 
+TEST_CASE("list_vti_scalars: names of arrays with one number a point, in file order, whatever their values") {
+  const ScratchFolder scratch;
+  const std::string scalar_b = ascii_array("Float32", "b", kAscii);
+  const std::string vectors = ascii_array("Float32", "v", kAscii + " " + kAscii, " NumberOfComponents=\"2\"");
+  const std::string damaged_a = ascii_array("Float64", "a", "nan");
+  const std::string good = kImage + point_data(scalar_b + vectors + damaged_a) + kEnd;
+  CHECK(list_vti_scalars(scratch.write("a.vti", good)) == std::vector<std::string>{"b", "a"});
+  CHECK(list_vti_scalars(scratch.write("b.vti", kImage + kEnd)).empty());
+
+  CapturedOutput output(scratch.file("output"));
+  const std::string cut = scratch.write("c.vti", good.substr(0, good.size() - 20));
+  CHECK(message_of([&] { list_vti_scalars(cut); }).find("c.vti: the VTI file is cut short") != std::string::npos);
+  const std::string broken = scratch.write("d.vti", replaced(good, "</PointData>", "</PointDatum>"));
+  CHECK(message_of([&] { list_vti_scalars(broken); }).find("d.vti: VTK cannot read this VTI file") !=
+        std::string::npos);
+  CHECK(message_of([&] { list_vti_scalars(scratch.file("absent.vti")); }).find("absent.vti") != std::string::npos);
+  CHECK(output.text() == "");
+}
+
 TEST_CASE("read_vti: damaged files are refused in silence") {
   const std::string good = kImage + point_data(ascii_array("Float32", "phi", kAscii)) + kEnd;
   const std::string broken_xml = replaced(good, "</PointData>", "</PointDatum>");
@@ -219,6 +239,7 @@ TEST_CASE("read_vti: a compressed map from elsewhere") {
   // python3, base64 and zlib by hand: 262144 floats, sum 4856.008970333924, and at (20, 31, 33), (33, 31, 20):
   CHECK(grid.values[20 + 64 * (31 + 64 * 33)] == 0.21766400337219238F);
   CHECK(grid.values[33 + 64 * (31 + 64 * 20)] == 0.9119439721107483F);
+  CHECK(list_vti_scalars(*path) == std::vector<std::string>{"probability_density"});
   double sum = 0;
   for (float v : grid.values) sum += static_cast<double>(v);
   CHECK(sum == doctest::Approx(4856.008970333924).epsilon(1e-12));
