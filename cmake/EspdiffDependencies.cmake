@@ -75,3 +75,14 @@ if(NOT ESPDIFF_VTK STREQUAL "OFF")
     RenderingFreeType)
 endif()
 espdiff_resolve(ESPDIFF_VTK "${VTK_FOUND}" "VTI reader and renderer" "VTK 9 was not found (Debian: libvtk9-dev)")
+
+# Tcl by its stubs: the module then loads into VMD's own Tcl, whatever its version from 8.5 on.
+if(NOT ESPDIFF_TCL STREQUAL "OFF")
+  find_path(ESPDIFF_TCL_INCLUDE tcl.h PATH_SUFFIXES tcl8.6 tcl8.5 tcl)
+  find_library(ESPDIFF_TCL_STUB NAMES tclstub8.6 tclstub8.5)
+  find_library(ESPDIFF_TCL_LIBRARY NAMES tcl8.6 tcl8.5)  # for tests, which are no modules
+endif()
+if(ESPDIFF_TCL_INCLUDE AND ESPDIFF_TCL_STUB AND ESPDIFF_TCL_LIBRARY)
+  set(tcl_found TRUE)
+endif()
+espdiff_resolve(ESPDIFF_TCL "${tcl_found}" "Tcl module for VMD" "Tcl 8.6 was not found (Debian: tcl8.6-dev)")

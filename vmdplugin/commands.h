@@ -1,0 +1,44 @@
+// commands.h: the commands of namespace ::espdiff::core, which the Tcl package is written on.
+#pragma once
+
+#include <tcl.h>
+
+#include <string>
+#include <vector>
+
+#include "handles.h"
+
+namespace espdiff::vmdplugin {
+
+/// What a command is called with.
+struct Call {
+  Tcl_Interp* interp;
+  Handles& handles;
+  std::vector<Tcl_Obj*> arguments;  ///< without the command's name
+
+  std::string text(std::size_t i) const;
+};
+
+/// One command. Its function returns the result or throws.
+struct Command {
+  const char* name;
+  int min_arguments, max_arguments;
+  const char* usage;  ///< the arguments, for messages
+  Tcl_Obj* (*run)(const Call& call);
+};
+
+/// compute_commands.cpp: start computations, watch them, and end them.
+std::vector<Command> compute_commands();
+/// result_commands.cpp: what came out, as values and as files.
+std::vector<Command> result_commands();
+/// drawing_commands.cpp: what came out, as maps and triangles for VMD.
+std::vector<Command> drawing_commands();
+/// about_commands.cpp: what this module is and offers.
+std::vector<Command> about_commands();
+
+/// Makes every command in the interpreter, which owns the handles from then on.
+void create_commands(Tcl_Interp* interp);
+/// Removes them; cancels what computes and waits for it.
+void delete_commands(Tcl_Interp* interp);
+
+}  // namespace espdiff::vmdplugin

@@ -1,0 +1,181 @@
+// endpoint.cpp: descriptions of molecules and maps in Tcl become ours.
+#include "endpoint.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "base/error.h"
+#include "io/molecule_builder.h"
+#include "io/read_grid.h"
+#include "io/sha256.h"
+#include "molfile_bridge.h"
+#include "tcl_values.h"
+
+namespace espdiff::vmdplugin {
+namespace {
+
+ValueOrigin origin_named(const std::string& name, const std::string& what) {
+  if (name == "file") return ValueOrigin::kFile;
+  if (name == "vmd") return ValueOrigin::kVmd;
+  if (name == "element") return ValueOrigin::kElement;
+  if (name == "none") return ValueOrigin::kNone;
+  throw InputError(what + ": '" + name + "' is not file, vmd, element or none");
+}
+
+/// The coordinates that VMD's `gettimestep` returns: single precision, x y z of every atom.
+std::vector<Vec3f> positions_of(Tcl_Obj* bytes, const std::string& name) {
+  int n_bytes = 0;
+  const unsigned char* const start = Tcl_GetByteArrayFromObj(bytes, &n_bytes);
+  constexpr int kBytesPerAtom = 3 * sizeof(float);
+  if (start == nullptr || n_bytes % kBytesPerAtom != 0)
+    throw InputError(name + ": " + std::to_string(n_bytes) +
+                     " bytes of coordinates are not three floats for each atom");
+  std::vector<Vec3f> positions(static_cast<std::size_t>(n_bytes / kBytesPerAtom));
+  if (!positions.empty()) std::memcpy(positions.data(), start, static_cast<std::size_t>(n_bytes));
+  return positions;
+}
+
+/// One element of `atoms`: {name resname resid insertion chain segname element radius charge}.
+struct VmdAtom {
+  AtomEntry entry;
+  double radius, charge;
+};
+
+VmdAtom atom_of(Tcl_Obj* description, const std::string& what) {
+  const std::vector<Tcl_Obj*> fields = to_vector(description, what);
+  constexpr std::size_t kFields = 9;
+  if (fields.size() != kFields)
+    throw InputError(what + " has " + std::to_string(fields.size()) + " fields instead of " + std::to_string(kFields));
+  VmdAtom atom{};
+  atom.entry.name = to_string(fields[0]);
+  atom.entry.residue_name = to_string(fields[1]);
+  atom.entry.residue_number = to_int(fields[2], what + ", resid");
+  const std::string insertion = to_string(fields[3]), chain = to_string(fields[4]), segment = to_string(fields[5]);
+  atom.entry.insertion_code = insertion.empty() ? ' ' : insertion[0];
+  // VMD calls the chain of files without chains "X"; their segments tell more.
+  const bool has_chain = !chain.empty() && chain != " " && chain != "X";
+  atom.entry.chain = has_chain || segment.empty() ? chain : segment;
+  // Where no file says, VMD calls the element "X"; then the name tells.
+  atom.entry.element = to_string(fields[6]) == "X" ? "" : to_string(fields[6]);
+  atom.radius = to_double(fields[7], what + ", radius");
+  atom.charge = to_double(fields[8], what + ", charge");
+  return atom;
+}
+
+std::string fingerprint(const Molecule& molecule) {
+  Sha256 hash;
+  hash.update(molecule.positions.data(), molecule.positions.size() * sizeof(Vec3d));
+  hash.update(molecule.radii.data(), molecule.radii.size() * sizeof(float));
+  hash.update(molecule.charges.data(), molecule.charges.size() * sizeof(float));
+  return hash.finish();
+}
+
+std::string fingerprint(const Grid& map) {
+  Sha256 hash;
+  hash.update(&map.lattice, sizeof map.lattice);
+  hash.update(map.values.data(), map.values.size() * sizeof(float));
+  return hash.finish();
+}
+
+void parse_vmd_molecule(DictReader& reader, Endpoint& endpoint) {
+  const std::string name = reader.text("name", endpoint.role);
+  const std::vector<Tcl_Obj*> atoms = to_vector(reader.require("atoms"), endpoint.role + " atoms");
+  const std::vector<Vec3f> positions = positions_of(reader.require("coordinates"), name);
+  std::vector<Tcl_Obj*> indices;
+  if (Tcl_Obj* const list = reader.find("indices")) {
+    indices = to_vector(list, endpoint.role + " indices");
+    if (indices.size() != atoms.size())
+      throw InputError(name + ": " + std::to_string(indices.size()) + " indices for " + std::to_string(atoms.size()) +
+                       " atoms");
+  } else if (positions.size() != atoms.size()) {
+    throw InputError(name + ": " + std::to_string(positions.size()) + " coordinates for " +
+                     std::to_string(atoms.size()) + " atoms");
+  }
+  const ValueOrigin radii = origin_named(reader.text("radii_origin", "vmd"), "radii_origin");
+  const ValueOrigin charges = origin_named(reader.text("charges_origin", "none"), "charges_origin");
+  reader.find("cell");  // for potentials that are computed here; not used yet
+
+  MoleculeBuilder builder(name, {});
+  std::vector<float> charge;
+  for (std::size_t i = 0; i < atoms.size(); ++i) {
+    const std::string what = name + ", atom " + std::to_string(i);
+    VmdAtom atom = atom_of(atoms[i], what);
+    const std::size_t at = indices.empty() ? i : static_cast<std::size_t>(to_int(indices[i], what));
+    if (at >= positions.size())
+      throw InputError(what + ": there are coordinates of " + std::to_string(positions.size()) + " atoms only");
+    atom.entry.position = static_cast<Vec3d>(positions[at]);
+    charge.push_back(static_cast<float>(atom.charge));
+    if (radii == ValueOrigin::kElement) {
+      builder.add(atom.entry);
+    } else {
+      builder.add(atom.entry, atom.charge, atom.radius);
+    }
+  }
+  endpoint.molecule = builder.finish();
+  endpoint.molecule->radii_origin = radii;
+  endpoint.molecule->charges = charges == ValueOrigin::kFile ? charge : std::vector<float>();
+  if (std::none_of(endpoint.molecule->radii.begin(), endpoint.molecule->radii.end(), [](float r) { return r > 0; }))
+    throw InputError(name +
+                     ": every radius is 0, so that there is no surface; load a file with radii (PQR), set them "
+                     "(`$sel set radius`), or take `radii element`");
+  endpoint.inputs.push_back({endpoint.role, reader.text("input", name), fingerprint(*endpoint.molecule)});
+}
+
+void parse_map(Tcl_Obj* description, Endpoint& endpoint) {
+  DictReader reader(description, endpoint.role + " map");
+  endpoint.map_unit = reader.text("unit");
+  if (Tcl_Obj* const memory = reader.find("memory")) {
+    const std::string name = to_string(memory), label = reader.text("name", name);
+    reader.finish();
+    endpoint.map = take_volume(name);
+    if (!endpoint.map) throw InputError(endpoint.role + " map: no volume named '" + name + "' is in memory");
+    endpoint.map->name = label;
+    if (!endpoint.map_unit.empty()) endpoint.map->unit = parse_potential_unit(endpoint.map_unit);
+    endpoint.inputs.push_back({endpoint.role + "_map", label, fingerprint(*endpoint.map)});
+    return;
+  }
+  endpoint.map_path = to_string(reader.require("file"));
+  endpoint.map_array = reader.text("array");
+  reader.find("name");
+  reader.finish();
+  if (!endpoint.map_unit.empty()) parse_potential_unit(endpoint.map_unit);  // a wrong one is told at once
+}
+
+}  // namespace
+
+Endpoint parse_endpoint(Tcl_Obj* description, const std::string& role) {
+  Endpoint endpoint;
+  endpoint.role = role;
+  DictReader reader(description, role);
+  if (Tcl_Obj* const path = reader.find("file")) {
+    endpoint.structure_path = to_string(path);
+    endpoint.structure.model = reader.integer("model", 1);
+    endpoint.structure.include_hetero = reader.boolean("hetero", true);
+    endpoint.structure.include_water = reader.boolean("water", false);
+  } else {
+    parse_vmd_molecule(reader, endpoint);
+  }
+  if (Tcl_Obj* const map = reader.find("map")) parse_map(map, endpoint);
+  reader.finish();
+  return endpoint;
+}
+
+void load(Endpoint& endpoint) {
+  if (!endpoint.molecule) {
+    endpoint.molecule = read_structure(endpoint.structure_path, endpoint.structure);
+    endpoint.inputs.push_back({endpoint.role, endpoint.structure_path, sha256_of_file(endpoint.structure_path)});
+  }
+  if (endpoint.map || endpoint.map_path.empty()) return;
+  GridOptions options;
+  options.array = endpoint.map_array;
+  Grid map = read_grid(endpoint.map_path, options);
+  if (!endpoint.map_unit.empty()) map.unit = parse_potential_unit(endpoint.map_unit);
+  endpoint.map = std::move(map);
+  endpoint.inputs.push_back({endpoint.role + "_map", endpoint.map_path, sha256_of_file(endpoint.map_path)});
+}
+
+CompareInput input_of(const Endpoint& endpoint) {
+  return {&*endpoint.molecule, endpoint.map ? &*endpoint.map : nullptr};
+}
+
+}  // namespace espdiff::vmdplugin

@@ -1,0 +1,81 @@
+// handles.cpp: objects by name, and the end of their jobs.
+#include "handles.h"
+
+namespace espdiff::vmdplugin {
+namespace {
+
+/// A failure that happened in a job, thrown again where Tcl asks for the result.
+[[noreturn]] void throw_again(const Failure& failure) {
+  for (const ErrorClass error_class :
+       {ErrorClass::kInput, ErrorClass::kFormat, ErrorClass::kIo, ErrorClass::kGeometry, ErrorClass::kConvergence,
+        ErrorClass::kDevice, ErrorClass::kMemory, ErrorClass::kCancelled}) {
+    if (failure.error_class == std::string(error_class_name(error_class))) throw Error(error_class, failure.message);
+  }
+  throw Error(ErrorClass::kInternal, failure.message);
+}
+
+void stop(const Object& object) {
+  if (object.job == nullptr) return;
+  object.job->cancel();
+  object.job->wait();
+}
+
+}  // namespace
+
+void require_done(const std::string& handle, const Object& object) {
+  if (object.job == nullptr) return;
+  if (!object.job->finished())
+    throw InputError(handle + " is still being computed; wait for it with `espdiff wait " + handle + "`");
+  if (object.job->status().state != Job::State::kDone) throw_again(object.job->failure());
+}
+
+Handles::~Handles() {
+  for (const auto& [name, object] : objects_) {
+    if (object->job != nullptr) object->job->cancel();
+  }
+  for (const auto& [name, object] : objects_) stop(*object);
+}
+
+std::string Handles::add(const std::shared_ptr<Object>& object) {
+  const std::string handle = object->kind() + std::to_string(++last_number_[object->kind()]);
+  objects_[handle] = object;
+  return handle;
+}
+
+std::shared_ptr<Object> Handles::find(const std::string& handle) const {
+  const auto found = objects_.find(handle);
+  if (found != objects_.end()) return found->second;
+  std::string list;
+  for (const std::string& name : names()) list += (list.empty() ? "" : ", ") + name;
+  throw InputError("there is no handle '" + handle + "'; " +
+                   (list.empty() ? std::string("none exists; `espdiff compare` makes one") : "there are " + list));
+}
+
+std::shared_ptr<ComparisonObject> Handles::finished_comparison(const std::string& handle) const {
+  const std::shared_ptr<Object> object = find(handle);
+  auto comparison = std::dynamic_pointer_cast<ComparisonObject>(object);
+  if (comparison == nullptr) throw InputError(handle + " is a " + object->kind() + "; this needs a comparison");
+  require_done(handle, *comparison);
+  return comparison;
+}
+
+std::shared_ptr<SeriesObject> Handles::find_series(const std::string& handle) const {
+  const std::shared_ptr<Object> object = find(handle);
+  auto series = std::dynamic_pointer_cast<SeriesObject>(object);
+  if (series == nullptr) throw InputError(handle + " is a " + object->kind() + "; this needs a series");
+  return series;
+}
+
+void Handles::remove(const std::string& handle) {
+  const std::shared_ptr<Object> object = find(handle);
+  objects_.erase(handle);
+  stop(*object);
+}
+
+std::vector<std::string> Handles::names() const {
+  std::vector<std::string> all;
+  for (const auto& [name, object] : objects_) all.push_back(name);
+  return all;
+}
+
+}  // namespace espdiff::vmdplugin

@@ -1,0 +1,81 @@
+// handles.h: what Tcl holds by name: comparisons, surfaces, series. They belong to the interpreter that made them.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "endpoint.h"
+#include "pipeline/write_compare.h"
+#include "worker.h"
+
+namespace espdiff::vmdplugin {
+
+/// Where and how a job computes.
+struct Computation {
+  CompareOptions options;
+  std::string device = "auto";
+  int threads = 0;
+  std::string command_line;  ///< the user's command, for the provenance
+};
+
+/// Behind every handle.
+struct Object {
+  virtual ~Object() = default;
+  virtual const char* kind() const = 0;
+  std::shared_ptr<Job> job;  ///< that fills it; null where there is none
+};
+
+/// A source that many targets are compared with; read and prepared by the first step.
+struct SeriesObject : Object {
+  const char* kind() const override { return "series"; }
+  Endpoint source;
+  Computation computation;
+  std::unique_ptr<Engine> engine;       // made, like what follows, by the first step's job
+  std::unique_ptr<Series> series;       // destroyed before the engine
+  std::optional<SeriesState> restored;  ///< what the first step goes on from
+};
+
+/// One pair. A comparison of its own has a series of one.
+struct ComparisonObject : Object {
+  const char* kind() const override { return "comparison"; }
+  std::shared_ptr<SeriesObject> series;
+  Endpoint target;
+  Provenance provenance;
+  CompareResult result;
+};
+
+struct SurfaceObject : Object {
+  const char* kind() const override { return "surface"; }
+  Endpoint molecule;
+  Computation computation;
+  SurfaceResult result;
+};
+
+/// The objects of one interpreter.
+class Handles {
+ public:
+  ~Handles();
+
+  /// Returns the new handle, such as "comparison1"; numbers are not used again.
+  std::string add(const std::shared_ptr<Object>& object);
+  /// @throws InputError that lists what there is
+  std::shared_ptr<Object> find(const std::string& handle) const;
+  /// An object of one kind, whose job has succeeded.
+  /// @throws InputError (another kind; not finished), and the job's own failure
+  std::shared_ptr<ComparisonObject> finished_comparison(const std::string& handle) const;
+  std::shared_ptr<SeriesObject> find_series(const std::string& handle) const;
+  /// Cancels its job and waits for it to stop.
+  void remove(const std::string& handle);
+  std::vector<std::string> names() const;
+
+ private:
+  std::map<std::string, std::shared_ptr<Object>> objects_;
+  std::map<std::string, int> last_number_;  ///< by kind
+};
+
+/// @throws the failure of the object's job; InputError while it is not finished
+void require_done(const std::string& handle, const Object& object);
+
+}  // namespace espdiff::vmdplugin

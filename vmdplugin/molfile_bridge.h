@@ -1,0 +1,38 @@
+// molfile_bridge.h: espdiff's file types for VMD: volumes through memory both ways, and VTI files.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "molfile_abi.h"
+#include "volume_store.h"
+
+namespace espdiff {
+
+// File types of VMD. For the first two a "file" is a name in the volume store; nothing is written to disk.
+inline constexpr const char* kVolumeWriter = "espdiffvolume";  ///< `animate write espdiffvolume NAME ... volsets K MOL`
+inline constexpr const char* kVolumeReader = "espdiffmap";     ///< `mol addfile NAME type espdiffmap`
+inline constexpr const char* kVtiReader = "vti";               ///< in builds with VTK
+
+/// Offers the file types to VMD, newest version of its plugin interface first, and stays with the version accepted.
+/// VMD ignores what its own writers return: whoever has it write a volume must look whether the name is in the store.
+/// A volume written keeps its values bit for bit (NaN too), its grid (the origin is the first point), the unit that its
+/// name says, as PMEPot's "PME potential (kT/e, T=300K)" does, and that name; one with fewer than 2 points along an
+/// axis or without a volume is refused. Opening a name for writing removes what was under it. What fails is said on
+/// VMD's console in one line that begins with "espdiff) ".
+/// @returns molfile::kSuccess, or molfile::kError when no version was accepted
+int register_plugins(void* registrar, molfile::RegisterCallback callback) noexcept;
+
+/// The version of VMD's plugin interface that was accepted; 0 before that, and outside of VMD.
+int accepted_abi();
+
+/// True in a build that reads VTI files.
+bool has_vti_reader();
+
+#ifdef ESPDIFF_HAVE_VTK
+/// All scalar point arrays of a VTI file, each with its array's name as dataname; the unit is unknown.
+/// @throws what read_vti() throws; InputError when there is none
+std::vector<StoredVolume> read_vti_volumes(const std::string& path);
+#endif
+
+}  // namespace espdiff

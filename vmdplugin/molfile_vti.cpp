@@ -1,0 +1,20 @@
+// molfile_vti.cpp: the volumes that VMD sees in a VTI file.
+#include "base/error.h"
+#include "io/read_vti.h"
+#include "molfile_bridge.h"
+
+namespace espdiff {
+
+std::vector<StoredVolume> read_vti_volumes(const std::string& path) {
+  const std::vector<std::string> names = list_vti_scalars(path);
+  if (names.empty()) {
+    throw InputError(path + ": has no point array with one number a point; VMD can show nothing else of a VTI file");
+  }
+  std::vector<StoredVolume> volumes;
+  for (const std::string& name : names) {
+    volumes.push_back({read_vti(path, GridOptions{name}), name});
+  }
+  return volumes;
+}
+
+}  // namespace espdiff

@@ -1,0 +1,63 @@
+// tcl_values.h: Tcl's values to ours and back.
+#pragma once
+
+#include <tcl.h>
+
+#include <initializer_list>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace espdiff::vmdplugin {
+
+/// Each returns a new object that nobody refers to yet.
+Tcl_Obj* to_obj(const std::string& text);
+Tcl_Obj* to_obj(const char* text);
+Tcl_Obj* to_obj(int value);
+Tcl_Obj* to_obj(std::size_t value);
+Tcl_Obj* to_obj(bool value);
+/// NaN, which Tcl cannot compute with, becomes the empty string.
+Tcl_Obj* to_obj(double value);
+Tcl_Obj* to_list(const std::vector<Tcl_Obj*>& elements);
+Tcl_Obj* to_list(const std::vector<std::string>& elements);
+Tcl_Obj* to_dict(std::initializer_list<std::pair<const char*, Tcl_Obj*>> entries);
+/// Objects become dicts, arrays lists, null the empty string, true and false 1 and 0.
+Tcl_Obj* to_obj(const nlohmann::ordered_json& json);
+
+std::string to_string(Tcl_Obj* value);
+/// Each throws InputError with `what` and the value where that is something else.
+int to_int(Tcl_Obj* value, const std::string& what);
+double to_double(Tcl_Obj* value, const std::string& what);
+bool to_bool(Tcl_Obj* value, const std::string& what);
+std::vector<Tcl_Obj*> to_vector(Tcl_Obj* value, const std::string& what);
+
+/// Reads a dict key by key; whoever is done calls finish(), which refuses keys that nobody asked for.
+class DictReader {
+ public:
+  /// @param what for messages: "source", "options"
+  /// @throws InputError when the value is no dict
+  DictReader(Tcl_Obj* dict, std::string what);
+
+  /// The value, or null.
+  Tcl_Obj* find(const char* key);
+  /// @throws InputError when there is none
+  Tcl_Obj* require(const char* key);
+  std::string text(const char* key, const std::string& otherwise = "");
+  int integer(const char* key, int otherwise);
+  double number(const char* key, double otherwise);
+  bool boolean(const char* key, bool otherwise);
+  /// The keys that were not read yet, with their values.
+  std::vector<std::pair<std::string, std::string>> rest() const;
+  /// @throws InputError that lists the keys there are, when an unread one is left
+  void finish() const;
+
+ private:
+  std::string path_to(const char* key) const { return what_ + " " + key; }
+
+  Tcl_Obj* dict_;
+  std::string what_;
+  std::vector<std::string> known_;
+};
+
+}  // namespace espdiff::vmdplugin

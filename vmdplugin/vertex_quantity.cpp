@@ -1,0 +1,70 @@
+// vertex_quantity.cpp: the per-vertex quantities that can be drawn and mapped, by name.
+#include "vertex_quantity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+
+namespace espdiff::vmdplugin {
+namespace {
+
+void require_potentials(const std::string& handle, const std::string& name, bool there) {
+  if (there) return;
+  throw InputError(handle + " has no potentials, so that there is no " + name +
+                   "; give both sides a map (`map K` of the VMD molecule, or `map FILE`), or take displacement");
+}
+
+VertexQuantity of_comparison(const std::string& handle, const CompareResult& result, const std::string& name) {
+  const MappedSurface& s = result.surface;
+  if (name == "displacement") return {s.displacement, "A"};
+  if (name != "difference" && name != "source" && name != "target" && name != "sign")
+    throw InputError("'" + name + "' is not difference, source, target, sign or displacement");
+  require_potentials(handle, name, result.has_potential);
+  const std::string unit = to_string(result.unit);
+  if (name == "source") return {s.potential_source, unit};
+  if (name == "target") return {s.potential_target, unit};
+  const bool sign = name == "sign";
+  VertexQuantity quantity{{}, sign ? "" : unit};
+  for (std::size_t v = 0; v < s.potential_source.size(); ++v) {
+    const float a = s.potential_source[v], b = s.potential_target[v];
+    const float change = a < 0 && b > 0 ? 1.0F : a > 0 && b < 0 ? -1.0F : 0.0F;
+    quantity.values.push_back(sign && std::isfinite(b - a) ? change : b - a);
+  }
+  return quantity;
+}
+
+}  // namespace
+
+VertexQuantity vertex_quantity(const std::string& handle, const Object& object, const std::string& name) {
+  require_done(handle, object);
+  if (const auto* comparison = dynamic_cast<const ComparisonObject*>(&object))
+    return of_comparison(handle, comparison->result, name);
+  const auto* surface = dynamic_cast<const SurfaceObject*>(&object);
+  if (surface == nullptr) throw InputError(handle + " is a " + object.kind() + ", which has no surface");
+  if (name != "potential") throw InputError("'" + name + "' is not potential, which is all a surface has");
+  require_potentials(handle, name, !surface->result.potential.empty());
+  return {surface->result.potential, to_string(surface->molecule.map->unit)};
+}
+
+QuantityRange range_of(const std::vector<float>& values) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  std::vector<float> sorted;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(sorted), [](float v) { return std::isfinite(v); });
+  std::sort(sorted.begin(), sorted.end());
+  QuantityRange range;
+  range.n = values.size();
+  range.n_nan = values.size() - sorted.size();
+  const auto at = [&](double share) {
+    if (sorted.empty()) return kNan;
+    return static_cast<double>(sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))]);
+  };
+  range.min = at(0);
+  range.max = at(1);
+  range.p02 = at(0.02);
+  range.p98 = at(0.98);
+  return range;
+}
+
+}  // namespace espdiff::vmdplugin

@@ -1,0 +1,28 @@
+// vertex_quantity.h: the per-vertex quantities that can be drawn and mapped, by name.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "handles.h"
+
+namespace espdiff::vmdplugin {
+
+struct VertexQuantity {
+  std::vector<float> values;  ///< [vertex]; NaN where there is none
+  std::string unit;           ///< "" for a sign
+};
+
+/// @param name of a comparison: difference (target - source), source, target, displacement, or sign, which is +1 where
+/// a negative potential became positive, -1 where a positive one became negative, else 0; of a surface: potential
+/// @throws InputError (another name; no potentials), and the failure of the object's job
+VertexQuantity vertex_quantity(const std::string& handle, const Object& object, const std::string& name);
+
+/// Two-sided range for a colour scale.
+struct QuantityRange {
+  double min = 0, max = 0, p02 = 0, p98 = 0;  ///< NaN when there are no values; percentiles over the vertices
+  std::size_t n = 0, n_nan = 0;
+};
+QuantityRange range_of(const std::vector<float>& values);
+
+}  // namespace espdiff::vmdplugin
