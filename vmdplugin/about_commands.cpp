@@ -1,7 +1,8 @@
-// about_commands.cpp: version, build, back_ends, settings, abi, models, volumes: what this module is and offers.
+// about_commands.cpp: version, build, back_ends, settings, abi, models, map_unit, volumes: what this module is and offers.
 #include "base/version.h"
 #include "commands.h"
 #include "engine/select_engine.h"
+#include "io/read_dx.h"
 #include "io/read_structure.h"
 #include "molfile_bridge.h"
 #include "pipeline/settings.h"
@@ -79,6 +80,8 @@ Tcl_Obj* abi(const Call&) {
 
 Tcl_Obj* models(const Call& call) { return to_obj(count_models(call.text(0))); }
 
+Tcl_Obj* map_unit(const Call& call) { return to_obj(to_string(potential_unit_of_file(call.text(0)))); }
+
 Tcl_Obj* volumes(const Call&) { return to_list(volume_names()); }
 
 Tcl_Obj* describe(const Call& call) {
@@ -112,6 +115,7 @@ std::vector<Command> about_commands() {
           {"settings", 0, 0, "", list_settings},
           {"abi", 0, 0, "", abi},
           {"models", 1, 1, "file", models},
+          {"map_unit", 1, 1, "file", map_unit},
           {"volumes", 0, 0, "", volumes},
           {"describe_volume", 1, 1, "name", describe},
           {"forget_volume", 1, 1, "name", forget_volume}};

@@ -1,6 +1,7 @@
 // read_dx.cpp: header, values and trailer of OpenDX text files.
 #include "io/read_dx.h"
 
+#include <fstream>
 #include <algorithm>
 #include <vector>
 
@@ -196,6 +197,18 @@ PotentialUnit find_potential_unit(std::string_view text) {
   } catch (const InputError&) {
     return PotentialUnit::kUnknown;  // some other quantity, such as "(e/A^3)"
   }
+}
+
+PotentialUnit potential_unit_of_file(const std::string& path) {
+  constexpr int kMostLines = 100;
+  constexpr std::size_t kMostCharacters = 200;
+  std::ifstream in(path);
+  std::string line;
+  for (int n = 0; n < kMostLines && std::getline(in, line); ++n) {
+    const PotentialUnit unit = find_potential_unit(std::string_view(line).substr(0, kMostCharacters));
+    if (unit != PotentialUnit::kUnknown) return unit;
+  }
+  return PotentialUnit::kUnknown;
 }
 
 Grid read_dx(const std::string& path, std::string_view text) { return DxReader(path, text).read(); }

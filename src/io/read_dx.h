@@ -12,6 +12,9 @@ namespace espdiff {
 /// writes, "PME potential (kT/e, T=300K)" as PMEPot does. Unknown when there is none, or no unit of a potential.
 PotentialUnit find_potential_unit(std::string_view text);
 
+/// The same of a DX file, from its first lines alone; unknown also when it is absent or unreadable.
+PotentialUnit potential_unit_of_file(const std::string& path);
+
 /// Reads an OpenDX scalar field on a regular grid: gridpositions (any axes) and one text array, z fastest in the file.
 /// The unit is find_potential_unit() of a comment or of the field's name. `path` is for messages. Takes about 30 ns a
 /// value.

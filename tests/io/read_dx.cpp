@@ -192,3 +192,12 @@ TEST_CASE("read_dx: a map without trailer") {
   CHECK(grid.values[28 + 57 * (26 + 52 * 13)] == 1.30561F);  // as above, with v[k+26*(j+52*i)]
   CHECK(grid.values[10 + 57 * (20 + 52 * 5)] == 0.00258048F);
 }
+
+TEST_CASE("the unit alone, from a file's first lines") {
+  const ScratchFolder folder;
+  CHECK(potential_unit_of_file(folder.write("a.dx", "# POTENTIAL (kT/e)\nobject 1\n")) == PotentialUnit::kKtPerE);
+  CHECK(potential_unit_of_file(folder.write("b.dx", "# x\n# PME potential (kT/e, T=300K)\n")) ==
+        PotentialUnit::kKtPerE);
+  CHECK(potential_unit_of_file(folder.write("c.dx", std::string(100000, '1'))) == PotentialUnit::kUnknown);
+  CHECK(potential_unit_of_file(folder.file("absent")) == PotentialUnit::kUnknown);
+}

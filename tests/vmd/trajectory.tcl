@@ -1,0 +1,122 @@
+# trajectory.tcl: AdK's closed-to-open trajectory row by row: as single comparisons, resumed, cancelled, with maps of all kinds.
+source [file join $env(ESPDIFF_TESTS) support.tcl]
+package require espdiff
+
+proc read_rows {path} {
+    set channel [open $path]
+    set lines [split [string trim [read $channel]] \n]
+    close $channel
+    set rows {}
+    foreach line $lines { if {![string match "#*" $line]} { lappend rows $line } }
+    return [lrange $rows 1 end]
+}
+
+# Without the time that it took.
+proc without_time {path} {
+    set channel [open $path]
+    set lines [split [string trim [read $channel]] \n]
+    close $channel
+    set column -1
+    set result {}
+    foreach line $lines {
+        if {[string match "#*" $line]} continue
+        set fields [split $line ,]
+        if {$column < 0} { set column [lsearch -glob $fields time_ms*] }
+        lappend result [lreplace $fields $column $column]
+    }
+    return $result
+}
+
+set mol [mol new [input traj_adk/adk.psf] type psf waitfor all]
+mol addfile [input traj_adk/adk_dims.dcd] type dcd waitfor all $mol
+
+test "one row a frame, and the first is what compare says" {
+    set result [espdiff trajectory -mol $mol -frames 1:1:4 -reference {frame 0} -csv $scratch/a.csv -grid-spacing 1.5]
+    check_equal rows [dict get $result rows] 4
+    check_equal "rows in the file" [llength [read_rows $scratch/a.csv]] 4
+    set single [espdiff compare [list mol $mol frame 0] [list mol $mol frame 1] -grid-spacing 1.5]
+    set row [split [lindex [read_rows $scratch/a.csv] 0] ,]
+    check_close rmsd [lindex $row 2] [espdiff result $single rmsd_A] 1e-6
+    check_equal "second start" [regexp {,previous,} [lindex [read_rows $scratch/a.csv] 1]] 1
+    espdiff delete all
+}
+
+test "resumed after an interruption: the same rows" {
+    set all [list -mol $mol -frames 1:1:6 -csv $scratch/whole.csv -grid-spacing 1.5]
+    espdiff trajectory {*}$all
+    set parts [lreplace $all 5 5 $scratch/parts.csv]
+    proc stop_after {frame row} { if {$frame == 3} { return -code break } }
+    check_refused {espdiff trajectory {*}$parts -callback stop_after} {ESPDIFF CANCELLED} cancelled
+    check "some rows" {[llength [read_rows $scratch/parts.csv]] == 3}
+    # A row that was being written when the machine went down.
+    set channel [open $scratch/parts.csv a]
+    puts -nonewline $channel "4,0,1.2"
+    close $channel
+    espdiff trajectory {*}$parts -resume 1
+    check_equal rows [without_time $scratch/parts.csv] [without_time $scratch/whole.csv]
+    check "no state is left" {[llength [glob -nocomplain $scratch/parts.csv?*]] == 0}
+    check_refused {espdiff trajectory {*}$parts} {ESPDIFF IO} "-resume 1" "-overwrite 1"
+    check_refused {espdiff trajectory {*}$parts -resume 1 -isovalue 0.6} {ESPDIFF INPUT} "isovalue"
+}
+
+test "against the frame before" {
+    espdiff trajectory -mol $mol -frames 0:2:6 -reference previous -csv $scratch/before.csv -grid-spacing 1.5
+    set references {}
+    foreach row [read_rows $scratch/before.csv] { lappend references [lindex [split $row ,] 1] }
+    check_equal references $references {0 2 4}
+}
+
+test "a map for each frame: one for all, loaded ones, files, a command" {
+    # Made potentials: any will do, the two frames' differ by a constant that the result must show.
+    proc write_map {path value} {
+        set channel [open $path w]
+        puts $channel "# POTENTIAL (kT/e)\nobject 1 class gridpositions counts 4 4 4\norigin -100 -100 -100"
+        puts $channel "delta 70 0 0\ndelta 0 70 0\ndelta 0 0 70\nobject 2 class gridconnections counts 4 4 4"
+        puts $channel "object 3 class array type double rank 0 items 64 data follows"
+        for {set i 0} {$i < 64} {incr i} { puts $channel $value }
+        puts $channel "object \"potential\" class field"
+        close $channel
+    }
+    foreach {frame value} {0 1 2 3 4 5} {
+        write_map $scratch/map[format %02d $frame].dx $value
+        mol addfile $scratch/map[format %02d $frame].dx type dx waitfor all $mol
+    }
+    proc map_of {mol frame} { list file $::scratch/map[format %02d $frame].dx }
+    set options [list -mol $mol -frames 0:2:4 -grid-spacing 2 -overwrite 1 -csv $scratch/maps.csv]
+    foreach {map expected} [list 0 {0.0 0.0 0.0} {volumes 0} {0.0 2.0 4.0} \
+            [list files $scratch/map%02d.dx] {0.0 2.0 4.0} {command map_of} {0.0 2.0 4.0}] {
+        espdiff trajectory {*}$options -map $map
+        set found {}
+        foreach row [read_rows $scratch/maps.csv] { lappend found [format %.1f [lindex [split $row ,] 6]] }
+        check_equal "-map $map" $found $expected
+    }
+    check_refused {espdiff trajectory {*}$options -map pme} {ESPDIFF INPUT} "not in this version"
+    check_refused {espdiff trajectory {*}$options -map 7} {ESPDIFF INPUT} "7"
+    check_refused {espdiff trajectory {*}$options -map {files nowhere%d.dx}} {ESPDIFF IO} "nowhere0.dx"
+    check_refused {espdiff trajectory {*}$options -frames 0:1:500} {ESPDIFF INPUT} "0 to 97"
+    check_equal "nothing is left" [list [espdiff handles] [::espdiff::core::handles] [::espdiff::core::volumes]] {{} {} {}}
+}
+
+test "a frame that fails stops the run, or is skipped with its error" {
+    set options [list -mol $mol -frames 0:2:6 -grid-spacing 2 -overwrite 1 -csv $scratch/skip.csv \
+        -map [list files $scratch/map%02d.dx]]
+    check_refused {espdiff trajectory {*}$options} {ESPDIFF IO} "map06.dx"
+    set result [espdiff trajectory {*}$options -on-error skip]
+    check_equal skipped [dict get $result skipped] 1
+    check "the error is in the row" {[string match "*map06.dx*" [lindex [read_rows $scratch/skip.csv] end]]}
+}
+
+test "38 models of 1L2Y, as in tclsh from the file" {
+    set peptide [mol new [input nmr/1l2y.pdb] type pdb waitfor all]
+    check_equal "models" [molinfo $peptide get numframes] 38
+    set result [espdiff trajectory -mol $peptide -radii element -csv $scratch/1l2y.csv]
+    check_equal rows [dict get $result rows] 38
+    espdiff trajectory -file [input nmr/1l2y.pdb] -csv $scratch/file.csv
+    foreach row [read_rows $scratch/1l2y.csv] other [read_rows $scratch/file.csv] {
+        set from_vmd [lindex [split $row ,] 2]
+        set from_file [lindex [split $other ,] 2]
+        check "RMSD of $row" {abs($from_vmd - $from_file) < 1e-5}
+    }
+}
+
+finish
