@@ -1,5 +1,5 @@
-// frames.cpp: adenylate kinase's closed-to-open trajectory against its first frame: what it brings to start each mapping
-// from the frame before.
+// frames.cpp: adenylate kinase's closed-to-open trajectory against its first frame: what it brings to start each
+// mapping from the frame before.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -71,8 +71,8 @@ int run(const std::string& csv_path, int threads) {
       "start,every,frames,from_previous,total_s,median_ms,median_iterations,median_corrupt_percent,"
       "worst_corrupt_percent,median_coverage_A,worst_coverage_A,median_mapped_to_target_A\n";
   for (const std::size_t step : {std::size_t{1}, std::size_t{8}}) {
-    for (const auto& [start, name] : {std::pair{espdiff::StartFrom::kSource, "source"},
-                                      std::pair{espdiff::StartFrom::kPrevious, "previous"}})
+    for (const auto& [start, name] :
+         {std::pair{espdiff::StartFrom::kSource, "source"}, std::pair{espdiff::StartFrom::kPrevious, "previous"}})
       text += csv_of(measure(*engine, frames, step, start, name), step) + "\n";
   }
   std::fputs(text.c_str(), stdout);

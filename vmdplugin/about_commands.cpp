@@ -1,4 +1,5 @@
-// about_commands.cpp: version, build, back_ends, settings, abi, models, map_unit, volumes: what this module is and offers.
+// about_commands.cpp: version, build, back_ends, settings, abi, models, map_unit, volumes: what this module is and
+// offers.
 #include "base/version.h"
 #include "commands.h"
 #include "engine/select_engine.h"

@@ -28,7 +28,7 @@ __attribute__((destructor)) void on_unload() { stop_worker(); }
 }  // namespace
 
 /// `load espdiffplugin.so Espdiff`. Needs Tcl 8.5 or later.
-ESPDIFF_ENTRY int Espdiff_Init(Tcl_Interp* interp) {
+ESPDIFF_ENTRY int Espdiff_Init(Tcl_Interp* interp) {  // NOLINT: Tcl makes the name from the package's
   if (Tcl_InitStubs(interp, "8.5", 0) == nullptr) return TCL_ERROR;
   return espdiff::boundary(
       [interp] {
@@ -44,7 +44,7 @@ ESPDIFF_ENTRY int Espdiff_Init(Tcl_Interp* interp) {
 
 /// `unload espdiffplugin.so Espdiff`: stops what computes. The library itself stays mapped (linked with -z nodelete):
 /// VMD may hold it as well.
-ESPDIFF_ENTRY int Espdiff_Unload(Tcl_Interp* interp, int flags) {
+ESPDIFF_ENTRY int Espdiff_Unload(Tcl_Interp* interp, int flags) {  // NOLINT: as above
   return espdiff::boundary(
       [interp, flags] {
         espdiff::vmdplugin::delete_commands(interp);

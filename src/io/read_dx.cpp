@@ -1,8 +1,8 @@
 // read_dx.cpp: header, values and trailer of OpenDX text files.
 #include "io/read_dx.h"
 
-#include <fstream>
 #include <algorithm>
+#include <fstream>
 #include <vector>
 
 #include "base/error.h"
