@@ -35,7 +35,9 @@ proc check {what condition} {
 }
 
 proc check_equal {what found expected} {
-    if {$found ne $expected} { error "$what: '$found' instead of '$expected'" }
+    if {$found ne $expected} {
+        error "$what: '[string range $found 0 400]' instead of '[string range $expected 0 400]'"
+    }
 }
 
 proc check_close {what found expected tolerance} {

@@ -1,0 +1,157 @@
+# draw_form.tcl: how a result is drawn in VMD.
+
+namespace eval ::espdiff::gui {
+    variable form
+    array set form {
+        draw,color difference draw,surface target draw,range auto draw,low -5 draw,high 5
+        draw,transparency 1 draw,limit 2.0 draw,corrupt transparent draw,legend 1 draw,mol ""
+    }
+    variable drawn_on {target mapped source source}  ;# the window's word, espdiff's word
+
+    proc build_draw {path} {
+        variable widget
+        ttk::labelframe $path -text Draw -padding 6
+        set variable ::espdiff::gui::form
+        ttk::combobox $path.color -textvariable ${variable}(draw,color) -state readonly -width 12 \
+            -values {difference sign source target displacement none}
+        bind $path.color <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::update_draw}
+        form_row $path 0 "Colour by" $path.color "difference: target - source, red negative, blue positive;\
+            sign: where it changed; source, target: the potentials; displacement: how far each point travelled"
+        ttk::combobox $path.surface -textvariable ${variable}(draw,surface) -state readonly -width 12 \
+            -values {target source}
+        form_row $path 0 "on the" $path.surface "Surface that is coloured: mapped onto the target, or as it is on the\
+            source" 2
+        build_range $path.range
+        form_row $path 1 Range $path.range "Values at the ends of the colour scale. Automatic: symmetric about 0, holds\
+            98 % of the surface's points on each side"
+        grid configure $path.range -columnspan 3
+        ttk::frame $path.look
+        ttk::checkbutton $path.look.transparent -text "Transparent where uncertain, up to" \
+            -variable ${variable}(draw,transparency)
+        ttk::spinbox $path.look.limit -textvariable ${variable}(draw,limit) -width 5 -from 0.5 -to 20 -increment 0.5
+        ttk::label $path.look.unit -text "\u00c5"
+        tip $path.look.transparent "The farther a point travelled, the more transparent it is"
+        tip $path.look.limit "Displacement at which the surface is most transparent"
+        ttk::checkbutton $path.look.legend -text Legend -variable ${variable}(draw,legend)
+        tip $path.look.legend "A colour bar at the bottom of VMD's window"
+        pack $path.look.transparent $path.look.limit $path.look.unit -side left -padx {0 4}
+        pack $path.look.legend -side right
+        grid $path.look -row 2 -column 0 -columnspan 4 -sticky ew -pady 2
+        ttk::combobox $path.corrupt -textvariable ${variable}(draw,corrupt) -state readonly -width 12 \
+            -values {transparent mark hide}
+        form_row $path 3 "Corrupt parts" $path.corrupt "Parts that are off the target's surface: most transparent,\
+            marked in yellow, or not drawn"
+        build_draw_buttons $path.buttons
+        grid $path.buttons -row 4 -column 0 -columnspan 4 -sticky ew -pady {4 0}
+        grid configure $path.label_surface -padx {16 6}
+        grid columnconfigure $path {1 3} -weight 1 -uniform field
+        foreach name {color surface corrupt} { set widget(draw,$name) $path.$name }
+        foreach name {low high} { set widget(draw,$name) $path.range.$name }
+    }
+
+    proc build_range {path} {
+        ttk::frame $path
+        ttk::radiobutton $path.auto -text automatic -value auto -variable ::espdiff::gui::form(draw,range)
+        ttk::radiobutton $path.given -text from -value given -variable ::espdiff::gui::form(draw,range)
+        ttk::entry $path.low -textvariable ::espdiff::gui::form(draw,low) -width 7
+        ttk::label $path.to -text to
+        ttk::entry $path.high -textvariable ::espdiff::gui::form(draw,high) -width 7
+        ttk::label $path.unit
+        pack $path.auto $path.given $path.low $path.to $path.high $path.unit -side left -padx {0 6}
+        foreach entry {low high} {
+            $path.$entry configure -validate key -validatecommand {set ::espdiff::gui::form(draw,range) given; expr 1}
+            bind $path.$entry <Return> {::espdiff::gui::press draw; break}
+        }
+        set ::espdiff::gui::widget(draw,unit) $path.unit
+    }
+
+    proc build_draw_buttons {path} {
+        variable widget
+        ttk::frame $path
+        button $path.draw Draw ::espdiff::gui::draw 0
+        button $path.undraw Undraw ::espdiff::gui::undraw 0
+        button $path.map "Add map to" ::espdiff::gui::add_map 0
+        ttk::combobox $path.mol -textvariable ::espdiff::gui::form(draw,mol) -state readonly -width 18 \
+            -postcommand {::espdiff::gui::guard ::espdiff::gui::update_draw}
+        tip $path.draw "Draw the surface in VMD's window, in place of this result's older drawing"
+        tip $path.undraw "Remove this result's drawing"
+        tip $path.map "Add what is chosen under Colour by as a volumetric map to this molecule, for Color Volume and\
+            Isosurface representations"
+        tip $path.mol "Molecule that gets the map"
+        grid $path.draw $path.undraw $path.map $path.mol -sticky ew -padx {0 6}
+        grid configure $path.map -padx {16 6}
+        grid configure $path.mol -padx 0
+        grid columnconfigure $path 3 -weight 1
+        foreach name {draw undraw map} { set widget($name) $path.$name }
+        set widget(draw,mol) $path.mol
+    }
+
+    # What can be drawn of the result on display, and the molecules that can take a map.
+    proc update_draw {} {
+        variable form
+        variable widget
+        variable shown
+        set is_shown [expr {$shown ne "" && $shown in [espdiff handles]}]
+        set_enabled $is_shown $widget(draw) $widget(undraw) $widget(map)
+        set unit [expr {$is_shown ? [potential_unit] : ""}]
+        set has_potentials [expr {$unit ne "" || !$is_shown}]
+        set colors [expr {$has_potentials ? {difference sign source target displacement none} : {displacement none}}]
+        $widget(draw,color) configure -values $colors
+        if {$form(draw,color) ni $colors} { set form(draw,color) displacement }
+        switch $form(draw,color) {
+            displacement { set unit "\u00c5" }
+            sign - none { set unit "" }
+        }
+        $widget(draw,unit) configure -text $unit
+        set names [molecule_names]
+        $widget(draw,mol) configure -values $names
+        if {$form(draw,mol) ni $names} {
+            set form(draw,mol) [expr {$form(target,mol) in $names ? $form(target,mol) : [lindex $names 0]}]
+        }
+    }
+
+    # The form as options of `espdiff draw`, without those that are at their defaults.
+    proc draw_options {} {
+        variable form
+        variable drawn_on
+        set options [list -color $form(draw,color)]
+        if {$form(draw,range) eq "given"} {
+            lappend options -range [list [string trim $form(draw,low)] [string trim $form(draw,high)]]
+        }
+        if {!$form(draw,transparency)} {
+            lappend options -transparency none
+        } elseif {$form(draw,limit) ne "2.0"} {
+            lappend options -uncertainty-limit $form(draw,limit)
+        }
+        if {$form(draw,corrupt) ne "transparent"} { lappend options -corrupt $form(draw,corrupt) }
+        if {$form(draw,surface) ne "target"} { lappend options -surface [dict get $drawn_on $form(draw,surface)] }
+        if {!$form(draw,legend)} { lappend options -legend 0 }
+        return $options
+    }
+
+    proc draw {} {
+        variable shown
+        set options [draw_options]
+        set molecules [espdiff draw $shown {*}$options]
+        remember $shown draw [concat draw $options]
+        show_message "$shown is drawn (molecules [join $molecules {, }])."
+    }
+
+    proc undraw {} {
+        variable shown
+        espdiff undraw $shown
+        forget $shown draw
+        show_message "The drawing of $shown is removed."
+    }
+
+    proc add_map {} {
+        variable form
+        variable shown
+        set mol [number_of $form(draw,mol)]
+        if {$mol eq ""} { error "there is no molecule to add the map to; load one into VMD" }
+        if {$form(draw,color) eq "none"} { error "choose under Colour by what the map is to hold" }
+        set k [espdiff map $shown -quantity $form(draw,color) -mol $mol]
+        remember $shown map.$form(draw,color).$mol [list map -quantity $form(draw,color) -mol $mol]
+        show_message "The map of $form(draw,color) is data set $k of molecule $form(draw,mol)."
+    }
+}

@@ -1,0 +1,250 @@
+# endpoint_form.tcl: the form for one side of the comparison: a molecule of VMD or a file, with its frame and potential.
+
+namespace eval ::espdiff::gui {
+    variable form       ;# what the user entered: form(SIDE,FIELD)
+    variable automatic  ;# per side: the potential that was chosen for the user, who has not changed it since
+    array set form {}
+    array set automatic {source none target none}
+    foreach side {source target} {
+        array set form [list $side,kind file $side,mol "" $side,frame now $side,sel "not water" $side,file "" \
+            $side,model 1 $side,map none $side,unit "as the map says"]
+    }
+    unset side
+
+    variable units {"as the map says" kT/e mV V kcal/mol/e kJ/mol/e hartree/e}
+    variable structure_types {{"Structures" {.pqr .pdb .ent .cif .mmcif .gz}} {"All files" *}}
+    variable map_types {{"Potential maps" {.dx .vti .cube .cub .gz}} {"All files" *}}
+
+    proc build_endpoint {path side title} {
+        variable form
+        variable widget
+        ttk::labelframe $path -text $title -padding 6
+        grid columnconfigure $path 1 -weight 1
+        if {[in_vmd]} {
+            set form($side,kind) mol
+            ttk::frame $path.kind
+            foreach {kind label} {mol "Molecule in VMD" file File} {
+                ttk::radiobutton $path.kind.$kind -text $label -value $kind -variable ::espdiff::gui::form($side,kind) \
+                    -command [list ::espdiff::gui::guard ::espdiff::gui::update_endpoint $side]
+                pack $path.kind.$kind -side left -padx {0 10}
+                set widget($side,kind,$kind) $path.kind.$kind
+            }
+            grid $path.kind -row 0 -column 0 -columnspan 3 -sticky w -pady {0 2}
+        }
+        build_molecule_rows $path $side
+        build_file_rows $path $side
+        build_map_rows $path $side
+        return $path
+    }
+
+    proc build_molecule_rows {path side} {
+        variable widget
+        ttk::combobox $path.mol -textvariable ::espdiff::gui::form($side,mol) -state readonly -width 12 \
+            -postcommand [list ::espdiff::gui::guard ::espdiff::gui::update_endpoint $side]
+        bind $path.mol <<ComboboxSelected>> [list ::espdiff::gui::guard ::espdiff::gui::choose_molecule $side]
+        form_row $path 1 Molecule $path.mol "A molecule that is loaded in VMD"
+        ttk::spinbox $path.frame -textvariable ::espdiff::gui::form($side,frame) -width 6 -from 0 -to 0 -increment 1
+        form_row $path 2 Frame $path.frame "Frame of the trajectory: a number from 0, or now (the frame that VMD\
+            shows), first or last"
+        ttk::label $path.frames -foreground gray40
+        grid $path.frames -row 2 -column 2 -sticky w -padx {4 0}
+        ttk::entry $path.sel -textvariable ::espdiff::gui::form($side,sel) -width 12
+        form_row $path 3 Atoms $path.sel "VMD selection of the atoms that make the surface, such as: protein"
+        grid configure $path.mol $path.sel -columnspan 2
+        foreach name {mol frame frames sel} { set widget($side,$name) $path.$name }
+    }
+
+    proc build_file_rows {path side} {
+        variable widget
+        variable structure_types
+        ttk::entry $path.file -textvariable ::espdiff::gui::form($side,file) -width 12
+        form_row $path 4 File $path.file "Structure file: PQR (charges and radii), PDB or mmCIF"
+        button $path.browse_file ... [list ::espdiff::gui::browse $side file $structure_types]
+        tip $path.browse_file "Choose a file"
+        grid $path.browse_file -row 4 -column 2 -padx {4 0} -sticky e
+        ttk::spinbox $path.model -textvariable ::espdiff::gui::form($side,model) -width 6 -from 1 -to 9999 -increment 1
+        form_row $path 5 Model $path.model "Model of a file with several models, from 1"
+        foreach name {file browse_file model} { set widget($side,$name) $path.$name }
+    }
+
+    proc build_map_rows {path side} {
+        variable widget
+        variable map_types
+        variable units
+        ttk::combobox $path.map -textvariable ::espdiff::gui::form($side,map) -width 12 \
+            -postcommand [list ::espdiff::gui::guard ::espdiff::gui::update_endpoint $side]
+        form_row $path 6 Potential $path.map "Electrostatic potential: a data set of the molecule, a map file (DX, VTI,\
+            cube), or none to compare the shapes alone"
+        bind $path.map <<ComboboxSelected>> [list ::espdiff::gui::guard ::espdiff::gui::update_endpoint $side]
+        bind $path.map <FocusOut> [list ::espdiff::gui::guard ::espdiff::gui::update_endpoint $side]
+        button $path.browse_map ... [list ::espdiff::gui::browse $side map $map_types]
+        tip $path.browse_map "Choose a map file"
+        grid $path.browse_map -row 6 -column 2 -padx {4 0} -sticky e
+        ttk::combobox $path.unit -textvariable ::espdiff::gui::form($side,unit) -values $units -state readonly -width 12
+        form_row $path 7 Unit $path.unit "Unit of the map's values, if the map does not say; VMD's data sets do\
+            not"
+        foreach name {map browse_map unit} { set widget($side,$name) $path.$name }
+    }
+
+    # The rows that matter for what is chosen, with VMD's molecules, frames and data sets as they are now.
+    proc update_endpoint {side} {
+        variable form
+        variable widget
+        set is_molecule [expr {$form($side,kind) eq "mol"}]
+        set parent [winfo parent $widget($side,map)]
+        foreach name {mol frame frames sel label_mol label_frame label_sel} { show_if $is_molecule $parent.$name }
+        foreach name {file browse_file model label_file label_model} { show_if [expr {!$is_molecule}] $parent.$name }
+        if {$is_molecule} { update_molecule $side } else { $widget($side,map) configure -values none }
+        set has_map [expr {[string trim $form($side,map)] ni {none ""}}]
+        foreach name {unit label_unit} { show_if $has_map $parent.$name }
+        foreach name {file map} { $widget($side,$name) xview end }
+    }
+
+    proc show_if {shown path} {
+        if {$shown} { grid $path } else { grid remove $path }
+    }
+
+    # Molecules with atoms, as "0: ubq.psf".
+    proc molecule_names {} {
+        set names {}
+        foreach mol [molinfo list] {
+            if {[molinfo $mol get numatoms] > 0} { lappend names "$mol: [molinfo $mol get name]" }
+        }
+        return $names
+    }
+
+    # The number before the colon; empty if there is none.
+    proc number_of {name} {
+        if {[regexp {^(\d+): } $name -> number]} { return $number }
+        return ""
+    }
+
+    proc update_molecule {side} {
+        variable form
+        variable widget
+        set names [molecule_names]
+        $widget($side,mol) configure -values $names
+        # A molecule keeps its number when it is renamed; one that is gone is not replaced behind the user's back.
+        set chosen [lsearch -inline $names "[number_of $form($side,mol)]: *"]
+        if {$chosen ne $form($side,mol) || $chosen eq ""} {
+            if {$chosen eq "" && $form($side,mol) eq ""} { set chosen [default_molecule $side $names] }
+            set form($side,mol) $chosen
+            choose_molecule $side
+        }
+        set mol [number_of $form($side,mol)]
+        if {$mol eq ""} {
+            $widget($side,frames) configure -text ""
+            $widget($side,map) configure -values none
+            return
+        }
+        set last [expr {[molinfo $mol get numframes] - 1}]
+        $widget($side,frame) configure -to [expr {max(0, $last)}]
+        $widget($side,frames) configure -text [expr {$last < 0 ? "no frames" : $last == 0 ? "of 1" : "0 to $last"}]
+        update_maps $side $mol
+    }
+
+    # The first molecule for the source, the second for the target.
+    proc default_molecule {side names} { lindex $names [expr {$side eq "target" && [llength $names] > 1}] }
+
+    # Another molecule: its own frame and potential.
+    proc choose_molecule {side} {
+        variable form
+        variable automatic
+        set form($side,frame) now
+        if {[number_of $form($side,map)] ne ""} { set form($side,map) none }
+        set automatic($side) $form($side,map)
+        set mol [number_of $form($side,mol)]
+        if {$mol ne ""} { update_maps $side $mol }
+    }
+
+    # A molecule's first data set is chosen when it arrives, unless the user has chosen otherwise.
+    proc update_maps {side mol} {
+        variable form
+        variable automatic
+        variable widget
+        set names [data_set_names $mol]
+        $widget($side,map) configure -values [concat none $names]
+        if {$form($side,map) eq $automatic($side)} {
+            set form($side,map) [expr {[llength $names] > 0 ? [lindex $names 0] : "none"}]
+            set automatic($side) $form($side,map)
+        }
+    }
+
+    # "0: pot.dx": VMD does not tell the names of data sets, but those of files, which are used where they match.
+    proc data_set_names {mol} {
+        set files {}
+        lassign [molinfo $mol get {filename filetype}] paths types
+        foreach path $paths type $types {
+            if {$type in {dx cube ccp4 map grd grid plt situs mrc edm vtk espdiffvti espdiffmap}} {
+                lappend files [expr {$type eq "espdiffmap" ? "made by espdiff" : [file tail $path]}]
+            }
+        }
+        set names {}
+        set n [molinfo $mol get numvolumedata]
+        for {set k 0} {$k < $n} {incr k} {
+            lappend names "$k: [expr {[llength $files] == $n ? [lindex $files $k] : "data set"}]"
+        }
+        return $names
+    }
+
+    proc browse {side field types} {
+        variable window
+        variable form
+        variable widget
+        set folder [file dirname $form($side,file)]
+        if {$form($side,file) eq "" || ![file isdirectory $folder]} { set folder [pwd] }
+        set path [tk_getOpenFile -parent $window -filetypes $types -initialdir $folder]
+        if {$path eq ""} return
+        set form($side,$field) $path
+        update_endpoint $side
+    }
+
+    # What the form says, as the endpoint of `espdiff compare`. The frame is named by its number, so that a script made
+    # of it does the same again.
+    proc endpoint {side} {
+        variable form
+        set is_molecule [expr {$form($side,kind) eq "mol"}]
+        set endpoint [expr {$is_molecule ? [molecule_endpoint $side] : [file_endpoint $side]}]
+        set map [string trim $form($side,map)]
+        if {$map in {none ""}} { return $endpoint }
+        if {$is_molecule} {
+            set number [number_of $map]
+            set map [expr {$number eq "" ? [list file $map] : $number}]
+        }
+        lappend endpoint map $map
+        if {$form($side,unit) ne "as the map says"} { lappend endpoint unit $form($side,unit) }
+        return $endpoint
+    }
+
+    proc molecule_endpoint {side} {
+        variable form
+        set mol [number_of $form($side,mol)]
+        if {$mol eq ""} { error "$side: no molecule is chosen; load one into VMD, or choose a file" }
+        set frame [string trim $form($side,frame)]
+        if {$frame in {now ""} && $mol in [molinfo list]} { set frame [molinfo $mol get frame] }
+        set endpoint [list mol $mol frame $frame]
+        if {$form($side,sel) ne "not water"} { lappend endpoint sel $form($side,sel) }
+        return $endpoint
+    }
+
+    proc file_endpoint {side} {
+        variable form
+        set path [string trim $form($side,file)]
+        if {$path eq ""} { error "$side: no file is given; type its name or press the button beside it" }
+        set endpoint [list file $path]
+        if {[string trim $form($side,model)] ni {1 ""}} { lappend endpoint model [string trim $form($side,model)] }
+        return $endpoint
+    }
+
+    # The mapping goes from the source to the target: the other direction is another comparison.
+    proc swap_sides {} {
+        variable form
+        variable automatic
+        foreach name [array names form source,*] {
+            set other target[string range $name 6 end]
+            lassign [list $form($name) $form($other)] form($other) form($name)
+        }
+        lassign [list $automatic(source) $automatic(target)] automatic(target) automatic(source)
+        foreach side {source target} { update_endpoint $side }
+    }
+}

@@ -1,0 +1,214 @@
+# result_view.tcl: what came out of a comparison: the numbers, whether they can be trusted, table and export.
+
+namespace eval ::espdiff::gui {
+    variable shown ""  ;# handle whose numbers are on display
+    variable chosen_result ""  ;# the same as the list of results says it
+
+    # Key of `espdiff result`, name, unit (potential: that of the result), help. Left column, then right column.
+    variable potential_numbers {
+        mean_abs_difference "Mean abs. difference" potential "Mean absolute difference of the potentials at\
+            corresponding points, weighted by area"
+        rms_difference "RMS difference" potential "Root of the mean squared difference"
+        mean_signed_difference "Mean difference" potential "Mean of target - source, with its sign"
+        sign_change_area_fraction "Sign changes on" percent "Share of the surface's area where the potential has\
+            another sign on the target"
+        hodgkin_index "Hodgkin index" "" "Similarity of the potentials: 1 same, 0 unrelated, -1 opposite"
+    }
+    variable shape_numbers {
+        rmsd_A RMSD length "Of the superposed atom pairs"
+        mean_displacement_A "Mean displacement" length "How far points of the source's surface travel to the\
+            target's: the more, the less certain"
+        {area_A2 source} "Area, source" area "Surface area of the source"
+        {area_A2 target} "Area, target" area "Surface area of the target"
+        {area_A2 valid} "Area compared" area "Area of the mapped surface on which the numbers rest"
+    }
+
+    proc build_results {path} {
+        variable widget
+        variable potential_numbers
+        variable shape_numbers
+        ttk::labelframe $path -text Result -padding 6
+        ttk::frame $path.top
+        ttk::combobox $path.top.list -textvariable ::espdiff::gui::chosen_result -state readonly -width 24 \
+            -postcommand {::espdiff::gui::guard ::espdiff::gui::list_results}
+        tip $path.top.list "Results that exist, those of scripts as well"
+        bind $path.top.list <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::choose_result}
+        button $path.top.table Table... ::espdiff::gui::show_table 0
+        button $path.top.export Export... ::espdiff::gui::export 0
+        button $path.top.delete Delete ::espdiff::gui::delete_result 2
+        tip $path.top.table "All numbers, as the command line prints them"
+        tip $path.top.export "Write numbers (.json), mapped surface (.vtp) and residues (.csv)"
+        tip $path.top.delete "Free this result and its drawing"
+        grid $path.top.list $path.top.table $path.top.export $path.top.delete -sticky ew -padx {0 6}
+        grid configure $path.top.delete -padx 0
+        grid columnconfigure $path.top 0 -weight 1
+        build_verdict $path.verdict
+        ttk::frame $path.numbers
+        build_numbers $path.numbers 0 16 $potential_numbers
+        build_numbers $path.numbers 3 8 $shape_numbers
+        grid columnconfigure $path.numbers {1 4} -weight 1
+        grid columnconfigure $path.numbers 2 -minsize 16
+        pack $path.top $path.verdict $path.numbers -fill x -pady {0 4}
+        foreach name {list table export delete} { set widget(result,$name) $path.top.$name }
+    }
+
+    # A coloured band: one line in bold, and reasons if there are any.
+    proc build_verdict {path} {
+        variable widget
+        frame $path -padx 8 -pady 4
+        ttk::label $path.title -font [bold_font] -anchor w
+        ttk::label $path.reasons -justify left -anchor w -wraplength 500
+        bind $path.reasons <Configure> {%W configure -wraplength [expr {max(100, %w - 4)}]}
+        pack $path.title $path.reasons -fill x
+        set widget(verdict) $path
+        set widget(verdict_title) $path.title
+        set widget(reasons) $path.reasons
+    }
+
+    proc say_verdict {title reasons background foreground} {
+        variable widget
+        $widget(verdict) configure -background $background
+        foreach path [list $widget(verdict_title) $widget(reasons)] {
+            $path configure -background $background -foreground $foreground
+        }
+        $widget(verdict_title) configure -text $title
+        $widget(reasons) configure -text [join $reasons \n]
+        if {[llength $reasons] > 0} { pack $widget(reasons) -fill x } else { pack forget $widget(reasons) }
+    }
+
+    # `width` in letters has room for any value: the window does not change its size with the numbers.
+    proc build_numbers {parent column width numbers} {
+        variable widget
+        set row 0
+        foreach {key name unit help} $numbers {
+            set label [ttk::label $parent.name$column$row -text $name]
+            set value [ttk::label $parent.value$column$row -anchor e -width $width -text "\u2013"]
+            grid $label -row $row -column $column -sticky w
+            grid $value -row $row -column [expr {$column + 1}] -sticky e -padx {6 0}
+            tip $label $help
+            set widget([concat number $key]) $value
+            incr row
+        }
+    }
+
+    # The comparisons that are done, newest first: "comparison2: wild -> adk #97", the latter being a frame.
+    proc result_names {} {
+        set names {}
+        foreach handle [lsort -dictionary -decreasing [espdiff handles]] {
+            set status [espdiff status $handle]
+            if {[dict get $status kind] ne "comparison" || [dict get $status state] ne "done"} continue
+            lappend names "$handle: [side_name $handle source] \u2192 [side_name $handle target]"
+        }
+        return $names
+    }
+
+    proc side_name {handle side} {
+        foreach input [espdiff result $handle inputs] {
+            if {[dict get $input role] ne $side} continue
+            set name [dict get $input path]
+            # VMD's molecules are told as: mol 0 "ubq.psf" frame 5 sel "not water"
+            set frame 0
+            regexp {^mol \d+ "(.*)" frame (\d+)} $name -> name frame
+            return "[file rootname [file tail $name]][expr {$frame == 0 ? "" : " #$frame"}]"
+        }
+        return $side
+    }
+
+    proc list_results {} {
+        variable widget
+        set names [result_names]
+        $widget(result,list) configure -values $names
+        return $names
+    }
+
+    proc choose_result {} {
+        variable chosen_result
+        show_results [lindex [split $chosen_result :] 0]
+    }
+
+    # Shows a result: the one named, else the one shown already, else the newest; none if there is none.
+    proc show_results {{handle ""}} {
+        variable shown
+        variable chosen_result
+        variable widget
+        set names [list_results]
+        if {$handle ne ""} { set shown $handle }
+        set chosen_result [lsearch -inline -glob $names "$shown:*"]
+        if {$chosen_result eq "" || $shown eq ""} { set chosen_result [lindex $names 0] }
+        set shown [lindex [split $chosen_result :] 0]
+        show_verdict
+        show_numbers
+        set_enabled [expr {$shown ne ""}] $widget(result,list) $widget(result,table) $widget(result,export) \
+            $widget(result,delete)
+        if {[in_vmd]} { update_draw }
+    }
+
+    proc show_verdict {} {
+        variable shown
+        if {$shown eq ""} {
+            say_verdict "No comparison yet" {"Choose source and target, and press Compare."} gray90 gray30
+            return
+        }
+        set certificate [espdiff result $shown certificate]
+        if {[dict get $certificate trustworthy]} {
+            say_verdict Trustworthy {"The mapping is within every limit that was checked."} #d3efd8 #0b4a1c
+            return
+        }
+        set reasons {}
+        foreach reason [dict get $certificate reasons] { lappend reasons "\u2022 $reason" }
+        say_verdict "Not trustworthy" $reasons #ffe3b0 #5c3300
+    }
+
+    proc show_numbers {} {
+        variable shown
+        variable widget
+        variable potential_numbers
+        variable shape_numbers
+        foreach {key name unit help} [concat $potential_numbers $shape_numbers] {
+            set value [expr {$shown eq "" ? "" : [espdiff result $shown {*}$key]}]
+            switch $unit {
+                potential { if {$value ne ""} { set unit [potential_unit] } }
+                length { set unit "\u00c5" }
+                area { set unit "\u00c5\u00b2" }
+                percent { set unit "% of area"; if {$value ne ""} { set value [expr {100 * $value}] } }
+            }
+            $widget([concat number $key]) configure -text [with_unit $value $unit]
+        }
+    }
+
+    # Empty without potentials.
+    proc potential_unit {} {
+        variable shown
+        set unit [espdiff result $shown potential_unit]
+        expr {$unit eq "unknown" ? "(unit?)" : $unit}
+    }
+
+    proc show_table {} {
+        variable shown
+        text_window table "espdiff: $shown" [espdiff table $shown]
+    }
+
+    proc export {} {
+        variable window
+        variable shown
+        set prefix [tk_getSaveFile -parent $window -title "Export $shown: names begin with" -initialfile $shown]
+        if {$prefix ne ""} { export_to [file rootname $prefix] }
+    }
+
+    proc export_to {prefix} {
+        variable shown
+        set files [espdiff export $shown $prefix]
+        remember $shown export [list export $prefix]
+        set names {}
+        foreach path $files { lappend names [file tail $path] }
+        show_message "Written to [file dirname [file normalize $prefix]]: [join $names {, }]"
+    }
+
+    proc delete_result {} {
+        variable shown
+        espdiff delete $shown
+        forget $shown
+        show_message "$shown is deleted."
+        show_results
+    }
+}

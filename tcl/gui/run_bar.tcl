@@ -1,0 +1,162 @@
+# run_bar.tcl: starting and cancelling a comparison, its progress, and the line that says what happened.
+
+namespace eval ::espdiff::gui {
+    variable running ""   ;# handle that is being computed for this window
+    variable watch_id ""  ;# the `after` script that notices when someone deletes it
+
+    # Stages as they follow each other: name, words, share of the bar at its begin and end. The surfaces' stages come
+    # twice; the bar does not go back.
+    variable stages {
+        "" Waiting 0 0
+        align "Superposing" 0 2
+        surface "Making the surfaces" 2 10
+        regularize "Evening out the triangles" 10 35
+        deform "Mapping source onto target" 35 85
+        certificate "Checking the mapping" 85 97
+        metrics "Comparing" 97 100
+    }
+
+    proc build_run_bar {path} {
+        variable widget
+        ttk::frame $path -padding {8 6 8 8}
+        button $path.compare Compare ::espdiff::gui::compare 0
+        button $path.cancel Cancel ::espdiff::gui::cancel 2
+        button $path.swap Swap ::espdiff::gui::swap_sides 1
+        ttk::progressbar $path.bar -maximum 100 -length 60
+        button $path.script Script... ::espdiff::gui::show_script 2
+        button $path.help Help ::espdiff::gui::show_help 0
+        tip $path.compare "Map the source onto the target and compare them (Return)"
+        tip $path.cancel "End the computation (Escape)"
+        tip $path.swap "Exchange source and target: the other direction is another mapping"
+        tip $path.script "The Tcl commands that do the same again"
+        text $path.message -height 1 -width 20 -wrap word -relief flat -borderwidth 0 -highlightthickness 0 \
+            -font TkDefaultFont -background [ttk::style lookup TFrame -background] -takefocus 0 -cursor xterm
+        $path.message tag configure error -foreground #b00020
+        $path.message configure -state disabled
+        bind $path.message <Configure> ::espdiff::gui::fit_message
+        bind $path.message <ButtonPress-1> {focus %W}
+        grid $path.compare $path.cancel $path.swap $path.bar $path.script $path.help -sticky ew -padx {0 6}
+        grid configure $path.help -padx 0
+        grid columnconfigure $path 3 -weight 1
+        grid $path.message -columnspan 6 -sticky ew -pady {6 0}
+        foreach name {compare cancel swap bar script message} { set widget($name) $path.$name }
+        $path.compare configure -default active
+        set_enabled 0 $path.cancel
+        show_message ""
+    }
+
+    # One line or several, to be selected and copied; errors are red, and go to the console as well.
+    proc show_message {text {kind note}} {
+        variable widget
+        if {$kind eq "error"} { tell_console $text }
+        if {![info exists widget(message)] || ![winfo exists $widget(message)]} return
+        $widget(message) configure -state normal
+        $widget(message) delete 1.0 end
+        $widget(message) insert end $text $kind
+        $widget(message) configure -state disabled
+        fit_message
+    }
+
+    proc tell_console {text} {
+        if {[info commands ::vmdcon] ne ""} { vmdcon -err "espdiff) $text" } else { puts stderr "espdiff: $text" }
+    }
+
+    # As many lines as the text has at this width, within reason: the wheel shows the rest.
+    proc fit_message {} {
+        variable widget
+        if {![info exists widget(message)]} return
+        set lines [$widget(message) count -update -displaylines 1.0 end]
+        if {[string is integer -strict $lines]} { $widget(message) configure -height [expr {max(1, min(6, $lines))}] }
+    }
+
+    proc compare {} {
+        variable running
+        if {$running ne ""} return
+        show_message ""
+        set source [endpoint source]
+        set target [endpoint target]
+        set settings [setting_options]
+        set running [espdiff compare $source $target {*}$settings \
+            -progress ::espdiff::gui::show_progress -command {::espdiff::gui::guard ::espdiff::gui::finish}]
+        remember_compare $running $source $target $settings
+        show_running 1
+        watch
+    }
+
+    proc cancel {} {
+        variable running
+        if {$running eq ""} return
+        show_message "Cancelling..."
+        espdiff cancel $running
+    }
+
+    # What can be pressed, and the bar.
+    proc show_running {is_running} {
+        variable widget
+        if {![info exists widget(compare)] || ![winfo exists $widget(compare)]} return
+        set_enabled [expr {!$is_running}] $widget(compare) $widget(swap)
+        set_enabled $is_running $widget(cancel)
+        $widget(bar) configure -value 0
+    }
+
+    # Called by espdiff with the stage and how much of it is done.
+    proc show_progress {stage fraction} {
+        variable widget
+        variable stages
+        if {![info exists widget(bar)] || [$widget(cancel) instate disabled]} return
+        foreach {name words begin end} $stages {
+            if {$name ne $stage} continue
+            set share [expr {$begin + $fraction * ($end - $begin)}]
+            $widget(bar) configure -value [expr {max($share, [$widget(bar) cget -value])}]
+            show_message "$words..."
+        }
+    }
+
+    # Called by espdiff when a computation has ended, well or not.
+    proc finish {handle} {
+        variable running
+        if {$handle ne $running} return
+        end_run
+        if {[catch { espdiff wait $handle } message options]} {
+            espdiff delete $handle
+            forget $handle
+            if {[lindex [dict get $options -errorcode] 1] eq "CANCELLED"} {
+                show_message "Cancelled."
+            } else {
+                show_message $message error
+            }
+            return
+        }
+        show_message "$handle is done in [format %.1f [expr {[espdiff result $handle time_ms total] / 1000.0}]] s."
+        show_results $handle
+    }
+
+    proc end_run {} {
+        variable running
+        variable watch_id
+        after cancel $watch_id
+        set running ""
+        show_running 0
+    }
+
+    # A script can delete any handle, and then nobody calls `finish`.
+    proc watch {} {
+        variable running
+        variable watch_id
+        if {$running eq ""} return
+        if {$running in [espdiff handles]} {
+            set watch_id [after 500 ::espdiff::gui::watch]
+            return
+        }
+        show_message "$running was deleted before it was done."
+        end_run
+    }
+
+    # The window goes: so does what is computed for it.
+    proc abandon_run {} {
+        variable running
+        set handle $running
+        end_run
+        if {$handle ne "" && $handle in [espdiff handles]} { espdiff delete $handle }
+    }
+}

@@ -1,0 +1,67 @@
+# scrolled.tcl: a page that scrolls where the screen is too small for it.
+
+namespace eval ::espdiff::gui {
+    # Makes the frame `path` with a page in it that scrolls vertically; returns the page.
+    proc scrolled {path} {
+        ttk::frame $path
+        canvas $path.view -highlightthickness 0 -borderwidth 0 -background [ttk::style lookup TFrame -background] \
+            -yscrollincrement 12 -yscrollcommand [list $path.bar set]
+        ttk::scrollbar $path.bar -orient vertical -command [list $path.view yview] -takefocus 0
+        grid $path.view -row 0 -column 0 -sticky news
+        grid columnconfigure $path 0 -weight 1
+        grid rowconfigure $path 0 -weight 1
+        ttk::frame $path.view.page
+        $path.view create window 0 0 -anchor nw -window $path.view.page -tags page
+        bind $path.view.page <Configure> [list ::espdiff::gui::fit_page $path]
+        bind $path.view <Configure> [list ::espdiff::gui::fit_page $path]
+        return $path.view.page
+    }
+
+    # The view is as high as the page, if the screen is; the bar is there only when it is of use.
+    proc fit_page {path} {
+        set width [winfo reqwidth $path.view.page]
+        set height [winfo reqheight $path.view.page]
+        $path.view itemconfigure page -width [expr {max($width, [winfo width $path.view])}]
+        $path.view configure -width $width -height [expr {min($height, [winfo screenheight $path] - 150)}] \
+            -scrollregion [list 0 0 $width $height]
+        if {[winfo height $path.view] > 1 && $height > [winfo height $path.view]} {
+            grid $path.bar -row 0 -column 1 -sticky ns
+        } else {
+            grid remove $path.bar
+        }
+    }
+
+    # The page that a widget is in, as the frame given to `scrolled`; empty for the others.
+    proc page_of {path} {
+        if {[regexp {^(.*)\.view\.page(\.|$)} $path -> frame]} { return $frame }
+        return ""
+    }
+
+    # The wheel scrolls the page. In a list or a spinbox it would change what is chosen without being noticed, so it is
+    # kept from them. Fields that are reached by the Tab key are brought into view.
+    proc keep_wheel_from_changing_values {path} {
+        if {[winfo class $path] ne "Text"} { bindtags $path [concat EspdiffWheel [bindtags $path]] }
+        foreach child [winfo children $path] { keep_wheel_from_changing_values $child }
+        foreach {event steps} {<Button-4> -3 <Button-5> 3} {
+            bind EspdiffWheel $event [list ::espdiff::gui::turn_wheel %W $steps]
+            bind EspdiffWheel $event {+break}
+        }
+        bind EspdiffWheel <MouseWheel> {::espdiff::gui::turn_wheel %W [expr {%D > 0 ? -3 : 3}]; break}
+        bind EspdiffWheel <FocusIn> {::espdiff::gui::bring_into_view %W}
+    }
+
+    proc turn_wheel {path steps} {
+        set page [page_of $path]
+        if {$page ne "" && [winfo ismapped $page.bar]} { $page.view yview scroll $steps units }
+    }
+
+    proc bring_into_view {path} {
+        set page [page_of $path]
+        if {$page eq "" || $path eq "$page.view.page" || ![winfo ismapped $page.bar]} return
+        set top [expr {[winfo rooty $path] - [winfo rooty $page.view]}]
+        set bottom [expr {$top + [winfo height $path]}]
+        if {$top < 0} { $page.view yview scroll [expr {($top - 12) / 12}] units }
+        set below [expr {$bottom - [winfo height $page.view]}]
+        if {$below > 0} { $page.view yview scroll [expr {($below + 23) / 12}] units }
+    }
+}

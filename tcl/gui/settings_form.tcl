@@ -1,0 +1,126 @@
+# settings_form.tcl: all settings of a comparison, behind a button, as the core's table has them.
+
+namespace eval ::espdiff::gui {
+    variable setting   ;# values by name
+    variable standard  ;# default values by name
+    array set setting {}
+    array set standard {}
+
+    # Groups of the table that are small share a page.
+    variable setting_pages {General {Molecules Potentials Computing} Surface Surface Mapping Mapping
+        Regularization Regularization}
+
+    # The core's settings and those of the commands that compute.
+    proc all_settings {} {
+        set rows [::espdiff::core::settings]
+        lappend rows {name device group Computing kind choice choices {auto cpu cuda} default auto
+            help "Where to compute: auto takes a GPU if one answers"}
+        lappend rows {name threads group Computing kind integer choices {} default 0
+            help "CPU threads; 0 takes all. The result is the same for any number"}
+        return $rows
+    }
+
+    proc build_settings {path} {
+        variable widget
+        variable setting
+        variable standard
+        variable setting_pages
+        ttk::frame $path
+        ttk::button $path.toggle -style Toolbutton -command ::espdiff::gui::toggle_settings -underline 2
+        set widget(settings_toggle) [tip $path.toggle "How surfaces are made and mapped (Alt-S)"]
+        set widget(settings) [ttk::notebook $path.pages]
+        ttk::notebook::enableTraversal $path.pages
+        grid $path.toggle -sticky w
+        grid columnconfigure $path 0 -weight 1
+        foreach row [all_settings] {
+            set name [dict get $row name]
+            set standard($name) [dict get $row default]
+            if {![info exists setting($name)]} { set setting($name) $standard($name) }
+        }
+        foreach {title groups} $setting_pages {
+            set page [ttk::frame $path.pages.[string tolower $title] -padding 8]
+            $path.pages add $page -text $title
+            build_setting_page $page $groups
+        }
+        button $path.defaults Defaults ::espdiff::gui::restore_settings 2
+        tip $path.defaults "Set all settings back to their defaults"
+        set widget(defaults) $path.defaults
+        trace add variable setting write ::espdiff::gui::count_changes
+        bind [winfo toplevel $path] <Alt-s> [list $path.toggle invoke]
+        count_changes
+        return $path
+    }
+
+    # Two columns of rows, with room between them.
+    proc build_setting_page {page groups} {
+        set rows {}
+        foreach row [all_settings] { if {[dict get $row group] in $groups} { lappend rows $row } }
+        set half [expr {([llength $rows] + 1) / 2}]
+        set i 0
+        foreach row $rows {
+            set column [expr {$i < $half ? 0 : 3}]
+            build_setting $page $row [expr {$i % $half}] $column
+            incr i
+        }
+        grid columnconfigure $page 2 -minsize 20
+        grid columnconfigure $page {1 4} -weight 1
+    }
+
+    proc build_setting {page row grid_row column} {
+        variable widget
+        dict with row {}
+        set path $page.$name
+        set variable ::espdiff::gui::setting($name)
+        switch $kind {
+            choice { ttk::combobox $path -textvariable $variable -values $choices -state readonly -width 9 }
+            boolean { ttk::checkbutton $path -variable $variable }
+            default { ttk::entry $path -textvariable $variable -width 10 }
+        }
+        regsub {^regularize-} $name "" label
+        set widget(setting,$name) $path
+        set label [string totitle [string map {- " "} $label] 0 0]
+        form_row $page $grid_row $label $path "$help (default $default)" $column
+    }
+
+    proc toggle_settings {} {
+        variable widget
+        if {[winfo manager $widget(settings)] eq ""} {
+            grid $widget(settings) -sticky ew
+            grid $widget(defaults) -row 0 -column 0 -sticky e
+            raise $widget(defaults) $widget(settings_toggle)
+        } else {
+            grid forget $widget(settings) $widget(defaults)
+        }
+        count_changes
+    }
+
+    proc restore_settings {} {
+        variable setting
+        variable standard
+        foreach name [array names standard] { set setting($name) $standard($name) }
+    }
+
+    # The settings that are not at their defaults, as options of `espdiff compare`.
+    proc setting_options {} {
+        variable setting
+        variable standard
+        set options {}
+        foreach row [all_settings] {
+            set name [dict get $row name]
+            set value [string trim $setting($name)]
+            if {$value ne $standard($name)} { lappend options -$name $value }
+        }
+        return $options
+    }
+
+    # The button's title says whether something was changed while the settings are out of sight.
+    proc count_changes {args} {
+        variable widget
+        set n [expr {[llength [setting_options]] / 2}]
+        set arrow [expr {[winfo manager $widget(settings)] eq "" ? "\u25b8" : "\u25be"}]
+        $widget(settings_toggle) configure \
+            -text "$arrow Settings[expr {$n == 0 ? " (all at their defaults)" : " ($n changed)"}]"
+    }
+
+    proc forget_settings {} { trace remove variable ::espdiff::gui::setting write ::espdiff::gui::count_changes }
+}

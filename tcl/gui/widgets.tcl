@@ -1,0 +1,146 @@
+# widgets.tcl: small things that the parts of the window share: tips, keys, texts, guarded commands, numbers in words.
+
+namespace eval ::espdiff::gui {
+    variable tips       ;# help by widget
+    variable tip_id ""  ;# the `after` script that shows one
+    array set tips {}
+
+    # Evaluates a command, and shows its error in the window: no dialog with a traceback ever.
+    proc guard {args} {
+        if {[catch { uplevel #0 $args } message]} { show_message $message error }
+    }
+
+    # A button whose command is guarded. An underlined letter is also a key with Alt.
+    proc button {path text command {underline -1}} {
+        variable window
+        ttk::button $path -text $text -command [concat ::espdiff::gui::guard $command] -underline $underline -width 0
+        if {$underline >= 0} {
+            bind $window <Alt-[string tolower [string index $text $underline]]> "focus $path; $path invoke; break"
+        }
+        return $path
+    }
+
+    # Presses a button that others can press as well, if it can be pressed now.
+    proc press {name} {
+        variable widget
+        if {[info exists widget($name)] && [winfo exists $widget($name)]} { $widget($name) invoke }
+    }
+
+    proc set_enabled {enabled args} {
+        foreach path $args { $path state [expr {$enabled ? "!disabled" : "disabled"}] }
+    }
+
+    # Explains a widget where the mouse rests on it.
+    proc tip {path text} {
+        variable tips
+        set tips($path) $text
+        # Tk gives the focus to whatever has a binding for keys.
+        if {[winfo class $path] eq "TLabel"} { $path configure -takefocus 0 }
+        bind $path <Enter> {+::espdiff::gui::tip_later %W}
+        foreach event {<Leave> <ButtonPress> <KeyPress>} { bind $path $event {+::espdiff::gui::hide_tip} }
+        return $path
+    }
+
+    proc tip_later {path} {
+        variable tip_id
+        after cancel $tip_id
+        set tip_id [after 600 [list ::espdiff::gui::show_tip $path]]
+    }
+
+    proc show_tip {path} {
+        variable window
+        variable tips
+        hide_tip
+        if {![winfo exists $path]} return
+        toplevel $window.tip
+        wm overrideredirect $window.tip 1
+        pack [ttk::label $window.tip.text -text $tips($path) -wraplength 320 -padding 4 -background #ffffe0 \
+            -foreground black -relief solid -borderwidth 1]
+        set x [expr {min([winfo rootx $path], [winfo screenwidth $path] - [winfo reqwidth $window.tip.text] - 4)}]
+        set y [expr {[winfo rooty $path] + [winfo height $path] + 3}]
+        if {$y + [winfo reqheight $window.tip.text] > [winfo screenheight $path]} {
+            set y [expr {[winfo rooty $path] - [winfo reqheight $window.tip.text] - 3}]
+        }
+        wm geometry $window.tip +$x+$y
+    }
+
+    proc hide_tip {} {
+        variable window
+        variable tip_id
+        after cancel $tip_id
+        destroy $window.tip
+    }
+
+    proc forget_tips {} {
+        variable tips
+        variable tip_id
+        after cancel $tip_id
+        array unset tips
+    }
+
+    # A labelled row of a form: label in `column`, widget right of it, both with the same tip.
+    proc form_row {parent row label path help {column 0}} {
+        set name [ttk::label $parent.label_[string map {. _} [winfo name $path]] -text $label]
+        grid $name -row $row -column $column -sticky w -padx {0 6} -pady 2
+        grid $path -row $row -column [expr {$column + 1}] -sticky ew -pady 2
+        tip $name $help
+        tip $path $help
+        return $name
+    }
+
+    # A window beside ours with a text to read and copy.
+    proc text_window {name title text {fixed 1}} {
+        variable window
+        set top $window.$name
+        if {![winfo exists $top]} {
+            toplevel $top
+            set outer [ttk::frame $top.outer -padding 8]
+            text $top.outer.text -wrap [expr {$fixed ? "none" : "word"}] -width [expr {$fixed ? 100 : 74}] -height 28 \
+                -font [expr {$fixed ? "TkFixedFont" : "TkDefaultFont"}] -yscrollcommand [list $outer.y set] \
+                -xscrollcommand [list $outer.x set] -padx 6 -pady 6 -background white -foreground black
+            ttk::scrollbar $outer.y -orient vertical -command [list $outer.text yview]
+            ttk::scrollbar $outer.x -orient horizontal -command [list $outer.text xview]
+            ttk::frame $outer.buttons
+            ttk::button $outer.buttons.copy -text Copy -underline 0 \
+                -command [list ::espdiff::gui::copy_text $outer.text]
+            ttk::button $outer.buttons.close -text Close -command [list destroy $top]
+            pack $outer.buttons.close $outer.buttons.copy -side right -padx {6 0}
+            grid $outer.text $outer.y -sticky news
+            if {$fixed} { grid $outer.x -sticky ew }
+            grid $outer.buttons -columnspan 2 -sticky ew -pady {8 0}
+            grid columnconfigure $outer 0 -weight 1
+            grid rowconfigure $outer 0 -weight 1
+            pack $outer -fill both -expand 1
+            bind $top <Escape> [list destroy $top]
+            bind $top <Alt-c> [list $outer.buttons.copy invoke]
+        }
+        wm title $top $title
+        set shown $top.outer.text
+        set height [expr {$fixed ? max(6, min(36, [llength [split $text \n]] + 1)) : 25}]
+        $shown configure -state normal -height $height
+        $shown delete 1.0 end
+        $shown insert end $text
+        $shown configure -state disabled
+        raise $top
+        focus $shown
+        return $top
+    }
+
+    proc copy_text {path} {
+        clipboard clear -displayof $path
+        clipboard append -displayof $path [string trimright [$path get 1.0 end]]\n
+    }
+
+    # Four significant digits and the unit; a dash for what has no value.
+    proc with_unit {value {unit ""}} {
+        if {$value eq ""} { return "\u2013" }
+        set text [expr {abs($value) >= 1000 && abs($value) < 1e7 ? [format %.0f $value] : [format %.4g $value]}]
+        if {$unit eq ""} { return $text }
+        return "$text $unit"
+    }
+
+    proc bold_font {} {
+        if {"EspdiffBold" ni [font names]} { font create EspdiffBold {*}[font actual TkDefaultFont] -weight bold }
+        return EspdiffBold
+    }
+}

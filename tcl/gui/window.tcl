@@ -1,0 +1,139 @@
+# window.tcl: the window "Surface Potential Comparison": what it is made of, its opening and its end.
+
+# The window calls public commands of espdiff only (and reads the table of settings, core::settings), so that whatever
+# it does can be done by a script. Its parts are files of their own; each has build_PART, which makes the widgets in a
+# frame that it is given. What the user enters is in the array `form`, the settings in `setting`, and the widgets that
+# others need in `widget`.
+namespace eval ::espdiff::gui {
+    variable window .espdiff
+    variable traced {}          ;# variables of VMD that tell about molecules, while the window is there
+    variable pending_update ""  ;# the `after` script that looks at VMD's molecules again
+
+    foreach part {widgets scrolled endpoint_form settings_form run_bar result_view draw_form session_script
+        help_window} {
+        source [file join [file dirname [info script]] $part.tcl]
+    }
+    unset part
+
+    proc in_vmd {} { expr {[info commands ::molinfo] ne ""} }
+
+    # Opens the window, or raises the one that is open; returns its path.
+    proc open {} {
+        variable window
+        if {[winfo exists $window]} {
+            wm deiconify $window
+            raise $window
+            update_molecules
+            show_results
+        } else {
+            build
+        }
+        return $window
+    }
+
+    proc build {} {
+        variable window
+        # VMD gives some widgets a smaller font; in our window all have the same.
+        option add *Espdiff*font TkDefaultFont interactive
+        toplevel $window -class Espdiff
+        wm withdraw $window
+        wm title $window "Surface Potential Comparison"
+        wm protocol $window WM_DELETE_WINDOW ::espdiff::gui::close_window
+        set outer [ttk::frame $window.outer]
+        pack $outer -fill both -expand 1
+        build_run_bar $outer.run
+        set body [scrolled $outer.page]
+        build_page $body
+        grid $outer.page -sticky news
+        grid [ttk::separator $outer.line] -sticky ew
+        grid $outer.run -sticky ew
+        grid columnconfigure $outer 0 -weight 1
+        grid rowconfigure $outer 0 -weight 1
+        # In the order of the Tab key: the page is made after the bar, and comes before it.
+        lower $outer.page
+        bind_keys
+        bind $window <Destroy> {if {"%W" eq $::espdiff::gui::window} { ::espdiff::gui::closed }}
+        bind $window <FocusIn> {if {"%W" eq $::espdiff::gui::window} { ::espdiff::gui::update_soon }}
+        trace_molecules
+        update_molecules
+        show_results
+        keep_wheel_from_changing_values $window
+        wm deiconify $window
+        focus $::espdiff::gui::widget(compare)
+    }
+
+    # The page for one comparison: what is compared, with which settings, what came out, how it is drawn.
+    proc build_page {body} {
+        ttk::frame $body.sides
+        build_endpoint $body.sides.source source Source
+        build_endpoint $body.sides.target target Target
+        grid $body.sides.source $body.sides.target -sticky news
+        grid columnconfigure $body.sides {0 1} -weight 1 -uniform side
+        grid configure $body.sides.target -padx {6 0}
+        build_settings $body.settings
+        build_results $body.results
+        pack $body.sides $body.settings $body.results -fill x -padx 8 -pady {6 0}
+        if {[in_vmd]} {
+            build_draw $body.draw
+            pack $body.draw -fill x -padx 8 -pady 6
+        } else {
+            pack [ttk::label $body.draw -text "Drawing needs VMD. Export writes the surface for ParaView (.vtp)."] \
+                -fill x -padx 8 -pady 6
+        }
+    }
+
+    proc bind_keys {} {
+        variable window
+        foreach key {<Return> <KP_Enter>} { bind $window $key {::espdiff::gui::press compare} }
+        bind $window <Escape> {::espdiff::gui::press cancel}
+        bind $window <F1> ::espdiff::gui::show_help
+        bind $window <Control-w> ::espdiff::gui::close_window
+    }
+
+    # VMD writes these when a molecule comes, changes or goes, and when a file has been read into one.
+    proc trace_molecules {} {
+        variable traced
+        if {![in_vmd]} return
+        set traced {::vmd_molecule ::vmd_initialize_structure ::vmd_trajectory_read}
+        foreach name $traced { trace add variable $name write ::espdiff::gui::update_soon }
+    }
+
+    # VMD is in the middle of its change when it calls this.
+    proc update_soon {args} {
+        variable pending_update
+        after cancel $pending_update
+        set pending_update [after 50 {::espdiff::gui::guard ::espdiff::gui::update_molecules}]
+    }
+
+    proc update_molecules {} {
+        variable window
+        if {![winfo exists $window]} return
+        foreach side {source target} { update_endpoint $side }
+        if {[in_vmd]} { update_draw }
+    }
+
+    # In VMD the window's manager does not come here: VMD puts the window away with a computation going on in it.
+    proc close_window {} {
+        variable window
+        variable running
+        if {$running ne ""} {
+            set answer [tk_messageBox -parent $window -type yesno -icon question -title "Surface Potential Comparison" \
+                -message "A comparison is being computed." -detail "Cancel it and close the window?"]
+            if {$answer ne "yes"} return
+        }
+        destroy $window
+    }
+
+    # Whatever ended the window: nothing of it stays behind but what the user entered.
+    proc closed {} {
+        variable traced
+        variable pending_update
+        foreach name $traced { trace remove variable $name write ::espdiff::gui::update_soon }
+        set traced {}
+        after cancel $pending_update
+        forget_tips
+        forget_settings
+        abandon_run
+        array unset ::espdiff::gui::widget
+    }
+}
