@@ -37,7 +37,7 @@ extern "C" int run_command(ClientData client, Tcl_Interp* interp, int n_words, T
         return TCL_OK;
       },
       [&](const Failure& failure) {
-        Tcl_SetObjResult(interp, to_obj(failure.message.c_str()));
+        Tcl_SetObjResult(interp, to_obj(in_tcl_words(failure.message)));
         Tcl_SetErrorCode(interp, "ESPDIFF", failure.error_class, static_cast<char*>(nullptr));
         return TCL_ERROR;
       });

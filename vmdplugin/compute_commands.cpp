@@ -45,6 +45,8 @@ void run_step(ComparisonObject& step, StartFrom start, const Progress& progress)
   if (series.series == nullptr) {
     series.engine = engine_for(series.computation);
     series.series = std::make_unique<Series>(*series.engine, input_of(series.source), series.computation.options);
+    if (series.restored) series.series->restore(std::move(*series.restored));
+    series.restored.reset();
   }
   step.provenance.device = series.engine->back_end();
   step.provenance.device_description = series.engine->description();

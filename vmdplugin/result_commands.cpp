@@ -36,7 +36,7 @@ Tcl_Obj* result(const Call& call) {
     require_done(handle, *surface);
     return surface_result(*surface);
   }
-  return to_obj(nlohmann::ordered_json::parse(json_of(*call.handles.finished_comparison(handle))));
+  return to_obj(nlohmann::ordered_json::parse(in_tcl_words(json_of(*call.handles.finished_comparison(handle)))));
 }
 
 Tcl_Obj* residues(const Call& call) {
@@ -66,7 +66,7 @@ Tcl_Obj* table(const Call& call) {
   const auto comparison = call.handles.finished_comparison(call.text(0));
   std::ostringstream out;
   print_table(out, *comparison->series->source.molecule, *comparison->target.molecule, comparison->result);
-  return to_obj(out.str());
+  return to_obj(in_tcl_words(out.str()));
 }
 
 Tcl_Obj* range(const Call& call) {

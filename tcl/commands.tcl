@@ -1,0 +1,148 @@
+# commands.tcl: the table of all commands. Dispatch, checks, help and the manual's second part are made from it.
+
+# The keys of a command:
+#   arguments  their names; ?name? may be left out, ?name ...? takes any number
+#   options    {-name kind default help ?choices?}; kinds are those of options.tcl, default "required" has to be given
+#   settings   all, surface or none: which of core::settings it takes as options
+#   summary    one paragraph; returns: one sentence; example: a line or more
+#   run        the procedure; called with the dict of options and the arguments
+namespace eval ::espdiff {
+    variable computing {
+        {-device choice auto "Where to compute: auto takes a GPU if one answers" {auto cpu cuda}}
+        {-threads count 0 "CPU threads; 0 takes all. The result is the same for any number"}
+        {-progress command {} "Called as CMD stage fraction (0 to 1) about 20 times a second; `break` from it cancels"}
+        {-command command {} "Compute in the background, and call CMD handle from the event loop at the end"}
+    }
+
+    command compare [dict create arguments {source target} options $computing settings all run ::espdiff::compare \
+        summary {Maps the surface of the source onto that of the target, compares the potentials at counterparts, and
+            certifies the mapping. Source and target are endpoints. Without maps the shapes alone are compared.} \
+        returns {a handle, such as comparison1. With -command at once, else when the comparison is done} \
+        example {espdiff compare {file wild.pqr map wild.dx} {file mutant.pqr map mutant.dx} -grid-spacing 0.8}]
+
+    command surface [dict create arguments {molecule} settings surface run ::espdiff::surface \
+        options [concat $computing {{-regularize boolean 0 "Even out the triangles"}}] \
+        summary {Makes the surface of one molecule (an endpoint), with its potential where a map is given.} \
+        returns {a handle, such as surface1} \
+        example {espdiff surface {file wild.pqr map wild.dx} -regularize 1}]
+
+    command result [dict create arguments {handle {?key ...?}} options {} settings none run ::espdiff::result \
+        summary {What came out, under the keys of the command line's OUT.json; further keys lead into nested
+            dictionaries. What has no value is an empty string.} \
+        returns {a dictionary, or the value under the keys} \
+        example {espdiff result comparison1 certificate trustworthy}]
+
+    command residues [dict create arguments {handle} options {} settings none run ::espdiff::residues \
+        summary {The comparison by residue of the source, over the mapped surface.} \
+        returns {a list of dictionaries: index chain number insertion name area_A2 mean_abs_difference
+            mean_signed_difference mean_source mean_target sign_change_area_fraction mean_displacement_A} \
+        example {foreach residue [espdiff residues comparison1] { puts [dict get $residue mean_abs_difference] }}]
+
+    command table [dict create arguments {handle} options {} settings none run ::espdiff::table_of \
+        summary {The comparison as a table for reading, as the command line prints it.} \
+        returns {the text} example {puts [espdiff table comparison1]}]
+
+    command export [dict create arguments {handle prefix} options {} settings none run ::espdiff::export \
+        summary {Writes PREFIX.json (numbers, certificate, provenance), PREFIX.vtp (mapped surface, for ParaView) and
+            PREFIX.residues.csv; of a surface PREFIX.vtp alone. All files appear together or not at all.} \
+        returns {the files written} example {espdiff export comparison1 wild_mutant}]
+
+    command map [dict create arguments {handle} settings none run ::espdiff::map options {
+            {-quantity choice difference "What the map holds" {difference source target sign displacement}}
+            {-spacing positive 1.0 "Distance of the lattice's points, Angstrom"}
+            {-mol molecule {} "Add the map to this molecule of VMD, for `Color Volume` and Isosurface representations"}
+            {-file file {} "Write the map to this DX file"}
+        } \
+        summary {Carries a quantity from the mapped surface onto a lattice around it. Give -mol or -file.} \
+        returns {the number of the data set in the molecule, or the file} \
+        example {espdiff map comparison1 -mol 1}]
+
+    command draw [dict create arguments {handle} settings none run ::espdiff::draw options {
+            {-color choice auto "What is shown; auto is difference (potential of a surface), or displacement without\
+                potentials. difference: target - source, red negative, white 0, blue positive; sign: blue turned\
+                positive, red turned negative; potential is of surfaces"
+                {auto difference sign source target potential displacement none}}
+            {-range range auto "Values at the ends of the colour scale; auto is symmetric about 0 and holds 98 % of the\
+                surface's points on each side"}
+            {-transparency choice uncertainty "uncertainty: the farther a point travelled, the more transparent"
+                {uncertainty none}}
+            {-uncertainty-limit positive 2.0 "Displacement at which the surface is most transparent, Angstrom; below\
+                half of it nothing is transparent"}
+            {-corrupt choice transparent "Parts off the target's surface: most transparent, marked in yellow (as is\
+                then what lies outside of a map), or not drawn" {transparent mark hide}}
+            {-surface choice mapped "mapped: on the target; source: where it came from, on the source" {mapped source}}
+            {-legend boolean 1 "A colour bar with title and unit at the window's bottom"}
+        } \
+        summary {Draws the surface in VMD, in the place of an older drawing of the same handle. View, top molecule and
+            colour settings stay as they are.} \
+        returns {the graphics molecules' ids} example {espdiff draw comparison1 -color difference -range {-5 5}}]
+
+    command undraw [dict create arguments {{?handle ...?}} options {} settings none run ::espdiff::undraw \
+        summary {Removes drawings with their legends; without a handle all of them.} \
+        returns {nothing} example {espdiff undraw comparison1}]
+
+    command trajectory [dict create arguments {} settings all run ::espdiff::trajectory options [concat {
+            {-mol molecule {} "Molecule of VMD whose frames are compared"}
+            {-file file {} "Instead of -mol: structure file whose models are the frames, the first one is frame 0"}
+            {-sel text "not water" "Atoms of the molecule; chosen once, in the reference frame"}
+            {-frames text 0:1: "begin:step:end, an open end is the last frame; or one frame; `now` and `last` count"}
+            {-reference text {frame 0} "What each frame is compared with: {frame N}, previous (the frame before it in\
+                the run), or an endpoint"}
+            {-map text none "Potential of each frame; see Trajectories"}
+            {-reference-map text {} "Potential of the reference; without it by the rule of -map for its frame"}
+            {-unit text {} "Unit of the maps if they do not say: kT/e, mV, V, kcal/mol/e, kJ/mol/e, hartree/e"}
+            {-radii choice vmd "Radii of the molecule: VMD's, or Bondi's by element" {vmd element}}
+            {-start choice previous "Begin each frame's mapping at the previous frame's where that converged and is\
+                nearer (faster), or always at the source" {previous source}}
+            {-csv file required "File that gets one row for each frame"}
+            {-resume boolean 0 "Go on where an interrupted run left the file"}
+            {-overwrite boolean 0 "Replace the file if it exists"}
+            {-on-error choice stop "skip writes a row with the error in its last column, and goes on" {stop skip}}
+            {-callback command {} "Called as CMD frame row after each row, a dictionary by column; `break` cancels"}
+        } $computing] \
+        summary {Compares each frame with the reference, or with the frame before, and writes a row for each as it is
+            done. The reference's surface is computed once. An interrupted run can be resumed.} \
+        returns {a dictionary: frames rows skipped resumed csv seconds; with -command a handle, such as trajectory1} \
+        example {espdiff trajectory -mol 0 -frames 0:10: -map {files frame%03d.dx} -csv out.csv}]
+
+    command status [dict create arguments {handle} options {} settings none run ::espdiff::status \
+        summary {How far a computation is.} \
+        returns {a dictionary: kind, state (queued, running, done, failed, cancelled), stage, fraction} \
+        example {dict get [espdiff status comparison1] state}]
+
+    command wait [dict create arguments {handle} settings none run ::espdiff::wait options {
+            {-timeout count {} "Milliseconds to wait at most; without it until the end"}
+        } \
+        summary {Waits for a computation in the background; its error, if it failed, is thrown here. Serves no
+            events.} \
+        returns {1, or 0 after the timeout} example {espdiff wait comparison1 -timeout 5000}]
+
+    command cancel [dict create arguments {handle} options {} settings none run ::espdiff::cancel \
+        summary {Ends a computation in the background at its next chance; what is done already stays as it is.} \
+        returns {nothing} example {espdiff cancel trajectory1}]
+
+    command delete [dict create arguments {{handle ...}} options {} settings none run ::espdiff::delete \
+        summary {Frees handles with their drawings, and cancels what still computes. `all` frees all. Handles are freed
+            with the interpreter as well.} \
+        returns {nothing} example {espdiff delete comparison1 surface1}]
+
+    command handles [dict create arguments {} options {} settings none run ::espdiff::handles \
+        summary {The handles that exist.} returns {a list} example {espdiff handles}]
+
+    command doctor [dict create arguments {} options {} settings none run ::espdiff::doctor \
+        summary {What is installed, found and loaded, what is missing, and how to mend it.} \
+        returns {the text} example {puts [espdiff doctor]}]
+
+    command gui [dict create arguments {} options {} settings none run ::espdiff::open_window \
+        summary {Opens the window (in VMD also Extensions > Analysis > Surface Potential Comparison). Needs Tk.} \
+        returns {the window's path} example {espdiff gui}]
+
+    command version [dict create arguments {} options {} settings none run ::espdiff::version \
+        summary {The version of espdiff.} returns {the version} example {espdiff version}]
+
+    command help [dict create arguments {?command?} options {} settings none run ::espdiff::help \
+        summary {What there is, or a command explained; `espdiff COMMAND -help` is the same.} \
+        returns {the text} example {puts [espdiff help compare]}]
+
+    make_ensemble
+}

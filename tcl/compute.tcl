@@ -1,0 +1,95 @@
+# compute.tcl: compare and surface, and what came out of them.
+
+namespace eval ::espdiff {
+    # What the core wants to know besides the molecules.
+    proc core_options {options command_line} {
+        dict merge [dict get $options settings] [dict create device [dict get $options device] \
+            threads [dict get $options threads] command_line $command_line]
+    }
+
+    # Calls the core, with what it does not take in (files, volumes in memory) removed again when it refuses.
+    proc submit {temporary_name script} {
+        upvar 1 $temporary_name temporary
+        if {[catch { uplevel 1 $script } result error]} {
+            foreach path $temporary { file delete -force $path }
+            foreach name [core::volumes] { if {[string match espdiff-[pid]-* $name]} { core::forget_volume $name } }
+            return -options $error $result
+        }
+        return $result
+    }
+
+    proc compare {options source target} {
+        set temporary {}
+        set handle [submit temporary {
+            core::compare [make_endpoint $source source temporary] [make_endpoint $target target temporary] \
+                [core_options $options [list espdiff compare $source $target]]
+        }]
+        begin_job $handle $options [dict create temporary $temporary \
+            source_mol [mol_of_endpoint $source] target_mol [mol_of_endpoint $target]]
+    }
+
+    proc surface {options molecule} {
+        set temporary {}
+        set handle [submit temporary {
+            core::surface [make_endpoint $molecule molecule temporary] \
+                [dict merge [core_options $options [list espdiff surface $molecule]] \
+                    [dict create regularize [dict get $options regularize]]]
+        }]
+        begin_job $handle $options [dict create temporary $temporary \
+            source_mol [mol_of_endpoint $molecule] target_mol [mol_of_endpoint $molecule]]
+    }
+
+    proc mol_of_endpoint {endpoint} {
+        if {![dict exists $endpoint mol]} { return "" }
+        return [vmd_molecule_id [dict get $endpoint mol] molecule]
+    }
+
+    proc result {options handle args} {
+        require_handle $handle
+        set source [expr {[is_trajectory $handle] ? "trajectory_result" : "core::result"}]
+        set result [$source $handle]
+        set path ""
+        foreach key $args {
+            if {![string is list $result] || [llength $result] % 2 || ![dict exists $result $key]} {
+                set where [expr {$path eq "" ? "" : " under '$path'"}]
+                if {[catch { dict keys $result } keys] || [llength $keys] == 0} {
+                    fail "$handle: there is no '$key'$where"
+                }
+                fail "$handle$where: [unknown_word key $key $keys]"
+            }
+            set result [dict get $result $key]
+            append path [expr {$path eq "" ? "" : " "}] $key
+        }
+        return $result
+    }
+
+    proc residues {options handle} {
+        require_core_handle $handle
+        return [core::residues $handle]
+    }
+
+    proc table_of {options handle} {
+        require_core_handle $handle
+        return [core::table $handle]
+    }
+
+    proc export {options handle prefix} {
+        require_core_handle $handle
+        return [core::export $handle $prefix]
+    }
+
+    proc version {options} { return [core::version] }
+
+    # The window is sourced when it is first wanted, so that the package loads without Tk.
+    proc open_window {options} {
+        variable directory
+        if {![info exists ::tk_version]} {
+            fail "espdiff gui needs Tk, which is not loaded here; start VMD with its graphics window (not\
+                `-dispdev text`), or wish"
+        }
+        if {[info commands ::espdiff::gui::open] eq ""} {
+            uplevel #0 [list source [file join $directory gui window.tcl]]
+        }
+        return [gui::open]
+    }
+}

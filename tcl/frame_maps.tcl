@@ -1,0 +1,123 @@
+# frame_maps.tcl: which frames a trajectory's run visits, and the potential map of each.
+
+namespace eval ::espdiff {
+    # begin:step:end (an open end is the last frame) or one frame, as a list of frames; `n` frames exist.
+    proc parse_frames {text n now where} {
+        set last [expr {$n - 1}]
+        set parts [split $text :]
+        if {[llength $parts] ni {1 3}} {
+            fail "-frames: '$text' is not begin:step:end, such as 0:1: or 10:5:90, or one frame"
+        }
+        if {[llength $parts] == 1} { set parts [list $text 1 $text] }
+        set numbers {}
+        foreach part $parts otherwise [list 0 1 $last] {
+            if {$part in {first now last}} { set part [dict get [dict create first 0 now $now last $last] $part] }
+            if {$part eq ""} { set part $otherwise }
+            if {![string is integer -strict $part]} {
+                fail "-frames: '$part' in '$text' is not a number, first, now or last"
+            }
+            lappend numbers $part
+        }
+        lassign $numbers begin step end
+        if {$step < 1} { fail "-frames: the step in '$text' is $step; 1 or more is needed" }
+        if {$begin < 0 || $end > $last} { fail "-frames: '$text' is not within the frames 0 to $last of $where" }
+        if {$begin > $end} { fail "-frames: '$text' begins after its end" }
+        set frames {}
+        for {set frame $begin} {$frame <= $end} {incr frame $step} { lappend frames $frame }
+        return $frames
+    }
+
+    # How many models a structure file has.
+    proc number_of_models {path} {
+        if {![file isfile $path]} { fail "-file: there is no file '$path'" IO }
+        return [core::models $path]
+    }
+
+    # Checks -map before the run begins, as far as that can be done then: an error at night is an error too late.
+    # `run` is the array of trajectory.tcl.
+    proc check_frame_maps {run_name} {
+        upvar 1 $run_name run
+        set map $run(map)
+        if {$map eq "pme"} { refuse_pme $run(endpoint) -map }
+        set n [llength $run(frames)]
+        switch [map_form $map $run(mol)] {
+            volumes {
+                set first [lindex $map 1]
+                if {![string is integer -strict $first] || $first < 0} {
+                    fail "-map: '$map' is not {volumes K}, K a data set's number"
+                }
+                vmd_require_map $run(mol) [expr {$first + $n - 1}] "-map for $n frames from data set $first on"
+            }
+            files {
+                set pattern [lindex $map 1]
+                if {[catch { format $pattern 1 } one] || $one eq [format $pattern 2]} {
+                    fail "-map: '$pattern' does not have one place for the frame's number, such as %d or %03d;\
+                        {file PATH} is one map for all frames"
+                }
+                if {$run(on_error) eq "skip"} return
+                foreach frame $run(frames) {
+                    if {![file exists [format $pattern $frame]]} {
+                        fail "-map: there is no file '[format $pattern $frame]' for frame $frame; -on-error skip goes\
+                            on without such frames" IO
+                    }
+                }
+            }
+            number { vmd_require_map $run(mol) $map -map }
+        }
+    }
+
+    # number, volumes, files, command, none, or endpoint for what is written as in an endpoint.
+    proc map_form {map mol} {
+        if {$map in {none {}}} { return none }
+        if {[string is integer -strict $map]} {
+            if {$mol eq ""} {
+                fail "-map: '$map' is a data set's number, which needs -mol; of files use {files PATTERN}"
+            }
+            return number
+        }
+        if {[string is list $map] && [llength $map] == 2} {
+            switch [lindex $map 0] {
+                volumes {
+                    if {$mol eq ""} { fail "-map: {volumes K} needs -mol; of files use {files PATTERN}" }
+                    return volumes
+                }
+                files { return files }
+                command { return command }
+            }
+        }
+        if {[string is list $map] && [llength $map] % 2 == 0 && [lindex $map 0] in {file mol}} { return endpoint }
+        fail "-map: '$map' is not none, K, {volumes K}, {files PATTERN}, {file PATH}, {mol ID map K}, {command PREFIX}\
+            or pme"
+    }
+
+    # The map of a frame as it is written in an endpoint; empty for none. What a user's command returned for a frame is
+    # kept until another frame is asked for: a frame is the target first and may then be the reference.
+    proc frame_map {run_name map frame} {
+        upvar 1 $run_name run
+        switch [map_form $map $run(mol)] {
+            none { return "" }
+            number { return [list mol $run(mol) map $map] }
+            files { return [list file [format [lindex $map 1] $frame]] }
+            volumes {
+                set position [lsearch -exact $run(frames) $frame]
+                if {$position < 0} {
+                    fail "-map: frame $frame is not in the run, so that {volumes K} has no data set for it; give\
+                        -reference-map"
+                }
+                return [list mol $run(mol) map [expr {[lindex $map 1] + $position}]]
+            }
+            command {
+                if {[lindex $run(last_map) 0] ne $frame} {
+                    set where [expr {$run(mol) ne "" ? $run(mol) : $run(file)}]
+                    set run(last_map) [list $frame [call_user [lindex $map 1] $where $frame]]
+                }
+                set map [lindex $run(last_map) 1]
+                if {[map_form $map $run(mol)] eq "command"} {
+                    fail "-map: the command returned '$map' for frame $frame"
+                }
+                return [frame_map run $map $frame]
+            }
+        }
+        return $map
+    }
+}

@@ -1,0 +1,148 @@
+# legend.tcl: the colour bar of a drawing: a graphics molecule that stays where it is on the screen.
+
+namespace eval ::espdiff {
+    # In units of half the window's height, from its centre: place and size of the bar, heights of the texts' baselines.
+    # The bar is at the bottom's middle: VMD's view is as high in any window, so that only a window that is narrower
+    # than high would cut it, and there all of it is made narrower.
+    variable legend_layout {half_width 0.62 bottom -0.885 top -0.845 ticks -0.945 title -0.815}
+    variable letter_width 0.0275  ;# of VMD's letters at size 1, on average, in the same units
+    variable legend_titles {
+        difference "Potential difference, target - source" source "Potential of the source"
+        target "Potential of the target" potential "Potential" displacement "Displacement"
+        sign "Sign of the potential, target against source"
+    }
+
+    variable legends {}  ;# ids of the graphics molecules
+
+    # `plan` is drawing_plan's. Returns the molecule's id; its list is not built yet.
+    proc draw_legend {plan} {
+        variable legend_layout
+        variable legends
+        lappend legends [set mol [mol load graphics "espdiff [dict get $plan handle] legend"]]
+        graphics $mol materials off  ;# the bar's colours as they are, without light and shade
+        set layout $legend_layout
+        dict with layout {
+            set narrowing [expr {min(1.0, [lindex [legend_screen] 2])}]
+            set half_width [expr {$half_width * $narrowing}]
+            draw_bar $mol $half_width $bottom $top
+            graphics $mol color [legend_text_color]
+            draw_ticks $mol $plan $half_width $bottom $ticks [expr {0.85 * $narrowing}]
+            draw_text $mol [legend_title $plan] 0 $title [expr {0.95 * $narrowing}]
+        }
+        trace remove variable ::vmd_logfile write ::espdiff::on_vmd_command
+        trace add variable ::vmd_logfile write ::espdiff::on_vmd_command
+        return $mol
+    }
+
+    # Puts a legend where it belongs on the screen, and fixes it there.
+    proc place_legend {mol} {
+        lassign [legend_screen] unit z
+        mol free $mol
+        molinfo $mol set center_matrix {{{1 0 0 0} {0 1 0 0} {0 0 1 0} {0 0 0 1}}}
+        molinfo $mol set rotate_matrix {{{1 0 0 0} {0 1 0 0} {0 0 1 0} {0 0 0 1}}}
+        molinfo $mol set scale_matrix [list [list [list $unit 0 0 0] [list 0 $unit 0 0] [list 0 0 $unit 0] {0 0 0 1}]]
+        molinfo $mol set global_matrix [list [list {1 0 0 0} {0 1 0 0} [list 0 0 1 $z] {0 0 0 1}]]
+        mol fix $mol
+    }
+
+    proc place_legends {} {
+        variable legends
+        set there {}
+        foreach mol $legends { if {$mol in [molinfo list]} { lappend there $mol; place_legend $mol } }
+        set legends $there
+        if {[llength $there] == 0} { trace remove variable ::vmd_logfile write ::espdiff::on_vmd_command }
+    }
+
+    # VMD writes each command that changed something into ::vmd_logfile. Resetting the view centres even molecules that
+    # are fixed (VMD 1.9.4), changes of the display move what is to stay in place, and after a deletion VMD may make a
+    # legend the top molecule, about which it would then centre the view.
+    proc on_vmd_command {args} {
+        variable legends
+        # An error here would fail the user's command.
+        catch {
+            if {[regexp {^display (?!update)} $::vmd_logfile]} { place_legends }
+            if {[string match "mol delete*" $::vmd_logfile] && [molinfo top] in $legends} { choose_another_top }
+        }
+    }
+
+    proc choose_another_top {} {
+        variable legends
+        set best ""
+        foreach mol [molinfo list] {
+            if {$mol in $legends} continue
+            if {$best eq "" || [molinfo $mol get numatoms] > 0} { set best $mol }
+        }
+        if {$best ne ""} { mol top $best }
+    }
+
+    # Half the window's height at the legend's depth, in VMD's coordinates; the depth, just behind the near clipping
+    # plane, so that molecules are behind it; the window's width by its height.
+    proc legend_screen {} {
+        lassign [display get size] width height
+        set aspect [expr {$height > 0 ? double($width) / $height : 1.0}]
+        set eye [lindex [display get eyepos] 2]
+        set z [expr {$eye - 1.05 * [display get nearclip]}]
+        if {[display get projection] eq "Orthographic"} { return [list [expr {[display get height] / 4.0}] $z $aspect] }
+        set unit [expr {0.5 * [display get height] * ($eye - $z) / ($eye - [display get distance])}]
+        return [list $unit $z $aspect]
+    }
+
+    # The whole colour scale, ids 33 to 1056, in pieces between which VMD interpolates colours.
+    proc draw_bar {mol half_width bottom top} {
+        set n 64
+        for {set i 0} {$i < $n} {incr i} {
+            set corners {}
+            set ids {}
+            foreach step [list $i [expr {$i + 1}]] {
+                set x [expr {$half_width * (2.0 * $step / $n - 1)}]
+                lappend corners [list $x $bottom 0] [list $x $top 0]
+                lappend ids [expr {33 + (1023 * $step) / $n}]
+            }
+            lassign $corners a b c d
+            lassign $ids left right
+            graphics $mol tricolor $a $c $d {0 0 1} {0 0 1} {0 0 1} $left $right $right
+            graphics $mol tricolor $a $d $b {0 0 1} {0 0 1} {0 0 1} $left $right $left
+        }
+    }
+
+    proc draw_ticks {mol plan half_width bottom baseline size} {
+        foreach {share label} [tick_labels $plan] {
+            set x [expr {$share * $half_width}]
+            graphics $mol line [list $x $bottom 0] [list $x [expr {$bottom - 0.015}] 0] width 2
+            draw_text $mol $label $x $baseline $size
+        }
+    }
+
+    # Places from -1 (left end) to 1, and what stands there.
+    proc tick_labels {plan} {
+        if {[dict get $plan color] eq "sign"} { return {-1 "+ to -" 0 "same" 1 "- to +"} }
+        set labels {}
+        foreach share {-1 -0.5 0 0.5 1} {
+            set value [expr {0.5 * ((1 - $share) * [dict get $plan low] + (1 + $share) * [dict get $plan high])}]
+            lappend labels $share [format %.3g $value]
+        }
+        return $labels
+    }
+
+    # A text that is centred about x.
+    proc draw_text {mol text x y size} {
+        variable letter_width
+        set left [expr {$x - 0.5 * $letter_width * $size * [string length $text]}]
+        graphics $mol text [list $left $y 0] $text size $size thickness 2
+    }
+
+    proc legend_title {plan} {
+        variable legend_titles
+        set title [dict get $legend_titles [dict get $plan color]]
+        set unit [dict get $plan unit]
+        if {$unit eq ""} { return $title }
+        if {$unit eq "unknown"} { set unit "unit unknown" }
+        return "$title ($unit)"
+    }
+
+    # White on a dark background, black on a bright one.
+    proc legend_text_color {} {
+        lassign [colorinfo rgb [color Display Background]] red green blue
+        expr {0.3 * $red + 0.6 * $green + 0.1 * $blue > 0.5 ? "black" : "white"}
+    }
+}

@@ -1,0 +1,231 @@
+# options.tcl: what is common to all commands: their table, checks of arguments and options, dispatch, errors.
+
+namespace eval ::espdiff {
+    variable table [dict create]
+
+    # Ends the calling procedure with an error; classes are those of the manual's last part.
+    proc fail {message {class INPUT}} {
+        return -code error -errorcode [list ESPDIFF $class] $message
+    }
+
+    # Evaluates `body` and then, whatever came of it, `cleanup`, both in the caller; Tcl 8.5 has no `try`.
+    proc finally {body cleanup} {
+        set code [catch {uplevel 1 $body} result options]
+        uplevel 1 $cleanup
+        if {$code == 0} { return $result }
+        dict incr options -level
+        return -options $options $result
+    }
+
+    # Calls the user's command, given as a prefix, at the top level. A `break` from it arrives at the caller's catch.
+    proc call_user {prefix args} {
+        catch { uplevel #0 [concat $prefix $args] } result options
+        dict incr options -level
+        return -options $options $result
+    }
+
+    # Adds a command to the table; commands.tcl says what the keys are.
+    proc command {name description} {
+        variable table
+        dict set table $name $description
+    }
+
+    proc join_words {words {last or}} {
+        if {[llength $words] < 2} { return [join $words] }
+        return "[join [lrange $words 0 end-1] {, }] $last [lindex $words end]"
+    }
+
+    # The words that are within a few letters of `word`; for "did you mean".
+    proc nearest {word words} {
+        set best {}
+        set least [expr {2 + [string length $word] / 4}]
+        foreach candidate $words {
+            set d [edit_distance $word $candidate]
+            if {[string match "$word*" $candidate]} { set d 0 }
+            if {$d < $least} { set least $d; set best {} }
+            if {$d == $least} { lappend best $candidate }
+        }
+        return $best
+    }
+
+    # Letters to change, add or take away to turn one word into the other.
+    proc edit_distance {a b} {
+        set row {}
+        for {set j 0} {$j <= [string length $b]} {incr j} { lappend row $j }
+        set i 0
+        foreach x [split $a ""] {
+            set next [list [incr i]]
+            set j 0
+            foreach y [split $b ""] {
+                lappend next [expr {min([lindex $row $j] + ($x ne $y), [lindex $row $j+1] + 1, [lindex $next $j] + 1)}]
+                incr j
+            }
+            set row $next
+        }
+        return [lindex $row end]
+    }
+
+    # "'compair' ...; did you mean compare? There are ..."
+    proc unknown_word {what word words} {
+        set near [nearest $word $words]
+        if {[llength $near] > 0} { return "unknown $what '$word'; did you mean [join_words $near]?" }
+        return "unknown $what '$word'; there are [join_words $words and]"
+    }
+
+    # All options of a command: dicts with the keys name, kind, default, help, choices, group, setting (0 or 1).
+    proc options_of {name} {
+        variable table
+        set description [dict get $table $name]
+        set options {}
+        foreach option [dict get $description options] {
+            lassign $option word kind default help choices
+            lappend options [dict create name $word kind $kind default $default help $help choices $choices \
+                group {} setting 0]
+        }
+        set wanted [dict get $description settings]
+        if {$wanted eq "none"} { return $options }
+        foreach setting [core::settings] {
+            if {$wanted eq "surface" && ![dict get $setting surface]} continue
+            dict set setting name -[dict get $setting name]
+            lappend options [dict merge $setting {setting 1}]
+        }
+        return $options
+    }
+
+    # The values that each kind of option accepts, in words.
+    variable kinds {
+        number "a number"
+        positive "a number above 0"
+        integer "a whole number"
+        count "a whole number of 0 or more"
+        boolean "0 or 1"
+        range "two numbers {LOW HIGH}, the lower one first, or auto"
+        command "a Tcl command"
+        text "a text"
+        file "a file name"
+        molecule "the id of a molecule in VMD, or top"
+    }
+
+    proc is_number {value} { expr {[string is double -strict $value] && ![regexp -nocase {nan|inf} $value]} }
+
+    proc accepted_values {option} {
+        variable kinds
+        if {[dict get $option kind] eq "choice"} { return [join_words [dict get $option choices]] }
+        return [dict get $kinds [dict get $option kind]]
+    }
+
+    # The value in the form the commands use, or an error that says what is accepted.
+    proc check_value {option value} {
+        dict with option {}
+        switch $kind {
+            number { set valid [is_number $value] }
+            positive { set valid [expr {[is_number $value] && $value > 0}] }
+            integer { set valid [string is integer -strict $value] }
+            count { set valid [expr {[string is integer -strict $value] && $value >= 0}] }
+            boolean {
+                set valid [string is boolean -strict $value]
+                if {$valid} { set value [expr {$value ? 1 : 0}] }
+            }
+            range { set valid [expr {$value eq "auto" || [is_range $value]}] }
+            command { set valid [string is list $value] }
+            choice {
+                # Of settings the core knows more, such as values that a later version will have.
+                set valid [expr {$value in $choices || $setting}]
+            }
+            default { set valid 1 }
+        }
+        if {!$valid} { fail "$name: '$value' is not [accepted_values $option]" }
+        return $value
+    }
+
+    proc is_range {value} {
+        if {![string is list $value] || [llength $value] != 2} { return 0 }
+        lassign $value low high
+        expr {[is_number $low] && [is_number $high] && $low < $high}
+    }
+
+    # "espdiff compare source target ?-option value ...?"
+    proc usage {name} {
+        variable table
+        set usage [join [concat espdiff $name [dict get $table $name arguments]]]
+        if {[llength [options_of $name]] > 0} { append usage " ?-option value ...?" }
+        return $usage
+    }
+
+    proc wrong_arguments {name} {
+        return -code error -errorcode {TCL WRONGARGS} "wrong # args: should be \"[usage $name]\""
+    }
+
+    # -option value pairs as a dict of names without the dash; the settings that were given are under `settings`.
+    # Options without a default are absent unless given.
+    proc parse_options {name words} {
+        set options [dict create settings {}]
+        set known [dict create]
+        foreach option [options_of $name] {
+            dict set known [dict get $option name] $option
+            if {![dict get $option setting] && [dict get $option default] ne "required"} {
+                dict set options [string range [dict get $option name] 1 end] [dict get $option default]
+            }
+        }
+        while {[llength $words] > 0} {
+            set words [lassign $words word]
+            if {![dict exists $known $word]} { refuse_word $name $word [dict keys $known] }
+            if {[llength $words] == 0} { fail "$word: its value is missing: [accepted_values [dict get $known $word]]" }
+            set words [lassign $words value]
+            set value [check_value [dict get $known $word] $value]
+            set key [string range $word 1 end]
+            if {[dict get $known $word setting]} { set key [list settings $key] }
+            dict set options {*}$key $value
+        }
+        dict for {word option} $known {
+            if {[dict get $option default] eq "required" && ![dict exists $options [string range $word 1 end]]} {
+                fail "espdiff $name: $word is missing; it has to be given, [accepted_values $option]"
+            }
+        }
+        return $options
+    }
+
+    # Options are not abbreviated: a script that does so would break when an option is added.
+    proc refuse_word {name word known} {
+        if {![string match -* $word]} { return -code error -errorcode {TCL WRONGARGS} \
+            "wrong # args: should be \"[usage $name]\"" }
+        fail "espdiff $name: [unknown_word option $word $known]"
+    }
+
+    # Runs a command of the table: the ensemble ::espdiff calls this.
+    proc run {name args} {
+        variable table
+        set description [dict get $table $name]
+        if {[lindex $args 0] eq "-help" || [lindex $args end] eq "-help"} { return [help_text $name] }
+        set least 0
+        set most 0
+        foreach argument [dict get $description arguments] {
+            if {![string match {\?*} $argument]} { incr least }
+            if {[string match "*...*" $argument]} { set most 1000000 } else { incr most }
+        }
+        set n_options [llength [options_of $name]]
+        if {$n_options == 0 && [string match -* [lindex $args 0]]} {
+            fail "espdiff $name: it has no options, not '[lindex $args 0]'; \"[usage $name]\""
+        }
+        set n [expr {$n_options > 0 ? $least : [llength $args]}]
+        if {$n < $least || $n > $most || [llength $args] < $n} { wrong_arguments $name }
+        set positional [lrange $args 0 [expr {$n - 1}]]
+        foreach argument $positional {
+            if {$n_options > 0 && [string match {-[a-z]*} $argument]} { wrong_arguments $name }
+        }
+        [dict get $description run] [parse_options $name [lrange $args $n end]] {*}$positional
+    }
+
+    # Called by the ensemble for a subcommand that does not exist.
+    proc unknown_command {ensemble name args} {
+        variable table
+        fail "espdiff: [unknown_word command $name [dict keys $table]]; `espdiff help` explains them"
+    }
+
+    proc make_ensemble {} {
+        variable table
+        set map [dict create]
+        dict for {name description} $table { dict set map $name [list ::espdiff::run $name] }
+        namespace ensemble create -command ::espdiff -map $map -prefixes 0 -unknown ::espdiff::unknown_command
+    }
+}

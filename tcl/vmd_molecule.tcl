@@ -1,0 +1,121 @@
+# vmd_molecule.tcl: atoms, coordinates, radii and charges of a molecule that VMD holds, for the core.
+
+namespace eval ::espdiff {
+    # File types of VMD that carry radii of their own; all others leave VMD's guess by element or name, and those that
+    # set that guess again when they are added to a molecule are in the second list.
+    variable types_with_radii {pqr js vsf vtf hoomd lammpstrj}
+    variable types_that_guess_radii {pdb webpdb pdbx xyz cube gaussian cpmdlog xsf}
+    # File types that carry charges. Gaussian cube files are not among them: their "charges" are the nuclei's.
+    variable types_with_charges {
+        psf pqr parm parm7 tpr mol2 js mae dms bgf xbgf car mdf pdbx vsf vtf hoomd lammpstrj gaussian gamess cpmdlog
+    }
+
+    proc require_vmd {what} {
+        if {![in_vmd]} { fail "$what needs VMD; outside of it give files: {file PATH ?map PATH?}" }
+    }
+
+    # The id of a molecule that exists; `top` counts.
+    proc vmd_molecule_id {mol role} {
+        require_vmd "$role: a molecule of VMD"
+        if {$mol eq "top" && [molinfo num] > 0} { set mol [molinfo top] }
+        if {[string is integer -strict $mol] && $mol in [molinfo list]} { return $mol }
+        set loaded {}
+        foreach id [molinfo list] { lappend loaded "$id ([molinfo $id get name])" }
+        if {[llength $loaded] == 0} {
+            fail "$role: there is no molecule '$mol'; none is loaded, `mol new FILE` loads one"
+        }
+        fail "$role: there is no molecule '$mol'; loaded are [join_words $loaded and]"
+    }
+
+    # now, first, last or a number from 0, as the number of a frame that exists.
+    proc vmd_frame {mol frame role} {
+        set n [molinfo $mol get numframes]
+        set name "molecule $mol ([molinfo $mol get name])"
+        if {$n == 0} { fail "$role: $name has no frames; `mol addfile FILE waitfor all $mol` adds coordinates" }
+        switch -- $frame {
+            now { return [molinfo $mol get frame] }
+            first { return 0 }
+            last { return [expr {$n - 1}] }
+        }
+        if {![string is integer -strict $frame]} {
+            fail "$role: frame '$frame' is not a number, now, first or last"
+        }
+        if {$frame < 0 || $frame >= $n} {
+            fail "$role: frame $frame is not among the frames 0 to [expr {$n - 1}] of $name"
+        }
+        return $frame
+    }
+
+    # All of the core's endpoint but the coordinates, and under `mol`, `n_atoms` and `sel` where they are: one look at
+    # the structure serves all frames. The selection is that of the endpoint's frame.
+    proc vmd_structure {endpoint role} {
+        set mol [vmd_molecule_id [dict get $endpoint mol] $role]
+        set name [molinfo $mol get name]
+        set n_atoms [molinfo $mol get numatoms]
+        if {$n_atoms == 0} {
+            fail "$role: molecule $mol ($name) has no atoms; a structure file has to be loaded into it"
+        }
+        set frame [vmd_frame $mol [value_or $endpoint frame now] $role]
+        set text [value_or $endpoint sel "not water"]
+        set radii [value_or $endpoint radii vmd]
+        if {$radii ni {vmd element}} { fail "$role: radii '$radii' is not vmd or element" }
+        if {[catch { atomselect $mol $text frame $frame } selection]} {
+            fail "$role: the selection '$text' of molecule $mol ($name) is not understood by VMD ($selection)"
+        }
+        finally {
+            set atoms [$selection get {name resname resid insertion chain segname element radius charge}]
+            set indices [$selection list]
+        } { $selection delete }
+        if {[llength $atoms] == 0} { fail "$role: the selection '$text' of molecule $mol ($name) holds no atoms" }
+        return [dict create mol $mol n_atoms $n_atoms sel $text atoms $atoms indices $indices \
+            radii_origin [expr {$radii eq "element" ? "element" : [vmd_radii_origin $mol]}] \
+            charges_origin [vmd_charges_origin $mol $atoms]]
+    }
+
+    # The core's endpoint at a frame.
+    proc vmd_with_frame {structure frame} {
+        set mol [dict get $structure mol]
+        set name [molinfo $mol get name]
+        set coordinates [gettimestep $mol $frame]
+        if {[string length $coordinates] != 12 * [dict get $structure n_atoms]} {
+            fail "molecule $mol ($name): frame $frame has [expr {[string length $coordinates] / 12}] atoms instead of\
+                [dict get $structure n_atoms]"
+        }
+        set endpoint [dict remove $structure mol n_atoms sel]
+        dict set endpoint coordinates $coordinates
+        dict set endpoint name "$name, frame $frame"
+        dict set endpoint input "mol $mol \"$name\" frame $frame sel \"[dict get $structure sel]\""
+        dict set endpoint cell [molinfo $mol get {a b c alpha beta gamma} frame $frame]
+        return $endpoint
+    }
+
+    # The last file with radii counts: VMD lets it replace those of files before it.
+    proc vmd_radii_origin {mol} {
+        variable types_with_radii
+        variable types_that_guess_radii
+        set origin vmd
+        foreach type [lindex [molinfo $mol get filetype] 0] {
+            if {$type in $types_with_radii} { set origin file }
+            if {$type in $types_that_guess_radii} { set origin vmd }
+        }
+        return $origin
+    }
+
+    # Charges that are all 0 are none: VMD has 0 where a file says nothing. Charges without a file that brings them were
+    # set by the user (`$sel set charge`), and count.
+    proc vmd_charges_origin {mol atoms} {
+        foreach atom $atoms { if {[lindex $atom 8] != 0} { return file } }
+        return none
+    }
+
+    proc vmd_require_charges {structure role} {
+        variable types_with_charges
+        if {[dict get $structure charges_origin] ne "none"} return
+        set mol [dict get $structure mol]
+        set types [lindex [molinfo $mol get filetype] 0]
+        set why "none of its files ([join $types {, }]) carries charges"
+        foreach type $types { if {$type in $types_with_charges} { set why "all charges in its files are 0" } }
+        fail "$role: the atoms of molecule $mol ([molinfo $mol get name]) have no charges: $why; load it from a PSF,\
+            PQR or Amber prmtop file, or set them with `\$sel set charge`"
+    }
+}
