@@ -2,9 +2,10 @@
 
 namespace eval ::espdiff {
     # What the core wants to know besides the molecules.
-    proc core_options {options command_line} {
+    proc core_options {options} {
+        variable call
         dict merge [dict get $options settings] [dict create device [dict get $options device] \
-            threads [dict get $options threads] command_line $command_line]
+            threads [dict get $options threads] command_line $call]
     }
 
     # Calls the core, with what it does not take in (files, volumes in memory) removed again when it refuses.
@@ -22,7 +23,7 @@ namespace eval ::espdiff {
         set temporary {}
         set handle [submit temporary {
             core::compare [make_endpoint $source source temporary] [make_endpoint $target target temporary] \
-                [core_options $options [list espdiff compare $source $target]]
+                [core_options $options]
         }]
         begin_job $handle $options [dict create temporary $temporary \
             source_mol [mol_of_endpoint $source] target_mol [mol_of_endpoint $target]]
@@ -32,7 +33,7 @@ namespace eval ::espdiff {
         set temporary {}
         set handle [submit temporary {
             core::surface [make_endpoint $molecule molecule temporary] \
-                [dict merge [core_options $options [list espdiff surface $molecule]] \
+                [dict merge [core_options $options] \
                     [dict create regularize [dict get $options regularize]]]
         }]
         begin_job $handle $options [dict create temporary $temporary \

@@ -11,8 +11,8 @@ namespace eval ::espdiff {
 
     # Three colours for the lower end, the middle and the upper end of VMD's colour scale.
     variable scales {
-        diverging  {{0.80 0.08 0.10} {0.95 0.95 0.95} {0.10 0.22 0.80}}
-        sequential {{0.95 0.95 0.95} {0.98 0.62 0.20} {0.45 0.05 0.05}}
+        diverging  {{0.78 0.08 0.10} {0.88 0.88 0.88} {0.10 0.22 0.78}}
+        sequential {{0.88 0.88 0.88} {0.98 0.62 0.20} {0.45 0.05 0.05}}
     }
     variable scale_method RWB  ;# VMD's colour scale whose colours are replaced for a moment
 

@@ -2,6 +2,7 @@
 
 namespace eval ::espdiff {
     variable table [dict create]
+    variable call {}  ;# the command that runs, for the provenance of its result
 
     # Ends the calling procedure with an error; classes are those of the manual's last part.
     proc fail {message {class INPUT}} {
@@ -195,6 +196,7 @@ namespace eval ::espdiff {
     # Runs a command of the table: the ensemble ::espdiff calls this.
     proc run {name args} {
         variable table
+        variable call
         set description [dict get $table $name]
         if {[lindex $args 0] eq "-help" || [lindex $args end] eq "-help"} { return [help_text $name] }
         set least 0
@@ -213,6 +215,7 @@ namespace eval ::espdiff {
         foreach argument $positional {
             if {$n_options > 0 && [string match {-[a-z]*} $argument]} { wrong_arguments $name }
         }
+        set call [concat [list espdiff $name] $args]
         [dict get $description run] [parse_options $name [lrange $args $n end]] {*}$positional
     }
 

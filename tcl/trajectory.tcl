@@ -58,7 +58,7 @@ namespace eval ::espdiff {
         }
         prepare_frames run $options
         check_frame_maps run
-        set run(core_options) [core_options $options "espdiff trajectory $options"]
+        set run(core_options) [core_options $options]
         set run(about) [about_run run $options]
         lassign [csv_open $run(csv) [dict get $options resume] [dict get $options overwrite] $run(about)] \
             earlier run(head)

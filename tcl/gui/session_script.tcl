@@ -51,11 +51,12 @@ namespace eval ::espdiff::gui {
         if {[dict exists $loaded $handle]} { lappend lines {*}[dict get $loaded $handle] }
         set steps [expr {[dict exists $done $handle] ? [dict get $done $handle] : {}}]
         if {![dict exists $steps compare]} {
-            # A script made it: the core knows the molecules.
+            # A script made it: its own call is what does it again.
             dict set steps compare [lrange [espdiff result $handle command_line] 1 end]
-            lappend lines "# $handle was made by a script; the settings it gave are to be added here."
         }
         set settings [lassign [dict get $steps compare] compare source target]
+        # Another program's procedures are not there.
+        if {[llength $settings] % 2 == 0} { set settings [dict remove $settings -command -progress] }
         lappend lines "set comparison \[espdiff compare [list $source] \\"
         lappend lines "    [list $target][settings_lines $settings]\]"
         lappend lines {puts [espdiff table $comparison]}
