@@ -20,7 +20,8 @@ namespace eval ::espdiff {
     variable marked_color 4   ;# yellow: corrupt parts with -corrupt mark
 
     proc draw {options handle} {
-        require_vmd "espdiff draw"
+        require_vmd "espdiff draw" \
+            "outside of it `espdiff export` writes the surface, and the command line's `espdiff render` draws it"
         require_core_handle $handle
         core::check $handle
         set plan [drawing_plan $options $handle]
@@ -201,7 +202,7 @@ namespace eval ::espdiff {
 
     proc undraw {options args} {
         variable drawings
-        require_vmd "espdiff undraw"
+        require_vmd "espdiff undraw" "outside of it nothing is drawn"
         foreach handle $args { require_core_handle $handle }
         if {[llength $args] == 0} { set args [dict keys $drawings] }
         foreach handle $args { forget_drawing $handle }

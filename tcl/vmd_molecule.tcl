@@ -10,8 +10,8 @@ namespace eval ::espdiff {
         psf pqr parm parm7 tpr mol2 js mae dms bgf xbgf car mdf pdbx vsf vtf hoomd lammpstrj gaussian gamess cpmdlog
     }
 
-    proc require_vmd {what} {
-        if {![in_vmd]} { fail "$what needs VMD; outside of it give files: {file PATH ?map PATH?}" }
+    proc require_vmd {what {remedy "outside of it give files: {file PATH ?map PATH?}"}} {
+        if {![in_vmd]} { fail "$what needs VMD; $remedy" }
     }
 
     # The id of a molecule that exists; `top` counts.
