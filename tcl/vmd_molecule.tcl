@@ -20,7 +20,11 @@ namespace eval ::espdiff {
         if {$mol eq "top" && [molinfo num] > 0} { set mol [molinfo top] }
         if {[string is integer -strict $mol] && $mol in [molinfo list]} { return $mol }
         set loaded {}
-        foreach id [molinfo list] { lappend loaded "$id ([molinfo $id get name])" }
+        foreach id [molinfo list] {
+            # Drawings are molecules too.
+            if {[molinfo $id get numatoms] + [molinfo $id get numvolumedata] == 0} continue
+            lappend loaded "$id ([molinfo $id get name])"
+        }
         if {[llength $loaded] == 0} {
             fail "$role: there is no molecule '$mol'; none is loaded, `mol new FILE` loads one"
         }
