@@ -168,6 +168,12 @@ void distances(State& state, const StageInputs& in) {
   state.counters["max_distance_back_A"] = back.max;
 }
 
+void self_intersections(State& state, const StageInputs& in) {
+  espdiff::IntersectionReport report;
+  for (auto _ : state) report = in.engine->self_intersections(in.mapped);
+  state.counters["pairs"] = static_cast<double>(report.n_pairs);
+}
+
 /// Sampling of both potentials and their comparison; the maps are on the device already.
 void sample_and_metrics(State& state, const StageInputs& in) {
   const auto map = in.engine->upload_map(in.map, espdiff::RigidTransform{});
@@ -240,6 +246,7 @@ std::vector<Stage> stages(double quicksurf_ms) {
       {"deform_distance_field", [](State& s, const StageInputs& in) { deform(s, in, in.target_distance_field); }, true},
       {"fit", fit},
       {"distances", distances},
+      {"self_intersections", self_intersections},
       {"sample_and_metrics", sample_and_metrics},
       {"vertex_residues", vertex_residues},
       {"compare", compare, true},

@@ -61,6 +61,17 @@ if(NOT ESPDIFF_THRUST_INCLUDE)
 endif()
 espdiff_note("CPU back end: on (Thrust in ${ESPDIFF_THRUST_INCLUDE}, OpenMP ${OpenMP_CXX_VERSION})")
 
+# FFTW in both precisions: the PME potential on the CPU back end.
+if(NOT ESPDIFF_FFTW STREQUAL "OFF")
+  find_path(ESPDIFF_FFTW_INCLUDE fftw3.h)
+  find_library(ESPDIFF_FFTW_SINGLE fftw3f)
+  find_library(ESPDIFF_FFTW_DOUBLE fftw3)
+endif()
+if(ESPDIFF_FFTW_INCLUDE AND ESPDIFF_FFTW_SINGLE AND ESPDIFF_FFTW_DOUBLE)
+  set(fftw_found TRUE)
+endif()
+espdiff_resolve(ESPDIFF_FFTW "${fftw_found}" "PME potential on the CPU" "FFTW 3 was not found (Debian: libfftw3-dev)")
+
 if(NOT ESPDIFF_GEMMI STREQUAL "OFF")
   find_path(ESPDIFF_GEMMI_INCLUDE gemmi/cif.hpp)
   find_path(ESPDIFF_PEGTL_INCLUDE tao/pegtl.hpp)  # gemmi's CIF reader includes it

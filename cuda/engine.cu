@@ -11,13 +11,16 @@
 #include "base/error.h"
 #include "certificate.h"
 #include "components.h"
+#include "coulomb.h"
 #include "deform.h"
 #include "density.h"
 #include "engine/engine.h"
 #include "engine/make_engine.h"
 #include "fields.h"
+#include "intersections.h"
 #include "isosurface.h"
 #include "metrics.h"
+#include "pme.h"
 #include "project.h"
 #include "sample.h"
 
@@ -163,6 +166,26 @@ class BackEndEngine : public Engine {
     return run([&] { return ESPDIFF_BACKEND::sample(unwrap<MapGrid>(map), unwrap<SurfaceMesh>(mesh)); });
   }
 
+  GridPtr resample(const GridPtr& map, const Lattice& lattice) override {
+    return run([&] { return ESPDIFF_BACKEND::resample(unwrap<MapGrid>(map), lattice); });
+  }
+
+  GridPtr pme_potential(const std::vector<Vec3d>& positions, const std::vector<float>& charges, const PmeCell& cell,
+                        const PmeOptions& options, const RigidTransform& to_map, const Progress& progress) override {
+    return run([&] {
+      try {
+        return pme_.potential(positions, charges, cell, options, to_map, progress);
+      } catch (const std::bad_alloc&) {
+        throw MemoryError("not enough memory for this potential's grid; use a coarser grid or single precision");
+      }
+    });
+  }
+
+  GridPtr coulomb_potential(const std::vector<Vec3d>& positions, const std::vector<float>& charges,
+                            const Lattice& lattice, const CoulombOptions& options, const Progress& progress) override {
+    return run([&] { return ESPDIFF_BACKEND::coulomb_potential(positions, charges, lattice, options, progress); });
+  }
+
   Metrics compare(const MeshPtr& source, const MeshPtr& mapped, const ScalarsPtr& source_potential,
                   const ScalarsPtr& target_potential, const ScalarsPtr& excluded) override {
     return run([&] {
@@ -180,6 +203,10 @@ class BackEndEngine : public Engine {
     return run([&] {
       return distance_summary(unwrap<SurfaceMesh>(from), unwrap<SurfaceMesh>(to), static_cast<float>(limit_A));
     });
+  }
+
+  IntersectionReport self_intersections(const MeshPtr& mesh) override {
+    return run([&] { return ESPDIFF_BACKEND::self_intersections(unwrap<SurfaceMesh>(mesh)); });
   }
 
   double area(const MeshPtr& mesh) override {
@@ -247,8 +274,9 @@ class BackEndEngine : public Engine {
       Grid result;
       if (const auto* map = dynamic_cast<const MapGrid*>(grid.get())) {
         result.lattice = map->lattice;
-        result.values = to_host(map->values);
+        result.values = point_values(*map);
         result.unit = map->unit;
+        result.periodic = map->periodic;
       } else {
         const auto& density = unwrap<DensityGrid>(grid);
         result.lattice = host_lattice(density.lattice);
@@ -309,6 +337,7 @@ class BackEndEngine : public Engine {
 #endif
 
   int n_threads_;
+  PmeSolver pme_;
 };
 
 }  // namespace

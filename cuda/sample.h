@@ -1,6 +1,9 @@
 // sample.h: interpolation on lattices: fields for deform(), potential maps for the metrics.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "grid.h"
 #include "mesh.h"
 
@@ -12,13 +15,26 @@ struct MapGrid : DeviceGrid {
   PotentialUnit unit = PotentialUnit::kUnknown;
   Buffer<float> values;      ///< [point] x fastest
   double to_index[12] = {};  ///< row-major 3 x 4: common frame -> lattice indices
+  bool periodic = false;     ///< repeats after its size
+  /// 0: the values are the map's at the points, linear between them. Else they are coefficients of centred B-splines of
+  /// this order; only of periodic maps.
+  int spline_order = 0;
 };
+
+/// The way into a lattice from the common frame, row-major 3 x 4.
+/// @throws InputError when the axes do not span space
+void set_index_transform(const Lattice& lattice, const RigidTransform& to_map, const std::string& name,
+                         double (&to_index)[12]);
 
 /// @throws InputError when the map's axes do not span space
 std::shared_ptr<MapGrid> make_map(const Grid& map, const RigidTransform& to_map);
 
-/// [vertex] trilinear samples; NaN outside the map.
+/// [vertex] samples, linear or by splines as the map says; NaN outside a map that is not periodic.
 std::shared_ptr<Scalars> sample(const MapGrid& map, const SurfaceMesh& mesh);
+/// Samples on the points of a lattice in the common frame.
+std::shared_ptr<MapGrid> resample(const MapGrid& map, const Lattice& lattice);
+/// The map's values at its own points.
+std::vector<float> point_values(const MapGrid& map);
 
 struct CellPosition {
   int base[3];    ///< lattice point below

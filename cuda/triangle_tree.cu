@@ -75,10 +75,13 @@ TriangleTree make_triangle_tree(const SurfaceMesh& mesh) {
   tree.boxes.resize(2 * static_cast<std::size_t>(tree.n_leaves) - 1);
   PlacedTriangle* const placed = raw(tree.triangles);
   tree.spheres.resize(n);
+  tree.order.resize(n);
+  std::uint32_t* const order = raw(tree.order);
   Box* const boxes = raw(tree.boxes);
   Vec4f* const spheres = raw(tree.spheres);
   for_each_index(n, [=] ESPDIFF_HD(std::size_t place) {
-    const Corners t = corners[static_cast<std::uint32_t>(code[place])];
+    order[place] = static_cast<std::uint32_t>(code[place]);
+    const Corners t = corners[order[place]];
     const PlacedTriangle corner = {x[t.v[0]].xyz(), x[t.v[1]].xyz(), x[t.v[2]].xyz()};
     const Vec3f centre = (1.0F / 3.0F) * (corner.a + corner.b + corner.c);
     placed[place] = corner;

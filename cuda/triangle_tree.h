@@ -24,6 +24,7 @@ struct TriangleTreeView {
   const Box* boxes;                 ///< [node] children of n are 2n+1 and 2n+2; leaves are the last n_leaves nodes
   const PlacedTriangle* triangles;  ///< [place] in leaf order
   const Vec4f* spheres;             ///< [place] a sphere around the triangle: centroid, and radius in w
+  const std::uint32_t* order;       ///< [place] the triangle's index in the mesh
   std::uint32_t n_leaves;           ///< a power of two
   std::uint32_t n_triangles;
 };
@@ -32,10 +33,12 @@ struct TriangleTree {
   Buffer<Box> boxes;
   Buffer<PlacedTriangle> triangles;
   Buffer<Vec4f> spheres;
+  Buffer<std::uint32_t> order;
   std::uint32_t n_leaves = 0;
 
   TriangleTreeView view() const {
-    return {raw(boxes), raw(triangles), raw(spheres), n_leaves, static_cast<std::uint32_t>(triangles.size())};
+    return {raw(boxes), raw(triangles), raw(spheres),
+            raw(order), n_leaves,       static_cast<std::uint32_t>(triangles.size())};
   }
 };
 

@@ -61,6 +61,8 @@ struct Lattice {
 struct Grid {
   Lattice lattice;
   std::vector<float> values;
+  /// The lattice repeats after size[i] * step[i] along each axis: samples wrap around instead of ending at its border.
+  bool periodic = false;
   PotentialUnit unit = PotentialUnit::kUnknown;
   std::string name;  ///< for messages: the path
 };

@@ -28,6 +28,7 @@ struct Verb {
 
 Verb add_compare(CLI::App& app);
 Verb add_surface(CLI::App& app);
+Verb add_potential(CLI::App& app);
 Verb add_render(CLI::App& app);
 Verb add_doctor(CLI::App& app);
 /// Verbs of the design that this version does not have; they say so.

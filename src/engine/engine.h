@@ -11,6 +11,8 @@
 // Same input, same bits, at any number of threads. Density is high inside: *inside* means density > isovalue.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -108,6 +110,56 @@ struct FitReport {
   ScalarsPtr corrupt;  ///< [triangle] 1 where corrupt, else 0
 };
 
+/// A periodic cell: `edges` span it, `centre` lies in its middle. Angstrom.
+struct PmeCell {
+  Vec3d centre{};
+  std::array<Vec3d, 3> edges{};
+};
+
+/// The points of a grid over a cell, symmetric about its centre: (0, 0, 0) lies at centre - sum_i (K_i - 1) / (2 K_i)
+/// edge_i, steps are edge_i / K_i. As PMEPot lays them.
+inline Lattice lattice_over(const PmeCell& cell, const std::array<int, 3>& size) {
+  Lattice lattice;
+  lattice.size = size;
+  lattice.origin = cell.centre;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double n = size[axis];
+    lattice.step[axis] = (1.0 / n) * cell.edges[axis];
+    lattice.origin += (-0.5 * (n - 1) / n) * cell.edges[axis];
+  }
+  return lattice;
+}
+
+enum class Precision { kSingle, kDouble };
+
+/// Parameters of pme_potential().
+struct PmeOptions {
+  std::array<int, 3> size{0, 0, 0};  ///< grid points along each edge
+  double ewald_factor = 0.25;        ///< beta, 1/A: charges are smeared into Gaussians of variance 1 / (2 beta^2)
+  int order = 6;                     ///< of the B-splines, 4 to 8; 4 with `compatible`
+  Precision precision = Precision::kSingle;
+  /// As VMD's PMEPot 1.0.4 computes it: the splines' factor squared, the volume truncated to whole A^3.
+  bool compatible = false;
+  /// Later samples of the map use splines of `order` instead of trilinear interpolation, and err no more between the
+  /// grid's points than on them. Not with `compatible`.
+  bool smooth_samples = false;
+  double temperature_K = 300;
+};
+
+/// Parameters of coulomb_potential().
+struct CoulombOptions {
+  double dielectric = 1;            ///< epsilon, > 0
+  bool distance_dependent = false;  ///< epsilon * r / (1 A) instead of epsilon
+  double temperature_K = 300;
+};
+
+/// The triangles of a closed mesh that intersect one another; see Engine::self_intersections().
+struct IntersectionReport {
+  std::size_t n_pairs = 0;       ///< of triangles that intersect, and each triangle without area as a pair with itself
+  std::size_t n_degenerate = 0;  ///< the latter
+  ScalarsPtr intersecting;       ///< [triangle] 1 where it takes part in a pair, else 0
+};
+
 /// One back end on one device.
 class Engine {
  public:
@@ -168,8 +220,45 @@ class Engine {
   /// @param map         potential
   /// @param to_map      common frame -> the map's frame
   virtual GridPtr upload_map(const Grid& map, const RigidTransform& to_map) = 0;
-  /// [vertex] trilinear samples of a map; NaN where the vertex lies outside the map.
+  /// [vertex] trilinear samples of a map, or by splines where it was made with smooth_samples; NaN where the vertex
+  /// lies outside the map. A periodic map has no outside.
   virtual ScalarsPtr sample(const GridPtr& map, const MeshPtr& mesh) = 0;
+  /// The map's samples on another lattice, given in the common frame; NaN outside the map.
+  /// @throws InputError (axes that do not span space, no points)
+  virtual GridPtr resample(const GridPtr& map, const Lattice& lattice) = 0;
+
+  /// The potential of smeared charges in a periodic cell, the reciprocal part of the Ewald sum, on a grid over the
+  /// cell:
+  ///
+  ///     phi(n) = C sum_{m != 0} exp(-pi^2 m^2 / beta^2) / (pi V m^2) B(m) Q(m) e^(2 pi i k.n/K)   [kT/e]
+  ///
+  /// Q is the transform of the charges spread by centred B-splines, B the inverse of the splines' own transform, and C
+  /// = 332.0636 / (T 0.001987191) (Essmann et al., J. Chem. Phys. 103, 8577 (1995)). Leaving out m = 0 makes the mean
+  /// zero and stands for a uniform background that neutralizes a net charge. Modes at half the grid's frequency are
+  /// left out too, since a real grid cannot hold their phase. Atoms outside the cell are wrapped into it.
+  ///
+  /// With `compatible` the order is 4, B is squared, V truncated, and modes at half the frequency are kept; the values
+  /// then are the splines' coefficients rather than the potential, as PMEPot writes them.
+  ///
+  /// The map is periodic; its points are lattice_over(cell, size). The same bits for any order of the atoms and any
+  /// number of threads. Time grows with atoms * order^3 + K^3 log K.
+  ///
+  /// @param positions [atom] Angstrom, the map's frame  @param charges [atom] elementary charges
+  /// @param to_map    common frame -> the frame of `positions` and of the map
+  /// @throws InputError (cell without volume, values that are not finite, no charges, sizes, order, Ewald factor),
+  ///         MemoryError, DeviceError (the library of Fourier transforms is absent), Cancelled
+  virtual GridPtr pme_potential(const std::vector<Vec3d>& positions, const std::vector<float>& charges,
+                                const PmeCell& cell, const PmeOptions& options, const RigidTransform& to_map,
+                                const Progress& progress) = 0;
+
+  /// Coulomb's law summed directly, without a cutoff and without periodic images, at the points of a lattice:
+  /// phi(x) = C sum_i q_i / (epsilon |x - x_i|) [kT/e], C as in pme_potential(). Distances below 0.5 A count as 0.5 A.
+  /// A cross-check for small systems: time grows with atoms * points. In double precision; the same bits always.
+  /// @param positions [atom] Angstrom, the lattice's frame
+  /// @throws InputError (dielectric, values that are not finite, no charges, lattice), MemoryError, Cancelled
+  virtual GridPtr coulomb_potential(const std::vector<Vec3d>& positions, const std::vector<float>& charges,
+                                    const Lattice& lattice, const CoulombOptions& options,
+                                    const Progress& progress) = 0;
 
   /// Compares potentials at counterparts.
   /// @param source, mapped  meshes of one topology: where each vertex comes from, and where it lies on the target
@@ -182,6 +271,16 @@ class Engine {
   virtual FitReport fit(const MeshPtr& mapped, const AtomsPtr& target_atoms, float isovalue) = 0;
   /// Distances from the vertices of `from` to the triangles of `to`, exact.
   virtual DistanceSummary distances(const MeshPtr& from, const MeshPtr& to, double limit_A) = 0;
+  /// Pairs of triangles that intersect, as CGAL's Polygon_mesh_processing::self_intersections counts them:
+  /// - two triangles that share no vertex, when they have a point in common, touching included;
+  /// - two that share a vertex, when they have another point in common;
+  /// - two that share an edge, when they lie in one plane on the same side of it: folded flat onto each other;
+  /// - a triangle without area (corners on a line, or not finite) as a pair with itself, and in no other.
+  ///
+  /// Exact for every position a float can hold: signs of determinants are computed without rounding where an error
+  /// bound in double precision leaves them open. Every pair is examined whose boxes overlap, found by a tree: time
+  /// grows as n log n with the number of triangles, and with the number of such pairs.
+  virtual IntersectionReport self_intersections(const MeshPtr& mesh) = 0;
   virtual double area(const MeshPtr& mesh) = 0;
 
   /// [vertex] index of the residue with the largest density at the vertex; -1 where no atom reaches.

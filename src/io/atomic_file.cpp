@@ -161,7 +161,7 @@ void AtomicFile::forget_previous() {
 
 void AtomicFile::commit() { commit_all({this}); }
 
-void commit_all(std::initializer_list<AtomicFile*> files) {
+void commit_all(const std::vector<AtomicFile*>& files) {
   for (AtomicFile* file : files) file->finish();
   try {
     for (AtomicFile* file : files) file->rename_to_target();

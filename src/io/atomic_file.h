@@ -2,9 +2,9 @@
 #pragma once
 
 #include <fstream>
-#include <initializer_list>
 #include <ostream>
 #include <string>
+#include <vector>
 
 namespace espdiff {
 
@@ -33,7 +33,7 @@ class AtomicFile {
   /// Commits all or none: every file is finished before the first gets its name, and names already given are taken back
   /// when a later one is refused.
   /// @throws IoError as commit()
-  friend void commit_all(std::initializer_list<AtomicFile*> files);
+  friend void commit_all(const std::vector<AtomicFile*>& files);
 
  private:
   void finish();
@@ -49,6 +49,6 @@ class AtomicFile {
   bool renamed_ = false;
 };
 
-void commit_all(std::initializer_list<AtomicFile*> files);
+void commit_all(const std::vector<AtomicFile*>& files);
 
 }  // namespace espdiff

@@ -1,10 +1,14 @@
-// write_grid.cpp: OpenDX text from a grid.
+// write_grid.cpp: OpenDX text and VTI from a grid.
 #include "io/write_grid.h"
 
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <initializer_list>
 #include <ostream>
+#include <string>
 
 #include "base/error.h"
 #include "io/atomic_file.h"
@@ -70,19 +74,88 @@ void write_values(std::ostream& out, const Grid& grid) {
   }
 }
 
+void write_dx_content(std::ostream& out, const Grid& grid) {
+  write_header(out, grid);
+  write_values(out, grid);
+  out << "attribute \"dep\" string \"positions\"\n"
+         "object \"regular positions regular connections\" class field\n"
+         "component \"positions\" value 1\n"
+         "component \"connections\" value 2\n"
+         "component \"data\" value 3\n";
+}
+
+/// Numbers of full precision, parted by blanks.
+std::string vti_numbers(std::initializer_list<double> values) {
+  constexpr int kDigits = 17;
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : " ") + number(value, kDigits);
+  return text;
+}
+
+const char* byte_order() {
+  const std::uint16_t probe = 1;
+  unsigned char first = 0;
+  std::memcpy(&first, &probe, 1);
+  return first == 1 ? "LittleEndian" : "BigEndian";
+}
+
+void write_vti_content(std::ostream& out, const Grid& grid) {
+  const Lattice& lattice = grid.lattice;
+  const double length[3] = {norm(lattice.step[0]), norm(lattice.step[1]), norm(lattice.step[2])};
+  const Vec3d a = (1 / length[0]) * lattice.step[0], b = (1 / length[1]) * lattice.step[1],
+              c = (1 / length[2]) * lattice.step[2];
+  std::string extent;
+  for (const int n : lattice.size) extent += (extent.empty() ? "0 " : " 0 ") + std::to_string(n - 1);
+  const Vec3d& o = lattice.origin;
+  out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"" << byte_order()
+      << "\" header_type=\"UInt64\">\n  <ImageData WholeExtent=\"" << extent << "\" Origin=\""
+      << vti_numbers({o.x, o.y, o.z}) << "\" Spacing=\"" << vti_numbers({length[0], length[1], length[2]})
+      << "\" Direction=\"" << vti_numbers({a.x, b.x, c.x, a.y, b.y, c.y, a.z, b.z, c.z}) << "\">\n    <FieldData>\n"
+      << "      <Array type=\"String\" Name=\"unit\" NumberOfTuples=\"1\" format=\"ascii\">";
+  for (const char letter : to_string(grid.unit)) out << static_cast<int>(letter) << ' ';
+  out << "0</Array>\n    </FieldData>\n    <Piece Extent=\"" << extent
+      << "\">\n      <PointData Scalars=\"potential\">\n        <DataArray type=\"Float32\" Name=\"potential\" "
+         "format=\"appended\" offset=\"0\"/>\n      </PointData>\n    </Piece>\n  </ImageData>\n"
+      << "  <AppendedData encoding=\"raw\">\n_";
+  const std::uint64_t n_bytes = grid.values.size() * sizeof(float);
+  out.write(reinterpret_cast<const char*>(&n_bytes), sizeof n_bytes);
+  out.write(reinterpret_cast<const char*>(grid.values.data()), static_cast<std::streamsize>(n_bytes));
+  out << "\n  </AppendedData>\n</VTKFile>\n";
+}
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
 }  // namespace
 
 void write_dx(const std::string& path, const Grid& grid) {
   check_grid(path, grid);
   AtomicFile file(path);
-  write_header(file.stream(), grid);
-  write_values(file.stream(), grid);
-  file.stream() << "attribute \"dep\" string \"positions\"\n"
-                   "object \"regular positions regular connections\" class field\n"
-                   "component \"positions\" value 1\n"
-                   "component \"connections\" value 2\n"
-                   "component \"data\" value 3\n";
+  write_dx_content(file.stream(), grid);
   file.commit();
+}
+
+void write_vti(const std::string& path, const Grid& grid) {
+  check_grid(path, grid);
+  AtomicFile file(path);
+  write_vti_content(file.stream(), grid);
+  file.commit();
+}
+
+void check_map_ending(const std::string& path) {
+  if (ends_with(path, ".dx") || ends_with(path, ".vti")) return;
+  throw InputError(path + ": maps are written as OpenDX or VTI; give a name that ends in .dx or .vti");
+}
+
+void write_map(AtomicFile& file, const Grid& grid) {
+  check_map_ending(file.path());
+  check_grid(file.path(), grid);
+  if (ends_with(file.path(), ".vti")) {
+    write_vti_content(file.stream(), grid);
+  } else {
+    write_dx_content(file.stream(), grid);
+  }
 }
 
 }  // namespace espdiff

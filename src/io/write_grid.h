@@ -1,9 +1,10 @@
-// write_grid.h: potential maps as OpenDX text files, as APBS and VMD read them.
+// write_grid.h: potential maps as OpenDX text, as APBS and VMD read it, and as VTI.
 #pragma once
 
 #include <string>
 
 #include "base/types.h"
+#include "io/atomic_file.h"
 
 namespace espdiff {
 
@@ -11,5 +12,17 @@ namespace espdiff {
 /// unit in a comment: "# POTENTIAL (kT/e)". The file appears under its name when it is complete.
 /// @throws InputError (number of values and lattice differ, values not finite), IoError
 void write_dx(const std::string& path, const Grid& grid);
+
+/// Writes `grid` as VTK XML image data: Float32 scalars "potential", appended as they lie in memory, the unit as the
+/// field "unit". Axes that are skewed or turned are in the Direction matrix (VTK 9).
+/// @throws as write_dx()
+void write_vti(const std::string& path, const Grid& grid);
+
+/// Writes the whole file's content in the format of its name's ending, .dx or .vti, without giving it its name: the
+/// caller commits.
+/// @throws as write_dx(); InputError for other endings
+void write_map(AtomicFile& file, const Grid& grid);
+/// @throws InputError unless the path ends in .dx or .vti
+void check_map_ending(const std::string& path);
 
 }  // namespace espdiff

@@ -16,6 +16,7 @@ struct Limits {
   static constexpr double kFlippedArea = 0.0;
   static constexpr double kMeanDistance_A = 0.05;
   static constexpr double kNoCounterpart = 0.05;
+  static constexpr std::size_t kSelfIntersectingPairs = 0;
 };
 
 std::string percent(double fraction) {
@@ -28,6 +29,11 @@ std::string angstrom(double length) {
   std::snprintf(text, sizeof text, "%.3g A", length);
   return text;
 }
+/// "3 pairs of triangles intersect (limit 0)"
+std::string intersecting_pairs(std::size_t n) {
+  return std::to_string(n) + (n == 1 ? " pair of triangles intersects" : " pairs of triangles intersect") + " (limit " +
+         std::to_string(Limits::kSelfIntersectingPairs) + ")";
+}
 
 }  // namespace
 
@@ -38,6 +44,7 @@ Certificate certify(Engine& engine, const MeshPtr& mapped, const MeshPtr& target
   c.irregularity_A = fit.irregularity_A;
   c.mapped_to_target = engine.distances(mapped, target, kCounterpartLimit_A);
   c.target_to_mapped = engine.distances(target, mapped, kCounterpartLimit_A);
+  c.self_intersecting_pairs = engine.self_intersections(mapped).n_pairs;
   c.no_counterpart_source = c.mapped_to_target.area_fraction_beyond_limit;
   c.no_counterpart_target = c.target_to_mapped.area_fraction_beyond_limit;
   return c;
@@ -53,6 +60,7 @@ void judge(Certificate& c, const CompareResult& result) {
                                                              percent(Limits::kCorruptArea) + ")");
   refuse(c.flipped_area_fraction > Limits::kFlippedArea,
          percent(c.flipped_area_fraction) + " of the mapped area is flipped (limit 0 %)");
+  refuse(c.self_intersecting_pairs > Limits::kSelfIntersectingPairs, intersecting_pairs(c.self_intersecting_pairs));
   refuse(c.mapped_to_target.mean > Limits::kMeanDistance_A,
          "the mapped surface lies " + angstrom(c.mapped_to_target.mean) + " from the target on average (limit " +
              angstrom(Limits::kMeanDistance_A) + ")");
@@ -67,7 +75,6 @@ void judge(Certificate& c, const CompareResult& result) {
   const double outside = static_cast<double>(std::max(result.n_outside_source_map, result.n_outside_target_map));
   refuse(outside > 0, percent(outside / n) + " of the vertices lie outside a map");
   c.trustworthy = c.reasons.empty();
-  c.not_checked = {"self_intersecting_pairs"};
 }
 
 }  // namespace espdiff

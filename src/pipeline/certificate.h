@@ -5,10 +5,10 @@
 
 namespace espdiff {
 
-/// Distances both ways and the fit of the mapped mesh; not yet judged.
+/// Distances both ways, intersecting triangles and the fit of the mapped mesh; not yet judged.
 Certificate certify(Engine& engine, const MeshPtr& mapped, const MeshPtr& target, const FitReport& fit);
 
-/// Fills in trustworthy, reasons and not_checked.
+/// Fills in trustworthy and reasons.
 void judge(Certificate& certificate, const CompareResult& result);
 
 }  // namespace espdiff

@@ -72,6 +72,7 @@ struct Certificate {
   double corrupt_area_fraction = 0;
   double flipped_area_fraction = 0;
   double irregularity_A = 0;
+  std::size_t self_intersecting_pairs = 0;  ///< see Engine::self_intersections()
   DistanceSummary mapped_to_target;
   DistanceSummary target_to_mapped;
   double no_counterpart_source = 0;  ///< share of the mapped area farther than 1 A from the target
@@ -79,7 +80,7 @@ struct Certificate {
   bool converged = false;
   bool trustworthy = false;
   std::vector<std::string> reasons;      ///< why not
-  std::vector<std::string> not_checked;  ///< what this version does not check
+  std::vector<std::string> not_checked;  ///< what was not checked
 };
 
 /// Per-vertex arrays of the mapped surface.

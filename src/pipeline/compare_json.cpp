@@ -40,7 +40,7 @@ Json certificate(const Certificate& c) {
   json["corrupt_area_fraction"] = number(c.corrupt_area_fraction);
   json["mapped_to_target_A"] = distances(c.mapped_to_target);
   json["target_to_mapped_A"] = distances(c.target_to_mapped);
-  json["self_intersecting_pairs"] = nullptr;  // see not_checked
+  json["self_intersecting_pairs"] = c.self_intersecting_pairs;
   json["flipped_area_fraction"] = number(c.flipped_area_fraction);
   json["no_counterpart_area_fraction"] = {{"source", number(c.no_counterpart_source)},
                                           {"target", number(c.no_counterpart_target)}};

@@ -113,6 +113,7 @@ void print_certificate(std::ostream& out, const CompareResult& result) {
   out << "\nCertificate\n";
   line(out, "off the target's surface", percent(c.corrupt_area_fraction) + " of the mapped area (corrupt)");
   line(out, "turned inside out", percent(c.flipped_area_fraction) + " of the mapped area (flipped)");
+  line(out, "intersecting itself", counted(c.self_intersecting_pairs, "pair") + " of triangles");
   line(out, "mapped to target", in_words(c.mapped_to_target));
   line(out, "target to mapped", in_words(c.target_to_mapped));
   line(

@@ -170,6 +170,44 @@ TEST_CASE("the border belongs to the map") {
   }
 }
 
+TEST_CASE("a periodic map wraps around its cell and has no outside") {
+  Random random(63);
+  Grid grid = skewed_grid();
+  for (float& value : grid.values) value = static_cast<float>(random.uniform(-5, 5));
+  grid.periodic = true;
+  // The same map with one more layer along each axis, which repeats the first.
+  Grid closed = grid;
+  for (int& n : closed.lattice.size) ++n;
+  closed.periodic = false;
+  closed.values.clear();
+  const auto& size = grid.lattice.size;
+  for (int k = 0; k <= size[2]; ++k) {
+    for (int j = 0; j <= size[1]; ++j) {
+      for (int i = 0; i <= size[0]; ++i)
+        closed.values.push_back(
+            grid.values[static_cast<std::size_t>(i % size[0] + size[0] * (j % size[1] + size[1] * (k % size[2])))]);
+    }
+  }
+  for (const auto& engine : back_ends()) {
+    const RigidTransform to_map = random_rigid(random, 40);
+    const Mesh mesh = mesh_at(closed, inverse_of(to_map), random, 1e-4, 1 - 1e-4);
+    const auto samples = engine->download(engine->sample(engine->upload_map(grid, to_map), engine->upload_mesh(mesh)));
+    double worst = 0, worst_of_image = 0;
+    RigidTransform to_image = to_map;  // two cells back along x, one on along z
+    for (int step = 0; step < size[0]; ++step) to_image.translation += -2.0 * grid.lattice.step[0];
+    for (int step = 0; step < size[2]; ++step) to_image.translation += grid.lattice.step[2];
+    const auto images = engine->download(engine->sample(engine->upload_map(grid, to_image), engine->upload_mesh(mesh)));
+    for (std::size_t v = 0; v < samples.size(); ++v) {
+      const double exact = sample_oracle(closed, to_map.apply(static_cast<Vec3d>(mesh.positions[v])));
+      worst = std::max(worst, std::fabs(static_cast<double>(samples[v]) - exact));
+      worst_of_image = std::max(worst_of_image, std::fabs(static_cast<double>(images[v] - samples[v])));
+    }
+    CHECK(worst < 1e-6);
+    CHECK(worst_of_image < 1e-5);
+    CHECK(engine->download(engine->upload_map(grid, {})).periodic);
+  }
+}
+
 TEST_CASE("a map comes back as it was sent; one whose axes do not span space is refused") {
   Random random(62);
   Grid grid = skewed_grid();

@@ -1,0 +1,240 @@
+// potential.cpp: `espdiff potential MOLECULE -o OUT.dx`.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "cli/options.h"
+#include "cli/verbs.h"
+#include "io/read_unit_cells.h"
+#include "io/write_grid.h"
+#include "pipeline/frame_range.h"
+#include "pipeline/potential.h"
+
+namespace espdiff::cli {
+namespace {
+
+struct Arguments {
+  std::string molecule, output, variance, standard_error;
+  std::string method = "pme", frames = "all", averaging = "mean", align = "none", precision = "single";
+  std::string cell, xsc_file, grid = "1";
+  double pad_A = -1;  ///< negative: not given
+  std::size_t frames_per_block = 1;
+  bool quiet = false;
+  PmeOptions pme;
+  CoulombOptions coulomb;
+  int order = 0;  ///< 0: the mode's own
+  StructureOptions structure{1, true, true};
+  DeviceArguments device;
+};
+
+void add_cell_options(CLI::App& p, Arguments& a) {
+  const char* const group = "Cell and grid";
+  p.add_option("--cell", a.cell,
+               "Cell of every frame, '{{ox oy oz} {ax ay az} {bx by bz} {cx cy cz}}', o its centre. Without one: each "
+               "frame's CRYST1 record, centred on the atoms; without these, a box around the atoms")
+      ->group(group);
+  p.add_option("--xscfile", a.xsc_file, "Cell of every frame from a NAMD .xsc file")->group(group);
+  p.add_option("--pad", a.pad_A, "A box around the atoms, wider by so much on each side, A (10 where no cell is known)")
+      ->check(CLI::NonNegativeNumber)
+      ->group(group);
+  p.add_option("--grid", a.grid, "Resolution below 8 A, or a number of points from 8 on, or three: '80 80 96'")
+      ->capture_default_str()
+      ->group(group);
+}
+
+void add_method_options(CLI::App& p, Arguments& a) {
+  const char* const group = "Method";
+  p.add_option("--method", a.method,
+               "pme: smeared charges in a periodic cell (particle-mesh Ewald, reciprocal part; mean zero, a net charge "
+               "is neutralized by a uniform background). coulomb: the bare law, isolated, summed directly")
+      ->check(CLI::IsMember({"pme", "coulomb"}))
+      ->capture_default_str()
+      ->group(group);
+  p.add_option("--ewaldfactor", a.pme.ewald_factor, "Smearing of the charges, 1/A: Gaussians of variance 1 / (2 f^2)")
+      ->capture_default_str()
+      ->group(group);
+  p.add_option("--order,--spline", a.order, "Order of the B-splines, 4 to 8 (default 6; 4 with --compatible)")
+      ->group(group);
+  p.add_option("--precision", a.precision, "Precision of the sums")
+      ->check(CLI::IsMember({"single", "double"}))
+      ->capture_default_str()
+      ->group(group);
+  p.add_flag("--compatible", a.pme.compatible,
+             "As VMD's PMEPot: its grid sizes, squared spline factor, whole-number volume, one cell for all frames")
+      ->group(group);
+  p.add_option("--temperature", a.pme.temperature_K, "Temperature of kT, K")->capture_default_str()->group(group);
+  p.add_option("--dielectric", a.coulomb.dielectric, "Dielectric constant of --method coulomb")
+      ->capture_default_str()
+      ->group(group);
+  p.add_flag("--distance-dependent", a.coulomb.distance_dependent,
+             "The dielectric of --method coulomb grows with the distance: --dielectric times r in A")
+      ->group(group);
+}
+
+void add_frame_options(CLI::App& p, Arguments& a) {
+  const char* const group = "Frames";
+  p.add_option("--frames", a.frames, "Models of the file, from 0: all, last, n, begin:end or begin:step:end")
+      ->capture_default_str()
+      ->group(group);
+  p.add_option("--averaging", a.averaging, "mean: one map, the mean over frames. each: OUT.0000.dx, OUT.0001.dx, ...")
+      ->check(CLI::IsMember({"mean", "each"}))
+      ->capture_default_str()
+      ->group(group);
+  p.add_option("--variance", a.variance, "Also write the variance over frames, (kT/e)^2 (.dx or .vti)")->group(group);
+  p.add_option("--standard-error", a.standard_error,
+               "Also write the standard error of the mean, from the means of blocks of frames (.dx or .vti)")
+      ->group(group);
+  p.add_option("--block", a.frames_per_block, "Frames in a block; take more than the frames that resemble each other")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str()
+      ->group(group);
+  p.add_option("--align", a.align, "Superpose frames on the first by these atoms; maps then stay with the molecule")
+      ->check(CLI::IsMember({"all", "backbone", "ca", "none"}))
+      ->capture_default_str()
+      ->group(group);
+}
+
+PotentialOptions options_from(const Arguments& a) {
+  PotentialOptions o;
+  o.method = parse_potential_method(a.method);
+  if (!a.cell.empty() && !a.xsc_file.empty()) throw InputError("--cell and --xscfile were given; leave one out");
+  if (!a.cell.empty()) o.cell = parse_cell(a.cell);
+  if (!a.xsc_file.empty()) {
+    const auto [centre, edge_a, edge_b, edge_c] = read_xsc(a.xsc_file);
+    o.cell = PmeCell{centre, {edge_a, edge_b, edge_c}};
+  }
+  if (a.pad_A >= 0) o.pad_A = a.pad_A;
+  o.grid = parse_grid_choice(a.grid);
+  o.pme = a.pme;
+  o.pme.precision = a.precision == "double" ? Precision::kDouble : Precision::kSingle;
+  constexpr int kPmepotOrder = 4;
+  if (a.order != 0) {
+    o.pme.order = a.order;
+  } else if (a.pme.compatible) {
+    o.pme.order = kPmepotOrder;
+  }
+  o.coulomb = a.coulomb;
+  o.coulomb.temperature_K = a.pme.temperature_K;
+  o.align = parse_align_atoms(a.align);
+  o.frames_per_block = a.frames_per_block;
+  return o;
+}
+
+/// OUT.dx -> OUT.0007.dx
+std::string numbered(const std::string& path, int frame) {
+  char digits[16];
+  std::snprintf(digits, sizeof digits, ".%04d", frame);
+  const std::size_t dot = path.rfind('.');
+  return path.substr(0, dot) + digits + path.substr(dot);
+}
+
+/// The files of a run: opened at the start, so that a folder that is missing is found before the work; named at the
+/// end, all or none.
+class Outputs {
+ public:
+  Outputs(const Arguments& a, const std::vector<int>& frames) : each_(a.averaging == "each") {
+    if (!each_) open(a.output);
+    for (std::size_t i = 0; each_ && i < frames.size(); ++i) open(numbered(a.output, frames[i]));
+    n_maps_ = files_.size();
+    for (const std::string* path : {&a.variance, &a.standard_error}) {
+      if (!path->empty()) open(*path);
+    }
+  }
+
+  void write_frame(std::size_t number, const Grid& map) {
+    if (each_) write_map(*files_[number], map);
+  }
+  void finish(const Arguments& a, const RunningMap& average) {
+    if (!each_) write_map(*files_[0], average.mean());
+    std::size_t next = n_maps_;
+    if (!a.variance.empty()) write_map(*files_[next++], average.variance());
+    if (!a.standard_error.empty()) write_map(*files_[next++], average.standard_error());
+    std::vector<AtomicFile*> all;
+    for (const auto& file : files_) all.push_back(file.get());
+    commit_all(all);
+  }
+
+ private:
+  void open(const std::string& path) {
+    check_map_ending(path);
+    files_.push_back(std::make_unique<AtomicFile>(path));
+  }
+
+  bool each_;
+  std::size_t n_maps_ = 0;
+  std::vector<std::unique_ptr<AtomicFile>> files_;
+};
+
+void print_summary(const Molecule& molecule, const Grid& map, std::size_t n_frames, double ms) {
+  double charge = 0, least = 0, most = 0;
+  for (const float q : molecule.charges) charge += static_cast<double>(q);
+  for (const float v : map.values) {
+    least = std::min(least, static_cast<double>(v));
+    most = std::max(most, static_cast<double>(v));
+  }
+  const auto& size = map.lattice.size;
+  std::printf("potential      %d x %d x %d points, %.3f to %.3f kT/e\n", size[0], size[1], size[2], least, most);
+  std::printf("charge         %.4f e in %zu atoms\n", charge, molecule.size());
+  std::printf("frames         %zu\n", n_frames);
+  std::printf("time           %.0f ms\n", ms);
+}
+
+int run(const Arguments& a, const Context& context) {
+  const PotentialOptions options = options_from(a);
+  const auto start = std::chrono::steady_clock::now();
+  context.progress->report("read", 0.0);
+  const std::vector<int> frames = parse_frames(a.frames, count_models(a.molecule));
+  const std::vector<std::optional<UnitCell>> cells = read_unit_cells(a.molecule);
+  if (frames.size() < 2 && !(a.variance.empty() && a.standard_error.empty()))
+    throw InputError("--variance and --standard-error need 2 frames at least; there is " +
+                     std::to_string(frames.size()));
+  const std::unique_ptr<Engine> engine = make_engine(a.device);
+  PotentialSeries series(*engine, options);
+  std::unique_ptr<Outputs> outputs;
+  Molecule molecule;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    StructureOptions structure = a.structure;
+    structure.model = frames[i] + 1;
+    molecule = read_structure(a.molecule, structure);
+    require_charges(molecule);
+    if (!outputs) outputs = std::make_unique<Outputs>(a, frames);
+    const auto& cell = cells[static_cast<std::size_t>(frames[i])];
+    outputs->write_frame(i, series.step(molecule, cell, *context.progress));
+    context.progress->report("frames", static_cast<double>(i + 1) / static_cast<double>(frames.size()));
+  }
+  context.progress->report("write", 0.0);
+  outputs->finish(a, series.average());
+  context.progress->report("write", 1.0);
+  const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  if (!a.quiet) print_summary(molecule, series.average().mean(), frames.size(), ms);
+  return 0;
+}
+
+}  // namespace
+
+Verb add_potential(CLI::App& app) {
+  auto a = std::make_shared<Arguments>();
+  CLI::App* parser =
+      app.add_subcommand("potential", "Compute the electrostatic potential around a molecule, or its mean over frames");
+  parser->footer(
+      "Options that PMEPot has too are named and mean as there.\n\nExamples:\n"
+      "  espdiff potential protein.pqr -o protein.dx\n"
+      "  espdiff potential frames.pqr --align ca --variance variance.dx -o mean.dx");
+  parser->add_option("MOLECULE", a->molecule, "Structure with charges: PQR; several models are frames")->required();
+  parser->add_option("-o,--output,--dxfile", a->output, "Map to write: .dx (APBS, VMD, PyMOL) or .vti (ParaView)")
+      ->required();
+  add_method_options(*parser, *a);
+  add_cell_options(*parser, *a);
+  add_frame_options(*parser, *a);
+  parser->add_flag("!--no-hetero", a->structure.include_hetero, "Leave out HETATM records (ligands, ions)")
+      ->group("Molecules");
+  parser->add_flag("!--no-water", a->structure.include_water, "Leave out water molecules, which are kept else")
+      ->group("Molecules");
+  add_device_options(*parser, a->device);
+  parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
+  return {parser, [a](const Context& context) { return run(*a, context); }};
+}
+
+}  // namespace espdiff::cli

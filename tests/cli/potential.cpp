@@ -1,0 +1,190 @@
+// potential.cpp: `espdiff potential`, and `compare --potential pme`, through the command line.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "cli/run_espdiff.h"
+#include "io/read_grid.h"
+
+using namespace espdiff_test;  // NOLINT: a test
+using espdiff::read_grid;
+
+namespace {
+
+/// Models of a helix of charges; each turned and moved against the one before.
+std::string helix(int n_models, bool with_cell = false) {
+  std::string text;
+  for (int model = 0; model < n_models; ++model) {
+    if (with_cell) text += "CRYST1   40.000   41.000   42.000  90.00  90.00  90.00 P 1           1\n";
+    text += "MODEL " + std::to_string(model + 1) + "\n";
+    const double turn = 0.7 * model;
+    for (int i = 0; i < 12; ++i) {
+      const double angle = 1.7 * i + turn;
+      char line[128];
+      std::snprintf(line, sizeof line, "ATOM %d CA ALA %d %.6f %.6f %.6f %.4f 2.0\n", i + 1, i + 1,
+                    2.3 * std::cos(angle) + model, 2.3 * std::sin(angle), 1.5 * i, i % 3 == 0 ? -0.7 : 0.4);
+      text += line;
+    }
+    text += "ENDMDL\n";
+  }
+  return text;
+}
+
+/// FFTW may be absent: then the command line says so.
+bool lacks_fourier(const Outcome& outcome) {
+  if (outcome.status != 1 || !contains(outcome.err, "libfftw3-dev")) return false;
+  MESSAGE("SKIPPED: ", outcome.err);
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("potential: a map as DX and as VTI, the same values, mean zero") {
+  const ScratchFolder folder;
+  const std::string molecule = folder.write("a.pqr", helix(1));
+  const Outcome dx = run_espdiff("potential " + molecule + " --device cpu -o " + folder.file("a.dx"));
+  if (lacks_fourier(dx)) return;
+  CHECK_MESSAGE(dx.status == 0, dx.err);
+  CHECK(contains(dx.out, "kT/e"));
+  const espdiff::Grid map = read_grid(folder.file("a.dx"));
+  CHECK(map.unit == espdiff::PotentialUnit::kKtPerE);
+  double sum = 0, most = 0;
+  for (const float v : map.values) {
+    sum += static_cast<double>(v);
+    most = std::max(most, std::fabs(static_cast<double>(v)));
+  }
+  CHECK(most > 1);
+  CHECK(std::fabs(sum) < 1e-5 * most * static_cast<double>(map.values.size()));
+#ifdef ESPDIFF_HAVE_VTK
+  CHECK(run_espdiff("potential " + molecule + " --device cpu -q -o " + folder.file("a.vti")).status == 0);
+  CHECK(read_grid(folder.file("a.vti")).values == map.values);
+#endif
+  // Any number of threads, the same file.
+  CHECK(run_espdiff("potential " + molecule + " --device cpu --threads 4 -q -o " + folder.file("b.dx")).status == 0);
+  CHECK(read_file(folder.file("a.dx")) == read_file(folder.file("b.dx")));
+}
+
+TEST_CASE("potential: frames, their mean, variance and error, superposed") {
+  const ScratchFolder folder;
+  const std::string molecule = folder.write("a.pqr", helix(4));
+  const std::string start = "potential " + molecule + " --device cpu -q --grid 1.2 ";
+  const Outcome outcome = run_espdiff(start + "--align all --variance " + folder.file("v.dx") + " --standard-error " +
+                                      folder.file("e.dx") + " --block 2 -o " + folder.file("m.dx"));
+  if (lacks_fourier(outcome)) return;
+  CHECK_MESSAGE(outcome.status == 0, outcome.err);
+  CHECK(folder.n_files() == 4);
+  // Frames differ by a rigid motion: superposed, they are one.
+  const auto mean = read_grid(folder.file("m.dx")), variance = read_grid(folder.file("v.dx"));
+  double most = 0, spread = 0;
+  for (const float v : mean.values) most = std::max(most, std::fabs(static_cast<double>(v)));
+  for (const float v : variance.values) spread = std::max(spread, std::sqrt(static_cast<double>(v)));
+  CHECK(spread < 1e-3 * most);
+  CHECK(run_espdiff(start + "--averaging each --frames 1:2:end -o " + folder.file("each.dx")).status == 0);
+  CHECK(std::filesystem::exists(folder.file("each.0001.dx")));
+  CHECK(std::filesystem::exists(folder.file("each.0003.dx")));
+  CHECK(folder.n_files() == 6);
+}
+
+TEST_CASE("potential: cells from CRYST1, --cell and --xscfile agree; PMEPot's mode and Coulomb's law run") {
+  const ScratchFolder folder;
+  const std::string with_cell = folder.write("a.pqr", helix(1, true)), bare = folder.write("b.pqr", helix(1));
+  const auto map = [&](const std::string& arguments) {
+    const Outcome outcome = run_espdiff("potential " + arguments + " --device cpu -q -o " + folder.file("m.dx"));
+    CHECK_MESSAGE(outcome.status == 0, outcome.err);
+    return read_grid(folder.file("m.dx"));
+  };
+  if (lacks_fourier(run_espdiff("potential " + bare + " --device cpu -q -o " + folder.file("m.dx")))) return;
+  const auto own = map(with_cell);
+  CHECK(own.lattice.size == std::array<int, 3>{40, 42, 42});
+  // The centre of the atoms, to the digits of DX.
+  const auto& l = own.lattice;
+  espdiff::Vec3d centre = l.origin;
+  for (std::size_t axis = 0; axis < 3; ++axis) centre += (0.5 * (l.size[axis] - 1)) * l.step[axis];
+  char cell[256], xsc[256];
+  std::snprintf(cell, sizeof cell, "'{{%.12g %.12g %.12g} {40 0 0} {0 41 0} {0 0 42}}'", centre.x, centre.y, centre.z);
+  std::snprintf(
+      xsc, sizeof xsc,
+      "#$LABELS step a_x a_y a_z b_x b_y b_z c_x c_y c_z o_x o_y o_z\n0 40 0 0 0 41 0 0 0 42 %.12g %.12g %.12g\n",
+      centre.x, centre.y, centre.z);
+  for (const auto& given : {map(bare + " --cell " + cell), map(bare + " --xscfile " + folder.write("a.xsc", xsc))}) {
+    double difference = 0;
+    for (std::size_t i = 0; i < own.values.size(); ++i)
+      difference = std::max(difference, std::fabs(static_cast<double>(own.values[i] - given.values[i])));
+    CHECK(difference < 1e-4);
+  }
+  CHECK(map(with_cell + " --compatible").lattice.size == std::array<int, 3>{40, 48, 48});
+  CHECK(map(bare + " --method coulomb --dielectric 4 --distance-dependent --grid 20").values.size() == 8000);
+  CHECK(map(bare + " --precision double --spline 8 --ewaldfactor 0.3 --pad 6").values.size() > 0);
+}
+
+TEST_CASE("potential: wrong input gives one line and leaves nothing") {
+  const ScratchFolder folder;
+  const std::string molecule = folder.write("a.pqr", helix(2));
+  const std::string no_charge =
+      folder.write("zero.pqr", "ATOM 1 CA ALA 1 0 0 0 0.0 2.0\nATOM 2 CA ALA 2 3 0 0 0.0 2.0\n");
+  const std::string plain =
+      folder.write("a.pdb", "ATOM      1  CA  ALA A   1       0.000   0.000   0.000  1.00  0.00           C\n");
+  const std::size_t n_before = folder.n_files();
+  struct Case {
+    std::string arguments;
+    const char* expected;
+  };
+  for (const Case& c : {Case{no_charge, "every atom has charge 0, and a potential needs them; give a PQR file"},
+                        {plain, "has no charges"},
+                        {molecule + " --frames 2", "not among the 2 that there are"},
+                        {molecule + " --cell '0 0 0'", "has 3 numbers; give twelve"},
+                        {molecule + " --cell '0 0 0 10 0 0 0 10 0 0 0 -10'", "must be positive"},
+                        {molecule + " --cell '0 0 0 10 0 0 20 0 0 0 0 10'", "span a volume of 0.000000"},
+                        {molecule + " --grid 0", "not above 0"},
+                        {molecule + " --grid '8 8'", "has 2 numbers"},
+                        {molecule + " --grid '4 8 8'", "each edge needs 6"},
+                        {molecule + " --grid 4096 --precision double", "more than memory holds"},
+                        {molecule + " --order 12", "spline order 12 is not among 4 to 8"},
+                        {molecule + " --compatible --order 6", "PMEPot's is 4"},
+                        {molecule + " --compatible --align ca", "`compatible` with superposition"},
+                        {molecule + " --cell '0 0 0 9 0 0 0 9 0 0 0 9' --pad 3", "a cell and a padding"},
+                        {molecule + " --method coulomb --dielectric 0", "dielectric constant 0.000000"},
+                        {molecule + " --variance " + folder.file("v.dx") + " --frames 0", "need 2 frames at least"},
+                        {folder.file("absent.pqr"), "absent.pqr"}}) {
+    const Outcome outcome = run_espdiff("potential " + c.arguments + " --device cpu -o " + folder.file("m.dx"));
+    CAPTURE(c.arguments);
+    if (lacks_fourier(outcome)) continue;
+    CHECK_MESSAGE(outcome.status != 0, outcome.err);
+    CHECK_MESSAGE(contains(outcome.err, c.expected), outcome.err);
+    CHECK(n_lines(outcome.err) == 1);
+    CHECK(outcome.out.empty());
+    CHECK(folder.n_files() == n_before);
+  }
+  CHECK(contains(run_espdiff("potential " + molecule + " -o " + folder.file("m.ccp4")).err, "ends in .dx or .vti"));
+  CHECK(contains(run_espdiff("potential " + molecule + " -o " + folder.file("absent/m.dx")).err, "absent"));
+  CHECK(folder.n_files() == n_before);
+}
+
+TEST_CASE("compare --potential pme computes both maps; without charges it is refused") {
+  const ScratchFolder folder;
+  const std::string molecule = folder.write("a.pqr", row_of_atoms(8)),
+                    other = folder.write("b.pqr", row_of_atoms(8, 0.2));
+  const std::string start = "compare " + molecule + " " + other + " -o " + folder.file("out") + " --device cpu ";
+  const Outcome outcome = run_espdiff(start + "--potential pme --ewaldfactor 0.3 --pme-grid 1");
+  if (lacks_fourier(outcome)) return;
+  CHECK_MESSAGE(outcome.status == 0, outcome.err);
+  CHECK(contains(outcome.out, "kT/e"));
+  CHECK(contains(read_file(folder.file("out.json")), "\"potential_unit\": \"kT/e\""));
+  for (const char* suffix : {".json", ".vtp", ".residues.csv"}) std::filesystem::remove(folder.file("out") + suffix);
+  const std::string map = folder.write("a.dx", constant_dx(33, 2.0, 1.0));
+  const Outcome both = run_espdiff(start + "--potential pme --source-map " + map);
+  CHECK(both.status == 2);
+  CHECK(contains(both.err, "--potential computes both maps"));
+  const std::string plain =
+      folder.write("a.pdb",
+                   "ATOM      1  CA  ALA A   1       0.000   0.000   0.000  1.00  0.00           C\n"
+                   "ATOM      2  CA  ALA A   2       3.800   0.000   0.000  1.00  0.00           C\n"
+                   "ATOM      3  CA  ALA A   3       5.000   3.600   0.000  1.00  0.00           C\n");
+  const std::size_t n_before = folder.n_files();
+  const Outcome none = run_espdiff("compare " + plain + " " + plain + " -o " + folder.file("out") + " --potential pme");
+  CHECK(none.status == 2);
+  for (const char* part : {"has no charges", "PQR", "PSF", "prmtop"}) CHECK_MESSAGE(contains(none.err, part), none.err);
+  CHECK(run_espdiff(start + "--potential apbs").status == 2);
+  CHECK(folder.n_files() == n_before);
+}
