@@ -105,6 +105,38 @@ namespace eval ::espdiff {
         returns {a dictionary: frames rows skipped resumed csv seconds; with -command a handle, such as trajectory1} \
         example {espdiff trajectory -mol 0 -frames 0:10: -map {files frame%03d.dx} -csv out.csv}]
 
+    command potential [dict create arguments {} settings none run ::espdiff::potential options {
+            {-mol text top "Molecule of VMD"}
+            {-sel text all "Atoms whose charges count"}
+            {-frames text now "now, all, last, a frame, begin:end or begin:step:end"}
+            {-method choice pme "pme: particle-mesh Ewald, the smooth part, as PMEPot computes it. coulomb: point\
+                charges, isolated, for small molecules" {pme coulomb}}
+            {-cell text {} "Cell of all frames: {{ox oy oz} {ax ay az} {bx by bz} {cx cy cz}}, o its middle; without it\
+                each frame's own, else a box around the atoms"}
+            {-pad text {} "A box around the atoms, wider by so much on each side, Angstrom (10 where there is no cell)"}
+            {-grid text 1.0 "Resolution in Angstrom below 8, else the number of points along each edge, or {na nb nc}"}
+            {-ewaldfactor positive 0.25 "How sharply charges are smeared, 1/A"}
+            {-spline text {} "Order of the B-splines, 4 to 8 (6; 4 with -compatible)"}
+            {-compatible boolean 0 "PMEPot's own numbers: its grid, its splines' factor, its truncated volume"}
+            {-precision choice single "Of the computation" {single double}}
+            {-dielectric positive 1.0 "Dielectric constant of -method coulomb"}
+            {-align choice none "Superpose each frame on the first by these atoms: the average then stays with the\
+                molecule" {none all backbone ca}}
+            {-block count 1 "Frames in a block, for the error bar"}
+            {-variance boolean 0 "Also the variance over the frames, a data set or FILE.variance.dx"}
+            {-error boolean 0 "Also the standard error of the mean from the blocks, a data set or FILE.error.dx"}
+            {-dxfile file {} "Write the mean to this DX file"}
+            {-loadmol text same "Molecule that gets the maps as data sets: an id, same, new, or none"}
+            {-device choice auto "Where to compute: auto takes a GPU if one answers" {auto cpu cuda}}
+            {-threads count 0 "CPU threads; 0 takes all. The result is the same for any number"}
+            {-progress command {} "Called as CMD stage fraction; `break` from it cancels"}
+        } \
+        summary {Computes the electrostatic potential of a molecule's charges, by PME in the cell of each frame, or its
+            mean over frames. Needs VMD; the options are PMEPot's where they mean the same. For a comparison nothing of
+            this is needed: `map pme` computes the maps in between.} \
+        returns {a dictionary: frames, mol (the molecule with the maps), volumes (their numbers), files, seconds} \
+        example {espdiff potential -mol 0 -frames all -align backbone -variance 1}]
+
     command status [dict create arguments {handle} options {} settings none run ::espdiff::status \
         summary {How far a computation is.} \
         returns {a dictionary: kind, state (queued, running, done, failed, cancelled), stage, fraction} \

@@ -66,6 +66,7 @@ namespace eval ::espdiff {
     # or {mol ID map K}; for the core. `unit` and `array` may stand in the endpoint or in the map.
     proc make_map {text endpoint role temporary_name} {
         upvar 1 $temporary_name temporary
+        if {[is_pme $text]} { return [pme_map $text $endpoint "$role map"] }
         set map [parse_map $text $endpoint $role]
         foreach key {unit array} {
             if {[dict exists $endpoint $key] && ![dict exists $map $key]} {
@@ -82,7 +83,6 @@ namespace eval ::espdiff {
     }
 
     proc parse_map {text endpoint role} {
-        if {$text eq "pme"} { refuse_pme $endpoint "$role map" }
         if {[string is list $text] && [llength $text] % 2 == 0 && [lindex $text 0] in {file mol}} {
             set map [dict create {*}$text]
             set known [expr {[dict exists $map mol] ? {mol map unit} : {file array unit}}]
@@ -96,16 +96,8 @@ namespace eval ::espdiff {
             return [dict create mol [dict get $endpoint mol] map $text]
         }
         if {[dict exists $endpoint mol]} {
-            fail "$role map: '$text' is not the number of a data set, {file PATH} or {mol ID map K}"
+            fail "$role map: '$text' is not the number of a data set, {file PATH}, {mol ID map K} or pme"
         }
         return [dict create file $text]
-    }
-
-    # Potentials that are computed here are for a later version; what would be missing for them is told all the same.
-    proc refuse_pme {endpoint what} {
-        if {[dict exists $endpoint mol]} {
-            vmd_require_charges [vmd_structure $endpoint $what] $what
-        }
-        fail "$what: pme is not in this version; compute a map with `pmepot` or APBS, load it, and give its number"
     }
 }

@@ -38,7 +38,6 @@ namespace eval ::espdiff {
     proc check_frame_maps {run_name} {
         upvar 1 $run_name run
         set map $run(map)
-        if {$map eq "pme"} { refuse_pme $run(endpoint) -map }
         set n [llength $run(frames)]
         switch [map_form $map $run(mol)] {
             volumes {
@@ -75,6 +74,7 @@ namespace eval ::espdiff {
             }
             return number
         }
+        if {[is_pme $map]} { return endpoint }
         if {[string is list $map] && [llength $map] == 2} {
             switch [lindex $map 0] {
                 volumes {

@@ -225,6 +225,7 @@ namespace eval ::espdiff {
         if {$map eq ""} { return $endpoint }
         set from $run(endpoint)
         if {$run(unit) ne ""} { dict set from unit $run(unit) }
+        if {$run(mol) ne ""} { dict set from frame $frame }
         dict set endpoint map [make_map $map $from $role temporary]
         return $endpoint
     }

@@ -31,6 +31,8 @@ struct Command {
 std::vector<Command> compute_commands();
 /// result_commands.cpp: what came out, as values and as files.
 std::vector<Command> result_commands();
+/// potential_commands.cpp: potentials of frames, and their average.
+std::vector<Command> potential_commands();
 /// drawing_commands.cpp: what came out, as maps and triangles for VMD.
 std::vector<Command> drawing_commands();
 /// about_commands.cpp: what this module is and offers.

@@ -40,10 +40,10 @@ std::shared_ptr<SeriesObject> make_series(Tcl_Obj* source, const Computation& co
 void run_step(ComparisonObject& step, StartFrom start, const Progress& progress) {
   SeriesObject& series = *step.series;
   progress.report("read", 0.0);
-  load(series.source);
-  load(step.target);
+  if (series.engine == nullptr) series.engine = engine_for(series.computation);
+  load(series.source, *series.engine, progress);
+  load(step.target, *series.engine, progress);
   if (series.series == nullptr) {
-    series.engine = engine_for(series.computation);
     series.series = std::make_unique<Series>(*series.engine, input_of(series.source), series.computation.options);
     if (series.restored) series.series->restore(std::move(*series.restored));
     series.restored.reset();
@@ -113,8 +113,8 @@ Tcl_Obj* surface(const Call& call) {
         const auto alive = keep.lock();
         if (alive == nullptr) return;
         progress.report("read", 0.0);
-        load(alive->molecule);
         const std::unique_ptr<Engine> engine = engine_for(alive->computation);
+        load(alive->molecule, *engine, progress);
         alive->result =
             make_surface(*engine, input_of(alive->molecule), alive->computation.options, regularize, progress);
       });

@@ -93,8 +93,6 @@ void parse_vmd_molecule(DictReader& reader, Endpoint& endpoint) {
   }
   const ValueOrigin radii = origin_named(reader.text("radii_origin", "vmd"), "radii_origin");
   const ValueOrigin charges = origin_named(reader.text("charges_origin", "none"), "charges_origin");
-  reader.find("cell");  // for potentials that are computed here; not used yet
-
   MoleculeBuilder builder(name, {});
   std::vector<float> charge;
   for (std::size_t i = 0; i < atoms.size(); ++i) {
@@ -121,8 +119,24 @@ void parse_vmd_molecule(DictReader& reader, Endpoint& endpoint) {
   endpoint.inputs.push_back({endpoint.role, reader.text("input", name), fingerprint(*endpoint.molecule)});
 }
 
-void parse_map(Tcl_Obj* description, Endpoint& endpoint) {
+/// @param endpoint_reader of the endpoint that the map is for: its coordinates and cell are the map's
+void parse_computed_map(DictReader& reader, DictReader& endpoint_reader, Endpoint& endpoint) {
+  ComputedMap computed;
+  computed.options = parse_potential_options(reader);
+  if (Tcl_Obj* const charges = reader.find("charges")) {
+    computed.charges =
+        charged_atoms(charges, endpoint_reader.require("coordinates"), endpoint_reader.text("name", endpoint.role));
+    require_charges(computed.charges);
+  }
+  if (Tcl_Obj* const cell = endpoint_reader.find("cell"))
+    computed.cell = parse_unit_cell(cell, endpoint.role + " cell");
+  reader.finish();
+  endpoint.computed_map = std::move(computed);
+}
+
+void parse_map(Tcl_Obj* description, DictReader& endpoint_reader, Endpoint& endpoint) {
   DictReader reader(description, endpoint.role + " map");
+  if (reader.boolean("pme", false)) return parse_computed_map(reader, endpoint_reader, endpoint);
   endpoint.map_unit = reader.text("unit");
   if (Tcl_Obj* const memory = reader.find("memory")) {
     const std::string name = to_string(memory), label = reader.text("name", name);
@@ -155,17 +169,89 @@ Endpoint parse_endpoint(Tcl_Obj* description, const std::string& role) {
   } else {
     parse_vmd_molecule(reader, endpoint);
   }
-  if (Tcl_Obj* const map = reader.find("map")) parse_map(map, endpoint);
+  reader.find("cell");
+  if (Tcl_Obj* const map = reader.find("map")) parse_map(map, reader, endpoint);
   reader.finish();
   return endpoint;
 }
 
-void load(Endpoint& endpoint) {
+PotentialOptions parse_potential_options(DictReader& reader) {
+  PotentialOptions o;
+  // Sampled linearly between its points: half an Angstrom keeps that error small.
+  o.grid = parse_grid_choice(reader.text("grid", "0.5"));
+  o.pme.compatible = reader.boolean("compatible", false);
+  constexpr int kPmepotOrder = 4;
+  o.pme.order = reader.integer("spline", o.pme.compatible ? kPmepotOrder : o.pme.order);
+  o.pme.ewald_factor = reader.number("ewaldfactor", o.pme.ewald_factor);
+  const std::string precision = reader.text("precision", "single");
+  if (precision != "single" && precision != "double")
+    throw InputError("precision: '" + precision + "' is not single or double");
+  o.pme.precision = precision == "double" ? Precision::kDouble : Precision::kSingle;
+  if (Tcl_Obj* const pad = reader.find("pad")) o.pad_A = to_double(pad, "pad");
+  if (Tcl_Obj* const box = reader.find("box")) o.cell = parse_cell(to_string(box));
+  return o;
+}
+
+std::optional<UnitCell> parse_unit_cell(Tcl_Obj* numbers, const std::string& what) {
+  const std::vector<Tcl_Obj*> values = to_vector(numbers, what);
+  if (values.size() != 6)
+    throw InputError(what + ": " + std::to_string(values.size()) +
+                     " numbers instead of three lengths and three angles");
+  UnitCell cell;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    cell.lengths[axis] = to_double(values[i], what);
+    cell.angles[axis] = to_double(values[i + 3], what);
+    if (cell.lengths[axis] <= 1) return std::nullopt;
+  }
+  return cell;
+}
+
+Molecule charged_atoms(Tcl_Obj* charges, Tcl_Obj* coordinates, const std::string& name) {
+  const std::vector<Vec3f> positions = positions_of(coordinates, name);
+  const std::vector<Tcl_Obj*> values = to_vector(charges, name + ", charges");
+  if (values.size() != positions.size())
+    throw InputError(name + ": " + std::to_string(values.size()) + " charges for " + std::to_string(positions.size()) +
+                     " atoms");
+  Molecule molecule;
+  molecule.name = name;
+  molecule.atoms.resize(positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    molecule.positions.push_back(static_cast<Vec3d>(positions[i]));
+    molecule.charges.push_back(static_cast<float>(to_double(values[i], name + ", charge")));
+  }
+  return molecule;
+}
+
+Molecule named_atoms(const std::vector<Tcl_Obj*>& atoms, const std::vector<Vec3d>& positions, const std::string& name) {
+  if (atoms.size() != positions.size())
+    throw InputError(name + ": " + std::to_string(atoms.size()) + " names for " + std::to_string(positions.size()) +
+                     " atoms");
+  MoleculeBuilder builder(name, {});
+  for (std::size_t i = 0; i < atoms.size(); ++i) {
+    VmdAtom atom = atom_of(atoms[i], name + ", atom " + std::to_string(i));
+    atom.entry.position = positions[i];
+    builder.add(atom.entry);
+  }
+  return builder.finish();
+}
+
+void load(Endpoint& endpoint, Engine& engine, const Progress& progress) {
   if (!endpoint.molecule) {
     endpoint.molecule = read_structure(endpoint.structure_path, endpoint.structure);
     endpoint.inputs.push_back({endpoint.role, endpoint.structure_path, sha256_of_file(endpoint.structure_path)});
   }
-  if (endpoint.map || endpoint.map_path.empty()) return;
+  if (endpoint.map) return;
+  if (endpoint.computed_map) {
+    const ComputedMap& computed = *endpoint.computed_map;
+    const Molecule& charges = computed.charges.size() > 0 ? computed.charges : *endpoint.molecule;
+    progress.report("potential", 0.0);
+    endpoint.map = PotentialSeries(engine, computed.options).step(charges, computed.cell, progress);
+    endpoint.inputs.push_back(
+        {endpoint.role + "_map", "pme of " + std::to_string(charges.size()) + " charges", fingerprint(*endpoint.map)});
+    return;
+  }
+  if (endpoint.map_path.empty()) return;
   GridOptions options;
   options.array = endpoint.map_array;
   Grid map = read_grid(endpoint.map_path, options);

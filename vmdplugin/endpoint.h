@@ -8,12 +8,23 @@
 #include <vector>
 
 #include "base/types.h"
+#include "engine/engine.h"
 #include "io/read_structure.h"
+#include "pipeline/potential.h"
 #include "pipeline/write_compare.h"
+#include "tcl_values.h"
 
 namespace espdiff::vmdplugin {
 
-/// A molecule and its map. What is in files is read by load(), on the worker's thread.
+/// The potential of a molecule that is computed here: of all its charges, whatever part of it has the surface.
+struct ComputedMap {
+  PotentialOptions options;
+  Molecule charges;  ///< positions and charges only; empty: the endpoint's molecule has them
+  std::optional<UnitCell> cell;
+};
+
+/// A molecule and its map. What is in files is read, and what is to be computed computed, by load(), on the worker's
+/// thread.
 struct Endpoint {
   std::string structure_path;  ///< empty: the molecule came from memory
   StructureOptions structure;
@@ -21,6 +32,7 @@ struct Endpoint {
   std::string map_array, map_unit;
   std::optional<Molecule> molecule;
   std::optional<Grid> map;
+  std::optional<ComputedMap> computed_map;
   std::vector<InputFile> inputs;  ///< provenance; roles begin with the endpoint's ("source", "source_map")
   std::string role;
 };
@@ -29,14 +41,32 @@ struct Endpoint {
 ///   file PATH ?model N? ?map MAP?
 ///   atoms LIST coordinates BYTES ?indices LIST? name TEXT radii_origin R charges_origin C ?input TEXT? ?cell LIST?
 ///   ?map MAP?
-/// with MAP: file PATH ?array NAME? ?unit U?, or memory NAME ?unit U?. A volume in memory is taken: it is gone after.
+/// with MAP: file PATH ?array NAME? ?unit U?, or memory NAME ?unit U?, or
+///   pme 1 ?charges LIST? ?grid G? ?ewaldfactor F? ?spline N? ?pad P? ?box CELL? ?compatible B? ?precision P?
+/// A volume in memory is taken: it is gone after. `charges` are those of all atoms in the coordinates, 0 where one does
+/// not count; without them the molecule's own are taken.
 /// @param role "source", "target" or "molecule"
 /// @throws InputError (wrong keys, numbers that do not fit each other, no atoms, radii that add no density)
 Endpoint parse_endpoint(Tcl_Obj* description, const std::string& role);
 
-/// Reads the files that are not read yet, and notes their fingerprints.
-/// @throws what read_structure and read_grid throw
-void load(Endpoint& endpoint);
+/// The keys that say how a potential is computed, taken off a dict: see MAP above.
+/// @throws InputError
+PotentialOptions parse_potential_options(DictReader& reader);
+
+/// Six numbers, lengths and angles; nothing where a length is at most 1 A, as VMD says that there is no cell.
+std::optional<UnitCell> parse_unit_cell(Tcl_Obj* numbers, const std::string& what);
+
+/// Atoms with positions and charges only, for a potential: `coordinates` as `gettimestep` returns them.
+/// @throws InputError (numbers that do not fit each other)
+Molecule charged_atoms(Tcl_Obj* charges, Tcl_Obj* coordinates, const std::string& name);
+
+/// Names and residues of atoms, one description each as in `atoms` above, at the positions given.
+/// @throws InputError (numbers that do not fit each other)
+Molecule named_atoms(const std::vector<Tcl_Obj*>& atoms, const std::vector<Vec3d>& positions, const std::string& name);
+
+/// Reads the files that are not read yet, notes their fingerprints, and computes the map that is to be computed.
+/// @throws what read_structure, read_grid and PotentialSeries throw
+void load(Endpoint& endpoint, Engine& engine, const Progress& progress);
 
 CompareInput input_of(const Endpoint& endpoint);
 

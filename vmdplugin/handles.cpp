@@ -14,6 +14,14 @@ namespace {
   throw Error(ErrorClass::kInternal, failure.message);
 }
 
+/// The object as one of a kind. @throws InputError that names what it is
+template <typename Kind>
+std::shared_ptr<Kind> as(const std::shared_ptr<Object>& object, const std::string& handle, const char* wanted) {
+  auto found = std::dynamic_pointer_cast<Kind>(object);
+  if (found == nullptr) throw InputError(handle + " is a " + object->kind() + "; this needs a " + wanted);
+  return found;
+}
+
 void stop(const Object& object) {
   if (object.job == nullptr) return;
   object.job->cancel();
@@ -52,18 +60,17 @@ std::shared_ptr<Object> Handles::find(const std::string& handle) const {
 }
 
 std::shared_ptr<ComparisonObject> Handles::finished_comparison(const std::string& handle) const {
-  const std::shared_ptr<Object> object = find(handle);
-  auto comparison = std::dynamic_pointer_cast<ComparisonObject>(object);
-  if (comparison == nullptr) throw InputError(handle + " is a " + object->kind() + "; this needs a comparison");
+  auto comparison = as<ComparisonObject>(find(handle), handle, "comparison");
   require_done(handle, *comparison);
   return comparison;
 }
 
 std::shared_ptr<SeriesObject> Handles::find_series(const std::string& handle) const {
-  const std::shared_ptr<Object> object = find(handle);
-  auto series = std::dynamic_pointer_cast<SeriesObject>(object);
-  if (series == nullptr) throw InputError(handle + " is a " + object->kind() + "; this needs a series");
-  return series;
+  return as<SeriesObject>(find(handle), handle, "series");
+}
+
+std::shared_ptr<PotentialObject> Handles::find_potential(const std::string& handle) const {
+  return as<PotentialObject>(find(handle), handle, "potential");
 }
 
 void Handles::remove(const std::string& handle) {

@@ -53,6 +53,15 @@ struct SurfaceObject : Object {
   SurfaceResult result;
 };
 
+/// Potentials of frames, one after the other, and their average.
+struct PotentialObject : Object {
+  const char* kind() const override { return "potential"; }
+  Computation computation;
+  PotentialOptions potential;
+  std::unique_ptr<Engine> engine;           // made, like what follows, by the first frame's job
+  std::unique_ptr<PotentialSeries> series;  // destroyed before the engine
+};
+
 /// The objects of one interpreter.
 class Handles {
  public:
@@ -66,6 +75,7 @@ class Handles {
   /// @throws InputError (another kind; not finished), and the job's own failure
   std::shared_ptr<ComparisonObject> finished_comparison(const std::string& handle) const;
   std::shared_ptr<SeriesObject> find_series(const std::string& handle) const;
+  std::shared_ptr<PotentialObject> find_potential(const std::string& handle) const;
   /// Cancels its job and waits for it to stop.
   void remove(const std::string& handle);
   std::vector<std::string> names() const;

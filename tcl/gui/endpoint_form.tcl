@@ -14,6 +14,7 @@ namespace eval ::espdiff::gui {
     variable units {"as the map says" kT/e mV V kcal/mol/e kJ/mol/e hartree/e}
     variable structure_types {{"Structures" {.pqr .pdb .ent .cif .mmcif .gz}} {"All files" *}}
     variable map_types {{"Potential maps" {.dx .vti .cube .cub .gz}} {"All files" *}}
+    variable computed "computed (PME)"  ;# in the place of a map: from the charges
 
     proc build_endpoint {path side title} {
         variable form
@@ -74,7 +75,7 @@ namespace eval ::espdiff::gui {
         ttk::combobox $path.map -textvariable ::espdiff::gui::form($side,map) -width 12 \
             -postcommand [list ::espdiff::gui::guard ::espdiff::gui::update_endpoint $side]
         form_row $path 6 Potential $path.map "Electrostatic potential: a data set of the molecule, a map file (DX, VTI,\
-            cube), or none to compare the shapes alone"
+            cube), computed from the charges (particle-mesh Ewald), or none to compare the shapes alone"
         bind $path.map <<ComboboxSelected>> [list ::espdiff::gui::guard ::espdiff::gui::update_endpoint $side]
         bind $path.map <FocusOut> [list ::espdiff::gui::guard ::espdiff::gui::update_endpoint $side]
         button $path.browse_map ... [list ::espdiff::gui::browse $side map $map_types]
@@ -90,12 +91,13 @@ namespace eval ::espdiff::gui {
     proc update_endpoint {side} {
         variable form
         variable widget
+        variable computed
         set is_molecule [expr {$form($side,kind) eq "mol"}]
         set parent [winfo parent $widget($side,map)]
         foreach name {mol frame frames sel label_mol label_frame label_sel} { show_if $is_molecule $parent.$name }
         foreach name {file browse_file model label_file label_model} { show_if [expr {!$is_molecule}] $parent.$name }
-        if {$is_molecule} { update_molecule $side } else { $widget($side,map) configure -values none }
-        set has_map [expr {[string trim $form($side,map)] ni {none ""}}]
+        if {$is_molecule} { update_molecule $side } else { $widget($side,map) configure -values [list none $computed] }
+        set has_map [expr {[string trim $form($side,map)] ni [list none "" $computed]}]
         foreach name {unit label_unit} { show_if $has_map $parent.$name }
         foreach name {file map} { $widget($side,$name) xview end }
     }
@@ -162,8 +164,9 @@ namespace eval ::espdiff::gui {
         variable form
         variable automatic
         variable widget
+        variable computed
         set names [data_set_names $mol]
-        $widget($side,map) configure -values [concat none $names]
+        $widget($side,map) configure -values [concat none [list $computed] $names]
         if {$form($side,map) eq $automatic($side)} {
             set form($side,map) [expr {[llength $names] > 0 ? [lindex $names 0] : "none"}]
             set automatic($side) $form($side,map)
@@ -203,10 +206,12 @@ namespace eval ::espdiff::gui {
     # of it does the same again.
     proc endpoint {side} {
         variable form
+        variable computed
         set is_molecule [expr {$form($side,kind) eq "mol"}]
         set endpoint [expr {$is_molecule ? [molecule_endpoint $side] : [file_endpoint $side]}]
         set map [string trim $form($side,map)]
         if {$map in {none ""}} { return $endpoint }
+        if {$map eq $computed} { return [concat $endpoint {map pme}] }
         if {$is_molecule} {
             set number [number_of $map]
             set map [expr {$number eq "" ? [list file $map] : $number}]

@@ -44,8 +44,8 @@ namespace eval ::espdiff::gui {
         grid columnconfigure $path.top 0 -weight 1
         build_verdict $path.verdict
         ttk::frame $path.numbers
-        build_numbers $path.numbers 0 16 $potential_numbers
-        build_numbers $path.numbers 3 8 $shape_numbers
+        build_numbers $path.numbers 0 15 $potential_numbers
+        build_numbers $path.numbers 3 10 $shape_numbers
         grid columnconfigure $path.numbers {1 4} -weight 1
         grid columnconfigure $path.numbers 2 -minsize 16
         pack $path.top $path.verdict $path.numbers -fill x -pady {0 4}

@@ -135,6 +135,8 @@ namespace eval ::espdiff::gui {
     proc with_unit {value {unit ""}} {
         if {$value eq ""} { return "\u2013" }
         set text [expr {abs($value) >= 1000 && abs($value) < 1e7 ? [format %.0f $value] : [format %.4g $value]}]
+        # Nothing but rounding.
+        if {abs($value) < 1e-9} { set text 0 }
         if {$unit eq ""} { return $text }
         return "$text $unit"
     }

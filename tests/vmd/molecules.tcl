@@ -86,7 +86,6 @@ test "what is misused is refused with what to do" {
     set topology [mol new [input ubq/ubq.psf] type psf waitfor all]
     check_refused {espdiff compare [list mol $topology] $ok} {ESPDIFF INPUT} "no frames" "mol addfile"
     mol addfile [input ubq/ubq.pdb] type pdb waitfor all $topology
-    check_refused {espdiff compare [list mol $topology map pme] $ok} {ESPDIFF INPUT} "not in this version"
     set all [atomselect $mol all]
     $all set radius 0
     check_refused {espdiff compare $ok $ok} {ESPDIFF INPUT} "every radius is 0"

@@ -90,7 +90,6 @@ test "a map for each frame: one for all, loaded ones, files, a command" {
         foreach row [read_rows $scratch/maps.csv] { lappend found [format %.1f [lindex [split $row ,] 6]] }
         check_equal "-map $map" $found $expected
     }
-    check_refused {espdiff trajectory {*}$options -map pme} {ESPDIFF INPUT} "not in this version"
     check_refused {espdiff trajectory {*}$options -map 7} {ESPDIFF INPUT} "7"
     check_refused {espdiff trajectory {*}$options -map {files nowhere%d.dx}} {ESPDIFF IO} "nowhere0.dx"
     check_refused {espdiff trajectory {*}$options -frames 0:1:500} {ESPDIFF INPUT} "0 to 97"

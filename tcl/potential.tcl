@@ -1,0 +1,171 @@
+# potential.tcl: potentials that are computed here from the charges VMD holds: one molecule's, or averaged over frames.
+
+namespace eval ::espdiff {
+    # What a computed map may be told, as `map pme` or {pme ?key value ...?}; they mean what `espdiff potential` says.
+    variable pme_keys {sel cell pad grid ewaldfactor spline compatible precision}
+
+    proc is_pme {text} { expr {[string is list $text] && [lindex $text 0] eq "pme"} }
+
+    # The core's map of `text` for an endpoint, which the core has the coordinates of.
+    proc pme_map {text endpoint what} {
+        variable pme_keys
+        set keys [lrange $text 1 end]
+        if {[llength $keys] % 2} { fail "$what: '$text' is not pme or {pme ?key value ...?}" }
+        foreach key [dict keys $keys] {
+            if {$key ni $pme_keys} { fail "$what: [unknown_word key $key $pme_keys]" }
+        }
+        set map [pme_core_options [dict remove $keys sel]]
+        dict set map pme 1
+        if {[dict exists $endpoint mol]} {
+            set mol [vmd_molecule_id [dict get $endpoint mol] $what]
+            dict set map charges [vmd_charges $mol [value_or $keys sel all] [value_or $endpoint frame now] $what]
+        } elseif {[dict exists $keys sel]} {
+            fail "$what: `sel` selects atoms of a molecule in VMD; of a file all charges count"
+        }
+        return $map
+    }
+
+    # The core calls a given cell `box`: `cell` is what the molecule says itself.
+    proc pme_core_options {options} {
+        if {[dict exists $options cell]} {
+            dict set options box [dict get $options cell]
+            set options [dict remove $options cell]
+        }
+        return $options
+    }
+
+    # The charges of all atoms, 0 for those that are not selected.
+    proc vmd_charges {mol text frame what} {
+        set all [atomselect $mol all]
+        finally { set charges [$all get charge] } { $all delete }
+        if {$text ne "all"} {
+            if {[catch { atomselect $mol $text frame [vmd_frame $mol $frame $what] } selection]} {
+                fail "$what: the selection '$text' is not understood by VMD ($selection)"
+            }
+            finally {
+                set chosen [lrepeat [llength $charges] 0.0]
+                foreach index [$selection list] { lset chosen $index [lindex $charges $index] }
+            } { $selection delete }
+            set charges $chosen
+        }
+        foreach charge $charges { if {$charge != 0} { return $charges } }
+        if {$text ne "all"} { fail "$what: no atom of the selection '$text' has a charge" }
+        vmd_require_charges [dict create mol $mol charges_origin none] $what
+    }
+
+    # Computes the potential of each frame, averages, and puts the average where it was asked for.
+    proc potential {options} {
+        require_vmd "espdiff potential" "outside of it the command line's `espdiff potential` computes maps of files"
+        set mol [vmd_molecule_id [dict get $options mol] -mol]
+        set frames [potential_frames $mol [dict get $options frames]]
+        potential_check $options [llength $frames]
+        set handle [core::potential [potential_core_options $options]]
+        finally {
+            set begun [clock milliseconds]
+            set done 0
+            foreach frame $frames {
+                core::potential_frame $handle [potential_frame $mol $frame $options]
+                potential_wait $handle [dict get $options progress] $done [llength $frames]
+                incr done
+            }
+            set result [potential_results $handle $mol $options]
+        } { core::delete $handle }
+        return [dict merge [dict create frames [llength $frames]] $result \
+            [dict create seconds [expr {([clock milliseconds] - $begun) / 1000.0}]]]
+    }
+
+    # PMEPot's words: now, all, a frame, begin:end or begin:step:end.
+    proc potential_frames {mol text} {
+        vmd_frame $mol last -mol
+        if {$text eq "all"} { set text 0:1: }
+        if {[llength [split $text :]] == 2} { set text [join [linsert [split $text :] 1 1] :] }
+        set n [molinfo $mol get numframes]
+        return [parse_frames $text $n [molinfo $mol get frame] "molecule $mol ([molinfo $mol get name])"]
+    }
+
+    proc potential_check {options n_frames} {
+        foreach {option least what} {variance 2 variance error 2 "standard error"} {
+            if {![dict get $options $option]} continue
+            set n [expr {$option eq "error" ? $n_frames / [dict get $options block] : $n_frames}]
+            if {$n < $least} { fail "espdiff potential: a $what needs $least frames or blocks of frames; there are $n" }
+        }
+        if {[dict get $options loadmol] eq "none" && [dict get $options dxfile] eq ""} {
+            fail "espdiff potential: with -loadmol none give -dxfile FILE, or nothing would come of it"
+        }
+        if {[dict get $options loadmol] ni {none same new}} { vmd_molecule_id [dict get $options loadmol] -loadmol }
+    }
+
+    proc potential_core_options {options} {
+        set core {}
+        foreach key {
+            grid ewaldfactor spline compatible precision pad cell align block method dielectric device threads
+        } {
+            if {[dict get $options $key] ne ""} { dict set core $key [dict get $options $key] }
+        }
+        return [pme_core_options $core]
+    }
+
+    proc potential_frame {mol frame options} {
+        set name "[molinfo $mol get name], frame $frame"
+        set result [dict create name $name coordinates [gettimestep $mol $frame] \
+            charges [vmd_charges $mol [dict get $options sel] $frame -sel] \
+            cell [molinfo $mol get {a b c alpha beta gamma} frame $frame]]
+        if {[dict get $options align] eq "none"} { return $result }
+        set all [atomselect $mol all]
+        finally {
+            dict set result atoms [$all get {name resname resid insertion chain segname element radius charge}]
+        } { $all delete }
+        return $result
+    }
+
+    proc potential_wait {handle progress done n} {
+        variable slice_ms
+        while {![core::wait $handle $slice_ms]} {
+            if {$progress eq ""} continue
+            set code [catch { call_user $progress potential [expr {double($done) / $n}] } message error]
+            if {$code ni {0 2 4}} { core::cancel $handle }
+            if {$code == 1} { return -options $error $message }
+        }
+        core::check $handle
+    }
+
+    # Files and data sets, as the options want them: mol, volumes (numbers of the data sets), files.
+    proc potential_results {handle mol options} {
+        set averages mean
+        foreach option {variance error} { if {[dict get $options $option]} { lappend averages $option } }
+        set result [dict create mol "" volumes {} files {}]
+        set path [dict get $options dxfile]
+        foreach average $averages {
+            if {$path eq ""} break
+            set file [expr {$average eq "mean" ? $path : "[file rootname $path].$average[file extension $path]"}]
+            dict lappend result files [core::potential_write $handle $average $file]
+        }
+        set where [dict get $options loadmol]
+        if {$where eq "none"} { return $result }
+        keep_view {
+            if {$where eq "new"} {
+                set to [mol new]
+                mol rename $to "[molinfo $mol get name] potential"
+            } else {
+                set to [expr {$where eq "same" ? $mol : $where}]
+            }
+            foreach average $averages { dict lappend result volumes [potential_load $handle $average $to] }
+        }
+        dict set result mol $to
+        return $result
+    }
+
+    proc potential_load {handle average mol} {
+        set name [core::potential_put $handle $average]
+        finally { set arrived [vmd_add_volume espdiffmap $name $mol] } { core::forget_volume $name }
+        if {!$arrived} {
+            set path [temporary_file .dx]
+            finally {
+                core::potential_write $handle $average $path
+                set arrived [vmd_add_volume dx $path $mol]
+            } { file delete $path }
+        }
+        if {!$arrived} { fail "espdiff potential: VMD did not take the map into molecule $mol; see its console" IO }
+        return [expr {[molinfo $mol get numvolumedata] - 1}]
+    }
+}

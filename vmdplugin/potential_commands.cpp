@@ -1,0 +1,111 @@
+// potential_commands.cpp: potential, potential_frame, potential_put, potential_write: potentials of frames, and their
+// average.
+#include <algorithm>
+
+#include "base/error.h"
+#include "commands.h"
+#include "engine/select_engine.h"
+#include "io/write_grid.h"
+#include "tcl_values.h"
+#include "volume_store.h"
+
+namespace espdiff::vmdplugin {
+namespace {
+
+Tcl_Obj* potential(const Call& call) {
+  auto object = std::make_shared<PotentialObject>();
+  DictReader reader(call.arguments[0], "options");
+  object->computation.device = reader.text("device", "auto");
+  parse_device_choice(object->computation.device);  // a wrong one is told at once
+  object->computation.threads = reader.integer("threads", 0);
+  object->potential = parse_potential_options(reader);
+  object->potential.method = parse_potential_method(reader.text("method", "pme"));
+  object->potential.coulomb.dielectric = reader.number("dielectric", object->potential.coulomb.dielectric);
+  object->potential.align = parse_align_atoms(reader.text("align", "none"));
+  object->potential.frames_per_block = static_cast<std::size_t>(std::max(1, reader.integer("block", 1)));
+  reader.finish();
+  return to_obj(call.handles.add(object));
+}
+
+/// The frame's atoms: with names and residues where the superposition needs them.
+Molecule frame_of(DictReader& reader, bool named) {
+  const std::string name = reader.text("name", "frame");
+  Molecule molecule = charged_atoms(reader.require("charges"), reader.require("coordinates"), name);
+  if (!named) {
+    reader.find("atoms");
+    return molecule;
+  }
+  const std::vector<Tcl_Obj*> atoms = to_vector(reader.require("atoms"), name + ", atoms");
+  const Molecule with_names = named_atoms(atoms, molecule.positions, name);
+  molecule.atoms = with_names.atoms;
+  molecule.residues = with_names.residues;
+  return molecule;
+}
+
+Tcl_Obj* potential_frame(const Call& call) {
+  const auto object = call.handles.find_potential(call.text(0));
+  if (object->job != nullptr && !object->job->finished())
+    throw InputError(call.text(0) + " is still computing its last frame; wait for it");
+  DictReader reader(call.arguments[1], "frame");
+  const Molecule molecule = frame_of(reader, object->potential.align != AlignAtoms::kNone);
+  std::optional<UnitCell> cell;
+  if (Tcl_Obj* const numbers = reader.find("cell")) cell = parse_unit_cell(numbers, "cell");
+  reader.finish();
+  object->job = Worker::instance().submit(
+      [keep = std::weak_ptr<PotentialObject>(object), molecule, cell](const Progress& progress) {
+        const auto alive = keep.lock();
+        if (alive == nullptr) return;
+        if (alive->series == nullptr) {
+          alive->engine = select_engine(parse_device_choice(alive->computation.device), alive->computation.threads);
+          alive->series = std::make_unique<PotentialSeries>(*alive->engine, alive->potential);
+        }
+        alive->series->step(molecule, cell, progress);
+      });
+  return nullptr;
+}
+
+/// "mean", "variance" or "error" of the frames so far.
+Grid average(const Call& call) {
+  const std::string handle = call.text(0), which = call.text(1);
+  const auto object = call.handles.find_potential(handle);
+  require_done(handle, *object);
+  if (object->series == nullptr) throw InputError(handle + " has no frames yet");
+  const RunningMap& frames = object->series->average();
+  Grid map = which == "mean" ? frames.mean() : which == "variance" ? frames.variance() : frames.standard_error();
+  const std::string n = std::to_string(frames.n_frames()) + (frames.n_frames() == 1 ? " frame" : " frames");
+  const std::string unit = which == "variance" ? "(kT/e)^2" : "kT/e";
+  map.name = "espdiff " + std::string(which == "mean" ? "potential (" : which + " of the potential (") + unit +
+             ", T=300K), " + n;
+  return map;
+}
+
+void check_average(const std::string& which) {
+  if (which != "mean" && which != "variance" && which != "error")
+    throw InputError("'" + which + "' is not mean, variance or error");
+}
+
+Tcl_Obj* potential_put(const Call& call) {
+  check_average(call.text(1));
+  Grid map = average(call);
+  const std::string dataname = map.name, name = "espdiff-" + call.text(0) + "-" + call.text(1);
+  put_volume(name, std::move(map), dataname);
+  return to_obj(name);
+}
+
+Tcl_Obj* potential_write(const Call& call) {
+  check_average(call.text(1));
+  const std::string path = call.text(2);
+  write_dx(path, average(call));
+  return to_obj(path);
+}
+
+}  // namespace
+
+std::vector<Command> potential_commands() {
+  return {{"potential", 1, 1, "options", potential},
+          {"potential_frame", 2, 2, "handle frame", potential_frame},
+          {"potential_put", 2, 2, "handle average", potential_put},
+          {"potential_write", 3, 3, "handle average file", potential_write}};
+}
+
+}  // namespace espdiff::vmdplugin
