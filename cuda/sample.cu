@@ -40,6 +40,8 @@ std::shared_ptr<MapGrid> make_map(const Grid& map, const RigidTransform& to_map)
 
 namespace {
 
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
 /// A map as kernels see it, passed by value.
 struct MapView {
   const float* values;
@@ -91,7 +93,6 @@ ESPDIFF_INLINE bool find_neighbours(const MapView& map, int axis, double c, Neig
 }
 
 ESPDIFF_INLINE float sample_linear(const MapView& map, const double (&c)[3]) {
-  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   Neighbours at[3];
   for (int axis = 0; axis < 3; ++axis) {
     if (!find_neighbours(map, axis, c[axis], at[axis])) return kNan;
@@ -111,7 +112,6 @@ ESPDIFF_INLINE float sample_linear(const MapView& map, const double (&c)[3]) {
 
 template <int Order>
 ESPDIFF_INLINE float sample_spline(const MapView& map, const double (&c)[3]) {
-  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   int base[3];
   double weight[3][kStoredWeights<Order>];
   for (int axis = 0; axis < 3; ++axis) {

@@ -108,11 +108,13 @@ namespace eval ::espdiff {
     command potential [dict create arguments {} settings none run ::espdiff::potential options {
             {-mol text top "Molecule of VMD"}
             {-sel text all "Atoms whose charges count"}
+            {-updatesel boolean 0 "Select anew in each frame, instead of in the first one"}
             {-frames text now "now, all, last, a frame, begin:end or begin:step:end"}
             {-method choice pme "pme: particle-mesh Ewald, the smooth part, as PMEPot computes it. coulomb: point\
                 charges, isolated, for small molecules" {pme coulomb}}
             {-cell text {} "Cell of all frames: {{ox oy oz} {ax ay az} {bx by bz} {cx cy cz}}, o its middle; without it\
                 each frame's own, else a box around the atoms"}
+            {-xscfile file {} "Cell of all frames from a NAMD .xsc file"}
             {-pad text {} "A box around the atoms, wider by so much on each side, Angstrom (10 where there is no cell)"}
             {-grid text 1.0 "Resolution in Angstrom below 8, else the number of points along each edge, or {na nb nc}"}
             {-ewaldfactor positive 0.25 "How sharply charges are smeared, 1/A"}

@@ -63,8 +63,10 @@ namespace eval ::espdiff {
         finally {
             set begun [clock milliseconds]
             set done 0
+            set charges [vmd_charges $mol [dict get $options sel] [lindex $frames 0] -sel]
             foreach frame $frames {
-                core::potential_frame $handle [potential_frame $mol $frame $options]
+                if {[dict get $options updatesel]} { set charges [vmd_charges $mol [dict get $options sel] $frame -sel] }
+                core::potential_frame $handle [potential_frame $mol $frame $charges $options]
                 potential_wait $handle [dict get $options progress] $done [llength $frames]
                 incr done
             }
@@ -97,6 +99,11 @@ namespace eval ::espdiff {
 
     proc potential_core_options {options} {
         set core {}
+        set xsc [dict get $options xscfile]
+        if {$xsc ne ""} {
+            if {[dict get $options cell] ne ""} { fail "espdiff potential: -cell and -xscfile were given; leave one out" }
+            dict set options cell [core::xsc_cell $xsc]
+        }
         foreach key {
             grid ewaldfactor spline compatible precision pad cell align block method dielectric device threads
         } {
@@ -105,10 +112,10 @@ namespace eval ::espdiff {
         return [pme_core_options $core]
     }
 
-    proc potential_frame {mol frame options} {
+    proc potential_frame {mol frame charges options} {
         set name "[molinfo $mol get name], frame $frame"
         set result [dict create name $name coordinates [gettimestep $mol $frame] \
-            charges [vmd_charges $mol [dict get $options sel] $frame -sel] \
+            charges $charges \
             cell [molinfo $mol get {a b c alpha beta gamma} frame $frame]]
         if {[dict get $options align] eq "none"} { return $result }
         set all [atomselect $mol all]

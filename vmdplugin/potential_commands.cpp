@@ -1,5 +1,5 @@
-// potential_commands.cpp: potential, potential_frame, potential_put, potential_write: potentials of frames, and their
-// average.
+// potential_commands.cpp: potential, potential_frame, potential_put, potential_write, xsc_cell: potentials of frames,
+// and their average.
 #include <algorithm>
 
 #include "base/error.h"
@@ -99,13 +99,21 @@ Tcl_Obj* potential_write(const Call& call) {
   return to_obj(path);
 }
 
+/// The cell of a NAMD .xsc file as a list {centre a b c}.
+Tcl_Obj* xsc_cell(const Call& call) {
+  std::vector<Tcl_Obj*> vectors;
+  for (const Vec3d& v : read_xsc(call.text(0))) vectors.push_back(to_list({to_obj(v.x), to_obj(v.y), to_obj(v.z)}));
+  return to_list(vectors);
+}
+
 }  // namespace
 
 std::vector<Command> potential_commands() {
   return {{"potential", 1, 1, "options", potential},
           {"potential_frame", 2, 2, "handle frame", potential_frame},
           {"potential_put", 2, 2, "handle average", potential_put},
-          {"potential_write", 3, 3, "handle average file", potential_write}};
+          {"potential_write", 3, 3, "handle average file", potential_write},
+          {"xsc_cell", 1, 1, "file", xsc_cell}};
 }
 
 }  // namespace espdiff::vmdplugin

@@ -82,6 +82,24 @@ test "a trajectory: the cell and the coordinates of each frame, mean and varianc
     mol delete $tz2
 }
 
+test "a cell from a NAMD file is the same cell given" {
+    set channel [open $scratch/cell.xsc w]
+    puts $channel "# NAMD extended system configuration output file"
+    puts $channel "#\$LABELS step a_x a_y a_z b_x b_y b_z c_x c_y c_z o_x o_y o_z"
+    puts $channel "0 60 0 0 0 60 0 0 0 64 20 20 18"
+    close $channel
+    espdiff potential -mol $ubq -loadmol none -xscfile $scratch/cell.xsc -dxfile $scratch/xsc.dx
+    espdiff potential -mol $ubq -loadmol none -cell {{20 20 18} {60 0 0} {0 60 0} {0 0 64}} -dxfile $scratch/cell.dx
+    set texts {}
+    foreach name {xsc cell} {
+        set channel [open $scratch/$name.dx]
+        lappend texts [read $channel]
+        close $channel
+    }
+    check "the same map" {[lindex $texts 0] eq [lindex $texts 1]}
+    check_refused {espdiff potential -mol $ubq -xscfile $scratch/none.xsc} {ESPDIFF IO} "none.xsc"
+}
+
 test "what cannot be computed is refused with what to do" {
     set bare [mol new [input ubq/ubq.pdb] type pdb waitfor all]
     check_refused {espdiff potential -mol $bare} {ESPDIFF INPUT} "have no charges" "PSF"
