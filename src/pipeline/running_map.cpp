@@ -2,6 +2,7 @@
 #include "pipeline/running_map.h"
 
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 
@@ -35,18 +36,30 @@ void RunningMap::add(const Grid& map) {
     lattice_ = map.lattice;
     unit_ = map.unit;
     periodic_ = map.periodic;
-    for (std::vector<double>* values : {&mean_, &squares_, &block_, &block_mean_, &block_squares_})
-      values->assign(n_points, 0.0);
+    first_ = map.values;
+    n_frames_ = 1;
+    n_blocks_ = frames_per_block_ == 1 ? 1 : 0;
+    return;
   }
   if (!same_lattice(lattice_, map.lattice) || map.unit != unit_)
     throw InputError(map.name + ": the lattice or unit differs from that of the maps before; sample all frames on one");
   periodic_ = periodic_ && map.periodic;
+  if (!first_.empty()) {
+    for (std::vector<double>* values : {&mean_, &squares_, &block_, &block_mean_, &block_squares_})
+      values->assign(n_points, 0.0);
+    n_frames_ = n_blocks_ = 0;
+    accumulate(std::exchange(first_, {}));
+  }
+  accumulate(map.values);
+}
+
+void RunningMap::accumulate(const std::vector<float>& frame) {
   ++n_frames_;
   const std::size_t in_block = (n_frames_ - 1) % frames_per_block_ + 1;
   const bool ends_block = in_block == frames_per_block_;
   if (ends_block) ++n_blocks_;
-  for (std::size_t i = 0; i < n_points; ++i) {
-    const double value = static_cast<double>(map.values[i]);
+  for (std::size_t i = 0; i < frame.size(); ++i) {
+    const double value = static_cast<double>(frame[i]);
     add_value(value, static_cast<double>(n_frames_), mean_[i], squares_[i]);
     block_[i] += (value - block_[i]) / static_cast<double>(in_block);
     if (!ends_block) continue;
@@ -70,7 +83,9 @@ Grid RunningMap::filled(const std::vector<double>& values, double scale, bool ro
 
 Grid RunningMap::mean() const {
   if (n_frames_ == 0) throw InputError("the mean of no frames; add at least one");
-  return filled(mean_, 1, false, unit_, "mean");
+  Grid grid = filled(mean_, 1, false, unit_, "mean");
+  if (!first_.empty()) grid.values = first_;
+  return grid;
 }
 
 Grid RunningMap::variance() const {

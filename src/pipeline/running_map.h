@@ -12,7 +12,7 @@ namespace espdiff {
 /// Adds up maps on one lattice, in double precision, by Welford's method (Technometrics 4, 419 (1962)), which does not
 /// lose digits where the mean is large against the variance. Means of successive blocks of frames give an error bar
 /// that holds although neighbouring frames resemble each other (Flyvbjerg & Petersen, J. Chem. Phys. 91, 461 (1989)).
-/// Memory: 40 bytes a point.
+/// Memory: 40 bytes a point, 4 while there is one frame.
 class RunningMap {
  public:
   /// @param frames_per_block at least 1
@@ -37,10 +37,13 @@ class RunningMap {
   Grid filled(const std::vector<double>& values, double scale, bool root, PotentialUnit unit,
               const std::string& what) const;
 
+  void accumulate(const std::vector<float>& frame);
+
   std::size_t frames_per_block_, n_frames_ = 0, n_blocks_ = 0;
   Lattice lattice_;
   PotentialUnit unit_ = PotentialUnit::kUnknown;
   bool periodic_ = false;
+  std::vector<float> first_;                        // [point] the only frame so far: sums are begun with the second
   std::vector<double> mean_, squares_;              // [point] of frames: mean, sum of squared deviations
   std::vector<double> block_;                       // [point] mean of the block that is being filled
   std::vector<double> block_mean_, block_squares_;  // [point] of the blocks' means
