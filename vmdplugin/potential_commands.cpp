@@ -47,7 +47,8 @@ Tcl_Obj* potential_frame(const Call& call) {
   if (object->job != nullptr && !object->job->finished())
     throw InputError(call.text(0) + " is still computing its last frame; wait for it");
   DictReader reader(call.arguments[1], "frame");
-  const Molecule molecule = frame_of(reader, object->potential.align != AlignAtoms::kNone);
+  const auto molecule =
+      std::make_shared<const Molecule>(frame_of(reader, object->potential.align != AlignAtoms::kNone));
   std::optional<UnitCell> cell;
   if (Tcl_Obj* const numbers = reader.find("cell")) cell = parse_unit_cell(numbers, "cell");
   reader.finish();
@@ -59,7 +60,7 @@ Tcl_Obj* potential_frame(const Call& call) {
           alive->engine = select_engine(parse_device_choice(alive->computation.device), alive->computation.threads);
           alive->series = std::make_unique<PotentialSeries>(*alive->engine, alive->potential);
         }
-        alive->series->step(molecule, cell, progress);
+        alive->series->step(*molecule, cell, progress);
       });
   return nullptr;
 }

@@ -41,7 +41,8 @@ void require_charges(const Molecule& molecule) {
 
 /// What later frames are held against.
 struct PotentialSeries::FirstFrame {
-  Molecule molecule;
+  std::size_t n_atoms = 0;
+  std::vector<Vec3d> positions;                            ///< empty without superposition
   std::vector<std::pair<std::size_t, std::size_t>> pairs;  ///< atoms of the superposition, with themselves
   PmeCell cell;
   Lattice lattice;
@@ -66,7 +67,7 @@ PmeCell PotentialSeries::cell_of(const std::vector<Vec3d>& positions, const std:
 
 RigidTransform PotentialSeries::onto_first(const Molecule& frame) const {
   if (options_.align == AlignAtoms::kNone) return {};
-  return superpose(frame.positions, first_->molecule.positions, first_->pairs).transform;
+  return superpose(frame.positions, first_->positions, first_->pairs).transform;
 }
 
 Grid PotentialSeries::compute(const std::vector<Vec3d>& positions, const Molecule& frame, const PmeCell& cell,
@@ -91,8 +92,9 @@ Grid PotentialSeries::step(const Molecule& frame, const std::optional<UnitCell>&
   require_charges(frame);
   if (!first_) {
     auto first = std::make_unique<FirstFrame>();
-    first->molecule = frame;
+    first->n_atoms = frame.size();
     if (options_.align != AlignAtoms::kNone) {
+      first->positions = frame.positions;
       AtomPairing same;
       for (std::size_t i = 0; i < frame.size(); ++i) {
         const Residue& residue = frame.residues[static_cast<std::size_t>(frame.atoms[i].residue)];
@@ -102,9 +104,9 @@ Grid PotentialSeries::step(const Molecule& frame, const std::optional<UnitCell>&
     }
     first_ = std::move(first);
     first_->cell = cell_of(frame.positions, own_cell);
-  } else if (frame.size() != first_->molecule.size()) {
+  } else if (frame.size() != first_->n_atoms) {
     throw InputError(frame.name + ": a frame of " + std::to_string(frame.size()) + " atoms after one of " +
-                     std::to_string(first_->molecule.size()) + "; frames must be of one molecule");
+                     std::to_string(first_->n_atoms) + "; frames must be of one molecule");
   }
   const RigidTransform to_first = onto_first(frame);
   std::vector<Vec3d> positions = frame.positions;
