@@ -180,8 +180,7 @@ PotentialOptions parse_potential_options(DictReader& reader) {
   // Sampled linearly between its points: half an Angstrom keeps that error small.
   o.grid = parse_grid_choice(reader.text("grid", "0.5"));
   o.pme.compatible = reader.boolean("compatible", false);
-  constexpr int kPmepotOrder = 4;
-  o.pme.order = reader.integer("spline", o.pme.compatible ? kPmepotOrder : o.pme.order);
+  o.pme.order = reader.integer("spline", usual_order(o.pme.compatible));
   o.pme.ewald_factor = reader.number("ewaldfactor", o.pme.ewald_factor);
   const std::string precision = reader.text("precision", "single");
   if (precision != "single" && precision != "double")
@@ -236,7 +235,7 @@ Molecule named_atoms(const std::vector<Tcl_Obj*>& atoms, const std::vector<Vec3d
   return builder.finish();
 }
 
-void load(Endpoint& endpoint, Engine& engine, const Progress& progress) {
+void load(Endpoint& endpoint, Engine& engine, double temperature_K, const Progress& progress) {
   if (!endpoint.molecule) {
     endpoint.molecule = read_structure(endpoint.structure_path, endpoint.structure);
     endpoint.inputs.push_back({endpoint.role, endpoint.structure_path, sha256_of_file(endpoint.structure_path)});
@@ -246,7 +245,9 @@ void load(Endpoint& endpoint, Engine& engine, const Progress& progress) {
     const ComputedMap& computed = *endpoint.computed_map;
     const Molecule& charges = computed.charges.size() > 0 ? computed.charges : *endpoint.molecule;
     progress.report("potential", 0.0);
-    endpoint.map = PotentialSeries(engine, computed.options).step(charges, computed.cell, progress);
+    PotentialOptions options = computed.options;
+    options.pme.temperature_K = temperature_K;
+    endpoint.map = PotentialSeries(engine, options).step(charges, computed.cell, progress);
     endpoint.inputs.push_back(
         {endpoint.role + "_map", "pme of " + std::to_string(charges.size()) + " charges", fingerprint(*endpoint.map)});
     return;

@@ -65,8 +65,9 @@ Molecule charged_atoms(Tcl_Obj* charges, Tcl_Obj* coordinates, const std::string
 Molecule named_atoms(const std::vector<Tcl_Obj*>& atoms, const std::vector<Vec3d>& positions, const std::string& name);
 
 /// Reads the files that are not read yet, notes their fingerprints, and computes the map that is to be computed.
+/// @param temperature_K of the kT in a computed map's unit
 /// @throws what read_structure, read_grid and PotentialSeries throw
-void load(Endpoint& endpoint, Engine& engine, const Progress& progress);
+void load(Endpoint& endpoint, Engine& engine, double temperature_K, const Progress& progress);
 
 CompareInput input_of(const Endpoint& endpoint);
 

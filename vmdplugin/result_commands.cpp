@@ -36,7 +36,9 @@ Tcl_Obj* result(const Call& call) {
     require_done(handle, *surface);
     return surface_result(*surface);
   }
-  return to_obj(nlohmann::ordered_json::parse(in_tcl_words(json_of(*call.handles.finished_comparison(handle)))));
+  auto json = nlohmann::ordered_json::parse(json_of(*call.handles.finished_comparison(handle)));
+  for (auto& reason : json["certificate"]["reasons"]) reason = in_tcl_words(reason.get<std::string>());
+  return to_obj(json);
 }
 
 Tcl_Obj* residues(const Call& call) {

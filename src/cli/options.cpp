@@ -57,7 +57,7 @@ void add_settings(CLI::App& parser, GivenSettings& given, bool of_surface_only) 
       try {
         setting.set(scratch, text);
       } catch (const InputError& error) {
-        return std::string(error.what());
+        return std::string(error.what()).substr(setting.name.size() + 2);  // without "NAME: ": CLI11 names the option
       }
       return std::string();
     };

@@ -109,12 +109,7 @@ PotentialOptions options_from(const Arguments& a) {
   o.grid = parse_grid_choice(a.grid);
   o.pme = a.pme;
   o.pme.precision = a.precision == "double" ? Precision::kDouble : Precision::kSingle;
-  constexpr int kPmepotOrder = 4;
-  if (a.order != 0) {
-    o.pme.order = a.order;
-  } else if (a.pme.compatible) {
-    o.pme.order = kPmepotOrder;
-  }
+  o.pme.order = a.order != 0 ? a.order : usual_order(a.pme.compatible);
   o.coulomb = a.coulomb;
   o.coulomb.temperature_K = a.pme.temperature_K;
   o.align = parse_align_atoms(a.align);

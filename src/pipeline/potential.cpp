@@ -30,6 +30,11 @@ PotentialMethod parse_potential_method(const std::string& text) {
   throw InputError("unknown method '" + text + "' of a potential; use pme or coulomb");
 }
 
+int usual_order(bool compatible) {
+  constexpr int kPmepotOrder = 4;
+  return compatible ? kPmepotOrder : PmeOptions().order;
+}
+
 void require_charges(const Molecule& molecule) {
   const bool any = std::any_of(molecule.charges.begin(), molecule.charges.end(), [](float q) { return q != 0; });
   if (any) return;

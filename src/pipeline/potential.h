@@ -29,6 +29,8 @@ struct GridChoice {
 /// in Angstrom.
 /// @throws InputError
 GridChoice parse_grid_choice(const std::string& text);
+/// The order of the B-splines where none is asked for: PMEPot's own in its mode, else that of PmeOptions.
+int usual_order(bool compatible);
 /// Reads a cell: `ox oy oz ax ay az bx by bz cx cy cz` (o the centre), with braces and commas as one likes; PMEPot's
 /// -cell is one of these.
 /// @throws InputError
