@@ -39,7 +39,7 @@ namespace eval ::espdiff {
         example {foreach residue [espdiff residues comparison1] { puts [dict get $residue mean_abs_difference] }}]
 
     command table [dict create arguments {handle} options {} settings none run ::espdiff::table_of \
-        summary {The comparison as a table for reading, as the command line prints it.} \
+        summary {A comparison or a matrix as a table for reading, as the command line prints it.} \
         returns {the text} example {puts [espdiff table comparison1]}]
 
     command export [dict create arguments {handle prefix} options {} settings none run ::espdiff::export \
@@ -104,6 +104,33 @@ namespace eval ::espdiff {
             done. The reference's surface is computed once. An interrupted run can be resumed.} \
         returns {a dictionary: frames rows skipped resumed csv seconds; with -command a handle, such as trajectory1} \
         example {espdiff trajectory -mol 0 -frames 0:10: -map {files frame%03d.dx} -csv out.csv}]
+
+    command matrix [dict create arguments {variants} settings all run ::espdiff::matrix options [concat {
+            {-output file required "Prefix of the results OUT.csv and OUT.json, and of the state file"}
+            {-resume boolean 0 "Go on where an interrupted run stopped: its state file is beside the results"}
+            {-overwrite boolean 0 "Begin anew, in the place of results and state files"}
+            {-on-error choice stop "A pair that cannot be compared stops the run, or is skipped and noted in the\
+                results" {stop skip}}
+            {-shard text 1/1 "Compute part I of N of the pairs, I/N, into OUT.shard-I-of-N.state; `espdiff merge` puts\
+                the parts together"}
+            {-cluster-by text {} "Metric that variants are clustered by; mean_abs_difference, or without potentials\
+                mean_displacement_A"}
+        } $computing] \
+        summary {Compares many variants, each with each, both ways. A variant is an endpoint that may have a `label` and
+            a `group`; {mol ID frames BEGIN:STEP:END ...} stands for one variant a frame, and {file PATH ...} without
+            `model` for one a model. Each one's surface is regularized, and its potential computed, once.} \
+        returns {a handle, such as matrix1; `espdiff result` has what OUT.json has, and pairs, resumed, seconds, files} \
+        example {espdiff matrix {{mol 0 frames 0:10: map pme} {file open.pqr map pme group open}} -output adk}]
+
+    command merge [dict create arguments {states} settings none run ::espdiff::merge options {
+            {-output file required "Prefix of the results OUT.csv and OUT.json"}
+            {-overwrite boolean 0 "Replace results that exist"}
+            {-cluster-by text {} "As of `espdiff matrix`"}
+        } \
+        summary {Puts the parts of a matrix together: the state files that `espdiff matrix -shard` left. The results are
+            those of one process, byte by byte.} \
+        returns {the files written} \
+        example {espdiff merge [glob part.shard-*.state] -output all}]
 
     command potential [dict create arguments {} settings none run ::espdiff::potential options {
             {-mol text top "Molecule of VMD"}

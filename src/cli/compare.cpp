@@ -5,7 +5,6 @@
 #include "cli/verbs.h"
 #include "io/atomic_file.h"
 #include "io/sha256.h"
-#include "pipeline/potential.h"
 #include "pipeline/write_compare.h"
 
 namespace espdiff::cli {
@@ -13,9 +12,8 @@ namespace {
 
 struct Arguments {
   std::string source, target, output;
-  std::string source_map, target_map, source_map_unit, target_map_unit, map_array, potential;
-  std::string pme_grid = "0.5";
-  double ewald_factor = PmeOptions().ewald_factor;
+  std::string source_map, target_map, source_map_unit, target_map_unit, map_array;
+  ComputedPotentialArguments potential;
   int source_model = 1, target_model = 1;
   bool quiet = false;
   StructureOptions structure;
@@ -37,18 +35,7 @@ void add_input_options(CLI::App& p, Arguments& a) {
   p.add_option("--target-map-unit", a.target_map_unit, "Unit of the target map if the file does not say")
       ->group("Potentials");
   p.add_option("--map-array", a.map_array, "Array to take from VTI maps that hold several")->group("Potentials");
-  p.add_option("--potential", a.potential,
-               "Compute the potentials instead of reading maps, from the charges of the atoms that are read, in a cell "
-               "10 A wider than these on each side: pme")
-      ->check(CLI::IsMember({"pme"}))
-      ->group("Potentials");
-  p.add_option("--pme-grid", a.pme_grid,
-               "Grid of a computed potential: a resolution below 8 A, or numbers of points (see `espdiff potential`)")
-      ->capture_default_str()
-      ->group("Potentials");
-  p.add_option("--ewaldfactor", a.ewald_factor, "Smearing of the charges in a computed potential, 1/A")
-      ->capture_default_str()
-      ->group("Potentials");
+  add_computed_potential_options(p, a.potential);
   p.add_option("--source-model", a.source_model, "Model of a multi-model source file, from 1")
       ->check(CLI::PositiveNumber)
       ->capture_default_str()
@@ -65,18 +52,8 @@ Molecule read_model(const Arguments& a, const std::string& path, int model) {
   return read_structure(path, options);
 }
 
-/// The potential of a molecule by itself: its box is padded, whatever cell its file names.
-Grid computed_map(Engine& engine, const Arguments& a, const Molecule& molecule, const CompareOptions& options,
-                  const Progress& progress) {
-  PotentialOptions potential;
-  potential.grid = parse_grid_choice(a.pme_grid);
-  potential.pme.ewald_factor = a.ewald_factor;
-  potential.pme.temperature_K = options.temperature_K;
-  return potential_map(engine, molecule, potential, progress);
-}
-
 int run(const Arguments& a, const Context& context) {
-  if (!a.potential.empty() && !(a.source_map.empty() && a.target_map.empty()))
+  if (a.potential.wanted() && !(a.source_map.empty() && a.target_map.empty()))
     throw InputError("--potential computes both maps; leave out --source-map and --target-map, or --potential");
   const CompareOptions options = make_options(a.settings);
   // An output that cannot be written is better found before the work than after it.
@@ -100,9 +77,9 @@ int run(const Arguments& a, const Context& context) {
     provenance.inputs.push_back({"target_map", a.target_map, sha256_of_file(a.target_map)});
   }
   const std::unique_ptr<Engine> engine = make_engine(a.device);
-  if (!a.potential.empty()) {
-    source_map = computed_map(*engine, a, source, options, *context.progress);
-    target_map = computed_map(*engine, a, target, options, *context.progress);
+  if (a.potential.wanted()) {
+    source_map = computed_map(*engine, a.potential, source, options.temperature_K, *context.progress);
+    target_map = computed_map(*engine, a.potential, target, options.temperature_K, *context.progress);
     source_input.map = &source_map;
     target_input.map = &target_map;
   }
