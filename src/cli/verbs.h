@@ -30,6 +30,7 @@ Verb add_compare(CLI::App& app);
 Verb add_matrix(CLI::App& app);
 Verb add_merge(CLI::App& app);
 Verb add_surface(CLI::App& app);
+Verb add_plot(CLI::App& app);
 Verb add_potential(CLI::App& app);
 Verb add_render(CLI::App& app);
 Verb add_doctor(CLI::App& app);
