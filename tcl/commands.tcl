@@ -57,6 +57,23 @@ namespace eval ::espdiff {
         returns {the number of the data set in the molecule, or the file} \
         example {espdiff map comparison1 -mol 1}]
 
+    command atoms [dict create arguments {handle} settings none run ::espdiff::atoms options {
+            {-quantity choice auto "What the atoms of a residue get; auto is mean_abs_difference, or without potentials\
+                mean_displacement_A" {auto mean_abs_difference mean_signed_difference mean_source mean_target
+                sign_change_area_fraction mean_displacement_A}}
+            {-mol text source "Molecule of VMD that gets the values: source, target, or an id"}
+            {-field choice user "Where VMD keeps them: user to user4 are of one frame, the others of all frames" {user
+                user2 user3 user4 beta occupancy}}
+            {-frame text now "Frame of a user field: a number, now, or all"}
+            {-missing number 0 "Value of atoms whose residue has no surface that is counted"}
+            {-file file {} "Instead of VMD: a PDB file of the source with the values as B factors"}
+        } \
+        summary {Carries a quantity of the residues onto their atoms, so that any representation can be coloured by it
+            (`Coloring Method` User or Beta), or any other program by the B factors of a file. Residues are found by
+            chain, number and insertion code.} \
+        returns {a dictionary: quantity, unit, mol, field, atoms (how many have a value), min, max; or the file} \
+        example {espdiff atoms comparison1 -quantity mean_abs_difference; mol modcolor 0 top User}]
+
     command draw [dict create arguments {handle} settings none run ::espdiff::draw options {
             {-color choice auto "What is shown; auto is difference (potential of a surface), or displacement without\
                 potentials. difference: target - source, red negative, white 0, blue positive; sign: blue turned\
@@ -121,6 +138,22 @@ namespace eval ::espdiff {
             `model` for one a model. Each one's surface is regularized, and its potential computed, once.} \
         returns {a handle, such as matrix1; `espdiff result` has what OUT.json has, and pairs, resumed, seconds, files} \
         example {espdiff matrix {{mol 0 frames 0:10: map pme} {file open.pqr map pme group open}} -output adk}]
+
+    command plot [dict create arguments {input} settings none run ::espdiff::plot options {
+            {-metrics text auto "Names of columns; auto is mean_abs_difference, or without potentials\
+                mean_displacement_A"}
+            {-source text {} "Of a matrix: label of the variant that is drawn against all others, the first one without"}
+            {-normalize boolean 0 "Each metric from its least value, 0, to its greatest, 1, all in one window"}
+            {-title text {} "Title of the window's plot"}
+            {-mol text top "Of a trajectory: molecule that goes to the frame of a point that is clicked; none for none"}
+            {-callback command {} "Instead of that, called as CMD x y with the frame, or the variant's label, and the\
+                value"}
+        } \
+        summary {Plots a trajectory (its CSV file or handle), or one variant of a matrix (its handle) against all
+            others, in VMD's own plot windows (package multiplot): a window for each unit. For pictures of publications,
+            and heat maps, use the command line's `espdiff plot`.} \
+        returns {a list of multiplot's handles} \
+        example {espdiff plot out.csv -metrics {mean_abs_difference rmsd_A}}]
 
     command merge [dict create arguments {states} settings none run ::espdiff::merge options {
             {-output file required "Prefix of the results OUT.csv and OUT.json"}

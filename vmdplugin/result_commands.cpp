@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "commands.h"
+#include "pipeline/residue_values.h"
 #include "pipeline/write_matrix.h"
 #include "pipeline/write_surface.h"
 #include "tcl_values.h"
@@ -127,11 +128,27 @@ Tcl_Obj* export_files(const Call& call) {
   return to_list({prefix + ".json", prefix + ".vtp", prefix + ".residues.csv"});
 }
 
+/// The values of a quantity by residue; in the order of residues().
+Tcl_Obj* residue_quantity(const Call& call) {
+  const auto comparison = call.handles.finished_comparison(call.text(0));
+  std::vector<Tcl_Obj*> values;
+  for (const double value : residue_values(comparison->result, call.text(1))) values.push_back(to_obj(value));
+  return to_dict({{"unit", to_obj(residue_unit(comparison->result, call.text(1)))}, {"values", to_list(values)}});
+}
+
+Tcl_Obj* residue_pdb(const Call& call) {
+  const auto comparison = call.handles.finished_comparison(call.text(0));
+  write_residue_pdb(call.text(2), *comparison->series->source.molecule, comparison->result, call.text(1));
+  return call.arguments[2];
+}
+
 }  // namespace
 
 std::vector<Command> result_commands() {
   return {{"result", 1, 1, "handle", result},
           {"residues", 1, 1, "handle", residues},
+          {"residue_quantity", 2, 2, "handle quantity", residue_quantity},
+          {"residue_pdb", 3, 3, "handle quantity file", residue_pdb},
           {"table", 1, 1, "handle", table},
           {"range", 2, 2, "handle quantity", range},
           {"export", 2, 2, "handle prefix", export_files}};

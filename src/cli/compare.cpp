@@ -5,6 +5,7 @@
 #include "cli/verbs.h"
 #include "io/atomic_file.h"
 #include "io/sha256.h"
+#include "pipeline/residue_values.h"
 #include "pipeline/write_compare.h"
 
 namespace espdiff::cli {
@@ -14,6 +15,7 @@ struct Arguments {
   std::string source, target, output;
   std::string source_map, target_map, source_map_unit, target_map_unit, map_array;
   ComputedPotentialArguments potential;
+  std::string residue_pdb, residue_quantity;
   int source_model = 1, target_model = 1;
   bool quiet = false;
   StructureOptions structure;
@@ -35,6 +37,14 @@ void add_input_options(CLI::App& p, Arguments& a) {
   p.add_option("--target-map-unit", a.target_map_unit, "Unit of the target map if the file does not say")
       ->group("Potentials");
   p.add_option("--map-array", a.map_array, "Array to take from VTI maps that hold several")->group("Potentials");
+  p.add_option("--residue-pdb", a.residue_pdb,
+               "Also write the source as a PDB file whose B factors are the residues' --residue-quantity, for coloring in "
+               "any program")
+      ->group("Residues");
+  p.add_option("--residue-quantity", a.residue_quantity,
+               "Column of the residue table (mean_abs_difference; without potentials mean_displacement_A)")
+      ->check(CLI::IsMember(residue_quantities()))
+      ->group("Residues");
   add_computed_potential_options(p, a.potential);
   p.add_option("--source-model", a.source_model, "Model of a multi-model source file, from 1")
       ->check(CLI::PositiveNumber)
@@ -58,6 +68,9 @@ int run(const Arguments& a, const Context& context) {
   const CompareOptions options = make_options(a.settings);
   // An output that cannot be written is better found before the work than after it.
   for (const char* suffix : {".json", ".vtp", ".residues.csv"}) AtomicFile probe(a.output + suffix);
+  if (!a.residue_pdb.empty()) AtomicFile probe(a.residue_pdb);
+  if (a.residue_pdb.empty() && !a.residue_quantity.empty())
+    throw InputError("--residue-quantity is of --residue-pdb FILE, which is missing");
 
   context.progress->report("read", 0.0);
   const Molecule source = read_model(a, a.source, a.source_model), target = read_model(a, a.target, a.target_model);
@@ -89,6 +102,10 @@ int run(const Arguments& a, const Context& context) {
   const CompareResult result = compare(*engine, source_input, target_input, options, *context.progress);
   context.progress->report("write", 0.0);
   write_compare(a.output, source, target, result, options, provenance);
+  if (!a.residue_pdb.empty()) {
+    const std::string usual = result.has_potential ? "mean_abs_difference" : "mean_displacement_A";
+    write_residue_pdb(a.residue_pdb, source, result, a.residue_quantity.empty() ? usual : a.residue_quantity);
+  }
   context.progress->report("write", 1.0);
   if (!a.quiet) print_table(std::cout, source, target, result);
   return 0;

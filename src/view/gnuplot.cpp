@@ -94,6 +94,12 @@ std::string gnuplot_string(const std::string& text) {
   return result + '"';
 }
 
+std::string gnuplot_tic(const std::string& text) {
+  std::string format;
+  for (const char c : text) format += c == '%' ? std::string("%%") : std::string(1, c);
+  return gnuplot_string(format);
+}
+
 std::string gnuplot_number(double value) { return std::isfinite(value) ? csv_number(value, 9) : "NaN"; }
 
 std::string run_gnuplot(const std::string& script) {

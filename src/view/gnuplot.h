@@ -21,6 +21,8 @@ std::string picture_head(PictureFormat format, const PictureSize& size);
 
 /// A text as gnuplot's string, whatever is in it; line ends become blanks.
 std::string gnuplot_string(const std::string& text);
+/// The same for the label of a tic, which gnuplot would take for a format.
+std::string gnuplot_tic(const std::string& text);
 /// A number as gnuplot reads it; NaN as `NaN`.
 std::string gnuplot_number(double value);
 

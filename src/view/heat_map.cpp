@@ -116,7 +116,7 @@ std::string tics(const char* axis, const HeatMap& map, const std::vector<std::si
   // Labels that would overlap are left out evenly.
   const auto step = static_cast<std::size_t>(std::ceil(l.font / l.cell));
   for (std::size_t place = 0; place < order.size(); place += step)
-    out << (place == 0 ? "" : ", ") << gnuplot_string(map.labels[order[place]]) << ' ' << place;
+    out << (place == 0 ? "" : ", ") << gnuplot_tic(map.labels[order[place]]) << ' ' << place;
   out << ") " << (*axis == 'x' ? "rotate by 90 right " : "") << "scale 0 offset " << (*axis == 'x' ? "0,0.3" : "0.6,0")
       << " font ',"
       << gnuplot_number(l.font) << "' textcolor rgb '" << kInk << "'\n";
@@ -233,13 +233,16 @@ std::string heat_map_script(const HeatMap& map, PictureFormat format) {
     << "set xrange [-0.5:" << n - 0.5 << "]\nset yrange [" << n - 0.5 << ":" << -0.5 - above << "]\nset cbrange ["
     << gnuplot_number(low) << ':' << gnuplot_number(high) << "]\n";
   s << tics("x", map, order, l) << tics("y", map, order, l);
-  s << "set xlabel " << gnuplot_string(map.column_title) << " offset 0,0.4\n";
+  // Where gnuplot finds no room for an axis' title, it leaves it out.
+  s << "set label " << gnuplot_string(map.column_title) << " at first " << 0.5 * (n - 1) << ", screen "
+    << (foot_note(map).empty() ? 11 : 25) / l.size.height << " center\n";
   s << "set label " << gnuplot_string(map.row_title) << " at screen " << 10 / l.size.width << ", first "
     << 0.5 * (n - 1) << " center rotate by 90\n";
   s << "set colorbox user origin screen " << 1 - (l.right - 14) / l.size.width << ',' << l.bottom / l.size.height
     << " size screen " << 12 / l.size.width << ',' << l.side(order.size()) / l.size.height
-    << " border\nset cbtics scale 0.4 font ',9'\nset cblabel "
-    << gnuplot_string(map.title + (map.unit.empty() ? "" : " (" + map.unit + ")")) << " offset 0.6,0\n";
+    << " border\nset cbtics scale 0.4 font ',9'\nset label "
+    << gnuplot_string(map.title + (map.unit.empty() ? "" : " (" + map.unit + ")")) << " at screen "
+    << 1 - 12 / l.size.width << ", first " << 0.5 * (n - 1) << " center rotate by 90\n";
   s << rectangle(-0.5, -0.5, n - 0.5, n - 0.5, std::string("behind fillcolor rgb '") + kNoValue + "' fillstyle solid 1 noborder");
   s << rectangle(-0.5, -0.5, n - 0.5, n - 0.5, std::string("front fillstyle empty border rgb '") + kInk + "' linewidth 0.6");
   for (const Run& run : runs_of(map, order)) {
@@ -256,7 +259,7 @@ std::string heat_map_script(const HeatMap& map, PictureFormat format) {
                      "border linewidth 0.3 linecolor palette";
   plot += ", $strikes using 1:2 with lines linewidth 0.5 linecolor rgb '#909090'";
   if (std::count(map.marked.begin(), map.marked.end(), true) > 0)
-    plot += ", $dots using 1:2:3 with points pointtype 7 pointsize " + gnuplot_number(std::clamp(l.cell / 160, 0.03, 0.12)) +
+    plot += ", $dots using 1:2:3 with points pointtype 7 pointsize " + gnuplot_number(std::clamp(l.cell / 100, 0.05, 0.2)) +
             " linecolor rgb variable";
   if (!map.dendrogram.empty()) {
     s << tree(map, order, -0.5 - (has_groups(map) ? 16 : 4) / l.cell, l.tree / l.cell);

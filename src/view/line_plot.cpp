@@ -113,7 +113,7 @@ std::string x_tics(const LinePlot& plot, bool shown, double plot_width) {
   const auto step = static_cast<std::size_t>(std::ceil(9 / room));
   out << "set xtics (";
   for (std::size_t p = 0; p < plot.labels.size(); p += step)
-    out << (p == 0 ? "" : ", ") << gnuplot_string(plot.labels[p]) << ' ' << p;
+    out << (p == 0 ? "" : ", ") << gnuplot_tic(plot.labels[p]) << ' ' << p;
   out << ") rotate by 90 right scale 0.5 font ',9'\n";
   return out.str();
 }
@@ -160,7 +160,7 @@ std::string curves(const LinePlot& plot, const Panel& panel) {
     };
     text += (text.empty() ? "" : ", ") + block + " using 1:2 with lines linewidth 1.2" + colour + " notitle";
     if (!plot.series[i].errors.empty())
-      text += ", " + block + " using 1:2:3 with yerrorbars pointtype 0 linewidth 1" + colour + " notitle";
+      text += ", " + block + " using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linewidth 1" + colour + " notitle";
     text += points(kFilled[i % kFormCount], 0) + points(kHollow[i % kFormCount], 1);
     // What the key shows.
     text += ", NaN with linespoints pointtype " + std::to_string(kFilled[i % kFormCount]) + " pointsize 0.7" + colour + title;
@@ -199,6 +199,9 @@ std::string line_plot_script(const LinePlot& plot, PictureFormat format) {
   if (any_hollow)
     s << "set label 2 'hollow points: not trustworthy' at screen " << 1 - kRight / size.width << ", screen "
       << 9 / size.height << " right font ',8'\n";
+  // Where gnuplot finds no room for an axis' title, it leaves it out.
+  s << "set label 3 " << gnuplot_string(plot.x_title) << " at screen " << 0.5 * (kLeft + size.width - kRight) / size.width
+    << ", screen " << (any_hollow ? 21 : 9) / size.height << " center\n";
   s << group_lines(plot);
   double top = size.height - (plot.title.empty() ? 8 : 24);
   for (const Panel& panel : panels) {
@@ -209,10 +212,10 @@ std::string line_plot_script(const LinePlot& plot, PictureFormat format) {
     const LineSeries& first = plot.series[panel.series.front()];
     const std::string axis = plot.normalized ? "Normalized" : panel.series.size() == 1 ? with_unit(first.title, panel.unit)
                              : panel.unit.empty() ? "Index or count" : panel.unit;
-    s << "set ylabel " << gnuplot_string(axis) << " offset 0.6,0\n"
+    s << "set label 4 " << gnuplot_string(axis) << " at screen " << 14 / size.width << ", screen "
+      << (top - 0.5 * height_of_panel) / size.height << " center rotate by 90\n"
       << (plot.normalized ? "set yrange [-0.05:1.05]\n" : y_range(plot, panel))
-      << x_tics(plot, last, size.width - kLeft - kRight) << "set xlabel " << gnuplot_string(last ? plot.x_title : "")
-      << '\n';
+      << x_tics(plot, last, size.width - kLeft - kRight);
     if (key_lines(panel) > 0) {
       s << "set key at graph 0, screen " << (top + kKeyLine * key_lines(panel)) / size.height
         << " left top Left reverse samplen 2 spacing 1 font ',9'\n";
@@ -220,7 +223,7 @@ std::string line_plot_script(const LinePlot& plot, PictureFormat format) {
       s << "unset key\n";
     }
     s << "plot " << curves(plot, panel) << '\n';
-    if (&panel == &panels.front()) s << "unset label 1\nunset label 2\n";
+    if (&panel == &panels.front()) s << "unset label 1\nunset label 2\nunset label 3\n";
     top -= height_of_panel + kGap;
   }
   return s.str() + "unset multiplot\n";
