@@ -106,9 +106,8 @@ const char* name_of(MetricUnit unit) {
 Tcl_Obj* metrics(const Call&) {
   std::vector<Tcl_Obj*> all;
   for (const MatrixMetric& metric : matrix_metrics())
-    all.push_back(to_dict({{"name", to_obj(metric.name)},
-                           {"title", to_obj(metric.title)},
-                           {"kind", to_obj(name_of(metric.unit))}}));
+    all.push_back(to_dict(
+        {{"name", to_obj(metric.name)}, {"title", to_obj(metric.title)}, {"kind", to_obj(name_of(metric.unit))}}));
   return to_list(all);
 }
 

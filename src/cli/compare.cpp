@@ -37,9 +37,10 @@ void add_input_options(CLI::App& p, Arguments& a) {
   p.add_option("--target-map-unit", a.target_map_unit, "Unit of the target map if the file does not say")
       ->group("Potentials");
   p.add_option("--map-array", a.map_array, "Array to take from VTI maps that hold several")->group("Potentials");
-  p.add_option("--residue-pdb", a.residue_pdb,
-               "Also write the source as a PDB file whose B factors are the residues' --residue-quantity, for coloring in "
-               "any program")
+  p.add_option(
+       "--residue-pdb", a.residue_pdb,
+       "Also write the source as a PDB file whose B factors are the residues' --residue-quantity, for coloring in "
+       "any program")
       ->group("Residues");
   p.add_option("--residue-quantity", a.residue_quantity,
                "Column of the residue table (mean_abs_difference; without potentials mean_displacement_A)")

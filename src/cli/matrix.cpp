@@ -111,7 +111,8 @@ Verb add_matrix(CLI::App& app) {
       "model, map,\nunit (of the map), label, group. Paths are relative to the list.\n\nExamples:\n"
       "  espdiff matrix m*.pqr --potential pme -o ubiquitin\n"
       "  espdiff matrix --list variants.csv -o variants --resume\n"
-      "  espdiff matrix m*.pqr --shard 2/8 -o part      # one of eight processes; then: espdiff merge part.*.state -o all");
+      "  espdiff matrix m*.pqr --shard 2/8 -o part      # one of eight processes; then: espdiff merge part.*.state -o "
+      "all");
   parser->add_option("VARIANT", a->files, "Structures: PQR, PDB or mmCIF; each model of a file is a variant");
   parser->add_option("-o,--output", a->run.output, "Prefix of the results")->required();
   parser->add_option("--list", a->list, "Table of the variants, in the place of files")->group("Molecules");

@@ -78,14 +78,16 @@ std::string ComputedPotentialArguments::in_words() const {
 
 void add_computed_potential_options(CLI::App& parser, ComputedPotentialArguments& arguments) {
   parser
-      .add_option("--potential", arguments.method,
-                  "Compute the potentials instead of reading maps, from the charges of the atoms that are read, in a cell "
-                  "10 A wider than these on each side: pme")
+      .add_option(
+          "--potential", arguments.method,
+          "Compute the potentials instead of reading maps, from the charges of the atoms that are read, in a cell "
+          "10 A wider than these on each side: pme")
       ->check(CLI::IsMember({"pme"}))
       ->group("Potentials");
   parser
-      .add_option("--pme-grid", arguments.grid,
-                  "Grid of a computed potential: a resolution below 8 A, or numbers of points (see `espdiff potential`)")
+      .add_option(
+          "--pme-grid", arguments.grid,
+          "Grid of a computed potential: a resolution below 8 A, or numbers of points (see `espdiff potential`)")
       ->capture_default_str()
       ->group("Potentials");
   parser.add_option("--ewaldfactor", arguments.ewald_factor, "Smearing of the charges in a computed potential, 1/A")

@@ -89,8 +89,7 @@ LinePlot one_against_all(const Arguments& a, const MatrixFile& matrix) {
     plot.trustworthy.push_back(matrix.trustworthy[one * n + other] &&
                                (!a.both_ways || matrix.trustworthy[other * n + one]));
   }
-  const std::vector<std::string> names =
-      a.metrics.empty() ? std::vector<std::string>{matrix.clustered_by} : a.metrics;
+  const std::vector<std::string> names = a.metrics.empty() ? std::vector<std::string>{matrix.clustered_by} : a.metrics;
   for (const std::string& name : names) {
     const MatrixFileMetric& metric = matrix.metric(name);
     const Quantity quantity = quantity_of(name, metric.unit);
@@ -129,8 +128,8 @@ LinePlot along_table(const Arguments& a, const CsvTable& table) {
   LinePlot plot;
   plot.x_title = x_name == "frame" ? "Frame" : x_name;
   double ignored = 0;
-  const bool numbers = std::all_of(table.rows.begin(), table.rows.end(),
-                                   [&](const auto& row) { return parse_number(row[x], ignored); });
+  const bool numbers =
+      std::all_of(table.rows.begin(), table.rows.end(), [&](const auto& row) { return parse_number(row[x], ignored); });
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     if (numbers) plot.x.push_back(table.number(row, x));
     if (!numbers) plot.labels.push_back(table.rows[row][x]);
@@ -198,7 +197,8 @@ Verb add_plot(CLI::App& app) {
       ->expected(2)
       ->group("Heat map");
   parser->add_option("--source", a->source, "Label of the variant that is drawn against all others")->group("Lines");
-  parser->add_flag("--both-ways", a->both_ways, "Mean of both directions, with bars that reach to each")->group("Lines");
+  parser->add_flag("--both-ways", a->both_ways, "Mean of both directions, with bars that reach to each")
+      ->group("Lines");
   parser->add_flag("--normalize", a->normalize, "Each metric from its least value, 0, to its greatest, 1")
       ->group("Lines");
   parser->add_option("--x", a->x, "Column of a CSV file that is the x axis (frame)")->group("Lines");

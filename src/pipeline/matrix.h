@@ -49,8 +49,8 @@ struct Shard {
 /// Reads "2/8". @throws InputError
 Shard parse_shard(const std::string& text);
 
-/// The ordered pairs of n variants without the diagonal, source by source; of a shard a contiguous part of them, so that
-/// a source is prepared in one process, or two at its border. The shards' parts differ in size by one at most.
+/// The ordered pairs of n variants without the diagonal, source by source; of a shard a contiguous part of them, so
+/// that a source is prepared in one process, or two at its border. The shards' parts differ in size by one at most.
 std::vector<MatrixPair> matrix_pairs(std::size_t n_variants, const Shard& shard = {});
 
 /// Compares pairs in the order given. A source's surface is made and regularized once for all pairs that follow

@@ -39,9 +39,8 @@ MatrixPlan make_plan(const Engine& engine, const std::vector<Variant>& variants,
                      const std::string& potential) {
   constexpr std::size_t kMaxVariants = 10000;
   if (variants.size() < 2 || variants.size() > kMaxVariants)
-    throw InputError("a matrix of " + std::to_string(variants.size()) + " variant" +
-                     (variants.size() == 1 ? "" : "s") + " was asked for; 2 to " + std::to_string(kMaxVariants) +
-                     " can be compared");
+    throw InputError("a matrix of " + std::to_string(variants.size()) + " variant" + (variants.size() == 1 ? "" : "s") +
+                     " was asked for; 2 to " + std::to_string(kMaxVariants) + " can be compared");
   MatrixPlan plan;
   plan.version = kVersion;
   plan.device = engine.back_end();

@@ -1,4 +1,5 @@
-// matrix_plan.h: what a matrix is of: everything that its values depend on, and the names that results are written under.
+// matrix_plan.h: what a matrix is of: everything that its values depend on, and the names that results are written
+// under.
 #pragma once
 
 #include <string>
@@ -16,10 +17,10 @@ struct MatrixPlan {
   };
 
   std::string version;
-  std::string device;                                          ///< the back end, whose last digits may differ
-  std::vector<std::pair<std::string, std::string>> settings;   ///< every one by name
-  std::string potential;                                       ///< how potentials came about; empty for none
-  std::string potential_unit;                                  ///< empty for none
+  std::string device;                                         ///< the back end, whose last digits may differ
+  std::vector<std::pair<std::string, std::string>> settings;  ///< every one by name
+  std::string potential;                                      ///< how potentials came about; empty for none
+  std::string potential_unit;                                 ///< empty for none
   std::vector<Item> variants;
 };
 

@@ -81,8 +81,8 @@ MatrixReport run_matrix(Engine& engine, const std::vector<Variant>& variants, co
   const MatrixPlan plan = make_plan(engine, variants, options, run.potential);
   const std::string path = state_path(run.output, run.shard);
   MatrixStateContent earlier;
-  MatrixState state = run.resume && fs::exists(path) ? MatrixState::go_on(path, plan, earlier)
-                                                     : MatrixState::begin(path, plan);
+  MatrixState state =
+      run.resume && fs::exists(path) ? MatrixState::go_on(path, plan, earlier) : MatrixState::begin(path, plan);
   const std::vector<MatrixPair> pairs = matrix_pairs(variants.size(), run.shard);
   const std::vector<MatrixPair> missing = missing_pairs(pairs, earlier.cells);
   MatrixReport report;

@@ -1,4 +1,5 @@
-// matrix_run.h: a matrix from variants to files: computed, kept on disk as it grows, gone on with, and merged from parts.
+// matrix_run.h: a matrix from variants to files: computed, kept on disk as it grows, gone on with, and merged from
+// parts.
 #pragma once
 
 #include <optional>
@@ -20,11 +21,11 @@ struct MatrixRun {
 };
 
 struct MatrixReport {
-  std::size_t n_pairs = 0;     ///< of this run's shard
-  std::size_t n_resumed = 0;   ///< of these, computed before
-  bool cut_off = false;        ///< the state file's last row was incomplete and was computed again
-  double seconds = 0;          ///< for the pairs that were computed
-  std::optional<Matrix> matrix;  ///< whole; absent of a shard
+  std::size_t n_pairs = 0;         ///< of this run's shard
+  std::size_t n_resumed = 0;       ///< of these, computed before
+  bool cut_off = false;            ///< the state file's last row was incomplete and was computed again
+  double seconds = 0;              ///< for the pairs that were computed
+  std::optional<Matrix> matrix;    ///< whole; absent of a shard
   std::vector<std::string> files;  ///< written
 };
 

@@ -36,9 +36,9 @@ std::string cell_json(const MatrixCell& cell) {
   Json values = Json::object();
   for (std::size_t m = 0; m < cell.values.size(); ++m)
     values[matrix_metrics()[m].name] = std::isfinite(cell.values[m]) ? Json(cell.values[m]) : Json(nullptr);
-  const Json json = {{"source", cell.source},           {"target", cell.target},   {"values", std::move(values)},
-                     {"converged", cell.converged},     {"trustworthy", cell.trustworthy},
-                     {"reasons", cell.reasons},         {"error", cell.error}};
+  const Json json = {{"source", cell.source},       {"target", cell.target},           {"values", std::move(values)},
+                     {"converged", cell.converged}, {"trustworthy", cell.trustworthy}, {"reasons", cell.reasons},
+                     {"error", cell.error}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -79,9 +79,10 @@ class LineReader {
     return true;
   }
   [[noreturn]] void damaged() const {
-    throw FormatError(path_, line_,
-                      "the state file is damaged from this line on; delete it and run anew (--overwrite), or remove this "
-                      "line and all after it and resume");
+    throw FormatError(
+        path_, line_,
+        "the state file is damaged from this line on; delete it and run anew (--overwrite), or remove this "
+        "line and all after it and resume");
   }
   void skip_tag() {
     at_ = std::strlen(kTag);

@@ -16,8 +16,9 @@ struct MatrixStateContent {
   std::size_t n_good_bytes = 0;   ///< up to that row
 };
 
-/// A text file: a line with the format's name and version, a line with the plan, and a line for each cell. Plan and cells
-/// are JSON after a check sum, which is that of all lines so far: a line that was changed, left out or moved is found.
+/// A text file: a line with the format's name and version, a line with the plan, and a line for each cell. Plan and
+/// cells are JSON after a check sum, which is that of all lines so far: a line that was changed, left out or moved is
+/// found.
 /// @throws IoError (missing, unreadable), FormatError (another kind of file; a line that is damaged), each with what to
 /// do
 MatrixStateContent read_matrix_state(const std::string& path);

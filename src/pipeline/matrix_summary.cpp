@@ -40,7 +40,8 @@ Matrix assemble(const MatrixPlan& plan, const std::vector<MatrixCell>& cells, co
     return plan.variants[pair.first].label + " to " + plan.variants[pair.second].label;
   };
   for (const MatrixCell& cell : cells) {
-    const MatrixCell*& place = found[cell.source * (n - 1) + (cell.target < cell.source ? cell.target : cell.target - 1)];
+    const MatrixCell*& place =
+        found[cell.source * (n - 1) + (cell.target < cell.source ? cell.target : cell.target - 1)];
     if (place != nullptr && !same_cell(*place, cell))
       throw InputError("the pair " + name({cell.source, cell.target}) +
                        " is there twice, with different values; compute one part of the matrix anew");
@@ -49,8 +50,8 @@ Matrix assemble(const MatrixPlan& plan, const std::vector<MatrixCell>& cells, co
   const auto missing = static_cast<std::size_t>(std::count(found.begin(), found.end(), nullptr));
   if (missing > 0) {
     const auto first = static_cast<std::size_t>(std::find(found.begin(), found.end(), nullptr) - found.begin());
-    throw InputError(std::to_string(missing) + " of " + std::to_string(found.size()) + " pairs are missing, the first " +
-                     name(matrix_pairs(n)[first]) + "; " + hint);
+    throw InputError(std::to_string(missing) + " of " + std::to_string(found.size()) +
+                     " pairs are missing, the first " + name(matrix_pairs(n)[first]) + "; " + hint);
   }
   for (const MatrixCell* cell : found) matrix.cells.push_back(*cell);
   return matrix;

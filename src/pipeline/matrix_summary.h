@@ -1,4 +1,5 @@
-// matrix_summary.h: a matrix as a whole: how far both directions differ, groups, clusters, and the Hodgkin index beside it.
+// matrix_summary.h: a matrix as a whole: how far both directions differ, groups, clusters, and the Hodgkin index beside
+// it.
 #pragma once
 
 #include <string>

@@ -67,8 +67,7 @@ void write_residue_pdb(const std::string& path, const Molecule& source, const Co
   AtomicFile file(path);
   write_pdb(file.stream(), source, of_atom,
             {"B FACTOR: " + quantity + (unit.empty() ? "" : " [" + unit + "]") + " OF THE RESIDUE",
-             "OCCUPANCY 0: THE RESIDUE HAS NO SURFACE THAT IS COUNTED",
-             std::string("WRITTEN BY espdiff ") + kVersion});
+             "OCCUPANCY 0: THE RESIDUE HAS NO SURFACE THAT IS COUNTED", std::string("WRITTEN BY espdiff ") + kVersion});
   file.commit();
 }
 

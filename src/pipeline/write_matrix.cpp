@@ -144,7 +144,9 @@ std::string matrix_json(const Matrix& matrix, std::size_t metric) {
             "\": " + dumped(metric_json(matrix, m));
   }
   text += "\n  }";
-  const auto known = [](const MatrixCell& cell, bool value) { return cell.error.empty() ? Json(value) : Json(nullptr); };
+  const auto known = [](const MatrixCell& cell, bool value) {
+    return cell.error.empty() ? Json(value) : Json(nullptr);
+  };
   add("trustworthy", table(matrix, [&](const MatrixCell& cell) { return known(cell, cell.trustworthy); }));
   add("converged", table(matrix, [&](const MatrixCell& cell) { return known(cell, cell.converged); }));
   Json reasons = Json::array(), errors = Json::array();

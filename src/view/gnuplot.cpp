@@ -78,10 +78,13 @@ std::string picture_head(PictureFormat format, const PictureSize& size) {
   const bool png = format == PictureFormat::kPng;
   const double scale = png ? size.pixels_per_point : 1;
   std::ostringstream head;
-  head << "set encoding utf8\nset terminal " << (png ? "pngcairo" : "svg") << " size " << std::lround(scale * size.width)
-       << ',' << std::lround(scale * size.height) << " noenhanced font 'Arial,"
+  head << "set encoding utf8\nset terminal " << (png ? "pngcairo" : "svg") << " size "
+       << std::lround(scale * size.width) << ',' << std::lround(scale * size.height) << " noenhanced font 'Arial,"
        << gnuplot_number(kFontSize) << "' " << (png ? "fontscale " + gnuplot_number(kPngFontScale * scale) : "")
-       << (png ? " linewidth " + gnuplot_number(scale) + " pointscale " + gnuplot_number(scale) + " background rgb 'white'" : " background rgb 'white'") << '\n';
+       << (png ? " linewidth " + gnuplot_number(scale) + " pointscale " + gnuplot_number(scale) +
+                     " background rgb 'white'"
+               : " background rgb 'white'")
+       << '\n';
   return head.str();
 }
 

@@ -118,8 +118,7 @@ std::string tics(const char* axis, const HeatMap& map, const std::vector<std::si
   for (std::size_t place = 0; place < order.size(); place += step)
     out << (place == 0 ? "" : ", ") << gnuplot_tic(map.labels[order[place]]) << ' ' << place;
   out << ") " << (*axis == 'x' ? "rotate by 90 right " : "") << "scale 0 offset " << (*axis == 'x' ? "0,0.3" : "0.6,0")
-      << " font ',"
-      << gnuplot_number(l.font) << "' textcolor rgb '" << kInk << "'\n";
+      << " font '," << gnuplot_number(l.font) << "' textcolor rgb '" << kInk << "'\n";
   return out.str();
 }
 
@@ -138,7 +137,9 @@ std::string tree(const HeatMap& map, const std::vector<std::size_t>& order, doub
     const double share = std::isfinite(branch.height) && top > 0 ? branch.height / top : 1;
     const double level = foot - share * height;
     const std::size_t a = branch.left, b = branch.right;
-    out << x[a] << ' ' << y[a] << '\n' << x[a] << ' ' << level << '\n' << x[b] << ' ' << level << '\n'
+    out << x[a] << ' ' << y[a] << '\n'
+        << x[a] << ' ' << level << '\n'
+        << x[b] << ' ' << level << '\n'
         << x[b] << ' ' << y[b] << "\n\n";
     x.push_back(0.5 * (x[a] + x[b]));
     y.push_back(level);
@@ -229,7 +230,8 @@ std::string heat_map_script(const HeatMap& map, PictureFormat format) {
   std::ostringstream s;
   s << picture_head(format, l.size) << palette(map) << cells(map, order, low, high);
   s << "unset border\nunset key\nset lmargin at screen " << l.left / l.size.width << "\nset rmargin at screen "
-    << 1 - l.right / l.size.width << "\nset bmargin at screen " << l.bottom / l.size.height << "\nset tmargin at screen 1\n"
+    << 1 - l.right / l.size.width << "\nset bmargin at screen " << l.bottom / l.size.height
+    << "\nset tmargin at screen 1\n"
     << "set xrange [-0.5:" << n - 0.5 << "]\nset yrange [" << n - 0.5 << ":" << -0.5 - above << "]\nset cbrange ["
     << gnuplot_number(low) << ':' << gnuplot_number(high) << "]\n";
   s << tics("x", map, order, l) << tics("y", map, order, l);
@@ -243,24 +245,28 @@ std::string heat_map_script(const HeatMap& map, PictureFormat format) {
     << " border\nset cbtics scale 0.4 font ',9'\nset label "
     << gnuplot_string(map.title + (map.unit.empty() ? "" : " (" + map.unit + ")")) << " at screen "
     << 1 - 12 / l.size.width << ", first " << 0.5 * (n - 1) << " center rotate by 90\n";
-  s << rectangle(-0.5, -0.5, n - 0.5, n - 0.5, std::string("behind fillcolor rgb '") + kNoValue + "' fillstyle solid 1 noborder");
-  s << rectangle(-0.5, -0.5, n - 0.5, n - 0.5, std::string("front fillstyle empty border rgb '") + kInk + "' linewidth 0.6");
+  s << rectangle(-0.5, -0.5, n - 0.5, n - 0.5,
+                 std::string("behind fillcolor rgb '") + kNoValue + "' fillstyle solid 1 noborder");
+  s << rectangle(-0.5, -0.5, n - 0.5, n - 0.5,
+                 std::string("front fillstyle empty border rgb '") + kInk + "' linewidth 0.6");
   for (const Run& run : runs_of(map, order)) {
     const double first = static_cast<double>(run.first) - 0.5, last = static_cast<double>(run.last) + 0.5;
     if (run.last > run.first)
-      s << rectangle(first, first, last, last, std::string("front fillstyle empty border rgb '") + kInk + "' linewidth 1.8");
-    s << "set label " << gnuplot_string(run.group) << " at first " << 0.5 * (first + last) << ','
-      << -0.5 - 8 / l.cell << " center font ',9'\n";
+      s << rectangle(first, first, last, last,
+                     std::string("front fillstyle empty border rgb '") + kInk + "' linewidth 1.8");
+    s << "set label " << gnuplot_string(run.group) << " at first " << 0.5 * (first + last) << ',' << -0.5 - 8 / l.cell
+      << " center font ',9'\n";
   }
   if (!foot_note(map).empty())
     s << "set label " << gnuplot_string(foot_note(map)) << " at screen " << l.left / l.size.width << ", screen "
       << 9 / l.size.height << " left font ',8' textcolor rgb '#404040'\n";
-  std::string plot = "plot $cells using 1:2:($1-0.5):($1+0.5):($2-0.5):($2+0.5):3 with boxxyerror fillstyle solid 1 "
-                     "border linewidth 0.3 linecolor palette";
+  std::string plot =
+      "plot $cells using 1:2:($1-0.5):($1+0.5):($2-0.5):($2+0.5):3 with boxxyerror fillstyle solid 1 "
+      "border linewidth 0.3 linecolor palette";
   plot += ", $strikes using 1:2 with lines linewidth 0.5 linecolor rgb '#909090'";
   if (std::count(map.marked.begin(), map.marked.end(), true) > 0)
-    plot += ", $dots using 1:2:3 with points pointtype 7 pointsize " + gnuplot_number(std::clamp(l.cell / 100, 0.05, 0.2)) +
-            " linecolor rgb variable";
+    plot += ", $dots using 1:2:3 with points pointtype 7 pointsize " +
+            gnuplot_number(std::clamp(l.cell / 100, 0.05, 0.2)) + " linecolor rgb variable";
   if (!map.dendrogram.empty()) {
     s << tree(map, order, -0.5 - (has_groups(map) ? 16 : 4) / l.cell, l.tree / l.cell);
     plot += std::string(", $tree using 1:2 with lines linewidth 0.8 linecolor rgb '") + kInk + "'";

@@ -28,9 +28,9 @@ struct HeatMap {
   double low = 0, high = 0;  ///< ends of the colours; equal: those of the values off the diagonal
 };
 
-/// The script that draws it, sized to the number of things. Rows go from top to bottom. Things of one group that lie side
-/// by side are framed, with the group's name above. What has no value is struck through. Colours: an even ramp in CIE
-/// lightness (sequential_colour()), or diverging_colour() turned round, since for potentials red is negative.
+/// The script that draws it, sized to the number of things. Rows go from top to bottom. Things of one group that lie
+/// side by side are framed, with the group's name above. What has no value is struck through. Colours: an even ramp in
+/// CIE lightness (sequential_colour()), or diverging_colour() turned round, since for potentials red is negative.
 /// @throws InputError (no values, sizes that do not fit each other, range)
 std::string heat_map_script(const HeatMap& map, PictureFormat format);
 

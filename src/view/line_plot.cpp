@@ -51,9 +51,9 @@ std::vector<Panel> panels_of(const LinePlot& plot) {
   std::vector<Panel> panels;
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
     const std::string& unit = plot.series[i].unit;
-    auto panel = plot.normalized ? panels.begin() : std::find_if(panels.begin(), panels.end(), [&](const Panel& p) {
-      return p.unit == unit;
-    });
+    auto panel = plot.normalized
+                     ? panels.begin()
+                     : std::find_if(panels.begin(), panels.end(), [&](const Panel& p) { return p.unit == unit; });
     if (panel == panels.end()) panel = panels.insert(panels.end(), {unit, {}});
     panel->series.push_back(i);
   }
@@ -85,10 +85,10 @@ std::string data(const LinePlot& plot) {
         error = span > 0 ? error / span : 0;
       }
       const bool hollow = !plot.trustworthy.empty() && !plot.trustworthy[p];
-      // A bar of no length would only cover its point.
-      const std::string bar = error > 0 ? gnuplot_number(error) : "NaN";
-      out << (plot.labels.empty() ? gnuplot_number(plot.x[p]) : std::to_string(p)) << ' ' << gnuplot_number(value) << ' '
-          << bar << ' ' << (hollow ? 1 : 0) << '\n';
+      // A bar of no length, but for rounding, would only cover its point.
+      const std::string bar = error > 1e-9 * std::fabs(value) ? gnuplot_number(error) : "NaN";
+      out << (plot.labels.empty() ? gnuplot_number(plot.x[p]) : std::to_string(p)) << ' ' << gnuplot_number(value)
+          << ' ' << bar << ' ' << (hollow ? 1 : 0) << '\n';
     }
     out << "END_OF_SERIES\n";
   }
@@ -160,10 +160,12 @@ std::string curves(const LinePlot& plot, const Panel& panel) {
     };
     text += (text.empty() ? "" : ", ") + block + " using 1:2 with lines linewidth 1.2" + colour + " notitle";
     if (!plot.series[i].errors.empty())
-      text += ", " + block + " using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linewidth 1" + colour + " notitle";
+      text +=
+          ", " + block + " using 1:2:3 with yerrorbars pointtype 7 pointsize 0.01 linewidth 1" + colour + " notitle";
     text += points(kFilled[i % kFormCount], 0) + points(kHollow[i % kFormCount], 1);
     // What the key shows.
-    text += ", NaN with linespoints pointtype " + std::to_string(kFilled[i % kFormCount]) + " pointsize 0.7" + colour + title;
+    text += ", NaN with linespoints pointtype " + std::to_string(kFilled[i % kFormCount]) + " pointsize 0.7" + colour +
+            title;
   }
   return text;
 }
@@ -191,17 +193,20 @@ std::string line_plot_script(const LinePlot& plot, PictureFormat format) {
   size.height = height;
   std::ostringstream s;
   s << picture_head(format, size) << data(plot) << "set multiplot\nset border linewidth 0.6 linecolor rgb '" << kInk
-    << "'\nset ytics scale 0.5\nset mxtics 1\nset grid ytics linecolor rgb '#e4e4e4' linewidth 0.5\nset lmargin at screen "
+    << "'\nset ytics scale 0.5\nset mxtics 1\nset grid ytics linecolor rgb '#e4e4e4' linewidth 0.5\nset lmargin at "
+       "screen "
     << kLeft / size.width << "\nset rmargin at screen " << 1 - kRight / size.width << '\n';
   s << x_range(plot);
   if (!plot.title.empty())
-    s << "set label 1 " << gnuplot_string(plot.title) << " at screen 0.5, screen " << 1 - 13 / size.height << " center\n";
+    s << "set label 1 " << gnuplot_string(plot.title) << " at screen 0.5, screen " << 1 - 13 / size.height
+      << " center\n";
   if (any_hollow)
     s << "set label 2 'hollow points: not trustworthy' at screen " << 1 - kRight / size.width << ", screen "
       << 9 / size.height << " right font ',8'\n";
   // Where gnuplot finds no room for an axis' title, it leaves it out.
-  s << "set label 3 " << gnuplot_string(plot.x_title) << " at screen " << 0.5 * (kLeft + size.width - kRight) / size.width
-    << ", screen " << (any_hollow ? 21 : 9) / size.height << " center\n";
+  s << "set label 3 " << gnuplot_string(plot.x_title) << " at screen "
+    << 0.5 * (kLeft + size.width - kRight) / size.width << ", screen " << (any_hollow ? 21 : 9) / size.height
+    << " center\n";
   s << group_lines(plot);
   double top = size.height - (plot.title.empty() ? 8 : 24);
   for (const Panel& panel : panels) {
@@ -210,8 +215,10 @@ std::string line_plot_script(const LinePlot& plot, PictureFormat format) {
     s << "set tmargin at screen " << top / size.height << "\nset bmargin at screen "
       << (top - height_of_panel) / size.height << '\n';
     const LineSeries& first = plot.series[panel.series.front()];
-    const std::string axis = plot.normalized ? "Normalized" : panel.series.size() == 1 ? with_unit(first.title, panel.unit)
-                             : panel.unit.empty() ? "Index or count" : panel.unit;
+    const std::string axis = plot.normalized            ? "Normalized"
+                             : panel.series.size() == 1 ? with_unit(first.title, panel.unit)
+                             : panel.unit.empty()       ? "Index or count"
+                                                        : panel.unit;
     s << "set label 4 " << gnuplot_string(axis) << " at screen " << 14 / size.width << ", screen "
       << (top - 0.5 * height_of_panel) / size.height << " center rotate by 90\n"
       << (plot.normalized ? "set yrange [-0.05:1.05]\n" : y_range(plot, panel))

@@ -16,9 +16,9 @@ struct LineSeries {
 
 struct LinePlot {
   std::string title, x_title;
-  std::vector<double> x;               ///< [point]; empty where the points are named
-  std::vector<std::string> labels;     ///< [point] names, in the place of x
-  std::vector<std::string> groups;     ///< [point] a line parts neighbours of different groups; empty for none
+  std::vector<double> x;            ///< [point]; empty where the points are named
+  std::vector<std::string> labels;  ///< [point] names, in the place of x
+  std::vector<std::string> groups;  ///< [point] a line parts neighbours of different groups; empty for none
   std::vector<LineSeries> series;
   std::vector<bool> trustworthy;  ///< [point] else it is drawn hollow; empty: all are
   bool normalized = false;        ///< each series from its least value, 0, to its greatest, 1, in one panel

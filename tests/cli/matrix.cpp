@@ -58,9 +58,10 @@ TEST_CASE("a run that was killed goes on and writes the same bytes") {
   REQUIRE(files.matrix("whole", "-q").status == 0);
   // Killed as soon as the state file has a few rows: by a watcher, since the time that takes is not known.
   const std::string state = files.out("killed.state");
-  const Outcome outcome = run_espdiff(
-      "matrix" + files.molecules + " --potential pme --pme-grid 1 --align all -q -o " + files.out("killed"),
-      "sh -c '( while [ $(cat " + state + " 2>/dev/null | wc -l) -lt 5 ]; do sleep 0.01; done; kill -9 $$ ) & exec \"$@\"' sh");
+  const Outcome outcome =
+      run_espdiff("matrix" + files.molecules + " --potential pme --pme-grid 1 --align all -q -o " + files.out("killed"),
+                  "sh -c '( while [ $(cat " + state +
+                      " 2>/dev/null | wc -l) -lt 5 ]; do sleep 0.01; done; kill -9 $$ ) & exec \"$@\"' sh");
   CHECK(outcome.status != 0);
   REQUIRE(std::filesystem::exists(state));
   CHECK_FALSE(std::filesystem::exists(files.out("killed.json")));

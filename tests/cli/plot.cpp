@@ -49,9 +49,10 @@ TEST_CASE("a matrix as heat map, and one of its variants against all") {
 TEST_CASE("columns of a table along its frames, with error bars where a column has them") {
   if (!has_gnuplot()) return;
   const ScratchFolder folder;
-  const std::string table = folder.write("t.csv",
-                                         "# espdiff: 1\nframe,potential_unit,mean_abs_difference,rmsd_A,heat,heat_error,"
-                                         "trustworthy\n0,kT/e,1,0.5,3,0.1,1\n10,kT/e,,0.6,4,,0\n20,kT/e,3,0.7,5,0.3,1\n");
+  const std::string table =
+      folder.write("t.csv",
+                   "# espdiff: 1\nframe,potential_unit,mean_abs_difference,rmsd_A,heat,heat_error,"
+                   "trustworthy\n0,kT/e,1,0.5,3,0.1,1\n10,kT/e,,0.6,4,,0\n20,kT/e,3,0.7,5,0.3,1\n");
   const std::string svg = folder.file("t.svg");
   const Outcome outcome =
       run_espdiff("plot " + table + " --metric mean_abs_difference --metric rmsd_A --metric heat -o " + svg);

@@ -8,7 +8,8 @@ using namespace espdiff_test;  // NOLINT: a test
 TEST_CASE("help and version exit 0 and say what there is") {
   const Outcome help = run_espdiff("--help");
   CHECK(help.status == 0);
-  for (const char* verb : {"compare", "matrix", "merge", "plot", "surface", "potential", "render", "doctor"}) CHECK(contains(help.out, verb));
+  for (const char* verb : {"compare", "matrix", "merge", "plot", "surface", "potential", "render", "doctor"})
+    CHECK(contains(help.out, verb));
   CHECK(run_espdiff("--version").out == "espdiff " ESPDIFF_VERSION "\n");
   for (const char* verb : {"compare", "matrix", "merge", "plot", "surface", "potential", "render", "doctor"}) {
     const Outcome outcome = run_espdiff(std::string(verb) + " --help");

@@ -54,8 +54,9 @@ TEST_CASE("records have the columns of the format") {
 
 TEST_CASE("what does not fit is refused with the atom") {
   Molecule m = small();
-  CHECK(message_of([&] { written(m, {1000, 0, 0}); }).find("atom N of HIS49: the value 1000 does not fit") !=
-        std::string::npos);
+  CHECK(message_of([&] {
+          written(m, {1000, 0, 0});
+        }).find("atom N of HIS49: the value 1000 does not fit") != std::string::npos);
   CHECK(message_of([&] { written(m, {0, 0}); }).find("2 values for 3 atoms") != std::string::npos);
   m.positions[1].y = 12345;
   CHECK(message_of([&] { written(m, {0, 0, 0}); }).find("a coordinate does not fit") != std::string::npos);

@@ -10,9 +10,7 @@
 
 namespace espdiff_test {
 
-inline std::unique_ptr<espdiff::Engine> cpu_engine() {
-  return espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
-}
+inline std::unique_ptr<espdiff::Engine> cpu_engine() { return espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2); }
 
 /// The same molecule bent more and more, in groups of two.
 inline std::vector<espdiff::Variant> made_variants(std::size_t n, std::size_t n_atoms = 60) {

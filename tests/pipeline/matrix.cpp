@@ -84,8 +84,8 @@ TEST_CASE("every cell holds the bits of the comparison of its pair") {
   espdiff::compute_pairs(*engine, variants, matrix_options(), espdiff::matrix_pairs(3), false,
                          [&](const MatrixCell& cell) {
                            const Variant &a = variants[cell.source], &b = variants[cell.target];
-                           const CompareResult alone = compare(*engine, {&a.molecule, &*a.map}, {&b.molecule, &*b.map},
-                                                               matrix_options(), {});
+                           const CompareResult alone =
+                               compare(*engine, {&a.molecule, &*a.map}, {&b.molecule, &*b.map}, matrix_options(), {});
                            for (std::size_t m = 0; m < espdiff::matrix_metrics().size(); ++m) {
                              INFO(espdiff::matrix_metrics()[m].name);
                              CHECK(cell.values[m] == espdiff::matrix_metrics()[m].of(alone));
@@ -104,9 +104,8 @@ TEST_CASE("a pair that cannot be compared stops the run, or becomes a cell with 
   variants[1].map->lattice.origin += Vec3d{500, 0, 0};  // covers nothing
   std::vector<MatrixCell> cells;
   const auto keep = [&](const MatrixCell& cell) { cells.push_back(cell); };
-  const std::string message = message_of([&] {
-    espdiff::compute_pairs(*engine, variants, matrix_options(), espdiff::matrix_pairs(3), false, keep, {});
-  });
+  const std::string message = message_of(
+      [&] { espdiff::compute_pairs(*engine, variants, matrix_options(), espdiff::matrix_pairs(3), false, keep, {}); });
   CHECK(has(message, "v0 to v1: "));
   CHECK(has(message, "does not cover"));
   cells.clear();
@@ -168,7 +167,9 @@ TEST_CASE("an interrupted run goes on and writes the same bytes; so do parts tha
   merge_matrix(parts, run_to(folder.file("merged")));
   CHECK(read_file(folder.file("merged.csv")) == csv);
   CHECK(read_file(folder.file("merged.json")) == json);
-  CHECK(has(message_of([&] { merge_matrix({parts[0], parts[1]}, run_to(folder.file("two"))); }),
+  CHECK(has(message_of([&] {
+              merge_matrix({parts[0], parts[1]}, run_to(folder.file("two")));
+            }),
             "4 of 12 pairs are missing, the first v1 to v2"));
   CHECK(has(message_of([&] { merge_matrix(parts, run_to(folder.file("merged"))); }), "--overwrite replaces it"));
   // A part of a run with another setting.
@@ -185,8 +186,7 @@ TEST_CASE("an interrupted run goes on and writes the same bytes; so do parts tha
 TEST_CASE("the files say what the cells say") {
   const ScratchFolder folder;
   const auto engine = cpu_engine();
-  const Matrix matrix =
-      *run_matrix(*engine, made_variants(4), matrix_options(), run_to(folder.file("m")), {}).matrix;
+  const Matrix matrix = *run_matrix(*engine, made_variants(4), matrix_options(), run_to(folder.file("m")), {}).matrix;
   const auto json = nlohmann::json::parse(read_file(folder.file("m.json")));
   const auto table = espdiff::read_csv(folder.file("m.csv"));
   REQUIRE(table.rows.size() == 12);

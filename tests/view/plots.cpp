@@ -98,6 +98,7 @@ TEST_CASE("every title, unit, name and key of lines is text in the SVG") {
   for (const char* word : {"one against all", "Target", "m01", "m02", "m03", "Mean absolute difference",
                            "RMS difference", "kT/e", "RMSD (\u00C5)", "hollow points: not trustworthy"})
     CHECK_MESSAGE(has(apart, word), std::string(word));
+  CHECK_FALSE(has(read_file(path), "scale(0.00)"));  // which readers of SVG refuse
   plot.normalized = true;
   write_picture(path, line_plot_script(plot, PictureFormat::kSvg));
   const std::string together = text_of(read_file(path));
@@ -173,7 +174,8 @@ TEST_CASE("the sequential colours step evenly in lightness") {
     };
     return 116 * std::cbrt(0.2126 * linear(c.red) + 0.7152 * linear(c.green) + 0.0722 * linear(c.blue)) - 16;
   };
-  for (int i = 0; i < 10; ++i) CHECK(lightness(0.1 * i) - lightness(0.1 * (i + 1)) == doctest::Approx(6.7).epsilon(0.1));
+  for (int i = 0; i < 10; ++i)
+    CHECK(lightness(0.1 * i) - lightness(0.1 * (i + 1)) == doctest::Approx(6.7).epsilon(0.1));
 }
 
 TEST_CASE("texts are strings to gnuplot, whatever is in them") {

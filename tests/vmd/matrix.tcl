@@ -36,6 +36,20 @@ test "parts by VMD's parallel for, merged: the same bytes" {
     }
 }
 
+test "the example for VMD, in a VMD of its own" {
+    set example [file join $env(ESPDIFF_TESTS) .. .. docs examples matrix_vmd.tcl]
+    set variants [list [list mol $mol frames 0:40:80 sel protein map pme]]
+    espdiff matrix $variants -output $scratch/one {*}$quick
+    set vmd [expr {[info exists env(VMD)] ? $env(VMD) : "vmd"}]
+    exec $vmd -dispdev text -e $example -args [input traj_adk/adk.psf] [input traj_adk/adk_dims.dcd] 0:40:80 \
+        $scratch/example $quick </dev/null 2>@1
+    set one [open $scratch/one.csv]
+    set example [open $scratch/example.csv]
+    check_equal rows [read $example] [read $one]
+    close $one
+    close $example
+}
+
 test "residues' values in the user field of a frame, beta, and a PDB file" {
     set pair [espdiff compare [list mol $mol frame 0 sel protein map {pme grid 2}] \
         [list mol $mol frame 20 sel protein map {pme grid 2}] {*}$quick]
