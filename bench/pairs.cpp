@@ -20,7 +20,7 @@ namespace {
 using namespace espdiff_bench;
 
 struct Settings {
-  std::string field = "distance", interpolation = "trilinear", align = "all", rest_shape, csv, only;
+  std::string method = "deform", field = "distance", interpolation = "trilinear", align = "all", rest_shape, csv, only;
   int threads = 0, repeats = 1;
   std::optional<double> tangential_gain, sigma, mu, rho, spacing, min_displacement;
   std::optional<int> max_iterations;
@@ -28,6 +28,7 @@ struct Settings {
 };
 
 void define_options(CLI::App& app, Settings& s) {
+  app.add_option("--method", s.method, "How the surface is mapped: morph or deform")->capture_default_str();
   app.add_option("--field", s.field, "Field that draws the surface: density or distance")->capture_default_str();
   app.add_option("--interpolation", s.interpolation, "trilinear or tricubic")->capture_default_str();
   app.add_option("--tangential-gain", s.tangential_gain, "Factor of the mapping's internal force");
@@ -53,6 +54,7 @@ void define_options(CLI::App& app, Settings& s) {
 
 espdiff::CompareOptions compare_options(const Settings& s) {
   espdiff::CompareOptions options = s.thesis ? espdiff::thesis_options() : espdiff::CompareOptions{};
+  options.method = espdiff::parse_method(s.method);
   options.field = espdiff::parse_field_kind(s.field);
   options.align = espdiff::parse_align_atoms(s.align);
   options.deform.interpolation = options.regularize.interpolation = espdiff::parse_interpolation(s.interpolation);
