@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "engine/select_engine.h"
@@ -24,7 +25,7 @@ struct Settings {
   int threads = 0, repeats = 1;
   std::optional<double> tangential_gain, sigma, mu, rho, spacing, min_displacement;
   std::optional<int> max_iterations;
-  bool thesis = false, cavities = false, skip_series = false;
+  bool all_ubiquitin = false, all_adk = false, thesis = false, cavities = false, skip_series = false;
 };
 
 void define_options(CLI::App& app, Settings& s) {
@@ -49,6 +50,8 @@ void define_options(CLI::App& app, Settings& s) {
       ->check(CLI::PositiveNumber);
   app.add_option("--only", s.only, "Only pairs whose name contains this text");
   app.add_flag("--skip-series", s.skip_series, "Leave out the 32 pairs of the ubiquitin series");
+  app.add_flag("--all-ubiquitin", s.all_ubiquitin, "All 342 ordered pairs of the ubiquitin series instead of 32");
+  app.add_flag("--all-adk", s.all_adk, "Adenylate kinase's first frame with all others too");
   app.add_option("--csv", s.csv, "Write one line a pair to this file");
 }
 
@@ -88,12 +91,10 @@ PairRow measure(espdiff::Engine& engine, const RealPair& pair, const espdiff::Co
 
 /// Rows of a group, as they are measured, and the ones that sum them up.
 void print_group(const std::string& group, const std::vector<PairRow>& rows) {
-  const auto [typical, worst] = series19_prototype();
   PairRow middle = summarize(rows, Summary::kMedian), extreme = summarize(rows, Summary::kWorst);
   middle.name = group + ", median of " + std::to_string(rows.size());
   extreme.name = group + ", worst";
-  middle.prototype = typical;
-  extreme.prototype = worst;
+  if (group == "series19") std::tie(middle.prototype, extreme.prototype) = series19_prototype();
   print_row(middle);
   print_row(extreme);
 }
@@ -112,7 +113,7 @@ int run(const Settings& settings) {
   print_heading();
   std::map<std::string, std::vector<PairRow>> groups;
   int n_failed = 0;
-  for (const RealPair& pair : real_pairs()) {
+  for (const RealPair& pair : real_pairs({settings.all_ubiquitin, settings.all_adk})) {
     if (pair.name.find(settings.only) == std::string::npos || (settings.skip_series && !pair.group.empty())) continue;
     const std::string missing = missing_file(pair);
     if (!missing.empty()) {

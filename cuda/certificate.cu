@@ -88,6 +88,15 @@ DistanceSummary distance_summary(const SurfaceMesh& from, const SurfaceMesh& to,
       guess = nearest.place;
     }
   });
+  auto beyond_flags = std::make_shared<Scalars>();
+  beyond_flags->values.resize(from.n_triangles());
+  float* const beyond_limit = raw(beyond_flags->values);
+  const Corners* const corners = raw(from.topology->triangles);
+  for_each_index(from.n_triangles(), [=] ESPDIFF_HD(std::size_t t) {
+    const Corners c = corners[t];
+    const float farthest = fmaxf(distance[c.v[0]], fmaxf(distance[c.v[1]], distance[c.v[2]]));
+    beyond_limit[t] = farthest > limit_A ? 1.0F : 0.0F;
+  });
   const std::vector<float> weights = to_host(vertex_areas(from, triangle_areas(from), nullptr));
   const std::vector<float> values = to_host(distances);
 
@@ -109,6 +118,7 @@ DistanceSummary distance_summary(const SurfaceMesh& from, const SurfaceMesh& to,
   summary.mean = sum / area;
   summary.max = static_cast<double>(by_distance.back().first);
   summary.area_fraction_beyond_limit = beyond / area;
+  summary.beyond = beyond_flags;
   summary.mean_within_limit = area > beyond ? within / (area - beyond) : 0;
   double below = 0;
   for (const auto& [value, weight] : by_distance) {

@@ -91,8 +91,11 @@ ESPDIFF_INLINE void divide(const Corners& t, const Halves& halves, const Vec4f* 
 
 EdgeSplit split_edges(const Topology& topology, const Buffer<std::uint32_t>& marked, const Buffer<Vec4f>& positions) {
   const std::size_t n_vertices = topology.n_vertices, n_triangles = topology.triangles.size();
-  const TopologyView view{n_vertices,          n_triangles,
-                          raw(topology.triangles), raw(topology.first), raw(topology.neighbour),
+  const TopologyView view{n_vertices,
+                          n_triangles,
+                          raw(topology.triangles),
+                          raw(topology.first),
+                          raw(topology.neighbour),
                           raw(topology.incident)};
   Buffer<std::uint32_t> numbers(3 * n_triangles);
   std::uint32_t* const number = raw(numbers);
@@ -126,7 +129,8 @@ EdgeSplit split_edges(const Topology& topology, const Buffer<std::uint32_t>& mar
   for_each_index(n_triangles, [=] ESPDIFF_HD(std::size_t t) {
     const Halves halves = halves_of(division, view.triangles[t]);
     divide(view.triangles[t], halves, x, part + begin[t]);
-    for (int k = 0; k <= halves.n; ++k) parent[begin[t] + static_cast<std::uint32_t>(k)] = static_cast<std::uint32_t>(t);
+    for (int k = 0; k <= halves.n; ++k)
+      parent[begin[t] + static_cast<std::uint32_t>(k)] = static_cast<std::uint32_t>(t);
   });
   split.topology = make_topology(n_vertices + n_new, std::move(parts));
   return split;

@@ -100,6 +100,7 @@ struct DistanceSummary {
   double max = 0;
   double area_fraction_beyond_limit = 0;
   double mean_within_limit = 0;  ///< of the area within the limit
+  ScalarsPtr beyond;             ///< [triangle of the first surface] 1 where a corner lies beyond the limit, else 0
 };
 
 /// How well a mapped mesh fits its target.
@@ -182,10 +183,9 @@ struct MovingAtom {
 /// Parameters of morph(). Lengths in Angstrom.
 struct MorphOptions {
   double isovalue = 0.5;
-  double max_step_A = 0.3;   ///< no atom moves farther in one step
-  int min_steps = 8;         ///< for atoms that appear and vanish, and for widths that change
-  double max_edge_A = 1.6;   ///< longer edges are halved
-  double max_stretch = 20;   ///< an edge that has grown by more, and is longer than max_edge_A, is cut instead
+  double max_step_A = 0.35;  ///< no atom moves farther in one step
+  double max_edge_A = 1.4;   ///< longer edges are halved
+  double max_stretch = 20;   ///< where an edge to be halved has grown by more the surface counts as torn
 };
 
 struct MorphReport {

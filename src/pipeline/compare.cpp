@@ -193,7 +193,9 @@ struct Series::Steps {
   void prepare(const RigidTransform& to_common, const Progress& progress, StageClock& clock) {
     if (prepared) return;
     surface = build_surface(engine, *source.molecule, to_common, options.surface, progress, clock);
-    regularized = regularize(engine, surface, options, progress, &regularize_report);
+    // The morph takes closed cavities along, since one may open.
+    const MeshPtr& mesh = options.method == Method::kMorph ? surface.whole : surface.mesh;
+    regularized = regularize(engine, surface, mesh, options, progress, &regularize_report);
     clock.lap("regularize");
     prepared = true;
     take_up_restored();
@@ -214,15 +216,17 @@ struct Series::Steps {
                        CompareResult& result, const Progress& progress, StageClock& clock) {
     MorphOptions morph = options.morph;
     morph.isovalue = options.surface.isovalue;
+    morph.max_edge_A = options.morph_max_edge * options.surface.grid_spacing_A;
     const auto ways = atom_ways(*source.molecule, target, result.pairing, frame.from_source, frame.from_target,
                                 options.surface.radius_scale);
     const MorphResult morphed =
         engine.morph(regularized, ways, surface.atoms, target_surface.atoms, morph, "morph", progress);
     result.morph_report = morphed.report;
-    Mapping mapping{morphed.source, morphed.mapped, engine.download(morphed.lost), nullptr, nullptr, {}};
+    Mapping mapping;
+    mapping.source = morphed.source;
+    mapping.mapped = morphed.mapped;
+    mapping.lost = engine.download(morphed.lost);
     clock.lap("morph");
-    find_fit(engine, mapping, target_surface.atoms, static_cast<float>(options.surface.isovalue));
-    clock.lap("fit");
     return mapping;
   }
 
@@ -245,8 +249,10 @@ struct Series::Steps {
 
   /// Fills in what the mapping gave: certificate, per-vertex arrays, potentials, metrics, residues.
   void evaluate(const CompareInput& target, const CommonFrame& frame, const Surface& target_surface,
-                const Mapping& mapping, CompareResult& result, const Progress& progress, StageClock& clock) {
+                Mapping& mapping, CompareResult& result, const Progress& progress, StageClock& clock) {
     progress.report("certificate", 0.0);
+    settle(engine, mapping, target_surface.atoms, target_surface.mesh, static_cast<float>(options.surface.isovalue));
+    if (options.method == Method::kMorph && !options.surface.cavities) drop_closed_cavities(engine, mapping);
     result.area_mapped_A2 = mapping.fit.area_A2;
     result.certificate = certify(engine, mapping, target_surface.mesh);
     result.certificate.converged = options.method == Method::kMorph || result.deform_report.converged;
@@ -310,7 +316,6 @@ CompareResult Series::step(const CompareInput& target, StartFrom start, const Pr
     mapping.source = steps.regularized;
     mapping.mapped = steps.map(target_surface, result.start == StartFrom::kPrevious ? last : steps.regularized,
                                result.deform_report, progress, clock);
-    find_fit(steps.engine, mapping, target_surface.atoms, static_cast<float>(steps.options.surface.isovalue));
   }
   steps.evaluate(target, frame, target_surface, mapping, result, progress, clock);
   if (steps.options.method == Method::kDeform && result.deform_report.converged) {

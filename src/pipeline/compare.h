@@ -42,6 +42,7 @@ struct CompareOptions {
   AlignAtoms align = AlignAtoms::kAll;
   Method method = Method::kDeform;
   MorphOptions morph;
+  double morph_max_edge = 1.4;  ///< in grid spacings; sets MorphOptions::max_edge_A
   FieldKind field = FieldKind::kDistance;
   double distance_threshold_A = 0.75;
   DeformOptions regularize{0.1, 0.5, 0.3, 1e-3, 500, Interpolation::kTrilinear, 4, false};

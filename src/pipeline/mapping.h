@@ -8,18 +8,29 @@
 
 namespace espdiff {
 
+/// A vertex farther than this from the other surface has no counterpart there.
+constexpr double kCounterpartLimit_A = 1.0;
+
 /// Two meshes of one topology: where each vertex comes from, and where it lies on the target.
 struct Mapping {
   MeshPtr source, mapped;
-  std::vector<float> lost;  ///< [triangle] nonzero where there is no counterpart; empty where there is one everywhere
-  /// The triangles of `mapped` with a counterpart; `mapped` itself where all have one.
+  /// [triangle] nonzero where there is no counterpart; empty where the method does not tell.
+  std::vector<float> lost;
+
+  // What has a counterpart, and how well it fits the target; see settle().
   MeshPtr counted_source, counted;
-  FitReport fit;  ///< of `counted`
+  FitReport fit;
+  IntersectionReport intersections;
+  DistanceSummary to_target;  ///< from `counted` to the target's surface
 };
 
-/// Fills in `counted` and `fit`. With `lost` not empty, cuts out as well what is off the target's surface, flipped or
-/// intersects itself.
-void find_fit(Engine& engine, Mapping& mapping, const AtomsPtr& target, float isovalue);
+/// Finds what has a counterpart, and how well that fits. Where the method tells what is lost (`lost` not empty), what
+/// is off the target's density, flipped, intersects itself or lies far from the target's surface (on a closed cavity,
+/// say) is lost as well: a few triangles beside what was torn.
+void settle(Engine& engine, Mapping& mapping, const AtomsPtr& target_atoms, const MeshPtr& target, float isovalue);
+
+/// Leaves out the source's closed cavities where they found no counterpart: what is left of them has opened.
+void drop_closed_cavities(Engine& engine, Mapping& mapping);
 
 /// [triangle of the whole] from [triangle with a counterpart]; 0 where lost.
 std::vector<std::uint8_t> spread(const std::vector<float>& counted, const std::vector<float>& lost);
