@@ -16,8 +16,8 @@ constexpr double kProjectionShare = 0.5;
 struct Surface {
   AtomsPtr atoms;
   GridPtr density;
-  MeshPtr mesh;  // without closed cavities, unless the options keep them
-  MeshPtr whole;  // with them
+  MeshPtr mesh;                              // without closed cavities, unless the options keep them
+  MeshPtr whole;                             // with them
   std::vector<ComponentSummary> components;  // all
   SurfaceSummary summary;
 };

@@ -12,6 +12,7 @@
 #include "pipeline/build_surface.h"
 #include "pipeline/certificate.h"
 #include "pipeline/mapping.h"
+#include "pipeline/paired_residues.h"
 #include "pipeline/residue_rows.h"
 
 namespace espdiff {
@@ -41,6 +42,7 @@ Interpolation parse_interpolation(const std::string& text) {
 
 CompareOptions thesis_options() {
   CompareOptions options;
+  options.method = Method::kDeform;
   options.surface.project = false;
   options.surface.cavities = true;
   options.regularize.tangential_gain = options.deform.tangential_gain = 1;
@@ -112,6 +114,31 @@ void check_maps(const CompareInput& source, const CompareInput& target) {
   }
 }
 
+/// [vertex] whether it lies in a triangle with a counterpart.
+std::vector<bool> has_counterpart(const MappedSurface& s) {
+  if (s.no_counterpart.empty()) return std::vector<bool>(s.positions.size(), true);
+  std::vector<bool> has(s.positions.size(), false);
+  for (std::size_t t = 0; t < s.triangles.size(); ++t) {
+    if (s.no_counterpart[t] != 0) continue;
+    for (const std::uint32_t v : s.triangles[t]) has[v] = true;
+  }
+  return has;
+}
+
+/// What a vertex without a counterpart has there is no number.
+void forget_lost(const std::vector<bool>& kept, std::vector<float>& values) {
+  for (std::size_t v = 0; v < values.size(); ++v) {
+    if (!kept[v]) values[v] = std::numeric_limits<float>::quiet_NaN();
+  }
+}
+
+/// Samples that are NaN for another reason than that.
+std::size_t count_outside(const std::vector<bool>& kept, const std::vector<float>& samples) {
+  std::size_t n = 0;
+  for (std::size_t v = 0; v < samples.size(); ++v) n += kept[v] && !std::isfinite(samples[v]) ? 1 : 0;
+  return n;
+}
+
 Potentials sample_potentials(Engine& engine, const CompareInput& source, const CompareInput& target,
                              const CommonFrame& frame, const Mapping& mapping, double temperature_K,
                              CompareResult& result) {
@@ -127,10 +154,12 @@ Potentials sample_potentials(Engine& engine, const CompareInput& source, const C
   potentials.target = engine.sample(engine.upload_map(*target_map, inverse(frame.from_target)), mapping.mapped);
   result.surface.potential_source = engine.download(potentials.source);
   result.surface.potential_target = engine.download(potentials.target);
-  result.n_outside_source_map = count_outside(result.surface.potential_source);
-  result.n_outside_target_map = count_outside(result.surface.potential_target);
+  const std::vector<bool> kept = has_counterpart(result.surface);
+  result.n_outside_source_map = count_outside(kept, result.surface.potential_source);
+  result.n_outside_target_map = count_outside(kept, result.surface.potential_target);
   require_coverage(*source.map, result.n_outside_source_map, result.surface.potential_source.size());
   require_coverage(*target.map, result.n_outside_target_map, result.surface.potential_target.size());
+  forget_lost(kept, result.surface.potential_target);
   result.has_potential = true;
   return potentials;
 }
@@ -248,8 +277,8 @@ struct Series::Steps {
   }
 
   /// Fills in what the mapping gave: certificate, per-vertex arrays, potentials, metrics, residues.
-  void evaluate(const CompareInput& target, const CommonFrame& frame, const Surface& target_surface,
-                Mapping& mapping, CompareResult& result, const Progress& progress, StageClock& clock) {
+  void evaluate(const CompareInput& target, const CommonFrame& frame, const Surface& target_surface, Mapping& mapping,
+                CompareResult& result, const Progress& progress, StageClock& clock) {
     progress.report("certificate", 0.0);
     settle(engine, mapping, target_surface.atoms, target_surface.mesh, static_cast<float>(options.surface.isovalue));
     if (options.method == Method::kMorph && !options.surface.cavities) drop_closed_cavities(engine, mapping);
@@ -263,7 +292,11 @@ struct Series::Steps {
     download_surface(engine, mapping.source, mapping.mapped, frame, s);
     s.no_counterpart.assign(mapping.lost.begin(), mapping.lost.end());
     s.corrupt = spread(engine.download(mapping.fit.corrupt), mapping.lost);
+    forget_lost(has_counterpart(s), s.displacement);
     s.residue = engine.vertex_residues(mapping.source, surface.atoms);
+    result.certificate.same_residue_area_fraction =
+        same_residue_share(s, s.residue, engine.vertex_residues(mapping.mapped, target_surface.atoms),
+                           paired_residues(*source.molecule, *target.molecule, result.pairing));
     if (source.map != nullptr) {
       std::vector<float> excluded(s.corrupt.begin(), s.corrupt.end());
       for (std::size_t t = 0; t < mapping.lost.size(); ++t) excluded[t] = std::max(excluded[t], mapping.lost[t]);

@@ -38,7 +38,8 @@ void settle(Engine& engine, Mapping& mapping, const AtomsPtr& target_atoms, cons
     mapping.counted = engine.without(mapping.mapped, engine.upload_scalars(mapping.lost));
     measure(engine, mapping, target_atoms, target, isovalue);
     std::vector<float> marked = engine.download(mapping.fit.corrupt);
-    for (const ScalarsPtr& flags : {mapping.fit.flipped, mapping.intersections.intersecting, mapping.to_target.beyond}) {
+    for (const ScalarsPtr& flags :
+         {mapping.fit.flipped, mapping.intersections.intersecting, mapping.to_target.beyond}) {
       const std::vector<float> other = engine.download(flags);
       std::transform(marked.begin(), marked.end(), other.begin(), marked.begin(),
                      [](float a, float b) { return std::max(a, b); });
