@@ -8,8 +8,11 @@
 
 #include "align/superpose.h"
 #include "base/error.h"
+#include "pipeline/atom_ways.h"
 #include "pipeline/build_surface.h"
 #include "pipeline/certificate.h"
+#include "pipeline/mapping.h"
+#include "pipeline/paired_residues.h"
 #include "pipeline/residue_rows.h"
 
 namespace espdiff {
@@ -23,6 +26,14 @@ FieldKind parse_field_kind(const std::string& text) {
   throw InputError("unknown field '" + text + "'; use density or distance");
 }
 
+Method parse_method(const std::string& text) {
+  if (text == "deform") return Method::kDeform;
+  if (text == "morph") return Method::kMorph;
+  throw InputError("unknown method '" + text + "'; use deform or morph");
+}
+
+std::string to_string(Method method) { return method == Method::kMorph ? "morph" : "deform"; }
+
 Interpolation parse_interpolation(const std::string& text) {
   if (text == "trilinear") return Interpolation::kTrilinear;
   if (text == "tricubic") return Interpolation::kTricubic;
@@ -31,6 +42,7 @@ Interpolation parse_interpolation(const std::string& text) {
 
 CompareOptions thesis_options() {
   CompareOptions options;
+  options.method = Method::kDeform;
   options.surface.project = false;
   options.surface.cavities = true;
   options.regularize.tangential_gain = options.deform.tangential_gain = 1;
@@ -102,9 +114,34 @@ void check_maps(const CompareInput& source, const CompareInput& target) {
   }
 }
 
+/// [vertex] whether it lies in a triangle with a counterpart.
+std::vector<bool> has_counterpart(const MappedSurface& s) {
+  if (s.no_counterpart.empty()) return std::vector<bool>(s.positions.size(), true);
+  std::vector<bool> has(s.positions.size(), false);
+  for (std::size_t t = 0; t < s.triangles.size(); ++t) {
+    if (s.no_counterpart[t] != 0) continue;
+    for (const std::uint32_t v : s.triangles[t]) has[v] = true;
+  }
+  return has;
+}
+
+/// What a vertex without a counterpart has there is no number.
+void forget_lost(const std::vector<bool>& kept, std::vector<float>& values) {
+  for (std::size_t v = 0; v < values.size(); ++v) {
+    if (!kept[v]) values[v] = std::numeric_limits<float>::quiet_NaN();
+  }
+}
+
+/// Samples that are NaN for another reason than that.
+std::size_t count_outside(const std::vector<bool>& kept, const std::vector<float>& samples) {
+  std::size_t n = 0;
+  for (std::size_t v = 0; v < samples.size(); ++v) n += kept[v] && !std::isfinite(samples[v]) ? 1 : 0;
+  return n;
+}
+
 Potentials sample_potentials(Engine& engine, const CompareInput& source, const CompareInput& target,
-                             const CommonFrame& frame, const MeshPtr& source_mesh, const MeshPtr& mapped,
-                             double temperature_K, CompareResult& result) {
+                             const CommonFrame& frame, const Mapping& mapping, double temperature_K,
+                             CompareResult& result) {
   result.unit = source.map->unit;
   Grid converted;
   const Grid* target_map = target.map;
@@ -113,14 +150,16 @@ Potentials sample_potentials(Engine& engine, const CompareInput& source, const C
     target_map = &converted;
   }
   Potentials potentials;
-  potentials.source = engine.sample(engine.upload_map(*source.map, inverse(frame.from_source)), source_mesh);
-  potentials.target = engine.sample(engine.upload_map(*target_map, inverse(frame.from_target)), mapped);
+  potentials.source = engine.sample(engine.upload_map(*source.map, inverse(frame.from_source)), mapping.source);
+  potentials.target = engine.sample(engine.upload_map(*target_map, inverse(frame.from_target)), mapping.mapped);
   result.surface.potential_source = engine.download(potentials.source);
   result.surface.potential_target = engine.download(potentials.target);
-  result.n_outside_source_map = count_outside(result.surface.potential_source);
-  result.n_outside_target_map = count_outside(result.surface.potential_target);
+  const std::vector<bool> kept = has_counterpart(result.surface);
+  result.n_outside_source_map = count_outside(kept, result.surface.potential_source);
+  result.n_outside_target_map = count_outside(kept, result.surface.potential_target);
   require_coverage(*source.map, result.n_outside_source_map, result.surface.potential_source.size());
   require_coverage(*target.map, result.n_outside_target_map, result.surface.potential_target.size());
+  forget_lost(kept, result.surface.potential_target);
   result.has_potential = true;
   return potentials;
 }
@@ -183,7 +222,9 @@ struct Series::Steps {
   void prepare(const RigidTransform& to_common, const Progress& progress, StageClock& clock) {
     if (prepared) return;
     surface = build_surface(engine, *source.molecule, to_common, options.surface, progress, clock);
-    regularized = regularize(engine, surface, options, progress, &regularize_report);
+    // The morph takes closed cavities along, since one may open.
+    const MeshPtr& mesh = options.method == Method::kMorph ? surface.whole : surface.mesh;
+    regularized = regularize(engine, surface, mesh, options, progress, &regularize_report);
     clock.lap("regularize");
     prepared = true;
     take_up_restored();
@@ -198,6 +239,24 @@ struct Series::Steps {
     last_mapped = engine.with_positions(regularized, restored->mapped);
     last_target = restored->target;
     restored.reset();
+  }
+
+  Mapping map_by_morph(const Molecule& target, const Surface& target_surface, const CommonFrame& frame,
+                       CompareResult& result, const Progress& progress, StageClock& clock) {
+    MorphOptions morph = options.morph;
+    morph.isovalue = options.surface.isovalue;
+    morph.max_edge_A = options.morph_max_edge * options.surface.grid_spacing_A;
+    const auto ways = atom_ways(*source.molecule, target, result.pairing, frame.from_source, frame.from_target,
+                                options.surface.radius_scale);
+    const MorphResult morphed =
+        engine.morph(regularized, ways, surface.atoms, target_surface.atoms, morph, "morph", progress);
+    result.morph_report = morphed.report;
+    Mapping mapping;
+    mapping.source = morphed.source;
+    mapping.mapped = morphed.mapped;
+    mapping.lost = engine.download(morphed.lost);
+    clock.lap("morph");
+    return mapping;
   }
 
   MeshPtr map(const Surface& target, const MeshPtr& start, DeformReport& report, const Progress& progress,
@@ -218,27 +277,37 @@ struct Series::Steps {
   }
 
   /// Fills in what the mapping gave: certificate, per-vertex arrays, potentials, metrics, residues.
-  void evaluate(const CompareInput& target, const CommonFrame& frame, const Surface& target_surface,
-                const MeshPtr& mapped, CompareResult& result, const Progress& progress, StageClock& clock) {
+  void evaluate(const CompareInput& target, const CommonFrame& frame, const Surface& target_surface, Mapping& mapping,
+                CompareResult& result, const Progress& progress, StageClock& clock) {
     progress.report("certificate", 0.0);
-    const FitReport fit = engine.fit(mapped, target_surface.atoms, static_cast<float>(options.surface.isovalue));
-    result.area_mapped_A2 = fit.area_A2;
-    result.certificate = certify(engine, mapped, target_surface.mesh, fit);
-    result.certificate.converged = result.deform_report.converged;
+    settle(engine, mapping, target_surface.atoms, target_surface.mesh, static_cast<float>(options.surface.isovalue));
+    if (options.method == Method::kMorph && !options.surface.cavities) drop_closed_cavities(engine, mapping);
+    result.area_mapped_A2 = mapping.fit.area_A2;
+    result.certificate = certify(engine, mapping, target_surface.mesh);
+    result.certificate.converged = options.method == Method::kMorph || result.deform_report.converged;
     clock.lap("certificate");
 
     progress.report("metrics", 0.0);
-    download_surface(engine, regularized, mapped, frame, result.surface);
-    const std::vector<float> corrupt = engine.download(fit.corrupt);
-    result.surface.corrupt.assign(corrupt.begin(), corrupt.end());
-    result.surface.residue = engine.vertex_residues(regularized, surface.atoms);
+    MappedSurface& s = result.surface;
+    download_surface(engine, mapping.source, mapping.mapped, frame, s);
+    s.no_counterpart.assign(mapping.lost.begin(), mapping.lost.end());
+    s.corrupt = spread(engine.download(mapping.fit.corrupt), mapping.lost);
+    forget_lost(has_counterpart(s), s.displacement);
+    s.residue = engine.vertex_residues(mapping.source, surface.atoms);
+    result.certificate.same_residue_area_fraction =
+        same_residue_share(s, s.residue, engine.vertex_residues(mapping.mapped, target_surface.atoms),
+                           paired_residues(*source.molecule, *target.molecule, result.pairing));
     if (source.map != nullptr) {
+      std::vector<float> excluded(s.corrupt.begin(), s.corrupt.end());
+      for (std::size_t t = 0; t < mapping.lost.size(); ++t) excluded[t] = std::max(excluded[t], mapping.lost[t]);
       const Potentials potentials =
-          sample_potentials(engine, source, target, frame, regularized, mapped, options.temperature_K, result);
-      result.metrics = engine.compare(regularized, mapped, potentials.source, potentials.target, fit.corrupt);
-      result.metrics_all = engine.compare(regularized, mapped, potentials.source, potentials.target, nullptr);
+          sample_potentials(engine, source, target, frame, mapping, options.temperature_K, result);
+      result.metrics = engine.compare(mapping.source, mapping.mapped, potentials.source, potentials.target,
+                                      engine.upload_scalars(excluded));
+      result.metrics_all = engine.compare(mapping.source, mapping.mapped, potentials.source, potentials.target,
+                                          mapping.lost.empty() ? nullptr : engine.upload_scalars(mapping.lost));
     }
-    result.residues = residue_rows(result.surface, source.molecule->residues.size(), result.has_potential);
+    result.residues = residue_rows(s, source.molecule->residues.size(), result.has_potential);
     judge(result.certificate, result);
     clock.lap("metrics");
   }
@@ -267,17 +336,23 @@ CompareResult Series::step(const CompareInput& target, StartFrom start, const Pr
 
   std::vector<Vec3d> target_atoms = counterparts(source, *target.molecule, result.pairing, frame.from_target);
   const MeshPtr last = std::exchange(steps.last_mapped, nullptr);
-  if (start == StartFrom::kPrevious && last != nullptr) {
+  if (start == StartFrom::kPrevious && last != nullptr && steps.options.method == Method::kDeform) {
     std::vector<Vec3d> source_atoms;
     for (const Vec3d& p : source.positions) source_atoms.push_back(frame.from_source.apply(p));
     if (rms_distance(steps.last_target, target_atoms) < rms_distance(source_atoms, target_atoms))
       result.start = StartFrom::kPrevious;
   }
-  const MeshPtr mapped = steps.map(target_surface, result.start == StartFrom::kPrevious ? last : steps.regularized,
-                                   result.deform_report, progress, clock);
-  steps.evaluate(target, frame, target_surface, mapped, result, progress, clock);
-  if (result.deform_report.converged) {
-    steps.last_mapped = mapped;
+  Mapping mapping;
+  if (steps.options.method == Method::kMorph) {
+    mapping = steps.map_by_morph(*target.molecule, target_surface, frame, result, progress, clock);
+  } else {
+    mapping.source = steps.regularized;
+    mapping.mapped = steps.map(target_surface, result.start == StartFrom::kPrevious ? last : steps.regularized,
+                               result.deform_report, progress, clock);
+  }
+  steps.evaluate(target, frame, target_surface, mapping, result, progress, clock);
+  if (steps.options.method == Method::kDeform && result.deform_report.converged) {
+    steps.last_mapped = mapping.mapped;
     steps.last_target = std::move(target_atoms);
   }
   clock.finish();

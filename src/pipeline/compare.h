@@ -19,6 +19,12 @@ enum class FieldKind { kDensity, kDistance };
 FieldKind parse_field_kind(const std::string& text);
 Interpolation parse_interpolation(const std::string& text);
 
+/// How the source's surface is brought onto the target's: by forces in a field of the target (the thesis), or carried
+/// by the level sets of the density while the atoms move.
+enum class Method { kDeform, kMorph };
+Method parse_method(const std::string& text);
+std::string to_string(Method method);
+
 /// How a surface is made of a molecule.
 struct SurfaceOptions {
   double grid_spacing_A = 1.0;
@@ -34,6 +40,9 @@ struct SurfaceOptions {
 struct CompareOptions {
   SurfaceOptions surface;
   AlignAtoms align = AlignAtoms::kAll;
+  Method method = Method::kMorph;
+  MorphOptions morph;
+  double morph_max_edge = 1.4;  ///< in grid spacings; sets MorphOptions::max_edge_A
   FieldKind field = FieldKind::kDistance;
   double distance_threshold_A = 0.75;
   DeformOptions regularize{0.1, 0.5, 0.3, 1e-3, 500, Interpolation::kTrilinear, 4, false};
@@ -68,6 +77,7 @@ struct ResidueRow {
   double mean_displacement_A = 0;
 };
 
+/// All but no_counterpart_* are over what has a counterpart.
 struct Certificate {
   double corrupt_area_fraction = 0;
   double flipped_area_fraction = 0;
@@ -75,8 +85,12 @@ struct Certificate {
   std::size_t self_intersecting_pairs = 0;  ///< see Engine::self_intersections()
   DistanceSummary mapped_to_target;
   DistanceSummary target_to_mapped;
-  double no_counterpart_source = 0;  ///< share of the mapped area farther than 1 A from the target
+  /// Share of the source's area that the mapping lost, or that it took farther than 1 A from the target.
+  double no_counterpart_source = 0;
   double no_counterpart_target = 0;  ///< share of the target's area farther than 1 A from the mapped surface
+  /// Share of the mapped area whose residue (of most density) on the target is the one paired with that on the source;
+  /// NaN where no residues pair.
+  double same_residue_area_fraction = 0;
   bool converged = false;
   bool trustworthy = false;
   std::vector<std::string> reasons;      ///< why not
@@ -90,9 +104,12 @@ struct MappedSurface {
   std::vector<Vec3f> normals;           ///< [vertex] outward, target's frame
   std::vector<Triangle> triangles;
   std::vector<float> potential_source, potential_target;  ///< [vertex]; empty without maps; NaN outside a map
-  std::vector<float> displacement;                        ///< [vertex]
+  std::vector<float> displacement;                        ///< [vertex] NaN where there is no counterpart
   std::vector<std::int32_t> residue;                      ///< [vertex] index of the source residue, -1 for none
   std::vector<std::uint8_t> corrupt;                      ///< [triangle]
+  /// [triangle] nonzero where the mapping found no counterpart: the mapped positions there mean nothing; empty where it
+  /// found one everywhere.
+  std::vector<std::uint8_t> no_counterpart;
 };
 
 /// Where the mapping of a target starts: from the source's surface, or from that of the target before, which is nearer
@@ -114,6 +131,7 @@ struct CompareResult {
   Certificate certificate;
   StartFrom start = StartFrom::kSource;  ///< where the mapping started
   DeformReport regularize_report, deform_report;
+  MorphReport morph_report;
   std::vector<ResidueRow> residues;
   MappedSurface surface;
   std::vector<std::pair<std::string, double>> time_ms;  ///< stage, in order, and last "total"
