@@ -58,8 +58,12 @@ std::vector<MatrixMetric> make_metrics() {
        [](R r) { return r.certificate.target_to_mapped.mean; }},
       {"target_to_mapped_max_A", "Greatest distance of the target to the mapped surface", U::kAngstrom, false, false,
        [](R r) { return r.certificate.target_to_mapped.max; }},
-      {"iterations", "Iterations", U::kCount, false, false,
-       [](R r) { return static_cast<double>(r.deform_report.iterations); }},
+      {"same_residue_area_fraction", "Area on the same residue", U::kFraction, false, false,
+       of_certificate<&Certificate::same_residue_area_fraction>},
+      {"iterations", "Iterations or steps", U::kCount, false, false,
+       [](R r) {
+         return static_cast<double>(r.morph_report.steps > 0 ? r.morph_report.steps : r.deform_report.iterations);
+       }},
   };
 }
 

@@ -4,7 +4,7 @@ package require espdiff
 
 set mol [mol new [input traj_adk/adk.psf] type psf waitfor all]
 mol addfile [input traj_adk/adk_dims.dcd] type dcd waitfor all $mol
-set quick {-grid-spacing 2 -max-iterations 100 -regularize-max-iterations 50}
+set quick {-grid-spacing 2}
 
 test "frames of a molecule, each with each, with computed potentials" {
     set variants [list [list mol $mol frames 0:40:80 sel protein map {pme grid 2} group closed] \
