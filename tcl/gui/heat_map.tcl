@@ -22,7 +22,9 @@ namespace eval ::espdiff::gui {
         set n [llength $order]
         set height [expr {max(80, [winfo height $map] - 12)}]
         set left [label_width $labels]
-        set cell [expr {max(3, min(44, $height / $n, ([winfo width $map] - $left - 96) / $n))}]
+        set room [expr {[winfo width $map] - $left - 96}]  ;# without the labels and the scale
+        set cell [expr {max(3, min(44, $height / $n, $room / $n))}]
+        incr left [expr {max(0, ($room - $n * $cell) / 2)}]
         set top 6
         set heat [dict create left $left top $top cell $cell order $order]
         lassign [value_range $metric] low high

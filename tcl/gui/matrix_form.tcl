@@ -25,14 +25,14 @@ namespace eval ::espdiff::gui {
 
     proc build_variant_list {path} {
         variable widget
-        ttk::treeview $path.list -columns {group what} -height 5 -selectmode extended \
+        ttk::treeview $path.list -columns {label group what} -show headings -height 5 -selectmode extended \
             -yscrollcommand [list $path.scroll set]
-        $path.list heading #0 -text Label -anchor w
+        $path.list heading label -text Label -anchor w
         $path.list heading group -text Group -anchor w
         $path.list heading what -text "Molecule or file" -anchor w
-        $path.list column #0 -width 150
-        $path.list column group -width 90 -stretch 0
-        $path.list column what -width 300
+        $path.list column label -width 130
+        $path.list column group -width 80 -stretch 0
+        $path.list column what -width 240
         ttk::scrollbar $path.scroll -orient vertical -command [list $path.list yview] -takefocus 0
         ttk::frame $path.buttons
         button $path.buttons.files "Add files..." ::espdiff::gui::browse_variants
@@ -93,11 +93,11 @@ namespace eval ::espdiff::gui {
         variable widget
         variable computed
         variable data_set
-        ttk::combobox $path.potential -textvariable ::espdiff::gui::form(matrix,potential) -state readonly -width 22 \
+        ttk::combobox $path.potential -textvariable ::espdiff::gui::form(matrix,potential) -state readonly -width 18 \
             -values [concat none [list $computed] [expr {[in_vmd] ? [list $data_set] : {}}]]
         form_row $path 0 Potential $path.potential "Of every variant: computed from its charges (particle-mesh Ewald), in\
             VMD the molecule's data set, or none to compare the shapes alone"
-        ttk::entry $path.output -textvariable ::espdiff::gui::form(matrix,output) -width 24
+        ttk::entry $path.output -textvariable ::espdiff::gui::form(matrix,output) -width 16
         form_row $path 0 "Results" $path.output "Files begin with this: NAME.csv and NAME.json, and NAME.state while the\
             run goes on" 2
         ttk::checkbutton $path.resume -text "go on where an interrupted run stopped" \
@@ -117,11 +117,14 @@ namespace eval ::espdiff::gui {
         $widget(matrix,list) delete [$widget(matrix,list) children {}]
         set number 0
         foreach variant $variants {
-            $widget(matrix,list) insert {} end -id $number -text [dict get $variant label] \
-                -values [list [dict get $variant group] [dict get $variant what]]
+            $widget(matrix,list) insert {} end -id $number -values [variant_cells $variant]
             incr number
         }
         update_matrix
+    }
+
+    proc variant_cells {variant} {
+        list [dict get $variant label] [dict get $variant group] [dict get $variant what]
     }
 
     proc update_matrix {} {
@@ -177,11 +180,14 @@ namespace eval ::espdiff::gui {
             for {set model 1} {$model <= $n} {incr model} {
                 add_variant [expr {$n == 1 ? [list file $path] : [list file $path model $model]}] \
                     [expr {$n == 1 ? $name : "$name:$model"}] \
-                    [expr {$n == 1 ? $path : "$path, model $model"}]
+                    [expr {$n == 1 ? [near_name $path] : "[near_name $path], model $model"}]
             }
         }
         show_variants
     }
+
+    # The file and its folder: the end of a path is what tells.
+    proc near_name {path} { file join {*}[lrange [file split [file normalize $path]] end-1 end] }
 
     proc remove_variants {} {
         variable variants
@@ -213,8 +219,7 @@ namespace eval ::espdiff::gui {
             set variant [lindex $variants $number]
             dict set variant $key [string trim $form(matrix,$key)]
             lset variants $number $variant
-            $widget(matrix,list) item $number -text [dict get $variant label] \
-                -values [list [dict get $variant group] [dict get $variant what]]
+            $widget(matrix,list) item $number -values [variant_cells $variant]
         }
     }
 

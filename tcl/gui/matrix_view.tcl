@@ -15,7 +15,7 @@ namespace eval ::espdiff::gui {
         button $path.compute Compute ::espdiff::gui::compute_matrix
         button $path.cancel Stop ::espdiff::gui::cancel_matrix
         ttk::progressbar $path.bar -maximum 1.0 -length 60
-        ttk::label $path.message -anchor w -wraplength 600 -justify left
+        ttk::label $path.message -anchor w -wraplength 560 -justify left
         tip $path.compute "Compare each variant with each other one, both ways (Return)"
         tip $path.cancel "End the computation; what is done is kept, and can be gone on with (Escape)"
         grid $path.compute $path.cancel $path.bar -sticky ew -padx {0 6}
@@ -29,7 +29,7 @@ namespace eval ::espdiff::gui {
         variable widget
         ttk::frame $path.top
         ttk::label $path.top.label -text Metric
-        ttk::combobox $path.top.metric -textvariable ::espdiff::gui::form(matrix,metric) -state readonly -width 34
+        ttk::combobox $path.top.metric -textvariable ::espdiff::gui::form(matrix,metric) -state readonly -width 22
         bind $path.top.metric <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::draw_heat_map}
         ttk::checkbutton $path.top.ordered -text "similar ones side by side" \
             -variable ::espdiff::gui::form(matrix,ordered) -command {::espdiff::gui::guard ::espdiff::gui::draw_heat_map}
@@ -40,7 +40,7 @@ namespace eval ::espdiff::gui {
         tip $path.top.table "The matrix summed up"
         pack $path.top.label $path.top.metric $path.top.ordered -side left -padx {0 6}
         pack $path.top.table $path.top.plot -side right -padx {6 0}
-        canvas $path.map -width 560 -height 300 -background white -highlightthickness 1 -takefocus 1 \
+        canvas $path.map -width 420 -height 240 -background white -highlightthickness 1 -takefocus 1 \
             -highlightbackground gray80 -highlightcolor #3060c0
         ttk::label $path.pair -anchor w -text "A click on a cell compares and draws its pair."
         pack $path.top -fill x
