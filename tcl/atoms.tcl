@@ -60,8 +60,8 @@ namespace eval ::espdiff {
                 }
             }
             if {[llength $found] == 0} {
-                fail "espdiff atoms: no residue of molecule $mol ([molinfo $mol get name]) has the chain and number of one\
-                    that was compared"
+                fail "espdiff atoms: no residue of molecule $mol ([molinfo $mol get name]) has the chain and number of\
+                    one that was compared"
             }
             foreach frame [atoms_frames $mol $options] {
                 $all frame $frame

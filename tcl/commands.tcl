@@ -137,13 +137,15 @@ namespace eval ::espdiff {
         summary {Compares many variants, each with each, both ways. A variant is an endpoint that may have a `label` and
             a `group`; {mol ID frames BEGIN:STEP:END ...} stands for one variant a frame, and {file PATH ...} without
             `model` for one a model. Each one's surface is regularized, and its potential computed, once.} \
-        returns {a handle, such as matrix1; `espdiff result` has what OUT.json has, and pairs, resumed, seconds, files} \
+        returns {a handle, such as matrix1; `espdiff result` has what OUT.json has, and pairs, resumed, seconds,
+            files} \
         example {espdiff matrix {{mol 0 frames 0:10: map pme} {file open.pqr map pme group open}} -output adk}]
 
     command plot [dict create arguments {input} settings none run ::espdiff::plot options {
             {-metrics text auto "Names of columns; auto is mean_abs_difference, or without potentials\
                 mean_displacement_A"}
-            {-source text {} "Of a matrix: label of the variant that is drawn against all others, the first one without"}
+            {-source text {} "Of a matrix: label of the variant that is drawn against all others (the\
+                first one)"}
             {-normalize boolean 0 "Each metric from its least value, 0, to its greatest, 1, all in one window"}
             {-title text {} "Title of the window's plot"}
             {-mol text top "Of a trajectory: molecule that goes to the frame of a point that is clicked; none for none"}

@@ -1,8 +1,8 @@
 # plot.tcl: lines along a trajectory, or of one variant against all, in VMD's own plot windows (the package multiplot).
 
 namespace eval ::espdiff {
-    # What a click does, by the number of the window: {callback molecule x names}. multiplot writes its callback into a Tk
-    # binding, where nothing but a short word is safe.
+    # What a click does, by the number of the window: {callback molecule x names}. multiplot writes its callback into a
+    # binding of Tk, where nothing but a short word is safe.
     variable plot_clicks [dict create]
 
     variable plot_colours {#0072b2 #d55e00 #009e73 #cc79a7 #56b4e9 #e69f00 #000000}
@@ -24,8 +24,8 @@ namespace eval ::espdiff {
 
     proc require_multiplot {} {
         if {![info exists ::tk_version]} {
-            fail "espdiff plot needs VMD with its graphics window; elsewhere the command line's `espdiff plot` draws the\
-                same into a file"
+            fail "espdiff plot needs VMD with its graphics window; elsewhere the command line's `espdiff plot` draws\
+                the same into a file"
         }
         if {[catch { package require multiplot } message]} {
             fail "espdiff plot needs VMD's package multiplot, which is not there ($message); the command line's\
@@ -56,7 +56,9 @@ namespace eval ::espdiff {
             foreach column $columns cell $cells { dict set row $column $cell }
             lappend rows $row
         }
-        if {"frame" ni $columns} { fail "espdiff plot: '$path' has no column `frame`; it is not of a trajectory" FORMAT }
+        if {"frame" ni $columns} {
+            fail "espdiff plot: '$path' has no column `frame`; it is not of a trajectory" FORMAT
+        }
         set x {}
         set unit ""
         foreach row $rows {

@@ -1,5 +1,5 @@
-// about_commands.cpp: version, build, back_ends, settings, abi, models, map_unit, colours, volumes: what this module is and
-// offers.
+// about_commands.cpp: version, build, back_ends, settings, abi, models, map_unit, colours, volumes: what this module is
+// and offers.
 #include <cstdio>
 
 #include "base/error.h"

@@ -95,11 +95,11 @@ namespace eval ::espdiff::gui {
         variable data_set
         ttk::combobox $path.potential -textvariable ::espdiff::gui::form(matrix,potential) -state readonly -width 18 \
             -values [concat none [list $computed] [expr {[in_vmd] ? [list $data_set] : {}}]]
-        form_row $path 0 Potential $path.potential "Of every variant: computed from its charges (particle-mesh Ewald), in\
-            VMD the molecule's data set, or none to compare the shapes alone"
+        form_row $path 0 Potential $path.potential "Of every variant: computed from its charges (particle-mesh Ewald),\
+            in VMD the molecule's data set, or none to compare the shapes alone"
         ttk::entry $path.output -textvariable ::espdiff::gui::form(matrix,output) -width 16
-        form_row $path 0 "Results" $path.output "Files begin with this: NAME.csv and NAME.json, and NAME.state while the\
-            run goes on" 2
+        form_row $path 0 "Results" $path.output "Files begin with this: NAME.csv and NAME.json, and NAME.state while\
+            the run goes on" 2
         ttk::checkbutton $path.resume -text "go on where an interrupted run stopped" \
             -variable ::espdiff::gui::form(matrix,resume)
         tip $path.resume "Its state file has to be there, and variants and settings the same"

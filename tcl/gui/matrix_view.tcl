@@ -32,7 +32,8 @@ namespace eval ::espdiff::gui {
         ttk::combobox $path.top.metric -textvariable ::espdiff::gui::form(matrix,metric) -state readonly -width 22
         bind $path.top.metric <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::draw_heat_map}
         ttk::checkbutton $path.top.ordered -text "similar ones side by side" \
-            -variable ::espdiff::gui::form(matrix,ordered) -command {::espdiff::gui::guard ::espdiff::gui::draw_heat_map}
+            -variable ::espdiff::gui::form(matrix,ordered) \
+            -command {::espdiff::gui::guard ::espdiff::gui::draw_heat_map}
         button $path.top.plot "Plot row" ::espdiff::gui::plot_row
         button $path.top.table Table... ::espdiff::gui::matrix_table
         tip $path.top.ordered "In the order of the clustering instead of the list's"
