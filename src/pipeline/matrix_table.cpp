@@ -92,7 +92,7 @@ void print_trust(std::ostream& out, const Matrix& matrix) {
   }
   out << '\n' << n_trustworthy << " of " << matrix.cells.size() << " pairs are trustworthy";
   if (n_failed > 0) out << ", " << n_failed << " could not be compared";
-  out << "; the reasons are in the files\n";
+  out << (n_trustworthy < matrix.cells.size() ? "; the reasons are in the files\n" : "\n");
 }
 
 }  // namespace
