@@ -96,7 +96,7 @@ namespace eval ::espdiff {
             lappend x $to
             lappend names [lindex $labels $to]
         }
-        return [dict create x $x names $names x_title "Variant" title "$source against all others" rows $rows \
+        return [dict create x $x names $names x_title "Variant, by its number in the list from 0" title "$source against all others" rows $rows \
             unit [dict get $matrix potential_unit] columns [dict keys [dict get $matrix metrics]]]
     }
 
@@ -175,6 +175,10 @@ namespace eval ::espdiff {
                 -radius 4 -fillcolor $colour -legend [dict get $line title] \
                 -callback [list ::espdiff::plot_clicked $number]
             incr i
+        }
+        if {[dict get $table names] ne ""} {
+            set step [expr {1 + [llength [dict get $table names]] / 20}]
+            $plot configure -xmajortics $step -xminortics $step
         }
         $plot replot
         return $plot

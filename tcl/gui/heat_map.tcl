@@ -220,6 +220,10 @@ namespace eval ::espdiff::gui {
         set source [lindex $endpoints [lindex [dict get $heat order] $row]]
         set target [lindex $endpoints [lindex [dict get $heat order] $column]]
         $widget(tabs) select 0
+        # The surface is drawn on the target: VMD shows the target's frame.
+        if {[dict exists $target mol] && [dict get $target mol] in [molinfo list]} {
+            molinfo [dict get $target mol] set frame [dict get $target frame]
+        }
         set draw_when_done [start_compare $source $target $settings]
     }
 

@@ -55,6 +55,7 @@ test "a click on a cell compares its pair and draws it" {
     set values [dict get $::espdiff::gui::matrix_result metrics mean_abs_difference values]
     check_equal "the cell's number" [espdiff result $::espdiff::gui::shown mean_abs_difference] [lindex $values 0 1]
     check "drawn" {[molinfo num] > $before}
+    check_equal "the target's frame" [molinfo $mol get frame] 30
 }
 
 test "the row in VMD's plot window" {
