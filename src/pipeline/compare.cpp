@@ -14,6 +14,7 @@
 #include "pipeline/mapping.h"
 #include "pipeline/paired_residues.h"
 #include "pipeline/residue_rows.h"
+#include "pipeline/round_trip.h"
 
 namespace espdiff {
 
@@ -241,6 +242,28 @@ struct Series::Steps {
     restored.reset();
   }
 
+  /// The mapping from the target's surface to the source's, in the same common frame.
+  Mapping map_back(const CompareInput& target, const Surface& target_surface, const CommonFrame& frame,
+                   const AtomPairing& pairing, const Progress& progress) const {
+    std::vector<std::pair<std::string, double>> times;  // the caller's clock has one entry for all of it
+    StageClock clock(times);
+    Steps back{engine, target, options, true, target_surface, nullptr, {}, nullptr, {}, {}};
+    const MeshPtr& mesh = options.method == Method::kMorph ? target_surface.whole : target_surface.mesh;
+    back.regularized = espdiff::regularize(engine, target_surface, mesh, options, progress, &back.regularize_report);
+    CompareResult scratch;
+    for (const auto& [s, t] : pairing.pairs) scratch.pairing.pairs.emplace_back(t, s);
+    Mapping mapping;
+    if (options.method == Method::kMorph) {
+      mapping = back.map_by_morph(*source.molecule, surface, {frame.from_target, frame.from_source}, scratch, progress,
+                                  clock);
+    } else {
+      mapping.source = back.regularized;
+      mapping.mapped = back.map(surface, back.regularized, scratch.deform_report, progress, clock);
+    }
+    settle(engine, mapping, surface.atoms, surface.mesh, static_cast<float>(options.surface.isovalue));
+    return mapping;
+  }
+
   Mapping map_by_morph(const Molecule& target, const Surface& target_surface, const CommonFrame& frame,
                        CompareResult& result, const Progress& progress, StageClock& clock) {
     MorphOptions morph = options.morph;
@@ -276,9 +299,9 @@ struct Series::Steps {
     return mapped;
   }
 
-  /// Fills in what the mapping gave: certificate, per-vertex arrays, potentials, metrics, residues.
-  void evaluate(const CompareInput& target, const CommonFrame& frame, const Surface& target_surface, Mapping& mapping,
-                CompareResult& result, const Progress& progress, StageClock& clock) {
+  /// Finds what has a counterpart, and certifies it.
+  void check(Mapping& mapping, const Surface& target_surface, CompareResult& result, const Progress& progress,
+             StageClock& clock) const {
     progress.report("certificate", 0.0);
     settle(engine, mapping, target_surface.atoms, target_surface.mesh, static_cast<float>(options.surface.isovalue));
     if (options.method == Method::kMorph && !options.surface.cavities) drop_closed_cavities(engine, mapping);
@@ -286,7 +309,11 @@ struct Series::Steps {
     result.certificate = certify(engine, mapping, target_surface.mesh);
     result.certificate.converged = options.method == Method::kMorph || result.deform_report.converged;
     clock.lap("certificate");
+  }
 
+  /// Fills in what the mapping gave: per-vertex arrays, potentials, metrics, residues, and the verdict.
+  void evaluate(const CompareInput& target, const CommonFrame& frame, const Surface& target_surface,
+                const Mapping& mapping, CompareResult& result, const Progress& progress, StageClock& clock) {
     progress.report("metrics", 0.0);
     MappedSurface& s = result.surface;
     download_surface(engine, mapping.source, mapping.mapped, frame, s);
@@ -349,6 +376,14 @@ CompareResult Series::step(const CompareInput& target, StartFrom start, const Pr
     mapping.source = steps.regularized;
     mapping.mapped = steps.map(target_surface, result.start == StartFrom::kPrevious ? last : steps.regularized,
                                result.deform_report, progress, clock);
+  }
+  steps.check(mapping, target_surface, result, progress, clock);
+  if (steps.options.round_trip) {
+    const Mapping back = steps.map_back(target, target_surface, frame, result.pairing, progress);
+    result.certificate.round_trip = measure_round_trip(steps.engine, mapping, back);
+    clock.lap("round trip");
+  } else {
+    result.certificate.not_checked.emplace_back("round_trip");
   }
   steps.evaluate(target, frame, target_surface, mapping, result, progress, clock);
   if (steps.options.method == Method::kDeform && result.deform_report.converged) {

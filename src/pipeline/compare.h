@@ -50,6 +50,7 @@ struct CompareOptions {
   /// In grid spacings; they set min_displacement_A. The thesis' 1e-3 lets the mapping end while a few vertices still
   /// travel.
   double regularize_min_displacement = 1e-3, deform_min_displacement = 5e-4;
+  bool round_trip = false;     ///< map back as well, which takes as long again, and see whether that ends at the start
   double temperature_K = 300;  ///< for converting between kT/e and other units
 };
 
@@ -77,6 +78,13 @@ struct ResidueRow {
   double mean_displacement_A = 0;
 };
 
+/// How far from its start a vertex ends that is taken to the target and back by a second mapping, made from the target
+/// on its own. Angstrom, weighted by the source's area.
+struct RoundTrip {
+  double mean_A = 0, p95_A = 0, max_A = 0;
+  double lost_target_area_fraction = 0;  ///< of the target's surface, by the mapping back
+};
+
 /// All but no_counterpart_* are over what has a counterpart.
 struct Certificate {
   double corrupt_area_fraction = 0;
@@ -89,6 +97,7 @@ struct Certificate {
   double no_counterpart_source = 0;
   double no_counterpart_target = 0;  ///< share of the target's area farther than 1 A from the mapped surface
   DistortionReport distortion;
+  std::optional<RoundTrip> round_trip;
   /// Share of the mapped area whose residue (of most density) on the target is the one paired with that on the source;
   /// NaN where no residues pair.
   double same_residue_area_fraction = 0;

@@ -47,6 +47,13 @@ Json certificate(const Certificate& c) {
   json["flipped_area_fraction"] = number(c.flipped_area_fraction);
   json["no_counterpart_area_fraction"] = {{"source", number(c.no_counterpart_source)},
                                           {"target", number(c.no_counterpart_target)}};
+  json["round_trip"] = nullptr;
+  if (c.round_trip) {
+    json["round_trip"] = {{"mean_A", number(c.round_trip->mean_A)},
+                          {"p95_A", number(c.round_trip->p95_A)},
+                          {"max_A", number(c.round_trip->max_A)},
+                          {"lost_target_area_fraction", number(c.round_trip->lost_target_area_fraction)}};
+  }
   const DistortionReport& d = c.distortion;
   json["area_ratio"] = {
       {"p05", number(d.area_ratio_p05)}, {"median", number(d.area_ratio_median)}, {"p95", number(d.area_ratio_p95)}};
