@@ -47,7 +47,8 @@ namespace eval ::espdiff {
     proc prepare_run {run_name options} {
         upvar 1 $run_name run
         array set run {series {} job {} temporary {} reference_temporary {} last_map {} position 0 rows 0 skipped 0
-            replay {} head {} written 0 state running message {} error {} busy 0 fraction 0 stage {} structure {}}
+            replay {} head {} written 0 state running message {} error {} busy 0 fraction 0 stage {} structure {}
+            failed 0}
         set run(begun) [clock milliseconds]
         foreach key {mol file map csv start unit command progress callback} { set run($key) [dict get $options $key] }
         set run(csv) [file normalize $run(csv)]  ;# in the background the working folder may change

@@ -11,6 +11,7 @@
 #include "pipeline/build_surface.h"
 #include "pipeline/certificate.h"
 #include "pipeline/residue_rows.h"
+#include "pipeline/side_maps.h"
 
 namespace espdiff {
 
@@ -72,59 +73,6 @@ CommonFrame align(const Molecule& source, const Molecule& target, AlignAtoms ato
   return frame;
 }
 
-/// Samples of both potentials at counterparts, in one unit.
-struct Potentials {
-  ScalarsPtr source, target;
-};
-
-Grid in_unit(const Grid& map, PotentialUnit unit, double temperature_K) {
-  Grid converted = map;
-  const float factor = static_cast<float>(conversion_factor(map.unit, unit, temperature_K));
-  for (float& value : converted.values) value *= factor;
-  converted.unit = unit;
-  return converted;
-}
-
-void check_maps(const CompareInput& source, const CompareInput& target) {
-  if ((source.map == nullptr) != (target.map == nullptr)) {
-    const bool source_has = source.map != nullptr;
-    throw InputError(std::string("a potential map was given for the ") + (source_has ? "source" : "target") +
-                     " only; give one for the " +
-                     (source_has ? "target too (--target-map" : "source too (--source-map") +
-                     "; `map` in Tcl), or none to compare shapes alone");
-  }
-  if (source.map == nullptr || source.map->unit == target.map->unit) return;
-  if (source.map->unit == PotentialUnit::kUnknown || target.map->unit == PotentialUnit::kUnknown) {
-    const bool source_unknown = source.map->unit == PotentialUnit::kUnknown;
-    throw InputError("the maps are in two units: " + to_string(source.map->unit) + " (" + source.map->name + ") and " +
-                     to_string(target.map->unit) + " (" + target.map->name + "); name the unknown one's unit (" +
-                     (source_unknown ? "--source-map-unit" : "--target-map-unit") + "; `unit` in Tcl)");
-  }
-}
-
-Potentials sample_potentials(Engine& engine, const CompareInput& source, const CompareInput& target,
-                             const CommonFrame& frame, const MeshPtr& source_mesh, const MeshPtr& mapped,
-                             double temperature_K, CompareResult& result) {
-  result.unit = source.map->unit;
-  Grid converted;
-  const Grid* target_map = target.map;
-  if (target.map->unit != result.unit) {
-    converted = in_unit(*target.map, result.unit, temperature_K);
-    target_map = &converted;
-  }
-  Potentials potentials;
-  potentials.source = engine.sample(engine.upload_map(*source.map, inverse(frame.from_source)), source_mesh);
-  potentials.target = engine.sample(engine.upload_map(*target_map, inverse(frame.from_target)), mapped);
-  result.surface.potential_source = engine.download(potentials.source);
-  result.surface.potential_target = engine.download(potentials.target);
-  result.n_outside_source_map = count_outside(result.surface.potential_source);
-  result.n_outside_target_map = count_outside(result.surface.potential_target);
-  require_coverage(*source.map, result.n_outside_source_map, result.surface.potential_source.size());
-  require_coverage(*target.map, result.n_outside_target_map, result.surface.potential_target.size());
-  result.has_potential = true;
-  return potentials;
-}
-
 void download_surface(Engine& engine, const MeshPtr& source, const MeshPtr& mapped, const CommonFrame& frame,
                       MappedSurface& surface) {
   const RigidTransform to_source = inverse(frame.from_source), to_target = inverse(frame.from_target);
@@ -173,12 +121,15 @@ struct Series::Steps {
   CompareInput source;
   CompareOptions options;
   bool prepared = false;
-  Surface surface;
-  MeshPtr regularized;
-  DeformReport regularize_report;
-  MeshPtr last_mapped;             ///< null where the next step starts from the source
-  std::vector<Vec3d> last_target;  ///< see SeriesState
-  std::optional<SeriesState> restored;
+  Surface surface{};
+  MeshPtr regularized{};
+  DeformReport regularize_report{};
+  PotentialUnit unit = PotentialUnit::kUnknown;  ///< of what follows
+  GridPtr source_map{};                          ///< until it is sampled
+  ScalarsPtr source_samples{};                   ///< of the source's map at the regularized surface
+  MeshPtr last_mapped{};                         ///< null where the next step starts from the source
+  std::vector<Vec3d> last_target{};              ///< see SeriesState
+  std::optional<SeriesState> restored{};
 
   void prepare(const RigidTransform& to_common, const Progress& progress, StageClock& clock) {
     if (prepared) return;
@@ -217,9 +168,39 @@ struct Series::Steps {
     return mapped;
   }
 
+  /// The target's map, null where there is none; the source's too, unless its samples are there already.
+  GridPtr make_maps(const CompareInput& target, const CommonFrame& frame, const Progress& progress) {
+    if (!has_map(target)) return nullptr;
+    const PotentialUnit wanted = common_unit(source, target);
+    const double temperature_K = options.temperature_K;
+    if ((source_map == nullptr && source_samples == nullptr) || wanted != unit) {
+      source_samples = nullptr;
+      source_map = device_map(engine, source, inverse(frame.from_source), wanted, temperature_K, progress);
+      unit = wanted;
+    }
+    return device_map(engine, target, inverse(frame.from_target), wanted, temperature_K, progress);
+  }
+
+  /// Potentials at counterparts, and the metrics of their differences.
+  void compare_potentials(const CompareInput& target, const GridPtr& target_map, const MeshPtr& mapped,
+                          const ScalarsPtr& corrupt, CompareResult& result) {
+    if (source_samples == nullptr) source_samples = engine.sample(source_map, regularized);
+    source_map = nullptr;
+    const ScalarsPtr target_samples = engine.sample(target_map, mapped);
+    result.unit = unit;
+    result.surface.potential_source = engine.download(source_samples);
+    result.surface.potential_target = engine.download(target_samples);
+    result.n_outside_source_map = count_outside(source, result.surface.potential_source);
+    result.n_outside_target_map = count_outside(target, result.surface.potential_target);
+    result.has_potential = true;
+    result.metrics = engine.compare(regularized, mapped, source_samples, target_samples, corrupt);
+    result.metrics_all = engine.compare(regularized, mapped, source_samples, target_samples, nullptr);
+  }
+
   /// Fills in what the mapping gave: certificate, per-vertex arrays, potentials, metrics, residues.
   void evaluate(const CompareInput& target, const CommonFrame& frame, const Surface& target_surface,
-                const MeshPtr& mapped, CompareResult& result, const Progress& progress, StageClock& clock) {
+                const GridPtr& target_map, const MeshPtr& mapped, CompareResult& result, const Progress& progress,
+                StageClock& clock) {
     progress.report("certificate", 0.0);
     const FitReport fit = engine.fit(mapped, target_surface.atoms, static_cast<float>(options.surface.isovalue));
     result.area_mapped_A2 = fit.area_A2;
@@ -232,12 +213,7 @@ struct Series::Steps {
     const std::vector<float> corrupt = engine.download(fit.corrupt);
     result.surface.corrupt.assign(corrupt.begin(), corrupt.end());
     result.surface.residue = engine.vertex_residues(regularized, surface.atoms);
-    if (source.map != nullptr) {
-      const Potentials potentials =
-          sample_potentials(engine, source, target, frame, regularized, mapped, options.temperature_K, result);
-      result.metrics = engine.compare(regularized, mapped, potentials.source, potentials.target, fit.corrupt);
-      result.metrics_all = engine.compare(regularized, mapped, potentials.source, potentials.target, nullptr);
-    }
+    if (target_map != nullptr) compare_potentials(target, target_map, mapped, fit.corrupt, result);
     result.residues = residue_rows(result.surface, source.molecule->residues.size(), result.has_potential);
     judge(result.certificate, result);
     clock.lap("metrics");
@@ -245,7 +221,7 @@ struct Series::Steps {
 };
 
 Series::Series(Engine& engine, const CompareInput& source, const CompareOptions& options)
-    : steps_(new Steps{engine, source, options, false, {}, nullptr, {}, nullptr, {}, {}}) {}
+    : steps_(new Steps{engine, source, options}) {}
 Series::~Series() = default;
 
 CompareResult Series::step(const CompareInput& target, StartFrom start, const Progress& progress) {
@@ -253,10 +229,12 @@ CompareResult Series::step(const CompareInput& target, StartFrom start, const Pr
   const Molecule& source = *steps.source.molecule;
   CompareResult result;
   StageClock clock(result.time_ms);
-  check_maps(steps.source, target);
+  check_maps(steps.source, target);  // before any work
   progress.report("align", 0.0);
   const CommonFrame frame = align(source, *target.molecule, steps.options.align, result);
   clock.lap("align");
+  const GridPtr target_map = steps.make_maps(target, frame, progress);
+  if (target_map != nullptr) clock.lap("potential");
 
   steps.prepare(frame.from_source, progress, clock);
   const Surface target_surface =
@@ -275,7 +253,7 @@ CompareResult Series::step(const CompareInput& target, StartFrom start, const Pr
   }
   const MeshPtr mapped = steps.map(target_surface, result.start == StartFrom::kPrevious ? last : steps.regularized,
                                    result.deform_report, progress, clock);
-  steps.evaluate(target, frame, target_surface, mapped, result, progress, clock);
+  steps.evaluate(target, frame, target_surface, target_map, mapped, result, progress, clock);
   if (result.deform_report.converged) {
     steps.last_mapped = mapped;
     steps.last_target = std::move(target_atoms);

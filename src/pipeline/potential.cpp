@@ -12,8 +12,6 @@
 namespace espdiff {
 namespace {
 
-constexpr double kUsualPad_A = 10;
-
 void check_options(const PotentialOptions& o) {
   if (o.pme.compatible && o.align != AlignAtoms::kNone)
     throw InputError("`compatible` with superposition: PMEPot has none; leave one out");
@@ -64,12 +62,6 @@ PotentialSeries::PotentialSeries(Engine& engine, PotentialOptions options)
 
 PotentialSeries::~PotentialSeries() = default;
 
-PmeCell PotentialSeries::cell_of(const std::vector<Vec3d>& positions, const std::optional<UnitCell>& own_cell) const {
-  if (options_.cell) return *options_.cell;
-  if (own_cell && !options_.pad_A) return cell_from(*own_cell, middle_of(positions));
-  return padded_cell(positions, options_.pad_A.value_or(kUsualPad_A));
-}
-
 RigidTransform PotentialSeries::onto_first(const Molecule& frame) const {
   if (options_.align == AlignAtoms::kNone) return {};
   return superpose(frame.positions, first_->positions, first_->pairs).transform;
@@ -108,7 +100,7 @@ Grid PotentialSeries::step(const Molecule& frame, const std::optional<UnitCell>&
       first->pairs = select_pairs(same, frame, options_.align);
     }
     first_ = std::move(first);
-    first_->cell = cell_of(frame.positions, own_cell);
+    first_->cell = choose_cell(options_, frame.positions, own_cell);
   } else if (frame.size() != first_->n_atoms) {
     throw InputError(frame.name + ": a frame of " + std::to_string(frame.size()) + " atoms after one of " +
                      std::to_string(first_->n_atoms) + "; frames must be of one molecule");
@@ -120,7 +112,7 @@ Grid PotentialSeries::step(const Molecule& frame, const std::optional<UnitCell>&
   const bool is_periodic = options_.cell || (own_cell && !options_.pad_A);
   if (!one_lattice_) {
     // A periodic cell turns with its atoms; a box around them is made anew along the first frame's axes.
-    cell = cell_of(is_periodic ? frame.positions : positions, own_cell);
+    cell = choose_cell(options_, is_periodic ? frame.positions : positions, own_cell);
     if (is_periodic) {
       cell.centre = to_first.apply(cell.centre);
       for (Vec3d& edge : cell.edges) edge = to_first.rotate(edge);

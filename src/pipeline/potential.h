@@ -63,6 +63,11 @@ PmeCell padded_cell(const std::vector<Vec3d>& positions, double pad_A);
 /// @throws InputError (angles that no cell has)
 PmeCell cell_from(const UnitCell& cell, Vec3d centre);
 
+/// The cell of a frame: as asked for, its own, or a box around its atoms.
+/// @throws InputError
+PmeCell choose_cell(const PotentialOptions& options, const std::vector<Vec3d>& positions,
+                    const std::optional<UnitCell>& own_cell);
+
 /// Points along each edge: as asked for, else the least product of 2, 3, 5 and 7 that makes steps of at most the
 /// resolution; with `compatible` the number that PMEPot takes (even, among those it has in a list, at most 512).
 /// @throws InputError (resolution)
@@ -91,7 +96,6 @@ class PotentialSeries {
  private:
   struct FirstFrame;
 
-  PmeCell cell_of(const std::vector<Vec3d>& positions, const std::optional<UnitCell>& own_cell) const;
   RigidTransform onto_first(const Molecule& frame) const;
   Grid compute(const std::vector<Vec3d>& positions, const Molecule& frame, const PmeCell& cell,
                const Progress& progress) const;
