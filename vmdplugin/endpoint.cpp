@@ -212,10 +212,12 @@ Molecule charged_atoms(Tcl_Obj* charges, Tcl_Obj* coordinates, const std::string
                      " atoms");
   Molecule molecule;
   molecule.name = name;
-  molecule.atoms.resize(positions.size());
+  molecule.positions.reserve(positions.size());
+  molecule.charges.reserve(positions.size());
+  const std::string what = name + ", charge";
   for (std::size_t i = 0; i < positions.size(); ++i) {
     molecule.positions.push_back(static_cast<Vec3d>(positions[i]));
-    molecule.charges.push_back(static_cast<float>(to_double(values[i], name + ", charge")));
+    molecule.charges.push_back(static_cast<float>(to_double(values[i], what)));
   }
   return molecule;
 }

@@ -58,7 +58,7 @@ struct PotentialObject : Object {
   const char* kind() const override { return "potential"; }
   Computation computation;
   PotentialOptions potential;
-  std::unique_ptr<Engine> engine;           // made, like what follows, by the first frame's job
+  std::shared_ptr<Engine> engine;           // made, like what follows, by the first frame's job
   std::unique_ptr<PotentialSeries> series;  // destroyed before the engine
 };
 

@@ -12,6 +12,32 @@
 namespace espdiff::vmdplugin {
 namespace {
 
+/// The engine of the last potential, with its plans and buffers, which for a small map take as long as the work itself.
+/// Of the CPU only, and not when they are large: an engine of a GPU wants to go before the driver does, and memory that
+/// is seldom used belongs to others. Touched by the worker's thread alone.
+struct KeptEngine {
+  std::string device;
+  int threads = 0;
+  std::shared_ptr<Engine> engine;
+};
+KeptEngine& kept_engine() {
+  static KeptEngine kept;
+  return kept;
+}
+
+std::shared_ptr<Engine> take_engine(const Computation& wanted) {
+  KeptEngine& kept = kept_engine();
+  if (kept.engine == nullptr || kept.device != wanted.device || kept.threads != wanted.threads)
+    return select_engine(parse_device_choice(wanted.device), wanted.threads);
+  return kept.engine;
+}
+
+void keep_engine(const PotentialObject& used) {
+  constexpr std::size_t kMostPoints = std::size_t{1} << 22;  // 50 MB of buffers
+  const bool is_small = used.engine->back_end() == "cpu" && used.series->average().n_points() <= kMostPoints;
+  kept_engine() = {used.computation.device, used.computation.threads, is_small ? used.engine : nullptr};
+}
+
 Tcl_Obj* potential(const Call& call) {
   auto object = std::make_shared<PotentialObject>();
   DictReader reader(call.arguments[0], "options");
@@ -57,10 +83,11 @@ Tcl_Obj* potential_frame(const Call& call) {
         const auto alive = keep.lock();
         if (alive == nullptr) return;
         if (alive->series == nullptr) {
-          alive->engine = select_engine(parse_device_choice(alive->computation.device), alive->computation.threads);
+          alive->engine = take_engine(alive->computation);
           alive->series = std::make_unique<PotentialSeries>(*alive->engine, alive->potential);
         }
-        alive->series->step(*molecule, cell, progress);
+        alive->series->add(*molecule, cell, progress);
+        keep_engine(*alive);
       });
   return nullptr;
 }

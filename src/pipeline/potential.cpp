@@ -85,7 +85,8 @@ Grid PotentialSeries::compute(const std::vector<Vec3d>& positions, const Molecul
   return grid;
 }
 
-Grid PotentialSeries::step(const Molecule& frame, const std::optional<UnitCell>& own_cell, const Progress& progress) {
+Grid PotentialSeries::next_map(const Molecule& frame, const std::optional<UnitCell>& own_cell,
+                               const Progress& progress) {
   require_charges(frame);
   if (!first_) {
     auto first = std::make_unique<FirstFrame>();
@@ -106,8 +107,12 @@ Grid PotentialSeries::step(const Molecule& frame, const std::optional<UnitCell>&
                      std::to_string(first_->n_atoms) + "; frames must be of one molecule");
   }
   const RigidTransform to_first = onto_first(frame);
-  std::vector<Vec3d> positions = frame.positions;
-  for (Vec3d& p : positions) p = to_first.apply(p);
+  std::vector<Vec3d> turned;
+  if (options_.align != AlignAtoms::kNone) {
+    turned = frame.positions;
+    for (Vec3d& p : turned) p = to_first.apply(p);
+  }
+  const std::vector<Vec3d>& positions = options_.align != AlignAtoms::kNone ? turned : frame.positions;
   PmeCell cell = first_->cell;
   const bool is_periodic = options_.cell || (own_cell && !options_.pad_A);
   if (!one_lattice_) {
@@ -123,8 +128,17 @@ Grid PotentialSeries::step(const Molecule& frame, const std::optional<UnitCell>&
   map.periodic = options_.method == PotentialMethod::kPme && same_lattice(map.lattice, first_->lattice) &&
                  (one_lattice_ || average_.n_frames() == 0);
   map.name = frame.name + (options_.method == PotentialMethod::kPme ? " (PME)" : " (Coulomb)");
+  return map;
+}
+
+Grid PotentialSeries::step(const Molecule& frame, const std::optional<UnitCell>& own_cell, const Progress& progress) {
+  Grid map = next_map(frame, own_cell, progress);
   average_.add(map);
   return map;
+}
+
+void PotentialSeries::add(const Molecule& frame, const std::optional<UnitCell>& own_cell, const Progress& progress) {
+  average_.add(next_map(frame, own_cell, progress));
 }
 
 Grid potential_map(Engine& engine, const Molecule& molecule, const PotentialOptions& options,

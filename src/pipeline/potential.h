@@ -84,18 +84,21 @@ class PotentialSeries {
   PotentialSeries(Engine& engine, PotentialOptions options);
   ~PotentialSeries();
 
-  /// The frame's map, added to the average. A periodic map covers its cell; a superposed one belongs to the first
-  /// frame's coordinates.
+  /// Adds the frame's map to the average, and returns it. A periodic map covers its cell; a superposed one belongs to
+  /// the first frame's coordinates.
   /// @param own_cell the frame's, where the file has one
   /// @throws InputError (no charges, other atoms than the first frame's), GeometryError (superposition), and as
   /// Engine::pme_potential
   Grid step(const Molecule& frame, const std::optional<UnitCell>& own_cell, const Progress& progress);
+  /// As step(), where the average alone is wanted.
+  void add(const Molecule& frame, const std::optional<UnitCell>& own_cell, const Progress& progress);
 
   const RunningMap& average() const { return average_; }
 
  private:
   struct FirstFrame;
 
+  Grid next_map(const Molecule& frame, const std::optional<UnitCell>& own_cell, const Progress& progress);
   RigidTransform onto_first(const Molecule& frame) const;
   Grid compute(const std::vector<Vec3d>& positions, const Molecule& frame, const PmeCell& cell,
                const Progress& progress) const;
