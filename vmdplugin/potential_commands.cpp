@@ -49,6 +49,7 @@ Tcl_Obj* potential(const Call& call) {
   object->potential.coulomb.dielectric = reader.number("dielectric", object->potential.coulomb.dielectric);
   object->potential.align = parse_align_atoms(reader.text("align", "none"));
   object->potential.frames_per_block = static_cast<std::size_t>(std::max(1, reader.integer("block", 1)));
+  object->keeps_frames = reader.boolean("each", false);
   reader.finish();
   return to_obj(call.handles.add(object));
 }
@@ -86,19 +87,29 @@ Tcl_Obj* potential_frame(const Call& call) {
           alive->engine = take_engine(alive->computation);
           alive->series = std::make_unique<PotentialSeries>(*alive->engine, alive->potential);
         }
-        alive->series->add(*molecule, cell, progress);
+        if (alive->keeps_frames) {
+          alive->frame = alive->series->step(*molecule, cell, progress);
+        } else {
+          alive->series->add(*molecule, cell, progress);
+        }
         keep_engine(*alive);
       });
   return nullptr;
 }
 
-/// "mean", "variance" or "error" of the frames so far.
+/// "mean", "variance" or "error" of the frames so far, or "frame", the last one's own.
 Grid average(const Call& call) {
   const std::string handle = call.text(0), which = call.text(1);
   const auto object = call.handles.find_potential(handle);
   require_done(handle, *object);
   if (object->series == nullptr) throw InputError(handle + " has no frames yet");
   const RunningMap& frames = object->series->average();
+  if (which == "frame") {
+    if (!object->keeps_frames) throw InputError(handle + " keeps no frame's own map; `each 1` wants them");
+    Grid map = object->frame;
+    map.name = "espdiff potential (kT/e, T=300K), " + object->frame.name;
+    return map;
+  }
   Grid map = which == "mean" ? frames.mean() : which == "variance" ? frames.variance() : frames.standard_error();
   const std::string n = std::to_string(frames.n_frames()) + (frames.n_frames() == 1 ? " frame" : " frames");
   const std::string unit = which == "variance" ? "(kT/e)^2" : "kT/e";
@@ -108,8 +119,8 @@ Grid average(const Call& call) {
 }
 
 void check_average(const std::string& which) {
-  if (which != "mean" && which != "variance" && which != "error")
-    throw InputError("'" + which + "' is not mean, variance or error");
+  if (which != "mean" && which != "variance" && which != "error" && which != "frame")
+    throw InputError("'" + which + "' is not mean, variance, error or frame");
 }
 
 Tcl_Obj* potential_put(const Call& call) {

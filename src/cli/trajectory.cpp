@@ -62,13 +62,15 @@ std::string described(const std::vector<std::string>& paths) {
   return text;
 }
 
+/// A map in the Tcl command's words; empty for none.
 std::string map_words(const MapArguments& m, const std::string& path, const std::string& unit) {
   if (is_computed(m)) return "pme cell " + m.cell + " grid " + m.grid + " ewaldfactor " + csv_number(m.ewald_factor);
-  if (path.empty()) return "none";
+  if (path.empty()) return {};
   return "file " + path + (unit.empty() ? "" : " unit " + unit) + (m.map_array.empty() ? "" : " array " + m.map_array);
 }
 
 SeriesHead head_of(const Arguments& a, const std::vector<InputFile>& inputs) {
+  const std::string map = map_words(a.maps, a.maps.target_map, a.maps.target_map_unit);
   std::string settings;
   for (const auto& [name, value] : a.settings) settings += (settings.empty() ? "" : " ") + name + " " + value;
   SeriesHead head = {{"espdiff", kVersion},
@@ -76,7 +78,7 @@ SeriesHead head_of(const Arguments& a, const std::vector<InputFile>& inputs) {
                      {"source_model", std::to_string(a.source_model)},
                      {"frames", a.frames},
                      {"reference", "file " + a.source},
-                     {"map", map_words(a.maps, a.maps.target_map, a.maps.target_map_unit)},
+                     {"map", map.empty() ? "none" : map},
                      {"reference-map", map_words(a.maps, a.maps.source_map, a.maps.source_map_unit)},
                      {"atoms", std::string(a.structure.include_hetero ? "hetero" : "no hetero") +
                                    (a.structure.include_water ? ", water" : ", no water")},

@@ -46,7 +46,8 @@ struct PotentialOptions {
   PmeOptions pme;  ///< but the grid's size
   CoulombOptions coulomb;
   /// Superposes each frame on the first by these atoms (water left out), and samples all maps on the first one's
-  /// lattice: the average then stays with the molecule. kNone: frames stay where they are.
+  /// lattice: the average then stays with the molecule. In a periodic cell these atoms are put together first where its
+  /// border has cut the molecule (mended()). kNone: frames stay where they are.
   AlignAtoms align = AlignAtoms::kNone;
   std::size_t frames_per_block = 1;  ///< for the error bar
 };
@@ -99,7 +100,7 @@ class PotentialSeries {
   struct FirstFrame;
 
   Grid next_map(const Molecule& frame, const std::optional<UnitCell>& own_cell, const Progress& progress);
-  RigidTransform onto_first(const Molecule& frame) const;
+  std::vector<Vec3d> superposed_atoms(const Molecule& frame, const std::optional<UnitCell>& own_cell) const;
   Grid compute(const std::vector<Vec3d>& positions, const Molecule& frame, const PmeCell& cell,
                const Progress& progress) const;
 
