@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "engine/select_engine.h"
@@ -20,14 +21,15 @@ namespace {
 using namespace espdiff_bench;
 
 struct Settings {
-  std::string field = "distance", interpolation = "trilinear", align = "all", rest_shape, csv, only;
+  std::string method = "deform", field = "distance", interpolation = "trilinear", align = "all", rest_shape, csv, only;
   int threads = 0, repeats = 1;
   std::optional<double> tangential_gain, sigma, mu, rho, spacing, min_displacement;
   std::optional<int> max_iterations;
-  bool thesis = false, cavities = false, skip_series = false;
+  bool all_ubiquitin = false, all_adk = false, thesis = false, cavities = false, skip_series = false;
 };
 
 void define_options(CLI::App& app, Settings& s) {
+  app.add_option("--method", s.method, "How the surface is mapped: morph or deform")->capture_default_str();
   app.add_option("--field", s.field, "Field that draws the surface: density or distance")->capture_default_str();
   app.add_option("--interpolation", s.interpolation, "trilinear or tricubic")->capture_default_str();
   app.add_option("--tangential-gain", s.tangential_gain, "Factor of the mapping's internal force");
@@ -48,11 +50,14 @@ void define_options(CLI::App& app, Settings& s) {
       ->check(CLI::PositiveNumber);
   app.add_option("--only", s.only, "Only pairs whose name contains this text");
   app.add_flag("--skip-series", s.skip_series, "Leave out the 32 pairs of the ubiquitin series");
+  app.add_flag("--all-ubiquitin", s.all_ubiquitin, "All 342 ordered pairs of the ubiquitin series instead of 32");
+  app.add_flag("--all-adk", s.all_adk, "Adenylate kinase's first frame with all others too");
   app.add_option("--csv", s.csv, "Write one line a pair to this file");
 }
 
 espdiff::CompareOptions compare_options(const Settings& s) {
   espdiff::CompareOptions options = s.thesis ? espdiff::thesis_options() : espdiff::CompareOptions{};
+  options.method = espdiff::parse_method(s.method);
   options.field = espdiff::parse_field_kind(s.field);
   options.align = espdiff::parse_align_atoms(s.align);
   options.deform.interpolation = options.regularize.interpolation = espdiff::parse_interpolation(s.interpolation);
@@ -86,12 +91,10 @@ PairRow measure(espdiff::Engine& engine, const RealPair& pair, const espdiff::Co
 
 /// Rows of a group, as they are measured, and the ones that sum them up.
 void print_group(const std::string& group, const std::vector<PairRow>& rows) {
-  const auto [typical, worst] = series19_prototype();
   PairRow middle = summarize(rows, Summary::kMedian), extreme = summarize(rows, Summary::kWorst);
   middle.name = group + ", median of " + std::to_string(rows.size());
   extreme.name = group + ", worst";
-  middle.prototype = typical;
-  extreme.prototype = worst;
+  if (group == "series19") std::tie(middle.prototype, extreme.prototype) = series19_prototype();
   print_row(middle);
   print_row(extreme);
 }
@@ -110,7 +113,7 @@ int run(const Settings& settings) {
   print_heading();
   std::map<std::string, std::vector<PairRow>> groups;
   int n_failed = 0;
-  for (const RealPair& pair : real_pairs()) {
+  for (const RealPair& pair : real_pairs({settings.all_ubiquitin, settings.all_adk})) {
     if (pair.name.find(settings.only) == std::string::npos || (settings.skip_series && !pair.group.empty())) continue;
     const std::string missing = missing_file(pair);
     if (!missing.empty()) {

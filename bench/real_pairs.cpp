@@ -72,6 +72,29 @@ void add_series19(std::vector<RealPair>& pairs) {
   }
 }
 
+/// All ordered pairs of the 19 models.
+void add_all_series19(std::vector<RealPair>& pairs) {
+  constexpr int kModels = 19;
+  for (int source = 0; source < kModels; ++source) {
+    for (int target = 0; target < kModels; ++target) {
+      if (source == target) continue;
+      char name[40];
+      std::snprintf(name, sizeof name, "series19 m%02d/m%02d", source, target);
+      pairs.push_back(of_files(name, series19_file(source), series19_file(target), std::nullopt));
+      pairs.back().group = "series19 all";
+    }
+  }
+}
+
+void add_all_adk(std::vector<RealPair>& pairs) {
+  constexpr std::size_t kFrames = 98;
+  for (std::size_t frame = 1; frame < kFrames; ++frame) {
+    pairs.push_back(of_frames("AdK all 0/" + std::to_string(frame), 0, frame, {}));
+    pairs.back().prototype.reset();
+    pairs.back().group = "AdK all";
+  }
+}
+
 }  // namespace
 
 std::pair<PrototypeRow, PrototypeRow> series19_prototype() { return {{3.3, 0, 1.5, 0.5}, {4.9, 0, 4.1, 7.6}}; }
@@ -82,7 +105,7 @@ std::string data_folder() {
   return std::filesystem::is_directory(folder) ? folder : std::string();
 }
 
-std::vector<RealPair> real_pairs() {
+std::vector<RealPair> real_pairs(LongSeries series) {
   const std::string data = data_folder();
   std::vector<RealPair> pairs;
   pairs.push_back(of_files("FKBP 1D7H/1D7I", kFkbpFolder + "1d7h-min.pqr", kFkbpFolder + "1d7i-min.pqr",
@@ -108,7 +131,12 @@ std::vector<RealPair> real_pairs() {
                      return MoleculePair{molecule, displaced_smoothly(molecule, kPerturbation_A)};
                    },
                    std::nullopt});
-  add_series19(pairs);
+  if (series.all_ubiquitin) {
+    add_all_series19(pairs);
+  } else {
+    add_series19(pairs);
+  }
+  if (series.all_adk) add_all_adk(pairs);
   return pairs;
 }
 

@@ -36,9 +36,15 @@ std::pair<PrototypeRow, PrototypeRow> series19_prototype();
 /// $ESPDIFF_DATA, else shared/data beside the checkout; empty when neither exists.
 std::string data_folder();
 
+/// What is left out of the table because it takes long.
+struct LongSeries {
+  bool all_ubiquitin = false;  ///< all 342 ordered pairs of the 19 models instead of 32
+  bool all_adk = false;        ///< adenylate kinase's frame 0 with each of the other 97 instead of three
+};
+
 /// All pairs, whether their files exist or not. Files are looked for in data_folder() and where Debian's apbs-data and
 /// freesasa put them.
-std::vector<RealPair> real_pairs();
+std::vector<RealPair> real_pairs(LongSeries series = {});
 
 /// The first file of the pair that does not exist; empty when all do.
 std::string missing_file(const RealPair& pair);

@@ -72,7 +72,8 @@ AtomCellsView AtomCells::view() const {
 }
 
 std::shared_ptr<AtomCells> make_atom_cells(const std::vector<Vec3d>& positions, const std::vector<float>& widths,
-                                           const std::vector<std::int32_t>& residues) {
+                                           const std::vector<std::int32_t>& residues,
+                                           std::vector<std::uint32_t>* order) {
   auto cells = std::make_shared<AtomCells>();
   const HostAtoms atoms = check_atoms(positions, widths, *cells);
   choose_cells(atoms, *cells);
@@ -101,6 +102,7 @@ std::shared_ptr<AtomCells> make_atom_cells(const std::vector<Vec3d>& positions, 
   std::vector<float> x(n_padded), y(n_padded), z(n_padded), exponent(n_padded, -1.0F), reach(n_padded);
   std::vector<std::int32_t> residue(n_padded, -1);
   std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+  if (order != nullptr) order->resize(atoms.kept.size());
   for (std::size_t n = 0; n < atoms.kept.size(); ++n) {
     const std::size_t i = atoms.kept[n];
     const std::size_t slot = next[cell_of[n]]++;
@@ -110,6 +112,7 @@ std::shared_ptr<AtomCells> make_atom_cells(const std::vector<Vec3d>& positions, 
     exponent[slot] = -0.5F / (widths[i] * widths[i]);
     reach[slot] = kCutoffInWidths * widths[i];
     residue[slot] = residues[i];
+    if (order != nullptr) (*order)[slot] = static_cast<std::uint32_t>(i);
   }
   cells->x = to_device(x);
   cells->y = to_device(y);

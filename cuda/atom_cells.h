@@ -44,9 +44,11 @@ struct AtomCells : DeviceAtoms {
   AtomCellsView view() const;
 };
 
+/// @param order where not null, becomes [sorted atom] the atom's index in the input
 /// @throws InputError if no atom has a positive width, or a coordinate is not finite
 std::shared_ptr<AtomCells> make_atom_cells(const std::vector<Vec3d>& positions, const std::vector<float>& widths,
-                                           const std::vector<std::int32_t>& residues);
+                                           const std::vector<std::int32_t>& residues,
+                                           std::vector<std::uint32_t>* order = nullptr);
 
 /// Analytic density and its gradient.
 struct DensitySample {

@@ -44,22 +44,23 @@ FitReport fit_to_density(const SurfaceMesh& mapped, const AtomCells& target, flo
   const AtomCellsView atoms = target.view();
   auto corrupt_flags = std::make_shared<Scalars>();
   corrupt_flags->values.resize(n);
-  Buffer<std::uint8_t> flipped_flags(n);
+  auto flipped_flags = std::make_shared<Scalars>();
+  flipped_flags->values.resize(n);
   float* const corrupt = raw(corrupt_flags->values);
-  std::uint8_t* const flipped = raw(flipped_flags);
+  float* const flipped = raw(flipped_flags->values);
   for_each_index(n, [=] ESPDIFF_HD(std::size_t t) {
     const Corners& c = corners[t];
     const Vec3f centroid = (1.0F / 3.0F) * (x[c.v[0]].xyz() + x[c.v[1]].xyz() + x[c.v[2]].xyz());
     const DensitySample density = density_at(atoms, centroid);
     corrupt[t] = fabsf(density.value - isovalue) > kCorruptDensity ? 1.0F : 0.0F;
     // The density falls outward: a normal along the gradient points the wrong way.
-    flipped[t] = dot(twice_area_vector(x, c), density.gradient) > 0 ? 1 : 0;
+    flipped[t] = dot(twice_area_vector(x, c), density.gradient) > 0 ? 1.0F : 0.0F;
   });
   const FitSums sums = sum_over<FitSums>(n, [=] ESPDIFF_HD(std::size_t t) {
     FitSums s;
     s.area = 0.5 * static_cast<double>(norm(twice_area_vector(x, corners[t])));
     s.corrupt = corrupt[t] != 0.0F ? s.area : 0;
-    s.flipped = flipped[t] != 0 ? s.area : 0;
+    s.flipped = flipped[t] != 0.0F ? s.area : 0;
     return s;
   });
   FitReport report;
@@ -68,6 +69,7 @@ FitReport fit_to_density(const SurfaceMesh& mapped, const AtomCells& target, flo
   report.flipped_area_fraction = sums.flipped / sums.area;
   report.irregularity_A = mean_umbrella_length(mapped);
   report.corrupt = corrupt_flags;
+  report.flipped = flipped_flags;
   return report;
 }
 
@@ -86,23 +88,38 @@ DistanceSummary distance_summary(const SurfaceMesh& from, const SurfaceMesh& to,
       guess = nearest.place;
     }
   });
+  auto beyond_flags = std::make_shared<Scalars>();
+  beyond_flags->values.resize(from.n_triangles());
+  float* const beyond_limit = raw(beyond_flags->values);
+  const Corners* const corners = raw(from.topology->triangles);
+  for_each_index(from.n_triangles(), [=] ESPDIFF_HD(std::size_t t) {
+    const Corners c = corners[t];
+    const float farthest = fmaxf(distance[c.v[0]], fmaxf(distance[c.v[1]], distance[c.v[2]]));
+    beyond_limit[t] = farthest > limit_A ? 1.0F : 0.0F;
+  });
   const std::vector<float> weights = to_host(vertex_areas(from, triangle_areas(from), nullptr));
   const std::vector<float> values = to_host(distances);
 
   std::vector<std::pair<float, float>> by_distance(values.size());
-  double area = 0, sum = 0, beyond = 0;
+  double area = 0, sum = 0, beyond = 0, within = 0;
   for (std::size_t v = 0; v < values.size(); ++v) {
     by_distance[v] = {values[v], weights[v]};
     const double w = static_cast<double>(weights[v]);
     area += w;
     sum += w * static_cast<double>(values[v]);
-    if (values[v] > limit_A) beyond += w;
+    if (values[v] > limit_A) {
+      beyond += w;
+    } else {
+      within += w * static_cast<double>(values[v]);
+    }
   }
   std::sort(by_distance.begin(), by_distance.end());
   DistanceSummary summary;
   summary.mean = sum / area;
   summary.max = static_cast<double>(by_distance.back().first);
   summary.area_fraction_beyond_limit = beyond / area;
+  summary.beyond = beyond_flags;
+  summary.mean_within_limit = area > beyond ? within / (area - beyond) : 0;
   double below = 0;
   for (const auto& [value, weight] : by_distance) {
     below += static_cast<double>(weight);

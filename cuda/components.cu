@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "submesh.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
@@ -78,35 +79,15 @@ std::shared_ptr<SurfaceMesh> keep_components(const SurfaceMesh& mesh, const Comp
   if (keep.size() != labels.summaries.size()) throw InputError("keep_components: one entry per component is needed");
   if (std::find(keep.begin(), keep.end(), true) == keep.end())
     throw GeometryError("no component of the surface is left");
-  Buffer<std::uint8_t> kept_components(keep.size());
-  for (std::size_t c = 0; c < keep.size(); ++c) kept_components[c] = keep[c] ? 1 : 0;
-  const std::size_t n_vertices = mesh.n_vertices(), n_triangles = mesh.n_triangles();
-  Buffer<std::uint32_t> new_vertex(n_vertices), new_triangle(n_triangles);
+  std::vector<std::uint8_t> flags(keep.begin(), keep.end());
+  const Buffer<std::uint8_t> kept_components = to_device(flags);
+  Buffer<std::uint8_t> kept_triangles(mesh.n_triangles());
   const std::uint8_t* const kept = raw(kept_components);
   const std::uint32_t* const label = raw(labels.label);
   const Corners* const corners = raw(mesh.topology->triangles);
-  const Vec4f* const old_positions = raw(mesh.positions);
-  std::uint32_t* const vertex = raw(new_vertex);
-  std::uint32_t* const triangle = raw(new_triangle);
-  for_each_index(n_vertices, [=] ESPDIFF_HD(std::size_t v) { vertex[v] = kept[label[v]]; });
-  for_each_index(n_triangles, [=] ESPDIFF_HD(std::size_t t) { triangle[t] = kept[label[corners[t].v[0]]]; });
-  const std::uint32_t n_kept_vertices = exclusive_scan_in_place(new_vertex);
-  const std::uint32_t n_kept_triangles = exclusive_scan_in_place(new_triangle);
-
-  auto result = std::make_shared<SurfaceMesh>();
-  result->positions.resize(n_kept_vertices);
-  Buffer<Corners> kept_triangles(n_kept_triangles);
-  Vec4f* const positions = raw(result->positions);
-  Corners* const out = raw(kept_triangles);
-  for_each_index(n_vertices, [=] ESPDIFF_HD(std::size_t v) {
-    if (kept[label[v]] != 0) positions[vertex[v]] = old_positions[v];
-  });
-  for_each_index(n_triangles, [=] ESPDIFF_HD(std::size_t t) {
-    const Corners old = corners[t];
-    if (kept[label[old.v[0]]] != 0) out[triangle[t]] = {{vertex[old.v[0]], vertex[old.v[1]], vertex[old.v[2]]}};
-  });
-  result->topology = make_topology(n_kept_vertices, std::move(kept_triangles));
-  return result;
+  std::uint8_t* const triangle = raw(kept_triangles);
+  for_each_index(mesh.n_triangles(), [=] ESPDIFF_HD(std::size_t t) { triangle[t] = kept[label[corners[t].v[0]]]; });
+  return keep_triangles(mesh, kept_triangles);
 }
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -20,9 +20,11 @@
 #include "intersections.h"
 #include "isosurface.h"
 #include "metrics.h"
+#include "morph.h"
 #include "pme.h"
 #include "project.h"
 #include "sample.h"
+#include "submesh.h"
 
 #if defined(ESPDIFF_BACKEND_CUDA)
 #include <cuda_runtime.h>
@@ -131,6 +133,17 @@ class BackEndEngine : public Engine {
     });
   }
 
+  MeshPtr without(const MeshPtr& mesh, const ScalarsPtr& excluded) override {
+    return run([&] {
+      const auto& flags = unwrap<Scalars>(excluded).values;
+      Buffer<std::uint8_t> kept(flags.size());
+      const float* const flag = raw(flags);
+      std::uint8_t* const keep = raw(kept);
+      for_each_index(flags.size(), [=] ESPDIFF_HD(std::size_t t) { keep[t] = flag[t] == 0.0F ? 1 : 0; });
+      return keep_triangles(unwrap<SurfaceMesh>(mesh), kept);
+    });
+  }
+
   MeshPtr project(const MeshPtr& mesh, const AtomsPtr& atoms, float isovalue, double max_shift_A) override {
     return run([&] {
       return ESPDIFF_BACKEND::project(unwrap<SurfaceMesh>(mesh), unwrap<AtomCells>(atoms), isovalue,
@@ -155,6 +168,15 @@ class BackEndEngine : public Engine {
     return run([&] {
       return ESPDIFF_BACKEND::deform(unwrap<SurfaceMesh>(mesh), unwrap<SurfaceMesh>(rest ? rest : mesh),
                                      unwrap<SurfaceField>(field), options, stage, progress, report);
+    });
+  }
+
+  MorphResult morph(const MeshPtr& mesh, const std::vector<MovingAtom>& atoms, const AtomsPtr& source_atoms,
+                    const AtomsPtr& target_atoms, const MorphOptions& options, const std::string& stage,
+                    const Progress& progress) override {
+    return run([&] {
+      return ESPDIFF_BACKEND::morph(unwrap<SurfaceMesh>(mesh), atoms, unwrap<AtomCells>(source_atoms),
+                                    unwrap<AtomCells>(target_atoms), options, stage, progress);
     });
   }
 
@@ -267,6 +289,14 @@ class BackEndEngine : public Engine {
 
   std::vector<float> download(const ScalarsPtr& scalars) override {
     return run([&] { return to_host(unwrap<Scalars>(scalars).values); });
+  }
+
+  ScalarsPtr upload_scalars(const std::vector<float>& values) override {
+    return run([&] {
+      auto scalars = std::make_shared<Scalars>();
+      scalars->values = to_device(values);
+      return scalars;
+    });
   }
 
   Grid download(const GridPtr& grid) override {

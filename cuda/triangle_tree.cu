@@ -6,6 +6,8 @@
 #include <cfloat>
 #include <cmath>
 
+#include "spatial_order.h"
+
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
@@ -17,14 +19,6 @@ ESPDIFF_INLINE Box join(Box a, Box b) {
 }
 
 ESPDIFF_INLINE Box box_of(const PlacedTriangle& t) { return join(join({t.a, t.a}, {t.b, t.b}), {t.c, t.c}); }
-
-/// Spreads the lowest 10 bits to every third bit.
-ESPDIFF_INLINE std::uint32_t spread_bits(std::uint32_t v) {
-  v = (v | v << 16) & 0x030000FFU;
-  v = (v | v << 8) & 0x0300F00FU;
-  v = (v | v << 4) & 0x030C30C3U;
-  return (v | v << 2) & 0x09249249U;
-}
 
 /// Joins boxes where sum_over() adds.
 struct BoxSum {
@@ -61,10 +55,7 @@ TriangleTree make_triangle_tree(const SurfaceMesh& mesh) {
   for_each_index(n, [=] ESPDIFF_HD(std::size_t t) {
     const Vec3f sum = x[corners[t].v[0]].xyz() + x[corners[t].v[1]].xyz() + x[corners[t].v[2]].xyz();
     const Vec3f c = scale * ((1.0F / 3.0F) * sum - bounds.lower);
-    const std::uint32_t morton = spread_bits(static_cast<std::uint32_t>(c.x)) |
-                                 spread_bits(static_cast<std::uint32_t>(c.y)) << 1 |
-                                 spread_bits(static_cast<std::uint32_t>(c.z)) << 2;
-    code[t] = static_cast<std::uint64_t>(morton) << 32 | t;
+    code[t] = static_cast<std::uint64_t>(morton_code(c)) << 32 | t;
   });
   thrust::sort(thrust::device, codes.begin(), codes.end());
 

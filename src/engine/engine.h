@@ -11,6 +11,7 @@
 // Same input, same bits, at any number of threads. Density is high inside: *inside* means density > isovalue.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -98,6 +99,8 @@ struct DistanceSummary {
   double p95 = 0;  ///< 95 % of the area lies nearer
   double max = 0;
   double area_fraction_beyond_limit = 0;
+  double mean_within_limit = 0;  ///< of the area within the limit
+  ScalarsPtr beyond;             ///< [triangle of the first surface] 1 where a corner lies beyond the limit, else 0
 };
 
 /// How well a mapped mesh fits its target.
@@ -108,6 +111,7 @@ struct FitReport {
   double irregularity_A = 0;         ///< mean length of the umbrella Laplacian
   double area_A2 = 0;
   ScalarsPtr corrupt;  ///< [triangle] 1 where corrupt, else 0
+  ScalarsPtr flipped;  ///< [triangle] 1 where flipped, else 0
 };
 
 /// A periodic cell: `edges` span it, `centre` lies in its middle. Angstrom.
@@ -153,6 +157,53 @@ struct CoulombOptions {
   double temperature_K = 300;
 };
 
+/// An atom's way from the source to the target, in a straight line, for Engine::morph(). Common frame, Angstrom.
+struct MovingAtom {
+  Vec3d start{}, end{};
+  double start_width = 0, end_width = 0;  ///< standard deviation of its Gaussian; 0 counts as absent
+  /// Atoms without a counterpart are absent at one end. They appear and vanish in the half of the way that lies at that
+  /// end.
+  bool at_start = true, at_end = true;
+
+  static constexpr double kFadingShare = 0.5;
+  /// Share of the Gaussian that is there at a time from 0 (source) to 1 (target).
+  double weight_at(double time) const {
+    const double appeared = at_start ? 1.0 : std::min(1.0, time / kFadingShare);
+    const double left = at_end ? 1.0 : std::min(1.0, (1.0 - time) / kFadingShare);
+    return std::min(appeared, left);
+  }
+  /// Its derivative; at a kink that of the later side.
+  double weight_rate_at(double time) const {
+    if (!at_start && time < kFadingShare) return 1.0 / kFadingShare;
+    if (!at_end && time >= 1.0 - kFadingShare) return -1.0 / kFadingShare;
+    return 0.0;
+  }
+};
+
+/// Parameters of morph(). Lengths in Angstrom.
+struct MorphOptions {
+  double isovalue = 0.5;
+  double max_step_A = 0.35;  ///< no atom moves farther in one step
+  double max_edge_A = 1.4;   ///< longer edges are halved
+  double max_stretch = 20;   ///< where an edge to be halved has grown by more the surface counts as torn
+};
+
+struct MorphReport {
+  int steps = 0;
+  std::size_t n_vertices_added = 0;
+  std::size_t n_vertices_lost = 0;  ///< without counterpart
+};
+
+/// What morph() gives: meshes of one topology, that of the source with some edges halved.
+struct MorphResult {
+  MeshPtr source;  ///< where each vertex comes from, on the source's surface
+  MeshPtr mapped;  ///< where it lies on the target's
+  /// [triangle] 1 where the surface was torn or crushed on the way, so that there is no counterpart; the mapped
+  /// positions there mean nothing.
+  ScalarsPtr lost;
+  MorphReport report;
+};
+
 /// The triangles of a closed mesh that intersect one another; see Engine::self_intersections().
 struct IntersectionReport {
   std::size_t n_pairs = 0;       ///< of triangles that intersect, and each triangle without area as a pair with itself
@@ -196,6 +247,12 @@ class Engine {
   /// The mesh without the components whose entry is false. `keep` has one entry per component.
   virtual MeshPtr keep_components(const MeshPtr& mesh, const std::vector<bool>& keep) = 0;
 
+  /// The mesh without the triangles whose entry is nonzero, and without vertices in none; open where they were. What is
+  /// left keeps its order.
+  /// @param excluded [triangle]
+  /// @throws GeometryError when nothing is left
+  virtual MeshPtr without(const MeshPtr& mesh, const ScalarsPtr& excluded) = 0;
+
   /// Moves each vertex by Newton steps along the gradient onto the analytic isosurface; a vertex that would have to
   /// move farther than `max_shift_A` stays where it is.
   virtual MeshPtr project(const MeshPtr& mesh, const AtomsPtr& atoms, float isovalue, double max_shift_A) = 0;
@@ -216,6 +273,23 @@ class Engine {
   virtual MeshPtr deform(const MeshPtr& mesh, const FieldPtr& field, const DeformOptions& options,
                          const std::string& stage, const Progress& progress, DeformReport* report,
                          const MeshPtr& rest = nullptr) = 0;
+
+  /// Carries a surface from source to target by the level sets of the density of moving atoms.
+  ///
+  /// rho(x, t) = sum_i w_i exp(-|x - x_i|^2 / (2 s_i^2)), positions and widths linear in t from 0 to 1, weights 1 but
+  /// for atoms without a counterpart. A vertex flows with the atoms under it, at
+  /// u = sum_i rho_i dx_i/dt / sum_i rho_i, plus what along the gradient keeps it on the level set (the change of rho
+  /// along u, predicted, then corrected by Newton's method). Edges that grow too long are halved; triangles whose
+  /// shape suffers are evened out along the surface. A vertex that can no longer be kept on the level set, and a
+  /// triangle whose side turns, have met a change of topology, such as a crevice that closes: they are cut out.
+  ///
+  /// @param mesh   the source's surface, on its isosurface
+  /// @param atoms  of both molecules; at time 0 those of the source, at time 1 those of the target
+  /// @param source_atoms, target_atoms  the same at the ends, onto whose isosurfaces vertices are moved at last
+  /// @throws InputError (options), Cancelled
+  virtual MorphResult morph(const MeshPtr& mesh, const std::vector<MovingAtom>& atoms, const AtomsPtr& source_atoms,
+                            const AtomsPtr& target_atoms, const MorphOptions& options, const std::string& stage,
+                            const Progress& progress) = 0;
 
   /// @param map         potential
   /// @param to_map      common frame -> the map's frame
@@ -300,6 +374,7 @@ class Engine {
   /// Positions, triangles, component labels and outward vertex normals (area-weighted mean of the triangles').
   virtual Mesh download(const MeshPtr& mesh) = 0;
   virtual std::vector<float> download(const ScalarsPtr& scalars) = 0;
+  virtual ScalarsPtr upload_scalars(const std::vector<float>& values) = 0;
   virtual Grid download(const GridPtr& grid) = 0;
   /// The field's scalar.
   virtual Grid download(const FieldPtr& field) = 0;

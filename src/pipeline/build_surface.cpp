@@ -36,7 +36,7 @@ void drop_cavities(Engine& engine, Surface& surface) {
     ++surface.summary.n_cavities_left_out;
     surface.summary.cavity_area_A2 += component.area_A2;
   }
-  if (surface.summary.n_cavities_left_out > 0) surface.mesh = engine.keep_components(surface.mesh, keep);
+  if (surface.summary.n_cavities_left_out > 0) surface.mesh = engine.keep_components(surface.whole, keep);
 }
 
 }  // namespace
@@ -51,12 +51,13 @@ Surface build_surface(Engine& engine, const Molecule& molecule, const RigidTrans
   surface.density = engine.density(surface.atoms, options.grid_spacing_A);
   clock.lap("density");
   progress.report("surface", 0.0);
-  surface.mesh = engine.isosurface(surface.density, isovalue);
-  surface.components = engine.components(surface.mesh);
-  if (!options.cavities) drop_cavities(engine, surface);
+  surface.whole = engine.isosurface(surface.density, isovalue);
+  surface.components = engine.components(surface.whole);
   clock.lap("surface");
   if (options.project)
-    surface.mesh = engine.project(surface.mesh, surface.atoms, isovalue, kProjectionShare * options.grid_spacing_A);
+    surface.whole = engine.project(surface.whole, surface.atoms, isovalue, kProjectionShare * options.grid_spacing_A);
+  surface.mesh = surface.whole;
+  if (!options.cavities) drop_cavities(engine, surface);
   clock.lap("project");
   surface.summary.n_vertices = engine.n_vertices(surface.mesh);
   surface.summary.n_triangles = engine.n_triangles(surface.mesh);
@@ -65,14 +66,14 @@ Surface build_surface(Engine& engine, const Molecule& molecule, const RigidTrans
   return surface;
 }
 
-MeshPtr regularize(Engine& engine, const Surface& surface, const CompareOptions& options, const Progress& progress,
-                   DeformReport* report) {
+MeshPtr regularize(Engine& engine, const Surface& surface, const MeshPtr& given, const CompareOptions& options,
+                   const Progress& progress, DeformReport* report) {
   const float isovalue = static_cast<float>(options.surface.isovalue);
   const double spacing = options.surface.grid_spacing_A;
   const FieldPtr own = engine.density_field(surface.density, isovalue);
   DeformOptions iteration = options.regularize;
   iteration.min_displacement_A = options.regularize_min_displacement * spacing;
-  MeshPtr mesh = engine.deform(surface.mesh, own, iteration, "regularize", progress, report);
+  MeshPtr mesh = engine.deform(given, own, iteration, "regularize", progress, report);
   if (options.surface.project) mesh = engine.project(mesh, surface.atoms, isovalue, kProjectionShare * spacing);
   return mesh;
 }
@@ -87,7 +88,7 @@ SurfaceResult make_surface(Engine& engine, const CompareInput& input, const Comp
   result.summary = surface.summary;
   result.components = surface.components;
   if (regularized) {
-    surface.mesh = regularize(engine, surface, options, progress, &result.regularize_report);
+    surface.mesh = regularize(engine, surface, surface.mesh, options, progress, &result.regularize_report);
     result.summary.area_A2 = engine.area(surface.mesh);
     clock.lap("regularize");
   }

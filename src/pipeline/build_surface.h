@@ -16,7 +16,8 @@ constexpr double kProjectionShare = 0.5;
 struct Surface {
   AtomsPtr atoms;
   GridPtr density;
-  MeshPtr mesh;
+  MeshPtr mesh;                              // without closed cavities, unless the options keep them
+  MeshPtr whole;                             // with them
   std::vector<ComponentSummary> components;  // all
   SurfaceSummary summary;
 };
@@ -28,7 +29,8 @@ Surface build_surface(Engine& engine, const Molecule& molecule, const RigidTrans
                       const SurfaceOptions& options, const Progress& progress, StageClock& clock);
 
 /// The surface with its triangles evened out on its own density (thesis section 3.5.5).
-MeshPtr regularize(Engine& engine, const Surface& surface, const CompareOptions& options, const Progress& progress,
-                   DeformReport* report);
+/// @param mesh the surface's `mesh` or `whole`
+MeshPtr regularize(Engine& engine, const Surface& surface, const MeshPtr& mesh, const CompareOptions& options,
+                   const Progress& progress, DeformReport* report);
 
 }  // namespace espdiff

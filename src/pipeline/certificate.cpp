@@ -7,9 +7,6 @@
 namespace espdiff {
 namespace {
 
-/// A vertex farther than this from the other surface has no counterpart there.
-constexpr double kCounterpartLimit_A = 1.0;
-
 /// The limits within which a result counts as trustworthy.
 struct Limits {
   static constexpr double kCorruptArea = 1e-3;
@@ -37,15 +34,16 @@ std::string intersecting_pairs(std::size_t n) {
 
 }  // namespace
 
-Certificate certify(Engine& engine, const MeshPtr& mapped, const MeshPtr& target, const FitReport& fit) {
+Certificate certify(Engine& engine, const Mapping& mapping, const MeshPtr& target) {
   Certificate c;
-  c.corrupt_area_fraction = fit.corrupt_area_fraction;
-  c.flipped_area_fraction = fit.flipped_area_fraction;
-  c.irregularity_A = fit.irregularity_A;
-  c.mapped_to_target = engine.distances(mapped, target, kCounterpartLimit_A);
-  c.target_to_mapped = engine.distances(target, mapped, kCounterpartLimit_A);
-  c.self_intersecting_pairs = engine.self_intersections(mapped).n_pairs;
-  c.no_counterpart_source = c.mapped_to_target.area_fraction_beyond_limit;
+  c.corrupt_area_fraction = mapping.fit.corrupt_area_fraction;
+  c.flipped_area_fraction = mapping.fit.flipped_area_fraction;
+  c.irregularity_A = mapping.fit.irregularity_A;
+  c.mapped_to_target = mapping.to_target;
+  c.target_to_mapped = engine.distances(target, mapping.counted, kCounterpartLimit_A);
+  c.self_intersecting_pairs = mapping.intersections.n_pairs;
+  const double kept = engine.area(mapping.counted_source) / engine.area(mapping.source);
+  c.no_counterpart_source = 1 - kept * (1 - c.mapped_to_target.area_fraction_beyond_limit);
   c.no_counterpart_target = c.target_to_mapped.area_fraction_beyond_limit;
   return c;
 }
@@ -61,12 +59,12 @@ void judge(Certificate& c, const CompareResult& result) {
   refuse(c.flipped_area_fraction > Limits::kFlippedArea,
          percent(c.flipped_area_fraction) + " of the mapped area is flipped (limit 0 %)");
   refuse(c.self_intersecting_pairs > Limits::kSelfIntersectingPairs, intersecting_pairs(c.self_intersecting_pairs));
-  refuse(c.mapped_to_target.mean > Limits::kMeanDistance_A,
-         "the mapped surface lies " + angstrom(c.mapped_to_target.mean) + " from the target on average (limit " +
-             angstrom(Limits::kMeanDistance_A) + ")");
-  refuse(c.target_to_mapped.mean > Limits::kMeanDistance_A, "the target lies " + angstrom(c.target_to_mapped.mean) +
-                                                                " from the mapped surface on average (limit " +
-                                                                angstrom(Limits::kMeanDistance_A) + ")");
+  refuse(c.mapped_to_target.mean_within_limit > Limits::kMeanDistance_A,
+         "the mapped surface lies " + angstrom(c.mapped_to_target.mean_within_limit) +
+             " from the target on average (limit " + angstrom(Limits::kMeanDistance_A) + ")");
+  refuse(c.target_to_mapped.mean_within_limit > Limits::kMeanDistance_A,
+         "the target lies " + angstrom(c.target_to_mapped.mean_within_limit) +
+             " from the mapped surface on average (limit " + angstrom(Limits::kMeanDistance_A) + ")");
   refuse(c.no_counterpart_source > Limits::kNoCounterpart || c.no_counterpart_target > Limits::kNoCounterpart,
          percent(std::max(c.no_counterpart_source, c.no_counterpart_target)) +
              " of the area has no counterpart within " + angstrom(kCounterpartLimit_A) + " (limit " +

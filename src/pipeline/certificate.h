@@ -2,11 +2,12 @@
 #pragma once
 
 #include "pipeline/compare.h"
+#include "pipeline/mapping.h"
 
 namespace espdiff {
 
 /// Distances both ways, intersecting triangles and the fit of the mapped mesh; not yet judged.
-Certificate certify(Engine& engine, const MeshPtr& mapped, const MeshPtr& target, const FitReport& fit);
+Certificate certify(Engine& engine, const Mapping& mapping, const MeshPtr& target);
 
 /// Fills in trustworthy and reasons.
 void judge(Certificate& certificate, const CompareResult& result);

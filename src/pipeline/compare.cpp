@@ -8,8 +8,10 @@
 
 #include "align/superpose.h"
 #include "base/error.h"
+#include "pipeline/atom_ways.h"
 #include "pipeline/build_surface.h"
 #include "pipeline/certificate.h"
+#include "pipeline/mapping.h"
 #include "pipeline/residue_rows.h"
 #include "pipeline/side_maps.h"
 
@@ -23,6 +25,14 @@ FieldKind parse_field_kind(const std::string& text) {
   }
   throw InputError("unknown field '" + text + "'; use density or distance");
 }
+
+Method parse_method(const std::string& text) {
+  if (text == "deform") return Method::kDeform;
+  if (text == "morph") return Method::kMorph;
+  throw InputError("unknown method '" + text + "'; use deform or morph");
+}
+
+std::string to_string(Method method) { return method == Method::kMorph ? "morph" : "deform"; }
 
 Interpolation parse_interpolation(const std::string& text) {
   if (text == "trilinear") return Interpolation::kTrilinear;
@@ -124,9 +134,8 @@ struct Series::Steps {
   Surface surface{};
   MeshPtr regularized{};
   DeformReport regularize_report{};
-  PotentialUnit unit = PotentialUnit::kUnknown;  ///< of what follows
-  GridPtr source_map{};                          ///< until it is sampled
-  ScalarsPtr source_samples{};                   ///< of the source's map at the regularized surface
+  PotentialUnit unit = PotentialUnit::kUnknown;  ///< of the source's map
+  GridPtr source_map{};                          ///< made by the first step
   MeshPtr last_mapped{};                         ///< null where the next step starts from the source
   std::vector<Vec3d> last_target{};              ///< see SeriesState
   std::optional<SeriesState> restored{};
@@ -134,7 +143,9 @@ struct Series::Steps {
   void prepare(const RigidTransform& to_common, const Progress& progress, StageClock& clock) {
     if (prepared) return;
     surface = build_surface(engine, *source.molecule, to_common, options.surface, progress, clock);
-    regularized = regularize(engine, surface, options, progress, &regularize_report);
+    // The morph takes closed cavities along, since one may open.
+    const MeshPtr& mesh = options.method == Method::kMorph ? surface.whole : surface.mesh;
+    regularized = regularize(engine, surface, mesh, options, progress, &regularize_report);
     clock.lap("regularize");
     prepared = true;
     take_up_restored();
@@ -149,6 +160,24 @@ struct Series::Steps {
     last_mapped = engine.with_positions(regularized, restored->mapped);
     last_target = restored->target;
     restored.reset();
+  }
+
+  Mapping map_by_morph(const Molecule& target, const Surface& target_surface, const CommonFrame& frame,
+                       CompareResult& result, const Progress& progress, StageClock& clock) {
+    MorphOptions morph = options.morph;
+    morph.isovalue = options.surface.isovalue;
+    morph.max_edge_A = options.morph_max_edge * options.surface.grid_spacing_A;
+    const auto ways = atom_ways(*source.molecule, target, result.pairing, frame.from_source, frame.from_target,
+                                options.surface.radius_scale);
+    const MorphResult morphed =
+        engine.morph(regularized, ways, surface.atoms, target_surface.atoms, morph, "morph", progress);
+    result.morph_report = morphed.report;
+    Mapping mapping;
+    mapping.source = morphed.source;
+    mapping.mapped = morphed.mapped;
+    mapping.lost = engine.download(morphed.lost);
+    clock.lap("morph");
+    return mapping;
   }
 
   MeshPtr map(const Surface& target, const MeshPtr& start, DeformReport& report, const Progress& progress,
@@ -168,13 +197,12 @@ struct Series::Steps {
     return mapped;
   }
 
-  /// The target's map, null where there is none; the source's too, unless its samples are there already.
+  /// The target's map, null where there is none; the source's too, unless it is there already.
   GridPtr make_maps(const CompareInput& target, const CommonFrame& frame, const Progress& progress) {
     if (!has_map(target)) return nullptr;
     const PotentialUnit wanted = common_unit(source, target);
     const double temperature_K = options.temperature_K;
-    if ((source_map == nullptr && source_samples == nullptr) || wanted != unit) {
-      source_samples = nullptr;
+    if (source_map == nullptr || wanted != unit) {
       source_map = device_map(engine, source, inverse(frame.from_source), wanted, temperature_K, progress);
       unit = wanted;
     }
@@ -182,39 +210,45 @@ struct Series::Steps {
   }
 
   /// Potentials at counterparts, and the metrics of their differences.
-  void compare_potentials(const CompareInput& target, const GridPtr& target_map, const MeshPtr& mapped,
-                          const ScalarsPtr& corrupt, CompareResult& result) {
-    if (source_samples == nullptr) source_samples = engine.sample(source_map, regularized);
-    source_map = nullptr;
-    const ScalarsPtr target_samples = engine.sample(target_map, mapped);
+  void compare_potentials(const CompareInput& target, const GridPtr& target_map, const Mapping& mapping,
+                          CompareResult& result) {
+    MappedSurface& s = result.surface;
+    const ScalarsPtr at_source = engine.sample(source_map, mapping.source),
+                     at_target = engine.sample(target_map, mapping.mapped);
     result.unit = unit;
-    result.surface.potential_source = engine.download(source_samples);
-    result.surface.potential_target = engine.download(target_samples);
-    result.n_outside_source_map = count_outside(source, result.surface.potential_source);
-    result.n_outside_target_map = count_outside(target, result.surface.potential_target);
+    s.potential_source = engine.download(at_source);
+    s.potential_target = engine.download(at_target);
+    result.n_outside_source_map = count_outside(source, s.potential_source);
+    result.n_outside_target_map = count_outside(target, s.potential_target);
     result.has_potential = true;
-    result.metrics = engine.compare(regularized, mapped, source_samples, target_samples, corrupt);
-    result.metrics_all = engine.compare(regularized, mapped, source_samples, target_samples, nullptr);
+    std::vector<float> excluded(s.corrupt.begin(), s.corrupt.end());
+    for (std::size_t t = 0; t < mapping.lost.size(); ++t) excluded[t] = std::max(excluded[t], mapping.lost[t]);
+    result.metrics =
+        engine.compare(mapping.source, mapping.mapped, at_source, at_target, engine.upload_scalars(excluded));
+    result.metrics_all = engine.compare(mapping.source, mapping.mapped, at_source, at_target,
+                                        mapping.lost.empty() ? nullptr : engine.upload_scalars(mapping.lost));
   }
 
   /// Fills in what the mapping gave: certificate, per-vertex arrays, potentials, metrics, residues.
   void evaluate(const CompareInput& target, const CommonFrame& frame, const Surface& target_surface,
-                const GridPtr& target_map, const MeshPtr& mapped, CompareResult& result, const Progress& progress,
+                const GridPtr& target_map, Mapping& mapping, CompareResult& result, const Progress& progress,
                 StageClock& clock) {
     progress.report("certificate", 0.0);
-    const FitReport fit = engine.fit(mapped, target_surface.atoms, static_cast<float>(options.surface.isovalue));
-    result.area_mapped_A2 = fit.area_A2;
-    result.certificate = certify(engine, mapped, target_surface.mesh, fit);
-    result.certificate.converged = result.deform_report.converged;
+    settle(engine, mapping, target_surface.atoms, target_surface.mesh, static_cast<float>(options.surface.isovalue));
+    if (options.method == Method::kMorph && !options.surface.cavities) drop_closed_cavities(engine, mapping);
+    result.area_mapped_A2 = mapping.fit.area_A2;
+    result.certificate = certify(engine, mapping, target_surface.mesh);
+    result.certificate.converged = options.method == Method::kMorph || result.deform_report.converged;
     clock.lap("certificate");
 
     progress.report("metrics", 0.0);
-    download_surface(engine, regularized, mapped, frame, result.surface);
-    const std::vector<float> corrupt = engine.download(fit.corrupt);
-    result.surface.corrupt.assign(corrupt.begin(), corrupt.end());
-    result.surface.residue = engine.vertex_residues(regularized, surface.atoms);
-    if (target_map != nullptr) compare_potentials(target, target_map, mapped, fit.corrupt, result);
-    result.residues = residue_rows(result.surface, source.molecule->residues.size(), result.has_potential);
+    MappedSurface& s = result.surface;
+    download_surface(engine, mapping.source, mapping.mapped, frame, s);
+    s.no_counterpart.assign(mapping.lost.begin(), mapping.lost.end());
+    s.corrupt = spread(engine.download(mapping.fit.corrupt), mapping.lost);
+    s.residue = engine.vertex_residues(mapping.source, surface.atoms);
+    if (target_map != nullptr) compare_potentials(target, target_map, mapping, result);
+    result.residues = residue_rows(s, source.molecule->residues.size(), result.has_potential);
     judge(result.certificate, result);
     clock.lap("metrics");
   }
@@ -245,17 +279,23 @@ CompareResult Series::step(const CompareInput& target, StartFrom start, const Pr
 
   std::vector<Vec3d> target_atoms = counterparts(source, *target.molecule, result.pairing, frame.from_target);
   const MeshPtr last = std::exchange(steps.last_mapped, nullptr);
-  if (start == StartFrom::kPrevious && last != nullptr) {
+  if (start == StartFrom::kPrevious && last != nullptr && steps.options.method == Method::kDeform) {
     std::vector<Vec3d> source_atoms;
     for (const Vec3d& p : source.positions) source_atoms.push_back(frame.from_source.apply(p));
     if (rms_distance(steps.last_target, target_atoms) < rms_distance(source_atoms, target_atoms))
       result.start = StartFrom::kPrevious;
   }
-  const MeshPtr mapped = steps.map(target_surface, result.start == StartFrom::kPrevious ? last : steps.regularized,
-                                   result.deform_report, progress, clock);
-  steps.evaluate(target, frame, target_surface, target_map, mapped, result, progress, clock);
-  if (result.deform_report.converged) {
-    steps.last_mapped = mapped;
+  Mapping mapping;
+  if (steps.options.method == Method::kMorph) {
+    mapping = steps.map_by_morph(*target.molecule, target_surface, frame, result, progress, clock);
+  } else {
+    mapping.source = steps.regularized;
+    mapping.mapped = steps.map(target_surface, result.start == StartFrom::kPrevious ? last : steps.regularized,
+                               result.deform_report, progress, clock);
+  }
+  steps.evaluate(target, frame, target_surface, target_map, mapping, result, progress, clock);
+  if (steps.options.method == Method::kDeform && result.deform_report.converged) {
+    steps.last_mapped = mapping.mapped;
     steps.last_target = std::move(target_atoms);
   }
   clock.finish();

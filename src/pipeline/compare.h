@@ -20,6 +20,12 @@ enum class FieldKind { kDensity, kDistance };
 FieldKind parse_field_kind(const std::string& text);
 Interpolation parse_interpolation(const std::string& text);
 
+/// How the source's surface is brought onto the target's: by forces in a field of the target (the thesis), or carried
+/// by the level sets of the density while the atoms move.
+enum class Method { kDeform, kMorph };
+Method parse_method(const std::string& text);
+std::string to_string(Method method);
+
 /// How a surface is made of a molecule.
 struct SurfaceOptions {
   double grid_spacing_A = 1.0;
@@ -35,6 +41,9 @@ struct SurfaceOptions {
 struct CompareOptions {
   SurfaceOptions surface;
   AlignAtoms align = AlignAtoms::kAll;
+  Method method = Method::kDeform;
+  MorphOptions morph;
+  double morph_max_edge = 1.4;  ///< in grid spacings; sets MorphOptions::max_edge_A
   FieldKind field = FieldKind::kDistance;
   double distance_threshold_A = 0.75;
   DeformOptions regularize{0.1, 0.5, 0.3, 1e-3, 500, Interpolation::kTrilinear, 4, false};
@@ -94,6 +103,9 @@ struct MappedSurface {
   std::vector<float> displacement;                        ///< [vertex]
   std::vector<std::int32_t> residue;                      ///< [vertex] index of the source residue, -1 for none
   std::vector<std::uint8_t> corrupt;                      ///< [triangle]
+  /// [triangle] nonzero where the mapping found no counterpart: the mapped positions there mean nothing; empty where it
+  /// found one everywhere.
+  std::vector<std::uint8_t> no_counterpart;
 };
 
 /// Where the mapping of a target starts: from the source's surface, or from that of the target before, which is nearer
@@ -115,6 +127,7 @@ struct CompareResult {
   Certificate certificate;
   StartFrom start = StartFrom::kSource;  ///< where the mapping started
   DeformReport regularize_report, deform_report;
+  MorphReport morph_report;
   std::vector<ResidueRow> residues;
   MappedSurface surface;
   std::vector<std::pair<std::string, double>> time_ms;  ///< stage, in order, and last "total"
@@ -140,7 +153,7 @@ struct SeriesState {
 };
 
 /// Many targets compared with one source, whose surface is made and regularized once, for the first of them, and whose
-/// potential is computed and sampled once.
+/// potential is computed once.
 class Series {
  public:
   /// Keeps references to all but the options.

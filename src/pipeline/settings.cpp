@@ -145,9 +145,10 @@ void add_iteration_settings(std::vector<Setting>& all, const std::string& prefix
 void add_mapping_settings(std::vector<Setting>& all) {
   const std::string group = "Mapping";
   all.push_back(choice(
-      "method", group, {"deform"}, {"morph"}, [](CompareOptions&, const std::string&) {},
-      [](const CompareOptions&) { return "deform"; },
-      "How the source surface is mapped: deform (morph is not in this version)"));
+      "method", group, {"morph", "deform"}, {},
+      [](CompareOptions& o, const std::string& text) { o.method = parse_method(text); },
+      [](const CompareOptions& o) { return to_string(o.method); },
+      "How the source surface is mapped: carried by the moving atoms, or by forces in a field"));
   all.push_back(choice(
       "field", group, {"density", "distance"}, {"gvf", "gvf2"},
       [](CompareOptions& o, const std::string& text) { o.field = parse_field_kind(text); },

@@ -1,0 +1,117 @@
+// morph.cu: the order of the morph's steps: flow with the atoms, back onto the level set, cut out, even out, divide.
+#include "morph.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/error.h"
+#include "project.h"
+#include "spatial_order.h"
+#include "travelling.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+namespace {
+
+/// Atoms that fade, and widths that change, move the surface as well: it then takes this many steps at least.
+constexpr int kStepsOfFading = 24;
+/// The least: flow and level set are followed to second order only.
+constexpr int kLeastSteps = 8;
+/// How far the last projections may move a vertex: the steps leave it nearer than that.
+constexpr float kLastShift_A = 0.3F;
+
+void check_options(const MorphOptions& o) {
+  if (!(o.max_step_A > 0))
+    throw InputError("the morph's largest step, " + std::to_string(o.max_step_A) + " A, is not positive; 0.3 is usual");
+  if (!(o.max_edge_A > 0))
+    throw InputError("the morph's longest edge, " + std::to_string(o.max_edge_A) + " A, is not positive");
+  if (!(o.max_stretch > 1))
+    throw InputError("the morph's largest stretch, " + std::to_string(o.max_stretch) + ", is not above 1; 20 is usual");
+}
+
+int steps_for(const std::vector<MovingAtom>& atoms, const MorphOptions& options) {
+  double farthest = 0;
+  bool fades = false;
+  for (const MovingAtom& a : atoms) {
+    farthest = std::max(farthest, norm(a.end - a.start));
+    fades = fades || !a.at_start || !a.at_end || std::abs(a.start_width - a.end_width) > 1e-3;
+  }
+  return std::max(fades ? kStepsOfFading : kLeastSteps, static_cast<int>(std::ceil(farthest / options.max_step_A)));
+}
+
+std::shared_ptr<Scalars> as_scalars(const Buffer<std::uint8_t>& flags) {
+  auto scalars = std::make_shared<Scalars>();
+  scalars->values.resize(flags.size());
+  const std::uint8_t* const flag = raw(flags);
+  float* const value = raw(scalars->values);
+  for_each_index(flags.size(), [=] ESPDIFF_HD(std::size_t i) { value[i] = static_cast<float>(flag[i]); });
+  return scalars;
+}
+
+/// Both ends on their isosurfaces. Vertices of the given mesh keep the places that they came with; those added lie in
+/// the middles of edges, beside the surface.
+MorphResult arrive(const Travelling& surface, const SurfaceMesh& mesh, const AtomCells& source_atoms,
+                   const AtomCells& target_atoms, float isovalue) {
+  SurfaceMesh source, mapped;
+  source.topology = mapped.topology = surface.topology;
+  source.positions = surface.source;
+  mapped.positions = surface.x;
+  auto on_source = project(source, source_atoms, isovalue, kLastShift_A);
+  thrust::copy_n(thrust::device, mesh.positions.begin(), static_cast<std::ptrdiff_t>(mesh.n_vertices()),
+                 on_source->positions.begin());
+  MorphResult result;
+  result.source = on_source;
+  result.mapped = project(mapped, target_atoms, isovalue, kLastShift_A);
+  result.lost = as_scalars(surface.cut);
+  const std::uint8_t* const lost = raw(surface.lost);
+  result.report.n_vertices_lost =
+      sum_over<std::size_t>(surface.n_vertices(), [=] ESPDIFF_HD(std::size_t v) { return std::size_t{lost[v]}; });
+  return result;
+}
+
+}  // namespace
+
+Travelling set_out(const SurfaceMesh& mesh) {
+  Travelling surface;
+  surface.topology = mesh.topology;
+  surface.source = mesh.positions;
+  surface.x = mesh.positions;
+  surface.flow.assign(mesh.n_vertices(), Vec4f{});
+  surface.previous.assign(mesh.n_vertices(), Vec4f{});
+  surface.gradient.assign(mesh.n_vertices(), Vec4f{});
+  surface.lost.assign(mesh.n_vertices(), 0);
+  surface.cut.assign(mesh.n_triangles(), 0);
+  surface.order = spatial_order(surface.x);
+  return surface;
+}
+
+MorphResult morph(const SurfaceMesh& mesh, const std::vector<MovingAtom>& atoms, const AtomCells& source_atoms,
+                  const AtomCells& target_atoms, const MorphOptions& options, const std::string& stage,
+                  const Progress& progress) {
+  check_options(options);
+  const float isovalue = static_cast<float>(options.isovalue);
+  const float max_edge = static_cast<float>(options.max_edge_A), max_stretch = static_cast<float>(options.max_stretch);
+  const int n_steps = steps_for(atoms, options);
+  std::size_t n_added = 0;
+  Travelling surface = set_out(mesh);
+  return_to_level_set(surface, atoms_at(atoms, 0.0), isovalue);
+  surface.previous = surface.flow;
+  for (int step = 1; step <= n_steps; ++step) {
+    progress.report(stage, static_cast<double>(step - 1) / n_steps);
+    advance(surface, 1.0F / static_cast<float>(n_steps));
+    return_to_level_set(surface, atoms_at(atoms, static_cast<double>(step) / n_steps), isovalue);
+    cut_out(surface);
+    if (step < n_steps) even_out(surface);
+    n_added += divide_long(surface, max_edge, max_stretch);
+  }
+  // Vertices that the last step added have not been on the level set yet.
+  return_to_level_set(surface, atoms_at(atoms, 1.0), isovalue);
+  cut_out(surface);
+  progress.report(stage, 1.0);
+  MorphResult result = arrive(surface, mesh, source_atoms, target_atoms, isovalue);
+  result.report.steps = n_steps;
+  result.report.n_vertices_added = n_added;
+  return result;
+}
+
+}  // namespace espdiff::ESPDIFF_BACKEND

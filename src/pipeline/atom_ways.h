@@ -1,0 +1,20 @@
+// atom_ways.h: the ways of all atoms from source to target, for the morph.
+#pragma once
+
+#include <vector>
+
+#include "align/pair_atoms.h"
+#include "engine/engine.h"
+
+namespace espdiff {
+
+/// Paired atoms go straight from where they are to where their counterpart is. An atom without a counterpart grows out
+/// of, or shrinks into, its *anchor*, the nearest paired atom of its residue (of the molecule where its residue has
+/// none): so that a side chain sprouts instead of appearing in free space.
+/// @param from_source, from_target own frames -> common frame
+/// @throws InputError when no atoms pair
+std::vector<MovingAtom> atom_ways(const Molecule& source, const Molecule& target, const AtomPairing& pairing,
+                                  const RigidTransform& from_source, const RigidTransform& from_target,
+                                  double radius_scale);
+
+}  // namespace espdiff

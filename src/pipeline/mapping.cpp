@@ -1,0 +1,79 @@
+// mapping.cpp: the part of a mapping that has a counterpart.
+#include "pipeline/mapping.h"
+
+#include <algorithm>
+
+namespace espdiff {
+namespace {
+
+/// Marks as lost, in the whole, what is marked in the part that is left; returns whether anything was.
+bool lose(std::vector<float>& lost, const std::vector<float>& marked) {
+  bool any = false;
+  std::size_t k = 0;
+  for (float& flag : lost) {
+    if (flag != 0 || marked[k++] == 0) continue;
+    flag = 1;
+    any = true;
+  }
+  return any;
+}
+
+void measure(Engine& engine, Mapping& mapping, const AtomsPtr& target_atoms, const MeshPtr& target, float isovalue) {
+  mapping.fit = engine.fit(mapping.counted, target_atoms, isovalue);
+  mapping.intersections = engine.self_intersections(mapping.counted);
+  mapping.to_target = engine.distances(mapping.counted, target, kCounterpartLimit_A);
+}
+
+}  // namespace
+
+void settle(Engine& engine, Mapping& mapping, const AtomsPtr& target_atoms, const MeshPtr& target, float isovalue) {
+  if (mapping.lost.empty()) {
+    mapping.counted = mapping.mapped;
+    mapping.counted_source = mapping.source;
+    measure(engine, mapping, target_atoms, target, isovalue);
+    return;
+  }
+  bool more = true;
+  while (more) {
+    mapping.counted = engine.without(mapping.mapped, engine.upload_scalars(mapping.lost));
+    measure(engine, mapping, target_atoms, target, isovalue);
+    std::vector<float> marked = engine.download(mapping.fit.corrupt);
+    for (const ScalarsPtr& flags :
+         {mapping.fit.flipped, mapping.intersections.intersecting, mapping.to_target.beyond}) {
+      const std::vector<float> other = engine.download(flags);
+      std::transform(marked.begin(), marked.end(), other.begin(), marked.begin(),
+                     [](float a, float b) { return std::max(a, b); });
+    }
+    more = lose(mapping.lost, marked);
+  }
+  mapping.counted_source = engine.without(mapping.source, engine.upload_scalars(mapping.lost));
+}
+
+void drop_closed_cavities(Engine& engine, Mapping& mapping) {
+  const std::vector<ComponentSummary> components = engine.components(mapping.source);
+  const auto is_cavity = [](const ComponentSummary& component) { return component.volume_A3 < 0; };
+  if (std::none_of(components.begin(), components.end(), is_cavity)) return;
+  const Mesh source = engine.download(mapping.source);
+  std::vector<float> dropped(mapping.lost.size()), lost;
+  for (std::size_t t = 0; t < dropped.size(); ++t) {
+    const bool cavity = is_cavity(components[source.component[source.triangles[t][0]]]);
+    dropped[t] = cavity && mapping.lost[t] != 0 ? 1.0F : 0.0F;
+    if (dropped[t] == 0) lost.push_back(mapping.lost[t]);
+  }
+  const ScalarsPtr flags = engine.upload_scalars(dropped);
+  mapping.source = engine.without(mapping.source, flags);
+  mapping.mapped = engine.without(mapping.mapped, flags);
+  mapping.lost = std::move(lost);
+}
+
+std::vector<std::uint8_t> spread(const std::vector<float>& counted, const std::vector<float>& lost) {
+  if (lost.empty()) return std::vector<std::uint8_t>(counted.begin(), counted.end());
+  std::vector<std::uint8_t> whole(lost.size(), 0);
+  std::size_t k = 0;
+  for (std::size_t t = 0; t < lost.size(); ++t) {
+    if (lost[t] == 0) whole[t] = counted[k++] != 0 ? 1 : 0;
+  }
+  return whole;
+}
+
+}  // namespace espdiff

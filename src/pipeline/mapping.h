@@ -1,0 +1,38 @@
+// mapping.h: what a mapping gave, on the device, and its part that has a counterpart.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/engine.h"
+
+namespace espdiff {
+
+/// A vertex farther than this from the other surface has no counterpart there.
+constexpr double kCounterpartLimit_A = 1.0;
+
+/// Two meshes of one topology: where each vertex comes from, and where it lies on the target.
+struct Mapping {
+  MeshPtr source, mapped;
+  /// [triangle] nonzero where there is no counterpart; empty where the method does not tell.
+  std::vector<float> lost;
+
+  // What has a counterpart, and how well it fits the target; see settle().
+  MeshPtr counted_source, counted;
+  FitReport fit;
+  IntersectionReport intersections;
+  DistanceSummary to_target;  ///< from `counted` to the target's surface
+};
+
+/// Finds what has a counterpart, and how well that fits. Where the method tells what is lost (`lost` not empty), what
+/// is off the target's density, flipped, intersects itself or lies far from the target's surface (on a closed cavity,
+/// say) is lost as well: a few triangles beside what was torn.
+void settle(Engine& engine, Mapping& mapping, const AtomsPtr& target_atoms, const MeshPtr& target, float isovalue);
+
+/// Leaves out the source's closed cavities where they found no counterpart: what is left of them has opened.
+void drop_closed_cavities(Engine& engine, Mapping& mapping);
+
+/// [triangle of the whole] from [triangle with a counterpart]; 0 where lost.
+std::vector<std::uint8_t> spread(const std::vector<float>& counted, const std::vector<float>& lost);
+
+}  // namespace espdiff
