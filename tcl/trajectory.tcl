@@ -170,7 +170,9 @@ namespace eval ::espdiff {
 
     proc saves_mappings {run_name} {
         upvar 1 $run_name run
-        expr {$run(start) eq "previous" && $run(series) ne ""}
+        # A morph needs no mapping before it.
+        set method [value_or $run(core_options) method deform]
+        expr {$run(start) eq "previous" && $run(series) ne "" && $method eq "deform"}
     }
 
     # Whether the frame after this row's may begin at its mapping; else, and without a row, at the source.

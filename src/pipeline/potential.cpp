@@ -74,7 +74,8 @@ std::vector<Vec3d> PotentialSeries::superposed_atoms(const Molecule& frame,
                                                      const std::optional<UnitCell>& own_cell) const {
   std::vector<Vec3d> atoms;
   for (const std::size_t i : first_->atoms) atoms.push_back(frame.positions[i]);
-  if (!options_.cell && (!own_cell || options_.pad_A)) return atoms;
+  const bool is_periodic = options_.cell || (own_cell && !options_.pad_A);
+  if (atoms.empty() || !is_periodic) return atoms;
   return mended(atoms, choose_cell(options_, frame.positions, own_cell).edges, first_->positions);
 }
 

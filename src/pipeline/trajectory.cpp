@@ -44,6 +44,11 @@ class Run {
   void remove_state() const { std::remove(state_path().c_str()); }
   std::string state_fingerprint(const std::string& frame) const { return "frame " + frame + " " + file_.fingerprint(); }
 
+  /// A morph needs no mapping before it.
+  bool saves_mappings() const {
+    return run_.start == StartFrom::kPrevious && run_.options.method == Method::kDeform;
+  }
+
   void check_earlier_rows() const {
     const auto& rows = file_.rows();
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -61,7 +66,7 @@ class Run {
 
   void restore_mapping(const std::function<void(const std::string&)>& warn) {
     const auto& rows = file_.rows();
-    if (run_.start != StartFrom::kPrevious || !rows.back().has_mapping()) return;
+    if (!saves_mappings() || !rows.back().has_mapping()) return;
     std::string reason;
     try {
       return restore_mapping_of(rows.back());
@@ -121,7 +126,7 @@ class Run {
     if (position_ < file_.rows().size()) return compare_again(row);
     file_.add(row);
     ++summary_.n_rows;
-    if (run_.start != StartFrom::kPrevious || !row["error"].empty()) return;
+    if (!saves_mappings() || !row["error"].empty()) return;
     if (const auto state = series_.state()) write_series_state(state_path(), *state, state_fingerprint(row["frame"]));
   }
 
