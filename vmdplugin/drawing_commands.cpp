@@ -21,7 +21,8 @@ constexpr int kFirstScaleId = 33;
 struct DrawnSurface {
   std::vector<Vec3f> positions, normals;
   const std::vector<Triangle>* triangles = nullptr;
-  const std::vector<std::uint8_t>* corrupt = nullptr;  ///< null where nothing was mapped
+  std::vector<std::uint8_t> corrupt;                    ///< [triangle] empty where nothing was mapped
+  const std::vector<std::uint8_t>* left_out = nullptr;  ///< [triangle] not part of the surface; null or empty for none
   const std::vector<float>* displacement = nullptr;
 };
 
@@ -62,14 +63,17 @@ DrawnSurface drawn_surface(const std::string& handle, const Object& object, cons
   if (which == "mapped") {
     drawn.positions = single_precision(s.positions);
     drawn.normals = s.normals;
+    drawn.corrupt = s.corrupt;
+    drawn.left_out = &s.no_counterpart;
   } else if (which == "source") {
     drawn.positions = single_precision(s.source_positions);
     drawn.normals = vertex_normals(s.source_positions, s.triangles);
+    drawn.corrupt = s.corrupt;
+    for (std::size_t t = 0; t < s.no_counterpart.size(); ++t) drawn.corrupt[t] |= s.no_counterpart[t];
   } else {
     throw InputError("surface: '" + which + "' is not mapped or source");
   }
   drawn.triangles = &s.triangles;
-  drawn.corrupt = &s.corrupt;
   drawn.displacement = &s.displacement;
   return drawn;
 }
@@ -108,11 +112,12 @@ std::vector<std::uint8_t> select_triangles(const DrawnSurface& surface, const Op
                                            const std::string& corrupt) {
   std::vector<std::uint8_t> drawn(surface.triangles->size(), 1);
   for (std::size_t t = 0; t < drawn.size(); ++t) {
-    const bool is_corrupt = surface.corrupt != nullptr && (*surface.corrupt)[t] != 0;
+    const bool is_corrupt = !surface.corrupt.empty() && surface.corrupt[t] != 0;
+    const bool left_out = surface.left_out != nullptr && !surface.left_out->empty() && (*surface.left_out)[t] != 0;
     // What is corrupt is the least certain.
     const int bin =
         is_corrupt && corrupt == "bin" ? opacity.n_bins - 1 : std::min(bin_of(surface, t, opacity), opacity.n_bins - 1);
-    const bool hidden = is_corrupt && corrupt == "skip";
+    const bool hidden = left_out || (is_corrupt && corrupt == "skip");
     drawn[t] = !hidden && bin == opacity.bin ? 1 : 0;
   }
   return drawn;
@@ -120,8 +125,8 @@ std::vector<std::uint8_t> select_triangles(const DrawnSurface& surface, const Op
 
 /// Vertices of corrupt triangles in the plain colour.
 void mark_corrupt(const DrawnSurface& surface, int plain, std::vector<int>& colours) {
-  for (std::size_t t = 0; surface.corrupt != nullptr && t < surface.corrupt->size(); ++t) {
-    if ((*surface.corrupt)[t] == 0) continue;
+  for (std::size_t t = 0; t < surface.corrupt.size(); ++t) {
+    if (surface.corrupt[t] == 0) continue;
     for (const std::uint32_t v : (*surface.triangles)[t]) colours[v] = plain;
   }
 }

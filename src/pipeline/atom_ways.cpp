@@ -1,9 +1,13 @@
 // atom_ways.cpp: pairs become ways, and what has no counterpart finds its anchor.
 #include "pipeline/atom_ways.h"
 
+#include <algorithm>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 #include "base/error.h"
+#include "pipeline/paired_residues.h"
 
 namespace espdiff {
 namespace {
@@ -38,6 +42,43 @@ struct Side {
   }
 };
 
+/// Atoms left over in paired residues, such as the side chains of a substitution, pair with what is nearest within
+/// this.
+constexpr double kNearestPartner_A = 2.5;
+
+bool is_hydrogen(const Atom& atom) { return atom.element == "H" || atom.element == "D"; }
+
+/// Pairs of atoms that `pairing` left over in paired residues: nearest first, hydrogens among themselves.
+std::vector<std::pair<std::size_t, std::size_t>> pair_leftovers(const Side& from, const Side& to,
+                                                                const std::vector<std::int32_t>& target_residue,
+                                                                const RigidTransform& from_source,
+                                                                const RigidTransform& from_target) {
+  std::vector<std::vector<std::size_t>> left_over(to.molecule.residues.size());
+  for (std::size_t t = 0; t < to.molecule.size(); ++t) {
+    if (!to.paired[t]) left_over[static_cast<std::size_t>(to.molecule.atoms[t].residue)].push_back(t);
+  }
+  std::vector<std::tuple<double, std::size_t, std::size_t>> candidates;
+  for (std::size_t s = 0; s < from.molecule.size(); ++s) {
+    const std::int32_t residue = target_residue[static_cast<std::size_t>(from.molecule.atoms[s].residue)];
+    if (from.paired[s] || residue < 0) continue;
+    const Vec3d p = from_source.apply(from.molecule.positions[s]);
+    for (const std::size_t t : left_over[static_cast<std::size_t>(residue)]) {
+      if (is_hydrogen(from.molecule.atoms[s]) != is_hydrogen(to.molecule.atoms[t])) continue;
+      const double distance = norm(from_target.apply(to.molecule.positions[t]) - p);
+      if (distance <= kNearestPartner_A) candidates.emplace_back(distance, s, t);
+    }
+  }
+  std::sort(candidates.begin(), candidates.end());
+  std::vector<bool> source_taken(from.molecule.size(), false), target_taken(to.molecule.size(), false);
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (const auto& [distance, s, t] : candidates) {
+    if (source_taken[s] || target_taken[t]) continue;
+    source_taken[s] = target_taken[t] = true;
+    pairs.emplace_back(s, t);
+  }
+  return pairs;
+}
+
 }  // namespace
 
 std::vector<MovingAtom> atom_ways(const Molecule& source, const Molecule& target, const AtomPairing& pairing,
@@ -47,15 +88,22 @@ std::vector<MovingAtom> atom_ways(const Molecule& source, const Molecule& target
     throw InputError("the morph follows paired atoms, and none pair; use --method deform, which needs none");
   Side from(source), to(target);
   std::vector<std::size_t> target_of(source.size()), source_of(target.size());
-  for (const auto& [s, t] : pairing.pairs) {
-    from.add(s);
-    to.add(t);
-    target_of[s] = t;
-    source_of[t] = s;
-  }
+  std::vector<std::pair<std::size_t, std::size_t>> pairs = pairing.pairs;
+  const auto take_up = [&](const std::vector<std::pair<std::size_t, std::size_t>>& added) {
+    for (const auto& [s, t] : added) {
+      from.add(s);
+      to.add(t);
+      target_of[s] = t;
+      source_of[t] = s;
+    }
+  };
+  take_up(pairs);
+  const auto leftovers = pair_leftovers(from, to, paired_residues(source, target, pairing), from_source, from_target);
+  take_up(leftovers);
+  pairs.insert(pairs.end(), leftovers.begin(), leftovers.end());
   const auto width = [&](float radius) { return radius_scale * static_cast<double>(radius); };
   std::vector<MovingAtom> ways;
-  for (const auto& [s, t] : pairing.pairs) {
+  for (const auto& [s, t] : pairs) {
     MovingAtom way;
     way.start = from_source.apply(source.positions[s]);
     way.end = from_target.apply(target.positions[t]);

@@ -12,6 +12,7 @@
 #include "pipeline/build_surface.h"
 #include "pipeline/certificate.h"
 #include "pipeline/mapping.h"
+#include "pipeline/paired_residues.h"
 #include "pipeline/residue_rows.h"
 #include "pipeline/side_maps.h"
 
@@ -42,6 +43,7 @@ Interpolation parse_interpolation(const std::string& text) {
 
 CompareOptions thesis_options() {
   CompareOptions options;
+  options.method = Method::kDeform;
   options.surface.project = false;
   options.surface.cavities = true;
   options.regularize.tangential_gain = options.deform.tangential_gain = 1;
@@ -81,6 +83,24 @@ CommonFrame align(const Molecule& source, const Molecule& target, AlignAtoms ato
   result.n_superposed_atoms = pairs.size();
   frame.from_target = compose(frame.from_source, inverse(superposition.transform));
   return frame;
+}
+
+/// [vertex] whether it lies in a triangle with a counterpart.
+std::vector<bool> has_counterpart(const MappedSurface& s) {
+  if (s.no_counterpart.empty()) return std::vector<bool>(s.positions.size(), true);
+  std::vector<bool> has(s.positions.size(), false);
+  for (std::size_t t = 0; t < s.triangles.size(); ++t) {
+    if (s.no_counterpart[t] != 0) continue;
+    for (const std::uint32_t v : s.triangles[t]) has[v] = true;
+  }
+  return has;
+}
+
+/// What a vertex without a counterpart has there is no number.
+void forget_lost(const std::vector<bool>& kept, std::vector<float>& values) {
+  for (std::size_t v = 0; v < values.size(); ++v) {
+    if (!kept[v]) values[v] = std::numeric_limits<float>::quiet_NaN();
+  }
 }
 
 void download_surface(Engine& engine, const MeshPtr& source, const MeshPtr& mapped, const CommonFrame& frame,
@@ -218,8 +238,10 @@ struct Series::Steps {
     result.unit = unit;
     s.potential_source = engine.download(at_source);
     s.potential_target = engine.download(at_target);
-    result.n_outside_source_map = count_outside(source, s.potential_source);
-    result.n_outside_target_map = count_outside(target, s.potential_target);
+    const std::vector<bool> kept = has_counterpart(s);
+    result.n_outside_source_map = count_outside(source, s.potential_source, kept);
+    result.n_outside_target_map = count_outside(target, s.potential_target, kept);
+    forget_lost(kept, s.potential_target);
     result.has_potential = true;
     std::vector<float> excluded(s.corrupt.begin(), s.corrupt.end());
     for (std::size_t t = 0; t < mapping.lost.size(); ++t) excluded[t] = std::max(excluded[t], mapping.lost[t]);
@@ -246,7 +268,11 @@ struct Series::Steps {
     download_surface(engine, mapping.source, mapping.mapped, frame, s);
     s.no_counterpart.assign(mapping.lost.begin(), mapping.lost.end());
     s.corrupt = spread(engine.download(mapping.fit.corrupt), mapping.lost);
+    forget_lost(has_counterpart(s), s.displacement);
     s.residue = engine.vertex_residues(mapping.source, surface.atoms);
+    result.certificate.same_residue_area_fraction =
+        same_residue_share(s, s.residue, engine.vertex_residues(mapping.mapped, target_surface.atoms),
+                           paired_residues(*source.molecule, *target.molecule, result.pairing));
     if (target_map != nullptr) compare_potentials(target, target_map, mapping, result);
     result.residues = residue_rows(s, source.molecule->residues.size(), result.has_potential);
     judge(result.certificate, result);

@@ -41,7 +41,7 @@ struct SurfaceOptions {
 struct CompareOptions {
   SurfaceOptions surface;
   AlignAtoms align = AlignAtoms::kAll;
-  Method method = Method::kDeform;
+  Method method = Method::kMorph;
   MorphOptions morph;
   double morph_max_edge = 1.4;  ///< in grid spacings; sets MorphOptions::max_edge_A
   FieldKind field = FieldKind::kDistance;
@@ -78,6 +78,7 @@ struct ResidueRow {
   double mean_displacement_A = 0;
 };
 
+/// All but no_counterpart_* are over what has a counterpart.
 struct Certificate {
   double corrupt_area_fraction = 0;
   double flipped_area_fraction = 0;
@@ -85,8 +86,12 @@ struct Certificate {
   std::size_t self_intersecting_pairs = 0;  ///< see Engine::self_intersections()
   DistanceSummary mapped_to_target;
   DistanceSummary target_to_mapped;
-  double no_counterpart_source = 0;  ///< share of the mapped area farther than 1 A from the target
+  /// Share of the source's area that the mapping lost, or that it took farther than 1 A from the target.
+  double no_counterpart_source = 0;
   double no_counterpart_target = 0;  ///< share of the target's area farther than 1 A from the mapped surface
+  /// Share of the mapped area whose residue (of most density) on the target is the one paired with that on the source;
+  /// NaN where no residues pair.
+  double same_residue_area_fraction = 0;
   bool converged = false;
   bool trustworthy = false;
   std::vector<std::string> reasons;      ///< why not
@@ -100,7 +105,7 @@ struct MappedSurface {
   std::vector<Vec3f> normals;           ///< [vertex] outward, target's frame
   std::vector<Triangle> triangles;
   std::vector<float> potential_source, potential_target;  ///< [vertex]; empty without maps; NaN outside a map
-  std::vector<float> displacement;                        ///< [vertex]
+  std::vector<float> displacement;                        ///< [vertex] NaN where there is no counterpart
   std::vector<std::int32_t> residue;                      ///< [vertex] index of the source residue, -1 for none
   std::vector<std::uint8_t> corrupt;                      ///< [triangle]
   /// [triangle] nonzero where the mapping found no counterpart: the mapped positions there mean nothing; empty where it

@@ -32,7 +32,10 @@ const char* name_of(ValueOrigin origin) {
 }
 
 Json distances(const DistanceSummary& d) {
-  return {{"mean", number(d.mean)}, {"p95", number(d.p95)}, {"max", number(d.max)}};
+  return {{"mean", number(d.mean)},
+          {"p95", number(d.p95)},
+          {"max", number(d.max)},
+          {"mean_within_limit", number(d.mean_within_limit)}};
 }
 
 Json certificate(const Certificate& c) {
@@ -44,6 +47,7 @@ Json certificate(const Certificate& c) {
   json["flipped_area_fraction"] = number(c.flipped_area_fraction);
   json["no_counterpart_area_fraction"] = {{"source", number(c.no_counterpart_source)},
                                           {"target", number(c.no_counterpart_target)}};
+  json["same_residue_area_fraction"] = number(c.same_residue_area_fraction);
   json["irregularity_A"] = number(c.irregularity_A);
   json["converged"] = c.converged;
   json["trustworthy"] = c.trustworthy;
@@ -103,7 +107,7 @@ Json iteration_options(const DeformOptions& o, double min_displacement_A) {
 
 Json echo(const CompareOptions& o) {
   Json json;
-  json["method"] = "deform";
+  json["method"] = to_string(o.method);
   json["align"] = to_string(o.align);
   json["grid_spacing_A"] = o.surface.grid_spacing_A;
   json["radius_scale"] = o.surface.radius_scale;
@@ -115,6 +119,9 @@ Json echo(const CompareOptions& o) {
   json["temperature_K"] = o.temperature_K;
   json["regularize"] = iteration_options(o.regularize, o.regularize_min_displacement * o.surface.grid_spacing_A);
   json["deform"] = iteration_options(o.deform, o.deform_min_displacement * o.surface.grid_spacing_A);
+  json["morph"] = {{"max_step_A", o.morph.max_step_A},
+                   {"max_edge_A", o.morph_max_edge * o.surface.grid_spacing_A},
+                   {"max_stretch", o.morph.max_stretch}};
   return json;
 }
 
@@ -147,7 +154,7 @@ Json input_files(const Provenance& provenance) {
   return json;
 }
 
-void add_results(Json& json, const CompareResult& result) {
+void add_results(Json& json, const CompareResult& result, const CompareOptions& options) {
   const CountedSurface counted = counted_surface(result);
   json["rmsd_A"] = number(result.rmsd_A);
   json["n_paired_atoms"] = result.pairing.pairs.size();
@@ -169,7 +176,9 @@ void add_results(Json& json, const CompareResult& result) {
   json["n_vertices_outside_map"] = {{"source", result.n_outside_source_map}, {"target", result.n_outside_target_map}};
   json["surfaces"] = {{"source", surface(result.source_surface)}, {"target", surface(result.target_surface)}};
   json["start"] = result.start == StartFrom::kPrevious ? "previous" : "source";
-  json["iterations"] = result.deform_report.iterations;
+  const bool morphed = options.method == Method::kMorph;
+  json["iterations"] = morphed ? result.morph_report.steps : result.deform_report.iterations;
+  json["n_vertices_added"] = result.morph_report.n_vertices_added;
   json["iterations_regularize"] = result.regularize_report.iterations;
 }
 
@@ -178,7 +187,7 @@ void add_results(Json& json, const CompareResult& result) {
 std::string compare_json(const Molecule& source, const Molecule& target, const CompareResult& result,
                          const CompareOptions& options, const Provenance& provenance) {
   Json json;
-  add_results(json, result);
+  add_results(json, result, options);
   json["time_ms"] = Json::object();
   for (const auto& [stage, ms] : result.time_ms) json["time_ms"][stage] = number(ms);
   json["device"] = provenance.device;

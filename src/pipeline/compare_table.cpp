@@ -20,9 +20,10 @@ std::string formatted(const char* format, double value) {
 std::string significant(double value) { return formatted("%.4g", value); }
 std::string percent(double fraction) { return formatted("%.3g", 100 * fraction) + " %"; }
 
-std::string counted(std::size_t n, const std::string& noun) {
-  return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
+std::string counted(std::size_t n, const std::string& noun, const std::string& plural) {
+  return std::to_string(n) + " " + (n == 1 ? noun : plural);
 }
+std::string counted(std::size_t n, const std::string& noun) { return counted(n, noun, noun + "s"); }
 
 std::string left(const std::string& text, std::size_t width) {
   return text + std::string(text.size() < width ? width - text.size() : 1, ' ');
@@ -116,10 +117,17 @@ void print_certificate(std::ostream& out, const CompareResult& result) {
   line(out, "intersecting itself", counted(c.self_intersecting_pairs, "pair") + " of triangles");
   line(out, "mapped to target", in_words(c.mapped_to_target));
   line(out, "target to mapped", in_words(c.target_to_mapped));
-  line(
-      out, "without counterpart",
-      percent(c.no_counterpart_source) + " of the mapped, " + percent(c.no_counterpart_target) + " of the target area");
+  line(out, "without counterpart",
+       percent(c.no_counterpart_source) + " of the source's, " + percent(c.no_counterpart_target) +
+           " of the target's area");
+  line(out, "on the same residue", percent(c.same_residue_area_fraction) + " of the mapped area");
   line(out, "irregularity", significant(c.irregularity_A) + " A");
+  if (result.morph_report.steps > 0) {
+    line(out, "mapping",
+         "carried by the atoms in " + counted(static_cast<std::size_t>(result.morph_report.steps), "step") + ", " +
+             counted(result.morph_report.n_vertices_added, "vertex", "vertices") + " added");
+    return;
+  }
   line(out, "mapping",
        std::string(c.converged ? "converged after " : "did not converge in ") +
            counted(static_cast<std::size_t>(std::max(result.deform_report.iterations, 0)), "iteration"));

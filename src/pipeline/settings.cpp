@@ -45,6 +45,10 @@ bool within(const Range& range, double value) {
   return std::isfinite(value) && (range.low_included ? value >= range.low : value > range.low);
 }
 
+/// Headings of what only one of the methods reads.
+constexpr const char* kMorphGroup = "Mapping by morph";
+constexpr const char* kDeformGroup = "Mapping by deform";
+
 /// A setting that is a number; `at` finds it in the options.
 template <typename At>
 Setting number(const std::string& name, const std::string& group, Range range, At at, const std::string& help) {
@@ -142,23 +146,37 @@ void add_iteration_settings(std::vector<Setting>& all, const std::string& prefix
                        "Converged when the mean displacement of an iteration falls below this many grid spacings"));
 }
 
+void add_morph_settings(std::vector<Setting>& all) {
+  all.push_back(number(
+      "max-step", kMorphGroup, kPositive, [](auto& o) -> auto& { return o.morph.max_step_A; },
+      "Farthest that an atom moves in one step, Angstrom"));
+  all.push_back(number(
+      "max-edge", kMorphGroup, kPositive, [](auto& o) -> auto& { return o.morph_max_edge; },
+      "Edges longer than so many grid spacings are halved"));
+  all.push_back(number(
+      "max-stretch", kMorphGroup, Range{1, false, "a number above 1"},
+      [](auto& o) -> auto& { return o.morph.max_stretch; },
+      "Where such an edge has grown so many times the surface counts as torn"));
+}
+
 void add_mapping_settings(std::vector<Setting>& all) {
   const std::string group = "Mapping";
   all.push_back(choice(
       "method", group, {"morph", "deform"}, {},
       [](CompareOptions& o, const std::string& text) { o.method = parse_method(text); },
       [](const CompareOptions& o) { return to_string(o.method); },
-      "How the source surface is mapped: carried by the moving atoms, or by forces in a field"));
+      "How the surface is mapped: carried by the moving atoms (morph), or drawn by a field (deform)"));
+  add_morph_settings(all);
   all.push_back(choice(
-      "field", group, {"density", "distance"}, {"gvf", "gvf2"},
+      "field", kDeformGroup, {"density", "distance"}, {"gvf", "gvf2"},
       [](CompareOptions& o, const std::string& text) { o.field = parse_field_kind(text); },
       [](const CompareOptions& o) { return o.field == FieldKind::kDensity ? "density" : "distance"; },
       "What draws the surface: density, or the distance where it is far"));
   all.push_back(number(
-      "distance-threshold", group, kNotNegative, [](auto& o) -> auto& { return o.distance_threshold_A; },
+      "distance-threshold", kDeformGroup, kNotNegative, [](auto& o) -> auto& { return o.distance_threshold_A; },
       "Distance beyond which the distance field draws, Angstrom"));
   all.push_back(choice(
-      "interpolation", group, {"trilinear", "tricubic"}, {},
+      "interpolation", kDeformGroup, {"trilinear", "tricubic"}, {},
       [](CompareOptions& o, const std::string& text) {
         o.deform.interpolation = o.regularize.interpolation = parse_interpolation(text);
       },
@@ -167,16 +185,16 @@ void add_mapping_settings(std::vector<Setting>& all) {
       },
       "Sampling of the field"));
   all.push_back(choice(
-      "rest-shape", group, {"source", "none"}, {},
+      "rest-shape", kDeformGroup, {"source", "none"}, {},
       [](CompareOptions& o, const std::string& text) { o.deform.rest_shape = text == "source"; },
       [](const CompareOptions& o) { return o.deform.rest_shape ? "source" : "none"; },
       "What the internal force restores: the source's shape, or none but equal edges"));
   add_iteration_settings(
-      all, "", group, [](auto& o) -> auto& { return o.deform; },
+      all, "", kDeformGroup, [](auto& o) -> auto& { return o.deform; },
       [](auto& o) -> auto& { return o.deform_min_displacement; });
   Setting thesis{
       kThesisSetting,
-      group,
+      kDeformGroup,
       SettingKind::kBoolean,
       {},
       "The thesis' iteration as it stands: tangential gains 1, rest shape none, smallest displacements 0.001, "
@@ -225,12 +243,29 @@ const Setting& find_setting(const std::string& name) {
   throw InputError("there is no setting '" + name + "'");
 }
 
+namespace {
+
+/// A setting that the method does not read would be ignored in silence.
+void refuse_of_other_method(const std::vector<std::pair<std::string, std::string>>& given, Method method) {
+  const std::string other = method == Method::kMorph ? kDeformGroup : kMorphGroup;
+  for (const auto& [name, text] : given) {
+    const Setting& setting = find_setting(name);
+    if (setting.group != other || (name == kThesisSetting && text == "0")) continue;
+    throw InputError(name + " is a setting of the method " + (method == Method::kMorph ? "deform" : "morph") +
+                     ", and the method is " + to_string(method) + "; give method " +
+                     (method == Method::kMorph ? "deform" : "morph") + " as well, or leave " + name + " out");
+  }
+}
+
+}  // namespace
+
 CompareOptions make_options(const std::vector<std::pair<std::string, std::string>>& given) {
   const bool thesis = std::any_of(given.begin(), given.end(), [](const auto& setting) {
     return setting.first == kThesisSetting && setting.second == "1";
   });
   CompareOptions options = thesis ? thesis_options() : CompareOptions{};
   for (const auto& [name, text] : given) find_setting(name).set(options, text);
+  refuse_of_other_method(given, options.method);
   return options;
 }
 

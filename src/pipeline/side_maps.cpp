@@ -1,7 +1,6 @@
 // side_maps.cpp: maps of both sides: checks, units, the way onto the device.
 #include "pipeline/side_maps.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
@@ -55,10 +54,16 @@ GridPtr device_map(Engine& engine, const CompareInput& side, const RigidTransfor
   return engine.upload_map(in_unit(*side.map, unit, temperature_K), to_map);
 }
 
-std::size_t count_outside(const CompareInput& side, const std::vector<float>& samples) {
-  const auto n = static_cast<std::size_t>(
-      std::count_if(samples.begin(), samples.end(), [](float value) { return !std::isfinite(value); }));
-  if (n < samples.size()) return n;
+std::size_t count_outside(const CompareInput& side, const std::vector<float>& samples,
+                          const std::vector<bool>& counts) {
+  std::size_t n = 0;
+  bool any_inside = false;
+  for (std::size_t v = 0; v < samples.size(); ++v) {
+    const bool is_inside = std::isfinite(samples[v]);
+    any_inside = any_inside || is_inside;
+    if (!is_inside && (counts.empty() || counts[v])) ++n;
+  }
+  if (any_inside) return n;
   throw InputError(
       (side.map != nullptr ? side.map->name : side.molecule->name) +
       ": the map does not cover the molecule: no vertex of the surface lies in it; compute the map around this "

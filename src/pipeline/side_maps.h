@@ -24,7 +24,9 @@ GridPtr device_map(Engine& engine, const CompareInput& side, const RigidTransfor
                    double temperature_K, const Progress& progress);
 
 /// How many samples lie outside the map.
-/// @throws InputError when all do
-std::size_t count_outside(const CompareInput& side, const std::vector<float>& samples);
+/// @param counts [sample] whether it is counted; empty counts all
+/// @throws InputError when all of the surface lies outside
+std::size_t count_outside(const CompareInput& side, const std::vector<float>& samples,
+                          const std::vector<bool>& counts = {});
 
 }  // namespace espdiff

@@ -45,9 +45,7 @@ class Run {
   std::string state_fingerprint(const std::string& frame) const { return "frame " + frame + " " + file_.fingerprint(); }
 
   /// A morph needs no mapping before it.
-  bool saves_mappings() const {
-    return run_.start == StartFrom::kPrevious && run_.options.method == Method::kDeform;
-  }
+  bool saves_mappings() const { return run_.start == StartFrom::kPrevious && run_.options.method == Method::kDeform; }
 
   void check_earlier_rows() const {
     const auto& rows = file_.rows();

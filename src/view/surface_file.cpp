@@ -98,6 +98,29 @@ void check_exists(const std::string& path) {
   if (std::filesystem::is_directory(status)) throw IoError(path, "is a directory; name the .vtp file in it");
 }
 
+/// [triangle] nonzero entries of a cell array; empty when the file has none of that name.
+std::vector<std::uint8_t> flags_of(vtkPolyData* surface, const char* name) {
+  vtkDataArray* array = scalar_array(surface->GetCellData(), name);
+  std::vector<std::uint8_t> flags;
+  if (array == nullptr || array->GetNumberOfTuples() != surface->GetNumberOfPolys()) return flags;
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i) flags.push_back(array->GetComponent(i, 0) != 0 ? 1 : 0);
+  return flags;
+}
+
+/// Where there is no counterpart the positions mean nothing: those triangles are not part of the surface.
+void drop_triangles(SurfaceFile& file, const std::vector<std::uint8_t>& dropped) {
+  if (dropped.empty()) return;
+  std::size_t n = 0;
+  for (std::size_t t = 0; t < dropped.size(); ++t) {
+    if (dropped[t] != 0) continue;
+    file.triangles[n] = file.triangles[t];
+    if (!file.corrupt.empty()) file.corrupt[n] = file.corrupt[t];
+    ++n;
+  }
+  file.triangles.resize(n);
+  if (!file.corrupt.empty()) file.corrupt.resize(n);
+}
+
 }  // namespace
 
 SurfaceFile read_surface_file(const std::string& path, const std::string& array) {
@@ -146,12 +169,9 @@ SurfaceFile read_surface_file(const std::string& path, const std::string& array)
   if (vtkDataArray* displacement = scalar_array(point_arrays, "displacement"))
     file.displacement = scalars(displacement);
   // Lines or points in the file would come before the polygons in cell data; espdiff writes none.
-  vtkDataArray* corrupt = scalar_array(surface->GetCellData(), "corrupt");
-  if (corrupt != nullptr && corrupt->GetNumberOfTuples() == surface->GetNumberOfPolys()) {
-    for (vtkIdType i = 0; i < corrupt->GetNumberOfTuples(); ++i) {
-      file.corrupt.push_back(corrupt->GetComponent(i, 0) != 0 ? 1 : 0);
-    }
-  }
+  file.corrupt = flags_of(surface, "corrupt");
+  drop_triangles(file, flags_of(surface, "no_counterpart"));
+  if (file.triangles.empty()) throw FormatError(path, 0, "no triangle has a counterpart; nothing to draw");
   auto* unit = vtkStringArray::SafeDownCast(surface->GetFieldData()->GetAbstractArray("potential_unit"));
   if (unit != nullptr && unit->GetNumberOfValues() > 0) file.potential_unit = unit->GetValue(0);
   return file;

@@ -81,7 +81,7 @@ TEST_CASE("trajectory: frames of several files, charges and radii from the sourc
   const ScratchFolder folder;
   const std::string source = folder.write("a.pqr", pqr()), one = folder.write("one.pdb", pdb_models(0, 2)),
                     two = folder.write("two.pdb", pdb_models(2, 3));
-  const std::string start = "trajectory " + source + " " + one + " " + two + " --device cpu ";
+  const std::string start = "trajectory " + source + " " + one + " " + two + " --device cpu --method deform ";
   const Outcome outcome = run_espdiff(start + "--potential pme -o " + folder.file("a.csv"));
   if (outcome.status == 1 && contains(outcome.err, "libfftw3-dev")) {
     MESSAGE("SKIPPED: ", outcome.err);
@@ -99,7 +99,8 @@ TEST_CASE("trajectory: frames of several files, charges and radii from the sourc
   // The same frames as PQR, one file each: the same rows.
   std::string files;
   for (int i = 0; i < 5; ++i) files += folder.write("f" + std::to_string(i) + ".pqr", pqr(0.5 * i)) + " ";
-  CHECK(run_espdiff("trajectory " + source + " " + files + "--device cpu --potential pme -q -o " + folder.file("b.csv"))
+  CHECK(run_espdiff("trajectory " + source + " " + files + "--device cpu --method deform --potential pme -q -o " +
+                    folder.file("b.csv"))
             .status == 0);
   for (const char* name : {"rmsd_A", "mean_abs_difference", "iterations"})
     CHECK(column(folder.file("a.csv"), name) == column(folder.file("b.csv"), name));
@@ -107,7 +108,8 @@ TEST_CASE("trajectory: frames of several files, charges and radii from the sourc
   const std::string with_cell = folder.write("cell.pqr", kCell + pqr()),
                     frames = folder.write("cell.pdb", pdb_models(0, 5, kAtoms, kCell));
   CHECK(run_espdiff("trajectory " + with_cell + " " + frames +
-                    " --device cpu --potential pme --pme-cell own --frames 0:4:end -q -o " + folder.file("c.csv"))
+                    " --device cpu --method deform --potential pme --pme-cell own --frames 0:4:end -q -o " +
+                    folder.file("c.csv"))
             .status == 0);
   CHECK(column(folder.file("c.csv"), "frame") == std::vector<std::string>{"0", "4"});
   CHECK(column(folder.file("c.csv"), "mean_abs_difference")[1] != differences[4]);
@@ -121,8 +123,8 @@ TEST_CASE("trajectory: maps of files, resuming, replacing") {
   const std::string source = folder.write("a.pqr", pqr()), frames = folder.write("f.pdb", pdb_models(0, 4)),
                     low = folder.write("low.dx", constant_dx(33, 4.0, 1.0)),
                     high = folder.write("high.dx", constant_dx(33, 4.0, 4.0)), csv = folder.file("a.csv");
-  const std::string start = "trajectory " + source + " " + frames + " --device cpu --source-map " + low +
-                            " --target-map " + high + " -o " + csv + " ";
+  const std::string start = "trajectory " + source + " " + frames + " --device cpu --method deform --source-map " +
+                            low + " --target-map " + high + " -o " + csv + " ";
   CHECK(run_espdiff(start).status == 0);
   for (const std::string& value : column(csv, "mean_signed_difference")) CHECK(std::stod(value) == doctest::Approx(3));
   const auto rmsd = column(csv, "rmsd_A"), iterations = column(csv, "iterations");
@@ -134,7 +136,8 @@ TEST_CASE("trajectory: maps of files, resuming, replacing") {
   const Outcome exists = run_espdiff(start);
   CHECK(exists.status == 2);
   CHECK(contains(exists.err, "--resume goes on with it, --overwrite replaces it"));
-  CHECK(contains(run_espdiff(start + "--resume --mu 0.6").err, "was made with settings '', not with 'mu 0.6'"));
+  CHECK(contains(run_espdiff(start + "--resume --mu 0.6").err,
+                 "was made with settings 'method deform', not with 'method deform mu 0.6'"));
   const Outcome resumed = run_espdiff(start + "--resume");
   CHECK_MESSAGE(resumed.status == 0, resumed.err);
   CHECK(contains(resumed.out, "2 written, 2 were there"));

@@ -45,6 +45,7 @@ struct Motion {
       return FrameInput{side.molecule, &side.map, nullptr};
     };
     t.options = quick_options();
+    t.options.method = espdiff::Method::kDeform;  // whose mappings start from the one before
     t.options.surface.grid_spacing_A = 1.5;
     t.options.deform.max_iterations = 3000;
     return t;
