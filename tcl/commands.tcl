@@ -92,8 +92,9 @@ namespace eval ::espdiff {
             {-reference-map text {} "Potential of the reference; without it by the rule of -map for its frame"}
             {-unit text {} "Unit of the maps if they do not say: kT/e, mV, V, kcal/mol/e, kJ/mol/e, hartree/e"}
             {-radii choice vmd "Radii of the molecule: VMD's, or Bondi's by element" {vmd element}}
-            {-start choice previous "Begin each frame's mapping at the previous frame's where that is nearer than the\
-                source (faster, and it follows larger motions), or always at the source" {previous source}}
+            {-start choice previous "Of -method deform: begin each frame's mapping at the previous frame's where that\
+                is nearer than the source (faster, and it follows larger motions), or always at the source"
+                {previous source}}
             {-csv file required "File that gets one row for each frame"}
             {-resume boolean 0 "Go on where an interrupted run left the file"}
             {-overwrite boolean 0 "Replace the file if it exists"}
@@ -124,8 +125,8 @@ namespace eval ::espdiff {
             {-dielectric positive 1.0 "Dielectric constant of -method coulomb"}
             {-align choice none "Superpose each frame on the first by these atoms: the average then stays with the\
                 molecule" {none all backbone ca}}
-            {-averaging choice mean "mean: one map, the mean over the frames; each: a map for each frame, FILE.0000.dx and\
-                so on by the frames' numbers" {mean each}}
+            {-averaging choice mean "mean: one map, the mean over the frames; each: a map for each frame, FILE.0000.dx\
+                and so on by the frames' numbers" {mean each}}
             {-block count 1 "Frames in a block, for the error bar"}
             {-variance boolean 0 "Also the variance over the frames, a data set or FILE.variance.dx"}
             {-error boolean 0 "Also the standard error of the mean from the blocks, a data set or FILE.error.dx"}

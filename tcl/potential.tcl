@@ -68,7 +68,9 @@ namespace eval ::espdiff {
             set charges [vmd_charges $mol [dict get $options sel] [lindex $frames 0] -sel]
             set maps [dict create mol {} volumes {} files {}]
             foreach frame $frames {
-                if {[dict get $options updatesel]} { set charges [vmd_charges $mol [dict get $options sel] $frame -sel] }
+                if {[dict get $options updatesel]} {
+                    set charges [vmd_charges $mol [dict get $options sel] $frame -sel]
+                }
                 core::potential_frame $handle [potential_frame $mol $frame $charges $options]
                 potential_wait $handle [dict get $options progress] $done [llength $frames]
                 incr done
@@ -108,7 +110,9 @@ namespace eval ::espdiff {
         set core {}
         set xsc [dict get $options xscfile]
         if {$xsc ne ""} {
-            if {[dict get $options cell] ne ""} { fail "espdiff potential: -cell and -xscfile were given; leave one out" }
+            if {[dict get $options cell] ne ""} {
+                fail "espdiff potential: -cell and -xscfile were given; leave one out"
+            }
             dict set options cell [core::xsc_cell $xsc]
         }
         foreach key {

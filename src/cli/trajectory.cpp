@@ -34,7 +34,8 @@ void add_run_options(CLI::App& p, Arguments& a) {
       ->capture_default_str()
       ->group(group);
   p.add_option("--start", a.start,
-               "Begin each frame's mapping at the previous frame's where that is nearer than the source (faster, and "
+               "Of --method deform: begin each frame's mapping at the previous frame's where that is nearer than the "
+               "source (faster, and "
                "it follows larger motions), or always at the source")
       ->check(CLI::IsMember({"previous", "source"}))
       ->capture_default_str()
