@@ -14,6 +14,7 @@
 #include "coulomb.h"
 #include "deform.h"
 #include "density.h"
+#include "distortion.h"
 #include "engine/engine.h"
 #include "engine/make_engine.h"
 #include "fields.h"
@@ -229,6 +230,11 @@ class BackEndEngine : public Engine {
 
   IntersectionReport self_intersections(const MeshPtr& mesh) override {
     return run([&] { return ESPDIFF_BACKEND::self_intersections(unwrap<SurfaceMesh>(mesh)); });
+  }
+
+  DistortionReport distortion(const MeshPtr& source, const MeshPtr& mapped, double limit) override {
+    return run(
+        [&] { return ESPDIFF_BACKEND::distortion(unwrap<SurfaceMesh>(source), unwrap<SurfaceMesh>(mapped), limit); });
   }
 
   double area(const MeshPtr& mesh) override {

@@ -22,7 +22,8 @@ constexpr float kLastShift_A = 0.3F;
 
 void check_options(const MorphOptions& o) {
   if (!(o.max_step_A > 0))
-    throw InputError("the morph's largest step, " + std::to_string(o.max_step_A) + " A, is not positive; 0.3 is usual");
+    throw InputError("the morph's largest step, " + std::to_string(o.max_step_A) +
+                     " A, is not positive; 0.35 is usual");
   if (!(o.max_edge_A > 0))
     throw InputError("the morph's longest edge, " + std::to_string(o.max_edge_A) + " A, is not positive");
   if (!(o.max_stretch > 1))

@@ -92,8 +92,8 @@ namespace eval ::espdiff {
             {-reference-map text {} "Potential of the reference; without it by the rule of -map for its frame"}
             {-unit text {} "Unit of the maps if they do not say: kT/e, mV, V, kcal/mol/e, kJ/mol/e, hartree/e"}
             {-radii choice vmd "Radii of the molecule: VMD's, or Bondi's by element" {vmd element}}
-            {-start choice previous "Of -method deform: begin each frame's mapping at the previous frame's where that\
-                is nearer than the source (faster, and it follows larger motions), or always at the source"
+            {-start choice previous "Begin each frame's mapping at the previous frame's where that is nearer than the\
+                source, or always at the source; with -method deform only, the morph always begins at the source"\
                 {previous source}}
             {-csv file required "File that gets one row for each frame"}
             {-resume boolean 0 "Go on where an interrupted run left the file"}

@@ -204,6 +204,15 @@ struct MorphResult {
   MorphReport report;
 };
 
+/// How a mapping changes areas and shapes; see Engine::distortion(). Quantiles by the source's area.
+struct DistortionReport {
+  double area_ratio_p05 = 1, area_ratio_median = 1, area_ratio_p95 = 1;  ///< mapped area / source area
+  /// Symmetric Dirichlet energy (|J|^2 + |J^-1|^2) / 4, J the triangle's linear map: 1 where nothing is distorted,
+  /// infinite for a triangle without area.
+  double dirichlet_median = 1, dirichlet_p95 = 1;
+  ScalarsPtr excessive;  ///< [triangle] 1 where the area around it has grown by more than the limit, else 0
+};
+
 /// The triangles of a closed mesh that intersect one another; see Engine::self_intersections().
 struct IntersectionReport {
   std::size_t n_pairs = 0;       ///< of triangles that intersect, and each triangle without area as a pair with itself
@@ -356,6 +365,11 @@ class Engine {
   /// grows as n log n with the number of triangles, and with the number of such pairs.
   virtual IntersectionReport self_intersections(const MeshPtr& mesh) = 0;
   virtual double area(const MeshPtr& mesh) = 0;
+  /// Compares the triangles of two meshes of one topology (Smith and Schaefer, ACM Trans. Graph. 34, 70 (2015), for the
+  /// energy).
+  /// @param limit of the ratio of areas, mapped to source, as measured over the rings of a triangle's three corners
+  /// @throws GeometryError when the topologies differ in size
+  virtual DistortionReport distortion(const MeshPtr& source, const MeshPtr& mapped, double limit) = 0;
 
   /// [vertex] index of the residue with the largest density at the vertex; -1 where no atom reaches.
   virtual std::vector<std::int32_t> vertex_residues(const MeshPtr& mesh, const AtomsPtr& atoms) = 0;

@@ -46,6 +46,9 @@ struct Side {
 /// this.
 constexpr double kNearestPartner_A = 2.5;
 
+/// Atoms farther than this from their anchor do not sprout: a ligand that floats free has no counterpart.
+constexpr double kSproutReach_A = 8;
+
 bool is_hydrogen(const Atom& atom) { return atom.element == "H" || atom.element == "D"; }
 
 /// Pairs of atoms that `pairing` left over in paired residues: nearest first, hydrogens among themselves.
@@ -117,18 +120,24 @@ std::vector<MovingAtom> atom_ways(const Molecule& source, const Molecule& target
   }
   for (std::size_t s = 0; s < source.size(); ++s) {
     if (from.paired[s] || !(source.radii[s] > 0)) continue;
+    const std::size_t anchor = from.anchor(s);
     MovingAtom way;
     way.start = from_source.apply(source.positions[s]);
-    way.end = from_target.apply(target.positions[target_of[from.anchor(s)]]);
+    way.end = from_target.apply(target.positions[target_of[anchor]]);
+    const Vec3d arm = way.start - from_source.apply(source.positions[anchor]);
+    if (norm(arm) > kSproutReach_A) way.end += arm;
     way.start_width = way.end_width = width(source.radii[s]);
     way.at_end = false;
     ways.push_back(way);
   }
   for (std::size_t t = 0; t < target.size(); ++t) {
     if (to.paired[t] || !(target.radii[t] > 0)) continue;
+    const std::size_t anchor = to.anchor(t);
     MovingAtom way;
-    way.start = from_source.apply(source.positions[source_of[to.anchor(t)]]);
+    way.start = from_source.apply(source.positions[source_of[anchor]]);
     way.end = from_target.apply(target.positions[t]);
+    const Vec3d arm = way.end - from_target.apply(target.positions[anchor]);
+    if (norm(arm) > kSproutReach_A) way.start += arm;
     way.start_width = way.end_width = width(target.radii[t]);
     way.at_start = false;
     ways.push_back(way);

@@ -11,7 +11,8 @@ namespace espdiff {
 /// Paired atoms go straight from where they are to where their counterpart is. Atoms left over in paired residues, as
 /// by a substitution, pair with the nearest one left over in the other, hydrogens among themselves, within 2.5 A. Any
 /// other atom without a counterpart grows out of, or shrinks into, its *anchor*, the nearest paired atom of its residue
-/// (of the molecule where its residue has none): so that a side chain sprouts instead of appearing in free space.
+/// (of the molecule where its residue has none), so that a side chain sprouts instead of appearing in free space;
+/// farther than 8 A from it, it appears or vanishes in place, moving as its anchor does.
 /// @param from_source, from_target own frames -> common frame
 /// @throws InputError when no atoms pair
 std::vector<MovingAtom> atom_ways(const Molecule& source, const Molecule& target, const AtomPairing& pairing,

@@ -42,6 +42,7 @@ Certificate certify(Engine& engine, const Mapping& mapping, const MeshPtr& targe
   c.flipped_area_fraction = mapping.fit.flipped_area_fraction;
   c.irregularity_A = mapping.fit.irregularity_A;
   c.mapped_to_target = mapping.to_target;
+  c.distortion = mapping.distortion;
   c.target_to_mapped = engine.distances(target, mapping.counted, kCounterpartLimit_A);
   c.self_intersecting_pairs = mapping.intersections.n_pairs;
   const double kept = engine.area(mapping.counted_source) / engine.area(mapping.source);

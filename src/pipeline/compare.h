@@ -89,6 +89,7 @@ struct Certificate {
   /// Share of the source's area that the mapping lost, or that it took farther than 1 A from the target.
   double no_counterpart_source = 0;
   double no_counterpart_target = 0;  ///< share of the target's area farther than 1 A from the mapped surface
+  DistortionReport distortion;
   /// Share of the mapped area whose residue (of most density) on the target is the one paired with that on the source;
   /// NaN where no residues pair.
   double same_residue_area_fraction = 0;

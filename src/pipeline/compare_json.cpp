@@ -47,6 +47,10 @@ Json certificate(const Certificate& c) {
   json["flipped_area_fraction"] = number(c.flipped_area_fraction);
   json["no_counterpart_area_fraction"] = {{"source", number(c.no_counterpart_source)},
                                           {"target", number(c.no_counterpart_target)}};
+  const DistortionReport& d = c.distortion;
+  json["area_ratio"] = {
+      {"p05", number(d.area_ratio_p05)}, {"median", number(d.area_ratio_median)}, {"p95", number(d.area_ratio_p95)}};
+  json["symmetric_dirichlet"] = {{"median", number(d.dirichlet_median)}, {"p95", number(d.dirichlet_p95)}};
   json["same_residue_area_fraction"] = number(c.same_residue_area_fraction);
   json["irregularity_A"] = number(c.irregularity_A);
   json["converged"] = c.converged;

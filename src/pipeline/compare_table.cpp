@@ -120,6 +120,10 @@ void print_certificate(std::ostream& out, const CompareResult& result) {
   line(out, "without counterpart",
        percent(c.no_counterpart_source) + " of the source's, " + percent(c.no_counterpart_target) +
            " of the target's area");
+  const DistortionReport& d = c.distortion;
+  line(out, "area, mapped to source",
+       "median " + significant(d.area_ratio_median) + ", 90 % of the area from " + significant(d.area_ratio_p05) +
+           " to " + significant(d.area_ratio_p95));
   line(out, "on the same residue", percent(c.same_residue_area_fraction) + " of the mapped area");
   line(out, "irregularity", significant(c.irregularity_A) + " A");
   if (result.morph_report.steps > 0) {

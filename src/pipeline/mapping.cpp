@@ -22,6 +22,7 @@ void measure(Engine& engine, Mapping& mapping, const AtomsPtr& target_atoms, con
   mapping.fit = engine.fit(mapping.counted, target_atoms, isovalue);
   mapping.intersections = engine.self_intersections(mapping.counted);
   mapping.to_target = engine.distances(mapping.counted, target, kCounterpartLimit_A);
+  mapping.distortion = engine.distortion(mapping.counted_source, mapping.counted, kAreaRatioLimit);
 }
 
 }  // namespace
@@ -35,18 +36,19 @@ void settle(Engine& engine, Mapping& mapping, const AtomsPtr& target_atoms, cons
   }
   bool more = true;
   while (more) {
-    mapping.counted = engine.without(mapping.mapped, engine.upload_scalars(mapping.lost));
+    const ScalarsPtr lost = engine.upload_scalars(mapping.lost);
+    mapping.counted = engine.without(mapping.mapped, lost);
+    mapping.counted_source = engine.without(mapping.source, lost);
     measure(engine, mapping, target_atoms, target, isovalue);
     std::vector<float> marked = engine.download(mapping.fit.corrupt);
-    for (const ScalarsPtr& flags :
-         {mapping.fit.flipped, mapping.intersections.intersecting, mapping.to_target.beyond}) {
+    for (const ScalarsPtr& flags : {mapping.fit.flipped, mapping.intersections.intersecting, mapping.to_target.beyond,
+                                    mapping.distortion.excessive}) {
       const std::vector<float> other = engine.download(flags);
       std::transform(marked.begin(), marked.end(), other.begin(), marked.begin(),
                      [](float a, float b) { return std::max(a, b); });
     }
     more = lose(mapping.lost, marked);
   }
-  mapping.counted_source = engine.without(mapping.source, engine.upload_scalars(mapping.lost));
 }
 
 void drop_closed_cavities(Engine& engine, Mapping& mapping) {

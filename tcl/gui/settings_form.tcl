@@ -7,8 +7,8 @@ namespace eval ::espdiff::gui {
     array set standard {}
 
     # Groups of the table that are small share a page.
-    variable setting_pages {General {Molecules Potentials Computing} Surface Surface Mapping Mapping
-        Regularization Regularization}
+    variable setting_pages {General {Molecules Potentials Computing} Surface Surface
+        Mapping {Mapping {Mapping by morph}} Deform {{Mapping by deform}} Regularization Regularization}
 
     # The core's settings and those of the commands that compute.
     proc all_settings {} {

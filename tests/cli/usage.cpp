@@ -52,7 +52,7 @@ TEST_CASE("what this version does not have says so") {
   }
   const ScratchFolder folder;
   const std::string molecule = folder.write("a.pqr", row_of_atoms(6));
-  for (const char* option : {"--method morph", "--field gvf"}) {
+  for (const char* option : {"--field gvf"}) {
     const Outcome outcome =
         run_espdiff("compare " + molecule + " " + molecule + " -o " + folder.file("out") + " " + option);
     CHECK(outcome.status == 2);

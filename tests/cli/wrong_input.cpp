@@ -157,9 +157,10 @@ TEST_CASE("Ctrl-C in the middle leaves nothing half written") {
   const auto path = real_input("ref_apbs/1tca.pqr");
   if (!path) return;
   const ScratchFolder folder;
-  const Outcome outcome = run_espdiff(
-      "compare " + *path + " " + *path + " --grid-spacing 0.4 --min-displacement 0 -o " + folder.file("out"),
-      "timeout -s INT 1.5");
+  const Outcome outcome =
+      run_espdiff("compare " + *path + " " + *path + " --grid-spacing 0.4 --method deform --min-displacement 0 -o " +
+                      folder.file("out"),
+                  "timeout -s INT 1.5");
   CHECK_MESSAGE(outcome.status == 124, outcome.status);  // of timeout: the time was up
   CHECK_MESSAGE(contains(outcome.err, "cancelled; nothing was written"), outcome.err);
   CHECK(folder.n_files() == 0);

@@ -33,6 +33,13 @@ struct Motion {
   }
 };
 
+/// Starts from the step before are deform's.
+CompareOptions deform_options() {
+  CompareOptions options = quick_options();
+  options.method = espdiff::Method::kDeform;
+  return options;
+}
+
 std::unique_ptr<espdiff::Engine> one_engine() { return espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2); }
 
 }  // namespace
@@ -50,10 +57,22 @@ TEST_CASE("steps that start from the source give the same bits as comparisons on
   }
 }
 
+TEST_CASE("the morph starts each step from the source, whatever is asked") {
+  const Motion motion;
+  const auto engine = one_engine();
+  Series series(*engine, motion.source.input(), quick_options());
+  for (const Side& frame : {motion.frames[0], motion.frames[1]}) {
+    const CompareResult step = series.step(frame.input(), StartFrom::kPrevious, {});
+    CHECK(step.start == StartFrom::kSource);
+    CHECK(hash_of(step) == hash_of(compare(*engine, motion.source.input(), frame.input(), quick_options(), {})));
+    CHECK_FALSE(series.state().has_value());
+  }
+}
+
 TEST_CASE("along a motion steps start from the previous one, need fewer iterations, and fit as well") {
   const Motion motion;
   const auto engine = one_engine();
-  CompareOptions options = quick_options();
+  CompareOptions options = deform_options();
   options.deform.max_iterations = 3000;
   Series along(*engine, motion.source.input(), options), apart(*engine, motion.source.input(), options);
   int n_along = 0, n_apart = 0;
@@ -73,7 +92,7 @@ TEST_CASE("along a motion steps start from the previous one, need fewer iteratio
 TEST_CASE("a step starts from the source when the previous target lies farther away than that") {
   const Motion motion;
   const auto engine = one_engine();
-  Series series(*engine, motion.source.input(), quick_options());
+  Series series(*engine, motion.source.input(), deform_options());
   series.step(motion.frames[3].input(), StartFrom::kPrevious, {});
   CHECK(series.step(bent(motion.source, 0.3).input(), StartFrom::kPrevious, {}).start == StartFrom::kSource);
 }
@@ -81,7 +100,7 @@ TEST_CASE("a step starts from the source when the previous target lies farther a
 TEST_CASE("a step that failed leaves the series usable, and the next one starts from the source") {
   const Motion motion;
   const auto engine = one_engine();
-  Series series(*engine, motion.source.input(), quick_options());
+  Series series(*engine, motion.source.input(), deform_options());
   series.step(motion.frames[0].input(), StartFrom::kPrevious, {});
   CHECK_THROWS_AS(series.step(motion.frames[1].shape(), StartFrom::kPrevious, {}), espdiff::InputError);
   espdiff::Progress cancelled;
@@ -98,7 +117,7 @@ TEST_CASE("a series that goes on from its saved state gives the same bits") {
   const ScratchFolder folder;
   const std::string path = folder.file("run.state");
   const auto engine = one_engine();
-  Series whole(*engine, motion.source.input(), quick_options());
+  Series whole(*engine, motion.source.input(), deform_options());
   CHECK_FALSE(whole.state().has_value());
   whole.step(motion.frames[0].input(), StartFrom::kPrevious, {});
   whole.step(motion.frames[1].input(), StartFrom::kPrevious, {});
@@ -106,7 +125,7 @@ TEST_CASE("a series that goes on from its saved state gives the same bits") {
   const CompareResult expected = whole.step(motion.frames[2].input(), StartFrom::kPrevious, {});
   REQUIRE(expected.start == StartFrom::kPrevious);
 
-  Series resumed(*engine, motion.source.input(), quick_options());
+  Series resumed(*engine, motion.source.input(), deform_options());
   resumed.restore(espdiff::read_series_state(path, "run 1, frame 1"));
   const CompareResult result = resumed.step(motion.frames[2].input(), StartFrom::kPrevious, {});
   CHECK(result.start == StartFrom::kPrevious);
@@ -141,13 +160,13 @@ TEST_CASE("a state of something else, or damaged, is refused with what to do") {
   CHECK_THROWS_AS(espdiff::read_series_state(path, "run 1"), espdiff::FormatError);
 
   const auto engine = one_engine();
-  Series series(*engine, motion.source.input(), quick_options());
+  Series series(*engine, motion.source.input(), deform_options());
   series.restore(state);
   CHECK(message_of([&] {
           series.step(motion.frames[0].input(), StartFrom::kPrevious, {});
         }).find("the saved state is of a surface with 10 vertices") == 0);
   state.target.resize(3);
-  Series other(*engine, motion.source.input(), quick_options());
+  Series other(*engine, motion.source.input(), deform_options());
   CHECK(message_of([&] { other.restore(state); }) ==
         "the saved state is of a source with 3 atoms, this one has 120; start the series anew");
 }

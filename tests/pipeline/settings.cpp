@@ -39,7 +39,8 @@ TEST_CASE("each setting takes its own default back, and each choice") {
 }
 
 TEST_CASE("a setting changes what it names") {
-  const CompareOptions o = make_options({{"grid-spacing", "0.5"},
+  const CompareOptions o = make_options({{"method", "deform"},
+                                         {"grid-spacing", "0.5"},
                                          {"regularize-mu", "0.4"},
                                          {"mu", "0.6"},
                                          {"field", "density"},
@@ -79,8 +80,22 @@ TEST_CASE("what a setting does not accept is named with what it does") {
   CHECK(message("cavities", "yes") == "cavities: 'yes' is not 0 or 1");
   CHECK(message("align", "heavy") == "align: 'heavy' is not all, backbone, ca or none");
   CHECK(message("field", "gvf") == "field: 'gvf' is not in this version; use density or distance");
-  CHECK(message("method", "morph") == "method: 'morph' is not in this version; use deform");
+  CHECK(message("method", "morf") == "method: 'morf' is not morph or deform");
+  CHECK(message("max-stretch", "1") == "max-stretch: '1' is not a number above 1");
   CHECK(message("sigmas", "1") == "there is no setting 'sigmas'");
+}
+
+TEST_CASE("a setting that the method does not read is refused") {
+  CHECK(message_of([] {
+          make_options({{"mu", "0.5"}});
+        }) ==
+        "mu is a setting of the method deform, and the method is morph; give method deform as well, or leave mu out");
+  CHECK(message_of([] {
+          make_options({{"max-step", "0.5"}, {"method", "deform"}});
+        }) ==
+        "max-step is a setting of the method morph, and the method is deform; give method morph as well, or leave "
+        "max-step out");
+  CHECK(make_options({{"thesis", "1"}, {"mu", "0.5"}}).method == espdiff::Method::kDeform);
 }
 
 TEST_SUITE_END();

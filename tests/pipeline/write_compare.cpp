@@ -47,8 +47,8 @@ CompareResult made_result() {
   result.target_surface = {5, 6, 1, 0, 12, 0};
   result.area_mapped_A2 = 12;
   result.certificate.corrupt_area_fraction = 0.125;
-  result.certificate.mapped_to_target = {0.01, 0.05, 0.5, 0};
-  result.certificate.target_to_mapped = {0.02, 0.06, 1.5, 0.25};
+  result.certificate.mapped_to_target = {0.01, 0.05, 0.5, 0, 0.01, nullptr};
+  result.certificate.target_to_mapped = {0.02, 0.06, 1.5, 0.25, 0.015, nullptr};
   result.certificate.no_counterpart_target = 0.25;
   result.certificate.converged = true;
   result.certificate.reasons = {"12.5 % of the mapped area is corrupt (limit 0.1 %)"};
@@ -83,7 +83,9 @@ Provenance made_provenance() {
 }
 
 Json made_json(const CompareResult& result) {
-  return Json::parse(compare_json(made_molecule("a.pqr"), made_molecule("b.pqr"), result, {}, made_provenance()));
+  CompareOptions options;
+  options.method = espdiff::Method::kDeform;
+  return Json::parse(compare_json(made_molecule("a.pqr"), made_molecule("b.pqr"), result, options, made_provenance()));
 }
 
 void write(const std::string& prefix, const CompareResult& result = made_result()) {

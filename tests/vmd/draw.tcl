@@ -139,6 +139,6 @@ test "redrawing: how long" {
 }
 
 # VMD is left while this runs: run_in_vmd sees whether it ends.
-espdiff compare [list mol $source] [list mol $target] -grid-spacing 0.4 -min-displacement 0 -command list
+espdiff compare [list mol $source] [list mol $target] -grid-spacing 0.4 -method deform -min-displacement 0 -command list
 after 300
 finish

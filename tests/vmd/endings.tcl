@@ -46,7 +46,7 @@ test "cancelled at 60 random moments: always an end, and the next comparison wor
 
 test "break from -progress cancels, and says so" {
     proc stop {stage fraction} { if {$stage eq "deform"} { return -code break } }
-    check_refused {espdiff compare [list mol $mol] [list mol $other] -progress stop -min-displacement 0} \
+    check_refused {espdiff compare [list mol $mol] [list mol $other] -progress stop -method deform -min-displacement 0} \
         {ESPDIFF CANCELLED} "cancelled"
 }
 
@@ -63,6 +63,6 @@ test "in the background VMD goes on, and the command is called at the end" {
 }
 
 # VMD is left while this runs: run_in_vmd sees whether it ends.
-espdiff compare [list mol $mol] [list mol $other] -grid-spacing 0.4 -min-displacement 0 -command list
+espdiff compare [list mol $mol] [list mol $other] -grid-spacing 0.4 -method deform -min-displacement 0 -command list
 after 300
 finish
