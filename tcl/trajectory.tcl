@@ -171,7 +171,8 @@ namespace eval ::espdiff {
     proc saves_mappings {run_name} {
         upvar 1 $run_name run
         # A morph needs no mapping before it.
-        set method [value_or $run(core_options) method deform]
+        set usual [expr {[value_or $run(core_options) thesis 0] ? "deform" : "morph"}]
+        set method [value_or $run(core_options) method $usual]
         expr {$run(start) eq "previous" && $run(series) ne "" && $method eq "deform"}
     }
 
