@@ -125,6 +125,8 @@ namespace eval ::espdiff {
             {-dielectric positive 1.0 "Dielectric constant of -method coulomb"}
             {-align choice none "Superpose each frame on the first by these atoms: the average then stays with the\
                 molecule" {none all backbone ca}}
+            {-averaging choice mean "mean: one map, the mean over the frames; each: a map for each frame, FILE.0000.dx\
+                and so on by the frames' numbers" {mean each}}
             {-block count 1 "Frames in a block, for the error bar"}
             {-variance boolean 0 "Also the variance over the frames, a data set or FILE.variance.dx"}
             {-error boolean 0 "Also the standard error of the mean from the blocks, a data set or FILE.error.dx"}

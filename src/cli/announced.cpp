@@ -5,7 +5,7 @@ namespace espdiff::cli {
 
 std::vector<Verb> add_announced(CLI::App& app) {
   std::vector<Verb> verbs;
-  for (const char* name : {"trajectory", "matrix"}) {
+  for (const char* name : {"matrix"}) {
     CLI::App* parser = app.add_subcommand(name, "Not in this version");
     parser->allow_extras();
     parser->group("Not in this version");

@@ -27,6 +27,7 @@ struct Verb {
 };
 
 Verb add_compare(CLI::App& app);
+Verb add_trajectory(CLI::App& app);
 Verb add_surface(CLI::App& app);
 Verb add_potential(CLI::App& app);
 Verb add_render(CLI::App& app);

@@ -2,6 +2,7 @@
 // of the stages.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -147,10 +148,17 @@ struct CompareResult {
   std::vector<std::pair<std::string, double>> time_ms;  ///< stage, in order, and last "total"
 };
 
-/// One side of a comparison. Maps may be absent on both sides: then shapes are compared only.
+/// Makes a potential map where it is needed, on the device: sampled there in whatever way the map was made for, such as
+/// by its splines (PmeOptions::smooth_samples). In kT/e at the comparison's temperature. `to_map` is the way from the
+/// common frame into the molecule's own, which is the map's.
+using MapMaker = std::function<GridPtr(Engine& engine, const RigidTransform& to_map, const Progress& progress)>;
+
+/// One side of a comparison, with a map that is given, or one that is computed, or none. Maps may be absent on both
+/// sides: then shapes are compared only.
 struct CompareInput {
   const Molecule* molecule = nullptr;
   const Grid* map = nullptr;
+  MapMaker make_map = nullptr;  ///< instead of `map`
 };
 
 /// What a series hands from one step to the next, all in the source's principal frame. Angstrom.
@@ -159,7 +167,8 @@ struct SeriesState {
   std::vector<Vec3d> target;  ///< [atom of the source] where the last target's counterpart lay; NaN where there is none
 };
 
-/// Many targets compared with one source, whose surface is made and regularized once, for the first of them.
+/// Many targets compared with one source, whose surface is made and regularized once, for the first of them, and whose
+/// potential is computed once.
 class Series {
  public:
   /// Keeps references to all but the options.
@@ -198,6 +207,7 @@ struct SurfaceResult {
   std::vector<Vec3d> positions;       ///< [vertex] double precision, the molecule's frame
   std::vector<std::int32_t> residue;  ///< [vertex]
   std::vector<float> potential;       ///< [vertex], empty without a map
+  PotentialUnit unit = PotentialUnit::kUnknown;
   SurfaceSummary summary;
   std::vector<ComponentSummary> components;  ///< all, cavities included
   DeformReport regularize_report;
