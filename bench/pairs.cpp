@@ -25,7 +25,8 @@ struct Settings {
   int threads = 0, repeats = 1;
   std::optional<double> tangential_gain, sigma, mu, rho, spacing, min_displacement;
   std::optional<int> max_iterations;
-  bool all_ubiquitin = false, all_adk = false, thesis = false, cavities = false, skip_series = false;
+  bool all_ubiquitin = false, all_adk = false, thesis = false, round_trip = false, cavities = false,
+       skip_series = false;
 };
 
 void define_options(CLI::App& app, Settings& s) {
@@ -43,6 +44,7 @@ void define_options(CLI::App& app, Settings& s) {
   app.add_option("--max-iterations", s.max_iterations, "Limit of the mapping's iterations");
   app.add_option("--grid-spacing", s.spacing, "Angstrom");
   app.add_option("--align", s.align, "Atoms to superpose: all, backbone, ca or none")->capture_default_str();
+  app.add_flag("--round-trip", s.round_trip, "Map there and back");
   app.add_flag("--cavities", s.cavities, "Keep closed cavities");
   app.add_option("--threads", s.threads, "CPU threads; 0 takes all")->capture_default_str();
   app.add_option("--repeats", s.repeats, "Times are medians of so many runs")
@@ -69,6 +71,7 @@ espdiff::CompareOptions compare_options(const Settings& s) {
   options.surface.grid_spacing_A = s.spacing.value_or(options.surface.grid_spacing_A);
   options.deform_min_displacement = s.min_displacement.value_or(options.deform_min_displacement);
   if (!s.rest_shape.empty()) options.deform.rest_shape = s.rest_shape == "source";
+  options.round_trip = s.round_trip;
   if (s.cavities) options.surface.cavities = true;
   return options;
 }

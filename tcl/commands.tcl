@@ -136,7 +136,7 @@ namespace eval ::espdiff {
         } $computing] \
         summary {Compares many variants, each with each, both ways. A variant is an endpoint that may have a `label` and
             a `group`; {mol ID frames BEGIN:STEP:END ...} stands for one variant a frame, and {file PATH ...} without
-            `model` for one a model. Each one's surface is regularized, and its potential computed, once.} \
+            `model` for one a model. Each source's surface is regularized, and its potential computed, once.} \
         returns {a handle, such as matrix1; `espdiff result` has what OUT.json has, and pairs, resumed, seconds,
             files} \
         example {espdiff matrix {{mol 0 frames 0:10: map pme} {file open.pqr map pme group open}} -output adk}]
@@ -187,6 +187,8 @@ namespace eval ::espdiff {
             {-dielectric positive 1.0 "Dielectric constant of -method coulomb"}
             {-align choice none "Superpose each frame on the first by these atoms: the average then stays with the\
                 molecule" {none all backbone ca}}
+            {-averaging choice mean "mean: one map, the mean over the frames; each: a map for each frame, FILE.0000.dx\
+                and so on by the frames' numbers" {mean each}}
             {-block count 1 "Frames in a block, for the error bar"}
             {-variance boolean 0 "Also the variance over the frames, a data set or FILE.variance.dx"}
             {-error boolean 0 "Also the standard error of the mean from the blocks, a data set or FILE.error.dx"}

@@ -38,10 +38,13 @@ Tcl_Obj* build(const Call&) {
 
 Tcl_Obj* back_ends(const Call&) {
   std::vector<Tcl_Obj*> all;
-  for (const BackEndStatus& status : {cpu_status(), cuda_status()}) {
+  for (const auto& [status, fourier] :
+       {std::pair(cpu_status(), cpu_fourier_status()), std::pair(cuda_status(), cuda_fourier_status())}) {
     all.push_back(to_dict({{"name", to_obj(status.name)},
                            {"available", to_obj(status.available)},
-                           {"description", to_obj(status.description)}}));
+                           {"description", to_obj(status.description)},
+                           {"fourier", to_dict({{"available", to_obj(fourier.available)},
+                                                {"description", to_obj(fourier.description)}})}}));
   }
   return to_list(all);
 }

@@ -45,8 +45,8 @@ void run_step(ComparisonObject& step, StartFrom start, const Progress& progress)
   progress.report("read", 0.0);
   if (series.engine == nullptr) series.engine = engine_for(series.computation);
   const double temperature_K = series.computation.options.temperature_K;
-  load(series.source, *series.engine, temperature_K, progress);
-  load(step.target, *series.engine, temperature_K, progress);
+  load(series.source, temperature_K);
+  load(step.target, temperature_K);
   if (series.series == nullptr) {
     series.series = std::make_unique<Series>(*series.engine, input_of(series.source), series.computation.options);
     if (series.restored) series.series->restore(std::move(*series.restored));
@@ -118,7 +118,7 @@ Tcl_Obj* surface(const Call& call) {
         if (alive == nullptr) return;
         progress.report("read", 0.0);
         const std::unique_ptr<Engine> engine = engine_for(alive->computation);
-        load(alive->molecule, *engine, alive->computation.options.temperature_K, progress);
+        load(alive->molecule, alive->computation.options.temperature_K);
         alive->result =
             make_surface(*engine, input_of(alive->molecule), alive->computation.options, regularize, progress);
       });

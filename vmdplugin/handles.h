@@ -69,7 +69,9 @@ struct PotentialObject : Object {
   const char* kind() const override { return "potential"; }
   Computation computation;
   PotentialOptions potential;
-  std::unique_ptr<Engine> engine;           // made, like what follows, by the first frame's job
+  bool keeps_frames = false;                // each frame's own map is wanted
+  Grid frame;                               // the last one's, if so
+  std::shared_ptr<Engine> engine;           // made, like what follows, by the first frame's job
   std::unique_ptr<PotentialSeries> series;  // destroyed before the engine
 };
 

@@ -28,13 +28,13 @@ void add_variant(Tcl_Obj* description, MatrixObject& object) {
   Tcl_DecrRefCount(endpoint);
 }
 
-/// Reads the files and computes the potentials that are to be computed; the endpoints are empty after.
-std::vector<Variant> load_variants(MatrixObject& object, Engine& engine, const Progress& progress) {
+/// Reads the files; the endpoints are empty after.
+std::vector<Variant> load_variants(MatrixObject& object, const Progress& progress) {
   std::vector<Variant> variants;
   for (std::size_t i = 0; i < object.endpoints.size(); ++i) {
     progress.report("read " + object.labels[i], static_cast<double>(i) / static_cast<double>(object.endpoints.size()));
     Endpoint& endpoint = object.endpoints[i];
-    load(endpoint, engine, object.computation.options.temperature_K, progress);
+    load(endpoint, object.computation.options.temperature_K);
     Variant variant;
     variant.label = object.labels[i];
     variant.group = object.groups[i];
@@ -42,6 +42,7 @@ std::vector<Variant> load_variants(MatrixObject& object, Engine& engine, const P
     for (InputFile& input : variant.inputs) input.role = input.role == endpoint.role ? "structure" : "map";
     variant.molecule = std::move(*endpoint.molecule);
     variant.map = std::move(endpoint.map);
+    variant.computed = std::move(endpoint.computed_map);
     variants.push_back(std::move(variant));
   }
   object.endpoints.clear();
@@ -70,13 +71,13 @@ Tcl_Obj* matrix(const Call& call) {
   check_labels(object->labels);
   object->run.potential = "maps";
   for (const Endpoint& endpoint : object->endpoints) {
-    if (endpoint.computed_map) object->run.potential = "pme";
+    if (endpoint.map_request) object->run.potential = "pme";
   }
   object->job = Worker::instance().submit([keep = std::weak_ptr<MatrixObject>(object)](const Progress& progress) {
     const auto alive = keep.lock();
     if (alive == nullptr) return;
     const std::unique_ptr<Engine> engine = engine_for(alive->computation);
-    const std::vector<Variant> variants = load_variants(*alive, *engine, progress);
+    const std::vector<Variant> variants = load_variants(*alive, progress);
     alive->report = run_matrix(*engine, variants, alive->computation.options, alive->run, progress);
   });
   return to_obj(call.handles.add(object));

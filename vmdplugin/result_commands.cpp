@@ -117,8 +117,7 @@ Tcl_Obj* export_files(const Call& call) {
   const auto object = call.handles.find(handle);
   if (const auto* surface = dynamic_cast<const SurfaceObject*>(object.get())) {
     require_done(handle, *surface);
-    const PotentialUnit unit = surface->molecule.map ? surface->molecule.map->unit : PotentialUnit::kUnknown;
-    write_surface(prefix + ".vtp", *surface->molecule.molecule, surface->result, unit);
+    write_surface(prefix + ".vtp", *surface->molecule.molecule, surface->result, surface->result.unit);
     return to_list({prefix + ".vtp"});
   }
   const auto comparison = call.handles.finished_comparison(handle);

@@ -43,6 +43,8 @@ int run() {
   line("cpu", cpu.available, cpu.description);
   line("cuda", cuda.available, cuda.description);
   line("--device auto", true, std::string("takes ") + (cuda.available ? "cuda" : "cpu"));
+  for (const BackEndStatus& status : {cpu_fourier_status(), cuda_fourier_status()})
+    line(("pme on " + status.name).c_str(), status.available, status.description);
 #if defined(ESPDIFF_HAVE_GEMMI)
   line("structures", true, "PQR, PDB, mmCIF");
 #else

@@ -3,7 +3,6 @@
 
 #include "engine/select_engine.h"
 #include "io/read_grid.h"
-#include "io/write_csv.h"
 
 namespace espdiff::cli {
 namespace {
@@ -70,38 +69,6 @@ void add_settings(CLI::App& parser, GivenSettings& given, bool of_surface_only) 
         ->default_str(value)
         ->group(setting.group);
   }
-}
-
-std::string ComputedPotentialArguments::in_words() const {
-  return method + ", grid " + grid + ", Ewald factor " + csv_number(ewald_factor);
-}
-
-void add_computed_potential_options(CLI::App& parser, ComputedPotentialArguments& arguments) {
-  parser
-      .add_option(
-          "--potential", arguments.method,
-          "Compute the potentials instead of reading maps, from the charges of the atoms that are read, in a cell "
-          "10 A wider than these on each side: pme")
-      ->check(CLI::IsMember({"pme"}))
-      ->group("Potentials");
-  parser
-      .add_option(
-          "--pme-grid", arguments.grid,
-          "Grid of a computed potential: a resolution below 8 A, or numbers of points (see `espdiff potential`)")
-      ->capture_default_str()
-      ->group("Potentials");
-  parser.add_option("--ewaldfactor", arguments.ewald_factor, "Smearing of the charges in a computed potential, 1/A")
-      ->capture_default_str()
-      ->group("Potentials");
-}
-
-Grid computed_map(Engine& engine, const ComputedPotentialArguments& arguments, const Molecule& molecule,
-                  double temperature_K, const Progress& progress) {
-  PotentialOptions potential;
-  potential.grid = parse_grid_choice(arguments.grid);
-  potential.pme.ewald_factor = arguments.ewald_factor;
-  potential.pme.temperature_K = temperature_K;
-  return potential_map(engine, molecule, potential, progress);
 }
 
 Grid read_map(const std::string& path, const std::string& array, const std::string& unit) {

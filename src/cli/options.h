@@ -9,7 +9,6 @@
 
 #include "engine/engine.h"
 #include "io/read_structure.h"
-#include "pipeline/potential.h"
 #include "pipeline/settings.h"
 
 namespace espdiff::cli {
@@ -30,20 +29,5 @@ void add_settings(CLI::App& parser, GivenSettings& given, bool of_surface_only);
 
 /// Reads a potential map and, where `unit` is not empty, declares its unit.
 Grid read_map(const std::string& path, const std::string& array, const std::string& unit);
-
-/// A potential that is computed from the charges of a molecule instead of being read.
-struct ComputedPotentialArguments {
-  std::string method;  ///< empty: none
-  std::string grid = "0.5";
-  double ewald_factor = PmeOptions().ewald_factor;
-
-  bool wanted() const { return !method.empty(); }
-  /// "pme, grid 0.5, Ewald factor 0.25"
-  std::string in_words() const;
-};
-void add_computed_potential_options(CLI::App& parser, ComputedPotentialArguments& arguments);
-/// The potential of a molecule by itself: its box is padded, whatever cell its file names.
-Grid computed_map(Engine& engine, const ComputedPotentialArguments& arguments, const Molecule& molecule,
-                  double temperature_K, const Progress& progress);
 
 }  // namespace espdiff::cli
