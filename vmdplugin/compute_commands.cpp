@@ -8,11 +8,7 @@
 #include "tcl_values.h"
 
 namespace espdiff::vmdplugin {
-namespace {
-
-/// Reads OPTIONS; a regularize key is given to `regularize` where that is not null, else refused.
-Computation parse_computation(Tcl_Obj* options, bool* regularize) {
-  DictReader reader(options, "options");
+Computation parse_computation(DictReader& reader, bool* regularize) {
   Computation computation;
   computation.device = reader.text("device", "auto");
   parse_device_choice(computation.device);  // a wrong one is told at once
@@ -27,6 +23,13 @@ Computation parse_computation(Tcl_Obj* options, bool* regularize) {
 
 std::unique_ptr<Engine> engine_for(const Computation& computation) {
   return select_engine(parse_device_choice(computation.device), computation.threads);
+}
+
+namespace {
+
+Computation parse_computation(Tcl_Obj* options, bool* regularize) {
+  DictReader reader(options, "options");
+  return vmdplugin::parse_computation(reader, regularize);
 }
 
 std::shared_ptr<SeriesObject> make_series(Tcl_Obj* source, const Computation& computation, const std::string& role) {

@@ -5,6 +5,8 @@
 #include "cli/verbs.h"
 #include "io/atomic_file.h"
 #include "io/sha256.h"
+#include "pipeline/residue_values.h"
+#include "pipeline/write_compare.h"
 
 namespace espdiff::cli {
 namespace {
@@ -12,6 +14,7 @@ namespace {
 struct Arguments {
   std::string source, target, output;
   MapArguments maps;
+  std::string residue_pdb, residue_quantity;
   int source_model = 1, target_model = 1;
   bool quiet = false;
   StructureOptions structure;
@@ -24,6 +27,15 @@ void add_input_options(CLI::App& p, Arguments& a) {
   p.add_option("TARGET", a.target, "Structure of the second state")->required();
   p.add_option("-o,--output", a.output, "Prefix of the results OUT.json, OUT.vtp and OUT.residues.csv")->required();
   add_map_options(p, a.maps);
+  p.add_option(
+       "--residue-pdb", a.residue_pdb,
+       "Also write the source as a PDB file whose B factors are the residues' --residue-quantity, for coloring in "
+       "any program")
+      ->group("Residues");
+  p.add_option("--residue-quantity", a.residue_quantity,
+               "Column of the residue table (mean_abs_difference; without potentials mean_displacement_A)")
+      ->check(CLI::IsMember(residue_quantities()))
+      ->group("Residues");
   p.add_option("--source-model", a.source_model, "Model of a multi-model source file, from 1")
       ->check(CLI::PositiveNumber)
       ->capture_default_str()
@@ -57,12 +69,7 @@ void add_map(const Arguments& a, Side& side, double temperature_K, std::vector<I
   side.map = given_map(a.maps, side.role, inputs);
   if (!is_computed(a.maps)) return;
   const int model = side.role == "source" ? a.source_model : a.target_model;
-  if (takes_own_cell(a.maps)) {
-    const auto cell = read_unit_cells(side.path).at(static_cast<std::size_t>(model - 1));
-    side.computed = computed_map(a.maps, read_structure(side.path, {model, true, true}), cell, temperature_K);
-  } else {
-    side.computed = computed_map(a.maps, side.molecule, std::nullopt, temperature_K);
-  }
+  side.computed = computed_map_of_file(a.maps, side.path, model, side.molecule, temperature_K);
   inputs.push_back(computed_input(side.role + "_map", *side.computed));
 }
 
@@ -71,6 +78,9 @@ int run(const Arguments& a, const Context& context) {
   const CompareOptions options = make_options(a.settings);
   // An output that cannot be written is better found before the work than after it.
   for (const char* suffix : {".json", ".vtp", ".residues.csv"}) AtomicFile probe(a.output + suffix);
+  if (!a.residue_pdb.empty()) AtomicFile probe(a.residue_pdb);
+  if (a.residue_pdb.empty() && !a.residue_quantity.empty())
+    throw InputError("--residue-quantity is of --residue-pdb FILE, which is missing");
 
   context.progress->report("read", 0.0);
   Side source = read_side(a, "source"), target = read_side(a, "target");
@@ -86,6 +96,10 @@ int run(const Arguments& a, const Context& context) {
   const CompareResult result = compare(*engine, source.input(), target.input(), options, *context.progress);
   context.progress->report("write", 0.0);
   write_compare(a.output, source.molecule, target.molecule, result, options, provenance);
+  if (!a.residue_pdb.empty()) {
+    const std::string usual = result.has_potential ? "mean_abs_difference" : "mean_displacement_A";
+    write_residue_pdb(a.residue_pdb, source.molecule, result, a.residue_quantity.empty() ? usual : a.residue_quantity);
+  }
   context.progress->report("write", 1.0);
   if (!a.quiet) print_table(std::cout, source.molecule, target.molecule, result);
   return 0;

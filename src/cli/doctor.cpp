@@ -61,6 +61,9 @@ int run() {
   line("maps", false, "DX and cube; no VTI: VTK 9 was not found when this was built (Debian: libvtk9-dev)");
   line("render", false, "VTK 9 was not found when this was built (Debian: libvtk9-dev)");
 #endif
+  const std::string gnuplot = on_path("gnuplot");
+  line("plot", !gnuplot.empty(),
+       !gnuplot.empty() ? gnuplot : "no program `gnuplot` on PATH, which draws plots (Debian: gnuplot-nox)");
   const std::string module = vmd_module();
   line("vmd module", !module.empty(),
        !module.empty()
