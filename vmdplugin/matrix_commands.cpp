@@ -28,8 +28,8 @@ void add_variant(Tcl_Obj* description, MatrixObject& object) {
   Tcl_DecrRefCount(endpoint);
 }
 
-/// Reads the files and computes the potentials that are to be computed; the endpoints are empty after.
-std::vector<Variant> load_variants(MatrixObject& object, Engine& engine, const Progress& progress) {
+/// Reads the files; the endpoints are empty after. Potentials that are to be computed are made on the way.
+std::vector<Variant> load_variants(MatrixObject& object, const Progress& progress) {
   std::vector<Variant> variants;
   for (std::size_t i = 0; i < object.endpoints.size(); ++i) {
     progress.report("read " + object.labels[i], static_cast<double>(i) / static_cast<double>(object.endpoints.size()));
@@ -77,7 +77,7 @@ Tcl_Obj* matrix(const Call& call) {
     const auto alive = keep.lock();
     if (alive == nullptr) return;
     const std::unique_ptr<Engine> engine = engine_for(alive->computation);
-    const std::vector<Variant> variants = load_variants(*alive, *engine, progress);
+    const std::vector<Variant> variants = load_variants(*alive, progress);
     alive->report = run_matrix(*engine, variants, alive->computation.options, alive->run, progress);
   });
   return to_obj(call.handles.add(object));
