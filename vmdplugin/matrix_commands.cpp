@@ -28,7 +28,7 @@ void add_variant(Tcl_Obj* description, MatrixObject& object) {
   Tcl_DecrRefCount(endpoint);
 }
 
-/// Reads the files; the endpoints are empty after.
+/// Reads the files; the endpoints are empty after. Potentials that are to be computed are made on the way.
 std::vector<Variant> load_variants(MatrixObject& object, const Progress& progress) {
   std::vector<Variant> variants;
   for (std::size_t i = 0; i < object.endpoints.size(); ++i) {
@@ -42,7 +42,7 @@ std::vector<Variant> load_variants(MatrixObject& object, const Progress& progres
     for (InputFile& input : variant.inputs) input.role = input.role == endpoint.role ? "structure" : "map";
     variant.molecule = std::move(*endpoint.molecule);
     variant.map = std::move(endpoint.map);
-    variant.computed = std::move(endpoint.computed_map);
+    if (endpoint.computed_map) variant.make_map = endpoint.computed_map->maker();
     variants.push_back(std::move(variant));
   }
   object.endpoints.clear();
@@ -71,7 +71,7 @@ Tcl_Obj* matrix(const Call& call) {
   check_labels(object->labels);
   object->run.potential = "maps";
   for (const Endpoint& endpoint : object->endpoints) {
-    if (endpoint.map_request) object->run.potential = "pme";
+    if (endpoint.computed_map) object->run.potential = "pme";
   }
   object->job = Worker::instance().submit([keep = std::weak_ptr<MatrixObject>(object)](const Progress& progress) {
     const auto alive = keep.lock();

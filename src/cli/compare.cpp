@@ -6,6 +6,7 @@
 #include "io/atomic_file.h"
 #include "io/sha256.h"
 #include "pipeline/residue_values.h"
+#include "pipeline/write_compare.h"
 
 namespace espdiff::cli {
 namespace {
@@ -68,12 +69,7 @@ void add_map(const Arguments& a, Side& side, double temperature_K, std::vector<I
   side.map = given_map(a.maps, side.role, inputs);
   if (!is_computed(a.maps)) return;
   const int model = side.role == "source" ? a.source_model : a.target_model;
-  if (takes_own_cell(a.maps)) {
-    const auto cell = read_unit_cells(side.path).at(static_cast<std::size_t>(model - 1));
-    side.computed = computed_map(a.maps, read_structure(side.path, {model, true, true}), cell, temperature_K);
-  } else {
-    side.computed = computed_map(a.maps, side.molecule, std::nullopt, temperature_K);
-  }
+  side.computed = computed_map_of_file(a.maps, side.path, model, side.molecule, temperature_K);
   inputs.push_back(computed_input(side.role + "_map", *side.computed));
 }
 

@@ -80,8 +80,7 @@ int main(int argc, char** argv) {
   }
   std::fputs(
       "espdiff: a subcommand is missing: compare, trajectory, matrix, merge, plot, surface, potential, render or "
-      "doctor\n"
-      "Try 'espdiff --help'.\n",
+      "doctor\nTry 'espdiff --help'.\n",
       stderr);
   return 2;
 }

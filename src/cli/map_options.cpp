@@ -3,7 +3,9 @@
 
 #include <utility>
 
+#include "io/read_structure.h"
 #include "io/sha256.h"
+#include "io/write_csv.h"
 
 namespace espdiff::cli {
 namespace {
@@ -12,7 +14,7 @@ constexpr const char* kGroup = "Potentials";
 
 }  // namespace
 
-void add_computed_options(CLI::App& p, MapArguments& a) {
+void add_computed_map_options(CLI::App& p, ComputedMapArguments& a) {
   p.add_option("--potential", a.potential,
                "Compute the potentials instead of reading maps: pme, from the charges of the atoms that are read")
       ->check(CLI::IsMember({"pme"}))
@@ -43,7 +45,7 @@ void add_map_options(CLI::App& p, MapArguments& a) {
   p.add_option("--target-map-unit", a.target_map_unit, "Unit of the target map if the file does not say")
       ->group(kGroup);
   p.add_option("--map-array", a.map_array, "Array to take from VTI maps that hold several")->group(kGroup);
-  add_computed_options(p, a);
+  add_computed_map_options(p, a);
 }
 
 void check_map_options(const MapArguments& a) {
@@ -60,7 +62,7 @@ std::optional<Grid> given_map(const MapArguments& a, const std::string& role, st
   return map;
 }
 
-ComputedMap computed_map(const MapArguments& a, Molecule charges, const std::optional<UnitCell>& cell,
+ComputedMap computed_map(const ComputedMapArguments& a, Molecule charges, const std::optional<UnitCell>& cell,
                          double temperature_K) {
   PotentialOptions options;
   options.grid = parse_grid_choice(a.grid);
@@ -72,6 +74,17 @@ ComputedMap computed_map(const MapArguments& a, Molecule charges, const std::opt
                      ": there is no cell (a CRYST1 record with edges above 1 A) before the atoms; add one, or take "
                      "--pme-cell box");
   return {std::move(charges), cell, options};
+}
+
+ComputedMap computed_map_of_file(const ComputedMapArguments& a, const std::string& path, int model,
+                                 const Molecule& molecule, double temperature_K) {
+  if (!takes_own_cell(a)) return computed_map(a, molecule, std::nullopt, temperature_K);
+  const auto cell = read_unit_cells(path).at(static_cast<std::size_t>(model - 1));
+  return computed_map(a, read_structure(path, {model, true, true}), cell, temperature_K);
+}
+
+std::string map_in_words(const ComputedMapArguments& a) {
+  return a.potential + ", cell " + a.cell + ", grid " + a.grid + ", Ewald factor " + csv_number(a.ewald_factor);
 }
 
 }  // namespace espdiff::cli

@@ -4,8 +4,8 @@
 
 #include "base/error.h"
 #include "cli/map_options.h"
+#include "cli/options.h"
 #include "cli/verbs.h"
-#include "io/write_csv.h"
 #include "pipeline/matrix_run.h"
 #include "pipeline/write_matrix.h"
 
@@ -14,8 +14,8 @@ namespace {
 
 struct Arguments {
   std::vector<std::string> files;
-  std::string list, groups, shard = "1/1", on_error = "stop";
-  MapArguments maps;
+  std::string list, groups, map_array, shard = "1/1", on_error = "stop";
+  ComputedMapArguments potential;
   MatrixRun run;
   bool quiet = false;
   StructureOptions structure;
@@ -30,43 +30,28 @@ std::vector<VariantFiles> chosen_variants(const Arguments& a) {
   std::vector<VariantFiles> variants = a.list.empty() ? variants_of_files(a.files) : read_variant_list(a.list);
   if (!a.groups.empty()) read_groups(a.groups, variants);
   for (const VariantFiles& v : variants) {
-    if (is_computed(a.maps) && !v.map.empty())
+    if (is_computed(a.potential) && !v.map.empty())
       throw InputError("--potential computes all maps, and the list names one for '" + v.label +
                        "'; leave out one of them");
   }
   return variants;
 }
 
-/// Of the charges of the molecule, or with a cell of its own of all that its file has.
-ComputedMap computed_map_of(const Arguments& a, const VariantFiles& file, const Molecule& molecule,
-                            double temperature_K) {
-  if (!takes_own_cell(a.maps)) return computed_map(a.maps, molecule, std::nullopt, temperature_K);
-  const auto cell = read_unit_cells(file.structure).at(static_cast<std::size_t>(file.model - 1));
-  return computed_map(a.maps, read_structure(file.structure, {file.model, true, true}), cell, temperature_K);
-}
-
-/// Each molecule is read once.
+/// Each molecule is read, and its potential computed, once.
 std::vector<Variant> read_variants(const Arguments& a, const std::vector<VariantFiles>& files, double temperature_K,
                                    const Progress& progress) {
   std::vector<Variant> variants;
   for (const VariantFiles& file : files) {
     const double fraction = static_cast<double>(variants.size()) / static_cast<double>(files.size());
     progress.report("read " + file.label, fraction);
-    Variant variant = read_variant(file, a.structure, a.maps.map_array);
-    if (is_computed(a.maps)) {
-      variant.computed = computed_map_of(a, file, variant.molecule, temperature_K);
-      variant.inputs.push_back(computed_input("map", *variant.computed));
-    }
-    variants.push_back(std::move(variant));
+    variants.push_back(read_variant(file, a.structure, a.map_array));
+    if (is_computed(a.potential))
+      variants.back().make_map =
+          computed_map_of_file(a.potential, file.structure, file.model, variants.back().molecule, temperature_K)
+              .maker();
   }
   unite_map_units(variants, temperature_K);
   return variants;
-}
-
-std::string potential_in_words(const MapArguments& maps) {
-  if (!is_computed(maps)) return "maps";
-  return maps.potential + ", grid " + maps.grid + ", Ewald factor " + csv_number(maps.ewald_factor) +
-         (takes_own_cell(maps) ? ", own cell" : "");
 }
 
 void print_report(const Arguments& a, const Engine& engine, const MatrixReport& report) {
@@ -92,7 +77,7 @@ int run(Arguments& a, const Context& context) {
   const CompareOptions options = make_options(a.settings);
   a.run.shard = parse_shard(a.shard);
   a.run.skip_errors = a.on_error == "skip";
-  a.run.potential = potential_in_words(a.maps);
+  a.run.potential = is_computed(a.potential) ? map_in_words(a.potential) : "maps";
   const std::vector<VariantFiles> files = chosen_variants(a);
   const std::unique_ptr<Engine> engine = make_engine(a.device);
   const std::vector<Variant> variants = read_variants(a, files, options.temperature_K, *context.progress);
@@ -139,9 +124,8 @@ Verb add_matrix(CLI::App& app) {
                      "Metric that variants are clustered by (mean_abs_difference; without potentials "
                      "mean_displacement_A)");
   add_structure_options(*parser, a->structure);
-  add_computed_options(*parser, a->maps);
-  parser->add_option("--map-array", a->maps.map_array, "Array to take from VTI maps that hold several")
-      ->group("Potentials");
+  add_computed_map_options(*parser, a->potential);
+  parser->add_option("--map-array", a->map_array, "Array to take from VTI maps that hold several")->group("Potentials");
   add_run_options(*parser, *a);
   add_settings(*parser, a->settings, false);
   add_device_options(*parser, a->device);

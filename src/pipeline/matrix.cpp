@@ -90,6 +90,10 @@ MatrixCell failed_cell(const MatrixPair& pair, const std::string& error) {
   return cell;
 }
 
+CompareInput input_of(const Variant& variant) {
+  return {&variant.molecule, variant.map ? &*variant.map : nullptr, variant.make_map};
+}
+
 }  // namespace
 
 const std::vector<MatrixMetric>& matrix_metrics() {
@@ -153,10 +157,10 @@ void compute_pairs(Engine& engine, const std::vector<Variant>& variants, const C
     MatrixCell cell;
     try {
       if (prepared != pairs[p].first) {
-        series = std::make_unique<Series>(engine, source.input(), options);
+        series = std::make_unique<Series>(engine, input_of(source), options);
         prepared = pairs[p].first;
       }
-      cell = cell_of(pairs[p], series->step(target.input(), StartFrom::kSource, stages));
+      cell = cell_of(pairs[p], series->step(input_of(target), StartFrom::kSource, stages));
     } catch (const Cancelled&) {
       throw;
     } catch (const Error& error) {

@@ -45,9 +45,9 @@ MatrixPlan make_plan(const Engine& engine, const std::vector<Variant>& variants,
   plan.version = kVersion;
   plan.device = engine.back_end();
   for (const Setting& setting : settings()) plan.settings.emplace_back(setting.name, setting.get(options));
-  if (variants.front().has_map()) {
+  if (variants.front().has_potential()) {
     plan.potential = potential;
-    plan.potential_unit = to_string(unit_of_maps(variants));
+    plan.potential_unit = to_string(variants.front().map ? variants.front().map->unit : PotentialUnit::kKtPerE);
   }
   std::vector<std::string> labels;
   for (const Variant& v : variants) {

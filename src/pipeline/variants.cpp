@@ -161,32 +161,24 @@ Variant read_variant(const VariantFiles& files, const StructureOptions& structur
   return variant;
 }
 
-PotentialUnit unit_of_maps(const std::vector<Variant>& variants) {
-  for (const Variant& v : variants) {
-    if (v.computed) return PotentialUnit::kKtPerE;
-  }
-  return variants.empty() || !variants.front().map ? PotentialUnit::kUnknown : variants.front().map->unit;
-}
-
 void unite_map_units(std::vector<Variant>& variants, double temperature_K) {
-  const PotentialUnit unit = unit_of_maps(variants);
-  const auto is_unknown = [](const Variant& v) { return v.map && v.map->unit == PotentialUnit::kUnknown; };
+  if (variants.empty()) return;
+  const Variant& first = variants.front();
   for (Variant& v : variants) {
-    const Variant& first = variants.front();
-    if (v.has_map() != first.has_map()) {
-      const Variant& without = v.has_map() ? first : v;
+    if (v.has_potential() != first.has_potential()) {
+      const Variant& without = v.has_potential() ? first : v;
       throw InputError("a potential is missing for the variant '" + without.label +
                        "', and others have one; give all of them a map, or none to compare shapes alone");
     }
-    if (!v.map || v.map->unit == unit) continue;
-    if (is_unknown(v) || unit == PotentialUnit::kUnknown) {
-      const Variant& unknown = is_unknown(v) ? v : first;
+    if (!v.map || !first.map || v.map->unit == first.map->unit) continue;
+    if (v.map->unit == PotentialUnit::kUnknown || first.map->unit == PotentialUnit::kUnknown) {
+      const Variant& unknown = v.map->unit == PotentialUnit::kUnknown ? v : first;
       throw InputError("the unit of the map of '" + unknown.label +
                        "' is unknown, and others are known; name it in the list's column `unit`");
     }
-    const float factor = static_cast<float>(conversion_factor(v.map->unit, unit, temperature_K));
+    const float factor = static_cast<float>(conversion_factor(v.map->unit, first.map->unit, temperature_K));
     for (float& value : v.map->values) value *= factor;
-    v.map->unit = unit;
+    v.map->unit = first.map->unit;
   }
 }
 

@@ -7,7 +7,6 @@
 
 #include "base/types.h"
 #include "io/read_structure.h"
-#include "pipeline/computed_map.h"
 #include "pipeline/write_compare.h"
 
 namespace espdiff {
@@ -19,10 +18,9 @@ struct Variant {
   std::vector<InputFile> inputs;  ///< what it was made of; roles "structure" and "map"
   Molecule molecule;
   std::optional<Grid> map;
-  std::optional<ComputedMap> computed;  ///< instead of `map`
+  MapMaker make_map = nullptr;  ///< instead of `map`; in kT/e
 
-  bool has_map() const { return map.has_value() || computed.has_value(); }
-  CompareInput input() const { return {&molecule, map ? &*map : nullptr, computed ? computed->maker() : MapMaker()}; }
+  bool has_potential() const { return map || make_map != nullptr; }
 };
 
 /// Where a variant is to be read from.
@@ -57,9 +55,7 @@ void check_labels(const std::vector<std::string>& labels);
 /// @throws as read_structure(), read_grid()
 Variant read_variant(const VariantFiles& files, const StructureOptions& structure, const std::string& map_array);
 
-/// The unit in which variants are compared: kT/e where a map is computed, else that of the first one.
-PotentialUnit unit_of_maps(const std::vector<Variant>& variants);
-/// Brings all maps to it.
+/// Brings all maps to the unit of the first one.
 /// @throws InputError when some variants have maps and some none, or a unit is unknown and others are not
 void unite_map_units(std::vector<Variant>& variants, double temperature_K);
 
