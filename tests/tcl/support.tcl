@@ -104,6 +104,7 @@ proc finish {} {
     espdiff delete all
     cd /
     file delete -force $scratch
+    ::tcltest::testConstraint interactive 1  ;# else tcltest ends the process where there is Tk, with status 0
     ::tcltest::cleanupTests
     exit $failed
 }
