@@ -23,7 +23,7 @@ using namespace espdiff_bench;
 struct Settings {
   std::string method = "deform", field = "distance", interpolation = "trilinear", align = "all", rest_shape, csv, only;
   int threads = 0, repeats = 1;
-  std::optional<double> tangential_gain, sigma, mu, rho, spacing, min_displacement;
+  std::optional<double> tangential_gain, sigma, mu, rho, spacing, min_displacement, max_step, max_edge;
   std::optional<int> max_iterations;
   bool all_ubiquitin = false, all_adk = false, thesis = false, round_trip = false, cavities = false,
        skip_series = false;
@@ -41,6 +41,8 @@ void define_options(CLI::App& app, Settings& s) {
       ->check(CLI::IsMember({"source", "none"}));
   app.add_option("--min-displacement", s.min_displacement, "The mapping ends below it; grid spacings");
   app.add_flag("--thesis", s.thesis, "Start from the options of the thesis' iteration as it stands");
+  app.add_option("--max-step", s.max_step, "Of the morph: farthest that an atom moves in a step, Angstrom");
+  app.add_option("--max-edge", s.max_edge, "Of the morph: longer edges are halved, grid spacings");
   app.add_option("--max-iterations", s.max_iterations, "Limit of the mapping's iterations");
   app.add_option("--grid-spacing", s.spacing, "Angstrom");
   app.add_option("--align", s.align, "Atoms to superpose: all, backbone, ca or none")->capture_default_str();
@@ -72,6 +74,8 @@ espdiff::CompareOptions compare_options(const Settings& s) {
   options.deform_min_displacement = s.min_displacement.value_or(options.deform_min_displacement);
   if (!s.rest_shape.empty()) options.deform.rest_shape = s.rest_shape == "source";
   options.round_trip = s.round_trip;
+  options.morph.max_step_A = s.max_step.value_or(options.morph.max_step_A);
+  options.morph_max_edge = s.max_edge.value_or(options.morph_max_edge);
   if (s.cavities) options.surface.cavities = true;
   return options;
 }

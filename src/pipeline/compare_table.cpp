@@ -131,15 +131,16 @@ void print_certificate(std::ostream& out, const CompareResult& result) {
            " to " + significant(d.area_ratio_p95));
   line(out, "on the same residue", percent(c.same_residue_area_fraction) + " of the mapped area");
   line(out, "irregularity", significant(c.irregularity_A) + " A");
+  const auto n_of = [](int n) { return static_cast<std::size_t>(std::max(n, 0)); };
   if (result.morph_report.steps > 0) {
     line(out, "mapping",
-         "carried by the atoms in " + counted(static_cast<std::size_t>(result.morph_report.steps), "step") + ", " +
+         "carried by the atoms in " + counted(n_of(result.morph_report.steps), "step") + ", " +
              counted(result.morph_report.n_vertices_added, "vertex", "vertices") + " added");
-    return;
+  } else {
+    line(out, "mapping",
+         std::string(c.converged ? "converged after " : "did not converge in ") +
+             counted(n_of(result.deform_report.iterations), "iteration"));
   }
-  line(out, "mapping",
-       std::string(c.converged ? "converged after " : "did not converge in ") +
-           counted(static_cast<std::size_t>(std::max(result.deform_report.iterations, 0)), "iteration"));
   std::string not_checked;
   for (const std::string& name : c.not_checked) not_checked += (not_checked.empty() ? "" : ", ") + name;
   std::replace(not_checked.begin(), not_checked.end(), '_', ' ');
