@@ -17,6 +17,8 @@ namespace {
 constexpr int kStepsOfFading = 24;
 /// The least: flow and level set are followed to second order only.
 constexpr int kLeastSteps = 8;
+/// Rounds of evening out at the end, where nothing moves any more.
+constexpr int kLastRounds = 4;
 /// How far the last projections may move a vertex: the steps leave it nearer than that.
 constexpr float kLastShift_A = 0.3F;
 
@@ -102,12 +104,16 @@ MorphResult morph(const SurfaceMesh& mesh, const std::vector<MovingAtom>& atoms,
     advance(surface, 1.0F / static_cast<float>(n_steps));
     return_to_level_set(surface, atoms_at(atoms, static_cast<double>(step) / n_steps), isovalue);
     cut_out(surface);
-    if (step < n_steps) even_out(surface);
+    even_out(surface);
     n_added += divide_long(surface, max_edge, max_stretch);
   }
-  // Vertices that the last step added have not been on the level set yet.
-  return_to_level_set(surface, atoms_at(atoms, 1.0), isovalue);
-  cut_out(surface);
+  // What the last step added or evened out lies beside the level set.
+  const MovingAtoms arrived = atoms_at(atoms, 1.0);
+  for (int round = 0; round < kLastRounds; ++round) {
+    return_to_level_set(surface, arrived, isovalue);
+    cut_out(surface);
+    if (round + 1 < kLastRounds) even_out(surface);
+  }
   progress.report(stage, 1.0);
   MorphResult result = arrive(surface, mesh, source_atoms, target_atoms, isovalue);
   result.report.steps = n_steps;
