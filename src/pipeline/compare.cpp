@@ -11,6 +11,7 @@
 #include "pipeline/atom_ways.h"
 #include "pipeline/build_surface.h"
 #include "pipeline/certificate.h"
+#include "pipeline/map_by_deform.h"
 #include "pipeline/mapping.h"
 #include "pipeline/paired_residues.h"
 #include "pipeline/residue_rows.h"
@@ -20,10 +21,19 @@ namespace espdiff {
 FieldKind parse_field_kind(const std::string& text) {
   if (text == "density") return FieldKind::kDensity;
   if (text == "distance") return FieldKind::kDistance;
-  if (text == "gvf" || text == "gvf2") {
-    throw InputError("the field '" + text + "' (gradient vector flow) is not in this version; use density or distance");
+  if (text == "gvf") return FieldKind::kGvf;
+  if (text == "gvf2") return FieldKind::kGvf2;
+  throw InputError("unknown field '" + text + "'; use density, distance, gvf or gvf2");
+}
+
+std::string to_string(FieldKind field) {
+  switch (field) {
+    case FieldKind::kDensity: return "density";
+    case FieldKind::kDistance: return "distance";
+    case FieldKind::kGvf: return "gvf";
+    case FieldKind::kGvf2: return "gvf2";
   }
-  throw InputError("unknown field '" + text + "'; use density or distance");
+  return "";
 }
 
 Method parse_method(const std::string& text) {
@@ -190,6 +200,15 @@ std::vector<Vec3d> counterparts(const Molecule& source, const Molecule& target, 
   return positions;
 }
 
+/// The mapped surface on the source's own vertices, without those that a subdivision added.
+MeshPtr without_added(Engine& engine, const MeshPtr& source, const MeshPtr& mapped) {
+  const std::size_t n = engine.n_vertices(source);
+  if (engine.n_vertices(mapped) == n) return mapped;
+  std::vector<Vec3f> positions = engine.download(mapped).positions;
+  positions.resize(n);
+  return engine.with_positions(source, positions);
+}
+
 /// Root mean square distance over the atoms that both have; NaN when there are none.
 double rms_distance(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
   double sum = 0;
@@ -255,25 +274,9 @@ struct Series::Steps {
     mapping.source = morphed.source;
     mapping.mapped = morphed.mapped;
     mapping.lost = engine.download(morphed.lost);
+    mapping.path_length = engine.download(morphed.path_length);
     clock.lap("morph");
     return mapping;
-  }
-
-  MeshPtr map(const Surface& target, const MeshPtr& start, DeformReport& report, const Progress& progress,
-              StageClock& clock) {
-    const float isovalue = static_cast<float>(options.surface.isovalue);
-    const double spacing = options.surface.grid_spacing_A;
-    const FieldPtr field =
-        options.field == FieldKind::kDensity
-            ? engine.density_field(target.density, isovalue)
-            : engine.distance_field(target.density, isovalue, target.mesh, options.distance_threshold_A, progress);
-    clock.lap("field");
-    DeformOptions iteration = options.deform;
-    iteration.min_displacement_A = options.deform_min_displacement * spacing;
-    MeshPtr mapped = engine.deform(start, field, iteration, "deform", progress, &report, regularized);
-    if (options.surface.project) mapped = engine.project(mapped, target.atoms, isovalue, kProjectionShare * spacing);
-    clock.lap("deform");
-    return mapped;
   }
 
   /// Fills in what the mapping gave: certificate, per-vertex arrays, potentials, metrics, residues.
@@ -292,7 +295,10 @@ struct Series::Steps {
     download_surface(engine, mapping.source, mapping.mapped, frame, s);
     s.no_counterpart.assign(mapping.lost.begin(), mapping.lost.end());
     s.corrupt = spread(engine.download(mapping.fit.corrupt), mapping.lost);
-    forget_lost(has_counterpart(s), s.displacement);
+    s.path_length = mapping.path_length;
+    const std::vector<bool> kept = has_counterpart(s);
+    forget_lost(kept, s.displacement);
+    forget_lost(kept, s.path_length);
     s.residue = engine.vertex_residues(mapping.source, surface.atoms);
     result.certificate.same_residue_area_fraction =
         same_residue_share(s, s.residue, engine.vertex_residues(mapping.mapped, target_surface.atoms),
@@ -302,10 +308,12 @@ struct Series::Steps {
       for (std::size_t t = 0; t < mapping.lost.size(); ++t) excluded[t] = std::max(excluded[t], mapping.lost[t]);
       const Potentials potentials =
           sample_potentials(engine, source, target, frame, mapping, options.temperature_K, result);
+      const ScalarsPtr path_length = engine.upload_scalars(mapping.path_length);
       result.metrics = engine.compare(mapping.source, mapping.mapped, potentials.source, potentials.target,
-                                      engine.upload_scalars(excluded));
-      result.metrics_all = engine.compare(mapping.source, mapping.mapped, potentials.source, potentials.target,
-                                          mapping.lost.empty() ? nullptr : engine.upload_scalars(mapping.lost));
+                                      engine.upload_scalars(excluded), path_length);
+      result.metrics_all =
+          engine.compare(mapping.source, mapping.mapped, potentials.source, potentials.target,
+                         mapping.lost.empty() ? nullptr : engine.upload_scalars(mapping.lost), path_length);
     }
     result.residues = residue_rows(s, source.molecule->residues.size(), result.has_potential);
     judge(result.certificate, result);
@@ -346,13 +354,17 @@ CompareResult Series::step(const CompareInput& target, StartFrom start, const Pr
   if (steps.options.method == Method::kMorph) {
     mapping = steps.map_by_morph(*target.molecule, target_surface, frame, result, progress, clock);
   } else {
-    mapping.source = steps.regularized;
-    mapping.mapped = steps.map(target_surface, result.start == StartFrom::kPrevious ? last : steps.regularized,
-                               result.deform_report, progress, clock);
+    const FieldPtr field =
+        make_field(steps.engine, steps.surface, target_surface, steps.options, progress, &result.flow_report);
+    clock.lap("field");
+    mapping = map_by_deform(steps.engine, steps.surface, steps.regularized, target_surface,
+                            result.start == StartFrom::kPrevious ? last : steps.regularized, field, steps.options,
+                            progress, result.deform_report, result.n_vertices_subdivided);
+    clock.lap("deform");
   }
   steps.evaluate(target, frame, target_surface, mapping, result, progress, clock);
   if (steps.options.method == Method::kDeform && result.deform_report.converged) {
-    steps.last_mapped = mapping.mapped;
+    steps.last_mapped = without_added(steps.engine, steps.regularized, mapping.mapped);
     steps.last_target = std::move(target_atoms);
   }
   clock.finish();
