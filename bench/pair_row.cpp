@@ -34,6 +34,8 @@ constexpr Column kColumns[] = {
     {"no_counterpart_target_percent", &PairRow::no_counterpart_target_percent},
     {"intersecting_pairs", &PairRow::intersecting_pairs},
     {"same_residue_percent", &PairRow::same_residue_percent},
+    {"round_trip_mean_A", &PairRow::round_trip_mean_A},
+    {"round_trip_p95_A", &PairRow::round_trip_p95_A},
     {"steps", &PairRow::steps},
     {"cavities_left_out", &PairRow::cavities_left_out},
 };
@@ -76,6 +78,11 @@ PairRow make_row(const std::string& name, const espdiff::CompareResult& result) 
       static_cast<double>(result.source_surface.n_cavities_left_out + result.target_surface.n_cavities_left_out);
   row.intersecting_pairs = static_cast<double>(c.self_intersecting_pairs);
   row.same_residue_percent = 100 * c.same_residue_area_fraction;
+  row.round_trip_mean_A = row.round_trip_p95_A = std::numeric_limits<double>::quiet_NaN();
+  if (c.round_trip) {
+    row.round_trip_mean_A = c.round_trip->mean_A;
+    row.round_trip_p95_A = c.round_trip->p95_A;
+  }
   row.steps = result.morph_report.steps;
   row.time_ms = result.time_ms;
   return row;
@@ -132,13 +139,14 @@ void print_heading() {
 
 void print_row(const PairRow& row) {
   std::printf(
-      "%-26s %5.2f %7.0f %5.0f/%-4.0f%c %8.3f %8.3f  %.4f %.3f %6.2f  %.4f %6.2f  %4.2f %5.2f %5.0f %5.1f %4.0f %7.0f "
+      "%-26s %5.2f %7.0f %5.0f/%-4.0f%c %8.3f %8.3f  %.4f %.3f %6.2f  %.4f %6.2f  %4.2f %5.2f %5.0f %5.1f %6.3f %4.0f "
+      "%7.0f "
       "%8.0f",
       row.name.c_str(), row.rmsd_A, row.n_vertices, row.regularize_iterations, row.deform_iterations,
       row.converged ? ' ' : '!', row.corrupt_percent, row.flipped_percent, row.mapped_to_target_mean_A,
       row.mapped_to_target_p95, row.mapped_to_target_max_A, row.target_to_mapped_mean_A, row.target_to_mapped_max_A,
       row.no_counterpart_source_percent, row.no_counterpart_target_percent, row.intersecting_pairs,
-      row.same_residue_percent, row.steps, row.time_of("morph"), row.time_of("total"));
+      row.same_residue_percent, row.round_trip_mean_A, row.steps, row.time_of("morph"), row.time_of("total"));
   if (row.prototype) {
     const std::string miss = missed(row);
     std::printf("   %5.2f %5.1f %s", row.prototype->corrupt_percent, row.prototype->coverage_max_A,

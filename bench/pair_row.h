@@ -19,7 +19,7 @@ struct PairRow {
   double mapped_to_target_mean_A = 0, mapped_to_target_p95 = 0, mapped_to_target_max_A = 0;
   double target_to_mapped_mean_A = 0, target_to_mapped_max_A = 0;
   double no_counterpart_source_percent = 0, no_counterpart_target_percent = 0;
-  double intersecting_pairs = 0, same_residue_percent = 0, steps = 0;
+  double intersecting_pairs = 0, same_residue_percent = 0, round_trip_mean_A = 0, round_trip_p95_A = 0, steps = 0;
   double cavities_left_out = 0;                         ///< of both sides
   std::vector<std::pair<std::string, double>> time_ms;  ///< stage, in order, and last "total"
   std::optional<PrototypeRow> prototype;

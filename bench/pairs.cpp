@@ -27,7 +27,8 @@ struct Settings {
   std::optional<int> max_iterations;
   std::optional<double> gvf_weight, gvf_tolerance;
   std::optional<int> gvf_max_sweeps;
-  bool all_ubiquitin = false, all_adk = false, thesis = false, cavities = false, skip_series = false, subdivide = false;
+  bool all_ubiquitin = false, all_adk = false, thesis = false, round_trip = false, cavities = false,
+       skip_series = false, subdivide = false;
 };
 
 void define_options(CLI::App& app, Settings& s) {
@@ -49,6 +50,7 @@ void define_options(CLI::App& app, Settings& s) {
   app.add_option("--max-iterations", s.max_iterations, "Limit of the mapping's iterations");
   app.add_option("--grid-spacing", s.spacing, "Angstrom");
   app.add_option("--align", s.align, "Atoms to superpose: all, backbone, ca or none")->capture_default_str();
+  app.add_flag("--round-trip", s.round_trip, "Map there and back");
   app.add_flag("--cavities", s.cavities, "Keep closed cavities");
   app.add_flag("--subdivide", s.subdivide, "Halve the edges that deform has stretched");
   app.add_option("--threads", s.threads, "CPU threads; 0 takes all")->capture_default_str();
@@ -80,6 +82,7 @@ espdiff::CompareOptions compare_options(const Settings& s) {
   options.flow.max_sweeps = s.gvf_max_sweeps.value_or(options.flow.max_sweeps);
   if (!s.rest_shape.empty()) options.deform.rest_shape = s.rest_shape == "source";
   options.subdivide = s.subdivide;
+  options.round_trip = s.round_trip;
   if (s.cavities) options.surface.cavities = true;
   return options;
 }

@@ -9,6 +9,7 @@
 
 #include "adjacency.h"
 #include "base/error.h"
+#include "carry.h"
 #include "certificate.h"
 #include "components.h"
 #include "coulomb.h"
@@ -249,6 +250,13 @@ class BackEndEngine : public Engine {
 
   IntersectionReport self_intersections(const MeshPtr& mesh) override {
     return run([&] { return ESPDIFF_BACKEND::self_intersections(unwrap<SurfaceMesh>(mesh)); });
+  }
+
+  MeshPtr carry(const MeshPtr& points, const MeshPtr& surface, const MeshPtr& image, double max_distance_A) override {
+    return run([&] {
+      return ESPDIFF_BACKEND::carry(unwrap<SurfaceMesh>(points), unwrap<SurfaceMesh>(surface),
+                                    unwrap<SurfaceMesh>(image), static_cast<float>(max_distance_A));
+    });
   }
 
   DistortionReport distortion(const MeshPtr& source, const MeshPtr& mapped, double limit) override {

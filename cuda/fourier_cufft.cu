@@ -11,6 +11,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "engine/make_engine.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
@@ -151,6 +152,17 @@ class CufftGrid : public FourierGrid<T> {
 };
 
 }  // namespace
+
+std::string probe_fourier(bool* available) {
+  try {
+    CufftLibrary::get();
+    *available = true;
+    return "cuFFT " + std::to_string(CUFFT_VER_MAJOR);
+  } catch (const DeviceError& error) {
+    *available = false;
+    return error.what();
+  }
+}
 
 template <typename T>
 std::unique_ptr<FourierGrid<T>> make_fourier_grid(std::array<int, 3> size) {

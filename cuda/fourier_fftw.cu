@@ -12,6 +12,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "engine/make_engine.h"
 
 #if defined(ESPDIFF_HAVE_FFTW)
 #include <fftw3.h>
@@ -205,18 +206,27 @@ std::unique_ptr<FourierGrid<T>> make_fourier_grid(std::array<int, 3> size) {
   return std::make_unique<FftwGrid<T>>(size);
 }
 
+std::string probe_fourier(bool* available) {
+  *available = true;
+  return fftwf_version;
+}
+
 }  // namespace espdiff::ESPDIFF_BACKEND
 
 #else
 
 namespace espdiff::ESPDIFF_BACKEND {
 
+std::string probe_fourier(bool* available) {
+  *available = false;
+  return "this build has no FFTW, which the PME potential needs on the CPU; install libfftw3-dev (Debian) and build "
+         "again, or give potential maps as files";
+}
+
 template <typename T>
 std::unique_ptr<FourierGrid<T>> make_fourier_grid(std::array<int, 3>) {
-  throw DeviceError(
-      "this build has no FFTW, which the PME potential needs on the CPU; install libfftw3-dev (Debian) and build "
-      "again, "
-      "or give potential maps as files");
+  bool available = false;
+  throw DeviceError(probe_fourier(&available));
 }
 
 }  // namespace espdiff::ESPDIFF_BACKEND

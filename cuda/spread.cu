@@ -11,12 +11,9 @@ namespace {
 
 /// A total order of charges that differ: the base along x first, because a gather looks for it.
 struct InOrder {
-  int order, size_x;
-
   ESPDIFF_HD bool operator()(const GridCharge& a, const GridCharge& b) const {
     if (a.row != b.row) return a.row < b.row;
-    const int base_a = spline_place(a.u[0], order, size_x).base, base_b = spline_place(b.u[0], order, size_x).base;
-    if (base_a != base_b) return base_a < base_b;
+    if (a.base_x != b.base_x) return a.base_x < b.base_x;
     for (int axis = 0; axis < 3; ++axis) {
       if (a.u[axis] != b.u[axis]) return a.u[axis] < b.u[axis];
     }
@@ -24,18 +21,18 @@ struct InOrder {
   }
 };
 
-void set_rows(std::vector<GridCharge>& charges, const std::array<int, 3>& size, int order) {
+void set_bases(std::vector<GridCharge>& charges, const std::array<int, 3>& size, int order) {
   GridCharge* const atoms = charges.data();
   for (std::size_t i = 0; i < charges.size(); ++i) {
     const int y = spline_place(atoms[i].u[1], order, size[1]).base,
               z = spline_place(atoms[i].u[2], order, size[2]).base;
     atoms[i].row = static_cast<std::uint32_t>(y + size[1] * z);
+    atoms[i].base_x = spline_place(atoms[i].u[0], order, size[0]).base;
   }
 }
 
 /// Counting sort by row, then the few charges of each row by comparison. Sets row_first; returns the charges in order.
-Buffer<GridCharge> sort_by_rows(const std::vector<GridCharge>& charges, InOrder in_order,
-                                std::vector<std::uint32_t>& row_first) {
+Buffer<GridCharge> sort_by_rows(const std::vector<GridCharge>& charges, std::vector<std::uint32_t>& row_first) {
   for (const GridCharge& c : charges) ++row_first[c.row + 1];
   for (std::size_t r = 1; r < row_first.size(); ++r) row_first[r] += row_first[r - 1];
   std::vector<std::uint32_t> next(row_first.begin(), row_first.end() - 1);
@@ -43,13 +40,13 @@ Buffer<GridCharge> sort_by_rows(const std::vector<GridCharge>& charges, InOrder 
   for (const GridCharge& c : charges) sorted[next[c.row]++] = c;
 #if defined(ESPDIFF_BACKEND_CUDA)
   Buffer<GridCharge> result = to_device(sorted);
-  thrust::sort(thrust::device, result.begin(), result.end(), in_order);
+  thrust::sort(thrust::device, result.begin(), result.end(), InOrder());
   return result;
 #else
   GridCharge* const first = sorted.data();
   const std::uint32_t* const rows = row_first.data();
   for_each_index(row_first.size() - 1,
-                 [=](std::size_t r) { std::sort(first + rows[r], first + rows[r + 1], in_order); });
+                 [=](std::size_t r) { std::sort(first + rows[r], first + rows[r + 1], InOrder()); });
   return to_device(sorted);
 #endif
 }
@@ -245,9 +242,9 @@ SortedCharges<T> sort_charges(std::vector<GridCharge> charges, std::array<int, 3
   SortedCharges<T> result;
   result.order = order;
   result.size = size;
-  set_rows(charges, size, order);
+  set_bases(charges, size, order);
   std::vector<std::uint32_t> row_first(static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(size[2]) + 1);
-  const Buffer<GridCharge> sorted = sort_by_rows(charges, {order, size[0]}, row_first);
+  const Buffer<GridCharge> sorted = sort_by_rows(charges, row_first);
   result.row_first = to_device(row_first);
   with_spline_order(order, [&](auto constant) { store_weights<decltype(constant)::value>(sorted, result); });
   return result;

@@ -14,6 +14,7 @@ struct GridCharge {
   double u[3];
   float charge;
   std::uint32_t row;  ///< base_y + size_y * base_z of the grid points that it touches
+  int base_x;
 };
 
 /// Charges sorted by row, then base_x, then by what distinguishes them: the order depends on places and charges alone,

@@ -39,7 +39,7 @@ namespace eval ::espdiff {
         example {foreach residue [espdiff residues comparison1] { puts [dict get $residue mean_abs_difference] }}]
 
     command table [dict create arguments {handle} options {} settings none run ::espdiff::table_of \
-        summary {The comparison as a table for reading, as the command line prints it.} \
+        summary {A comparison or a matrix as a table for reading, as the command line prints it.} \
         returns {the text} example {puts [espdiff table comparison1]}]
 
     command export [dict create arguments {handle prefix} options {} settings none run ::espdiff::export \
@@ -56,6 +56,23 @@ namespace eval ::espdiff {
         summary {Carries a quantity from the mapped surface onto a lattice around it. Give -mol or -file.} \
         returns {the number of the data set in the molecule, or the file} \
         example {espdiff map comparison1 -mol 1}]
+
+    command atoms [dict create arguments {handle} settings none run ::espdiff::atoms options {
+            {-quantity choice auto "What the atoms of a residue get; auto is mean_abs_difference, or without potentials\
+                mean_displacement_A" {auto mean_abs_difference mean_signed_difference mean_source mean_target
+                sign_change_area_fraction mean_displacement_A}}
+            {-mol text source "Molecule of VMD that gets the values: source, target, or an id"}
+            {-field choice user "Where VMD keeps them: user to user4 are of one frame, the others of all frames" {user
+                user2 user3 user4 beta occupancy}}
+            {-frame text now "Frame of a user field: a number, now, or all"}
+            {-missing number 0 "Value of atoms whose residue has no surface that is counted"}
+            {-file file {} "Instead of VMD: a PDB file of the source with the values as B factors"}
+        } \
+        summary {Carries a quantity of the residues onto their atoms, so that any representation can be coloured by it
+            (`Coloring Method` User or Beta), or any other program by the B factors of a file. Residues are found by
+            chain, number and insertion code.} \
+        returns {a dictionary: quantity, unit, mol, field, atoms (how many have a value), min, max; or the file} \
+        example {espdiff atoms comparison1 -quantity mean_abs_difference; mol modcolor 0 top User}]
 
     command draw [dict create arguments {handle} settings none run ::espdiff::draw options {
             {-color choice auto "What is shown; auto is difference (potential of a surface), or displacement without\
@@ -107,6 +124,51 @@ namespace eval ::espdiff {
         returns {a dictionary: frames rows skipped resumed csv seconds; with -command a handle, such as trajectory1} \
         example {espdiff trajectory -mol 0 -frames 0:10: -map {files frame%03d.dx} -csv out.csv}]
 
+    command matrix [dict create arguments {variants} settings all run ::espdiff::matrix options [concat {
+            {-output file required "Prefix of the results OUT.csv and OUT.json, and of the state file"}
+            {-resume boolean 0 "Go on where an interrupted run stopped: its state file is beside the results"}
+            {-overwrite boolean 0 "Begin anew, in the place of results and state files"}
+            {-on-error choice stop "A pair that cannot be compared stops the run, or is skipped and noted in the\
+                results" {stop skip}}
+            {-shard text 1/1 "Compute part I of N of the pairs, I/N, into OUT.shard-I-of-N.state; `espdiff merge` puts\
+                the parts together"}
+            {-cluster-by text {} "Metric that variants are clustered by; mean_abs_difference, or without potentials\
+                mean_displacement_A"}
+        } $computing] \
+        summary {Compares many variants, each with each, both ways. A variant is an endpoint that may have a `label` and
+            a `group`; {mol ID frames BEGIN:STEP:END ...} stands for one variant a frame, and {file PATH ...} without
+            `model` for one a model. Each one's surface is regularized, and its potential computed, once.} \
+        returns {a handle, such as matrix1; `espdiff result` has what OUT.json has, and pairs, resumed, seconds,
+            files} \
+        example {espdiff matrix {{mol 0 frames 0:10: map pme} {file open.pqr map pme group open}} -output adk}]
+
+    command plot [dict create arguments {input} settings none run ::espdiff::plot options {
+            {-metrics text auto "Names of columns; auto is mean_abs_difference, or without potentials\
+                mean_displacement_A"}
+            {-source text {} "Of a matrix: label of the variant that is drawn against all others (the\
+                first one)"}
+            {-normalize boolean 0 "Each metric from its least value, 0, to its greatest, 1, all in one window"}
+            {-title text {} "Title of the window's plot"}
+            {-mol text top "Of a trajectory: molecule that goes to the frame of a point that is clicked; none for none"}
+            {-callback command {} "Instead of that, called as CMD x y with the frame, or the variant's label, and the\
+                value"}
+        } \
+        summary {Plots a trajectory (its CSV file or handle), or one variant of a matrix (its handle) against all
+            others, in VMD's own plot windows (package multiplot): a window for each unit. For pictures of publications,
+            and heat maps, use the command line's `espdiff plot`.} \
+        returns {a list of multiplot's handles} \
+        example {espdiff plot out.csv -metrics {mean_abs_difference rmsd_A}}]
+
+    command merge [dict create arguments {states} settings none run ::espdiff::merge options {
+            {-output file required "Prefix of the results OUT.csv and OUT.json"}
+            {-overwrite boolean 0 "Replace results that exist"}
+            {-cluster-by text {} "As of `espdiff matrix`"}
+        } \
+        summary {Puts the parts of a matrix together: the state files that `espdiff matrix -shard` left. The results are
+            those of one process, byte by byte.} \
+        returns {the files written} \
+        example {espdiff merge [glob part.shard-*.state] -output all}]
+
     command potential [dict create arguments {} settings none run ::espdiff::potential options {
             {-mol text top "Molecule of VMD"}
             {-sel text all "Atoms whose charges count"}
@@ -126,6 +188,8 @@ namespace eval ::espdiff {
             {-dielectric positive 1.0 "Dielectric constant of -method coulomb"}
             {-align choice none "Superpose each frame on the first by these atoms: the average then stays with the\
                 molecule" {none all backbone ca}}
+            {-averaging choice mean "mean: one map, the mean over the frames; each: a map for each frame, FILE.0000.dx\
+                and so on by the frames' numbers" {mean each}}
             {-block count 1 "Frames in a block, for the error bar"}
             {-variance boolean 0 "Also the variance over the frames, a data set or FILE.variance.dx"}
             {-error boolean 0 "Also the standard error of the mean from the blocks, a data set or FILE.error.dx"}

@@ -18,6 +18,9 @@ namespace eval ::espdiff {
         foreach back_end [core::back_ends] {
             set state [expr {[dict get $back_end available] ? "ok" : "note"}]
             lappend items [list "back end [dict get $back_end name]" $state [dict get $back_end description]]
+            if {![dict get $back_end available]} continue
+            set state [expr {[dict get $back_end fourier available] ? "ok" : "missing"}]
+            lappend items [list "PME on [dict get $back_end name]" $state [dict get $back_end fourier description]]
         }
         set build [core::build]
         foreach {part what} {gemmi "PDB and mmCIF files" vtk "VTI maps"} {

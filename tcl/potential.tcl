@@ -53,26 +53,35 @@ namespace eval ::espdiff {
         vmd_require_charges [dict create mol $mol charges_origin none] $what
     }
 
-    # Computes the potential of each frame, averages, and puts the average where it was asked for.
+    # Computes the potential of each frame, averages, and puts the maps where they were asked for.
     proc potential {options} {
         require_vmd "espdiff potential" "outside of it the command line's `espdiff potential` computes maps of files"
         set mol [vmd_molecule_id [dict get $options mol] -mol]
+        dict set options mol $mol
         set frames [potential_frames $mol [dict get $options frames]]
         potential_check $options [llength $frames]
-        set handle [core::potential [potential_core_options $options]]
+        set each [expr {[dict get $options averaging] eq "each"}]
+        set handle [core::potential [dict merge [potential_core_options $options] [list each $each]]]
         finally {
             set begun [clock milliseconds]
             set done 0
             set charges [vmd_charges $mol [dict get $options sel] [lindex $frames 0] -sel]
+            set maps [dict create mol {} volumes {} files {}]
             foreach frame $frames {
-                if {[dict get $options updatesel]} { set charges [vmd_charges $mol [dict get $options sel] $frame -sel] }
+                if {[dict get $options updatesel]} {
+                    set charges [vmd_charges $mol [dict get $options sel] $frame -sel]
+                }
                 core::potential_frame $handle [potential_frame $mol $frame $charges $options]
                 potential_wait $handle [dict get $options progress] $done [llength $frames]
                 incr done
+                if {$each} { potential_result maps $handle frame [format .%04d $frame] $options }
             }
-            set result [potential_results $handle $mol $options]
+            if {!$each} { potential_result maps $handle mean "" $options }
+            foreach average {variance error} {
+                if {[dict get $options $average]} { potential_result maps $handle $average .$average $options }
+            }
         } { core::delete $handle }
-        return [dict merge [dict create frames [llength $frames]] $result \
+        return [dict merge [dict create frames [llength $frames]] $maps \
             [dict create seconds [expr {([clock milliseconds] - $begun) / 1000.0}]]]
     }
 
@@ -101,7 +110,9 @@ namespace eval ::espdiff {
         set core {}
         set xsc [dict get $options xscfile]
         if {$xsc ne ""} {
-            if {[dict get $options cell] ne ""} { fail "espdiff potential: -cell and -xscfile were given; leave one out" }
+            if {[dict get $options cell] ne ""} {
+                fail "espdiff potential: -cell and -xscfile were given; leave one out"
+            }
             dict set options cell [core::xsc_cell $xsc]
         }
         foreach key {
@@ -136,30 +147,33 @@ namespace eval ::espdiff {
         core::check $handle
     }
 
-    # Files and data sets, as the options want them: mol, volumes (numbers of the data sets), files.
-    proc potential_results {handle mol options} {
-        set averages mean
-        foreach option {variance error} { if {[dict get $options $option]} { lappend averages $option } }
-        set result [dict create mol "" volumes {} files {}]
+    # Puts a map of the handle where it was asked for, and notes it in the caller's dict: mol, volumes, files. `suffix`
+    # tells its file from others. A new molecule is made for the first map, when nothing can go wrong in computing it.
+    proc potential_result {maps_name handle which suffix options} {
+        upvar 1 $maps_name maps
         set path [dict get $options dxfile]
-        foreach average $averages {
-            if {$path eq ""} break
-            set file [expr {$average eq "mean" ? $path : "[file rootname $path].$average[file extension $path]"}]
-            dict lappend result files [core::potential_write $handle $average $file]
+        if {$path ne ""} {
+            set file [file rootname $path]$suffix[file extension $path]
+            dict lappend maps files [core::potential_write $handle $which $file]
         }
-        set where [dict get $options loadmol]
-        if {$where eq "none"} { return $result }
+        if {[dict get $options loadmol] eq "none"} return
         keep_view {
-            if {$where eq "new"} {
+            if {[dict get $maps mol] eq ""} { dict set maps mol [potential_molecule $options] }
+            dict lappend maps volumes [potential_load $handle $which [dict get $maps mol]]
+        }
+    }
+
+    proc potential_molecule {options} {
+        set mol [dict get $options mol]
+        switch -- [dict get $options loadmol] {
+            same { return $mol }
+            new {
                 set to [mol new]
                 mol rename $to "[molinfo $mol get name] potential"
-            } else {
-                set to [expr {$where eq "same" ? $mol : $where}]
+                return $to
             }
-            foreach average $averages { dict lappend result volumes [potential_load $handle $average $to] }
         }
-        dict set result mol $to
-        return $result
+        return [dict get $options loadmol]
     }
 
     proc potential_load {handle average mol} {

@@ -47,7 +47,8 @@ namespace eval ::espdiff {
     proc prepare_run {run_name options} {
         upvar 1 $run_name run
         array set run {series {} job {} temporary {} reference_temporary {} last_map {} position 0 rows 0 skipped 0
-            replay {} head {} written 0 state running message {} error {} busy 0 fraction 0 stage {} structure {}}
+            replay {} head {} written 0 state running message {} error {} busy 0 fraction 0 stage {} structure {}
+            failed 0}
         set run(begun) [clock milliseconds]
         foreach key {mol file map csv start unit command progress callback} { set run($key) [dict get $options $key] }
         set run(csv) [file normalize $run(csv)]  ;# in the background the working folder may change
@@ -169,7 +170,10 @@ namespace eval ::espdiff {
 
     proc saves_mappings {run_name} {
         upvar 1 $run_name run
-        expr {$run(start) eq "previous" && $run(series) ne ""}
+        # A morph needs no mapping before it.
+        set usual [expr {[value_or $run(core_options) thesis 0] ? "deform" : "morph"}]
+        set method [value_or $run(core_options) method $usual]
+        expr {$run(start) eq "previous" && $run(series) ne "" && $method eq "deform"}
     }
 
     # Whether the frame after this row's may begin at its mapping; else, and without a row, at the source.

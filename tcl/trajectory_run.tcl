@@ -28,8 +28,8 @@ namespace eval ::espdiff {
         report_run run
         if {!$ended || $run(state) ne "running"} return
         if {[catch { core::check $run(job) } message error]} { step_failed run $message $error; return }
-        set row [step_row run [core::result $run(job)]]
-        end_step run $row
+        set run(failed) 0
+        end_step run [step_row run [core::result $run(job)]]
     }
 
     proc begin_step {run_name} {
@@ -44,7 +44,9 @@ namespace eval ::espdiff {
             set run(job) [submit temporary { core::compare $source $target $run(core_options) }]
         } else {
             set target [frame_endpoint run $frame target temporary]
-            set run(job) [submit temporary { core::series_step $run(series) $target $run(start) }]
+            # After a frame without numbers from the source, as a run does that is resumed there.
+            set start [expr {$run(failed) ? "source" : $run(start)}]
+            set run(job) [submit temporary { core::series_step $run(series) $target $start }]
         }
         set run(temporary) $temporary
     }
@@ -77,6 +79,7 @@ namespace eval ::espdiff {
             return -options $error "frame [lindex $run(steps) $run(position) 0]: $message"
         }
         incr run(skipped)
+        set run(failed) 1
         end_step run [step_row run {} $message]
     }
 

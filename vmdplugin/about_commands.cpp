@@ -1,5 +1,8 @@
-// about_commands.cpp: version, build, back_ends, settings, abi, models, map_unit, volumes: what this module is and
-// offers.
+// about_commands.cpp: version, build, back_ends, settings, abi, models, map_unit, colours, volumes: what this module is
+// and offers.
+#include <cstdio>
+
+#include "base/error.h"
 #include "base/version.h"
 #include "commands.h"
 #include "engine/select_engine.h"
@@ -8,6 +11,7 @@
 #include "molfile_bridge.h"
 #include "pipeline/settings.h"
 #include "tcl_values.h"
+#include "view/colour_map.h"
 
 namespace espdiff::vmdplugin {
 namespace {
@@ -34,10 +38,13 @@ Tcl_Obj* build(const Call&) {
 
 Tcl_Obj* back_ends(const Call&) {
   std::vector<Tcl_Obj*> all;
-  for (const BackEndStatus& status : {cpu_status(), cuda_status()}) {
+  for (const auto& [status, fourier] :
+       {std::pair(cpu_status(), cpu_fourier_status()), std::pair(cuda_status(), cuda_fourier_status())}) {
     all.push_back(to_dict({{"name", to_obj(status.name)},
                            {"available", to_obj(status.available)},
-                           {"description", to_obj(status.description)}}));
+                           {"description", to_obj(status.description)},
+                           {"fourier", to_dict({{"available", to_obj(fourier.available)},
+                                                {"description", to_obj(fourier.description)}})}}));
   }
   return to_list(all);
 }
@@ -107,6 +114,24 @@ Tcl_Obj* forget_volume(const Call& call) {
   return nullptr;
 }
 
+/// Colours of values from the lowest to the highest, as Tk names them. Diverging ones are red for the lowest, as
+/// potentials are drawn.
+Tcl_Obj* colours(const Call& call) {
+  const std::string kind = call.text(0);
+  const int n = to_int(call.arguments[1], "number");
+  if ((kind != "sequential" && kind != "diverging") || n < 2 || n > 1000)
+    throw InputError("'" + kind + " " + std::to_string(n) + "' is not sequential or diverging, and 2 to 1000");
+  std::vector<std::string> all;
+  for (int i = 0; i < n; ++i) {
+    const double t = static_cast<double>(i) / (n - 1);
+    const Rgb c = kind == "diverging" ? diverging_colour(1 - t) : sequential_colour(t);
+    char text[8];
+    std::snprintf(text, sizeof text, "#%02x%02x%02x", c.red, c.green, c.blue);
+    all.emplace_back(text);
+  }
+  return to_list(all);
+}
+
 }  // namespace
 
 std::vector<Command> about_commands() {
@@ -117,6 +142,7 @@ std::vector<Command> about_commands() {
           {"abi", 0, 0, "", abi},
           {"models", 1, 1, "file", models},
           {"map_unit", 1, 1, "file", map_unit},
+          {"colours", 2, 2, "kind number", colours},
           {"volumes", 0, 0, "", volumes},
           {"describe_volume", 1, 1, "name", describe},
           {"forget_volume", 1, 1, "name", forget_volume}};

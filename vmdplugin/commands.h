@@ -31,6 +31,15 @@ struct Command {
 std::vector<Command> compute_commands();
 /// result_commands.cpp: what came out, as values and as files.
 std::vector<Command> result_commands();
+/// parse_computation() of compute_commands.cpp: reads what is common to all computations from OPTIONS, the settings of
+/// the comparison included; a regularize key is given to `regularize` where that is not null, else refused. Keys that
+/// were read before are left alone.
+Computation parse_computation(class DictReader& reader, bool* regularize);
+/// The engine that the computation asks for; on the worker's thread.
+std::unique_ptr<Engine> engine_for(const Computation& computation);
+
+/// matrix_commands.cpp: many variants, each with each.
+std::vector<Command> matrix_commands();
 /// potential_commands.cpp: potentials of frames, and their average.
 std::vector<Command> potential_commands();
 /// drawing_commands.cpp: what came out, as maps and triangles for VMD.

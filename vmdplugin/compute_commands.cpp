@@ -8,11 +8,7 @@
 #include "tcl_values.h"
 
 namespace espdiff::vmdplugin {
-namespace {
-
-/// Reads OPTIONS; a regularize key is given to `regularize` where that is not null, else refused.
-Computation parse_computation(Tcl_Obj* options, bool* regularize) {
-  DictReader reader(options, "options");
+Computation parse_computation(DictReader& reader, bool* regularize) {
   Computation computation;
   computation.device = reader.text("device", "auto");
   parse_device_choice(computation.device);  // a wrong one is told at once
@@ -29,6 +25,13 @@ std::unique_ptr<Engine> engine_for(const Computation& computation) {
   return select_engine(parse_device_choice(computation.device), computation.threads);
 }
 
+namespace {
+
+Computation parse_computation(Tcl_Obj* options, bool* regularize) {
+  DictReader reader(options, "options");
+  return vmdplugin::parse_computation(reader, regularize);
+}
+
 std::shared_ptr<SeriesObject> make_series(Tcl_Obj* source, const Computation& computation, const std::string& role) {
   auto series = std::make_shared<SeriesObject>();
   series->computation = computation;
@@ -42,8 +45,8 @@ void run_step(ComparisonObject& step, StartFrom start, const Progress& progress)
   progress.report("read", 0.0);
   if (series.engine == nullptr) series.engine = engine_for(series.computation);
   const double temperature_K = series.computation.options.temperature_K;
-  load(series.source, *series.engine, temperature_K, progress);
-  load(step.target, *series.engine, temperature_K, progress);
+  load(series.source, temperature_K);
+  load(step.target, temperature_K);
   if (series.series == nullptr) {
     series.series = std::make_unique<Series>(*series.engine, input_of(series.source), series.computation.options);
     if (series.restored) series.series->restore(std::move(*series.restored));
@@ -115,7 +118,7 @@ Tcl_Obj* surface(const Call& call) {
         if (alive == nullptr) return;
         progress.report("read", 0.0);
         const std::unique_ptr<Engine> engine = engine_for(alive->computation);
-        load(alive->molecule, *engine, alive->computation.options.temperature_K, progress);
+        load(alive->molecule, alive->computation.options.temperature_K);
         alive->result =
             make_surface(*engine, input_of(alive->molecule), alive->computation.options, regularize, progress);
       });

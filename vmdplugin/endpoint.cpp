@@ -120,23 +120,22 @@ void parse_vmd_molecule(DictReader& reader, Endpoint& endpoint) {
 }
 
 /// @param endpoint_reader of the endpoint that the map is for: its coordinates and cell are the map's
-void parse_computed_map(DictReader& reader, DictReader& endpoint_reader, Endpoint& endpoint) {
-  ComputedMap computed;
-  computed.options = parse_potential_options(reader);
+void parse_map_request(DictReader& reader, DictReader& endpoint_reader, Endpoint& endpoint) {
+  MapRequest request;
+  request.options = parse_potential_options(reader);
   if (Tcl_Obj* const charges = reader.find("charges")) {
-    computed.charges =
+    request.charges =
         charged_atoms(charges, endpoint_reader.require("coordinates"), endpoint_reader.text("name", endpoint.role));
-    require_charges(computed.charges);
+    require_charges(request.charges);
   }
-  if (Tcl_Obj* const cell = endpoint_reader.find("cell"))
-    computed.cell = parse_unit_cell(cell, endpoint.role + " cell");
+  if (Tcl_Obj* const cell = endpoint_reader.find("cell")) request.cell = parse_unit_cell(cell, endpoint.role + " cell");
   reader.finish();
-  endpoint.computed_map = std::move(computed);
+  endpoint.map_request = std::move(request);
 }
 
 void parse_map(Tcl_Obj* description, DictReader& endpoint_reader, Endpoint& endpoint) {
   DictReader reader(description, endpoint.role + " map");
-  if (reader.boolean("pme", false)) return parse_computed_map(reader, endpoint_reader, endpoint);
+  if (reader.boolean("pme", false)) return parse_map_request(reader, endpoint_reader, endpoint);
   endpoint.map_unit = reader.text("unit");
   if (Tcl_Obj* const memory = reader.find("memory")) {
     const std::string name = to_string(memory), label = reader.text("name", name);
@@ -177,9 +176,8 @@ Endpoint parse_endpoint(Tcl_Obj* description, const std::string& role) {
 
 PotentialOptions parse_potential_options(DictReader& reader) {
   PotentialOptions o;
-  // Sampled linearly between its points: half an Angstrom keeps that error small.
-  o.grid = parse_grid_choice(reader.text("grid", "0.5"));
   o.pme.compatible = reader.boolean("compatible", false);
+  o.grid = parse_grid_choice(reader.text("grid", usual_grid(o.pme.compatible)));
   o.pme.order = reader.integer("spline", usual_order(o.pme.compatible));
   o.pme.ewald_factor = reader.number("ewaldfactor", o.pme.ewald_factor);
   const std::string precision = reader.text("precision", "single");
@@ -214,10 +212,12 @@ Molecule charged_atoms(Tcl_Obj* charges, Tcl_Obj* coordinates, const std::string
                      " atoms");
   Molecule molecule;
   molecule.name = name;
-  molecule.atoms.resize(positions.size());
+  molecule.positions.reserve(positions.size());
+  molecule.charges.reserve(positions.size());
+  const std::string what = name + ", charge";
   for (std::size_t i = 0; i < positions.size(); ++i) {
     molecule.positions.push_back(static_cast<Vec3d>(positions[i]));
-    molecule.charges.push_back(static_cast<float>(to_double(values[i], name + ", charge")));
+    molecule.charges.push_back(static_cast<float>(to_double(values[i], what)));
   }
   return molecule;
 }
@@ -235,21 +235,18 @@ Molecule named_atoms(const std::vector<Tcl_Obj*>& atoms, const std::vector<Vec3d
   return builder.finish();
 }
 
-void load(Endpoint& endpoint, Engine& engine, double temperature_K, const Progress& progress) {
+void load(Endpoint& endpoint, double temperature_K) {
   if (!endpoint.molecule) {
     endpoint.molecule = read_structure(endpoint.structure_path, endpoint.structure);
     endpoint.inputs.push_back({endpoint.role, endpoint.structure_path, sha256_of_file(endpoint.structure_path)});
   }
-  if (endpoint.map) return;
-  if (endpoint.computed_map) {
-    const ComputedMap& computed = *endpoint.computed_map;
-    const Molecule& charges = computed.charges.size() > 0 ? computed.charges : *endpoint.molecule;
-    progress.report("potential", 0.0);
-    PotentialOptions options = computed.options;
-    options.pme.temperature_K = temperature_K;
-    endpoint.map = PotentialSeries(engine, options).step(charges, computed.cell, progress);
-    endpoint.inputs.push_back(
-        {endpoint.role + "_map", "pme of " + std::to_string(charges.size()) + " charges", fingerprint(*endpoint.map)});
+  if (endpoint.map || endpoint.computed_map) return;
+  if (endpoint.map_request) {
+    MapRequest& request = *endpoint.map_request;
+    request.options.pme.temperature_K = temperature_K;
+    endpoint.computed_map = ComputedMap(request.charges.size() > 0 ? std::move(request.charges) : *endpoint.molecule,
+                                        request.cell, request.options);
+    endpoint.inputs.push_back(computed_input(endpoint.role + "_map", *endpoint.computed_map));
     return;
   }
   if (endpoint.map_path.empty()) return;
@@ -262,7 +259,8 @@ void load(Endpoint& endpoint, Engine& engine, double temperature_K, const Progre
 }
 
 CompareInput input_of(const Endpoint& endpoint) {
-  return {&*endpoint.molecule, endpoint.map ? &*endpoint.map : nullptr};
+  return {&*endpoint.molecule, endpoint.map ? &*endpoint.map : nullptr,
+          endpoint.computed_map ? endpoint.computed_map->maker() : MapMaker()};
 }
 
 }  // namespace espdiff::vmdplugin

@@ -16,15 +16,14 @@
 
 namespace espdiff::vmdplugin {
 
-/// The potential of a molecule that is computed here: of all its charges, whatever part of it has the surface.
-struct ComputedMap {
+/// What a map is to be computed of: all charges of a molecule, whatever part of it has the surface.
+struct MapRequest {
   PotentialOptions options;
   Molecule charges;  ///< positions and charges only; empty: the endpoint's molecule has them
   std::optional<UnitCell> cell;
 };
 
-/// A molecule and its map. What is in files is read, and what is to be computed computed, by load(), on the worker's
-/// thread.
+/// A molecule and its map. What is in files is read by load(), on the worker's thread.
 struct Endpoint {
   std::string structure_path;  ///< empty: the molecule came from memory
   StructureOptions structure;
@@ -32,8 +31,9 @@ struct Endpoint {
   std::string map_array, map_unit;
   std::optional<Molecule> molecule;
   std::optional<Grid> map;
-  std::optional<ComputedMap> computed_map;
-  std::vector<InputFile> inputs;  ///< provenance; roles begin with the endpoint's ("source", "source_map")
+  std::optional<MapRequest> map_request;
+  std::optional<ComputedMap> computed_map;  ///< of the request
+  std::vector<InputFile> inputs;            ///< provenance; roles begin with the endpoint's ("source", "source_map")
   std::string role;
 };
 
@@ -64,10 +64,10 @@ Molecule charged_atoms(Tcl_Obj* charges, Tcl_Obj* coordinates, const std::string
 /// @throws InputError (numbers that do not fit each other)
 Molecule named_atoms(const std::vector<Tcl_Obj*>& atoms, const std::vector<Vec3d>& positions, const std::string& name);
 
-/// Reads the files that are not read yet, notes their fingerprints, and computes the map that is to be computed.
+/// Reads the files that are not read yet, and notes the fingerprints of all inputs.
 /// @param temperature_K of the kT in a computed map's unit
-/// @throws what read_structure, read_grid and PotentialSeries throw
-void load(Endpoint& endpoint, Engine& engine, double temperature_K, const Progress& progress);
+/// @throws what read_structure, read_grid and ComputedMap throw
+void load(Endpoint& endpoint, double temperature_K);
 
 CompareInput input_of(const Endpoint& endpoint);
 

@@ -65,6 +65,12 @@ std::shared_ptr<ComparisonObject> Handles::finished_comparison(const std::string
   return comparison;
 }
 
+std::shared_ptr<MatrixObject> Handles::finished_matrix(const std::string& handle) const {
+  auto matrix = as<MatrixObject>(find(handle), handle, "matrix");
+  require_done(handle, *matrix);
+  return matrix;
+}
+
 std::shared_ptr<SeriesObject> Handles::find_series(const std::string& handle) const {
   return as<SeriesObject>(find(handle), handle, "series");
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "endpoint.h"
+#include "pipeline/matrix_run.h"
 #include "pipeline/write_compare.h"
 #include "worker.h"
 
@@ -53,12 +54,24 @@ struct SurfaceObject : Object {
   SurfaceResult result;
 };
 
+/// Many variants, each with each.
+struct MatrixObject : Object {
+  const char* kind() const override { return "matrix"; }
+  Computation computation;
+  std::vector<Endpoint> endpoints;  ///< emptied as they are read
+  std::vector<std::string> labels, groups;
+  MatrixRun run;
+  MatrixReport report;
+};
+
 /// Potentials of frames, one after the other, and their average.
 struct PotentialObject : Object {
   const char* kind() const override { return "potential"; }
   Computation computation;
   PotentialOptions potential;
-  std::unique_ptr<Engine> engine;           // made, like what follows, by the first frame's job
+  bool keeps_frames = false;                // each frame's own map is wanted
+  Grid frame;                               // the last one's, if so
+  std::shared_ptr<Engine> engine;           // made, like what follows, by the first frame's job
   std::unique_ptr<PotentialSeries> series;  // destroyed before the engine
 };
 
@@ -76,6 +89,7 @@ class Handles {
   std::shared_ptr<ComparisonObject> finished_comparison(const std::string& handle) const;
   std::shared_ptr<SeriesObject> find_series(const std::string& handle) const;
   std::shared_ptr<PotentialObject> find_potential(const std::string& handle) const;
+  std::shared_ptr<MatrixObject> finished_matrix(const std::string& handle) const;
   /// Cancels its job and waits for it to stop.
   void remove(const std::string& handle);
   std::vector<std::string> names() const;

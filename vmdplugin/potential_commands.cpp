@@ -12,6 +12,32 @@
 namespace espdiff::vmdplugin {
 namespace {
 
+/// The engine of the last potential, with its plans and buffers, which for a small map take as long as the work itself.
+/// Of the CPU only, and not when they are large: an engine of a GPU wants to go before the driver does, and memory that
+/// is seldom used belongs to others. Touched by the worker's thread alone.
+struct KeptEngine {
+  std::string device;
+  int threads = 0;
+  std::shared_ptr<Engine> engine;
+};
+KeptEngine& kept_engine() {
+  static KeptEngine kept;
+  return kept;
+}
+
+std::shared_ptr<Engine> take_engine(const Computation& wanted) {
+  KeptEngine& kept = kept_engine();
+  if (kept.engine == nullptr || kept.device != wanted.device || kept.threads != wanted.threads)
+    return select_engine(parse_device_choice(wanted.device), wanted.threads);
+  return kept.engine;
+}
+
+void keep_engine(const PotentialObject& used) {
+  constexpr std::size_t kMostPoints = std::size_t{1} << 22;  // 50 MB of buffers
+  const bool is_small = used.engine->back_end() == "cpu" && used.series->average().n_points() <= kMostPoints;
+  kept_engine() = {used.computation.device, used.computation.threads, is_small ? used.engine : nullptr};
+}
+
 Tcl_Obj* potential(const Call& call) {
   auto object = std::make_shared<PotentialObject>();
   DictReader reader(call.arguments[0], "options");
@@ -23,6 +49,7 @@ Tcl_Obj* potential(const Call& call) {
   object->potential.coulomb.dielectric = reader.number("dielectric", object->potential.coulomb.dielectric);
   object->potential.align = parse_align_atoms(reader.text("align", "none"));
   object->potential.frames_per_block = static_cast<std::size_t>(std::max(1, reader.integer("block", 1)));
+  object->keeps_frames = reader.boolean("each", false);
   reader.finish();
   return to_obj(call.handles.add(object));
 }
@@ -57,21 +84,32 @@ Tcl_Obj* potential_frame(const Call& call) {
         const auto alive = keep.lock();
         if (alive == nullptr) return;
         if (alive->series == nullptr) {
-          alive->engine = select_engine(parse_device_choice(alive->computation.device), alive->computation.threads);
+          alive->engine = take_engine(alive->computation);
           alive->series = std::make_unique<PotentialSeries>(*alive->engine, alive->potential);
         }
-        alive->series->step(*molecule, cell, progress);
+        if (alive->keeps_frames) {
+          alive->frame = alive->series->step(*molecule, cell, progress);
+        } else {
+          alive->series->add(*molecule, cell, progress);
+        }
+        keep_engine(*alive);
       });
   return nullptr;
 }
 
-/// "mean", "variance" or "error" of the frames so far.
+/// "mean", "variance" or "error" of the frames so far, or "frame", the last one's own.
 Grid average(const Call& call) {
   const std::string handle = call.text(0), which = call.text(1);
   const auto object = call.handles.find_potential(handle);
   require_done(handle, *object);
   if (object->series == nullptr) throw InputError(handle + " has no frames yet");
   const RunningMap& frames = object->series->average();
+  if (which == "frame") {
+    if (!object->keeps_frames) throw InputError(handle + " keeps no frame's own map; `each 1` wants them");
+    Grid map = object->frame;
+    map.name = "espdiff potential (kT/e, T=300K), " + object->frame.name;
+    return map;
+  }
   Grid map = which == "mean" ? frames.mean() : which == "variance" ? frames.variance() : frames.standard_error();
   const std::string n = std::to_string(frames.n_frames()) + (frames.n_frames() == 1 ? " frame" : " frames");
   const std::string unit = which == "variance" ? "(kT/e)^2" : "kT/e";
@@ -81,8 +119,8 @@ Grid average(const Call& call) {
 }
 
 void check_average(const std::string& which) {
-  if (which != "mean" && which != "variance" && which != "error")
-    throw InputError("'" + which + "' is not mean, variance or error");
+  if (which != "mean" && which != "variance" && which != "error" && which != "frame")
+    throw InputError("'" + which + "' is not mean, variance, error or frame");
 }
 
 Tcl_Obj* potential_put(const Call& call) {

@@ -3,6 +3,8 @@
 #include <sstream>
 
 #include "commands.h"
+#include "pipeline/residue_values.h"
+#include "pipeline/write_matrix.h"
 #include "pipeline/write_surface.h"
 #include "tcl_values.h"
 #include "vertex_quantity.h"
@@ -29,9 +31,27 @@ Tcl_Obj* surface_result(const SurfaceObject& surface) {
                   {"time_ms", times}});
 }
 
+/// The results' JSON, of a shard without matrix; and how the run went.
+Tcl_Obj* matrix_result(const MatrixObject& object) {
+  const MatrixReport& report = object.report;
+  Tcl_Obj* const dict = report.matrix ? to_obj(nlohmann::ordered_json::parse(matrix_json(
+                                            *report.matrix, metric_to_cluster_by(object.run, *report.matrix))))
+                                      : Tcl_NewDictObj();
+  const std::pair<const char*, Tcl_Obj*> about[] = {{"pairs", to_obj(report.n_pairs)},
+                                                    {"resumed", to_obj(report.n_resumed)},
+                                                    {"seconds", to_obj(report.seconds)},
+                                                    {"files", to_list(report.files)}};
+  for (const auto& [key, value] : about) Tcl_DictObjPut(nullptr, dict, to_obj(key), value);
+  return dict;
+}
+
 Tcl_Obj* result(const Call& call) {
   const std::string handle = call.text(0);
   const auto object = call.handles.find(handle);
+  if (const auto* matrix = dynamic_cast<const MatrixObject*>(object.get())) {
+    require_done(handle, *matrix);
+    return matrix_result(*matrix);
+  }
   if (const auto* surface = dynamic_cast<const SurfaceObject*>(object.get())) {
     require_done(handle, *surface);
     return surface_result(*surface);
@@ -66,6 +86,15 @@ Tcl_Obj* residues(const Call& call) {
 }
 
 Tcl_Obj* table(const Call& call) {
+  const auto object = call.handles.find(call.text(0));
+  if (dynamic_cast<const MatrixObject*>(object.get()) != nullptr) {
+    const auto matrix = call.handles.finished_matrix(call.text(0));
+    if (!matrix->report.matrix)
+      throw InputError(call.text(0) + " is a part of a matrix; `espdiff merge` puts the parts together");
+    std::ostringstream text;
+    print_matrix(text, *matrix->report.matrix, metric_to_cluster_by(matrix->run, *matrix->report.matrix));
+    return to_obj(text.str());
+  }
   const auto comparison = call.handles.finished_comparison(call.text(0));
   std::ostringstream out;
   print_table(out, *comparison->series->source.molecule, *comparison->target.molecule, comparison->result);
@@ -89,8 +118,7 @@ Tcl_Obj* export_files(const Call& call) {
   const auto object = call.handles.find(handle);
   if (const auto* surface = dynamic_cast<const SurfaceObject*>(object.get())) {
     require_done(handle, *surface);
-    const PotentialUnit unit = surface->molecule.map ? surface->molecule.map->unit : PotentialUnit::kUnknown;
-    write_surface(prefix + ".vtp", *surface->molecule.molecule, surface->result, unit);
+    write_surface(prefix + ".vtp", *surface->molecule.molecule, surface->result, surface->result.unit);
     return to_list({prefix + ".vtp"});
   }
   const auto comparison = call.handles.finished_comparison(handle);
@@ -100,11 +128,27 @@ Tcl_Obj* export_files(const Call& call) {
   return to_list({prefix + ".json", prefix + ".vtp", prefix + ".residues.csv"});
 }
 
+/// The values of a quantity by residue; in the order of residues().
+Tcl_Obj* residue_quantity(const Call& call) {
+  const auto comparison = call.handles.finished_comparison(call.text(0));
+  std::vector<Tcl_Obj*> values;
+  for (const double value : residue_values(comparison->result, call.text(1))) values.push_back(to_obj(value));
+  return to_dict({{"unit", to_obj(residue_unit(comparison->result, call.text(1)))}, {"values", to_list(values)}});
+}
+
+Tcl_Obj* residue_pdb(const Call& call) {
+  const auto comparison = call.handles.finished_comparison(call.text(0));
+  write_residue_pdb(call.text(2), *comparison->series->source.molecule, comparison->result, call.text(1));
+  return call.arguments[2];
+}
+
 }  // namespace
 
 std::vector<Command> result_commands() {
   return {{"result", 1, 1, "handle", result},
           {"residues", 1, 1, "handle", residues},
+          {"residue_quantity", 2, 2, "handle quantity", residue_quantity},
+          {"residue_pdb", 3, 3, "handle quantity file", residue_pdb},
           {"table", 1, 1, "handle", table},
           {"range", 2, 2, "handle quantity", range},
           {"export", 2, 2, "handle prefix", export_files}};

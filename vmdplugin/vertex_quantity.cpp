@@ -46,7 +46,7 @@ VertexQuantity vertex_quantity(const std::string& handle, const Object& object, 
   if (surface == nullptr) throw InputError(handle + " is a " + object.kind() + ", which has no surface");
   if (name != "potential") throw InputError("'" + name + "' is not potential, which is all a surface has");
   require_potentials(handle, name, !surface->result.potential.empty());
-  return {surface->result.potential, to_string(surface->molecule.map->unit)};
+  return {surface->result.potential, to_string(surface->result.unit)};
 }
 
 QuantityRange range_of(const std::vector<float>& values) {

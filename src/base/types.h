@@ -32,7 +32,8 @@ struct Residue {
 /// user.
 enum class ValueOrigin { kNone, kFile, kElement, kVmd };
 
-/// One conformation of a molecule: arrays of one length, in file order.
+/// One conformation of a molecule: arrays of one length, in file order. Of charges alone, for a potential, there may be
+/// no atoms, residues and radii.
 struct Molecule {
   std::vector<Atom> atoms;
   std::vector<Residue> residues;
@@ -42,7 +43,7 @@ struct Molecule {
   ValueOrigin radii_origin = ValueOrigin::kNone;
   std::string name;  ///< for messages: the path, or VMD's molecule name
 
-  std::size_t size() const { return atoms.size(); }
+  std::size_t size() const { return positions.size(); }
 };
 
 /// A lattice of points: origin + i*step[0] + j*step[1] + k*step[2], 0 <= i < size[0] and so on. Angstrom. Axes may be

@@ -1,11 +1,11 @@
 // compare.cpp: `espdiff compare SOURCE TARGET -o OUT`.
 #include <iostream>
 
-#include "cli/options.h"
+#include "cli/map_options.h"
 #include "cli/verbs.h"
 #include "io/atomic_file.h"
 #include "io/sha256.h"
-#include "pipeline/potential.h"
+#include "pipeline/residue_values.h"
 #include "pipeline/write_compare.h"
 
 namespace espdiff::cli {
@@ -13,9 +13,8 @@ namespace {
 
 struct Arguments {
   std::string source, target, output;
-  std::string source_map, target_map, source_map_unit, target_map_unit, map_array, potential;
-  std::string pme_grid = "0.5";
-  double ewald_factor = PmeOptions().ewald_factor;
+  MapArguments maps;
+  std::string residue_pdb, residue_quantity;
   int source_model = 1, target_model = 1;
   bool quiet = false;
   StructureOptions structure;
@@ -27,28 +26,16 @@ void add_input_options(CLI::App& p, Arguments& a) {
   p.add_option("SOURCE", a.source, "Structure of the first state: PQR, PDB or mmCIF")->required();
   p.add_option("TARGET", a.target, "Structure of the second state")->required();
   p.add_option("-o,--output", a.output, "Prefix of the results OUT.json, OUT.vtp and OUT.residues.csv")->required();
-  p.add_option("--source-map", a.source_map,
-               "Potential around the source: DX, VTI or cube, in the structure file's coordinates")
-      ->group("Potentials");
-  p.add_option("--target-map", a.target_map, "Potential around the target")->group("Potentials");
-  p.add_option("--source-map-unit", a.source_map_unit,
-               "Unit of the source map if the file does not say: kT/e, mV, V, kcal/mol/e, hartree/e")
-      ->group("Potentials");
-  p.add_option("--target-map-unit", a.target_map_unit, "Unit of the target map if the file does not say")
-      ->group("Potentials");
-  p.add_option("--map-array", a.map_array, "Array to take from VTI maps that hold several")->group("Potentials");
-  p.add_option("--potential", a.potential,
-               "Compute the potentials instead of reading maps, from the charges of the atoms that are read, in a cell "
-               "10 A wider than these on each side: pme")
-      ->check(CLI::IsMember({"pme"}))
-      ->group("Potentials");
-  p.add_option("--pme-grid", a.pme_grid,
-               "Grid of a computed potential: a resolution below 8 A, or numbers of points (see `espdiff potential`)")
-      ->capture_default_str()
-      ->group("Potentials");
-  p.add_option("--ewaldfactor", a.ewald_factor, "Smearing of the charges in a computed potential, 1/A")
-      ->capture_default_str()
-      ->group("Potentials");
+  add_map_options(p, a.maps);
+  p.add_option(
+       "--residue-pdb", a.residue_pdb,
+       "Also write the source as a PDB file whose B factors are the residues' --residue-quantity, for coloring in "
+       "any program")
+      ->group("Residues");
+  p.add_option("--residue-quantity", a.residue_quantity,
+               "Column of the residue table (mean_abs_difference; without potentials mean_displacement_A)")
+      ->check(CLI::IsMember(residue_quantities()))
+      ->group("Residues");
   p.add_option("--source-model", a.source_model, "Model of a multi-model source file, from 1")
       ->check(CLI::PositiveNumber)
       ->capture_default_str()
@@ -59,61 +46,62 @@ void add_input_options(CLI::App& p, Arguments& a) {
       ->group("Molecules");
 }
 
-Molecule read_model(const Arguments& a, const std::string& path, int model) {
+/// One of the two states.
+struct Side {
+  std::string role, path;
+  Molecule molecule;
+  std::optional<Grid> map;
+  std::optional<ComputedMap> computed;
+
+  CompareInput input() const { return {&molecule, map ? &*map : nullptr, computed ? computed->maker() : MapMaker()}; }
+};
+
+Side read_side(const Arguments& a, const std::string& role) {
+  Side side{role, role == "source" ? a.source : a.target, {}, {}, {}};
   StructureOptions options = a.structure;
-  options.model = model;
-  return read_structure(path, options);
+  options.model = role == "source" ? a.source_model : a.target_model;
+  const StructureFile file(side.path);
+  side.molecule = file.read(options);
+  return side;
 }
 
-/// The potential of a molecule by itself: its box is padded, whatever cell its file names.
-Grid computed_map(Engine& engine, const Arguments& a, const Molecule& molecule, const CompareOptions& options,
-                  const Progress& progress) {
-  PotentialOptions potential;
-  potential.grid = parse_grid_choice(a.pme_grid);
-  potential.pme.ewald_factor = a.ewald_factor;
-  potential.pme.temperature_K = options.temperature_K;
-  return potential_map(engine, molecule, potential, progress);
+void add_map(const Arguments& a, Side& side, double temperature_K, std::vector<InputFile>& inputs) {
+  side.map = given_map(a.maps, side.role, inputs);
+  if (!is_computed(a.maps)) return;
+  const int model = side.role == "source" ? a.source_model : a.target_model;
+  side.computed = computed_map_of_file(a.maps, side.path, model, side.molecule, temperature_K);
+  inputs.push_back(computed_input(side.role + "_map", *side.computed));
 }
 
 int run(const Arguments& a, const Context& context) {
-  if (!a.potential.empty() && !(a.source_map.empty() && a.target_map.empty()))
-    throw InputError("--potential computes both maps; leave out --source-map and --target-map, or --potential");
+  check_map_options(a.maps);
   const CompareOptions options = make_options(a.settings);
   // An output that cannot be written is better found before the work than after it.
   for (const char* suffix : {".json", ".vtp", ".residues.csv"}) AtomicFile probe(a.output + suffix);
+  if (!a.residue_pdb.empty()) AtomicFile probe(a.residue_pdb);
+  if (a.residue_pdb.empty() && !a.residue_quantity.empty())
+    throw InputError("--residue-quantity is of --residue-pdb FILE, which is missing");
 
   context.progress->report("read", 0.0);
-  const Molecule source = read_model(a, a.source, a.source_model), target = read_model(a, a.target, a.target_model);
-  CompareInput source_input{&source, nullptr}, target_input{&target, nullptr};
-  Grid source_map, target_map;
+  Side source = read_side(a, "source"), target = read_side(a, "target");
   Provenance provenance;
   provenance.command_line = context.command_line;
-  provenance.inputs = {{"source", a.source, sha256_of_file(a.source)}, {"target", a.target, sha256_of_file(a.target)}};
-  if (!a.source_map.empty()) {
-    source_map = read_map(a.source_map, a.map_array, a.source_map_unit);
-    source_input.map = &source_map;
-    provenance.inputs.push_back({"source_map", a.source_map, sha256_of_file(a.source_map)});
-  }
-  if (!a.target_map.empty()) {
-    target_map = read_map(a.target_map, a.map_array, a.target_map_unit);
-    target_input.map = &target_map;
-    provenance.inputs.push_back({"target_map", a.target_map, sha256_of_file(a.target_map)});
-  }
+  for (const Side* side : {&source, &target})
+    provenance.inputs.push_back({side->role, side->path, sha256_of_file(side->path)});
+  for (Side* side : {&source, &target}) add_map(a, *side, options.temperature_K, provenance.inputs);
   const std::unique_ptr<Engine> engine = make_engine(a.device);
-  if (!a.potential.empty()) {
-    source_map = computed_map(*engine, a, source, options, *context.progress);
-    target_map = computed_map(*engine, a, target, options, *context.progress);
-    source_input.map = &source_map;
-    target_input.map = &target_map;
-  }
   provenance.device = engine->back_end();
   provenance.device_description = engine->description();
   provenance.threads = engine->n_threads();
-  const CompareResult result = compare(*engine, source_input, target_input, options, *context.progress);
+  const CompareResult result = compare(*engine, source.input(), target.input(), options, *context.progress);
   context.progress->report("write", 0.0);
-  write_compare(a.output, source, target, result, options, provenance);
+  write_compare(a.output, source.molecule, target.molecule, result, options, provenance);
+  if (!a.residue_pdb.empty()) {
+    const std::string usual = result.has_potential ? "mean_abs_difference" : "mean_displacement_A";
+    write_residue_pdb(a.residue_pdb, source.molecule, result, a.residue_quantity.empty() ? usual : a.residue_quantity);
+  }
   context.progress->report("write", 1.0);
-  if (!a.quiet) print_table(std::cout, source, target, result);
+  if (!a.quiet) print_table(std::cout, source.molecule, target.molecule, result);
   return 0;
 }
 

@@ -43,6 +43,8 @@ int run() {
   line("cpu", cpu.available, cpu.description);
   line("cuda", cuda.available, cuda.description);
   line("--device auto", true, std::string("takes ") + (cuda.available ? "cuda" : "cpu"));
+  for (const BackEndStatus& status : {cpu_fourier_status(), cuda_fourier_status()})
+    line(("pme on " + status.name).c_str(), status.available, status.description);
 #if defined(ESPDIFF_HAVE_GEMMI)
   line("structures", true, "PQR, PDB, mmCIF");
 #else
@@ -59,6 +61,9 @@ int run() {
   line("maps", false, "DX and cube; no VTI: VTK 9 was not found when this was built (Debian: libvtk9-dev)");
   line("render", false, "VTK 9 was not found when this was built (Debian: libvtk9-dev)");
 #endif
+  const std::string gnuplot = on_path("gnuplot");
+  line("plot", !gnuplot.empty(),
+       !gnuplot.empty() ? gnuplot : "no program `gnuplot` on PATH, which draws plots (Debian: gnuplot-nox)");
   const std::string module = vmd_module();
   line("vmd module", !module.empty(),
        !module.empty()

@@ -64,10 +64,10 @@ int main(int argc, char** argv) {
   app.name("espdiff");
   app.set_version_flag("--version", std::string("espdiff ") + espdiff::kVersion);
   app.require_subcommand(0, 1);
-  std::vector<espdiff::cli::Verb> verbs = {espdiff::cli::add_compare(app), espdiff::cli::add_surface(app),
-                                           espdiff::cli::add_potential(app), espdiff::cli::add_render(app),
-                                           espdiff::cli::add_doctor(app)};
-  for (const auto& verb : espdiff::cli::add_announced(app)) verbs.push_back(verb);
+  std::vector<espdiff::cli::Verb> verbs = {
+      espdiff::cli::add_compare(app),   espdiff::cli::add_trajectory(app), espdiff::cli::add_matrix(app),
+      espdiff::cli::add_merge(app),     espdiff::cli::add_plot(app),       espdiff::cli::add_surface(app),
+      espdiff::cli::add_potential(app), espdiff::cli::add_render(app),     espdiff::cli::add_doctor(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -78,7 +78,9 @@ int main(int argc, char** argv) {
   for (const auto& verb : verbs) {
     if (verb.parser->parsed()) return run_verb(verb, joined(argc, argv));
   }
-  std::fputs("espdiff: a subcommand is missing: compare, surface, potential, render or doctor\nTry 'espdiff --help'.\n",
-             stderr);
+  std::fputs(
+      "espdiff: a subcommand is missing: compare, trajectory, matrix, merge, plot, surface, potential, render or "
+      "doctor\nTry 'espdiff --help'.\n",
+      stderr);
   return 2;
 }

@@ -3,6 +3,7 @@
 
 #include "engine/select_engine.h"
 #include "io/read_grid.h"
+#include "io/write_csv.h"
 
 namespace espdiff::cli {
 namespace {

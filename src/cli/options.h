@@ -9,6 +9,7 @@
 
 #include "engine/engine.h"
 #include "io/read_structure.h"
+#include "pipeline/potential.h"
 #include "pipeline/settings.h"
 
 namespace espdiff::cli {

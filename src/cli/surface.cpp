@@ -44,7 +44,7 @@ int run(const Arguments& a, const Context& context) {
   }
   const std::unique_ptr<Engine> engine = make_engine(a.device);
   const SurfaceResult result = make_surface(*engine, input, options, a.regularize, *context.progress);
-  write_surface(a.output, molecule, result, map.unit);
+  write_surface(a.output, molecule, result, result.unit);
   if (!a.density.empty()) write_dx(a.density, make_density(*engine, molecule, options.surface));
   context.progress->report("write", 1.0);
   if (!a.quiet) print_summary(result);

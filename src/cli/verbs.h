@@ -27,11 +27,13 @@ struct Verb {
 };
 
 Verb add_compare(CLI::App& app);
+Verb add_trajectory(CLI::App& app);
+Verb add_matrix(CLI::App& app);
+Verb add_merge(CLI::App& app);
 Verb add_surface(CLI::App& app);
+Verb add_plot(CLI::App& app);
 Verb add_potential(CLI::App& app);
 Verb add_render(CLI::App& app);
 Verb add_doctor(CLI::App& app);
-/// Verbs of the design that this version does not have; they say so.
-std::vector<Verb> add_announced(CLI::App& app);
 
 }  // namespace espdiff::cli

@@ -403,6 +403,13 @@ class Engine {
   /// grows as n log n with the number of triangles, and with the number of such pairs.
   virtual IntersectionReport self_intersections(const MeshPtr& mesh) = 0;
   virtual double area(const MeshPtr& mesh) = 0;
+  /// The vertices of `points` taken along by the mapping that takes `surface` to `image`: each goes from the place of
+  /// `surface` nearest to it to the same place of `image` (linear within a triangle); where
+  /// it lies farther than `max_distance_A` from `surface`, to NaN.
+  /// @param surface, image meshes of one topology
+  /// @returns a mesh of the topology of `points`
+  /// @throws GeometryError when the topologies differ in size
+  virtual MeshPtr carry(const MeshPtr& points, const MeshPtr& surface, const MeshPtr& image, double max_distance_A) = 0;
   /// Compares the triangles of two meshes of one topology (Smith and Schaefer, ACM Trans. Graph. 34, 70 (2015), for the
   /// energy).
   /// @param limit of the ratio of areas, mapped to source, as measured over the rings of a triangle's three corners

@@ -32,6 +32,20 @@ BackEndStatus cuda_status() {
   return status;
 }
 
+BackEndStatus cpu_fourier_status() {
+  BackEndStatus status{"cpu", false, ""};
+  status.description = cpu_backend::probe_fourier(&status.available);
+  return status;
+}
+
+BackEndStatus cuda_fourier_status() {
+  BackEndStatus status = cuda_status();
+#if defined(ESPDIFF_HAVE_CUDA)
+  if (status.available) status.description = cuda_backend::probe_fourier(&status.available);
+#endif
+  return status;
+}
+
 std::unique_ptr<Engine> select_engine(DeviceChoice choice, int n_threads) {
   if (n_threads < 0)
     throw InputError("the number of threads, " + std::to_string(n_threads) + ", is negative; 0 takes all");

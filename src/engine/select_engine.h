@@ -21,6 +21,9 @@ struct BackEndStatus {
 };
 BackEndStatus cpu_status();
 BackEndStatus cuda_status();
+/// Of the Fourier transforms that PME potentials need there.
+BackEndStatus cpu_fourier_status();
+BackEndStatus cuda_fourier_status();
 
 /// Makes an engine.
 /// @param n_threads CPU threads; 0 takes as many as the machine offers. A device ignores it.

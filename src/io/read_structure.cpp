@@ -1,10 +1,9 @@
 // read_structure.cpp: finds out what a structure file is and hands it to the reader for it.
 #include "io/read_structure.h"
 
-#include <vector>
+#include <utility>
 
 #include "base/error.h"
-#include "io/atom_records.h"
 #include "io/file_kind.h"
 #include "io/gzip_text.h"
 #include "io/read_pqr.h"
@@ -47,40 +46,44 @@ namespace {
 }
 #endif
 
-Molecule read_atom_records(const std::string& path, const StructureOptions& options) {
-  const std::string text = read_text_file(path);
-  const std::vector<AtomModel> models = split_models(text, path);
-  const AtomModel& model = pick_model(models, options.model, path);
-  if (looks_like_pqr(model, path)) return read_pqr(path, model, options);
-#ifdef ESPDIFF_HAVE_GEMMI
-  return read_pdb(path, model, options);
-#else
-  lack_gemmi(path, "PDB");
-#endif
-}
-
 }  // namespace
 
-Molecule read_structure(const std::string& path, const StructureOptions& options) {
-  const FileKind kind = recognise(peek_text_file(path, kRecogniseBytes));
-  if (kind == FileKind::kAtomRecords) return read_atom_records(path, options);
-  if (kind != FileKind::kMmcif) refuse(path, kind);
+StructureFile::StructureFile(std::string path) : path_(std::move(path)) {
+  const FileKind kind = recognise(peek_text_file(path_, kRecogniseBytes));
+  is_mmcif_ = kind == FileKind::kMmcif;
+  if (!is_mmcif_ && kind != FileKind::kAtomRecords) refuse(path_, kind);
+  text_ = read_text_file(path_);
+  if (!is_mmcif_) models_ = split_models(text_, path_);
+}
+
+int StructureFile::n_models() const {
+  if (!is_mmcif_) return static_cast<int>(models_.size());
 #ifdef ESPDIFF_HAVE_GEMMI
-  return read_mmcif(path, read_text_file(path), options);
+  return count_mmcif_models(path_, text_);
 #else
-  lack_gemmi(path, "mmCIF");
+  lack_gemmi(path_, "mmCIF");
 #endif
 }
 
-int count_models(const std::string& path) {
-  const FileKind kind = recognise(peek_text_file(path, kRecogniseBytes));
-  if (kind == FileKind::kAtomRecords) return static_cast<int>(split_models(read_text_file(path), path).size());
-  if (kind != FileKind::kMmcif) refuse(path, kind);
+Molecule StructureFile::read(const StructureOptions& options) const {
 #ifdef ESPDIFF_HAVE_GEMMI
-  return count_mmcif_models(path, read_text_file(path));
+  if (is_mmcif_) return read_mmcif(path_, text_, options);
 #else
-  lack_gemmi(path, "mmCIF");
+  if (is_mmcif_) lack_gemmi(path_, "mmCIF");
+#endif
+  const AtomModel& model = pick_model(models_, options.model, path_);
+  if (looks_like_pqr(model, path_)) return read_pqr(path_, model, options);
+#ifdef ESPDIFF_HAVE_GEMMI
+  return read_pdb(path_, model, options);
+#else
+  lack_gemmi(path_, "PDB");
 #endif
 }
+
+Molecule read_structure(const std::string& path, const StructureOptions& options) {
+  return StructureFile(path).read(options);
+}
+
+int count_models(const std::string& path) { return StructureFile(path).n_models(); }
 
 }  // namespace espdiff

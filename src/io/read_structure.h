@@ -2,8 +2,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "base/types.h"
+#include "io/atom_records.h"
 
 namespace espdiff {
 
@@ -25,6 +27,26 @@ Molecule read_structure(const std::string& path, const StructureOptions& options
 /// Number of models in the file.
 /// @throws as read_structure()
 int count_models(const std::string& path);
+
+/// A structure file whose models are read one after the other, such as the frames of a trajectory: the file itself is
+/// read once, and its text kept.
+class StructureFile {
+ public:
+  /// @throws as read_structure()
+  explicit StructureFile(std::string path);
+  StructureFile(const StructureFile&) = delete;
+  StructureFile& operator=(const StructureFile&) = delete;
+
+  int n_models() const;
+  /// @throws as read_structure()
+  Molecule read(const StructureOptions& options) const;
+
+ private:
+  std::string path_;
+  bool is_mmcif_ = false;
+  std::string text_;
+  std::vector<AtomModel> models_;  // of files with atom records; they point into the text
+};
 
 /// Van der Waals radius by element, Angstrom. Bondi, J. Phys. Chem. 68, 441 (1964); elements he does not give: Alvarez,
 /// Dalton Trans. 42, 8617 (2013). `element` in any case; 1.7 for unknown (empty) ones.

@@ -1,11 +1,9 @@
 // build_surface.cpp: density, surface, components, projection and regularization of one molecule.
 #include "pipeline/build_surface.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "align/superpose.h"
 #include "base/error.h"
+#include "pipeline/side_maps.h"
 
 namespace espdiff {
 namespace {
@@ -81,19 +79,6 @@ MeshPtr regularize(Engine& engine, const Surface& surface, const MeshPtr& given,
   return mesh;
 }
 
-std::size_t count_outside(const std::vector<float>& samples) {
-  return static_cast<std::size_t>(
-      std::count_if(samples.begin(), samples.end(), [](float value) { return !std::isfinite(value); }));
-}
-
-void require_coverage(const Grid& map, std::size_t n_outside, std::size_t n_vertices) {
-  if (n_outside < n_vertices) return;
-  throw InputError(
-      map.name +
-      ": the map does not cover the molecule: no vertex of the surface lies in it; compute the map around this "
-      "molecule, in the coordinates of the structure file");
-}
-
 SurfaceResult make_surface(Engine& engine, const CompareInput& input, const CompareOptions& options, bool regularized,
                            const Progress& progress) {
   SurfaceResult result;
@@ -114,9 +99,11 @@ SurfaceResult make_surface(Engine& engine, const CompareInput& input, const Comp
   for (std::size_t v = 0; v < result.positions.size(); ++v)
     result.mesh.positions[v] = static_cast<Vec3f>(result.positions[v]);
   result.residue = engine.vertex_residues(surface.mesh, surface.atoms);
-  if (input.map != nullptr) {
-    result.potential = engine.download(engine.sample(engine.upload_map(*input.map, from_common), surface.mesh));
-    require_coverage(*input.map, count_outside(result.potential), result.potential.size());
+  if (has_map(input)) {
+    result.unit = unit_of(input);
+    const GridPtr map = device_map(engine, input, from_common, result.unit, options.temperature_K, progress);
+    result.potential = engine.download(engine.sample(map, surface.mesh));
+    count_outside(input, result.potential);
   }
   clock.lap("attributes");
   clock.finish();

@@ -33,10 +33,4 @@ Surface build_surface(Engine& engine, const Molecule& molecule, const RigidTrans
 MeshPtr regularize(Engine& engine, const Surface& surface, const MeshPtr& mesh, const CompareOptions& options,
                    const Progress& progress, DeformReport* report);
 
-/// How many samples lie outside the map.
-std::size_t count_outside(const std::vector<float>& samples);
-
-/// @throws InputError when every vertex lies outside the map
-void require_coverage(const Grid& map, std::size_t n_outside, std::size_t n_vertices);
-
 }  // namespace espdiff

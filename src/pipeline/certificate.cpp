@@ -13,6 +13,7 @@ struct Limits {
   static constexpr double kCorruptArea = 1e-3;
   static constexpr double kFlippedArea = 0.0;
   static constexpr double kMeanDistance_A = 0.05;
+  static constexpr double kRoundTrip_A = 0.5;
   static constexpr double kNoCounterpartSource = 0.05;
   static constexpr double kNoCounterpartTarget = 0.1;  ///< surface that is new on the target is no flaw of the mapping
   static constexpr std::size_t kSelfIntersectingPairs = 0;
@@ -90,6 +91,9 @@ void judge(Certificate& c, const CompareResult& result) {
   refuse(c.no_counterpart_target > Limits::kNoCounterpartTarget,
          percent(c.no_counterpart_target) + " of the target's area has no counterpart on the source (limit " +
              percent(Limits::kNoCounterpartTarget) + ")");
+  refuse(c.round_trip && c.round_trip->mean_A > Limits::kRoundTrip_A,
+         "there and back ends " + angstrom(c.round_trip ? c.round_trip->mean_A : 0) +
+             " from the start on average (limit " + angstrom(Limits::kRoundTrip_A) + ")");
   const double n = static_cast<double>(result.surface.positions.size());
   const double outside = static_cast<double>(std::max(result.n_outside_source_map, result.n_outside_target_map));
   refuse(outside > 0, percent(outside / n) + " of the vertices lie outside a map");

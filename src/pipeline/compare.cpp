@@ -15,6 +15,8 @@
 #include "pipeline/mapping.h"
 #include "pipeline/paired_residues.h"
 #include "pipeline/residue_rows.h"
+#include "pipeline/round_trip.h"
+#include "pipeline/side_maps.h"
 
 namespace espdiff {
 
@@ -94,36 +96,6 @@ CommonFrame align(const Molecule& source, const Molecule& target, AlignAtoms ato
   return frame;
 }
 
-/// Samples of both potentials at counterparts, in one unit.
-struct Potentials {
-  ScalarsPtr source, target;
-};
-
-Grid in_unit(const Grid& map, PotentialUnit unit, double temperature_K) {
-  Grid converted = map;
-  const float factor = static_cast<float>(conversion_factor(map.unit, unit, temperature_K));
-  for (float& value : converted.values) value *= factor;
-  converted.unit = unit;
-  return converted;
-}
-
-void check_maps(const CompareInput& source, const CompareInput& target) {
-  if ((source.map == nullptr) != (target.map == nullptr)) {
-    const bool source_has = source.map != nullptr;
-    throw InputError(std::string("a potential map was given for the ") + (source_has ? "source" : "target") +
-                     " only; give one for the " +
-                     (source_has ? "target too (--target-map" : "source too (--source-map") +
-                     "; `map` in Tcl), or none to compare shapes alone");
-  }
-  if (source.map == nullptr || source.map->unit == target.map->unit) return;
-  if (source.map->unit == PotentialUnit::kUnknown || target.map->unit == PotentialUnit::kUnknown) {
-    const bool source_unknown = source.map->unit == PotentialUnit::kUnknown;
-    throw InputError("the maps are in two units: " + to_string(source.map->unit) + " (" + source.map->name + ") and " +
-                     to_string(target.map->unit) + " (" + target.map->name + "); name the unknown one's unit (" +
-                     (source_unknown ? "--source-map-unit" : "--target-map-unit") + "; `unit` in Tcl)");
-  }
-}
-
 /// [vertex] whether it lies in a triangle with a counterpart.
 std::vector<bool> has_counterpart(const MappedSurface& s) {
   if (s.no_counterpart.empty()) return std::vector<bool>(s.positions.size(), true);
@@ -140,38 +112,6 @@ void forget_lost(const std::vector<bool>& kept, std::vector<float>& values) {
   for (std::size_t v = 0; v < values.size(); ++v) {
     if (!kept[v]) values[v] = std::numeric_limits<float>::quiet_NaN();
   }
-}
-
-/// Samples that are NaN for another reason than that.
-std::size_t count_outside(const std::vector<bool>& kept, const std::vector<float>& samples) {
-  std::size_t n = 0;
-  for (std::size_t v = 0; v < samples.size(); ++v) n += kept[v] && !std::isfinite(samples[v]) ? 1 : 0;
-  return n;
-}
-
-Potentials sample_potentials(Engine& engine, const CompareInput& source, const CompareInput& target,
-                             const CommonFrame& frame, const Mapping& mapping, double temperature_K,
-                             CompareResult& result) {
-  result.unit = source.map->unit;
-  Grid converted;
-  const Grid* target_map = target.map;
-  if (target.map->unit != result.unit) {
-    converted = in_unit(*target.map, result.unit, temperature_K);
-    target_map = &converted;
-  }
-  Potentials potentials;
-  potentials.source = engine.sample(engine.upload_map(*source.map, inverse(frame.from_source)), mapping.source);
-  potentials.target = engine.sample(engine.upload_map(*target_map, inverse(frame.from_target)), mapping.mapped);
-  result.surface.potential_source = engine.download(potentials.source);
-  result.surface.potential_target = engine.download(potentials.target);
-  const std::vector<bool> kept = has_counterpart(result.surface);
-  result.n_outside_source_map = count_outside(kept, result.surface.potential_source);
-  result.n_outside_target_map = count_outside(kept, result.surface.potential_target);
-  require_coverage(*source.map, result.n_outside_source_map, result.surface.potential_source.size());
-  require_coverage(*target.map, result.n_outside_target_map, result.surface.potential_target.size());
-  forget_lost(kept, result.surface.potential_target);
-  result.has_potential = true;
-  return potentials;
 }
 
 void download_surface(Engine& engine, const MeshPtr& source, const MeshPtr& mapped, const CommonFrame& frame,
@@ -231,12 +171,14 @@ struct Series::Steps {
   CompareInput source;
   CompareOptions options;
   bool prepared = false;
-  Surface surface;
-  MeshPtr regularized;
-  DeformReport regularize_report;
-  MeshPtr last_mapped;             ///< null where the next step starts from the source
-  std::vector<Vec3d> last_target;  ///< see SeriesState
-  std::optional<SeriesState> restored;
+  Surface surface{};
+  MeshPtr regularized{};
+  DeformReport regularize_report{};
+  PotentialUnit unit = PotentialUnit::kUnknown;  ///< of the source's map
+  GridPtr source_map{};                          ///< made by the first step
+  MeshPtr last_mapped{};                         ///< null where the next step starts from the source
+  std::vector<Vec3d> last_target{};              ///< see SeriesState
+  std::optional<SeriesState> restored{};
 
   void prepare(const RigidTransform& to_common, const Progress& progress, StageClock& clock) {
     if (prepared) return;
@@ -260,6 +202,27 @@ struct Series::Steps {
     restored.reset();
   }
 
+  /// The mapping from the target's surface to the source's, in the same common frame.
+  Mapping map_back(const CompareInput& target, const Surface& target_surface, const CommonFrame& frame,
+                   const AtomPairing& pairing, const Progress& progress) const {
+    std::vector<std::pair<std::string, double>> times;  // the caller's clock has one entry for all of it
+    StageClock clock(times);
+    Steps back{engine, target, options, true, target_surface};
+    const MeshPtr& mesh = options.method == Method::kMorph ? target_surface.whole : target_surface.mesh;
+    back.regularized = espdiff::regularize(engine, target_surface, mesh, options, progress, &back.regularize_report);
+    CompareResult scratch;
+    for (const auto& [s, t] : pairing.pairs) scratch.pairing.pairs.emplace_back(t, s);
+    Mapping mapping;
+    if (options.method == Method::kMorph) {
+      mapping = back.map_by_morph(*source.molecule, surface, {frame.from_target, frame.from_source}, scratch, progress,
+                                  clock);
+    } else {
+      mapping = back.deform(surface, back.regularized, scratch, progress, clock);
+    }
+    settle(engine, mapping, surface.atoms, surface.mesh, static_cast<float>(options.surface.isovalue));
+    return mapping;
+  }
+
   Mapping map_by_morph(const Molecule& target, const Surface& target_surface, const CommonFrame& frame,
                        CompareResult& result, const Progress& progress, StageClock& clock) {
     MorphOptions morph = options.morph;
@@ -279,9 +242,55 @@ struct Series::Steps {
     return mapping;
   }
 
-  /// Fills in what the mapping gave: certificate, per-vertex arrays, potentials, metrics, residues.
-  void evaluate(const CompareInput& target, const CommonFrame& frame, const Surface& target_surface, Mapping& mapping,
-                CompareResult& result, const Progress& progress, StageClock& clock) {
+  Mapping deform(const Surface& target, const MeshPtr& start, CompareResult& result, const Progress& progress,
+                 StageClock& clock) {
+    const FieldPtr field = make_field(engine, surface, target, options, progress, &result.flow_report);
+    clock.lap("field");
+    Mapping mapping = map_by_deform(engine, surface, regularized, target, start, field, options, progress,
+                                    result.deform_report, result.n_vertices_subdivided);
+    clock.lap("deform");
+    return mapping;
+  }
+
+  /// The target's map, null where there is none; the source's too, unless it is there already.
+  GridPtr make_maps(const CompareInput& target, const CommonFrame& frame, const Progress& progress) {
+    if (!has_map(target)) return nullptr;
+    const PotentialUnit wanted = common_unit(source, target);
+    const double temperature_K = options.temperature_K;
+    if (source_map == nullptr || wanted != unit) {
+      source_map = device_map(engine, source, inverse(frame.from_source), wanted, temperature_K, progress);
+      unit = wanted;
+    }
+    return device_map(engine, target, inverse(frame.from_target), wanted, temperature_K, progress);
+  }
+
+  /// Potentials at counterparts, and the metrics of their differences.
+  void compare_potentials(const CompareInput& target, const GridPtr& target_map, const Mapping& mapping,
+                          CompareResult& result) {
+    MappedSurface& s = result.surface;
+    const ScalarsPtr at_source = engine.sample(source_map, mapping.source),
+                     at_target = engine.sample(target_map, mapping.mapped);
+    result.unit = unit;
+    s.potential_source = engine.download(at_source);
+    s.potential_target = engine.download(at_target);
+    const std::vector<bool> kept = has_counterpart(s);
+    result.n_outside_source_map = count_outside(source, s.potential_source, kept);
+    result.n_outside_target_map = count_outside(target, s.potential_target, kept);
+    forget_lost(kept, s.potential_target);
+    result.has_potential = true;
+    std::vector<float> excluded(s.corrupt.begin(), s.corrupt.end());
+    for (std::size_t t = 0; t < mapping.lost.size(); ++t) excluded[t] = std::max(excluded[t], mapping.lost[t]);
+    const ScalarsPtr path_length = engine.upload_scalars(mapping.path_length);
+    result.metrics = engine.compare(mapping.source, mapping.mapped, at_source, at_target,
+                                    engine.upload_scalars(excluded), path_length);
+    result.metrics_all =
+        engine.compare(mapping.source, mapping.mapped, at_source, at_target,
+                       mapping.lost.empty() ? nullptr : engine.upload_scalars(mapping.lost), path_length);
+  }
+
+  /// Finds what has a counterpart, and certifies it.
+  void check(Mapping& mapping, const Surface& target_surface, CompareResult& result, const Progress& progress,
+             StageClock& clock) const {
     progress.report("certificate", 0.0);
     settle(engine, mapping, target_surface.atoms, target_surface.mesh, static_cast<float>(options.surface.isovalue));
     if (options.method == Method::kMorph && !options.surface.cavities) drop_closed_cavities(engine, mapping);
@@ -289,7 +298,12 @@ struct Series::Steps {
     result.certificate = certify(engine, mapping, target_surface.mesh);
     result.certificate.converged = options.method == Method::kMorph || result.deform_report.converged;
     clock.lap("certificate");
+  }
 
+  /// Fills in what the mapping gave: per-vertex arrays, potentials, metrics, residues, and the verdict.
+  void evaluate(const CompareInput& target, const CommonFrame& frame, const Surface& target_surface,
+                const GridPtr& target_map, const Mapping& mapping, CompareResult& result, const Progress& progress,
+                StageClock& clock) {
     progress.report("metrics", 0.0);
     MappedSurface& s = result.surface;
     download_surface(engine, mapping.source, mapping.mapped, frame, s);
@@ -303,18 +317,7 @@ struct Series::Steps {
     result.certificate.same_residue_area_fraction =
         same_residue_share(s, s.residue, engine.vertex_residues(mapping.mapped, target_surface.atoms),
                            paired_residues(*source.molecule, *target.molecule, result.pairing));
-    if (source.map != nullptr) {
-      std::vector<float> excluded(s.corrupt.begin(), s.corrupt.end());
-      for (std::size_t t = 0; t < mapping.lost.size(); ++t) excluded[t] = std::max(excluded[t], mapping.lost[t]);
-      const Potentials potentials =
-          sample_potentials(engine, source, target, frame, mapping, options.temperature_K, result);
-      const ScalarsPtr path_length = engine.upload_scalars(mapping.path_length);
-      result.metrics = engine.compare(mapping.source, mapping.mapped, potentials.source, potentials.target,
-                                      engine.upload_scalars(excluded), path_length);
-      result.metrics_all =
-          engine.compare(mapping.source, mapping.mapped, potentials.source, potentials.target,
-                         mapping.lost.empty() ? nullptr : engine.upload_scalars(mapping.lost), path_length);
-    }
+    if (target_map != nullptr) compare_potentials(target, target_map, mapping, result);
     result.residues = residue_rows(s, source.molecule->residues.size(), result.has_potential);
     judge(result.certificate, result);
     clock.lap("metrics");
@@ -322,7 +325,7 @@ struct Series::Steps {
 };
 
 Series::Series(Engine& engine, const CompareInput& source, const CompareOptions& options)
-    : steps_(new Steps{engine, source, options, false, {}, nullptr, {}, nullptr, {}, {}}) {}
+    : steps_(new Steps{engine, source, options}) {}
 Series::~Series() = default;
 
 CompareResult Series::step(const CompareInput& target, StartFrom start, const Progress& progress) {
@@ -330,10 +333,12 @@ CompareResult Series::step(const CompareInput& target, StartFrom start, const Pr
   const Molecule& source = *steps.source.molecule;
   CompareResult result;
   StageClock clock(result.time_ms);
-  check_maps(steps.source, target);
+  check_maps(steps.source, target);  // before any work
   progress.report("align", 0.0);
   const CommonFrame frame = align(source, *target.molecule, steps.options.align, result);
   clock.lap("align");
+  const GridPtr target_map = steps.make_maps(target, frame, progress);
+  if (target_map != nullptr) clock.lap("potential");
 
   steps.prepare(frame.from_source, progress, clock);
   const Surface target_surface =
@@ -354,15 +359,18 @@ CompareResult Series::step(const CompareInput& target, StartFrom start, const Pr
   if (steps.options.method == Method::kMorph) {
     mapping = steps.map_by_morph(*target.molecule, target_surface, frame, result, progress, clock);
   } else {
-    const FieldPtr field =
-        make_field(steps.engine, steps.surface, target_surface, steps.options, progress, &result.flow_report);
-    clock.lap("field");
-    mapping = map_by_deform(steps.engine, steps.surface, steps.regularized, target_surface,
-                            result.start == StartFrom::kPrevious ? last : steps.regularized, field, steps.options,
-                            progress, result.deform_report, result.n_vertices_subdivided);
-    clock.lap("deform");
+    mapping = steps.deform(target_surface, result.start == StartFrom::kPrevious ? last : steps.regularized, result,
+                           progress, clock);
   }
-  steps.evaluate(target, frame, target_surface, mapping, result, progress, clock);
+  steps.check(mapping, target_surface, result, progress, clock);
+  if (steps.options.round_trip) {
+    const Mapping back = steps.map_back(target, target_surface, frame, result.pairing, progress);
+    result.certificate.round_trip = measure_round_trip(steps.engine, mapping, back);
+    clock.lap("round trip");
+  } else {
+    result.certificate.not_checked.emplace_back("round_trip");
+  }
+  steps.evaluate(target, frame, target_surface, target_map, mapping, result, progress, clock);
   if (steps.options.method == Method::kDeform && result.deform_report.converged) {
     steps.last_mapped = without_added(steps.engine, steps.regularized, mapping.mapped);
     steps.last_target = std::move(target_atoms);

@@ -2,6 +2,7 @@
 // of the stages.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -55,6 +56,7 @@ struct CompareOptions {
   /// In grid spacings; they set min_displacement_A. The thesis' 1e-3 lets the mapping end while a few vertices still
   /// travel.
   double regularize_min_displacement = 1e-3, deform_min_displacement = 5e-4;
+  bool round_trip = false;     ///< map back as well, which takes as long again, and see whether that ends at the start
   double temperature_K = 300;  ///< for converting between kT/e and other units
 };
 
@@ -83,6 +85,13 @@ struct ResidueRow {
   double mean_path_length_A = 0;
 };
 
+/// How far from its start a vertex ends that is taken to the target and back by a second mapping, made from the target
+/// on its own. Angstrom, weighted by the source's area.
+struct RoundTrip {
+  double mean_A = 0, p95_A = 0, max_A = 0;
+  double lost_target_area_fraction = 0;  ///< of the target's surface, by the mapping back
+};
+
 /// All but no_counterpart_* are over what has a counterpart.
 struct Certificate {
   double corrupt_area_fraction = 0;
@@ -95,6 +104,7 @@ struct Certificate {
   double no_counterpart_source = 0;
   double no_counterpart_target = 0;  ///< share of the target's area farther than 1 A from the mapped surface
   DistortionReport distortion;
+  std::optional<RoundTrip> round_trip;
   /// Share of the mapped area whose residue (of most density) on the target is the one paired with that on the source;
   /// NaN where no residues pair.
   double same_residue_area_fraction = 0;
@@ -148,10 +158,17 @@ struct CompareResult {
   std::vector<std::pair<std::string, double>> time_ms;  ///< stage, in order, and last "total"
 };
 
-/// One side of a comparison. Maps may be absent on both sides: then shapes are compared only.
+/// Makes a potential map where it is needed, on the device: sampled there in whatever way the map was made for, such as
+/// by its splines (PmeOptions::smooth_samples). In kT/e at the comparison's temperature. `to_map` is the way from the
+/// common frame into the molecule's own, which is the map's.
+using MapMaker = std::function<GridPtr(Engine& engine, const RigidTransform& to_map, const Progress& progress)>;
+
+/// One side of a comparison, with a map that is given, or one that is computed, or none. Maps may be absent on both
+/// sides: then shapes are compared only.
 struct CompareInput {
   const Molecule* molecule = nullptr;
   const Grid* map = nullptr;
+  MapMaker make_map = nullptr;  ///< instead of `map`
 };
 
 /// What a series hands from one step to the next, all in the source's principal frame. Angstrom.
@@ -160,7 +177,8 @@ struct SeriesState {
   std::vector<Vec3d> target;  ///< [atom of the source] where the last target's counterpart lay; NaN where there is none
 };
 
-/// Many targets compared with one source, whose surface is made and regularized once, for the first of them.
+/// Many targets compared with one source, whose surface is made and regularized once, for the first of them, and whose
+/// potential is computed once.
 class Series {
  public:
   /// Keeps references to all but the options.
@@ -199,6 +217,7 @@ struct SurfaceResult {
   std::vector<Vec3d> positions;       ///< [vertex] double precision, the molecule's frame
   std::vector<std::int32_t> residue;  ///< [vertex]
   std::vector<float> potential;       ///< [vertex], empty without a map
+  PotentialUnit unit = PotentialUnit::kUnknown;
   SurfaceSummary summary;
   std::vector<ComponentSummary> components;  ///< all, cavities included
   DeformReport regularize_report;

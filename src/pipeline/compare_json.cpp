@@ -45,6 +45,13 @@ Json certificate(const Certificate& c) {
   json["flipped_area_fraction"] = number(c.flipped_area_fraction);
   json["no_counterpart_area_fraction"] = {{"source", number(c.no_counterpart_source)},
                                           {"target", number(c.no_counterpart_target)}};
+  json["round_trip"] = nullptr;
+  if (c.round_trip) {
+    json["round_trip"] = {{"mean_A", number(c.round_trip->mean_A)},
+                          {"p95_A", number(c.round_trip->p95_A)},
+                          {"max_A", number(c.round_trip->max_A)},
+                          {"lost_target_area_fraction", number(c.round_trip->lost_target_area_fraction)}};
+  }
   const DistortionReport& d = c.distortion;
   json["area_ratio"] = {
       {"p05", number(d.area_ratio_p05)}, {"median", number(d.area_ratio_median)}, {"p95", number(d.area_ratio_p95)}};
@@ -130,10 +137,31 @@ Json echo(const CompareOptions& o) {
   return json;
 }
 
+Json vector(const Vec3d& v) { return {number(v.x), number(v.y), number(v.z)}; }
+
+Json recipe(const MapRecipe& r) {
+  const auto& edges = r.cell.edges;
+  return {{"method", "pme"},
+          {"charges_from", r.charges_from},
+          {"n_charges", r.n_charges},
+          {"net_charge", number(r.net_charge)},
+          {"cell_from", r.cell_from},
+          {"cell_centre_A", vector(r.cell.centre)},
+          {"cell_edges_A", {vector(edges[0]), vector(edges[1]), vector(edges[2])}},
+          {"grid", r.pme.size},
+          {"spline_order", r.pme.order},
+          {"ewald_factor", number(r.pme.ewald_factor)},
+          {"compatible", r.pme.compatible},
+          {"precision", r.pme.precision == Precision::kDouble ? "double" : "single"},
+          {"sampling", r.pme.smooth_samples ? "spline" : "trilinear"},
+          {"temperature_K", number(r.pme.temperature_K)}};
+}
+
 Json input_files(const Provenance& provenance) {
   Json json = Json::array();
   for (const InputFile& input : provenance.inputs) {
     json.push_back({{"role", input.role}, {"path", input.path}, {"sha256", input.sha256}});
+    if (input.computed) json.back()["computed"] = recipe(*input.computed);
   }
   return json;
 }

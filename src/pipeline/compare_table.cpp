@@ -121,6 +121,11 @@ void print_certificate(std::ostream& out, const CompareResult& result) {
   line(out, "without counterpart",
        percent(c.no_counterpart_source) + " of the source's, " + percent(c.no_counterpart_target) +
            " of the target's area");
+  if (c.round_trip) {
+    line(out, "there and back",
+         "mean " + significant(c.round_trip->mean_A) + " A from the start, 95 % of the area within " +
+             significant(c.round_trip->p95_A) + " A, at most " + significant(c.round_trip->max_A) + " A");
+  }
   const DistortionReport& d = c.distortion;
   line(out, "area, mapped to source",
        "median " + significant(d.area_ratio_median) + ", 90 % of the area from " + significant(d.area_ratio_p05) +

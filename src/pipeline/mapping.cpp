@@ -64,7 +64,9 @@ void drop_closed_cavities(Engine& engine, Mapping& mapping) {
   }
   const ScalarsPtr flags = engine.upload_scalars(dropped);
   mapping.source = engine.without(mapping.source, flags);
-  mapping.mapped = engine.without(mapping.mapped, flags);
+  // One topology still: what is compared at counterparts shares it.
+  mapping.mapped =
+      engine.with_positions(mapping.source, engine.download(engine.without(mapping.mapped, flags)).positions);
   mapping.lost = std::move(lost);
   std::vector<bool> left(source.positions.size(), false);
   for (std::size_t t = 0; t < dropped.size(); ++t) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "align/mend.h"
 #include "align/superpose.h"
 #include "base/error.h"
 #include "io/molecule_builder.h"
@@ -12,14 +13,18 @@
 namespace espdiff {
 namespace {
 
-constexpr double kUsualPad_A = 10;
-
 void check_options(const PotentialOptions& o) {
   if (o.pme.compatible && o.align != AlignAtoms::kNone)
     throw InputError("`compatible` with superposition: PMEPot has none; leave one out");
   if (o.pme.compatible && o.method != PotentialMethod::kPme)
     throw InputError("`compatible` with method coulomb: it is about PME; leave one out");
   if (o.cell && o.pad_A) throw InputError("a cell and a padding were given; leave one out");
+}
+
+RigidTransform onto(const std::vector<Vec3d>& moving, const std::vector<Vec3d>& fixed) {
+  std::vector<std::pair<std::size_t, std::size_t>> same;
+  for (std::size_t i = 0; i < moving.size(); ++i) same.emplace_back(i, i);
+  return superpose(moving, fixed, same).transform;
 }
 
 }  // namespace
@@ -47,8 +52,8 @@ void require_charges(const Molecule& molecule) {
 /// What later frames are held against.
 struct PotentialSeries::FirstFrame {
   std::size_t n_atoms = 0;
-  std::vector<Vec3d> positions;                            ///< empty without superposition
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;  ///< atoms of the superposition, with themselves
+  std::vector<std::size_t> atoms;  ///< of the superposition; none without
+  std::vector<Vec3d> positions;    ///< [one of these] whole
   PmeCell cell;
   Lattice lattice;
 };
@@ -64,15 +69,14 @@ PotentialSeries::PotentialSeries(Engine& engine, PotentialOptions options)
 
 PotentialSeries::~PotentialSeries() = default;
 
-PmeCell PotentialSeries::cell_of(const std::vector<Vec3d>& positions, const std::optional<UnitCell>& own_cell) const {
-  if (options_.cell) return *options_.cell;
-  if (own_cell && !options_.pad_A) return cell_from(*own_cell, middle_of(positions));
-  return padded_cell(positions, options_.pad_A.value_or(kUsualPad_A));
-}
-
-RigidTransform PotentialSeries::onto_first(const Molecule& frame) const {
-  if (options_.align == AlignAtoms::kNone) return {};
-  return superpose(frame.positions, first_->positions, first_->pairs).transform;
+/// Whole, where the cell's border may have cut the molecule.
+std::vector<Vec3d> PotentialSeries::superposed_atoms(const Molecule& frame,
+                                                     const std::optional<UnitCell>& own_cell) const {
+  std::vector<Vec3d> atoms;
+  for (const std::size_t i : first_->atoms) atoms.push_back(frame.positions[i]);
+  const bool is_periodic = options_.cell || (own_cell && !options_.pad_A);
+  if (atoms.empty() || !is_periodic) return atoms;
+  return mended(atoms, choose_cell(options_, frame.positions, own_cell).edges, first_->positions);
 }
 
 Grid PotentialSeries::compute(const std::vector<Vec3d>& positions, const Molecule& frame, const PmeCell& cell,
@@ -93,34 +97,40 @@ Grid PotentialSeries::compute(const std::vector<Vec3d>& positions, const Molecul
   return grid;
 }
 
-Grid PotentialSeries::step(const Molecule& frame, const std::optional<UnitCell>& own_cell, const Progress& progress) {
+Grid PotentialSeries::next_map(const Molecule& frame, const std::optional<UnitCell>& own_cell,
+                               const Progress& progress) {
   require_charges(frame);
   if (!first_) {
     auto first = std::make_unique<FirstFrame>();
     first->n_atoms = frame.size();
     if (options_.align != AlignAtoms::kNone) {
-      first->positions = frame.positions;
       AtomPairing same;
       for (std::size_t i = 0; i < frame.size(); ++i) {
         const Residue& residue = frame.residues[static_cast<std::size_t>(frame.atoms[i].residue)];
         if (!is_water_name(residue.name)) same.pairs.emplace_back(i, i);
       }
-      first->pairs = select_pairs(same, frame, options_.align);
+      for (const auto& pair : select_pairs(same, frame, options_.align)) first->atoms.push_back(pair.first);
     }
     first_ = std::move(first);
-    first_->cell = cell_of(frame.positions, own_cell);
+    first_->positions = superposed_atoms(frame, own_cell);
+    first_->cell = choose_cell(options_, frame.positions, own_cell);
   } else if (frame.size() != first_->n_atoms) {
     throw InputError(frame.name + ": a frame of " + std::to_string(frame.size()) + " atoms after one of " +
                      std::to_string(first_->n_atoms) + "; frames must be of one molecule");
   }
-  const RigidTransform to_first = onto_first(frame);
-  std::vector<Vec3d> positions = frame.positions;
-  for (Vec3d& p : positions) p = to_first.apply(p);
+  RigidTransform to_first;
+  std::vector<Vec3d> turned;
+  if (options_.align != AlignAtoms::kNone) {
+    to_first = onto(superposed_atoms(frame, own_cell), first_->positions);
+    turned = frame.positions;
+    for (Vec3d& p : turned) p = to_first.apply(p);
+  }
+  const std::vector<Vec3d>& positions = options_.align != AlignAtoms::kNone ? turned : frame.positions;
   PmeCell cell = first_->cell;
   const bool is_periodic = options_.cell || (own_cell && !options_.pad_A);
   if (!one_lattice_) {
     // A periodic cell turns with its atoms; a box around them is made anew along the first frame's axes.
-    cell = cell_of(is_periodic ? frame.positions : positions, own_cell);
+    cell = choose_cell(options_, is_periodic ? frame.positions : positions, own_cell);
     if (is_periodic) {
       cell.centre = to_first.apply(cell.centre);
       for (Vec3d& edge : cell.edges) edge = to_first.rotate(edge);
@@ -131,8 +141,17 @@ Grid PotentialSeries::step(const Molecule& frame, const std::optional<UnitCell>&
   map.periodic = options_.method == PotentialMethod::kPme && same_lattice(map.lattice, first_->lattice) &&
                  (one_lattice_ || average_.n_frames() == 0);
   map.name = frame.name + (options_.method == PotentialMethod::kPme ? " (PME)" : " (Coulomb)");
+  return map;
+}
+
+Grid PotentialSeries::step(const Molecule& frame, const std::optional<UnitCell>& own_cell, const Progress& progress) {
+  Grid map = next_map(frame, own_cell, progress);
   average_.add(map);
   return map;
+}
+
+void PotentialSeries::add(const Molecule& frame, const std::optional<UnitCell>& own_cell, const Progress& progress) {
+  average_.add(next_map(frame, own_cell, progress));
 }
 
 Grid potential_map(Engine& engine, const Molecule& molecule, const PotentialOptions& options,

@@ -46,7 +46,8 @@ struct PotentialOptions {
   PmeOptions pme;  ///< but the grid's size
   CoulombOptions coulomb;
   /// Superposes each frame on the first by these atoms (water left out), and samples all maps on the first one's
-  /// lattice: the average then stays with the molecule. kNone: frames stay where they are.
+  /// lattice: the average then stays with the molecule. In a periodic cell these atoms are put together first where its
+  /// border has cut the molecule (mended()). kNone: frames stay where they are.
   AlignAtoms align = AlignAtoms::kNone;
   std::size_t frames_per_block = 1;  ///< for the error bar
 };
@@ -62,6 +63,11 @@ PmeCell padded_cell(const std::vector<Vec3d>& positions, double pad_A);
 /// Edges from lengths and angles: a along x, b in the x-y plane.
 /// @throws InputError (angles that no cell has)
 PmeCell cell_from(const UnitCell& cell, Vec3d centre);
+
+/// The cell of a frame: as asked for, its own, or a box around its atoms.
+/// @throws InputError
+PmeCell choose_cell(const PotentialOptions& options, const std::vector<Vec3d>& positions,
+                    const std::optional<UnitCell>& own_cell);
 
 /// Points along each edge: as asked for, else the least product of 2, 3, 5 and 7 that makes steps of at most the
 /// resolution; with `compatible` the number that PMEPot takes (even, among those it has in a list, at most 512).
@@ -79,20 +85,22 @@ class PotentialSeries {
   PotentialSeries(Engine& engine, PotentialOptions options);
   ~PotentialSeries();
 
-  /// The frame's map, added to the average. A periodic map covers its cell; a superposed one belongs to the first
-  /// frame's coordinates.
+  /// Adds the frame's map to the average, and returns it. A periodic map covers its cell; a superposed one belongs to
+  /// the first frame's coordinates.
   /// @param own_cell the frame's, where the file has one
   /// @throws InputError (no charges, other atoms than the first frame's), GeometryError (superposition), and as
   /// Engine::pme_potential
   Grid step(const Molecule& frame, const std::optional<UnitCell>& own_cell, const Progress& progress);
+  /// As step(), where the average alone is wanted.
+  void add(const Molecule& frame, const std::optional<UnitCell>& own_cell, const Progress& progress);
 
   const RunningMap& average() const { return average_; }
 
  private:
   struct FirstFrame;
 
-  PmeCell cell_of(const std::vector<Vec3d>& positions, const std::optional<UnitCell>& own_cell) const;
-  RigidTransform onto_first(const Molecule& frame) const;
+  Grid next_map(const Molecule& frame, const std::optional<UnitCell>& own_cell, const Progress& progress);
+  std::vector<Vec3d> superposed_atoms(const Molecule& frame, const std::optional<UnitCell>& own_cell) const;
   Grid compute(const std::vector<Vec3d>& positions, const Molecule& frame, const PmeCell& cell,
                const Progress& progress) const;
 

@@ -128,6 +128,14 @@ PmeCell cell_from(const UnitCell& cell, Vec3d centre) {
            Vec3d{l.z * cos_ac, l.z * y, l.z * std::sqrt(z_square)}}};
 }
 
+PmeCell choose_cell(const PotentialOptions& options, const std::vector<Vec3d>& positions,
+                    const std::optional<UnitCell>& own_cell) {
+  constexpr double kUsualPad_A = 10;
+  if (options.cell) return *options.cell;
+  if (own_cell && !options.pad_A) return cell_from(*own_cell, middle_of(positions));
+  return padded_cell(positions, options.pad_A.value_or(kUsualPad_A));
+}
+
 std::array<int, 3> choose_grid_size(const PmeCell& cell, const GridChoice& choice, bool compatible) {
   if (choice.size[0] != 0) return choice.size;
   if (!(choice.resolution_A > 0) || !std::isfinite(choice.resolution_A))

@@ -27,7 +27,7 @@ RunningMap::RunningMap(std::size_t frames_per_block) : frames_per_block_(frames_
   if (frames_per_block < 1) throw InputError("blocks of 0 frames; give at least 1 frame a block");
 }
 
-void RunningMap::add(const Grid& map) {
+void RunningMap::add(Grid map) {
   const std::size_t n_points = map.values.size();
   if (n_points == 0 || n_points != map.lattice.n_points())
     throw InputError(map.name + ": " + std::to_string(n_points) + " values for a lattice of " +
@@ -36,7 +36,7 @@ void RunningMap::add(const Grid& map) {
     lattice_ = map.lattice;
     unit_ = map.unit;
     periodic_ = map.periodic;
-    first_ = map.values;
+    first_ = std::move(map.values);
     n_frames_ = 1;
     n_blocks_ = frames_per_block_ == 1 ? 1 : 0;
     return;

@@ -20,9 +20,11 @@ class RunningMap {
   explicit RunningMap(std::size_t frames_per_block = 1);
 
   /// @throws InputError when lattice or unit differ from the first map's, or the map has no points
-  void add(const Grid& map);
+  void add(Grid map);
 
   std::size_t n_frames() const { return n_frames_; }
+  /// Of the lattice; 0 before the first frame.
+  std::size_t n_points() const { return lattice_.n_points(); }
   /// Whole blocks; frames of a last block that is not full count for mean and variance only.
   std::size_t n_blocks() const { return n_blocks_; }
 

@@ -164,6 +164,9 @@ void add_mapping_settings(std::vector<Setting>& all) {
       [](CompareOptions& o, const std::string& text) { o.method = parse_method(text); },
       [](const CompareOptions& o) { return to_string(o.method); },
       "How the surface is mapped: carried by the moving atoms (morph), or drawn by a field (deform)"));
+  all.push_back(boolean(
+      "round-trip", group, [](auto& o) -> auto& { return o.round_trip; },
+      "Map back as well, which takes as long again, and report how far from the start that ends"));
   add_morph_settings(all);
   all.push_back(choice(
       "field", kDeformGroup, {"density", "distance", "gvf", "gvf2"},

@@ -101,6 +101,10 @@ void write_residue_file(std::ostream& out, const Molecule& source, const Compare
 
 }  // namespace
 
+InputFile computed_input(const std::string& role, const ComputedMap& map) {
+  return {role, "pme of " + map.recipe().charges_from, map.fingerprint(), map.recipe()};
+}
+
 CountedSurface counted_surface(const CompareResult& result) {
   if (result.has_potential)
     return {result.metrics.area_A2, result.metrics.mean_displacement_A, result.metrics.mean_path_length_A};

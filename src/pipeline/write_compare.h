@@ -1,6 +1,7 @@
 // write_compare.h: a comparison's results as files and as a table for people.
 #pragma once
 
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -8,15 +9,19 @@
 #include "base/types.h"
 #include "base/version.h"
 #include "pipeline/compare.h"
+#include "pipeline/computed_map.h"
 
 namespace espdiff {
 
 /// An input by what it was used for: "source", "target", "source_map", "target_map".
 struct InputFile {
   std::string role;
-  std::string path;
-  std::string sha256;
+  std::string path;    ///< of a computed map: "pme of" whose charges
+  std::string sha256;  ///< of a computed map: of charges, positions, cell and options
+  std::optional<MapRecipe> computed = std::nullopt;
 };
+/// A computed map as an input.
+InputFile computed_input(const std::string& role, const ComputedMap& map);
 
 /// What a result needs besides numbers to be reproduced.
 struct Provenance {

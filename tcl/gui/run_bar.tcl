@@ -73,14 +73,19 @@ namespace eval ::espdiff::gui {
         variable running
         if {$running ne ""} return
         show_message ""
-        set source [endpoint source]
-        set target [endpoint target]
-        set settings [setting_options]
+        start_compare [endpoint source] [endpoint target] [setting_options]
+    }
+
+    # Compares in the background; returns the handle.
+    proc start_compare {source target settings} {
+        variable running
+        if {$running ne ""} { error "a comparison is being computed; wait for it, or cancel it" }
         set running [espdiff compare $source $target {*}$settings \
             -progress ::espdiff::gui::show_progress -command {::espdiff::gui::guard ::espdiff::gui::finish}]
         remember_compare $running $source $target $settings
         show_running 1
         watch
+        return $running
     }
 
     proc cancel {} {
@@ -129,6 +134,17 @@ namespace eval ::espdiff::gui {
         }
         show_message "$handle is done in [format %.1f [expr {[espdiff result $handle time_ms total] / 1000.0}]] s."
         show_results $handle
+        draw_if_wanted $handle
+    }
+
+    # A pair that was opened from a matrix is drawn at once.
+    proc draw_if_wanted {handle} {
+        variable draw_when_done
+        set wanted [expr {$draw_when_done eq $handle && [in_vmd]}]
+        set draw_when_done ""
+        if {!$wanted} return
+        espdiff undraw
+        draw
     }
 
     proc end_run {} {

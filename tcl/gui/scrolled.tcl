@@ -22,7 +22,7 @@ namespace eval ::espdiff::gui {
         set width [winfo reqwidth $path.view.page]
         set height [winfo reqheight $path.view.page]
         $path.view itemconfigure page -width [expr {max($width, [winfo width $path.view])}]
-        $path.view configure -width $width -height [expr {min($height, [winfo screenheight $path] - 150)}] \
+        $path.view configure -width $width -height [expr {min($height, [winfo screenheight $path] - 180)}] \
             -scrollregion [list 0 0 $width $height]
         if {[winfo height $path.view] > 1 && $height > [winfo height $path.view]} {
             grid $path.bar -row 0 -column 1 -sticky ns

@@ -10,7 +10,7 @@ namespace eval ::espdiff::gui {
     variable pending_update ""  ;# the `after` script that looks at VMD's molecules again
 
     foreach part {widgets scrolled endpoint_form settings_form run_bar result_view draw_form session_script
-        help_window} {
+        help_window matrix_form matrix_view heat_map} {
         source [file join [file dirname [info script]] $part.tcl]
     }
     unset part
@@ -39,18 +39,15 @@ namespace eval ::espdiff::gui {
         wm withdraw $window
         wm title $window "Surface Potential Comparison"
         wm protocol $window WM_DELETE_WINDOW ::espdiff::gui::close_window
-        set outer [ttk::frame $window.outer]
-        pack $outer -fill both -expand 1
-        build_run_bar $outer.run
-        set body [scrolled $outer.page]
-        build_page $body
-        grid $outer.page -sticky news
-        grid [ttk::separator $outer.line] -sticky ew
-        grid $outer.run -sticky ew
-        grid columnconfigure $outer 0 -weight 1
-        grid rowconfigure $outer 0 -weight 1
-        # In the order of the Tab key: the page is made after the bar, and comes before it.
-        lower $outer.page
+        variable widget
+        # Control-Tab goes from tab to tab; the Tab key stays in one.
+        set widget(tabs) [ttk::notebook $window.tabs -takefocus 0]
+        ttk::notebook::enableTraversal $window.tabs
+        build_pair_tab [ttk::frame $window.tabs.pair]
+        build_matrix_tab [ttk::frame $window.tabs.matrix]
+        $window.tabs add $window.tabs.pair -text Pair
+        $window.tabs add $window.tabs.matrix -text Matrix
+        pack $window.tabs -fill both -expand 1
         bind_keys
         bind $window <Destroy> {if {"%W" eq $::espdiff::gui::window} { ::espdiff::gui::closed }}
         bind $window <FocusIn> {if {"%W" eq $::espdiff::gui::window} { ::espdiff::gui::update_soon }}
@@ -61,6 +58,21 @@ namespace eval ::espdiff::gui {
         wm deiconify $window
         focus $::espdiff::gui::widget(compare)
     }
+
+    proc build_pair_tab {outer} {
+        build_run_bar $outer.run
+        set body [scrolled $outer.page]
+        build_page $body
+        grid $outer.page -sticky news
+        grid [ttk::separator $outer.line] -sticky ew
+        grid $outer.run -sticky ew
+        grid columnconfigure $outer 0 -weight 1
+        grid rowconfigure $outer 0 -weight 1
+        # In the order of the Tab key: the page is made after the bar, and comes before it.
+        lower $outer.page
+    }
+
+    proc build_matrix_tab {outer} { build_matrix $outer }
 
     # The page for one comparison: what is compared, with which settings, what came out, how it is drawn.
     proc build_page {body} {
@@ -84,10 +96,16 @@ namespace eval ::espdiff::gui {
 
     proc bind_keys {} {
         variable window
-        foreach key {<Return> <KP_Enter>} { bind $window $key {::espdiff::gui::press compare} }
-        bind $window <Escape> {::espdiff::gui::press cancel}
+        foreach key {<Return> <KP_Enter>} { bind $window $key {::espdiff::gui::press_of_tab compare matrix,compute} }
+        bind $window <Escape> {::espdiff::gui::press_of_tab cancel matrix,cancel}
         bind $window <F1> ::espdiff::gui::show_help
         bind $window <Control-w> ::espdiff::gui::close_window
+    }
+
+    # The button that a key means in the tab that is open.
+    proc press_of_tab {of_pair of_matrix} {
+        variable widget
+        press [expr {[$widget(tabs) index current] == 0 ? $of_pair : $of_matrix}]
     }
 
     # VMD writes these when a molecule comes, changes or goes, and when a file has been read into one.
@@ -110,13 +128,15 @@ namespace eval ::espdiff::gui {
         if {![winfo exists $window]} return
         foreach side {source target} { update_endpoint $side }
         if {[in_vmd]} { update_draw }
+        update_matrix
     }
 
     # In VMD the window's manager does not come here: VMD puts the window away with a computation going on in it.
     proc close_window {} {
         variable window
         variable running
-        if {$running ne ""} {
+        variable matrix_running
+        if {$running ne "" || $matrix_running ne ""} {
             set answer [tk_messageBox -parent $window -type yesno -icon question -title "Surface Potential Comparison" \
                 -message "A comparison is being computed." -detail "Cancel it and close the window?"]
             if {$answer ne "yes"} return
@@ -134,6 +154,7 @@ namespace eval ::espdiff::gui {
         forget_tips
         forget_settings
         abandon_run
+        abandon_matrix
         array unset ::espdiff::gui::widget
     }
 }

@@ -22,7 +22,7 @@ const Rooms kAllowed = {
     {"pipeline", {"base", "align", "engine", "io"}},
     {"view", {"base", "io"}},
     {"cli", {"base", "align", "engine", "io", "pipeline", "view"}},
-    {"vmdplugin", {"base", "align", "engine", "io", "pipeline"}},
+    {"vmdplugin", {"base", "align", "engine", "io", "pipeline", "view"}},
 };
 
 std::string quoted_include(const std::string& line) {

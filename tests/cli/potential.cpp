@@ -171,6 +171,11 @@ TEST_CASE("compare --potential pme computes both maps; without charges it is ref
   CHECK_MESSAGE(outcome.status == 0, outcome.err);
   CHECK(contains(outcome.out, "kT/e"));
   CHECK(contains(read_file(folder.file("out.json")), "\"potential_unit\": \"kT/e\""));
+  // OUT.json tells of the maps what is needed to compute them again.
+  const std::string json = read_file(folder.file("out.json"));
+  for (const char* part : {"\"role\": \"source_map\"", "\"path\": \"pme of ", "\"n_charges\": 8",
+                           "\"cell_from\": \"padded\"", "\"ewald_factor\": 0.3", "\"sampling\": \"spline\""})
+    CHECK_MESSAGE(contains(json, part), part);
   for (const char* suffix : {".json", ".vtp", ".residues.csv"}) std::filesystem::remove(folder.file("out") + suffix);
   const std::string map = folder.write("a.dx", constant_dx(33, 2.0, 1.0));
   const Outcome both = run_espdiff(start + "--potential pme --source-map " + map);

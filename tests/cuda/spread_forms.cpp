@@ -59,7 +59,7 @@ TEST_CASE("slabs and points give the same bits for all orders, precisions and si
 TEST_CASE("spread charges add up to the charge, and lie around their place") {
   for (int order = 4; order <= 8; ++order) {
     const std::array<int, 3> size{20, 21, 22};
-    GridCharge charge{{7.3, 9.8, 10.0}, 1.5F, 0};
+    GridCharge charge{{7.3, 9.8, 10.0}, 1.5F, 0, 0};
     const auto sorted = sort_charges<double>({charge}, size, order);
     std::vector<double> values(20 * 21 * 22);
     spread_by_slabs(sorted, values.data(), 20 * 21);

@@ -239,3 +239,30 @@ TEST_CASE("a vertex outside a map is counted, left out, and makes the result unt
 }
 
 TEST_SUITE_END();
+
+TEST_CASE("potentials are compared where the source has a closed cavity that is left out") {
+  Side shell;
+  shell.molecule.name = "shell.pqr";
+  shell.molecule.residues = {{"SHL", "A", 1, ' '}};
+  for (int i = 0; i < 400; ++i) {  // points of a Fibonacci lattice on a sphere
+    const double z = 1 - (2 * i + 1) / 400.0, r = std::sqrt(1 - z * z), phi = i * 2.399963229728653;
+    espdiff::Atom atom;
+    atom.name = "C" + std::to_string(i);
+    atom.element = "C";
+    shell.molecule.atoms.push_back(atom);
+    shell.molecule.positions.push_back(11.0 * Vec3d{r * std::cos(phi), r * std::sin(phi), z});
+    shell.molecule.radii.push_back(1.7F);
+    shell.molecule.charges.push_back(i % 40 == 0 ? 1.0F : 0.0F);
+  }
+  Side wider = shell;
+  for (Vec3d& p : wider.molecule.positions) p = 1.02 * p;
+  shell.map = potential_map(shell.molecule, 1.5);
+  wider.map = potential_map(wider.molecule, 1.5);
+  const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
+  CompareOptions options;
+  options.align = espdiff::AlignAtoms::kNone;
+  const CompareResult r = compare(*engine, shell.input(), wider.input(), options, {});
+  CHECK(r.source_surface.n_cavities_left_out == 1);
+  CHECK(r.metrics.area_A2 > 0.9 * r.source_surface.area_A2);
+  CHECK(r.metrics.mean_abs_difference > 0);
+}

@@ -222,6 +222,27 @@ TEST_CASE("superposed frames: a molecule that only moves has the first frame's m
   }
 }
 
+TEST_CASE("superposed frames of a molecule that the cell's border cuts: whole first, hence no variance") {
+  if (!can_run()) return;
+  // Atoms along a line that bends, each near the one before it, in one residue after the other.
+  Molecule first = make_side(5, 0, 60).molecule;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const double t = static_cast<double>(i);
+    first.positions[i] = {6 * std::sin(0.3 * t), 5 * std::cos(0.2 * t), 0.4 * t};
+  }
+  const UnitCell cell{{40, 42, 44}, {80, 95, 100}};
+  const espdiff::PmeCell edges = espdiff::cell_from(cell, {});
+  const auto engine = cpu();
+  PotentialSeries series(*engine, with_align(espdiff::AlignAtoms::kAll));
+  const Grid reference = series.step(first, cell, {});
+  for (const std::size_t cut : {std::size_t{20}, std::size_t{45}}) {
+    Molecule frame = first;
+    move_all(frame, {{1, 0, 0, 0, 1, 0, 0, 0, 1}, {3, -2, 5}});
+    for (std::size_t i = cut; i < frame.size(); ++i) frame.positions[i] += edges.edges[2] - edges.edges[0];
+    CHECK(relative_max(series.step(frame, cell, {}).values, reference.values) < 1e-4);
+  }
+}
+
 TEST_CASE("without superposition a frame in its own cell is sampled on the first frame's lattice") {
   if (!can_run()) return;
   const Molecule first = make_side(6, 0, 150).molecule;

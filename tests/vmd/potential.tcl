@@ -82,6 +82,54 @@ test "a trajectory: the cell and the coordinates of each frame, mean and varianc
     mol delete $tz2
 }
 
+test "a map for each frame: data sets and files by the frames' numbers, and their mean" {
+    set tz2 [mol new [input box_tz2/tz2.truncoct.parm7] type parm7 waitfor all]
+    mol addfile [input box_tz2/tz2.truncoct_from_nc.dcd] type dcd waitfor all $tz2
+    set result [espdiff potential -mol $tz2 -frames 0:4:8 -averaging each -grid 2 -dxfile $scratch/each.dx]
+    check_equal "volumes" [dict get $result volumes] {0 1 2}
+    set names {}
+    foreach file [dict get $result files] { lappend names [file tail $file] }
+    check_equal "files" $names {each.0000.dx each.0004.dx each.0008.dx}
+    # Each is the map of that frame alone, in its own cell, on the first frame's lattice; the first one's exactly.
+    espdiff potential -mol $tz2 -frames 0 -grid 2 -loadmol none -dxfile $scratch/first.dx
+    set texts {}
+    foreach name {each.0000 first each.0004} {
+        set channel [open $scratch/$name.dx]
+        lappend texts [regsub -all -line {^(#|object "|attribute|component).*$} [read $channel] ""]
+        close $channel
+    }
+    check "the first frame's" {[lindex $texts 0] eq [lindex $texts 1]}
+    check "another frame's" {[lindex $texts 0] ne [lindex $texts 2]}
+    set result [espdiff potential -mol $tz2 -frames 0:4:8 -averaging each -variance 1 -grid 2 -loadmol new]
+    check_equal "with the variance" [dict get $result volumes] {0 1 2 3}
+    mol delete [dict get $result mol]
+    check_refused {espdiff potential -mol $tz2 -averaging some} {ESPDIFF INPUT} "mean or each"
+    check_equal "nothing is left" [list [::espdiff::core::handles] [::espdiff::core::volumes]] {{} {}}
+    mol delete $tz2
+}
+
+test "frames of a molecule that the cell's border cuts: the mean of the whole one" {
+    set tz2 [mol new [input box_tz2/tz2.truncoct.parm7] type parm7 waitfor all]
+    mol addfile [input box_tz2/tz2.truncoct_from_nc.dcd] type dcd first 0 last 1 waitfor all $tz2
+    set whole [espdiff potential -mol $tz2 -frames all -align backbone -grid 2 -loadmol none -dxfile $scratch/whole.dx]
+    # The second frame's residues from 6 on in the next cell along the first edge.
+    set half [atomselect $tz2 "protein and resid >= 6" frame 1]
+    $half moveby [list [molinfo $tz2 get a frame 1] 0 0]
+    $half delete
+    espdiff potential -mol $tz2 -frames all -align backbone -grid 2 -loadmol none -dxfile $scratch/cut.dx
+    set lists {}
+    foreach name {whole cut} {
+        set channel [open $scratch/$name.dx]
+        set values {}
+        while {[gets $channel line] >= 0} { if {[regexp {^[-0-9]} $line]} { lappend values {*}$line } }
+        close $channel
+        lappend lists $values
+    }
+    check "values" {[llength [lindex $lists 0]] > 1000}
+    check "the same mean" {[largest_difference {*}$lists] < 1e-3 * [largest [lindex $lists 0]]}
+    mol delete $tz2
+}
+
 test "a cell from a NAMD file is the same cell given" {
     set channel [open $scratch/cell.xsc w]
     puts $channel "# NAMD extended system configuration output file"

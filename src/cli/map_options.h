@@ -1,0 +1,49 @@
+// map_options.h: the potentials of two sides on the command line: maps in files, or computed ones.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/options.h"
+#include "io/read_unit_cells.h"
+#include "pipeline/computed_map.h"
+#include "pipeline/write_compare.h"
+
+namespace espdiff::cli {
+
+/// Potentials that are computed instead of read.
+struct ComputedMapArguments {
+  std::string potential;  ///< empty: none
+  std::string grid = usual_grid(false), cell = "box";
+  double ewald_factor = PmeOptions().ewald_factor;
+};
+void add_computed_map_options(CLI::App& parser, ComputedMapArguments& arguments);
+
+struct MapArguments : ComputedMapArguments {
+  std::string source_map, target_map, source_map_unit, target_map_unit, map_array;
+};
+void add_map_options(CLI::App& parser, MapArguments& arguments);
+/// @throws InputError (computed and given maps)
+void check_map_options(const MapArguments& arguments);
+
+inline bool is_computed(const ComputedMapArguments& arguments) { return !arguments.potential.empty(); }
+/// Whether charges of water and ions count, and the file's cell is taken.
+inline bool takes_own_cell(const ComputedMapArguments& arguments) { return arguments.cell == "own"; }
+
+/// The file's map of a side, "source" or "target"; nothing where none was given. Adds to `inputs`.
+std::optional<Grid> given_map(const MapArguments& arguments, const std::string& role, std::vector<InputFile>& inputs);
+
+/// The map that is computed from a molecule's charges.
+/// @param cell of the molecule's file; counts with --pme-cell own only, and has to be there then
+/// @throws InputError
+ComputedMap computed_map(const ComputedMapArguments& arguments, Molecule charges, const std::optional<UnitCell>& cell,
+                         double temperature_K);
+
+/// The same for one model of a file, whose atoms with a surface are `molecule`.
+ComputedMap computed_map_of_file(const ComputedMapArguments& arguments, const std::string& path, int model,
+                                 const Molecule& molecule, double temperature_K);
+/// "pme, cell box, grid 1, Ewald factor 0.25"
+std::string map_in_words(const ComputedMapArguments& arguments);
+
+}  // namespace espdiff::cli

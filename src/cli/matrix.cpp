@@ -1,0 +1,136 @@
+// matrix.cpp: `espdiff matrix VARIANT... -o OUT`.
+#include <cstdio>
+#include <iostream>
+
+#include "base/error.h"
+#include "cli/map_options.h"
+#include "cli/options.h"
+#include "cli/verbs.h"
+#include "pipeline/matrix_run.h"
+#include "pipeline/write_matrix.h"
+
+namespace espdiff::cli {
+namespace {
+
+struct Arguments {
+  std::vector<std::string> files;
+  std::string list, groups, map_array, shard = "1/1", on_error = "stop";
+  ComputedMapArguments potential;
+  MatrixRun run;
+  bool quiet = false;
+  StructureOptions structure;
+  DeviceArguments device;
+  GivenSettings settings;
+};
+
+std::vector<VariantFiles> chosen_variants(const Arguments& a) {
+  if (a.files.empty() == a.list.empty())
+    throw InputError(a.list.empty() ? "no molecules were given: name files, or a --list of them"
+                                    : "files and a --list were given; leave one out");
+  std::vector<VariantFiles> variants = a.list.empty() ? variants_of_files(a.files) : read_variant_list(a.list);
+  if (!a.groups.empty()) read_groups(a.groups, variants);
+  for (const VariantFiles& v : variants) {
+    if (is_computed(a.potential) && !v.map.empty())
+      throw InputError("--potential computes all maps, and the list names one for '" + v.label +
+                       "'; leave out one of them");
+  }
+  return variants;
+}
+
+/// Each molecule is read, and its potential computed, once.
+std::vector<Variant> read_variants(const Arguments& a, const std::vector<VariantFiles>& files, double temperature_K,
+                                   const Progress& progress) {
+  std::vector<Variant> variants;
+  for (const VariantFiles& file : files) {
+    const double fraction = static_cast<double>(variants.size()) / static_cast<double>(files.size());
+    progress.report("read " + file.label, fraction);
+    variants.push_back(read_variant(file, a.structure, a.map_array));
+    if (is_computed(a.potential))
+      variants.back().make_map =
+          computed_map_of_file(a.potential, file.structure, file.model, variants.back().molecule, temperature_K)
+              .maker();
+  }
+  unite_map_units(variants, temperature_K);
+  return variants;
+}
+
+void print_report(const Arguments& a, const Engine& engine, const MatrixReport& report) {
+  if (report.matrix) {
+    print_matrix(std::cout, *report.matrix, metric_to_cluster_by(a.run, *report.matrix));
+  }
+  const std::size_t n = report.n_pairs - report.n_resumed;
+  std::cout << '\n' << n << " pairs computed in " << in_words(report.seconds);
+  if (n > 0) {
+    char each[32];
+    std::snprintf(each, sizeof each, "%.2f", report.seconds / static_cast<double>(n));
+    std::cout << ", " << each << " s a pair";
+  }
+  std::cout << " (" << engine.description() << ")";
+  if (report.n_resumed > 0) std::cout << "; " << report.n_resumed << " were there already";
+  if (report.cut_off) std::cout << "; the last row of the state file was cut off, and its pair computed again";
+  std::cout << "\nwritten:";
+  for (const std::string& file : report.files) std::cout << ' ' << file;
+  std::cout << '\n';
+}
+
+int run(Arguments& a, const Context& context) {
+  const CompareOptions options = make_options(a.settings);
+  a.run.shard = parse_shard(a.shard);
+  a.run.skip_errors = a.on_error == "skip";
+  a.run.potential = is_computed(a.potential) ? map_in_words(a.potential) : "maps";
+  const std::vector<VariantFiles> files = chosen_variants(a);
+  const std::unique_ptr<Engine> engine = make_engine(a.device);
+  const std::vector<Variant> variants = read_variants(a, files, options.temperature_K, *context.progress);
+  const MatrixReport report = run_matrix(*engine, variants, options, a.run, *context.progress);
+  context.progress->report("write", 1.0);
+  if (!a.quiet) print_report(a, *engine, report);
+  return 0;
+}
+
+void add_run_options(CLI::App& p, Arguments& a) {
+  p.add_flag("--resume", a.run.resume, "Go on where an interrupted run stopped: its state file OUT.state is beside OUT")
+      ->group("Run");
+  p.add_flag("--overwrite", a.run.overwrite, "Begin anew, in the place of results and state files")->group("Run");
+  p.add_option("--on-error", a.on_error,
+               "A pair that cannot be compared stops the run, or is skipped and noted in the results")
+      ->check(CLI::IsMember({"stop", "skip"}))
+      ->capture_default_str()
+      ->group("Run");
+  p.add_option("--shard", a.shard,
+               "Compute part I of N of the pairs, I/N, into OUT.shard-I-of-N.state; `espdiff merge` puts the parts "
+               "together")
+      ->capture_default_str()
+      ->group("Run");
+}
+
+}  // namespace
+
+Verb add_matrix(CLI::App& app) {
+  auto a = std::make_shared<Arguments>();
+  CLI::App* parser = app.add_subcommand("matrix", "Compare many states of a molecule, each with each, both ways");
+  parser->footer(
+      "Writes OUT.csv (a row for each ordered pair) and OUT.json (matrices, groups, clusters); `espdiff plot` draws "
+      "them.\nA list is a table of comma-separated values whose first row names its columns: structure, and as wanted "
+      "model, map,\nunit (of the map), label, group. Paths are relative to the list.\n\nExamples:\n"
+      "  espdiff matrix m*.pqr --potential pme -o ubiquitin\n"
+      "  espdiff matrix --list variants.csv -o variants --resume\n"
+      "  espdiff matrix m*.pqr --shard 2/8 -o part      # one of eight processes; then: espdiff merge part.*.state -o "
+      "all");
+  parser->add_option("VARIANT", a->files, "Structures: PQR, PDB or mmCIF; each model of a file is a variant");
+  parser->add_option("-o,--output", a->run.output, "Prefix of the results")->required();
+  parser->add_option("--list", a->list, "Table of the variants, in the place of files")->group("Molecules");
+  parser->add_option("--groups", a->groups, "Table with the columns label and group")->group("Molecules");
+  parser->add_option("--cluster-by", a->run.cluster_by,
+                     "Metric that variants are clustered by (mean_abs_difference; without potentials "
+                     "mean_displacement_A)");
+  add_structure_options(*parser, a->structure);
+  add_computed_map_options(*parser, a->potential);
+  parser->add_option("--map-array", a->map_array, "Array to take from VTI maps that hold several")->group("Potentials");
+  add_run_options(*parser, *a);
+  add_settings(*parser, a->settings, false);
+  add_device_options(*parser, a->device);
+  parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
+  return {parser, [a](const Context& context) { return run(*a, context); }};
+}
+
+}  // namespace espdiff::cli

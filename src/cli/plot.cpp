@@ -1,0 +1,209 @@
+// plot.cpp: `espdiff plot FILE -o OUT.svg`.
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "cli/verbs.h"
+#include "io/read_csv.h"
+#include "io/text_cursor.h"
+#include "pipeline/matrix.h"
+#include "pipeline/read_matrix.h"
+#include "view/heat_map.h"
+#include "view/line_plot.h"
+
+namespace espdiff::cli {
+namespace {
+
+struct Arguments {
+  std::string input, output, source, order = "given", x, title;
+  std::vector<std::string> metrics;
+  std::vector<double> range;
+  bool both_ways = false, normalize = false, no_marks = false;
+};
+
+constexpr const char* kAngstrom = "\u00C5";
+
+/// Units as they are printed, shares as percent.
+struct Quantity {
+  std::string title, unit;
+  double factor = 1;
+};
+
+Quantity quantity_of(const std::string& name, const std::string& potential_unit) {
+  for (const MatrixMetric& metric : matrix_metrics()) {
+    if (metric.name != name) continue;
+    if (metric.unit == MetricUnit::kFraction) return {metric.title, "%", 100};
+    if (metric.unit == MetricUnit::kAngstrom) return {metric.title, kAngstrom, 1};
+    if (metric.unit == MetricUnit::kSquareAngstrom) return {metric.title, std::string(kAngstrom) + "\u00B2", 1};
+    return {metric.title, unit_of(metric, potential_unit), 1};
+  }
+  return {name, "", 1};
+}
+
+bool is_antisymmetric(const std::string& name) {
+  return std::any_of(matrix_metrics().begin(), matrix_metrics().end(),
+                     [&](const MatrixMetric& metric) { return metric.name == name && metric.antisymmetric; });
+}
+
+std::string only_metric(const Arguments& a, const std::string& otherwise) {
+  if (a.metrics.size() > 1) throw InputError("a heat map shows one metric; name one, or one variant by --source");
+  return a.metrics.empty() ? otherwise : a.metrics.front();
+}
+
+HeatMap heat_map(const Arguments& a, const MatrixFile& matrix) {
+  const MatrixFileMetric& metric = matrix.metric(only_metric(a, matrix.clustered_by));
+  const Quantity quantity = quantity_of(metric.name, metric.unit);
+  HeatMap map;
+  map.labels = matrix.labels;
+  map.groups = matrix.groups;
+  map.values = metric.values;
+  for (double& value : map.values) value *= quantity.factor;
+  map.title = quantity.title;
+  map.unit = quantity.unit;
+  map.diverging = is_antisymmetric(metric.name);
+  if (!a.range.empty()) {
+    if (!(a.range[0] < a.range[1])) throw InputError("--range: the lower end comes first, and both differ");
+    map.low = a.range[0];
+    map.high = a.range[1];
+  }
+  for (std::size_t at = 0; !a.no_marks && at < map.values.size(); ++at)
+    map.marked.push_back(std::isfinite(map.values[at]) && !matrix.trustworthy[at]);
+  if (std::count(map.marked.begin(), map.marked.end(), true) > 0) map.mark_title = "not trustworthy";
+  if (a.order == "dendrogram") {
+    for (const ClusterMerge& merge : matrix.merges) map.dendrogram.push_back({merge.left, merge.right, merge.distance});
+    map.dendrogram_title = "clustered by " + lower_case(quantity_of(matrix.clustered_by, "").title);
+  }
+  return map;
+}
+
+/// One variant as the source against all others; with both ways the mean of both directions, the bars reaching to each.
+LinePlot one_against_all(const Arguments& a, const MatrixFile& matrix) {
+  const std::size_t n = matrix.n(), one = matrix.find(a.source);
+  LinePlot plot;
+  plot.x_title = a.both_ways ? "Variant" : "Target";
+  plot.title = a.title.empty() ? matrix.labels[one] + " against all others" : a.title;
+  for (std::size_t other = 0; other < n; ++other) {
+    if (other == one) continue;
+    plot.labels.push_back(matrix.labels[other]);
+    plot.groups.push_back(matrix.groups[other]);
+    plot.trustworthy.push_back(matrix.trustworthy[one * n + other] &&
+                               (!a.both_ways || matrix.trustworthy[other * n + one]));
+  }
+  const std::vector<std::string> names = a.metrics.empty() ? std::vector<std::string>{matrix.clustered_by} : a.metrics;
+  for (const std::string& name : names) {
+    const MatrixFileMetric& metric = matrix.metric(name);
+    const Quantity quantity = quantity_of(name, metric.unit);
+    const double sign = is_antisymmetric(name) ? -1 : 1;
+    LineSeries series{quantity.title, quantity.unit, {}, {}};
+    for (std::size_t other = 0; other < n; ++other) {
+      if (other == one) continue;
+      const double there = quantity.factor * metric.values[one * n + other];
+      const double back = sign * quantity.factor * metric.values[other * n + one];
+      series.values.push_back(a.both_ways ? 0.5 * (there + back) : there);
+      if (a.both_ways) series.errors.push_back(0.5 * std::fabs(there - back));
+    }
+    plot.series.push_back(std::move(series));
+  }
+  return plot;
+}
+
+/// The potentials' unit, from a row that has one.
+std::string potential_unit_of(const CsvTable& table) {
+  const int column = table.find("potential_unit");
+  for (const auto& row : table.rows) {
+    if (column >= 0 && !row[static_cast<std::size_t>(column)].empty()) return row[static_cast<std::size_t>(column)];
+  }
+  return "";
+}
+
+/// Columns of a table along another one, such as the frames of a trajectory. A column NAME_error gives NAME error bars.
+LinePlot along_table(const Arguments& a, const CsvTable& table) {
+  if (!a.source.empty() || a.both_ways)
+    throw InputError("--source and --both-ways are of a matrix; give its OUT.json instead of " + table.path);
+  if (table.find("source") >= 0 && table.find("target") >= 0)
+    throw InputError(table.path + ": a matrix is drawn from its JSON file; give that");
+  if (table.rows.empty()) throw FormatError(table.path, 0, "there are no rows to draw");
+  const std::string x_name = a.x.empty() ? (table.find("frame") >= 0 ? "frame" : table.columns.front()) : a.x;
+  const std::size_t x = table.require(x_name);
+  LinePlot plot;
+  plot.x_title = x_name == "frame" ? "Frame" : x_name;
+  double ignored = 0;
+  const bool numbers =
+      std::all_of(table.rows.begin(), table.rows.end(), [&](const auto& row) { return parse_number(row[x], ignored); });
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    if (numbers) plot.x.push_back(table.number(row, x));
+    if (!numbers) plot.labels.push_back(table.rows[row][x]);
+  }
+  if (const int trust = table.find("trustworthy"); trust >= 0 && !a.no_marks) {
+    for (const auto& row : table.rows) plot.trustworthy.push_back(row[static_cast<std::size_t>(trust)] != "0");
+  }
+  const std::string unit = potential_unit_of(table);
+  std::vector<std::string> names = a.metrics;
+  if (names.empty()) names = {unit.empty() ? "mean_displacement_A" : "mean_abs_difference"};
+  for (const std::string& name : names) {
+    const Quantity quantity = quantity_of(name, unit);
+    LineSeries series{quantity.title, quantity.unit, {}, {}};
+    const std::size_t column = table.require(name);
+    const int error = table.find(name + "_error");
+    for (std::size_t row = 0; row < table.rows.size(); ++row) {
+      series.values.push_back(quantity.factor * table.number(row, column));
+      if (error >= 0) series.errors.push_back(quantity.factor * table.number(row, static_cast<std::size_t>(error)));
+    }
+    plot.series.push_back(std::move(series));
+  }
+  plot.title = a.title;
+  return plot;
+}
+
+int run(const Arguments& a, const Context&) {
+  const PictureFormat format = picture_format(a.output);
+  const bool is_json = lower_case(a.input).size() > 5 && lower_case(a.input).substr(a.input.size() - 5) == ".json";
+  if (is_json && a.source.empty()) {
+    if (a.normalize || a.both_ways) throw InputError("--normalize and --both-ways are of lines; name one --source");
+    write_picture(a.output, heat_map_script(heat_map(a, read_matrix_json(a.input)), format));
+    return 0;
+  }
+  if (!a.range.empty() || a.order != "given")
+    throw InputError("--range and --order are of heat maps; leave out --source, and give OUT.json of a matrix");
+  LinePlot plot = is_json ? one_against_all(a, read_matrix_json(a.input)) : along_table(a, read_csv(a.input));
+  if (a.no_marks) plot.trustworthy.clear();
+  plot.normalized = a.normalize;
+  write_picture(a.output, line_plot_script(plot, format));
+  return 0;
+}
+
+}  // namespace
+
+Verb add_plot(CLI::App& app) {
+  auto a = std::make_shared<Arguments>();
+  CLI::App* parser = app.add_subcommand("plot", "Draw a matrix, one variant against all, or a trajectory");
+  parser->footer(
+      "OUT.json of a matrix becomes a heat map, with --source a plot of one variant against all others; a CSV file, as "
+      "of a\ntrajectory, becomes lines along its frames. Drawn by gnuplot; text stays text in an SVG.\n\nExamples:\n"
+      "  espdiff plot ubiquitin.json --order dendrogram -o map.svg\n"
+      "  espdiff plot ubiquitin.json --source m00 --metric mean_abs_difference --metric rmsd_A --normalize -o m00.png\n"
+      "  espdiff plot adk.csv --metric mean_displacement_A --metric rmsd_A -o adk.svg");
+  parser->add_option("FILE", a->input, "OUT.json of a matrix, or a CSV file")->required();
+  parser->add_option("-o,--output", a->output, "Picture to write (.png or .svg)")->required();
+  parser->add_option("--metric", a->metrics,
+                     "What is drawn, by the names of the files' columns; several for lines (as clustered by; of a "
+                     "trajectory mean_abs_difference)");
+  parser->add_option("--title", a->title, "Title of a plot of lines");
+  parser->add_option("--order", a->order, "Order of a heat map; dendrogram draws the clustering too")
+      ->check(CLI::IsMember({"given", "dendrogram"}))
+      ->capture_default_str()
+      ->group("Heat map");
+  parser->add_option("--range", a->range, "Ends of the colours (least and greatest value off the diagonal)")
+      ->expected(2)
+      ->group("Heat map");
+  parser->add_option("--source", a->source, "Label of the variant that is drawn against all others")->group("Lines");
+  parser->add_flag("--both-ways", a->both_ways, "Mean of both directions, with bars that reach to each")
+      ->group("Lines");
+  parser->add_flag("--normalize", a->normalize, "Each metric from its least value, 0, to its greatest, 1")
+      ->group("Lines");
+  parser->add_option("--x", a->x, "Column of a CSV file that is the x axis (frame)")->group("Lines");
+  parser->add_flag("--no-marks", a->no_marks, "Do not tell apart what is not trustworthy");
+  return {parser, [a](const Context& context) { return run(*a, context); }};
+}
+
+}  // namespace espdiff::cli

@@ -1,0 +1,209 @@
+// trajectory.cpp: `espdiff trajectory SOURCE FRAMES... -o OUT.csv`.
+#include "pipeline/trajectory.h"
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "cli/map_options.h"
+#include "cli/verbs.h"
+#include "io/sha256.h"
+#include "io/write_csv.h"
+#include "pipeline/frame_files.h"
+#include "pipeline/frame_range.h"
+
+namespace espdiff::cli {
+namespace {
+
+struct Arguments {
+  std::string source, output, frames = "all", start = "previous", on_error = "stop";
+  std::vector<std::string> targets;
+  int source_model = 1;
+  bool resume = false, overwrite = false, quiet = false;
+  MapArguments maps;
+  StructureOptions structure;
+  DeviceArguments device;
+  GivenSettings settings;
+};
+
+void add_run_options(CLI::App& p, Arguments& a) {
+  const char* const group = "Frames";
+  p.add_option("--frames", a.frames, "Frames to compare, from 0: all, last, n, begin:end or begin:step:end")
+      ->capture_default_str()
+      ->group(group);
+  p.add_option("--start", a.start,
+               "Of --method deform: begin each frame's mapping at the previous frame's where that is nearer than the "
+               "source (faster, and "
+               "it follows larger motions), or always at the source")
+      ->check(CLI::IsMember({"previous", "source"}))
+      ->capture_default_str()
+      ->group(group);
+  p.add_flag("--resume", a.resume, "Go on where an interrupted run left the file")->group(group);
+  p.add_flag("--overwrite", a.overwrite, "Replace the file if it exists")->group(group);
+  p.add_option("--on-error", a.on_error, "skip writes a row with the error in its last column, and goes on")
+      ->check(CLI::IsMember({"stop", "skip"}))
+      ->capture_default_str()
+      ->group(group);
+  p.add_option("--source-model", a.source_model, "Model of a multi-model source file, from 1")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str()
+      ->group("Molecules");
+}
+
+/// "NAME, 123 bytes", as the Tcl command writes it.
+std::string described(const std::vector<std::string>& paths) {
+  std::string text;
+  for (const std::string& path : paths) {
+    const std::filesystem::path file(path);
+    text += (text.empty() ? "" : "; ") + file.filename().string() + ", " +
+            std::to_string(std::filesystem::file_size(file)) + " bytes";
+  }
+  return text;
+}
+
+/// A map in the Tcl command's words; empty for none.
+std::string map_words(const MapArguments& m, const std::string& path, const std::string& unit) {
+  if (is_computed(m)) return "pme cell " + m.cell + " grid " + m.grid + " ewaldfactor " + csv_number(m.ewald_factor);
+  if (path.empty()) return {};
+  return "file " + path + (unit.empty() ? "" : " unit " + unit) + (m.map_array.empty() ? "" : " array " + m.map_array);
+}
+
+SeriesHead head_of(const Arguments& a, const std::vector<InputFile>& inputs) {
+  const std::string map = map_words(a.maps, a.maps.target_map, a.maps.target_map_unit);
+  std::string settings;
+  for (const auto& [name, value] : a.settings) settings += (settings.empty() ? "" : " ") + name + " " + value;
+  SeriesHead head = {{"espdiff", kVersion},
+                     {"file", described(a.targets)},
+                     {"source_model", std::to_string(a.source_model)},
+                     {"frames", a.frames},
+                     {"reference", "file " + a.source},
+                     {"map", map.empty() ? "none" : map},
+                     {"reference-map", map_words(a.maps, a.maps.source_map, a.maps.source_map_unit)},
+                     {"atoms", std::string(a.structure.include_hetero ? "hetero" : "no hetero") +
+                                   (a.structure.include_water ? ", water" : ", no water")},
+                     {"start", a.start},
+                     {"settings", settings}};
+  for (const InputFile& input : inputs) head.emplace_back(input.role + "_sha256", input.sha256);
+  return head;
+}
+
+/// Source and frames, and how their molecules become a comparison's inputs.
+class Sides {
+ public:
+  Sides(const Arguments& a, double temperature_K) : a_(a), temperature_K_(temperature_K), frames_(a.targets) {
+    const StructureFile file(a.source);
+    source_ = file.read(with_model(a.structure));
+    inputs_ = {{"source", a.source, sha256_of_file(a.source)}};
+    source_map_ = given_map(a.maps, "source", inputs_);
+    target_map_ = given_map(a.maps, "target", inputs_);
+    if (!is_computed(a.maps)) return;
+    if (takes_own_cell(a.maps)) {
+      charges_ = file.read(with_model({1, true, true}));
+      const auto cell = read_unit_cells(a.source).at(static_cast<std::size_t>(a.source_model - 1));
+      computed_ = computed_map(a.maps, charges_, cell, temperature_K);
+    } else {
+      computed_ = computed_map(a.maps, source_, std::nullopt, temperature_K);
+    }
+    inputs_.push_back(computed_input("source_map", *computed_));
+  }
+
+  int n_frames() const { return frames_.n_frames(); }
+  const std::vector<InputFile>& inputs() const { return inputs_; }
+  CompareInput source() const {
+    return {&source_, source_map_ ? &*source_map_ : nullptr, computed_ ? computed_->maker() : MapMaker()};
+  }
+
+  FrameInput frame(int number) {
+    FrameInput input{read(number, a_.structure, source_), target_map_ ? &*target_map_ : nullptr, nullptr};
+    if (!is_computed(a_.maps)) return input;
+    if (takes_own_cell(a_.maps)) {
+      Molecule all = read(number, {1, true, true}, charges_);
+      input.make_map = computed_map(a_.maps, std::move(all), frames_.cell(number), temperature_K_).maker();
+    } else {
+      input.make_map = computed_map(a_.maps, input.molecule, std::nullopt, temperature_K_).maker();
+    }
+    return input;
+  }
+
+ private:
+  StructureOptions with_model(StructureOptions options) const {
+    options.model = a_.source_model;
+    return options;
+  }
+  Molecule read(int number, const StructureOptions& options, const Molecule& of) {
+    Molecule molecule = frames_.read(number, options);
+    if (!of.charges.empty()) take_values(molecule, of, frames_.name(number));
+    molecule.name = frames_.name(number);
+    return molecule;
+  }
+
+  const Arguments& a_;
+  double temperature_K_;
+  FrameFiles frames_;
+  Molecule source_, charges_;  // what has the surface; with --pme-cell own, all that counts for the potential
+  std::optional<Grid> source_map_, target_map_;
+  std::optional<ComputedMap> computed_;
+  std::vector<InputFile> inputs_;
+};
+
+int run(const Arguments& a, const Context& context) {
+  check_map_options(a.maps);
+  if (a.resume && a.overwrite) throw InputError("--resume and --overwrite exclude each other");
+  const auto begun = std::chrono::steady_clock::now();
+  Trajectory run;
+  run.options = make_options(a.settings);
+  context.progress->report("read", 0.0);
+  Sides sides(a, run.options.temperature_K);
+  run.source = sides.source();
+  run.reference = "file " + a.source;
+  run.frames = parse_frames(a.frames, sides.n_frames());
+  run.frame = [&sides](int number) { return sides.frame(number); };
+  run.start = a.start == "previous" ? StartFrom::kPrevious : StartFrom::kSource;
+  run.skip_errors = a.on_error == "skip";
+  SeriesCsv file(a.output, head_of(a, sides.inputs()),
+                 a.resume      ? ExistingFile::kResume
+                 : a.overwrite ? ExistingFile::kReplace
+                               : ExistingFile::kRefuse);
+  const std::unique_ptr<Engine> engine = make_engine(a.device);
+  const TrajectorySummary summary = compare_frames(*engine, run, file, *context.progress, [](const std::string& text) {
+    std::fprintf(stderr, "espdiff: %s\n", text.c_str());
+  });
+  if (a.quiet) return 0;
+  const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  std::printf("frames         %zu\n", summary.n_frames);
+  std::printf("rows           %zu written, %zu were there\n", summary.n_rows, summary.n_resumed);
+  if (summary.n_skipped > 0) std::printf("errors         %zu rows have one instead of numbers\n", summary.n_skipped);
+  std::printf("time           %.1f s\n", s);
+  return 0;
+}
+
+}  // namespace
+
+Verb add_trajectory(CLI::App& app) {
+  auto a = std::make_shared<Arguments>();
+  CLI::App* parser = app.add_subcommand("trajectory", "Compare each frame with one structure, a row for each");
+  parser->footer(
+      "Frames are the models of the given files, numbered from 0 through all of them. Frames without charges and radii "
+      "(PDB, mmCIF) take\n"
+      "those of a PQR source, whose atoms must be theirs, one to one. The source's surface and potential are computed "
+      "once. An interrupted\n"
+      "run can be resumed; OUT.csv.state holds its last mapping meanwhile. The columns are explained in docs/tcl.md, "
+      "Trajectories.\n\n"
+      "Examples:\n"
+      "  espdiff trajectory closed.pqr frames.pdb -o motion.csv\n"
+      "  espdiff trajectory closed.pqr frames.pdb --potential pme --frames 0:10:end -o motion.csv --resume");
+  parser->add_option("SOURCE", a->source, "Structure that each frame is compared with: PQR, PDB or mmCIF")->required();
+  parser->add_option("FRAMES", a->targets, "Structure files whose models are the frames")->required();
+  parser->add_option("-o,--output,--csv", a->output, "CSV file that gets a row for each frame")->required();
+  add_run_options(*parser, *a);
+  add_map_options(*parser, a->maps);
+  add_structure_options(*parser, a->structure);
+  add_settings(*parser, a->settings, false);
+  add_device_options(*parser, a->device);
+  parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
+  return {parser, [a](const Context& context) { return run(*a, context); }};
+}
+
+}  // namespace espdiff::cli

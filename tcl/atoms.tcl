@@ -1,0 +1,84 @@
+# atoms.tcl: quantities of residues on the atoms of VMD's molecules, or in a PDB file.
+
+namespace eval ::espdiff {
+    proc atoms {options handle} {
+        require_core_handle $handle
+        set quantity [dict get $options quantity]
+        if {$quantity eq "auto"} {
+            set quantity [expr {[core::result $handle] ne "" && [dict get [core::result $handle] potential_unit] ne ""
+                ? "mean_abs_difference" : "mean_displacement_A"}]
+        }
+        if {[dict get $options file] ne ""} { return [core::residue_pdb $handle $quantity [dict get $options file]] }
+        require_vmd "espdiff atoms" "outside of it -file FILE writes a PDB file with the values as B factors"
+        set mol [atoms_molecule $handle [dict get $options mol]]
+        set values [residue_values $handle $quantity]
+        return [dict merge [dict create quantity $quantity unit [dict get $values unit] mol $mol \
+            field [dict get $options field]] [set_atoms $mol [dict get $values of] $options]]
+    }
+
+    proc atoms_molecule {handle mol} {
+        if {$mol ni {source target}} { return [vmd_molecule_id $mol -mol] }
+        set id [molecule_of $handle $mol]
+        if {$id eq ""} {
+            fail "-mol: the $mol of $handle came from a file, or its molecule is deleted; name a molecule's id"
+        }
+        return $id
+    }
+
+    # The name of a residue that VMD and files agree on: where a file has no chains, VMD says X.
+    proc residue_key {chain segment number insertion} {
+        if {$chain in {X " " ""}} { set chain $segment }
+        if {$chain eq "X"} { set chain "" }
+        return "$chain|$number|[string trim $insertion]"
+    }
+
+    # By residue_key, those that have a value; and the unit.
+    proc residue_values {handle quantity} {
+        set values [core::residue_quantity $handle $quantity]
+        set of [dict create]
+        foreach residue [core::residues $handle] value [dict get $values values] {
+            if {$value eq ""} continue
+            dict set of [residue_key [dict get $residue chain] "" [dict get $residue number] \
+                [dict get $residue insertion]] $value
+        }
+        return [dict create unit [dict get $values unit] of $of]
+    }
+
+    # Sets the field of every atom; returns how many got a value of their own, and its range.
+    proc set_atoms {mol of options} {
+        set all [atomselect $mol all]
+        finally {
+            set column {}
+            set found {}
+            foreach atom [$all get {chain segname resid insertion}] {
+                set key [residue_key {*}$atom]
+                if {[dict exists $of $key]} {
+                    lappend column [dict get $of $key]
+                    lappend found [dict get $of $key]
+                } else {
+                    lappend column [dict get $options missing]
+                }
+            }
+            if {[llength $found] == 0} {
+                fail "espdiff atoms: no residue of molecule $mol ([molinfo $mol get name]) has the chain and number of\
+                    one that was compared"
+            }
+            foreach frame [atoms_frames $mol $options] {
+                $all frame $frame
+                $all set [dict get $options field] $column
+            }
+        } { $all delete }
+        set sorted [lsort -real $found]
+        return [dict create atoms [llength $found] min [lindex $sorted 0] max [lindex $sorted end]]
+    }
+
+    proc atoms_frames {mol options} {
+        set frame [dict get $options frame]
+        if {$frame ne "all" || ![string match user* [dict get $options field]]} {
+            return [vmd_frame $mol [expr {$frame eq "all" ? "now" : $frame}] -frame]
+        }
+        set frames {}
+        for {set i 0} {$i < [molinfo $mol get numframes]} {incr i} { lappend frames $i }
+        return $frames
+    }
+}

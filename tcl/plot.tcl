@@ -1,0 +1,198 @@
+# plot.tcl: lines along a trajectory, or of one variant against all, in VMD's own plot windows (the package multiplot).
+
+namespace eval ::espdiff {
+    # What a click does, by the number of the window: {callback molecule x names}. multiplot writes its callback into a
+    # binding of Tk, where nothing but a short word is safe.
+    variable plot_clicks [dict create]
+
+    variable plot_colours {#0072b2 #d55e00 #009e73 #cc79a7 #56b4e9 #e69f00 #000000}
+
+    # A window for each unit, or one where values are normalized.
+    proc plot {options input} {
+        set table [plot_table $input $options]
+        set series [plot_series $table $options]
+        require_multiplot
+        set panels [dict create]
+        foreach line $series {
+            set unit [expr {[dict get $options normalize] ? "normalized" : [dict get $line unit]}]
+            dict lappend panels $unit $line
+        }
+        set plots {}
+        dict for {unit lines} $panels { lappend plots [plot_window $unit $lines $table $options] }
+        return $plots
+    }
+
+    proc require_multiplot {} {
+        if {![info exists ::tk_version]} {
+            fail "espdiff plot needs VMD with its graphics window; elsewhere the command line's `espdiff plot` draws\
+                the same into a file"
+        }
+        if {[catch { package require multiplot } message]} {
+            fail "espdiff plot needs VMD's package multiplot, which is not there ($message); the command line's\
+                `espdiff plot` draws the same into a file"
+        }
+    }
+
+    # A dict: x, names (of the points; empty where x says it), x_title, title, rows (dicts by column), unit, columns.
+    proc plot_table {input options} {
+        if {[exists $input] || [is_trajectory $input]} {
+            if {[is_trajectory $input]} { return [plot_csv [dict get [trajectory_result $input] csv]] }
+            return [plot_matrix $input [dict get $options source]]
+        }
+        return [plot_csv [existing_file $input "espdiff plot"]]
+    }
+
+    proc plot_csv {path} {
+        set rows {}
+        set columns {}
+        foreach line [split [plot_read $path] \n] {
+            if {[string trim $line] eq "" || [string match "#*" $line]} continue
+            set cells [csv_cells $line]
+            if {$columns eq ""} { set columns $cells; continue }
+            if {[llength $cells] != [llength $columns]} {
+                fail "espdiff plot: a row of '$path' has [llength $cells] fields instead of [llength $columns]" FORMAT
+            }
+            set row [dict create]
+            foreach column $columns cell $cells { dict set row $column $cell }
+            lappend rows $row
+        }
+        if {"frame" ni $columns} {
+            fail "espdiff plot: '$path' has no column `frame`; it is not of a trajectory" FORMAT
+        }
+        set x {}
+        set unit ""
+        foreach row $rows {
+            lappend x [dict get $row frame]
+            if {[value_or $row potential_unit ""] ne ""} { set unit [dict get $row potential_unit] }
+        }
+        return [dict create x $x names {} x_title Frame title [file tail $path] rows $rows unit $unit columns $columns]
+    }
+
+    proc plot_read {path} {
+        set channel [open $path r]
+        fconfigure $channel -encoding utf-8
+        finally { return [read $channel] } { close $channel }
+    }
+
+    # One variant as the source against all others.
+    proc plot_matrix {handle source} {
+        set matrix [core::result $handle]
+        if {![dict exists $matrix variants]} { fail "$handle is no matrix; give one, or a trajectory's CSV file" }
+        set labels {}
+        foreach variant [dict get $matrix variants] { lappend labels [dict get $variant label] }
+        if {$source eq ""} { set source [lindex $labels 0] }
+        set from [lsearch -exact $labels $source]
+        if {$from < 0} { fail "-source: [unknown_word variant $source $labels]" }
+        set rows {}
+        set x {}
+        set names {}
+        for {set to 0} {$to < [llength $labels]} {incr to} {
+            if {$to == $from} continue
+            set row [dict create]
+            dict for {name metric} [dict get $matrix metrics] {
+                dict set row $name [lindex [dict get $metric values] $from $to]
+            }
+            lappend rows $row
+            lappend x $to
+            lappend names [lindex $labels $to]
+        }
+        return [dict create x $x names $names x_title "Variant, by its number in the list from 0" title "$source against all others" rows $rows \
+            unit [dict get $matrix potential_unit] columns [dict keys [dict get $matrix metrics]]]
+    }
+
+    # Title, unit and factor of a column.
+    proc plot_quantity {column unit} {
+        foreach metric [core::metrics] {
+            if {[dict get $metric name] ne $column} continue
+            switch [dict get $metric kind] {
+                potential { return [list [dict get $metric title] $unit 1] }
+                fraction { return [list [dict get $metric title] % 100] }
+                length { return [list [dict get $metric title] A 1] }
+                area { return [list [dict get $metric title] A^2 1] }
+            }
+            return [list [dict get $metric title] "" 1]
+        }
+        return [list $column "" 1]
+    }
+
+    # A dict for each metric: title, unit, x, y; points without a value are left out.
+    proc plot_series {table options} {
+        set metrics [dict get $options metrics]
+        if {$metrics eq "auto"} {
+            set metrics [expr {[dict get $table unit] eq "" ? "mean_displacement_A" : "mean_abs_difference"}]
+        }
+        set all {}
+        foreach column $metrics {
+            if {$column ni [dict get $table columns]} {
+                fail "-metrics: [unknown_word metric $column [dict get $table columns]]"
+            }
+            lassign [plot_quantity $column [dict get $table unit]] title unit factor
+            set x {}
+            set y {}
+            foreach at [dict get $table x] row [dict get $table rows] {
+                set value [dict get $row $column]
+                if {![is_number $value]} continue
+                lappend x $at
+                lappend y [expr {$factor * $value}]
+            }
+            if {[llength $y] == 0} { fail "-metrics: '$column' has no values" }
+            lappend all [plot_normalized [dict create title $title unit $unit x $x y $y] [dict get $options normalize]]
+        }
+        if {[llength $all] == 0} { fail "-metrics: none was named" }
+        return $all
+    }
+
+    proc plot_normalized {line wanted} {
+        if {!$wanted} { return $line }
+        set sorted [lsort -real [dict get $line y]]
+        set low [lindex $sorted 0]
+        set span [expr {[lindex $sorted end] - $low}]
+        set y {}
+        foreach value [dict get $line y] { lappend y [expr {$span > 0 ? ($value - $low) / double($span) : 0.5}] }
+        set unit [dict get $line unit]
+        dict set line title [format "%s (0: %.3g%s, 1: %.3g%s)" [dict get $line title] $low \
+            [expr {$unit eq "" ? "" : " $unit"}] [lindex $sorted end] [expr {$unit eq "" ? "" : " $unit"}]]
+        dict set line y $y
+        return $line
+    }
+
+    proc plot_window {unit lines table options} {
+        variable plot_colours
+        variable plot_clicks
+        set number [dict size $plot_clicks]
+        dict set plot_clicks $number [list [dict get $options callback] [dict get $options mol] [dict get $table x] \
+            [dict get $table names]]
+        set title [dict get $table title]
+        if {[dict get $options title] ne ""} { set title [dict get $options title] }
+        set label [expr {$unit eq "normalized" ? "normalized"
+            : [llength $lines] == 1 ? [dict get [lindex $lines 0] title] : "value"}]
+        if {$unit ni {normalized ""}} { append label " ($unit)" }
+        set plot [multiplot -title $title -xlabel [dict get $table x_title] -ylabel $label -xsize 700 -ysize 420]
+        set i 0
+        foreach line $lines {
+            set colour [lindex $plot_colours [expr {$i % [llength $plot_colours]}]]
+            $plot add [dict get $line x] [dict get $line y] -lines -linewidth 2 -linecolor $colour -marker point \
+                -radius 4 -fillcolor $colour -legend [dict get $line title] \
+                -callback [list ::espdiff::plot_clicked $number]
+            incr i
+        }
+        if {[dict get $table names] ne ""} {
+            set step [expr {1 + [llength [dict get $table names]] / 20}]
+            $plot configure -xmajortics $step -xminortics $step
+        }
+        $plot replot
+        return $plot
+    }
+
+    # multiplot calls this with the point that was clicked.
+    proc plot_clicked {number index x y colour marker} {
+        variable plot_clicks
+        lassign [dict get $plot_clicks $number] callback mol positions names
+        set name [lindex $names [lsearch -exact -real $positions $x]]
+        if {$callback ne ""} {
+            call_user $callback [expr {$names eq "" ? $x : $name}] $y
+        } elseif {$names eq "" && $mol ne "none" && [in_vmd]} {
+            molinfo [vmd_molecule_id $mol -mol] set frame [expr {int($x)}]
+        }
+    }
+}

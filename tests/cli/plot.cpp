@@ -1,0 +1,87 @@
+// plot.cpp: `espdiff plot` of a matrix and of a table, and wrong usage.
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/run_espdiff.h"
+
+using namespace espdiff_test;  // NOLINT: a test
+
+namespace {
+
+bool has_gnuplot() {
+  const bool found = std::system("gnuplot --version >/dev/null 2>&1") == 0;
+  if (!found) MESSAGE("SKIPPED: gnuplot is not installed (Debian: gnuplot-nox)");
+  return found;
+}
+
+/// A matrix of three molecules, shapes alone.
+std::string made_matrix(const ScratchFolder& folder) {
+  std::string molecules;
+  for (int i = 0; i < 3; ++i) molecules += " " + folder.write("m" + std::to_string(i) + ".pqr", row_of_atoms(9 + i));
+  const std::string groups = folder.write("g.csv", "label,group\nm0,first\nm1,first\nm2,second\n");
+  REQUIRE(run_espdiff("matrix" + molecules + " --groups " + groups + " -q -o " + folder.file("m")).status == 0);
+  return folder.file("m.json");
+}
+
+}  // namespace
+
+TEST_CASE("a matrix as heat map, and one of its variants against all") {
+  if (!has_gnuplot()) return;
+  const ScratchFolder folder;
+  const std::string matrix = made_matrix(folder), svg = folder.file("x.svg");
+  const Outcome map = run_espdiff("plot " + matrix + " --order dendrogram -o " + svg);
+  REQUIRE_MESSAGE(map.status == 0, map.err);
+  std::string text = read_file(svg);
+  for (const char* word : {"m0", "m1", "m2", "first", "second", "Mean displacement (\u00C5)", "clustered by"})
+    CHECK_MESSAGE(contains(text, word), std::string(word), text);
+  const Outcome lines = run_espdiff("plot " + matrix + " --source m1 --metric rmsd_A --metric no_counterpart_source " +
+                                    "--both-ways -o " + svg);
+  REQUIRE_MESSAGE(lines.status == 0, lines.err);
+  text = read_file(svg);
+  for (const char* word : {"m1 against all others", "RMSD (\u00C5)", "Area without counterpart, source (%)", "Variant"})
+    CHECK_MESSAGE(contains(text, word), std::string(word), text);
+}
+
+TEST_CASE("columns of a table along its frames, with error bars where a column has them") {
+  if (!has_gnuplot()) return;
+  const ScratchFolder folder;
+  const std::string table =
+      folder.write("t.csv",
+                   "# espdiff: 1\nframe,potential_unit,mean_abs_difference,rmsd_A,heat,heat_error,"
+                   "trustworthy\n0,kT/e,1,0.5,3,0.1,1\n10,kT/e,,0.6,4,,0\n20,kT/e,3,0.7,5,0.3,1\n");
+  const std::string svg = folder.file("t.svg");
+  const Outcome outcome =
+      run_espdiff("plot " + table + " --metric mean_abs_difference --metric rmsd_A --metric heat -o " + svg);
+  REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  const std::string text = read_file(svg);
+  for (const char* word : {"Mean absolute difference (kT/e)", "RMSD (\u00C5)", ">heat<", "Frame", "not trustworthy"})
+    CHECK_MESSAGE(contains(text, word), std::string(word), text);
+  CHECK(run_espdiff("plot " + table + " -o " + folder.file("t.png")).status == 0);
+}
+
+TEST_CASE("wrong usage of plot exits 2 and writes nothing") {
+  const ScratchFolder folder;
+  const std::string matrix = made_matrix(folder), table = folder.write("t.csv", "frame,a\n0,1\n");
+  const std::size_t n_files = folder.n_files();
+  const std::string svg = " -o " + folder.file("x.svg");
+  for (const auto& [arguments, expected] : std::vector<std::pair<std::string, std::string>>{
+           {matrix + " -o x.pdf", "ends in .png or .svg"},
+           {matrix + " --metric size" + svg, "there is no metric 'size'"},
+           {matrix + " --source m9" + svg, "there is no variant 'm9'; there are: m0, m1, m2"},
+           {matrix + " --metric rmsd_A --metric iterations" + svg, "one metric"},
+           {matrix + " --range 3 1" + svg, "--range"},
+           {matrix + " --normalize" + svg, "name one --source"},
+           {table + " --metric b" + svg, "there is no column 'b'"},
+           {table + " --source m0" + svg, "give its OUT.json"},
+           {folder.file("m.csv") + svg, "drawn from its JSON file"},
+           {folder.write("x.json", "{}") + svg, "not the JSON that `espdiff matrix` writes"}}) {
+    const Outcome outcome = run_espdiff("plot " + arguments);
+    CHECK_MESSAGE(outcome.status == 2, arguments);
+    CHECK_MESSAGE(contains(outcome.err, expected), outcome.err);
+  }
+  CHECK(folder.n_files() == n_files + 1);
+}

@@ -1,0 +1,187 @@
+// trajectory.cpp: `espdiff trajectory`: frames of files, values taken from the source, computed potentials, resuming.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+#include <vector>
+
+#include "cli/run_espdiff.h"
+
+using namespace espdiff_test;  // NOLINT: a test
+
+namespace {
+
+constexpr int kAtoms = 12;
+
+struct Vec {
+  double x, y, z;
+};
+
+Vec place(int atom, double bend) {
+  const double x = 2.5 * atom;
+  return {x, 1.1 * (atom % 3), 0.5 * (atom % 2) + bend * 0.01 * x * x};
+}
+
+std::string pqr(double bend = 0) {
+  std::string text;
+  for (int i = 0; i < kAtoms; ++i) {
+    char line[128];
+    const Vec p = place(i, bend);
+    std::snprintf(line, sizeof line, "ATOM %d CA ALA A %d %.3f %.3f %.3f %.4f 2.2\n", i + 1, i + 1, p.x, p.y, p.z,
+                  i % 3 == 0 ? -0.7 : 0.4);
+    text += line;
+  }
+  return text;
+}
+
+/// Models that bend farther and farther, as PDB: without charges.
+std::string pdb_models(int first, int n, int n_atoms = kAtoms, const char* cell = "") {
+  std::string text = cell;
+  for (int model = first; model < first + n; ++model) {
+    text += "MODEL     " + std::to_string(model + 1) + "\n";
+    for (int i = 0; i < n_atoms; ++i) {
+      char line[128];
+      const Vec p = place(i, 0.5 * model);
+      std::snprintf(line, sizeof line, "ATOM  %5d  CA  ALA A%4d    %8.3f%8.3f%8.3f  1.00  0.00           C\n", i + 1,
+                    i + 1, p.x, p.y, p.z);
+      text += line;
+    }
+    text += "ENDMDL\n";
+  }
+  return text;
+}
+
+constexpr const char* kCell = "CRYST1   60.000   40.000   40.000  90.00  90.00  90.00 P 1           1\n";
+
+/// One column of the file.
+std::vector<std::string> column(const std::string& path, const std::string& name) {
+  std::vector<std::string> values;
+  std::istringstream in(read_file(path));
+  std::size_t index = std::string::npos;
+  for (std::string line; std::getline(in, line);) {
+    if (line.rfind("# ", 0) == 0) continue;
+    std::vector<std::string> cells;
+    std::istringstream words(line);
+    for (std::string cell; std::getline(words, cell, ',');) cells.push_back(cell);
+    if (index == std::string::npos) {
+      index = static_cast<std::size_t>(std::find(cells.begin(), cells.end(), name) - cells.begin());
+      continue;
+    }
+    values.push_back(cells.at(index));
+  }
+  return values;
+}
+
+}  // namespace
+
+#ifdef ESPDIFF_HAVE_GEMMI
+
+TEST_CASE("trajectory: frames of several files, charges and radii from the source, potentials by PME") {
+  const ScratchFolder folder;
+  const std::string source = folder.write("a.pqr", pqr()), one = folder.write("one.pdb", pdb_models(0, 2)),
+                    two = folder.write("two.pdb", pdb_models(2, 3));
+  const std::string start = "trajectory " + source + " " + one + " " + two + " --device cpu --method deform ";
+  const Outcome outcome = run_espdiff(start + "--potential pme -o " + folder.file("a.csv"));
+  if (outcome.status == 1 && contains(outcome.err, "libfftw3-dev")) {
+    MESSAGE("SKIPPED: ", outcome.err);
+    return;
+  }
+  CHECK_MESSAGE(outcome.status == 0, outcome.err);
+  CHECK(contains(outcome.out, "5 written, 0 were there"));
+  CHECK(column(folder.file("a.csv"), "frame") == std::vector<std::string>{"0", "1", "2", "3", "4"});
+  CHECK(column(folder.file("a.csv"), "potential_unit")[4] == "kT/e");
+  // The first frame is the source itself: the same radii and charges, hence nothing differs but rounding to 0.001 A.
+  const auto differences = column(folder.file("a.csv"), "mean_abs_difference");
+  CHECK(std::stod(differences[0]) < 0.05);
+  CHECK(std::stod(differences[4]) > 10 * std::stod(differences[0]));
+  CHECK(column(folder.file("a.csv"), "start")[3] == "previous");
+  // The same frames as PQR, one file each: the same rows.
+  std::string files;
+  for (int i = 0; i < 5; ++i) files += folder.write("f" + std::to_string(i) + ".pqr", pqr(0.5 * i)) + " ";
+  CHECK(run_espdiff("trajectory " + source + " " + files + "--device cpu --method deform --potential pme -q -o " +
+                    folder.file("b.csv"))
+            .status == 0);
+  for (const char* name : {"rmsd_A", "mean_abs_difference", "iterations"})
+    CHECK(column(folder.file("a.csv"), name) == column(folder.file("b.csv"), name));
+  // In the file's own cell another potential.
+  const std::string with_cell = folder.write("cell.pqr", kCell + pqr()),
+                    frames = folder.write("cell.pdb", pdb_models(0, 5, kAtoms, kCell));
+  CHECK(run_espdiff("trajectory " + with_cell + " " + frames +
+                    " --device cpu --method deform --potential pme --pme-cell own --frames 0:4:end -q -o " +
+                    folder.file("c.csv"))
+            .status == 0);
+  CHECK(column(folder.file("c.csv"), "frame") == std::vector<std::string>{"0", "4"});
+  CHECK(column(folder.file("c.csv"), "mean_abs_difference")[1] != differences[4]);
+  const Outcome no_cell = run_espdiff(start + "--potential pme --pme-cell own -o " + folder.file("d.csv"));
+  CHECK(no_cell.status == 2);
+  CHECK(contains(no_cell.err, "there is no cell (a CRYST1 record"));
+}
+
+TEST_CASE("trajectory: maps of files, resuming, replacing") {
+  const ScratchFolder folder;
+  const std::string source = folder.write("a.pqr", pqr()), frames = folder.write("f.pdb", pdb_models(0, 4)),
+                    low = folder.write("low.dx", constant_dx(33, 4.0, 1.0)),
+                    high = folder.write("high.dx", constant_dx(33, 4.0, 4.0)), csv = folder.file("a.csv");
+  const std::string start = "trajectory " + source + " " + frames + " --device cpu --method deform --source-map " +
+                            low + " --target-map " + high + " -o " + csv + " ";
+  CHECK(run_espdiff(start).status == 0);
+  for (const std::string& value : column(csv, "mean_signed_difference")) CHECK(std::stod(value) == doctest::Approx(3));
+  const auto rmsd = column(csv, "rmsd_A"), iterations = column(csv, "iterations");
+  // The last two rows are missing, the next is incomplete, and the mapping is gone.
+  const std::string whole = read_file(csv);
+  std::size_t end = whole.size();
+  for (int i = 0; i < 3; ++i) end = whole.rfind('\n', end - 1);
+  folder.write("a.csv", whole.substr(0, end + 1) + "2,file");
+  const Outcome exists = run_espdiff(start);
+  CHECK(exists.status == 2);
+  CHECK(contains(exists.err, "--resume goes on with it, --overwrite replaces it"));
+  CHECK(contains(run_espdiff(start + "--resume --mu 0.6").err,
+                 "was made with settings 'method deform', not with 'method deform mu 0.6'"));
+  const Outcome resumed = run_espdiff(start + "--resume");
+  CHECK_MESSAGE(resumed.status == 0, resumed.err);
+  CHECK(contains(resumed.out, "2 written, 2 were there"));
+  CHECK(contains(resumed.err, "the mapping of frame 1 is missing, the next one starts from the source"));
+  CHECK(column(csv, "rmsd_A") == rmsd);
+  CHECK(run_espdiff(start + "--overwrite --start source -q --frames last").out.empty());
+  CHECK(column(csv, "frame") == std::vector<std::string>{"3"});
+  CHECK(folder.n_files() == 5);
+}
+
+TEST_CASE("trajectory: wrong input gives one line and leaves nothing") {
+  const ScratchFolder folder;
+  const std::string source = folder.write("a.pqr", pqr()), frames = folder.write("f.pdb", pdb_models(0, 2)),
+                    fewer = folder.write("g.pdb", pdb_models(0, 2, kAtoms - 1)),
+                    bare = folder.write("b.pdb", pdb_models(0, 1)), map = folder.write("m.dx", constant_dx(9, 9.0, 1));
+  const std::size_t n_before = folder.n_files();
+  struct Case {
+    std::string arguments;
+    const char* expected;
+  };
+  for (const Case& c :
+       {Case{source + " " + frames + " --frames 2", "not among the 2 that there are"},
+        {source + " " + fewer + " --potential pme", "it lacks CA of ALA A 12 (11 and 12 atoms)"},
+        {source + " " + fewer, "frame 0: "},
+        {bare + " " + frames + " --potential pme", "has no charges, and a potential needs them"},
+        {source + " " + frames + " --potential pme --target-map " + map, "--potential computes both maps"},
+        {source + " " + frames + " --source-map " + map, "was given for the source only"},
+        {source + " " + frames + " --resume --overwrite", "exclude each other"},
+        {source + " " + folder.file("absent.pdb"), "absent.pdb"},
+        {source + " " + map, "that is no structure"},
+        {source + " " + frames + " --source-model 2", "model 2"},
+        {source + " " + frames + " --mu 3", "mu"}}) {
+    const Outcome outcome = run_espdiff("trajectory " + c.arguments + " --device cpu -o " + folder.file("a.csv"));
+    CAPTURE(c.arguments);
+    if (contains(outcome.err, "libfftw3-dev")) continue;
+    CHECK_MESSAGE(outcome.status == 2, outcome.err);
+    CHECK_MESSAGE(contains(outcome.err, c.expected), outcome.err);
+    CHECK(outcome.out.empty());
+    CHECK(folder.n_files() == n_before);
+  }
+  CHECK(run_espdiff("trajectory " + source + " " + frames).status == 2);
+  CHECK(
+      contains(run_espdiff("trajectory " + source + " " + frames + " -o " + folder.file("no/a.csv")).err, "no/a.csv"));
+  CHECK(folder.n_files() == n_before);
+}
+
+#endif

@@ -1,0 +1,41 @@
+// round_trip.cpp: there and back ends where it began, for both methods; and what the option changes.
+#include <doctest/doctest.h>
+
+#include "pipeline/made_side.h"
+
+using namespace espdiff_test;
+using espdiff::compare;
+
+TEST_SUITE_BEGIN("round_trip");
+
+TEST_CASE("there and back ends near the start, nearer by the morph") {
+  const Side a = make_side(1, 0), b = make_side(1, 0.3);
+  const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
+  CompareOptions options = quick_options();
+  options.round_trip = true;
+  const CompareResult morphed = compare(*engine, a.shape(), b.shape(), options, {});
+  REQUIRE(morphed.certificate.round_trip.has_value());
+  CHECK(morphed.certificate.round_trip->mean_A < 0.1);
+  CHECK(morphed.certificate.round_trip->mean_A <= morphed.certificate.round_trip->p95_A);
+  CHECK(morphed.certificate.round_trip->p95_A <= morphed.certificate.round_trip->max_A);
+  CHECK(morphed.certificate.not_checked.empty());
+  options.method = espdiff::Method::kDeform;
+  options.deform.max_iterations = 3000;
+  const CompareResult deformed = compare(*engine, a.shape(), b.shape(), options, {});
+  REQUIRE(deformed.certificate.round_trip.has_value());
+  CHECK(morphed.certificate.round_trip->mean_A < deformed.certificate.round_trip->mean_A);
+}
+
+TEST_CASE("the way back changes nothing else, and is named as not checked without the option") {
+  const Side a = make_side(1, 0), b = make_side(2, 0.3);
+  const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
+  CompareOptions options = quick_options();
+  const CompareResult once = compare(*engine, a.input(), b.input(), options, {});
+  CHECK_FALSE(once.certificate.round_trip.has_value());
+  CHECK(once.certificate.not_checked == std::vector<std::string>{"round_trip"});
+  options.round_trip = true;
+  const CompareResult twice = compare(*engine, a.input(), b.input(), options, {});
+  CHECK(hash_of(once) == hash_of(twice));
+}
+
+TEST_SUITE_END();

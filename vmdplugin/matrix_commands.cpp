@@ -1,0 +1,123 @@
+// matrix_commands.cpp: matrix, merge: many variants, each with each, and parts of a matrix put together.
+#include "base/error.h"
+#include "commands.h"
+#include "tcl_values.h"
+
+namespace espdiff::vmdplugin {
+namespace {
+
+/// One element of VARIANTS: an endpoint with `label` and `group`.
+void add_variant(Tcl_Obj* description, MatrixObject& object) {
+  Tcl_Obj* const endpoint = Tcl_DuplicateObj(description);
+  Tcl_IncrRefCount(endpoint);
+  try {
+    DictReader reader(endpoint, "variant " + std::to_string(object.labels.size() + 1));
+    object.labels.push_back(to_string(reader.require("label")));
+    object.groups.push_back(reader.text("group"));
+    for (const char* key : {"label", "group"}) {
+      Tcl_Obj* const name = to_obj(key);
+      Tcl_IncrRefCount(name);
+      Tcl_DictObjRemove(nullptr, endpoint, name);
+      Tcl_DecrRefCount(name);
+    }
+    object.endpoints.push_back(parse_endpoint(endpoint, object.labels.back()));
+  } catch (...) {
+    Tcl_DecrRefCount(endpoint);
+    throw;
+  }
+  Tcl_DecrRefCount(endpoint);
+}
+
+/// Reads the files; the endpoints are empty after. Potentials that are to be computed are made on the way.
+std::vector<Variant> load_variants(MatrixObject& object, const Progress& progress) {
+  std::vector<Variant> variants;
+  for (std::size_t i = 0; i < object.endpoints.size(); ++i) {
+    progress.report("read " + object.labels[i], static_cast<double>(i) / static_cast<double>(object.endpoints.size()));
+    Endpoint& endpoint = object.endpoints[i];
+    load(endpoint, object.computation.options.temperature_K);
+    Variant variant;
+    variant.label = object.labels[i];
+    variant.group = object.groups[i];
+    variant.inputs = std::move(endpoint.inputs);
+    for (InputFile& input : variant.inputs) input.role = input.role == endpoint.role ? "structure" : "map";
+    variant.molecule = std::move(*endpoint.molecule);
+    variant.map = std::move(endpoint.map);
+    if (endpoint.computed_map) variant.make_map = endpoint.computed_map->maker();
+    variants.push_back(std::move(variant));
+  }
+  object.endpoints.clear();
+  unite_map_units(variants, object.computation.options.temperature_K);
+  return variants;
+}
+
+MatrixRun parse_run(DictReader& reader) {
+  MatrixRun run;
+  run.output = to_string(reader.require("output"));
+  run.shard = parse_shard(reader.text("shard", "1/1"));
+  run.resume = reader.boolean("resume", false);
+  run.overwrite = reader.boolean("overwrite", false);
+  run.skip_errors = reader.text("on_error", "stop") == "skip";
+  run.cluster_by = reader.text("cluster_by");
+  if (!run.cluster_by.empty()) find_metric(run.cluster_by);  // a wrong one is told at once
+  return run;
+}
+
+Tcl_Obj* matrix(const Call& call) {
+  auto object = std::make_shared<MatrixObject>();
+  DictReader reader(call.arguments[1], "options");
+  object->run = parse_run(reader);
+  object->computation = parse_computation(reader, nullptr);
+  for (Tcl_Obj* const variant : to_vector(call.arguments[0], "variants")) add_variant(variant, *object);
+  check_labels(object->labels);
+  object->run.potential = "maps";
+  for (const Endpoint& endpoint : object->endpoints) {
+    if (endpoint.computed_map) object->run.potential = "pme";
+  }
+  object->job = Worker::instance().submit([keep = std::weak_ptr<MatrixObject>(object)](const Progress& progress) {
+    const auto alive = keep.lock();
+    if (alive == nullptr) return;
+    const std::unique_ptr<Engine> engine = engine_for(alive->computation);
+    const std::vector<Variant> variants = load_variants(*alive, progress);
+    alive->report = run_matrix(*engine, variants, alive->computation.options, alive->run, progress);
+  });
+  return to_obj(call.handles.add(object));
+}
+
+Tcl_Obj* merge(const Call& call) {
+  std::vector<std::string> paths;
+  for (Tcl_Obj* const path : to_vector(call.arguments[0], "state files")) paths.push_back(to_string(path));
+  DictReader reader(call.arguments[1], "options");
+  const MatrixRun run = parse_run(reader);
+  reader.finish();
+  return to_list(merge_matrix(paths, run).files);
+}
+
+const char* name_of(MetricUnit unit) {
+  switch (unit) {
+    case MetricUnit::kPotential: return "potential";
+    case MetricUnit::kAngstrom: return "length";
+    case MetricUnit::kSquareAngstrom: return "area";
+    case MetricUnit::kFraction: return "fraction";
+    case MetricUnit::kIndex: return "index";
+    case MetricUnit::kCount: break;
+  }
+  return "count";
+}
+
+Tcl_Obj* metrics(const Call&) {
+  std::vector<Tcl_Obj*> all;
+  for (const MatrixMetric& metric : matrix_metrics())
+    all.push_back(to_dict(
+        {{"name", to_obj(metric.name)}, {"title", to_obj(metric.title)}, {"kind", to_obj(name_of(metric.unit))}}));
+  return to_list(all);
+}
+
+}  // namespace
+
+std::vector<Command> matrix_commands() {
+  return {{"matrix", 2, 2, "variants options", matrix},
+          {"merge", 2, 2, "states options", merge},
+          {"metrics", 0, 0, "", metrics}};
+}
+
+}  // namespace espdiff::vmdplugin
