@@ -25,13 +25,19 @@ struct Settings {
   int threads = 0, repeats = 1;
   std::optional<double> tangential_gain, sigma, mu, rho, spacing, min_displacement, max_step, max_edge;
   std::optional<int> max_iterations;
+  std::optional<double> gvf_weight, gvf_tolerance;
+  std::optional<int> gvf_max_sweeps;
   bool all_ubiquitin = false, all_adk = false, thesis = false, round_trip = false, cavities = false,
-       skip_series = false;
+       skip_series = false, subdivide = false;
 };
 
 void define_options(CLI::App& app, Settings& s) {
   app.add_option("--method", s.method, "How the surface is mapped: morph or deform")->capture_default_str();
-  app.add_option("--field", s.field, "Field that draws the surface: density or distance")->capture_default_str();
+  app.add_option("--field", s.field, "Field that draws the surface: density, distance, gvf or gvf2")
+      ->capture_default_str();
+  app.add_option("--gvf-weight", s.gvf_weight, "Smoothness of the gradient vector flow, Angstrom^2");
+  app.add_option("--gvf-tolerance", s.gvf_tolerance, "Where the gradient vector flow ends");
+  app.add_option("--gvf-max-sweeps", s.gvf_max_sweeps, "Sweeps of the gradient vector flow at most");
   app.add_option("--interpolation", s.interpolation, "trilinear or tricubic")->capture_default_str();
   app.add_option("--tangential-gain", s.tangential_gain, "Factor of the mapping's internal force");
   app.add_option("--sigma", s.sigma, "Step scale of the mapping");
@@ -48,6 +54,7 @@ void define_options(CLI::App& app, Settings& s) {
   app.add_option("--align", s.align, "Atoms to superpose: all, backbone, ca or none")->capture_default_str();
   app.add_flag("--round-trip", s.round_trip, "Map there and back");
   app.add_flag("--cavities", s.cavities, "Keep closed cavities");
+  app.add_flag("--subdivide", s.subdivide, "Halve the edges that deform has stretched");
   app.add_option("--threads", s.threads, "CPU threads; 0 takes all")->capture_default_str();
   app.add_option("--repeats", s.repeats, "Times are medians of so many runs")
       ->capture_default_str()
@@ -72,7 +79,11 @@ espdiff::CompareOptions compare_options(const Settings& s) {
   options.deform.max_iterations = s.max_iterations.value_or(options.deform.max_iterations);
   options.surface.grid_spacing_A = s.spacing.value_or(options.surface.grid_spacing_A);
   options.deform_min_displacement = s.min_displacement.value_or(options.deform_min_displacement);
+  options.flow.weight_A2 = s.gvf_weight.value_or(options.flow.weight_A2);
+  options.flow.tolerance = s.gvf_tolerance.value_or(options.flow.tolerance);
+  options.flow.max_sweeps = s.gvf_max_sweeps.value_or(options.flow.max_sweeps);
   if (!s.rest_shape.empty()) options.deform.rest_shape = s.rest_shape == "source";
+  options.subdivide = s.subdivide;
   options.round_trip = s.round_trip;
   options.morph.max_step_A = s.max_step.value_or(options.morph.max_step_A);
   options.morph_max_edge = s.max_edge.value_or(options.morph_max_edge);

@@ -45,6 +45,7 @@ struct Iteration {
   const Vec4f* from;       // [vertex]
   const Vec4f* laplacian;  // [vertex] L of `from`, less that of the rest shape
   Vec4f* to;               // [vertex] w: how far the vertex moved
+  float* way;              // [vertex] how far it has moved in all iterations
   float* strength;         // [vertex] s: positive while outside, negative while inside, halved at each crossing
   float step_external, step_tension, step_rigidity;  // sigma mu, g sigma (1 - mu)(1 - rho), g sigma (1 - mu) rho
   bool tricubic;
@@ -73,7 +74,9 @@ ESPDIFF_INLINE void move_vertex(const Iteration& it, std::size_t v) {
     const Vec3f n = (1.0F / length) * sample.xyz();
     moved = internal + (it.step_external * s - dot(internal, n)) * n;
   }
-  it.to[v] = make_vec4(x.xyz() + moved, norm(moved));
+  const float distance = norm(moved);
+  it.way[v] += distance;
+  it.to[v] = make_vec4(x.xyz() + moved, distance);
 }
 
 }  // namespace
@@ -87,12 +90,13 @@ std::shared_ptr<SurfaceMesh> deform(const SurfaceMesh& mesh, const SurfaceMesh& 
     throw GeometryError("the rest shape has " + std::to_string(rest_mesh.n_vertices()) + " vertices, the mesh " +
                         std::to_string(n) + "; both must be of one topology");
   Buffer<Vec4f> positions = mesh.positions, moved(n), laplacians(n);
-  Buffer<float> strengths(n);
+  Buffer<float> strengths(n), ways(n, 0.0F);
   Iteration it{};
   it.topology = mesh.view();
   it.lattice = field.lattice;
   it.field = raw(field.values);
   it.strength = raw(strengths);
+  it.way = raw(ways);
   it.tricubic = options.interpolation == Interpolation::kTricubic;
   const double internal = internal_step(options);
   it.step_external = static_cast<float>(options.sigma * options.mu);
@@ -134,7 +138,12 @@ std::shared_ptr<SurfaceMesh> deform(const SurfaceMesh& mesh, const SurfaceMesh& 
     }
   }
   progress.report(stage, 1.0);
-  if (report != nullptr) *report = result;
+  if (report != nullptr) {
+    auto path_length = std::make_shared<Scalars>();
+    path_length->values = std::move(ways);
+    result.path_length = path_length;
+    *report = result;
+  }
   auto deformed = std::make_shared<SurfaceMesh>();
   deformed->topology = mesh.topology;
   deformed->positions = std::move(positions);

@@ -26,7 +26,9 @@
 #include "pme.h"
 #include "project.h"
 #include "sample.h"
+#include "subdivide.h"
 #include "submesh.h"
+#include "vector_flow.h"
 
 #if defined(ESPDIFF_BACKEND_CUDA)
 #include <cuda_runtime.h>
@@ -165,11 +167,26 @@ class BackEndEngine : public Engine {
     });
   }
 
+  FieldPtr gvf_field(const GridPtr& target_density, const GridPtr& source_density, float isovalue,
+                     const VectorFlowOptions& options, const Progress& progress, VectorFlowReport* report) override {
+    return run([&] {
+      const DensityGrid* const source = source_density ? &unwrap<DensityGrid>(source_density) : nullptr;
+      return vector_flow(unwrap<DensityGrid>(target_density), source, isovalue, options, progress, report);
+    });
+  }
+
   MeshPtr deform(const MeshPtr& mesh, const FieldPtr& field, const DeformOptions& options, const std::string& stage,
                  const Progress& progress, DeformReport* report, const MeshPtr& rest) override {
     return run([&] {
       return ESPDIFF_BACKEND::deform(unwrap<SurfaceMesh>(mesh), unwrap<SurfaceMesh>(rest ? rest : mesh),
                                      unwrap<SurfaceField>(field), options, stage, progress, report);
+    });
+  }
+
+  SubdivisionResult subdivide(const MeshPtr& source, const MeshPtr& mapped, double max_edge_A) override {
+    return run([&] {
+      return ESPDIFF_BACKEND::subdivide(unwrap<SurfaceMesh>(source), unwrap<SurfaceMesh>(mapped),
+                                        static_cast<float>(max_edge_A));
     });
   }
 
@@ -211,11 +228,13 @@ class BackEndEngine : public Engine {
   }
 
   Metrics compare(const MeshPtr& source, const MeshPtr& mapped, const ScalarsPtr& source_potential,
-                  const ScalarsPtr& target_potential, const ScalarsPtr& excluded) override {
+                  const ScalarsPtr& target_potential, const ScalarsPtr& excluded,
+                  const ScalarsPtr& path_length) override {
     return run([&] {
       return compare_potentials(unwrap<SurfaceMesh>(source), unwrap<SurfaceMesh>(mapped),
                                 unwrap<Scalars>(source_potential), unwrap<Scalars>(target_potential),
-                                excluded ? &unwrap<Scalars>(excluded) : nullptr);
+                                excluded ? &unwrap<Scalars>(excluded) : nullptr,
+                                path_length ? &unwrap<Scalars>(path_length) : nullptr);
     });
   }
 
@@ -336,6 +355,14 @@ class BackEndEngine : public Engine {
       Grid result;
       result.lattice = host_lattice(surface_field.lattice);
       for (const Vec4f& value : to_host(surface_field.values)) result.values.push_back(value.w);
+      return result;
+    });
+  }
+
+  std::vector<Vec3f> download_gradient(const FieldPtr& field) override {
+    return run([&] {
+      std::vector<Vec3f> result;
+      for (const Vec4f& value : to_host(unwrap<SurfaceField>(field).values)) result.push_back(value.xyz());
       return result;
     });
   }

@@ -51,7 +51,7 @@ void even_out(Travelling& surface) {
     move = move - (dot(move, gradient) / dot(gradient, gradient)) * gradient;
     const float length = norm(move), most = altitude / 3.0F;
     if (length > most) move = (most / length) * move;
-    to[v] = make_vec4(s.x[v].xyz() + move, 0.0F);
+    to[v] = make_vec4(s.x[v].xyz() + move, s.x[v].w + norm(move));
   });
   surface.x.swap(evened);
 }

@@ -24,8 +24,6 @@ ESPDIFF_INLINE Vec3f lattice_gradient(const CubicLattice& lattice, const float* 
   return gradient;
 }
 
-/// Mean slope of the density near the surface, 1/Angstrom: turns the density's excess into a length. 1 where the
-/// lattice has no point near the surface.
 struct SlopeSum {
   double slope = 0, n = 0;
   ESPDIFF_HD SlopeSum& operator+=(const SlopeSum& other) {
@@ -34,20 +32,6 @@ struct SlopeSum {
     return *this;
   }
 };
-
-float surface_slope(const SurfaceField& density_field, float isovalue) {
-  const Vec4f* const values = raw(density_field.values);
-  const float near_surface = 0.3F * isovalue;
-  const SlopeSum sum = sum_over<SlopeSum>(density_field.values.size(), [=] ESPDIFF_HD(std::size_t point) {
-    SlopeSum s;
-    if (fabsf(values[point].w) < near_surface) {
-      s.slope = static_cast<double>(norm(values[point].xyz()));
-      s.n = 1;
-    }
-    return s;
-  });
-  return sum.slope > 0 ? static_cast<float>(sum.slope / sum.n) : 1.0F;
-}
 
 std::size_t n_rows(const CubicLattice& lattice) {
   return static_cast<std::size_t>(lattice.size[1]) * static_cast<std::size_t>(lattice.size[2]);
@@ -135,6 +119,20 @@ ESPDIFF_INLINE float distance_to_fan(const TopologyView& topology, const Vec4f* 
 }
 
 }  // namespace
+
+float surface_slope(const SurfaceField& density_field, float isovalue) {
+  const Vec4f* const values = raw(density_field.values);
+  const float near_surface = 0.3F * isovalue;
+  const SlopeSum sum = sum_over<SlopeSum>(density_field.values.size(), [=] ESPDIFF_HD(std::size_t point) {
+    SlopeSum s;
+    if (fabsf(values[point].w) < near_surface) {
+      s.slope = static_cast<double>(norm(values[point].xyz()));
+      s.n = 1;
+    }
+    return s;
+  });
+  return sum.slope > 0 ? static_cast<float>(sum.slope / sum.n) : 1.0F;
+}
 
 std::shared_ptr<SurfaceField> density_field(const DensityGrid& density, float isovalue) {
   auto field = std::make_shared<SurfaceField>();

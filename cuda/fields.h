@@ -10,6 +10,10 @@ namespace espdiff::ESPDIFF_BACKEND {
 /// value = density - isovalue, gradient by central differences.
 std::shared_ptr<SurfaceField> density_field(const DensityGrid& density, float isovalue);
 
+/// Mean slope of the density near the surface, 1/Angstrom: turns the density's excess into a length. 1 where the
+/// lattice has no point near the surface.
+float surface_slope(const SurfaceField& density_field, float isovalue);
+
 /// Signed distance to the surface (positive inside) where its magnitude exceeds the threshold, with its gradient; the
 /// density field elsewhere, divided by its mean slope at the surface so that both are lengths. The distance is that to
 /// the triangles around the nearest vertex, which is found by sweeps along the lattice's rows; it is compared with

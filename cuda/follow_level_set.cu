@@ -30,7 +30,7 @@ void advance(Travelling& surface, float dt) {
       const float along = fminf(fmaxf(dt * flow.w, -kMaxPrediction_A), kMaxPrediction_A);
       move += (along / slope) * gradient;
     }
-    s.x[v] = make_vec4(s.x[v].xyz() + move, 0.0F);
+    s.x[v] = make_vec4(s.x[v].xyz() + move, s.x[v].w + norm(move));
     s.previous[v] = flow;
   });
 }
@@ -68,7 +68,7 @@ void return_to_level_set(Travelling& surface, const MovingAtoms& atoms, float is
       const bool broken = !(square > kLeastSlope * kLeastSlope) || norm(moved - start[v].xyz()) > kMaxShift_A ||
                           (last && fabsf(excess) > kLostExcess);
       s.lost[v] = broken ? 1 : 0;
-      s.x[v] = broken ? start[v] : make_vec4(moved, 0.0F);
+      s.x[v] = broken ? start[v] : make_vec4(moved, s.x[v].w + norm(shift));
       if (!broken && fabsf(excess) >= kLastStepExcess) done[v] = 0;
     });
     Buffer<std::uint32_t> rest(n_pending);

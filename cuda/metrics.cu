@@ -13,7 +13,7 @@ namespace {
 /// Area-weighted sums over vertices.
 struct Sums {
   double area = 0, abs_difference = 0, squared_difference = 0, difference = 0, sign_change = 0;
-  double source_source = 0, target_target = 0, source_target = 0, displacement = 0;
+  double source_source = 0, target_target = 0, source_target = 0, displacement = 0, path_length = 0;
 
   ESPDIFF_HD Sums& operator+=(const Sums& o) {
     area += o.area;
@@ -25,6 +25,7 @@ struct Sums {
     target_target += o.target_target;
     source_target += o.source_target;
     displacement += o.displacement;
+    path_length += o.path_length;
     return *this;
   }
 };
@@ -39,6 +40,7 @@ Metrics finish(const Sums& sums) {
   m.hodgkin_index = 2 * sums.source_target / (sums.source_source + sums.target_target);
   m.carbo_index = sums.source_target / std::sqrt(sums.source_source * sums.target_target);
   m.mean_displacement_A = sums.displacement / sums.area;
+  m.mean_path_length_A = sums.path_length / sums.area;
   return m;
 }
 
@@ -50,7 +52,7 @@ void check_sizes(std::size_t n, const Scalars& a, const Scalars& b) {
 }  // namespace
 
 Metrics compare_potentials(const SurfaceMesh& source, const SurfaceMesh& mapped, const Scalars& source_potential,
-                           const Scalars& target_potential, const Scalars* excluded) {
+                           const Scalars& target_potential, const Scalars* excluded, const Scalars* path_length) {
   check_sizes(mapped.n_vertices(), source_potential, target_potential);
   if (source.topology != mapped.topology) throw InputError("compare: source and mapped mesh must share their topology");
   const TopologyView topology = mapped.view();
@@ -61,6 +63,9 @@ Metrics compare_potentials(const SurfaceMesh& source, const SurfaceMesh& mapped,
   if (excluded != nullptr && excluded->values.size() != mapped.n_triangles()) {
     throw InputError("compare: one entry per triangle is needed for what is excluded");
   }
+  if (path_length != nullptr && path_length->values.size() != mapped.n_vertices())
+    throw InputError("compare: one path length per vertex of the mapped mesh is needed");
+  const float* const way = path_length != nullptr ? raw(path_length->values) : nullptr;
   const float* const leave_out = excluded != nullptr ? raw(excluded->values) : nullptr;
 
   Buffer<std::uint8_t> counted_triangles(topology.n_triangles);
@@ -76,7 +81,7 @@ Metrics compare_potentials(const SurfaceMesh& source, const SurfaceMesh& mapped,
   const Buffer<float> areas = triangle_areas(mapped);
   const Buffer<float> weights = vertex_areas(mapped, areas, counted);
   const float* const weight = raw(weights);
-  return finish(sum_over<Sums>(mapped.n_vertices(), [=] ESPDIFF_HD(std::size_t v) {
+  Metrics metrics = finish(sum_over<Sums>(mapped.n_vertices(), [=] ESPDIFF_HD(std::size_t v) {
     Sums s;
     if (!(weight[v] > 0)) return s;
     const double w = static_cast<double>(weight[v]), pa = static_cast<double>(a[v]), pb = static_cast<double>(b[v]),
@@ -89,9 +94,12 @@ Metrics compare_potentials(const SurfaceMesh& source, const SurfaceMesh& mapped,
     s.source_source = w * pa * pa;
     s.target_target = w * pb * pb;
     s.source_target = w * pa * pb;
+    s.path_length = way != nullptr ? w * static_cast<double>(way[v]) : 0.0;
     s.displacement = w * static_cast<double>(norm(to[v].xyz() - from[v].xyz()));
     return s;
   }));
+  if (way == nullptr) metrics.mean_path_length_A = std::numeric_limits<double>::quiet_NaN();
+  return metrics;
 }
 
 std::shared_ptr<Scalars> displacement(const SurfaceMesh& a, const SurfaceMesh& b) {

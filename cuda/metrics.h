@@ -6,9 +6,9 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
-/// See Engine::compare(). `excluded` may be null.
+/// See Engine::compare(). `excluded` and `path_length` may be null.
 Metrics compare_potentials(const SurfaceMesh& source, const SurfaceMesh& mapped, const Scalars& source_potential,
-                           const Scalars& target_potential, const Scalars* excluded);
+                           const Scalars& target_potential, const Scalars* excluded, const Scalars* path_length);
 
 /// [vertex] |a - b|, Angstrom.
 std::shared_ptr<Scalars> displacement(const SurfaceMesh& a, const SurfaceMesh& b);

@@ -51,6 +51,18 @@ std::shared_ptr<Scalars> as_scalars(const Buffer<std::uint8_t>& flags) {
   return scalars;
 }
 
+/// With the last projection.
+std::shared_ptr<Scalars> path_lengths(const Travelling& surface, const SurfaceMesh& arrived) {
+  auto lengths = std::make_shared<Scalars>();
+  lengths->values.resize(surface.n_vertices());
+  const Vec4f* const before = raw(surface.x);
+  const Vec4f* const after = raw(arrived.positions);
+  float* const length = raw(lengths->values);
+  for_each_index(surface.n_vertices(),
+                 [=] ESPDIFF_HD(std::size_t v) { length[v] = before[v].w + norm(after[v].xyz() - before[v].xyz()); });
+  return lengths;
+}
+
 /// Both ends on their isosurfaces. Vertices of the given mesh keep the places that they came with; those added lie in
 /// the middles of edges, beside the surface.
 MorphResult arrive(const Travelling& surface, const SurfaceMesh& mesh, const AtomCells& source_atoms,
@@ -64,8 +76,10 @@ MorphResult arrive(const Travelling& surface, const SurfaceMesh& mesh, const Ato
                  on_source->positions.begin());
   MorphResult result;
   result.source = on_source;
-  result.mapped = project(mapped, target_atoms, isovalue, kLastShift_A);
+  const auto on_target = project(mapped, target_atoms, isovalue, kLastShift_A);
+  result.mapped = on_target;
   result.lost = as_scalars(surface.cut);
+  result.path_length = path_lengths(surface, *on_target);
   const std::uint8_t* const lost = raw(surface.lost);
   result.report.n_vertices_lost =
       sum_over<std::size_t>(surface.n_vertices(), [=] ESPDIFF_HD(std::size_t v) { return std::size_t{lost[v]}; });
@@ -79,6 +93,8 @@ Travelling set_out(const SurfaceMesh& mesh) {
   surface.topology = mesh.topology;
   surface.source = mesh.positions;
   surface.x = mesh.positions;
+  Vec4f* const x = raw(surface.x);
+  for_each_index(mesh.n_vertices(), [=] ESPDIFF_HD(std::size_t v) { x[v].w = 0.0F; });
   surface.flow.assign(mesh.n_vertices(), Vec4f{});
   surface.previous.assign(mesh.n_vertices(), Vec4f{});
   surface.gradient.assign(mesh.n_vertices(), Vec4f{});

@@ -10,7 +10,7 @@ namespace espdiff::ESPDIFF_BACKEND {
 struct Travelling {
   std::shared_ptr<const Topology> topology;
   Buffer<Vec4f> source;         ///< [vertex] where it comes from
-  Buffer<Vec4f> x;              ///< [vertex] where it is
+  Buffer<Vec4f> x;              ///< [vertex] where it is; w: the length of its way so far
   Buffer<Vec4f> flow;           ///< [vertex] the atoms' velocity; w: what keeps it on the level set, A uphill per time
   Buffer<Vec4f> previous;       ///< [vertex] flow of the step before
   Buffer<Vec4f> gradient;       ///< [vertex] of the density, which lies in w

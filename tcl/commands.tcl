@@ -35,7 +35,7 @@ namespace eval ::espdiff {
     command residues [dict create arguments {handle} options {} settings none run ::espdiff::residues \
         summary {The comparison by residue of the source, over the mapped surface.} \
         returns {a list of dictionaries: index chain number insertion name area_A2 mean_abs_difference
-            mean_signed_difference mean_source mean_target sign_change_area_fraction mean_displacement_A} \
+            mean_signed_difference mean_source mean_target sign_change_area_fraction mean_displacement_A mean_path_length_A} \
         example {foreach residue [espdiff residues comparison1] { puts [dict get $residue mean_abs_difference] }}]
 
     command table [dict create arguments {handle} options {} settings none run ::espdiff::table_of \
@@ -48,7 +48,7 @@ namespace eval ::espdiff {
         returns {the files written} example {espdiff export comparison1 wild_mutant}]
 
     command map [dict create arguments {handle} settings none run ::espdiff::map options {
-            {-quantity choice difference "What the map holds" {difference source target sign displacement}}
+            {-quantity choice difference "What the map holds" {difference source target sign displacement path_length}}
             {-spacing positive 1.0 "Distance of the lattice's points, Angstrom"}
             {-mol molecule {} "Add the map to this molecule of VMD, for `Color Volume` and Isosurface representations"}
             {-file file {} "Write the map to this DX file"}
@@ -77,8 +77,9 @@ namespace eval ::espdiff {
     command draw [dict create arguments {handle} settings none run ::espdiff::draw options {
             {-color choice auto "What is shown; auto is difference (potential of a surface), or displacement without\
                 potentials. difference: target - source, red negative, white 0, blue positive; sign: blue turned\
-                positive, red turned negative; potential is of surfaces"
-                {auto difference sign source target potential displacement none}}
+                positive, red turned negative; potential is of surfaces; path_length: of the way of each point to its\
+                counterpart, which is as long as its displacement or longer"
+                {auto difference sign source target potential displacement path_length none}}
             {-range range auto "Values at the ends of the colour scale; auto is symmetric about 0 and holds 98 % of the\
                 surface's points on each side"}
             {-transparency choice uncertainty "uncertainty: the farther a point travelled, the more transparent"

@@ -14,6 +14,7 @@ namespace eval ::espdiff {
         diverging  {{0.78 0.08 0.10} {0.88 0.88 0.88} {0.10 0.22 0.78}}
         sequential {{0.88 0.88 0.88} {0.98 0.62 0.20} {0.45 0.05 0.05}}
     }
+    variable lengths {displacement path_length}  ;# quantities that begin at 0
     variable scale_method RWB  ;# VMD's colour scale whose colours are replaced for a moment
 
     variable plain_color 2    ;# gray: no quantity, and what lies outside of a map
@@ -46,6 +47,7 @@ namespace eval ::espdiff {
     # What is drawn, from options and handle: color, low, high, unit, colors, legend, and the core's options.
     proc drawing_plan {options handle} {
         variable scales
+        variable lengths
         variable plain_color
         variable marked_color
         set is_surface [expr {[dict get [core::status $handle] kind] eq "surface"}]
@@ -58,7 +60,7 @@ namespace eval ::espdiff {
         set core [dict create color $color low [dict get $range low] high [dict get $range high] corrupt $corrupt \
             plain $plain surface [dict get $options surface]]
         return [dict merge $range [dict create handle $handle color $color core $core \
-            colors [dict get $scales [expr {$color eq "displacement" ? "sequential" : "diverging"}]] \
+            colors [dict get $scales [expr {$color in $lengths ? "sequential" : "diverging"}]] \
             legend [expr {[dict get $options legend] && $color ne "none"}] beside [molecule_of $handle $side] \
             levels [opacity_levels $options $is_surface] limit [dict get $options uncertainty-limit] \
             n_bins [number_of_bins $options $is_surface]]]
@@ -74,8 +76,9 @@ namespace eval ::espdiff {
         return $color
     }
 
-    # The ends of the colour scale. Symmetric about 0, so that white is 0; a displacement begins at 0.
+    # The ends of the colour scale. Symmetric about 0, so that white is 0; a length begins at 0.
     proc drawn_range {handle color range} {
+        variable lengths
         set found [core::range $handle $color]
         set unit [dict get $found unit]
         if {$range ne "auto"} { return [dict create low [lindex $range 0] high [lindex $range 1] unit $unit] }
@@ -84,7 +87,7 @@ namespace eval ::espdiff {
         set high [expr {max(abs([dict get $found p02]), abs([dict get $found p98]))}]
         if {$high == 0} { set high 1.0 }
         set high [format %.2g $high]
-        return [dict create low [expr {$color eq "displacement" ? 0 : -$high}] high $high unit $unit]
+        return [dict create low [expr {$color in $lengths ? 0 : -$high}] high $high unit $unit]
     }
 
     # Opacity and the steps of displacement that have it, for each graphics molecule.

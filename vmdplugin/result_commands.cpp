@@ -79,7 +79,8 @@ Tcl_Obj* residues(const Call& call) {
                             {"mean_source", to_obj(row.mean_source)},
                             {"mean_target", to_obj(row.mean_target)},
                             {"sign_change_area_fraction", to_obj(row.sign_change_area_fraction)},
-                            {"mean_displacement_A", to_obj(row.mean_displacement_A)}}));
+                            {"mean_displacement_A", to_obj(row.mean_displacement_A)},
+                            {"mean_path_length_A", to_obj(row.mean_path_length_A)}}));
   }
   return to_list(rows);
 }

@@ -19,8 +19,9 @@ void require_potentials(const std::string& handle, const std::string& name, bool
 VertexQuantity of_comparison(const std::string& handle, const CompareResult& result, const std::string& name) {
   const MappedSurface& s = result.surface;
   if (name == "displacement") return {s.displacement, "A"};
+  if (name == "path_length") return {s.path_length, "A"};
   if (name != "difference" && name != "source" && name != "target" && name != "sign")
-    throw InputError("'" + name + "' is not difference, source, target, sign or displacement");
+    throw InputError("'" + name + "' is not difference, source, target, sign, displacement or path_length");
   require_potentials(handle, name, result.has_potential);
   const std::string unit = to_string(result.unit);
   if (name == "source") return {s.potential_source, unit};

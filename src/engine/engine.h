@@ -78,6 +78,20 @@ struct DeformReport {
   int iterations = 0;
   double mean_displacement_A = 0;  ///< of the last iteration
   bool converged = false;
+  ScalarsPtr path_length;  ///< [vertex] length of the way that the iterations took it, Angstrom
+};
+
+/// Parameters of gvf_field().
+struct VectorFlowOptions {
+  double weight_A2 = 0.05;  ///< mu: smoothness against the normals at the surface; they are blended over its root
+  double tolerance = 1e-3;  ///< converged when no point would move by more in a sweep; normals are 1 long
+  int max_sweeps = 1000;
+};
+
+struct VectorFlowReport {
+  int sweeps = 0;
+  double residual = 0;  ///< largest move of a point in the last sweep looked at
+  bool converged = false;
 };
 
 /// Area-weighted comparison of two potentials on the mapped mesh. Weights are a third of the area of each counted
@@ -91,6 +105,7 @@ struct Metrics {
   double hodgkin_index = 0;              ///< 2<ab> / (<aa> + <bb>)
   double carbo_index = 0;                ///< <ab> / sqrt(<aa><bb>)
   double mean_displacement_A = 0;        ///< |mapped - source| in the common frame
+  double mean_path_length_A = 0;         ///< of the vertices' ways from the one to the other; NaN where not given
 };
 
 /// Distances of one surface's vertices to the other surface's triangles, area-weighted over its vertices. Angstrom.
@@ -201,7 +216,14 @@ struct MorphResult {
   /// [triangle] 1 where the surface was torn or crushed on the way, so that there is no counterpart; the mapped
   /// positions there mean nothing.
   ScalarsPtr lost;
+  ScalarsPtr path_length;  ///< [vertex] length of its way, Angstrom; an added vertex begins with its ends' mean
   MorphReport report;
+};
+
+/// What subdivide() gives: both meshes with the same edges halved. Old vertices keep their numbers and places.
+struct SubdivisionResult {
+  MeshPtr source, mapped;
+  std::vector<std::array<std::uint32_t, 2>> ends;  ///< [new vertex] the vertices that it lies in the middle of
 };
 
 /// How a mapping changes areas and shapes; see Engine::distortion(). Quantiles by the source's area.
@@ -273,15 +295,29 @@ class Engine {
   virtual FieldPtr distance_field(const GridPtr& density, float isovalue, const MeshPtr& surface, double threshold_A,
                                   const Progress& progress) = 0;
 
+  /// Gradient vector flow: the direction of the target's inward normals, spread from its surface over the lattice by
+  /// diffusion, so that it leads into crevices (Xu and Prince, IEEE Trans. Image Process. 7, 359 (1998)); the scalar is
+  /// that of density_field(). See cuda/vector_flow.h for the equation and the method.
+  /// @param source_density  holds the source's normals too, where the target's do not (two-way); null for the target's
+  /// alone
+  /// @throws InputError (options), Cancelled
+  virtual FieldPtr gvf_field(const GridPtr& target_density, const GridPtr& source_density, float isovalue,
+                             const VectorFlowOptions& options, const Progress& progress, VectorFlowReport* report) = 0;
+
   /// Iterates x += sigma (mu f_ext + (1 - mu) f_int) until converged (thesis section 3.5 with its errata): f_ext along
   /// the unit gradient of the field toward its surface, halved and turned at each crossing; f_int the tangential part
   /// of (1 - rho) L - rho L^2, L the uniform umbrella Laplacian. Topology is shared with `mesh`.
   /// @param stage name for progress reports
   /// @param rest  the shape that options.rest_shape measures from, of the same topology; null takes `mesh` itself
-  /// @throws Cancelled
+  /// @throws InputError (options), GeometryError (rest shape of another topology), Cancelled
   virtual MeshPtr deform(const MeshPtr& mesh, const FieldPtr& field, const DeformOptions& options,
                          const std::string& stage, const Progress& progress, DeformReport* report,
                          const MeshPtr& rest = nullptr) = 0;
+
+  /// Halves the edges of a mapped mesh that are longer than `max_edge_A` and longer than on the source, on both meshes;
+  /// new vertices lie in the middles of both edges.
+  /// @throws InputError (length), GeometryError when the topologies differ
+  virtual SubdivisionResult subdivide(const MeshPtr& source, const MeshPtr& mapped, double max_edge_A) = 0;
 
   /// Carries a surface from source to target by the level sets of the density of moving atoms.
   ///
@@ -348,8 +384,10 @@ class Engine {
   /// @param source_potential, target_potential [vertex]
   /// @param excluded [triangle] not counted where nonzero; null counts all. Triangles with a NaN sample are never
   /// counted.
+  /// @param path_length [vertex] for the mean of it; null when there is none
   virtual Metrics compare(const MeshPtr& source, const MeshPtr& mapped, const ScalarsPtr& source_potential,
-                          const ScalarsPtr& target_potential, const ScalarsPtr& excluded) = 0;
+                          const ScalarsPtr& target_potential, const ScalarsPtr& excluded,
+                          const ScalarsPtr& path_length = nullptr) = 0;
 
   virtual FitReport fit(const MeshPtr& mapped, const AtomsPtr& target_atoms, float isovalue) = 0;
   /// Distances from the vertices of `from` to the triangles of `to`, exact.
@@ -399,6 +437,8 @@ class Engine {
   virtual Grid download(const GridPtr& grid) = 0;
   /// The field's scalar.
   virtual Grid download(const FieldPtr& field) = 0;
+  /// [point] the field's gradient, or the direction that stands for it.
+  virtual std::vector<Vec3f> download_gradient(const FieldPtr& field) = 0;
   /// Analytic density at points [point] of the common frame.
   virtual std::vector<float> density_at(const AtomsPtr& atoms, const std::vector<Vec3f>& points) = 0;
 };

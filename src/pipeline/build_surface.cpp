@@ -74,6 +74,7 @@ MeshPtr regularize(Engine& engine, const Surface& surface, const MeshPtr& given,
   DeformOptions iteration = options.regularize;
   iteration.min_displacement_A = options.regularize_min_displacement * spacing;
   MeshPtr mesh = engine.deform(given, own, iteration, "regularize", progress, report);
+  if (report != nullptr) report->path_length = nullptr;  // results may outlive the engine
   if (options.surface.project) mesh = engine.project(mesh, surface.atoms, isovalue, kProjectionShare * spacing);
   return mesh;
 }

@@ -11,6 +11,7 @@
 #include "pipeline/atom_ways.h"
 #include "pipeline/build_surface.h"
 #include "pipeline/certificate.h"
+#include "pipeline/map_by_deform.h"
 #include "pipeline/mapping.h"
 #include "pipeline/paired_residues.h"
 #include "pipeline/residue_rows.h"
@@ -22,10 +23,19 @@ namespace espdiff {
 FieldKind parse_field_kind(const std::string& text) {
   if (text == "density") return FieldKind::kDensity;
   if (text == "distance") return FieldKind::kDistance;
-  if (text == "gvf" || text == "gvf2") {
-    throw InputError("the field '" + text + "' (gradient vector flow) is not in this version; use density or distance");
+  if (text == "gvf") return FieldKind::kGvf;
+  if (text == "gvf2") return FieldKind::kGvf2;
+  throw InputError("unknown field '" + text + "'; use density, distance, gvf or gvf2");
+}
+
+std::string to_string(FieldKind field) {
+  switch (field) {
+    case FieldKind::kDensity: return "density";
+    case FieldKind::kDistance: return "distance";
+    case FieldKind::kGvf: return "gvf";
+    case FieldKind::kGvf2: return "gvf2";
   }
-  throw InputError("unknown field '" + text + "'; use density or distance");
+  return "";
 }
 
 Method parse_method(const std::string& text) {
@@ -130,6 +140,15 @@ std::vector<Vec3d> counterparts(const Molecule& source, const Molecule& target, 
   return positions;
 }
 
+/// The mapped surface on the source's own vertices, without those that a subdivision added.
+MeshPtr without_added(Engine& engine, const MeshPtr& source, const MeshPtr& mapped) {
+  const std::size_t n = engine.n_vertices(source);
+  if (engine.n_vertices(mapped) == n) return mapped;
+  std::vector<Vec3f> positions = engine.download(mapped).positions;
+  positions.resize(n);
+  return engine.with_positions(source, positions);
+}
+
 /// Root mean square distance over the atoms that both have; NaN when there are none.
 double rms_distance(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
   double sum = 0;
@@ -198,8 +217,7 @@ struct Series::Steps {
       mapping = back.map_by_morph(*source.molecule, surface, {frame.from_target, frame.from_source}, scratch, progress,
                                   clock);
     } else {
-      mapping.source = back.regularized;
-      mapping.mapped = back.map(surface, back.regularized, scratch.deform_report, progress, clock);
+      mapping = back.deform(surface, back.regularized, scratch, progress, clock);
     }
     settle(engine, mapping, surface.atoms, surface.mesh, static_cast<float>(options.surface.isovalue));
     return mapping;
@@ -219,25 +237,19 @@ struct Series::Steps {
     mapping.source = morphed.source;
     mapping.mapped = morphed.mapped;
     mapping.lost = engine.download(morphed.lost);
+    mapping.path_length = engine.download(morphed.path_length);
     clock.lap("morph");
     return mapping;
   }
 
-  MeshPtr map(const Surface& target, const MeshPtr& start, DeformReport& report, const Progress& progress,
-              StageClock& clock) {
-    const float isovalue = static_cast<float>(options.surface.isovalue);
-    const double spacing = options.surface.grid_spacing_A;
-    const FieldPtr field =
-        options.field == FieldKind::kDensity
-            ? engine.density_field(target.density, isovalue)
-            : engine.distance_field(target.density, isovalue, target.mesh, options.distance_threshold_A, progress);
+  Mapping deform(const Surface& target, const MeshPtr& start, CompareResult& result, const Progress& progress,
+                 StageClock& clock) {
+    const FieldPtr field = make_field(engine, surface, target, options, progress, &result.flow_report);
     clock.lap("field");
-    DeformOptions iteration = options.deform;
-    iteration.min_displacement_A = options.deform_min_displacement * spacing;
-    MeshPtr mapped = engine.deform(start, field, iteration, "deform", progress, &report, regularized);
-    if (options.surface.project) mapped = engine.project(mapped, target.atoms, isovalue, kProjectionShare * spacing);
+    Mapping mapping = map_by_deform(engine, surface, regularized, target, start, field, options, progress,
+                                    result.deform_report, result.n_vertices_subdivided);
     clock.lap("deform");
-    return mapped;
+    return mapping;
   }
 
   /// The target's map, null where there is none; the source's too, unless it is there already.
@@ -268,10 +280,12 @@ struct Series::Steps {
     result.has_potential = true;
     std::vector<float> excluded(s.corrupt.begin(), s.corrupt.end());
     for (std::size_t t = 0; t < mapping.lost.size(); ++t) excluded[t] = std::max(excluded[t], mapping.lost[t]);
-    result.metrics =
-        engine.compare(mapping.source, mapping.mapped, at_source, at_target, engine.upload_scalars(excluded));
-    result.metrics_all = engine.compare(mapping.source, mapping.mapped, at_source, at_target,
-                                        mapping.lost.empty() ? nullptr : engine.upload_scalars(mapping.lost));
+    const ScalarsPtr path_length = engine.upload_scalars(mapping.path_length);
+    result.metrics = engine.compare(mapping.source, mapping.mapped, at_source, at_target,
+                                    engine.upload_scalars(excluded), path_length);
+    result.metrics_all =
+        engine.compare(mapping.source, mapping.mapped, at_source, at_target,
+                       mapping.lost.empty() ? nullptr : engine.upload_scalars(mapping.lost), path_length);
   }
 
   /// Finds what has a counterpart, and certifies it.
@@ -295,7 +309,10 @@ struct Series::Steps {
     download_surface(engine, mapping.source, mapping.mapped, frame, s);
     s.no_counterpart.assign(mapping.lost.begin(), mapping.lost.end());
     s.corrupt = spread(engine.download(mapping.fit.corrupt), mapping.lost);
-    forget_lost(has_counterpart(s), s.displacement);
+    s.path_length = mapping.path_length;
+    const std::vector<bool> kept = has_counterpart(s);
+    forget_lost(kept, s.displacement);
+    forget_lost(kept, s.path_length);
     s.residue = engine.vertex_residues(mapping.source, surface.atoms);
     result.certificate.same_residue_area_fraction =
         same_residue_share(s, s.residue, engine.vertex_residues(mapping.mapped, target_surface.atoms),
@@ -342,9 +359,8 @@ CompareResult Series::step(const CompareInput& target, StartFrom start, const Pr
   if (steps.options.method == Method::kMorph) {
     mapping = steps.map_by_morph(*target.molecule, target_surface, frame, result, progress, clock);
   } else {
-    mapping.source = steps.regularized;
-    mapping.mapped = steps.map(target_surface, result.start == StartFrom::kPrevious ? last : steps.regularized,
-                               result.deform_report, progress, clock);
+    mapping = steps.deform(target_surface, result.start == StartFrom::kPrevious ? last : steps.regularized, result,
+                           progress, clock);
   }
   steps.check(mapping, target_surface, result, progress, clock);
   if (steps.options.round_trip) {
@@ -356,7 +372,7 @@ CompareResult Series::step(const CompareInput& target, StartFrom start, const Pr
   }
   steps.evaluate(target, frame, target_surface, target_map, mapping, result, progress, clock);
   if (steps.options.method == Method::kDeform && result.deform_report.converged) {
-    steps.last_mapped = mapping.mapped;
+    steps.last_mapped = without_added(steps.engine, steps.regularized, mapping.mapped);
     steps.last_target = std::move(target_atoms);
   }
   clock.finish();

@@ -16,8 +16,11 @@
 
 namespace espdiff {
 
-enum class FieldKind { kDensity, kDistance };
+/// What draws the surface in `deform`: the target's density, the distance to it where that is far, or gradient vector
+/// flow from the target, or from both surfaces.
+enum class FieldKind { kDensity, kDistance, kGvf, kGvf2 };
 FieldKind parse_field_kind(const std::string& text);
+std::string to_string(FieldKind field);
 Interpolation parse_interpolation(const std::string& text);
 
 /// How the source's surface is brought onto the target's: by forces in a field of the target (the thesis), or carried
@@ -46,6 +49,8 @@ struct CompareOptions {
   double morph_max_edge = 1.4;  ///< in grid spacings; sets MorphOptions::max_edge_A
   FieldKind field = FieldKind::kDistance;
   double distance_threshold_A = 0.75;
+  VectorFlowOptions flow;
+  bool subdivide = false;  ///< halve edges that deform has stretched, and go on; see map_by_deform.h
   DeformOptions regularize{0.1, 0.5, 0.3, 1e-3, 500, Interpolation::kTrilinear, 4, false};
   DeformOptions deform{0.1, 0.75, 0.3, 1e-3, 3000, Interpolation::kTrilinear, 8, true};
   /// In grid spacings; they set min_displacement_A. The thesis' 1e-3 lets the mapping end while a few vertices still
@@ -77,6 +82,7 @@ struct ResidueRow {
   double mean_target = 0;
   double sign_change_area_fraction = 0;
   double mean_displacement_A = 0;
+  double mean_path_length_A = 0;
 };
 
 /// How far from its start a vertex ends that is taken to the target and back by a second mapping, made from the target
@@ -116,8 +122,10 @@ struct MappedSurface {
   std::vector<Triangle> triangles;
   std::vector<float> potential_source, potential_target;  ///< [vertex]; empty without maps; NaN outside a map
   std::vector<float> displacement;                        ///< [vertex] NaN where there is no counterpart
-  std::vector<std::int32_t> residue;                      ///< [vertex] index of the source residue, -1 for none
-  std::vector<std::uint8_t> corrupt;                      ///< [triangle]
+  /// [vertex] length of its way from where the mapping started, displacement at least; NaN as there
+  std::vector<float> path_length;
+  std::vector<std::int32_t> residue;  ///< [vertex] index of the source residue, -1 for none
+  std::vector<std::uint8_t> corrupt;  ///< [triangle]
   /// [triangle] nonzero where the mapping found no counterpart: the mapped positions there mean nothing; empty where it
   /// found one everywhere.
   std::vector<std::uint8_t> no_counterpart;
@@ -142,6 +150,8 @@ struct CompareResult {
   Certificate certificate;
   StartFrom start = StartFrom::kSource;  ///< where the mapping started
   DeformReport regularize_report, deform_report;
+  VectorFlowReport flow_report;           ///< of the fields gvf and gvf2
+  std::size_t n_vertices_subdivided = 0;  ///< added by deform with `subdivide`
   MorphReport morph_report;
   std::vector<ResidueRow> residues;
   MappedSurface surface;

@@ -15,8 +15,6 @@ Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nul
 /// A value that exists with potentials only.
 Json number_if(bool exists, double value) { return exists ? number(value) : Json(nullptr); }
 
-const char* name_of(FieldKind field) { return field == FieldKind::kDensity ? "density" : "distance"; }
-
 const char* name_of(Interpolation interpolation) {
   return interpolation == Interpolation::kTricubic ? "tricubic" : "trilinear";
 }
@@ -82,6 +80,7 @@ Json metrics_all_triangles(const CompareResult& result) {
   json["area_A2"] = number_if(result.has_potential, result.metrics_all.area_A2);
   add_metrics(json, result.has_potential, result.metrics_all);
   json["mean_displacement_A"] = number_if(result.has_potential, result.metrics_all.mean_displacement_A);
+  json["mean_path_length_A"] = number_if(result.has_potential, result.metrics_all.mean_path_length_A);
   return json;
 }
 
@@ -125,8 +124,10 @@ Json echo(const CompareOptions& o) {
   json["isovalue"] = o.surface.isovalue;
   json["cavities"] = o.surface.cavities;
   json["project"] = o.surface.project;
-  json["field"] = name_of(o.field);
+  json["field"] = to_string(o.field);
   json["distance_threshold_A"] = o.distance_threshold_A;
+  json["gvf"] = {{"weight_A2", o.flow.weight_A2}, {"tolerance", o.flow.tolerance}, {"max_sweeps", o.flow.max_sweeps}};
+  json["subdivide"] = o.subdivide;
   json["temperature_K"] = o.temperature_K;
   json["regularize"] = iteration_options(o.regularize, o.regularize_min_displacement * o.surface.grid_spacing_A);
   json["deform"] = iteration_options(o.deform, o.deform_min_displacement * o.surface.grid_spacing_A);
@@ -176,6 +177,7 @@ void add_results(Json& json, const CompareResult& result, const CompareOptions& 
                      {"mapped", number(result.area_mapped_A2)},
                      {"valid", number(counted.area_A2)}};
   json["mean_displacement_A"] = number(counted.mean_displacement_A);
+  json["mean_path_length_A"] = number(counted.mean_path_length_A);
   json["certificate"] = certificate(result.certificate);
   json["metrics_all_triangles"] = metrics_all_triangles(result);
   json["superposition"] = superposition(result);
@@ -189,7 +191,12 @@ void add_results(Json& json, const CompareResult& result, const CompareOptions& 
   json["start"] = result.start == StartFrom::kPrevious ? "previous" : "source";
   const bool morphed = options.method == Method::kMorph;
   json["iterations"] = morphed ? result.morph_report.steps : result.deform_report.iterations;
-  json["n_vertices_added"] = result.morph_report.n_vertices_added;
+  if (result.flow_report.sweeps > 0) {
+    json["gvf"] = {{"sweeps", result.flow_report.sweeps},
+                   {"residual", number(result.flow_report.residual)},
+                   {"converged", result.flow_report.converged}};
+  }
+  json["n_vertices_added"] = morphed ? result.morph_report.n_vertices_added : result.n_vertices_subdivided;
   json["iterations_regularize"] = result.regularize_report.iterations;
 }
 

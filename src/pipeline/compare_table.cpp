@@ -86,6 +86,7 @@ void print_metrics(std::ostream& out, const CompareResult& result) {
   row(out, "Hodgkin index", "", both(&Metrics::hodgkin_index));
   row(out, "Carbo index", "", both(&Metrics::carbo_index));
   row(out, "mean displacement", "A", both(&Metrics::mean_displacement_A));
+  row(out, "mean path length", "A", both(&Metrics::mean_path_length_A));
   row(out, "area", "A^2", {formatted("%.1f", valid.area_A2), formatted("%.1f", all.area_A2)});
 }
 
@@ -139,7 +140,15 @@ void print_certificate(std::ostream& out, const CompareResult& result) {
   } else {
     line(out, "mapping",
          std::string(c.converged ? "converged after " : "did not converge in ") +
-             counted(n_of(result.deform_report.iterations), "iteration"));
+             counted(n_of(result.deform_report.iterations), "iteration") +
+             (result.n_vertices_subdivided > 0
+                  ? ", " + counted(result.n_vertices_subdivided, "vertex", "vertices") + " added"
+                  : ""));
+  }
+  if (result.flow_report.sweeps > 0) {
+    line(out, "gradient vector flow",
+         std::string(result.flow_report.converged ? "converged after " : "did not converge in ") +
+             counted(n_of(result.flow_report.sweeps), "sweep"));
   }
   std::string not_checked;
   for (const std::string& name : c.not_checked) not_checked += (not_checked.empty() ? "" : ", ") + name;
@@ -169,6 +178,7 @@ void print_table(std::ostream& out, const Molecule& source, const Molecule& targ
     const CountedSurface shape = counted_surface(result);
     heading(out, "Shape (no potentials given)", {"valid area"});
     row(out, "mean displacement", "A", {significant(shape.mean_displacement_A)});
+    row(out, "mean path length", "A", {significant(shape.mean_path_length_A)});
     row(out, "area", "A^2", {formatted("%.1f", shape.area_A2)});
   }
   print_surfaces(out, result);

@@ -68,6 +68,16 @@ void drop_closed_cavities(Engine& engine, Mapping& mapping) {
   mapping.mapped =
       engine.with_positions(mapping.source, engine.download(engine.without(mapping.mapped, flags)).positions);
   mapping.lost = std::move(lost);
+  std::vector<bool> left(source.positions.size(), false);
+  for (std::size_t t = 0; t < dropped.size(); ++t) {
+    if (dropped[t] != 0) continue;
+    for (const std::uint32_t v : source.triangles[t]) left[v] = true;
+  }
+  std::size_t n = 0;
+  for (std::size_t v = 0; v < left.size(); ++v) {
+    if (left[v]) mapping.path_length[n++] = mapping.path_length[v];
+  }
+  mapping.path_length.resize(n);
 }
 
 std::vector<std::uint8_t> spread(const std::vector<float>& counted, const std::vector<float>& lost) {

@@ -21,6 +21,7 @@ struct Mapping {
   MeshPtr source, mapped;
   /// [triangle] nonzero where there is no counterpart; empty where the method does not tell.
   std::vector<float> lost;
+  std::vector<float> path_length;  ///< [vertex] length of its way, Angstrom
 
   // What has a counterpart, and how well it fits the target; see settle().
   MeshPtr counted_source, counted;

@@ -32,6 +32,7 @@ std::vector<ResidueRow> residue_rows(const MappedSurface& s, std::size_t n_resid
     ResidueRow& row = rows[static_cast<std::size_t>(s.residue[v])];
     row.area_A2 += weight[v];
     row.mean_displacement_A += weight[v] * static_cast<double>(s.displacement[v]);
+    row.mean_path_length_A += weight[v] * static_cast<double>(s.path_length[v]);
     if (!has_potential) continue;
     const double a = static_cast<double>(s.potential_source[v]), b = static_cast<double>(s.potential_target[v]);
     row.mean_abs_difference += weight[v] * std::fabs(b - a);
@@ -46,6 +47,7 @@ std::vector<ResidueRow> residue_rows(const MappedSurface& s, std::size_t n_resid
     row.residue = r;
     const double scale = row.area_A2 > 0 ? 1 / row.area_A2 : kNan;
     row.mean_displacement_A *= scale;
+    row.mean_path_length_A *= scale;
     for (double* value : {&row.mean_abs_difference, &row.mean_signed_difference, &row.mean_source, &row.mean_target,
                           &row.sign_change_area_fraction}) {
       *value *= has_potential ? scale : kNan;

@@ -85,17 +85,15 @@ Setting boolean(const std::string& name, const std::string& group, At at, const 
   return s;
 }
 
-/// A setting with named values; `absent` are values that this version knows of and does not have.
+/// A setting with named values.
 template <typename Set, typename Get>
-Setting choice(const std::string& name, const std::string& group, std::vector<std::string> choices,
-               std::vector<std::string> absent, Set set, Get get, const std::string& help) {
+Setting choice(const std::string& name, const std::string& group, std::vector<std::string> choices, Set set, Get get,
+               const std::string& help) {
   std::string list;
   for (std::size_t i = 0; i < choices.size(); ++i)
     list += (i == 0 ? "" : i + 1 == choices.size() ? " or " : ", ") + choices[i];
   Setting s{name, group, SettingKind::kChoice, choices, help, false, nullptr, get};
   s.set = [=](CompareOptions& o, const std::string& text) {
-    if (std::find(absent.begin(), absent.end(), text) != absent.end())
-      throw InputError(name + ": '" + text + "' is not in this version; use " + list);
     if (std::find(choices.begin(), choices.end(), text) == choices.end()) refuse(name, text, list);
     set(o, text);
   };
@@ -162,7 +160,7 @@ void add_morph_settings(std::vector<Setting>& all) {
 void add_mapping_settings(std::vector<Setting>& all) {
   const std::string group = "Mapping";
   all.push_back(choice(
-      "method", group, {"morph", "deform"}, {},
+      "method", group, {"morph", "deform"},
       [](CompareOptions& o, const std::string& text) { o.method = parse_method(text); },
       [](const CompareOptions& o) { return to_string(o.method); },
       "How the surface is mapped: carried by the moving atoms (morph), or drawn by a field (deform)"));
@@ -171,15 +169,25 @@ void add_mapping_settings(std::vector<Setting>& all) {
       "Map back as well, which takes as long again, and report how far from the start that ends"));
   add_morph_settings(all);
   all.push_back(choice(
-      "field", kDeformGroup, {"density", "distance"}, {"gvf", "gvf2"},
+      "field", kDeformGroup, {"density", "distance", "gvf", "gvf2"},
       [](CompareOptions& o, const std::string& text) { o.field = parse_field_kind(text); },
-      [](const CompareOptions& o) { return o.field == FieldKind::kDensity ? "density" : "distance"; },
-      "What draws the surface: density, or the distance where it is far"));
+      [](const CompareOptions& o) { return to_string(o.field); },
+      "What draws the surface: density, the distance where it is far, or gradient vector flow from the target (gvf) or "
+      "from both surfaces (gvf2)"));
   all.push_back(number(
       "distance-threshold", kDeformGroup, kNotNegative, [](auto& o) -> auto& { return o.distance_threshold_A; },
       "Distance beyond which the distance field draws, Angstrom"));
+  all.push_back(number(
+      "gvf-weight", kDeformGroup, kPositive, [](auto& o) -> auto& { return o.flow.weight_A2; },
+      "Smoothness of the gradient vector flow against the normals at the surface (mu), Angstrom^2"));
+  all.push_back(number(
+      "gvf-tolerance", kDeformGroup, kPositive, [](auto& o) -> auto& { return o.flow.tolerance; },
+      "The flow is converged when a sweep would move none of its vectors by more; they are 1 long at the surface"));
+  all.push_back(count(
+      "gvf-max-sweeps", kDeformGroup, [](auto& o) -> auto& { return o.flow.max_sweeps; },
+      "Sweeps of the flow at most; 1 or more"));
   all.push_back(choice(
-      "interpolation", kDeformGroup, {"trilinear", "tricubic"}, {},
+      "interpolation", kDeformGroup, {"trilinear", "tricubic"},
       [](CompareOptions& o, const std::string& text) {
         o.deform.interpolation = o.regularize.interpolation = parse_interpolation(text);
       },
@@ -188,10 +196,13 @@ void add_mapping_settings(std::vector<Setting>& all) {
       },
       "Sampling of the field"));
   all.push_back(choice(
-      "rest-shape", kDeformGroup, {"source", "none"}, {},
+      "rest-shape", kDeformGroup, {"source", "none"},
       [](CompareOptions& o, const std::string& text) { o.deform.rest_shape = text == "source"; },
       [](const CompareOptions& o) { return o.deform.rest_shape ? "source" : "none"; },
       "What the internal force restores: the source's shape, or none but equal edges"));
+  all.push_back(boolean(
+      "subdivide", kDeformGroup, [](auto& o) -> auto& { return o.subdivide; },
+      "Halve edges that have been stretched and go on, so that crevices are reached"));
   add_iteration_settings(
       all, "", kDeformGroup, [](auto& o) -> auto& { return o.deform; },
       [](auto& o) -> auto& { return o.deform_min_displacement; });
@@ -215,7 +226,7 @@ void add_mapping_settings(std::vector<Setting>& all) {
 std::vector<Setting> make_settings() {
   std::vector<Setting> all;
   all.push_back(choice(
-      "align", "Molecules", {"all", "backbone", "ca", "none"}, {},
+      "align", "Molecules", {"all", "backbone", "ca", "none"},
       [](CompareOptions& o, const std::string& text) { o.align = parse_align_atoms(text); },
       [](const CompareOptions& o) { return to_string(o.align); },
       "Paired atoms that are superposed; none compares as given"));

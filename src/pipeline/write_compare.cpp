@@ -46,6 +46,7 @@ void write_surface_file(std::ostream& out, const Molecule& source, const Compare
   file.triangles = &s.triangles;
   file.point_arrays = {{"source_position", s.source_positions},
                        {"displacement", s.displacement},
+                       {"path_length", s.path_length},
                        {"normal", s.normals},
                        {"residue_number", derived.residue_number},
                        {"residue_index", s.residue}};
@@ -79,7 +80,8 @@ std::vector<std::string> residue_columns(PotentialUnit unit) {
           "mean_source" + potential,
           "mean_target" + potential,
           "sign_change_area_fraction",
-          "mean_displacement [A]"};
+          "mean_displacement [A]",
+          "mean_path_length [A]"};
 }
 
 void write_residue_file(std::ostream& out, const Molecule& source, const CompareResult& result) {
@@ -89,10 +91,11 @@ void write_residue_file(std::ostream& out, const Molecule& source, const Compare
   for (const ResidueRow& row : result.residues) {
     const Residue& residue = source.residues.at(row.residue);
     const std::string insertion = residue.insertion_code == ' ' ? "" : std::string(1, residue.insertion_code);
-    write_csv_row(out, {residue.chain, std::to_string(residue.number), insertion, residue.name, csv_number(row.area_A2),
-                        potential(row.mean_abs_difference), potential(row.mean_signed_difference),
-                        potential(row.mean_source), potential(row.mean_target),
-                        potential(row.sign_change_area_fraction), csv_number(row.mean_displacement_A)});
+    write_csv_row(
+        out, {residue.chain, std::to_string(residue.number), insertion, residue.name, csv_number(row.area_A2),
+              potential(row.mean_abs_difference), potential(row.mean_signed_difference), potential(row.mean_source),
+              potential(row.mean_target), potential(row.sign_change_area_fraction), csv_number(row.mean_displacement_A),
+              csv_number(row.mean_path_length_A)});
   }
 }
 
@@ -103,15 +106,19 @@ InputFile computed_input(const std::string& role, const ComputedMap& map) {
 }
 
 CountedSurface counted_surface(const CompareResult& result) {
-  if (result.has_potential) return {result.metrics.area_A2, result.metrics.mean_displacement_A};
+  if (result.has_potential)
+    return {result.metrics.area_A2, result.metrics.mean_displacement_A, result.metrics.mean_path_length_A};
   CountedSurface counted;
-  double sum = 0;
+  double displacement = 0, path_length = 0;
   for (const ResidueRow& row : result.residues) {
     if (!(row.area_A2 > 0)) continue;
     counted.area_A2 += row.area_A2;
-    sum += row.area_A2 * row.mean_displacement_A;
+    displacement += row.area_A2 * row.mean_displacement_A;
+    path_length += row.area_A2 * row.mean_path_length_A;
   }
-  counted.mean_displacement_A = counted.area_A2 > 0 ? sum / counted.area_A2 : std::numeric_limits<double>::quiet_NaN();
+  const double area = counted.area_A2 > 0 ? counted.area_A2 : std::numeric_limits<double>::quiet_NaN();
+  counted.mean_displacement_A = displacement / area;
+  counted.mean_path_length_A = path_length / area;
   return counted;
 }
 

@@ -36,7 +36,7 @@ struct Provenance {
 /// Writes OUT.json (compare_json()), OUT.vtp and OUT.residues.csv; all three appear, or none and older ones stay as
 /// they are.
 ///
-/// OUT.vtp: the mapped surface in the target's frame. Point arrays source_position, displacement, normal,
+/// OUT.vtp: the mapped surface in the target's frame. Point arrays source_position, displacement, path_length, normal,
 /// residue_number (of the source residue; 0 where there is none) and residue_index (row of the table, from 0; -1 where
 /// there is none); with potentials also potential_source, potential_target, potential_difference (target - source) and
 /// sign_change. Outside a map potentials are NaN and sign_change is 0. Cell arrays corrupt, no_counterpart. Field data:
@@ -55,11 +55,12 @@ std::string compare_json(const Molecule& source, const Molecule& target, const C
 /// Prints the main numbers and the certificate for a terminal: at most 100 columns, units with every number.
 void print_table(std::ostream& out, const Molecule& source, const Molecule& target, const CompareResult& result);
 
-/// Counted area of the mapped surface, and mean displacement over it. Without potentials no metrics were computed; then
-/// both come from the residues' rows.
+/// Counted area of the mapped surface, mean displacement and path length over it. Without potentials no metrics were
+/// computed; then both come from the residues' rows.
 struct CountedSurface {
   double area_A2 = 0;
   double mean_displacement_A = 0;  ///< NaN when nothing is counted
+  double mean_path_length_A = 0;   ///< likewise
 };
 CountedSurface counted_surface(const CompareResult& result);
 

@@ -13,10 +13,11 @@ namespace eval ::espdiff::gui {
         ttk::labelframe $path -text Draw -padding 6
         set variable ::espdiff::gui::form
         ttk::combobox $path.color -textvariable ${variable}(draw,color) -state readonly -width 12 \
-            -values {difference sign source target displacement none}
+            -values {difference sign source target displacement path_length none}
         bind $path.color <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::update_draw}
         form_row $path 0 "Colour by" $path.color "difference: target - source, red negative, blue positive;\
-            sign: where it changed; source, target: the potentials; displacement: how far each point travelled"
+            sign: where it changed; source, target: the potentials; displacement: how far each point travelled,\
+            path_length: the length of its way"
         ttk::combobox $path.surface -textvariable ${variable}(draw,surface) -state readonly -width 12 \
             -values {target source}
         form_row $path 0 "on the" $path.surface "Surface that is coloured: mapped onto the target, or as it is on the\
@@ -95,11 +96,12 @@ namespace eval ::espdiff::gui {
         set_enabled $is_shown $widget(draw) $widget(undraw) $widget(map)
         set unit [expr {$is_shown ? [potential_unit] : ""}]
         set has_potentials [expr {$unit ne "" || !$is_shown}]
-        set colors [expr {$has_potentials ? {difference sign source target displacement none} : {displacement none}}]
+        set colors {displacement path_length none}
+        if {$has_potentials} { set colors [concat {difference sign source target} $colors] }
         $widget(draw,color) configure -values $colors
         if {$form(draw,color) ni $colors} { set form(draw,color) displacement }
         switch $form(draw,color) {
-            displacement { set unit "\u00c5" }
+            displacement - path_length { set unit "\u00c5" }
             sign - none { set unit "" }
         }
         $widget(draw,unit) configure -text $unit

@@ -18,6 +18,8 @@ namespace eval ::espdiff::gui {
         rmsd_A RMSD length "Of the superposed atom pairs"
         mean_displacement_A "Mean displacement" length "How far points of the source's surface travel to the\
             target's: the more, the less certain"
+        mean_path_length_A "Mean path length" length "Length of their ways: the more it exceeds the displacement, the\
+            less certain"
         {area_A2 source} "Area, source" area "Surface area of the source"
         {area_A2 target} "Area, target" area "Surface area of the target"
         {area_A2 valid} "Area compared" area "Area of the mapped surface on which the numbers rest"

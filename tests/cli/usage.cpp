@@ -46,18 +46,6 @@ TEST_CASE("wrong usage exits 2 with one line that says what and where to look") 
   }
 }
 
-TEST_CASE("what this version does not have says so") {
-  const ScratchFolder folder;
-  const std::string molecule = folder.write("a.pqr", row_of_atoms(6));
-  for (const char* option : {"--field gvf"}) {
-    const Outcome outcome =
-        run_espdiff("compare " + molecule + " " + molecule + " -o " + folder.file("out") + " " + option);
-    CHECK(outcome.status == 2);
-    CHECK_MESSAGE(contains(outcome.err, "not in this version"), outcome.err);
-  }
-  CHECK(folder.n_files() == 1);
-}
-
 TEST_CASE("doctor names the back ends and the readers") {
   const Outcome outcome = run_espdiff("doctor");
   CHECK(outcome.status == 0);

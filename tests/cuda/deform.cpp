@@ -126,6 +126,36 @@ TEST_CASE("tricubic sampling of the distance field finds the surface as well as 
   }
 }
 
+TEST_CASE("the ways of the vertices: no shorter than straight lines, and longer where they swing about the surface") {
+  for (const auto& engine : back_ends()) {
+    const auto source = engine->upload_mesh(icosphere(3, 2.5 * kRadiusPerWidth));
+    const Target target = sphere_target(*engine, {0.9, -0.5, 0.4}, 2.5, false);
+    const Mesh before = engine->download(source);
+    DeformOptions options = options_with(Interpolation::kTrilinear);
+    options.min_displacement_A = 0;
+    std::vector<float> earlier(before.positions.size(), 0.0F);
+    for (const int n : {1, 20, 80}) {
+      options.max_iterations = n;
+      DeformReport report;
+      const Mesh after = engine->download(engine->deform(source, target.field, options, "deform", {}, &report));
+      const std::vector<float> ways = engine->download(report.path_length);
+      float least = 1, shrunk = 0;
+      double excess = 0;
+      for (std::size_t v = 0; v < ways.size(); ++v) {
+        const float straight = norm(after.positions[v] - before.positions[v]);
+        least = std::min(least, ways[v] - straight);
+        shrunk = std::max(shrunk, earlier[v] - ways[v]);
+        excess += static_cast<double>(ways[v] - straight) / static_cast<double>(ways.size());
+      }
+      CHECK(least > -1e-5F);
+      CHECK(shrunk <= 0);
+      if (n == 1) CHECK(excess < 1e-5);
+      if (n == 80) CHECK(excess > 0.02);
+      earlier = ways;
+    }
+  }
+}
+
 TEST_CASE("the mean displacement decreases and the iterations asked for are made") {
   for (const auto& engine : back_ends()) {
     const auto source = engine->upload_mesh(icosphere(3, 2.5 * kRadiusPerWidth));

@@ -23,6 +23,7 @@ std::uint64_t hash_of(const espdiff::Metrics& m) {
       .add(m.hodgkin_index)
       .add(m.carbo_index)
       .add(m.mean_displacement_A)
+      .add(m.mean_path_length_A)
       .value();
 }
 
@@ -70,13 +71,26 @@ Hashes run_all_stages(Engine& engine, const AtomSet& source_atoms, const AtomSet
   const auto target_surface = engine.isosurface(target_density, 0.5F);
   const auto distance = engine.distance_field(target_density, 0.5F, target_surface, 0.75, {});
   hashes["distance field"] = Hash().add(engine.download(distance).values).value();
+  espdiff::VectorFlowReport flow_report;
+  espdiff::VectorFlowOptions flow;
+  flow.max_sweeps = 60;
+  const auto flowing = engine.gvf_field(target_density, density, 0.5F, flow, {}, &flow_report);
+  hashes["gradient vector flow"] = Hash()
+                                       .add(engine.download_gradient(flowing))
+                                       .add(engine.download(flowing).values)
+                                       .add(flow_report.residual)
+                                       .value();
   for (const auto interpolation : {espdiff::Interpolation::kTrilinear, espdiff::Interpolation::kTricubic}) {
     options.interpolation = interpolation;
     espdiff::DeformReport report;
     const auto mapped = engine.deform(start, distance, options, "deform", {}, &report);
     const std::string suffix = interpolation == espdiff::Interpolation::kTrilinear ? ", trilinear" : ", tricubic";
     hash_mesh("deform" + suffix, mapped);
-    hashes["deform report" + suffix] = Hash().add(report.iterations).add(report.mean_displacement_A).value();
+    hashes["deform report" + suffix] =
+        Hash().add(report.iterations).add(report.mean_displacement_A).add(engine.download(report.path_length)).value();
+    const auto finer = engine.subdivide(start, mapped, 1.0);
+    hash_mesh("subdivide, source" + suffix, finer.source);
+    hash_mesh("subdivide, mapped" + suffix, finer.mapped);
     const auto fit = engine.fit(mapped, target, 0.5F);
     hashes["fit" + suffix] = Hash()
                                  .add(engine.download(fit.corrupt))
@@ -90,7 +104,7 @@ Hashes run_all_stages(Engine& engine, const AtomSet& source_atoms, const AtomSet
     const auto map = engine.upload_map(wave_map(), rigid({0, 0.6, 0.8}, 0.4, {1, 2, 3}));
     const auto a = engine.sample(map, start), b = engine.sample(map, mapped);
     hashes["sample" + suffix] = Hash().add(engine.download(a)).add(engine.download(b)).value();
-    hashes["compare" + suffix] = hash_of(engine.compare(start, mapped, a, b, fit.corrupt));
+    hashes["compare" + suffix] = hash_of(engine.compare(start, mapped, a, b, fit.corrupt, report.path_length));
     hashes["displacement" + suffix] = Hash().add(engine.download(engine.displacement(start, mapped))).value();
   }
   hashes["area"] = Hash().add(engine.area(start)).value();

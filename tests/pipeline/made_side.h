@@ -90,10 +90,14 @@ inline std::uint64_t hash_of(const CompareResult& r) {
       .add(s.triangles)
       .add(s.potential_source)
       .add(s.potential_target);
-  hash.add(s.displacement).add(s.residue).add(s.corrupt);
+  hash.add(s.displacement).add(s.path_length).add(s.residue).add(s.corrupt);
   for (const auto* m : {&r.metrics, &r.metrics_all}) {
     hash.add(m->area_A2).add(m->mean_abs_difference).add(m->rms_difference).add(m->mean_signed_difference);
-    hash.add(m->sign_change_area_fraction).add(m->hodgkin_index).add(m->carbo_index).add(m->mean_displacement_A);
+    hash.add(m->sign_change_area_fraction)
+        .add(m->hodgkin_index)
+        .add(m->carbo_index)
+        .add(m->mean_displacement_A)
+        .add(m->mean_path_length_A);
   }
   for (const auto* d : {&r.certificate.mapped_to_target, &r.certificate.target_to_mapped})
     hash.add(d->mean).add(d->p95).add(d->max);

@@ -79,7 +79,11 @@ TEST_CASE("what a setting does not accept is named with what it does") {
   CHECK(message("max-iterations", "2.5") == "max-iterations: '2.5' is not a whole number of 0 or more");
   CHECK(message("cavities", "yes") == "cavities: 'yes' is not 0 or 1");
   CHECK(message("align", "heavy") == "align: 'heavy' is not all, backbone, ca or none");
-  CHECK(message("field", "gvf") == "field: 'gvf' is not in this version; use density or distance");
+  CHECK(message("field", "gvf3") == "field: 'gvf3' is not density, distance, gvf or gvf2");
+  CHECK(message("gvf-weight", "0") == "gvf-weight: '0' is not a positive number");
+  CHECK(message("gvf-tolerance", "-1") == "gvf-tolerance: '-1' is not a positive number");
+  CHECK(message("gvf-max-sweeps", "many") == "gvf-max-sweeps: 'many' is not a whole number of 0 or more");
+  CHECK(message("subdivide", "yes") == "subdivide: 'yes' is not 0 or 1");
   CHECK(message("method", "morf") == "method: 'morf' is not morph or deform");
   CHECK(message("max-stretch", "1") == "max-stretch: '1' is not a number above 1");
   CHECK(message("sigmas", "1") == "there is no setting 'sigmas'");

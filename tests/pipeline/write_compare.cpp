@@ -40,8 +40,8 @@ CompareResult made_result() {
   result.source_to_target.translation = {1, 2, 3};
   result.has_potential = true;
   result.unit = PotentialUnit::kKtPerE;
-  result.metrics = {10, 1.5, 2.5, -0.5, 0.25, 0.75, 0.8, 1.25};
-  result.metrics_all = {12, 1.6, 2.6, -0.6, 0.3, std::nan(""), 0.7, 1.5};
+  result.metrics = {10, 1.5, 2.5, -0.5, 0.25, 0.75, 0.8, 1.25, 1.75};
+  result.metrics_all = {12, 1.6, 2.6, -0.6, 0.3, std::nan(""), 0.7, 1.5, 2};
   result.n_outside_target_map = 1;
   result.source_surface = {4, 4, 1, 2, 11, 3};
   result.target_surface = {5, 6, 1, 0, 12, 0};
@@ -57,7 +57,7 @@ CompareResult made_result() {
   result.regularize_report.iterations = 17;
   result.deform_report.iterations = 42;
   result.residues = {
-      {0, 6, 1, -1, 2, 1, 0.5, 1}, {1, 4, 2, 2, 0, 2, 0, 1.5}, {2, 0, kNan, kNan, kNan, kNan, kNan, kNan}};
+      {0, 6, 1, -1, 2, 1, 0.5, 1, 2}, {1, 4, 2, 2, 0, 2, 0, 1.5, 3}, {2, 0, kNan, kNan, kNan, kNan, kNan, kNan, kNan}};
   MappedSurface& s = result.surface;
   s.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   s.source_positions = {{5, 0, 0}, {6, 0, 0}, {5, 1, 0}, {5, 0, 1}};
@@ -66,6 +66,7 @@ CompareResult made_result() {
   s.potential_source = {1, -1, 0, 2};
   s.potential_target = {-1, -3, -2, kNan};
   s.displacement = {1, 1, 1, 1};
+  s.path_length = {1.5, 1, 2, 1};
   s.residue = {0, 1, 2, -1};
   s.corrupt = {0, 0, 1, 0};
   result.time_ms = {{"align", 1.5}, {"total", 20}};
@@ -135,6 +136,7 @@ TEST_CASE("OUT.json has the result's values") {
   CHECK(json["hodgkin_index"] == 0.75);
   CHECK(json["area_A2"] == Json({{"source", 11}, {"target", 12}, {"mapped", 12}, {"valid", 10}}));
   CHECK(json["mean_displacement_A"] == 1.25);
+  CHECK(json["mean_path_length_A"] == 1.75);
   CHECK(json["metrics_all_triangles"]["mean_abs_difference"] == 1.6);
   CHECK(json["certificate"]["target_to_mapped_A"]["max"] == 1.5);
   CHECK(json["certificate"]["reasons"][0] == "12.5 % of the mapped area is corrupt (limit 0.1 %)");
@@ -194,6 +196,7 @@ TEST_CASE("what has no value is null") {
   // Shapes are compared all the same: (6 * 1 + 4 * 1.5) / 10.
   CHECK(json["area_A2"]["valid"] == 10);
   CHECK(json["mean_displacement_A"].get<double>() == doctest::Approx(1.2));
+  CHECK(json["mean_path_length_A"].get<double>() == doctest::Approx(2.4));
 }
 
 TEST_CASE("a path that is not UTF-8 does not spoil the JSON") {
@@ -209,10 +212,10 @@ TEST_CASE("OUT.residues.csv has one row a source residue, with units") {
   CHECK(read_file(folder.file("out.residues.csv")) ==
         "chain,residue_number,insertion_code,residue_name,area [A^2],mean_abs_difference [kT/e],mean_signed_difference "
         "[kT/e],"
-        "mean_source [kT/e],mean_target [kT/e],sign_change_area_fraction,mean_displacement [A]\n"
-        "A,7,,ALA,6,1,-1,2,1,0.5,1\n"
-        "A,7,B,GLY,4,2,2,0,2,0,1.5\n"
-        ",9,,LYS,0,,,,,,\n");
+        "mean_source [kT/e],mean_target [kT/e],sign_change_area_fraction,mean_displacement [A],mean_path_length [A]\n"
+        "A,7,,ALA,6,1,-1,2,1,0.5,1,2\n"
+        "A,7,B,GLY,4,2,2,0,2,0,1.5,3\n"
+        ",9,,LYS,0,,,,,,,\n");
 }
 
 TEST_CASE("OUT.vtp has the arrays of the contract") {
@@ -220,7 +223,7 @@ TEST_CASE("OUT.vtp has the arrays of the contract") {
   write(folder.file("out"));
   const std::string text = read_file(folder.file("out.vtp"));
   for (const char* name : {"source_position", "potential_source", "potential_target", "potential_difference",
-                           "sign_change", "displacement", "normal", "residue_number", "corrupt"}) {
+                           "sign_change", "displacement", "path_length", "normal", "residue_number", "corrupt"}) {
     CHECK_MESSAGE(text.find("Name=\"" + std::string(name) + "\"") != std::string::npos, name);
   }
   // Bytes of an array: after its length, where its offset says.
