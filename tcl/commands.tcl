@@ -35,7 +35,8 @@ namespace eval ::espdiff {
     command residues [dict create arguments {handle} options {} settings none run ::espdiff::residues \
         summary {The comparison by residue of the source, over the mapped surface.} \
         returns {a list of dictionaries: index chain number insertion name area_A2 mean_abs_difference
-            mean_signed_difference mean_source mean_target sign_change_area_fraction mean_displacement_A mean_path_length_A} \
+            mean_signed_difference mean_source mean_target sign_change_area_fraction mean_displacement_A
+            mean_path_length_A} \
         example {foreach residue [espdiff residues comparison1] { puts [dict get $residue mean_abs_difference] }}]
 
     command table [dict create arguments {handle} options {} settings none run ::espdiff::table_of \

@@ -60,8 +60,9 @@ Mapping map_by_deform(Engine& engine, const Surface& source, const MeshPtr& regu
   for (int round = 0; round < kMaxRounds; ++round) {
     mapping.mapped = engine.deform(mapping.mapped, field, iteration, "deform", progress, &report, mapping.source);
     n_iterations += report.iterations;
+    iteration.max_iterations = options.deform.max_iterations - n_iterations;
     add(mapping.path_length, engine.download(report.path_length));
-    if (!options.subdivide || round + 1 == kMaxRounds) break;
+    if (!options.subdivide || !report.converged || round + 1 == kMaxRounds) break;
     const SubdivisionResult halved = engine.subdivide(mapping.source, mapping.mapped, kLongestEdge * spacing);
     if (halved.ends.empty()) break;
     const std::size_t n_old = mapping.path_length.size();

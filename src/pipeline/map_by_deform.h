@@ -22,7 +22,8 @@ FieldPtr make_field(Engine& engine, const Surface& source, const Surface& target
 /// are those of `regularized`.
 ///
 /// @param regularized the source's surface; @param start where it starts, of the same topology
-/// @param report  iterations of all rounds, the last one's displacement
+/// @param report  iterations of all rounds, which options.deform.max_iterations limits together, and the last one's
+/// displacement
 /// @param n_added vertices
 /// @return source, mapped and path_length
 Mapping map_by_deform(Engine& engine, const Surface& source, const MeshPtr& regularized, const Surface& target,

@@ -86,6 +86,12 @@ TEST_CASE("subdivision reaches what was missed, and its vertices come from the s
     CHECK(with.n_vertices_subdivided > 100);
     CHECK(with.certificate.target_to_mapped.max < 0.2 * without.certificate.target_to_mapped.max);
     CHECK(with.certificate.corrupt_area_fraction < 0.1 * without.certificate.corrupt_area_fraction);
+    // All rounds together make as many iterations as are allowed.
+    CompareOptions hurried = deform_in(FieldKind::kDistance, true);
+    hurried.deform.max_iterations = without.deform_report.iterations + 7;
+    const CompareResult stopped = compare(*engine, {&source, nullptr}, {&target, nullptr}, hurried, {});
+    CHECK(stopped.deform_report.iterations == hurried.deform.max_iterations);
+    CHECK_FALSE(stopped.certificate.converged);
     // With radii as widths the density at a source position is the isovalue.
     std::vector<float> widths(source.radii.begin(), source.radii.end());
     const auto atoms =

@@ -78,6 +78,10 @@ test "another quantity takes its place, with other colours" {
     set n [count_pixels displacement]
     check "brown" {[dict get $n brown] > 200}
     check "no blue" {[dict get $n blue] < 20}
+    espdiff draw $comparison -color path_length -transparency none
+    set n [count_pixels path_length]
+    check "brown" {[dict get $n brown] > 200}
+    check "no blue" {[dict get $n blue] < 20}
     espdiff draw $comparison -color none -legend 0
     set n [count_pixels none]
     check "no colour" {[dict get $n red] + [dict get $n blue] + [dict get $n brown] < 20}
