@@ -37,7 +37,10 @@ test "one row a frame, and the first is what compare says" {
     set single [espdiff compare [list mol $mol frame 0] [list mol $mol frame 1] -grid-spacing 1.5]
     set row [split [lindex [read_rows $scratch/a.csv] 0] ,]
     check_close rmsd [lindex $row 2] [espdiff result $single rmsd_A] 1e-6
-    check_equal "second start" [regexp {,previous,} [lindex [read_rows $scratch/a.csv] 1]] 1
+    check_equal "second start" [regexp {,source,} [lindex [read_rows $scratch/a.csv] 1]] 1
+    espdiff trajectory -mol $mol -frames 1:1:2 -reference {frame 0} -csv $scratch/deform.csv -grid-spacing 1.5 \
+        -method deform -max-iterations 3000
+    check_equal "second start of deform" [regexp {,previous,} [lindex [read_rows $scratch/deform.csv] 1]] 1
     espdiff delete all
 }
 
