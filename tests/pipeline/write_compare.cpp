@@ -257,7 +257,7 @@ TEST_CASE("without potentials OUT.vtp has no potential arrays, and the table's c
   result.surface.potential_target.clear();
   write(folder.file("out"), result);
   CHECK(read_file(folder.file("out.vtp")).find("potential") == std::string::npos);
-  CHECK(read_file(folder.file("out.residues.csv")).find("\nA,7,,ALA,6,,,,,,1\n") != std::string::npos);
+  CHECK(read_file(folder.file("out.residues.csv")).find("\nA,7,,ALA,6,,,,,,1,2\n") != std::string::npos);
 }
 
 TEST_CASE("all files of a result appear, or none") {
