@@ -39,8 +39,8 @@ constexpr Column kColumns[] = {
     {"steps", &PairRow::steps},
     {"cavities_left_out", &PairRow::cavities_left_out},
 };
-constexpr const char* kStages[] = {"align", "density", "surface",     "project", "regularize",
-                                   "field", "deform",  "certificate", "metrics", "total"};
+constexpr const char* kStages[] = {"align",  "density", "surface",    "project",     "regularize", "field",
+                                   "deform", "morph",   "round trip", "certificate", "metrics",    "total"};
 
 std::string number(double value) {
   char text[32];

@@ -13,7 +13,7 @@ struct Limits {
   static constexpr double kCorruptArea = 1e-3;
   static constexpr double kFlippedArea = 0.0;
   static constexpr double kMeanDistance_A = 0.05;
-  static constexpr double kRoundTrip_A = 0.5;
+  static constexpr double kRoundTrip_A = 0.1;
   static constexpr double kNoCounterpartSource = 0.05;
   static constexpr double kNoCounterpartTarget = 0.1;  ///< surface that is new on the target is no flaw of the mapping
   static constexpr std::size_t kSelfIntersectingPairs = 0;
