@@ -14,14 +14,14 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-template <double Metrics::*member>
+template <double Metrics::*Member>
 double of_metrics(const CompareResult& result) {
-  return result.has_potential ? result.metrics.*member : kNan;
+  return result.has_potential ? result.metrics.*Member : kNan;
 }
 
-template <double Certificate::*member>
+template <double Certificate::*Member>
 double of_certificate(const CompareResult& result) {
-  return result.certificate.*member;
+  return result.certificate.*Member;
 }
 
 std::vector<MatrixMetric> make_metrics() {

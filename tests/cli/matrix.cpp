@@ -108,7 +108,7 @@ TEST_CASE("a changed input or a damaged state file is named, and nothing is lost
 TEST_CASE("wrong usage of matrix and merge exits 2 with one line") {
   const Files files;
   const std::string output = " -o " + files.out("x");
-  for (const auto& [arguments, expected] : std::vector<std::pair<std::string, std::string>>{
+  for (const auto& wrong : std::vector<std::pair<std::string, std::string>>{
            {"matrix" + output, "no molecules were given"},
            {"matrix a.pqr --list b.csv" + output, "leave one out"},
            {"matrix " + files.out("m0.pqr") + output, "a matrix of 1 variant was asked for"},
@@ -118,9 +118,9 @@ TEST_CASE("wrong usage of matrix and merge exits 2 with one line") {
            {"matrix" + files.molecules + " --groups " + files.out("absent.csv") + output, "absent.csv"},
            {"matrix" + files.molecules + " -o /nonexistent/x", "does not exist"},
            {"merge " + files.out("m0.pqr") + output, "no state file of a matrix"}}) {
-    const Outcome outcome = run_espdiff(arguments);
-    CHECK_MESSAGE(outcome.status == 2, arguments);
-    CHECK_MESSAGE(contains(outcome.err, expected), outcome.err);
+    const Outcome outcome = run_espdiff(wrong.first);
+    CHECK_MESSAGE(outcome.status == 2, wrong.first);
+    CHECK_MESSAGE(contains(outcome.err, wrong.second), outcome.err);
     CHECK_MESSAGE(n_lines(outcome.err) <= 2, outcome.err);
   }
   CHECK(files.folder.n_files() == 5);

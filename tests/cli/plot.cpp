@@ -68,7 +68,7 @@ TEST_CASE("wrong usage of plot exits 2 and writes nothing") {
   const std::string matrix = made_matrix(folder), table = folder.write("t.csv", "frame,a\n0,1\n");
   const std::size_t n_files = folder.n_files();
   const std::string svg = " -o " + folder.file("x.svg");
-  for (const auto& [arguments, expected] : std::vector<std::pair<std::string, std::string>>{
+  for (const auto& wrong : std::vector<std::pair<std::string, std::string>>{
            {matrix + " -o x.pdf", "ends in .png or .svg"},
            {matrix + " --metric size" + svg, "there is no metric 'size'"},
            {matrix + " --source m9" + svg, "there is no variant 'm9'; there are: m0, m1, m2"},
@@ -79,9 +79,9 @@ TEST_CASE("wrong usage of plot exits 2 and writes nothing") {
            {table + " --source m0" + svg, "give its OUT.json"},
            {folder.file("m.csv") + svg, "drawn from its JSON file"},
            {folder.write("x.json", "{}") + svg, "not the JSON that `espdiff matrix` writes"}}) {
-    const Outcome outcome = run_espdiff("plot " + arguments);
-    CHECK_MESSAGE(outcome.status == 2, arguments);
-    CHECK_MESSAGE(contains(outcome.err, expected), outcome.err);
+    const Outcome outcome = run_espdiff("plot " + wrong.first);
+    CHECK_MESSAGE(outcome.status == 2, wrong.first);
+    CHECK_MESSAGE(contains(outcome.err, wrong.second), outcome.err);
   }
   CHECK(folder.n_files() == n_files + 1);
 }
