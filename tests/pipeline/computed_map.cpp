@@ -107,21 +107,21 @@ TEST_CASE("a computed map beside a given one in another unit: both in kT/e") {
   if (!can_run()) return;
   const Side source = make_side(1, 0), target = other_side();
   const auto engine = cpu();
-  Side in_mV = target;
-  in_mV.map.unit = PotentialUnit::kMillivolt;
+  Side in_millivolt = target;
+  in_millivolt.map.unit = PotentialUnit::kMillivolt;
   const double factor = espdiff::conversion_factor(PotentialUnit::kKtPerE, PotentialUnit::kMillivolt, 300);
-  for (float& v : in_mV.map.values) v *= static_cast<float>(factor);
+  for (float& v : in_millivolt.map.values) v *= static_cast<float>(factor);
   const CompareResult plain = compare(*engine, computed(source), target.input(), quick_options(), {});
   for (const bool swapped : {false, true}) {
-    const CompareResult mixed = swapped ? compare(*engine, in_mV.input(), computed(source), quick_options(), {})
-                                        : compare(*engine, computed(source), in_mV.input(), quick_options(), {});
+    const CompareResult mixed = swapped ? compare(*engine, in_millivolt.input(), computed(source), quick_options(), {})
+                                        : compare(*engine, computed(source), in_millivolt.input(), quick_options(), {});
     CHECK(mixed.unit == PotentialUnit::kKtPerE);
     if (!swapped)
       CHECK(mixed.metrics.mean_signed_difference ==
             doctest::Approx(plain.metrics.mean_signed_difference).epsilon(1e-5));
   }
-  in_mV.map.unit = PotentialUnit::kUnknown;
-  CHECK(message_of([&] { compare(*engine, computed(source), in_mV.input(), quick_options(), {}); }) ==
+  in_millivolt.map.unit = PotentialUnit::kUnknown;
+  CHECK(message_of([&] { compare(*engine, computed(source), in_millivolt.input(), quick_options(), {}); }) ==
         "the maps are in two units: kT/e (computed) and unknown (map.dx); name the unknown one's unit "
         "(--target-map-unit; `unit` in Tcl)");
   CHECK(message_of([&] {
