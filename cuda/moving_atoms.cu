@@ -13,6 +13,23 @@ struct FlowSums {
   Number density{}, gx{}, gy{}, gz{}, vx{}, vy{}, vz{}, rate{};
 };
 
+/// Adds an atom: `d*` from it to the point, `square` their squares' sum, `gaussian` its Gaussian there, 0 beyond reach.
+template <typename Number>
+ESPDIFF_INLINE void add_atom(FlowSums<Number>& sum, const AtomChange& change, float exponent, const Number& dx,
+                             const Number& dy, const Number& dz, const Number& square, const Number& gaussian) {
+  const Number weighted = change.weight * gaussian;
+  const Number slope = exponent * weighted;
+  sum.density += weighted;
+  sum.gx += slope * dx;
+  sum.gy += slope * dy;
+  sum.gz += slope * dz;
+  sum.vx += weighted * change.velocity.x;
+  sum.vy += weighted * change.velocity.y;
+  sum.vz += weighted * change.velocity.z;
+  const Number approach = dx * change.velocity.x + dy * change.velocity.y + dz * change.velocity.z;
+  sum.rate += change.weight_rate * gaussian + weighted * (change.exponent_rate * square) - 2.0F * (slope * approach);
+}
+
 ESPDIFF_INLINE FlowSample finished(float density, Vec3f gradient, Vec3f momentum, float rate) {
   FlowSample sample;
   sample.density = density;
@@ -102,7 +119,6 @@ ESPDIFF_INLINE void sample_block(const Sampling& in, std::size_t block) {
   }
   FlowSums<Lanes> sum;
   visit_atoms_near(in.cells, box, [&](std::uint32_t a) ESPDIFF_INLINE_LAMBDA {
-    const AtomChange& change = in.change[a];
     const float k = in.cells.exponent[a];
     const Lanes dx = px - in.cells.x[a], dy = py - in.cells.y[a], dz = pz - in.cells.z[a];
     const Lanes square = dx * dx + dy * dy + dz * dz;
@@ -111,17 +127,7 @@ ESPDIFF_INLINE void sample_block(const Sampling& in, std::size_t block) {
     Lanes exponential;
     exp_of_negative_lanes((Lanes)((Mask)argument & counts), exponential);
     const Lanes gaussian = (Lanes)((Mask)exponential & counts);
-    const Lanes weighted = change.weight * gaussian;
-    const Lanes slope = k * weighted;
-    sum.density += weighted;
-    sum.gx += slope * dx;
-    sum.gy += slope * dy;
-    sum.gz += slope * dz;
-    sum.vx += weighted * change.velocity.x;
-    sum.vy += weighted * change.velocity.y;
-    sum.vz += weighted * change.velocity.z;
-    const Lanes approach = dx * change.velocity.x + dy * change.velocity.y + dz * change.velocity.z;
-    sum.rate += change.weight_rate * gaussian + weighted * (change.exponent_rate * square) - 2.0F * (slope * approach);
+    add_atom(sum, in.change[a], k, dx, dy, dz, square, gaussian);
   });
   for (std::size_t lane = 0; begin + lane < end; ++lane) {
     in.samples[in.list[begin + lane]] = finished(sum.density[lane], {sum.gx[lane], sum.gy[lane], sum.gz[lane]},
@@ -173,20 +179,7 @@ void flow_point_by_point(const MovingAtoms& atoms, const Buffer<Vec4f>& points, 
         const float k = in.cells.exponent[a];
         const float square = dx * dx + dy * dy + dz * dz;
         if (!(k * square > kCutoffExponent)) continue;
-        const AtomChange change = in.change[a];
-        const float gaussian = exp_of_negative(k * square);
-        const float weighted = change.weight * gaussian;
-        const float slope = k * weighted;
-        sum.density += weighted;
-        sum.gx += slope * dx;
-        sum.gy += slope * dy;
-        sum.gz += slope * dz;
-        sum.vx += weighted * change.velocity.x;
-        sum.vy += weighted * change.velocity.y;
-        sum.vz += weighted * change.velocity.z;
-        const float approach = dx * change.velocity.x + dy * change.velocity.y + dz * change.velocity.z;
-        sum.rate +=
-            change.weight_rate * gaussian + weighted * (change.exponent_rate * square) - 2.0F * (slope * approach);
+        add_atom(sum, in.change[a], k, dx, dy, dz, square, exp_of_negative(k * square));
       }
     });
     in.samples[in.list[i]] = finished(sum.density, {sum.gx, sum.gy, sum.gz}, {sum.vx, sum.vy, sum.vz}, sum.rate);

@@ -20,49 +20,6 @@
 
 namespace espdiff {
 
-FieldKind parse_field_kind(const std::string& text) {
-  if (text == "density") return FieldKind::kDensity;
-  if (text == "distance") return FieldKind::kDistance;
-  if (text == "gvf") return FieldKind::kGvf;
-  if (text == "gvf2") return FieldKind::kGvf2;
-  throw InputError("unknown field '" + text + "'; use density, distance, gvf or gvf2");
-}
-
-std::string to_string(FieldKind field) {
-  switch (field) {
-    case FieldKind::kDensity: return "density";
-    case FieldKind::kDistance: return "distance";
-    case FieldKind::kGvf: return "gvf";
-    case FieldKind::kGvf2: return "gvf2";
-  }
-  return "";
-}
-
-Method parse_method(const std::string& text) {
-  if (text == "deform") return Method::kDeform;
-  if (text == "morph") return Method::kMorph;
-  throw InputError("unknown method '" + text + "'; use deform or morph");
-}
-
-std::string to_string(Method method) { return method == Method::kMorph ? "morph" : "deform"; }
-
-Interpolation parse_interpolation(const std::string& text) {
-  if (text == "trilinear") return Interpolation::kTrilinear;
-  if (text == "tricubic") return Interpolation::kTricubic;
-  throw InputError("unknown interpolation '" + text + "'; use trilinear or tricubic");
-}
-
-CompareOptions thesis_options() {
-  CompareOptions options;
-  options.method = Method::kDeform;
-  options.surface.project = false;
-  options.surface.cavities = true;
-  options.regularize.tangential_gain = options.deform.tangential_gain = 1;
-  options.deform.rest_shape = false;
-  options.deform_min_displacement = options.regularize_min_displacement = 1e-3;
-  return options;
-}
-
 namespace {
 
 /// Where both molecules meet: the source's principal frame, into which the target is superposed. Grids are thus laid
@@ -126,10 +83,6 @@ void download_surface(Engine& engine, const MeshPtr& source, const MeshPtr& mapp
     surface.source_positions.push_back(to_source.apply(static_cast<Vec3d>(p)));
   surface.displacement = engine.download(engine.displacement(source, mapped));
 }
-
-}  // namespace
-
-namespace {
 
 /// Where each source atom's counterpart lies, in the common frame.
 std::vector<Vec3d> counterparts(const Molecule& source, const Molecule& target, const AtomPairing& pairing,
@@ -219,7 +172,7 @@ struct Series::Steps {
     } else {
       mapping = back.deform(surface, back.regularized, scratch, progress, clock);
     }
-    settle(engine, mapping, surface.atoms, surface.mesh, static_cast<float>(options.surface.isovalue));
+    back.find_counterparts(mapping, surface);
     return mapping;
   }
 
@@ -288,12 +241,17 @@ struct Series::Steps {
                        mapping.lost.empty() ? nullptr : engine.upload_scalars(mapping.lost), path_length);
   }
 
+  /// What of the mapping has a counterpart on the target's surface; closed cavities that found none are left out.
+  void find_counterparts(Mapping& mapping, const Surface& target_surface) const {
+    settle(engine, mapping, target_surface.atoms, target_surface.mesh, static_cast<float>(options.surface.isovalue));
+    if (options.method == Method::kMorph && !options.surface.cavities) drop_closed_cavities(engine, mapping);
+  }
+
   /// Finds what has a counterpart, and certifies it.
   void check(Mapping& mapping, const Surface& target_surface, CompareResult& result, const Progress& progress,
              StageClock& clock) const {
     progress.report("certificate", 0.0);
-    settle(engine, mapping, target_surface.atoms, target_surface.mesh, static_cast<float>(options.surface.isovalue));
-    if (options.method == Method::kMorph && !options.surface.cavities) drop_closed_cavities(engine, mapping);
+    find_counterparts(mapping, target_surface);
     result.area_mapped_A2 = mapping.fit.area_A2;
     result.certificate = certify(engine, mapping, target_surface.mesh);
     result.certificate.converged = options.method == Method::kMorph || result.deform_report.converged;

@@ -92,7 +92,10 @@ struct RoundTrip {
   double lost_target_area_fraction = 0;  ///< of the target's surface, by the mapping back
 };
 
-/// All but no_counterpart_* are over what has a counterpart.
+/// How well the part of the mapping that has a counterpart fits the target. By the morph corrupt, flipped and
+/// intersecting triangles count as without one (see settle()), so that what says how well it went is
+/// no_counterpart_source. target_to_mapped is from all of the target's surface; its mean_within_limit leaves out what
+/// has none.
 struct Certificate {
   double corrupt_area_fraction = 0;
   double flipped_area_fraction = 0;
@@ -185,10 +188,10 @@ class Series {
   Series(Engine& engine, const CompareInput& source, const CompareOptions& options);
   ~Series();
 
-  /// Compares the source with one target. `start` kPrevious takes effect where the last step's mapping converged and
-  /// its target lies nearer to this one than the source does (RMSD of the paired atoms, as superposed);
-  /// CompareResult::start says what happened. The internal force is measured from the source's shape in both cases.
-  /// After an error or a cancellation the next step starts from the source.
+  /// Compares the source with one target. `start` kPrevious takes effect by the method deform where the last step's
+  /// mapping converged and its target lies nearer to this one than the source does (RMSD of the paired atoms, as
+  /// superposed); CompareResult::start says what happened. The internal force is measured from the source's shape in
+  /// both cases. After an error or a cancellation the next step starts from the source.
   /// @throws as compare()
   CompareResult step(const CompareInput& target, StartFrom start, const Progress& progress);
 
