@@ -1,6 +1,9 @@
 // render.cpp: `espdiff render OUT.vtp -o OUT.png`.
 #include "cli/verbs.h"
 #if defined(ESPDIFF_HAVE_VTK)
+#include <cstdio>
+
+#include "cli/scene_options.h"
 #include "view/render_surface.h"
 #endif
 
@@ -10,14 +13,16 @@ namespace espdiff::cli {
 namespace {
 
 struct Arguments {
-  std::string input, output, colour_by = "difference";
-  RenderOptions options;
+  std::string input, output;
+  SceneArguments scene;
 };
 
 int run(Arguments& a, const Context& context) {
+  const Scene scene = scene_of(a.scene);
   context.progress->report("render", 0.0);
-  a.options.array = parse_render_array(a.colour_by);
-  render_surface(a.input, a.output, a.options);
+  for (const std::string& note : render_surface(a.input, a.output, scene)) {
+    std::fprintf(stderr, "espdiff: note: %s\n", note.c_str());
+  }
   return 0;
 }
 
@@ -25,31 +30,14 @@ int run(Arguments& a, const Context& context) {
 
 Verb add_render(CLI::App& app) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* parser = app.add_subcommand("render", "Draw a result's surface into a PNG");
+  CLI::App* parser = app.add_subcommand("render", "Draw a comparison into a PNG");
   parser->footer(
-      "Needs an X display; without one: xvfb-run -a espdiff render ...\n\nExample:\n  espdiff render result.vtp -o "
-      "result.png --title 'mutant - wild type'");
-  RenderOptions& o = a->options;
-  parser->add_option("SURFACE", a->input, "OUT.vtp of compare")->required();
+      "Needs an X display; without one: xvfb-run -a espdiff render ...\n\nExamples:\n  espdiff render result.vtp -o "
+      "result.png --title 'mutant - wild type'\n  espdiff render result.vtp -o linked.png --layout linked --molecule "
+      "cartoon");
+  parser->add_option("SURFACE", a->input, "OUT.vtp of compare; OUT.json is looked for beside it")->required();
   parser->add_option("-o,--output", a->output, "Picture to write (.png)")->required();
-  parser->add_option("--color,--colour", a->colour_by, "What to colour by")
-      ->check(CLI::IsMember({"difference", "source", "target", "sign", "displacement"}))
-      ->capture_default_str();
-  parser
-      ->add_option("--range", o.limit, "End of the colour scale, for potentials both ends; 0 takes the 98th percentile")
-      ->capture_default_str();
-  parser->add_option("--title", o.title, "Title above the views");
-  parser->add_option("--unit", o.unit, "Unit in the legend, if the file does not say");
-  parser->add_option("--views", o.n_views, "Views side by side, each turned on about the vertical, 1 to 4")
-      ->capture_default_str();
-  parser->add_option("--width", o.width, "Pixels")->capture_default_str();
-  parser->add_option("--height", o.height, "Pixels")->capture_default_str();
-  parser
-      ->add_option("--opaque-below", o.opacity.opaque_below_A,
-                   "Displacement up to which the surface is opaque, Angstrom")
-      ->capture_default_str();
-  parser->add_option("--faint-above", o.opacity.faint_above_A, "Displacement from which it is faintest, Angstrom")
-      ->capture_default_str();
+  add_scene_options(*parser, a->scene);
   return {parser, [a](const Context& context) { return run(*a, context); }};
 }
 

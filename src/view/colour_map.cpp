@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
+
 namespace espdiff {
 namespace {
 
@@ -11,11 +13,6 @@ constexpr double kPi = 3.14159265358979323846;
 
 struct Lab {
   double lightness = 0, a = 0, b = 0;
-};
-
-/// Polar CIE L*a*b*: magnitude, saturation angle from the lightness axis, hue angle (radians).
-struct Msh {
-  double magnitude = 0, saturation = 0, hue = 0;
 };
 
 /// Reference white D65, the one of sRGB.
@@ -48,39 +45,48 @@ Rgb to_srgb(const Lab& lab) {
           encode(0.0557 * x - 0.2040 * y + 1.0570 * z)};
 }
 
-/// Hue that the unsaturated middle takes on the way to a saturated end: turning the hue while the magnitude grows makes
-/// the path leave the end at the same rate of perceived change as the saturation's. It turns away from purple, so that
-/// the arms stay apart.
-double hue_at_middle(const Msh& end, double middle_magnitude) {
-  if (end.magnitude >= middle_magnitude) return end.hue;
-  const double growth = std::sqrt(middle_magnitude * middle_magnitude - end.magnitude * end.magnitude);
+constexpr double kMiddleMagnitude = 88;
+
+}  // namespace
+
+const DivergingMap& diverging_map(const std::string& name) {
+  if (name == "cool-warm") return kCoolWarm;
+  if (name == "purple-orange") return kPurpleOrange;
+  throw InputError("no colours '" + name + "'; use cool-warm or purple-orange");
+}
+
+double hue_at_middle(const Msh& end) {
+  // Turning the hue while the magnitude grows makes the path leave the end at the same rate of perceived change as the
+  // saturation's. It turns away from purple, so that the arms stay apart.
+  if (end.magnitude >= kMiddleMagnitude) return end.hue;
+  const double growth = std::sqrt(kMiddleMagnitude * kMiddleMagnitude - end.magnitude * end.magnitude);
   const double spin = end.saturation * growth / (end.magnitude * std::sin(end.saturation));
   return end.hue > -kPi / 3 ? end.hue + spin : end.hue - spin;
 }
 
-}  // namespace
-
-Rgb diverging_colour(double t) {
-  constexpr double kMiddleMagnitude = 88;
-  const Msh blue{80, 1.08, -1.1};
-  const Msh red{80, 1.08, 0.5};
+Rgb diverging_colour(double t, const DivergingMap& map) {
   const double position = std::clamp(t, 0.0, 1.0);
-  const Msh& end = position < 0.5 ? blue : red;
+  const Msh& end = position < 0.5 ? map.low : map.high;
   const double toward_end = std::abs(2 * position - 1);
-  const double middle_hue = hue_at_middle(end, kMiddleMagnitude);
+  const double middle_hue = hue_at_middle(end);
   return to_srgb(to_lab({kMiddleMagnitude + toward_end * (end.magnitude - kMiddleMagnitude),
                          toward_end * end.saturation, middle_hue + toward_end * (end.hue - middle_hue)}));
 }
 
-Rgb sequential_colour(double t) {
-  constexpr double kHue = 150 * kPi / 180;
+Rgb sequential_colour(double t, double hue) {
   constexpr Lab kLight{95, 0, 0};
   constexpr double kDarkLightness = 28;
   const double position = std::clamp(t, 0.0, 1.0);
   // Chroma that rises fast and falls again stays inside sRGB at both ends.
   const double chroma = 42 * std::sin(kPi * (0.04 + 0.72 * position));
-  return to_srgb({kLight.lightness + position * (kDarkLightness - kLight.lightness), chroma * std::cos(kHue),
-                  chroma * std::sin(kHue)});
+  return to_srgb({kLight.lightness + position * (kDarkLightness - kLight.lightness), chroma * std::cos(hue),
+                  chroma * std::sin(hue)});
+}
+
+Rgb residue_colour(int index) {
+  if (index < 0) return kNoValueColour;
+  double whole = 0;
+  return to_srgb(to_lab({82, 0.55, 2 * kPi * std::modf(0.61803399 * index, &whole)}));
 }
 
 }  // namespace espdiff

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 namespace espdiff {
 
@@ -17,16 +18,45 @@ inline constexpr Rgb kNoValueColour{128, 128, 128};
 /// Two-class map of the sign change: told apart by readers with any colour vision, and in print without colour.
 inline constexpr Rgb kSameSignColour{196, 214, 236};
 inline constexpr Rgb kSignChangeColour{213, 94, 0};
+/// A surface that shows its shape only.
+inline constexpr Rgb kPlainColour{205, 208, 214};
 
-/// Blue over light grey to red, for signed values: both arms are equally light at equal |value|.
-/// Interpolates in Msh, the polar form of CIE L*a*b* (D65): M 80 at the ends, 88 at the neutral middle, the hue shifted
-/// toward the middle so that perceived steps are even; then sRGB with its gamma. Method: K. Moreland, "Diverging Color
-/// Maps for Scientific Visualization", ISVC 2009 (the ends are his).
+/// Polar CIE L*a*b* (D65): magnitude, saturation angle from the lightness axis, hue angle (radians).
+struct Msh {
+  double magnitude = 0, saturation = 0, hue = 0;
+};
+
+/// A diverging map by its two ends; between them lies a neutral grey of magnitude 88.
+struct DivergingMap {
+  Msh low, high;
+};
+
+/// Blue over light grey to red: K. Moreland, "Diverging Color Maps for Scientific Visualization", ISVC 2009.
+inline constexpr DivergingMap kCoolWarm{{80, 1.08, -1.1}, {80, 1.08, 0.5}};
+/// Purple to orange, for readers to whom red and blue mean acid and base, or who print beside red text.
+inline constexpr DivergingMap kPurpleOrange{{68, 0.905, -0.9}, {70.5, 0.932, 1.03}};
+
+/// Hue of the sequential maps, radians: green for displacements, orange for the magnitude of a difference.
+inline constexpr double kGreenHue = 2.6179938779914944, kOrangeHue = 0.95;
+
+/// @param name cool-warm or purple-orange; both keep their arms apart for red-green and blue-yellow deficient vision
+/// @throws InputError naming them
+const DivergingMap& diverging_map(const std::string& name);
+
+/// Signed values: both arms are equally light at equal |value|.
+/// Interpolates in Msh: the hue is shifted toward the middle so that perceived steps are even; then sRGB with its
+/// gamma.
 /// @param t 0 (lowest value) to 1 (highest); clamped
-Rgb diverging_colour(double t);
+Rgb diverging_colour(double t, const DivergingMap& map = kCoolWarm);
 
-/// Near-white to dark green of one hue, evenly in CIE lightness, for magnitudes such as a displacement.
+/// Hue that the unsaturated middle takes on the way to a saturated end (Moreland's adjusted hue).
+double hue_at_middle(const Msh& end);
+
+/// Near-white to dark of one hue, evenly in CIE lightness, for magnitudes such as a displacement.
 /// @param t 0 to 1; clamped
-Rgb sequential_colour(double t);
+Rgb sequential_colour(double t, double hue = kGreenHue);
+
+/// Colours of residues: hues a golden section apart, so that neighbours along the chain differ. Negative: no residue.
+Rgb residue_colour(int index);
 
 }  // namespace espdiff

@@ -18,37 +18,64 @@ struct ArrayDescription {
 };
 
 /// In the order of RenderArray.
-constexpr std::array<ArrayDescription, 5> kArrays = {{
+constexpr std::array<ArrayDescription, 8> kArrays = {{
     {"difference", "potential_difference", "potential difference, target \xE2\x88\x92 source"},
     {"source", "potential_source", "potential of the source"},
     {"target", "potential_target", "potential of the target"},
     {"sign", "sign_change", "sign of the potential, source against target"},
     {"displacement", "displacement", "distance to the counterpart"},
+    {"magnitude", "potential_difference", "magnitude of the potential difference"},
+    {"residue", "residue_index", "residues"},
+    {"plain", "", "shape"},
 }};
 
 const ArrayDescription& describe(RenderArray array) { return kArrays[static_cast<std::size_t>(array)]; }
 
-/// Magnitude that 98 % of the values do not exceed: a few vertices in a crevice must not bleach all others.
-double percentile_98(std::vector<float> magnitudes) {
-  const auto rank = static_cast<std::size_t>(0.98 * static_cast<double>(magnitudes.size() - 1));
+/// Magnitude that `percentile` per cent of the values do not exceed.
+double percentile_of(std::vector<float> magnitudes, double percentile) {
+  const auto rank = static_cast<std::size_t>(percentile / 100 * static_cast<double>(magnitudes.size() - 1));
   std::nth_element(magnitudes.begin(), magnitudes.begin() + static_cast<std::ptrdiff_t>(rank), magnitudes.end());
   return magnitudes[rank];
+}
+
+void check(const ScaleRange& range) {
+  if (!std::isfinite(range.limit) || range.limit < 0) {
+    throw InputError("the colour range " + std::to_string(range.limit) +
+                     " is not a positive number; leave it out for an automatic one");
+  }
+  if (!(range.percentile >= 50 && range.percentile <= 100)) {
+    throw InputError("the percentile " + std::to_string(range.percentile) + " is out of range; use 50 to 100");
+  }
+  if (range.given_ends && !(std::isfinite(range.low) && std::isfinite(range.high) && range.low < range.high)) {
+    throw InputError("the colour scale cannot go from " + std::to_string(range.low) + " to " +
+                     std::to_string(range.high) + "; give the lower end first");
+  }
 }
 
 }  // namespace
 
 RenderArray parse_render_array(const std::string& text) {
+  if (text == "uncertainty") return RenderArray::kDisplacement;
   for (std::size_t i = 0; i < kArrays.size(); ++i) {
     if (text == kArrays[i].option) return static_cast<RenderArray>(i);
   }
-  throw InputError("cannot colour by '" + text + "'; use difference, source, target, sign or displacement");
+  throw InputError("cannot colour by '" + text +
+                   "'; use difference, source, target, sign, displacement, magnitude, residue or plain");
+}
+
+const char* to_string(RenderArray array) { return describe(array).option; }
+
+std::vector<std::string> render_array_names() {
+  std::vector<std::string> names;
+  for (const ArrayDescription& array : kArrays) names.emplace_back(array.option);
+  return names;
 }
 
 const char* array_name(RenderArray array) { return describe(array).name; }
 
 std::string legend_title(RenderArray array, const std::string& unit) {
   const std::string title = describe(array).title;
-  if (array == RenderArray::kSign) return title;
+  if (array == RenderArray::kSign || array >= RenderArray::kResidue) return title;
   const std::string shown = array == RenderArray::kDisplacement ? "\xC3\x85" : unit;
   return shown.empty() ? title : title + " (" + shown + ")";
 }
@@ -63,11 +90,18 @@ double round_up_nicely(double value) {
   return 10 * power;
 }
 
-ColourScale::ColourScale(RenderArray array, const std::vector<float>& values, double limit) : array_(array) {
-  if (!std::isfinite(limit) || limit < 0) {
-    throw InputError("the colour range " + std::to_string(limit) +
-                     " is not a positive number; leave it out for an automatic one");
-  }
+ColourScale::ColourScale(RenderArray array, const std::vector<float>& values, double limit)
+    : ColourScale(array, values, [limit] {
+        ScaleRange range;
+        range.limit = limit;
+        return range;
+      }()) {}
+
+ColourScale::ColourScale(RenderArray array, const std::vector<float>& values, const ScaleRange& range,
+                         const DivergingMap& map)
+    : array_(array), map_(map) {
+  check(range);
+  if (!has_bar()) return;
   std::vector<float> magnitudes;
   magnitudes.reserve(values.size());
   for (const float value : values) {
@@ -79,19 +113,34 @@ ColourScale::ColourScale(RenderArray array, const std::vector<float>& values, do
   }
   has_missing_ = magnitudes.size() < values.size();
   if (two_classes()) return;
-  high_ = limit > 0 ? limit : round_up_nicely(percentile_98(std::move(magnitudes)));
-  low_ = array == RenderArray::kDisplacement ? 0 : -high_;
+  set_ends(std::move(magnitudes), range);
   for (const float value : values) {
-    exceeds_low_ = exceeds_low_ || value < low_;
-    exceeds_high_ = exceeds_high_ || value > high_;
+    const double shown = is_sequential() ? std::abs(value) : value;
+    exceeds_low_ = exceeds_low_ || shown < low_;
+    exceeds_high_ = exceeds_high_ || shown > high_;
   }
 }
 
+void ColourScale::set_ends(std::vector<float> magnitudes, const ScaleRange& range) {
+  if (range.given_ends) {
+    low_ = range.low;
+    high_ = range.high;
+    return;
+  }
+  high_ = range.limit > 0 ? range.limit : round_up_nicely(percentile_of(std::move(magnitudes), range.percentile));
+  low_ = is_sequential() ? 0 : -high_;
+}
+
+double ColourScale::hue() const { return array_ == RenderArray::kMagnitude ? kOrangeHue : kGreenHue; }
+
 Rgb ColourScale::colour(float value) const {
+  if (array_ == RenderArray::kPlain) return kPlainColour;
   if (!std::isfinite(value)) return kNoValueColour;
+  if (array_ == RenderArray::kResidue) return residue_colour(static_cast<int>(value));
   if (two_classes()) return value != 0 ? kSignChangeColour : kSameSignColour;
-  const double t = (value - low_) / (high_ - low_);
-  return array_ == RenderArray::kDisplacement ? sequential_colour(t) : diverging_colour(t);
+  const double shown = is_sequential() ? std::abs(value) : value;
+  const double t = (shown - low_) / (high_ - low_);
+  return is_sequential() ? sequential_colour(t, hue()) : diverging_colour(t, map_);
 }
 
 double OpacityScale::opacity(double displacement_A) const {

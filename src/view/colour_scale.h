@@ -8,39 +8,64 @@
 
 namespace espdiff {
 
-/// What a mapped surface is coloured by.
-enum class RenderArray { kDifference, kSource, kTarget, kSign, kDisplacement };
+/// What a mapped surface is coloured by. The numbers are those of shaders/surface.frag.
+enum class RenderArray { kDifference, kSource, kTarget, kSign, kDisplacement, kMagnitude, kResidue, kPlain };
 
-/// @param text difference, source, target, sign or displacement
+/// @param text difference, source, target, sign, displacement (or uncertainty), magnitude, residue or plain
 /// @throws InputError naming them
 RenderArray parse_render_array(const std::string& text);
+/// The word that parse_render_array() reads.
+const char* to_string(RenderArray array);
+/// All of them, in order.
+std::vector<std::string> render_array_names();
 
-/// Name of the point array in the file, such as "potential_difference".
+/// Name of the point array in the file, such as "potential_difference"; empty for plain.
 const char* array_name(RenderArray array);
 
 /// The legend's title, such as "potential difference, target - source (kT/e)"; without parentheses for an empty unit.
 std::string legend_title(RenderArray array, const std::string& unit);
 
-/// Colours of one array. Potentials are diverging on [-limit, limit], displacements sequential on [0, limit], signs two
-/// classes.
+/// How a scale's ends are found.
+struct ScaleRange {
+  double limit = 0;         ///< > 0: the upper end; for signed values both ends. 0: by the percentile
+  double percentile = 98;   ///< of |value|, 50 to 100, rounded up to a round number: a few vertices in a crevice must
+                            ///< not bleach all others
+  bool given_ends = false;  ///< the scale goes from `low` to `high`
+  double low = 0, high = 0;
+};
+
+/// Colours of one array. Potentials are diverging on [-limit, limit], displacements and magnitudes sequential on [0,
+/// limit], signs two classes, residues one colour each.
 class ColourScale {
  public:
   /// @param values [vertex] of the array; NaN allowed
-  /// @param limit  upper end of the scale, > 0; 0 takes the 98th percentile of |value|, rounded up to a round number
-  /// @throws InputError when the limit is negative or not finite, or no value is finite
+  /// @throws InputError when the range cannot be (not finite, negative, empty, a percentile out of bounds), or no value
+  /// is finite
+  ColourScale(RenderArray array, const std::vector<float>& values, const ScaleRange& range,
+              const DivergingMap& map = kCoolWarm);
   ColourScale(RenderArray array, const std::vector<float>& values, double limit);
 
+  RenderArray array() const { return array_; }
+  const DivergingMap& map() const { return map_; }
+  /// Of the sequential map.
+  double hue() const;
   Rgb colour(float value) const;
   double low() const { return low_; }
   double high() const { return high_; }
   bool two_classes() const { return array_ == RenderArray::kSign; }
+  /// Whether a legend shows a bar: residues and plain surfaces have none.
+  bool has_bar() const { return array_ != RenderArray::kResidue && array_ != RenderArray::kPlain; }
   /// Whether values lie below or above the scale's ends, where they are drawn in the ends' colours.
   bool exceeds_low() const { return exceeds_low_; }
   bool exceeds_high() const { return exceeds_high_; }
   bool has_missing() const { return has_missing_; }
 
  private:
+  bool is_sequential() const { return array_ == RenderArray::kDisplacement || array_ == RenderArray::kMagnitude; }
+  void set_ends(std::vector<float> magnitudes, const ScaleRange& range);
+
   RenderArray array_;
+  DivergingMap map_;
   double low_ = 0, high_ = 1;
   bool exceeds_low_ = false, exceeds_high_ = false, has_missing_ = false;
 };

@@ -112,6 +112,32 @@ double Legend::key(double x, double y, Rgb colour, double opacity, const std::st
   return 1.5 * side + text_width(meaning);
 }
 
+double Legend::hatched_key(double x, double y, const std::string& meaning) {
+  const double side = text_height_;
+  constexpr int kStripes = 3;
+  const double step = side / kStripes;
+  rectangle({x, y - side / 2, x + side, y + side / 2}, {237, 237, 237});
+  for (int i = 0; i < kStripes; ++i) {
+    // Each stripe is cut where it leaves the square, by drawing it as two triangles on either side of the diagonal.
+    const double a = x + i * step, b = a + 0.45 * step;
+    const double top = y + side / 2;
+    triangle(a, top, b, top, x, top - (a - x), kNoValueColour);
+    triangle(b, top, x, top - (b - x), x, top - (a - x), kNoValueColour);
+    const double right = x + side, bottom = y - side / 2;
+    const double c = bottom + side - i * step, d = c - 0.45 * step;
+    triangle(right, c, right, d, right - (c - bottom), bottom, kNoValueColour);
+    triangle(right, d, right - (c - bottom), bottom, right - (d - bottom), bottom, kNoValueColour);
+  }
+  frame({x, y - side / 2, x + side, y + side / 2});
+  text(x + 1.5 * side, y, meaning, Align::kLeft);
+  return 1.5 * side + text_width(meaning);
+}
+
+void Legend::rule(double x, double bottom, double top) {
+  const double half = std::max(1.0, text_height_ / 12) / 2;
+  rectangle({x - half, bottom, x + half, top}, {26, 26, 26});
+}
+
 void Legend::colours(const PixelBox& bar, const ColourScale& scale, const std::string& title) {
   const double middle = (bar.left + bar.right) / 2;
   text(middle, bar.top + text_height_, title, Align::kCentre, 1.1);

@@ -42,6 +42,11 @@ class Legend {
 
   /// A square of a colour with its meaning to the right. @return the width that it takes
   double key(double x, double y, Rgb colour, double opacity, const std::string& meaning);
+  /// The same for what is hatched.
+  double hatched_key(double x, double y, const std::string& meaning);
+
+  /// A vertical line.
+  void rule(double x, double bottom, double top);
 
  private:
   void rectangle(const PixelBox& box, Rgb colour, double opacity = 1.0);

@@ -12,6 +12,7 @@
 #include <vtkStringArray.h>
 #include <vtkXMLPolyDataReader.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -107,23 +108,92 @@ std::vector<std::uint8_t> flags_of(vtkPolyData* surface, const char* name) {
   return flags;
 }
 
-/// Where there is no counterpart the positions mean nothing: those triangles are not part of the surface.
-void drop_triangles(SurfaceFile& file, const std::vector<std::uint8_t>& dropped) {
-  if (dropped.empty()) return;
-  std::size_t n = 0;
-  for (std::size_t t = 0; t < dropped.size(); ++t) {
-    if (dropped[t] != 0) continue;
-    file.triangles[n] = file.triangles[t];
-    if (!file.corrupt.empty()) file.corrupt[n] = file.corrupt[t];
-    ++n;
+/// [vertex] numbers of a point array; empty when the file has none of that name, or of another length.
+std::vector<float> numbers_of(vtkPolyData* surface, const char* name) {
+  vtkDataArray* array = scalar_array(surface->GetPointData(), name);
+  if (array == nullptr || array->GetNumberOfTuples() != surface->GetNumberOfPoints()) return {};
+  return scalars(array);
+}
+
+std::string text_of(vtkPolyData* surface, const char* name) {
+  auto* texts = vtkStringArray::SafeDownCast(surface->GetFieldData()->GetAbstractArray(name));
+  return texts != nullptr && texts->GetNumberOfValues() > 0 ? std::string(texts->GetValue(0)) : std::string();
+}
+
+std::vector<Vec3d> source_positions_of(vtkPolyData* surface) {
+  vtkDataArray* array = surface->GetPointData()->GetArray("source_position");
+  std::vector<Vec3d> positions;
+  if (array == nullptr || array->GetNumberOfComponents() != 3) return positions;
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i) {
+    double p[3];
+    array->GetTuple(i, p);
+    positions.push_back({p[0], p[1], p[2]});
   }
-  file.triangles.resize(n);
-  if (!file.corrupt.empty()) file.corrupt.resize(n);
+  return positions;
+}
+
+std::vector<Vec3d> positions_of(const std::string& path, vtkPolyData* surface) {
+  std::vector<Vec3d> positions(static_cast<std::size_t>(surface->GetNumberOfPoints()));
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    double point[3];
+    surface->GetPoint(static_cast<vtkIdType>(i), point);
+    if (!std::isfinite(point[0] + point[1] + point[2])) {
+      throw FormatError(path, 0,
+                        "the position of vertex " + std::to_string(i) + " is not finite; write the file again");
+    }
+    positions[i] = {point[0], point[1], point[2]};
+  }
+  return positions;
+}
+
+void read_arrays(SurfaceFile& file, vtkPolyData* surface) {
+  file.normals = normals_of(surface);
+  file.source_positions = source_positions_of(surface);
+  file.displacement = numbers_of(surface, "displacement");
+  file.potential_source = numbers_of(surface, "potential_source");
+  file.potential_target = numbers_of(surface, "potential_target");
+  file.potential_difference = numbers_of(surface, "potential_difference");
+  file.sign_change = numbers_of(surface, "sign_change");
+  if (file.potential_difference.size() == file.sign_change.size()) {
+    for (std::size_t i = 0; i < file.sign_change.size(); ++i) {
+      if (std::isnan(file.potential_difference[i])) file.sign_change[i] = std::numeric_limits<float>::quiet_NaN();
+    }
+  }
+  file.residue_index = numbers_of(surface, "residue_index");
+  file.residue_number = numbers_of(surface, "residue_number");
+  // Lines or points in the file would come before the polygons in cell data; espdiff writes none.
+  file.corrupt = flags_of(surface, "corrupt");
+  file.no_counterpart = flags_of(surface, "no_counterpart");
+  file.potential_unit = text_of(surface, "potential_unit");
+  file.written_by = text_of(surface, "written_by");
+  file.array_names = names_of(surface->GetPointData());
 }
 
 }  // namespace
 
-SurfaceFile read_surface_file(const std::string& path, const std::string& array) {
+const std::vector<float>& SurfaceFile::values(RenderArray array) const {
+  static const std::vector<float> nothing;
+  const auto pick = [&]() -> const std::vector<float>& {
+    switch (array) {
+      case RenderArray::kDifference:
+      case RenderArray::kMagnitude: return potential_difference;
+      case RenderArray::kSource: return potential_source;
+      case RenderArray::kTarget: return potential_target;
+      case RenderArray::kSign: return sign_change;
+      case RenderArray::kDisplacement: return displacement;
+      case RenderArray::kResidue: return residue_index;
+      case RenderArray::kPlain: break;
+    }
+    return nothing;
+  };
+  if (pick().empty() && array != RenderArray::kPlain) {
+    throw InputError(path + ": no point array '" + array_name(array) + "' (there are: " + array_names +
+                     "); colour by another, or compare with --source-map and --target-map");
+  }
+  return pick();
+}
+
+SurfaceFile read_surface_file(const std::string& path) {
   check_exists(path);
   const VtkMessages messages;
   vtkNew<vtkXMLPolyDataReader> reader;
@@ -137,43 +207,15 @@ SurfaceFile read_surface_file(const std::string& path, const std::string& array)
 
   vtkPolyData* surface = reader->GetOutput();
   SurfaceFile file;
+  file.path = path;
   file.triangles = triangles_of(path, surface);
   if (file.triangles.empty()) throw FormatError(path, 0, "the surface has no triangles; nothing to draw");
-  file.positions.resize(static_cast<std::size_t>(surface->GetNumberOfPoints()));
-  for (std::size_t i = 0; i < file.positions.size(); ++i) {
-    double point[3];
-    surface->GetPoint(static_cast<vtkIdType>(i), point);
-    if (!std::isfinite(point[0] + point[1] + point[2])) {
-      throw FormatError(path, 0,
-                        "the position of vertex " + std::to_string(i) + " is not finite; write the file again");
-    }
-    file.positions[i] = {point[0], point[1], point[2]};
+  file.positions = positions_of(path, surface);
+  read_arrays(file, surface);
+  const auto& lost = file.no_counterpart;
+  if (!lost.empty() && std::find(lost.begin(), lost.end(), 0) == lost.end()) {
+    throw FormatError(path, 0, "no triangle has a counterpart; nothing to draw");
   }
-  file.normals = normals_of(surface);
-
-  vtkPointData* point_arrays = surface->GetPointData();
-  vtkDataArray* values = scalar_array(point_arrays, array.c_str());
-  if (values == nullptr) {
-    throw InputError(path + ": no point array '" + array + "' (there are: " + names_of(point_arrays) +
-                     "); colour by another, or compare with --source-map and --target-map");
-  }
-  file.values = scalars(values);
-  vtkDataArray* difference = scalar_array(point_arrays, "potential_difference");
-  if (array == "sign_change" && difference != nullptr) {
-    for (std::size_t i = 0; i < file.values.size(); ++i) {
-      if (std::isnan(difference->GetComponent(static_cast<vtkIdType>(i), 0))) {
-        file.values[i] = std::numeric_limits<float>::quiet_NaN();
-      }
-    }
-  }
-  if (vtkDataArray* displacement = scalar_array(point_arrays, "displacement"))
-    file.displacement = scalars(displacement);
-  // Lines or points in the file would come before the polygons in cell data; espdiff writes none.
-  file.corrupt = flags_of(surface, "corrupt");
-  drop_triangles(file, flags_of(surface, "no_counterpart"));
-  if (file.triangles.empty()) throw FormatError(path, 0, "no triangle has a counterpart; nothing to draw");
-  auto* unit = vtkStringArray::SafeDownCast(surface->GetFieldData()->GetAbstractArray("potential_unit"));
-  if (unit != nullptr && unit->GetNumberOfValues() > 0) file.potential_unit = unit->GetValue(0);
   return file;
 }
 

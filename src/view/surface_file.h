@@ -6,26 +6,38 @@
 #include <vector>
 
 #include "base/types.h"
+#include "view/colour_scale.h"
 
 namespace espdiff {
 
-/// A surface with the one array that it is coloured by.
+/// A mapped surface: one entry a vertex, or an empty array where the file has none of that name.
 struct SurfaceFile {
-  std::vector<Vec3d> positions;  ///< [vertex], Angstrom
-  std::vector<Vec3f> normals;    ///< [vertex], unit, outward
+  std::string path;
+  std::vector<Vec3d> positions;         ///< mapped, in the target's frame, Angstrom
+  std::vector<Vec3d> source_positions;  ///< in the source's own frame, Angstrom
+  std::vector<Vec3f> normals;           ///< unit, outward, at the mapped positions
   std::vector<Triangle> triangles;
-  std::vector<float> values;          ///< [vertex] the array asked for; NaN where it has no value
-  std::vector<float> displacement;    ///< [vertex], Angstrom; empty when the file has none
-  std::vector<std::uint8_t> corrupt;  ///< [triangle]; empty when the file has none
-  std::string potential_unit;         ///< field data `potential_unit`; empty when the file has none
+  std::vector<std::uint8_t> corrupt;         ///< [triangle]
+  std::vector<std::uint8_t> no_counterpart;  ///< [triangle] 1: its mapped positions mean nothing
+  std::vector<float> displacement;           ///< Angstrom
+  std::vector<float> potential_source, potential_target, potential_difference;  ///< NaN where there is no value
+  std::vector<float> sign_change;                                               ///< NaN where there is no value
+  std::vector<float> residue_index;   ///< of the source's residues; negative: none
+  std::vector<float> residue_number;  ///< as the structure file numbers them
+  std::string potential_unit;         ///< field data `potential_unit`
+  std::string written_by;             ///< field data `written_by`
+  std::string array_names;            ///< of the point arrays in the file, for messages
+
+  bool has_counterpart(std::size_t triangle) const { return no_counterpart.empty() || no_counterpart[triangle] == 0; }
+  bool is_corrupt(std::size_t triangle) const { return !corrupt.empty() && corrupt[triangle] != 0; }
+  /// What the surface is coloured by.
+  /// @throws InputError when the file lacks it, naming what it has
+  const std::vector<float>& values(RenderArray array) const;
 };
 
 /// Reads a VTK XML PolyData file (.vtp).
-/// @param array point array to colour by, such as "potential_difference". `sign_change` has no value (NaN) where
-///              `potential_difference` has none
-/// @throws IoError (missing, a directory), FormatError (not a .vtp file, truncated, no triangles), InputError (no such
-/// array: names those
-///         that there are)
-SurfaceFile read_surface_file(const std::string& path, const std::string& array);
+/// @throws IoError (missing, a directory), FormatError (not a .vtp file, truncated, no triangles, none with a
+/// counterpart)
+SurfaceFile read_surface_file(const std::string& path);
 
 }  // namespace espdiff

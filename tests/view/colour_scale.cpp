@@ -81,5 +81,5 @@ TEST_CASE("array names are read and explained") {
   CHECK(legend_title(RenderArray::kSource, "") == "potential of the source");
   CHECK(legend_title(RenderArray::kSign, "mV").find("mV") == std::string::npos);
   CHECK(espdiff_test::message_of([] { parse_render_array("charge"); }) ==
-        "cannot colour by 'charge'; use difference, source, target, sign or displacement");
+        "cannot colour by 'charge'; use difference, source, target, sign, displacement, magnitude, residue or plain");
 }

@@ -17,7 +17,6 @@
 #include <vtkXMLPolyDataWriter.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <limits>
 #include <string>
@@ -25,9 +24,11 @@
 #include "base/error.h"
 #include "base/vector.h"
 #include "support/test_data.h"
-#include "view/display.h"
+#include "view/display_here.h"
 
 using namespace espdiff;  // NOLINT: a test of one header
+using espdiff_test::can_draw;
+using espdiff_test::DisplayName;
 using espdiff_test::message_of;
 using espdiff_test::ScratchFolder;
 
@@ -137,8 +138,8 @@ bool is_green(int r, int g, int b) { return g > r + 20 && g > b + 10; }
 bool is_white(int r, int g, int b) { return r == 255 && g == 255 && b == 255; }
 bool is_ink(int r, int g, int b) { return r < 90 && g < 90 && b < 90; }
 
-RenderOptions small_picture(RenderArray array = RenderArray::kDifference) {
-  RenderOptions options;
+Scene small_picture(RenderArray array = RenderArray::kDifference) {
+  Scene options;
   options.array = array;
   options.width = 640;
   options.height = 400;
@@ -146,40 +147,10 @@ RenderOptions small_picture(RenderArray array = RenderArray::kDifference) {
   return options;
 }
 
-/// Where nothing can be drawn the test says so and ends.
-bool can_draw() {
-  const std::string problem = display_problem();
-  if (!problem.empty()) MESSAGE("SKIPPED: " << problem);
-  return problem.empty();
-}
-
-Picture draw(const ScratchFolder& scratch, const Paint& paint, const RenderOptions& options) {
+Picture draw(const ScratchFolder& scratch, const Paint& paint, const Scene& options) {
   render_surface(write_sphere(scratch.file("surface.vtp"), paint), scratch.file("picture.png"), options);
   return Picture(scratch.file("picture.png"));
 }
-
-/// Sets DISPLAY for one scope.
-class DisplayName {
- public:
-  explicit DisplayName(const char* name) {
-    const char* before = std::getenv("DISPLAY");
-    was_set_ = before != nullptr;
-    if (was_set_) before_ = before;
-    setenv("DISPLAY", name, 1);
-  }
-  ~DisplayName() {
-    if (was_set_)
-      setenv("DISPLAY", before_.c_str(), 1);
-    else
-      unsetenv("DISPLAY");
-  }
-  DisplayName(const DisplayName&) = delete;
-  DisplayName& operator=(const DisplayName&) = delete;
-
- private:
-  bool was_set_ = false;
-  std::string before_;
-};
 
 }  // namespace
 
@@ -281,7 +252,7 @@ TEST_CASE("what cannot be drawn is refused with the reason") {
   const ScratchFolder scratch;
   const std::string vtp = write_sphere(scratch.file("sphere.vtp"), {});
   const std::string png = scratch.file("out.png");
-  const auto message = [&](const std::string& from, const std::string& to, const RenderOptions& options) {
+  const auto message = [&](const std::string& from, const std::string& to, const Scene& options) {
     return message_of([&] { render_surface(from, to, options); });
   };
   const auto contains = [](const std::string& text, const std::string& part) {
@@ -293,12 +264,12 @@ TEST_CASE("what cannot be drawn is refused with the reason") {
   const std::string whole = espdiff_test::read_file(vtp);
   CHECK(contains(message(scratch.write("half.vtp", whole.substr(0, whole.size() / 2)), png, {}),
                  "half.vtp: damaged .vtp file"));
-  RenderOptions source;
+  Scene source;
   source.array = RenderArray::kSource;
   CHECK(contains(message(vtp, png, source),
                  "no point array 'potential_source' (there are: normal, potential_difference,"));
   CHECK(contains(message(vtp, scratch.file("no/such/folder.png"), {}), "cannot write: "));
-  RenderOptions options;
+  Scene options;
   options.width = 20000;
   CHECK(contains(message(vtp, png, options), "image size 20000 x 1100 is out of range"));
   options = {};

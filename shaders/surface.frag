@@ -1,0 +1,76 @@
+// surface.frag: looks both potentials up where this fragment lies in their maps, and draws what they differ by.
+// Lines that begin with //VTK:: are filled in by VTK: the outputs, and order-independent transparency.
+//VTK::Output::Dec
+//VTK::DepthPeeling::Dec
+
+in vec3 positionVC;
+in vec3 normalVC;
+in vec3 sourceIndexFS;
+in vec3 targetIndexFS;
+in vec3 vertexPotentialFS;
+in float displacementFS;
+flat in float residueIndexFS;
+
+uniform sampler3D sourceMap;
+uniform sampler3D targetMap;
+uniform int perFragment;      // 0: between the vertices' values, where there are no maps
+uniform int part;             // 0 trusted, 1 corrupt, 2 without counterpart
+uniform int colourBy;         // the numbers of RenderArray
+uniform vec4 fade;            // displacements of full and of least opacity, least opacity, 1 to fade at all
+uniform vec2 shownColumns;    // window columns from, to: the sides of a split view
+uniform float hatchPitch;     // pixels
+
+#include "sample_map.glsl"
+#include "colour_maps.glsl"
+#include "blinn_phong.glsl"
+
+const int kDifference = 0, kSource = 1, kTarget = 2, kSign = 3, kDisplacement = 4, kMagnitude = 5, kResidue = 6,
+          kPlain = 7, kReadBack = 8;
+
+/// Source and target potential here; z is 1 where both have a value.
+vec3 potentials()
+{
+  if (perFragment == 0) return vec3(vertexPotentialFS.xy, vertexPotentialFS.z > 0.999 ? 1.0 : 0.0);
+  vec2 source = sampleMap(sourceMap, sourceIndexFS);
+  vec2 target = sampleMap(targetMap, targetIndexFS);
+  return vec3(source.x, target.x, source.y * target.y);
+}
+
+vec3 surfaceColour()
+{
+  if (colourBy == kPlain) return plainColour;
+  if (colourBy == kResidue) return residueColour(residueIndexFS);
+  if (colourBy == kDisplacement) return displacementFS < 0.0 ? noValueColour : sequentialColour(displacementFS);
+  vec3 both = potentials();
+  if (both.z == 0.0) return noValueColour;
+  if (colourBy == kReadBack) return bytesOf(both.y - both.x);
+  // Zero agrees with anything.
+  if (colourBy == kSign) return both.x * both.y < 0.0 ? signChangeColour : sameSignColour;
+  if (colourBy == kMagnitude) return sequentialColour(abs(both.y - both.x));
+  float value = colourBy == kSource ? both.x : colourBy == kTarget ? both.y : both.y - both.x;
+  return divergingColour(value);
+}
+
+float opacityHere()
+{
+  if (part == 1) return 0.3;
+  if (fade.w == 0.0 || displacementFS < 0.0) return 1.0;
+  return mix(1.0, fade.z, clamp((displacementFS - fade.x) / (fade.y - fade.x), 0.0, 1.0));
+}
+
+/// Diagonal stripes, fixed to the paper.
+bool onStripe()
+{
+  return mod(gl_FragCoord.x - gl_FragCoord.y, hatchPitch) < 0.4 * hatchPitch;
+}
+
+void main()
+{
+  //VTK::Depth::Impl
+  //VTK::DepthPeeling::PreColor
+  if (gl_FragCoord.x < shownColumns.x || gl_FragCoord.x >= shownColumns.y) discard;
+  vec3 colour = part == 1 ? noValueColour : part == 2 ? (onStripe() ? noValueColour : vec3(0.93)) : surfaceColour();
+  if (colourBy == kReadBack) gl_FragData[0] = vec4(colour, 1.0);
+  else gl_FragData[0] = vec4(blinnPhong(colour, normalize(normalVC), positionVC), opacityHere());
+  //VTK::DepthPeeling::Impl
+}

@@ -1,0 +1,36 @@
+// surface.vert: places a vertex between source and target, and hands on where it lies in the maps of both.
+in vec4 vertexMC;            // on the target, Angstrom
+in vec3 normalMC;
+in vec3 startMC;             // the same point on the superposed source
+in vec3 startNormalMC;
+in vec3 sourceIndex;         // the unsuperposed source position in the source's map, in grid points
+in vec3 targetIndex;         // the mapped position in the target's map
+in vec3 vertexPotential;     // source, target, and 1 where both have a value
+in float displacement;       // Angstrom; negative: unknown
+in float residueIndex;       // negative: none
+
+uniform mat4 MCDCMatrix;     // names that VTK's mapper sets
+uniform mat4 MCVCMatrix;
+uniform mat3 normalMatrix;
+uniform float morph;         // 0 on the source, 1 on the target
+
+out vec3 positionVC;
+out vec3 normalVC;
+out vec3 sourceIndexFS;
+out vec3 targetIndexFS;
+out vec3 vertexPotentialFS;
+out float displacementFS;
+flat out float residueIndexFS;
+
+void main()
+{
+  vec4 placeMC = vec4(mix(startMC, vertexMC.xyz, morph), 1.0);
+  gl_Position = MCDCMatrix * placeMC;
+  positionVC = (MCVCMatrix * placeMC).xyz;
+  normalVC = normalMatrix * mix(startNormalMC, normalMC, morph);
+  sourceIndexFS = sourceIndex;
+  targetIndexFS = targetIndex;
+  vertexPotentialFS = vertexPotential;
+  displacementFS = displacement;
+  residueIndexFS = residueIndex;
+}

@@ -1,0 +1,120 @@
+// scene_options.cpp: one row an option of a scene.
+#include "cli/scene_options.h"
+
+#include "base/error.h"
+#include "io/atomic_file.h"
+
+namespace espdiff::cli {
+namespace {
+
+/// "5" is symmetric, "-8:2" gives both ends.
+void set_range(Scene& scene, const std::string& text) {
+  const std::size_t colon = text.find(':', 1);
+  try {
+    std::size_t used = 0;
+    scene.range.given_ends = colon != std::string::npos;
+    if (!scene.range.given_ends) {
+      scene.range.limit = std::stod(text, &used);
+      if (used != text.size()) throw std::invalid_argument(text);
+      return;
+    }
+    scene.range.low = std::stod(text.substr(0, colon));
+    scene.range.high = std::stod(text.substr(colon + 1));
+  } catch (const std::logic_error&) {
+    throw InputError("--range " + text + ": give one number, as 5 for -5 to 5, or two, as -8:2");
+  }
+}
+
+/// Adds an option whose value changes the scene.
+template <typename T>
+CLI::Option* add(CLI::App& parser, SceneArguments& a, const std::string& names, const std::string& help,
+                 std::function<void(Scene&, const T&)> change) {
+  return parser.add_option_function<T>(
+      names, [&a, change](const T& value) { a.changes.push_back([=](Scene& s) { change(s, value); }); }, help);
+}
+
+CLI::Option* add_flag(CLI::App& parser, SceneArguments& a, const std::string& name, const std::string& help,
+                      std::function<void(Scene&)> change) {
+  return parser.add_flag_callback(
+      name, [&a, change] { a.changes.push_back(change); }, help);
+}
+
+using Text = std::string;
+using Number = double;
+using Numbers = std::vector<double>;
+
+void add_colour_options(CLI::App& p, SceneArguments& a) {
+  const Scene d;
+  add<Text>(p, a, "--color,--colour", "What to colour by [difference]",
+            [](Scene& s, const Text& t) { s.array = parse_render_array(t); })
+      ->check(CLI::IsMember([] {
+        auto names = render_array_names();
+        names.emplace_back("uncertainty");
+        return names;
+      }()))
+      ->type_name("WORD");
+  add<Text>(p, a, "--range",
+            "End of the colour scale, for signed values both ends, or LOW:HIGH; 0: by --percentile [0]", set_range)
+      ->type_name("NUMBER");
+  add<Number>(p, a, "--percentile", "Share of the values that an automatic scale holds, 50 to 100 [98]",
+              [](Scene& s, Number v) { s.range.percentile = v; });
+  add<Text>(p, a, "--colours,--colors", "Signed values' colours [cool-warm]", [](Scene& s, const Text& t) {
+    s.colours = t;
+  })->check(CLI::IsMember({"cool-warm", "purple-orange"}));
+  add<Text>(p, a, "--unit", "Unit in the legend, if the file does not say",
+            [](Scene& s, const Text& t) { s.unit = t; });
+  add_flag(p, a, "--per-vertex", "Interpolate the vertices' values instead of looking the maps up at every pixel",
+           [](Scene& s) { s.per_vertex = true; });
+  add_flag(p, a, "--opaque", "Do not fade by displacement", [](Scene& s) { s.fade = false; });
+  add<Number>(p, a, "--opaque-below", "Displacement up to which the surface is opaque, Angstrom [0.5]",
+              [](Scene& s, Number v) { s.opacity.opaque_below_A = v; });
+  add<Number>(p, a, "--faint-above", "Displacement from which it is faintest, Angstrom [3]",
+              [](Scene& s, Number v) { s.opacity.faint_above_A = v; });
+  add<Number>(p, a, "--least-opacity", "Opacity there, 0 to 1 [0.25]", [](Scene& s, Number v) { s.opacity.least = v; });
+}
+
+void add_layout_options(CLI::App& p, SceneArguments& a) {
+  add<Text>(p, a, "--layout",
+            "turned: from several sides; linked: source, target and difference; split: source | target [turned]",
+            [](Scene& s, const Text& t) { s.layout = parse_layout(t); })
+      ->check(CLI::IsMember({"turned", "linked", "split"}));
+  add<int>(p, a, "--views", "Views of the layout turned, each turned on about the vertical, 1 to 4 [2]",
+           [](Scene& s, int v) { s.n_views = v; });
+  add<Number>(p, a, "--split", "Where the layout split has its line, 0 to 1 of the width [0.5]",
+              [](Scene& s, Number v) { s.split = v; });
+  add<Number>(p, a, "--morph", "Shape: 0 the source's, 1 the target's, between: on the way [1]",
+              [](Scene& s, Number v) { s.morph = v; });
+  add<Text>(p, a, "--title", "Title above the views", [](Scene& s, const Text& t) { s.title = t; });
+  add_flag(p, a, "--no-legend", "Leave title, scales and keys out", [](Scene& s) { s.legend = false; });
+  add<int>(p, a, "--width", "Pixels [1800]", [](Scene& s, int v) { s.width = v; });
+  add<int>(p, a, "--height", "Pixels [1100]", [](Scene& s, int v) { s.height = v; });
+  add<Number>(p, a, "--turn", "Degrees to turn the molecule to the right from the automatic view [0]",
+              [](Scene& s, Number v) { s.turn_deg = v; });
+  add<Number>(p, a, "--tilt", "Degrees to tilt its upper side toward the viewer [0]",
+              [](Scene& s, Number v) { s.tilt_deg = v; });
+  add<Number>(p, a, "--zoom", "Times as large as what fits [1]", [](Scene& s, Number v) { s.zoom = v; });
+}
+
+}  // namespace
+
+void add_scene_options(CLI::App& parser, SceneArguments& a) {
+  add_colour_options(parser, a);
+  add_layout_options(parser, a);
+  parser.add_option("--scene", a.scene_file, "Scene file (JSON) to start from; options change it");
+  parser.add_option("--save-scene", a.saved_scene, "Write the scene to this file");
+}
+
+Scene scene_of(const SceneArguments& a) {
+  Scene scene;
+  if (!a.scene_file.empty()) scene = read_scene(a.scene_file, scene);
+  for (const auto& change : a.changes) change(scene);
+  check(scene);
+  if (!a.saved_scene.empty()) {
+    AtomicFile file(a.saved_scene);
+    file.stream() << scene_json(scene) << '\n';
+    file.commit();
+  }
+  return scene;
+}
+
+}  // namespace espdiff::cli

@@ -1,0 +1,25 @@
+// scene_options.h: the options of a picture, for `render` and `view`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "view/scene.h"
+
+namespace espdiff::cli {
+
+/// A scene file, and what the options change of it.
+struct SceneArguments {
+  std::string scene_file, saved_scene;
+  std::vector<std::function<void(Scene&)>> changes;  ///< of the options that were given, in order
+};
+
+void add_scene_options(CLI::App& parser, SceneArguments& arguments);
+
+/// Defaults, then the scene file, then the options; written to `saved_scene` where asked for.
+/// @throws IoError, FormatError, InputError
+Scene scene_of(const SceneArguments& arguments);
+
+}  // namespace espdiff::cli

@@ -1,0 +1,28 @@
+// comparison_files.h: all files of one comparison that a picture may need.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "view/map_pair.h"
+#include "view/run_record.h"
+#include "view/scene.h"
+#include "view/surface_file.h"
+
+namespace espdiff {
+
+struct ComparisonFiles {
+  SurfaceFile surface;
+  RunRecord record;
+  MapPair maps;
+};
+
+/// Reads OUT.vtp, the OUT.json beside it and, unless the scene can do without, the maps that it names.
+/// @throws as read_surface_file() and read_run_record(); InputError where the scene draws the source's shape and
+/// OUT.json is missing, or colours by an array that the file lacks
+ComparisonFiles read_comparison(const std::string& vtp_path, const Scene& scene);
+
+/// Whether pixels of a scene show potentials, and hence are better looked up in the maps.
+bool shows_potentials(const Scene& scene);
+
+}  // namespace espdiff

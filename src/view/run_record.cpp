@@ -1,0 +1,73 @@
+// run_record.cpp: picks what pictures need out of OUT.json.
+#include "view/run_record.h"
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+
+namespace espdiff {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+std::string found_from(const fs::path& folder, const std::string& path) {
+  std::error_code ignored;
+  if (fs::exists(path, ignored)) return path;
+  const fs::path beside = folder / path;
+  return fs::exists(beside, ignored) ? beside.string() : path;
+}
+
+void read_inputs(const Json& inputs, const fs::path& folder, RunRecord& record) {
+  for (const Json& input : inputs) {
+    const std::string role = input.at("role");
+    RecordedInput* to = role == "source"       ? &record.source
+                        : role == "target"     ? &record.target
+                        : role == "source_map" ? &record.source_map
+                        : role == "target_map" ? &record.target_map
+                                               : nullptr;
+    if (to == nullptr) continue;
+    if (input.contains("computed")) {
+      record.maps_computed = true;
+      continue;
+    }
+    *to = {found_from(folder, input.at("path")), input.at("sha256")};
+  }
+}
+
+void read_superposition(const Json& json, RigidTransform& transform) {
+  const auto& rotation = json.at("rotation_row_major");
+  for (std::size_t i = 0; i < 9; ++i) transform.rotation[i] = rotation.at(i);
+  const auto& shift = json.at("translation_A");
+  transform.translation = {shift.at(0), shift.at(1), shift.at(2)};
+}
+
+}  // namespace
+
+RunRecord read_run_record(const std::string& vtp_path) {
+  RunRecord record;
+  const fs::path path = fs::path(vtp_path).replace_extension(".json");
+  record.path = path.string();
+  std::ifstream in(path);
+  if (!in) return record;
+  try {
+    const Json json = Json::parse(in);
+    read_inputs(json.at("inputs"), path.parent_path(), record);
+    read_superposition(json.at("superposition"), record.source_to_target);
+    const Json& options = json.at("options");
+    record.temperature_K = options.at("temperature_K");
+    record.method = options.at("method");
+    record.trustworthy = json.at("certificate").at("trustworthy");
+    json.at("certificate").at("reasons").get_to(record.reasons);
+  } catch (const Json::exception& error) {
+    throw FormatError(record.path, 0,
+                      std::string("not a record that `espdiff compare` wrote (") + error.what() +
+                          "); compare again, or move it away to draw the surface alone");
+  }
+  record.found = true;
+  return record;
+}
+
+}  // namespace espdiff

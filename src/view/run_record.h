@@ -1,0 +1,34 @@
+// run_record.h: what OUT.json says of the inputs of a comparison, as far as pictures need it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/vector.h"
+
+namespace espdiff {
+
+/// An input as the comparison read it.
+struct RecordedInput {
+  std::string path;    ///< empty: there was none, or it was computed in process
+  std::string sha256;  ///< of the content
+};
+
+struct RunRecord {
+  bool found = false;  ///< false: there is no such file, and nothing below means anything
+  std::string path;    ///< of OUT.json
+  RecordedInput source, target, source_map, target_map;
+  bool maps_computed = false;  ///< the potentials were computed in process; there are no map files
+  RigidTransform source_to_target;
+  double temperature_K = 300;
+  bool trustworthy = true;
+  std::vector<std::string> reasons;  ///< why it is not
+  std::string method;
+};
+
+/// Reads the OUT.json beside an OUT.vtp. Input paths that are relative are taken from the folder where the comparison
+/// ran; when no file is there, from the folder of OUT.json.
+/// @throws FormatError when the file is damaged or is no record of a comparison
+RunRecord read_run_record(const std::string& vtp_path);
+
+}  // namespace espdiff

@@ -1,0 +1,71 @@
+// scene.h: all that a picture of a comparison is made of, but for the files: what a scene file (JSON) holds.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/vector.h"
+#include "view/colour_scale.h"
+
+namespace espdiff {
+
+/// turned: the same surface from several sides. linked: source, target and difference with one camera. split: the
+/// source left and the target right of a line.
+enum class Layout { kTurned, kLinked, kSplit };
+
+enum class MoleculeStyle { kNone, kCartoon, kSticks, kLines };
+
+/// Where the camera stands, in the target's frame; Angstrom.
+struct CameraView {
+  Vec3d centre{}, toward_viewer{0, 0, 1}, up{0, 1, 0};
+  double half_height_A = 0;  ///< of what a view shows
+};
+
+struct Scene {
+  RenderArray array = RenderArray::kDifference;
+  ScaleRange range;
+  std::string colours = "cool-warm";  ///< or purple-orange
+  std::string unit;                   ///< of the potential; the file's when empty
+  bool per_vertex = false;            ///< values between the vertices' instead of from the maps
+  bool fade = true;                   ///< fainter where the counterpart is farther away
+  OpacityScale opacity;
+
+  Layout layout = Layout::kTurned;
+  int width = 1800;   ///< pixels, 400 to 6000
+  int height = 1100;  ///< pixels, 400 to 6000
+  int n_views = 2;    ///< of the layout `turned`, each turned on about the vertical by a full turn / n_views; 1 to 4
+  std::string title;  ///< above the views; none when empty
+  bool legend = true;
+  double morph = 1;    ///< 0 draws the surface on the source, 1 on the target, between: on the way
+  double split = 0.5;  ///< of the width, where the layout `split` has its line
+
+  std::optional<CameraView> camera;   ///< automatic when empty
+  double turn_deg = 0, tilt_deg = 0;  ///< from there: to the right, upward
+  double zoom = 1;
+
+  bool surface = true;
+  MoleculeStyle molecule = MoleculeStyle::kNone;
+  double around_A = 0;                ///< ligands, ions and water within this distance of the protein; 0: none
+  int n_labels = 0;                   ///< residues with the largest mean |difference| that are named
+  std::vector<double> isopotentials;  ///< surfaces of equal potential, of the target's map
+  std::vector<double> offsets_A;      ///< surfaces this far outside of the molecular one
+  int n_field_lines = 0;
+  std::optional<double> slice;  ///< plane through the target's map across the view: 0 front, 1 back
+};
+
+/// @throws InputError naming the words
+Layout parse_layout(const std::string& text);
+MoleculeStyle parse_molecule_style(const std::string& text);
+
+/// A scene as JSON; the defaults are written too.
+std::string scene_json(const Scene& scene);
+
+/// What a scene file says; what it does not say is as in `defaults`.
+/// @throws IoError, FormatError (not JSON, a key that there is not, a value of the wrong kind)
+Scene read_scene(const std::string& path, const Scene& defaults);
+
+/// @throws InputError for what is out of range, with the limits
+void check(const Scene& scene);
+
+}  // namespace espdiff

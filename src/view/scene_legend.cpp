@@ -1,0 +1,120 @@
+// scene_legend.cpp: places the parts of the legend.
+#include "view/scene_legend.h"
+
+#include <vtkCamera.h>
+
+#include <algorithm>
+#include <string>
+
+#include "view/comparison_scene.h"
+#include "view/legend.h"
+
+namespace espdiff {
+namespace {
+
+/// Shares of the picture's height, from the bottom: legend, names of the views, title.
+constexpr double kLegendShare = 0.19;
+constexpr double kNameShare = 0.03;
+constexpr double kTitleShare = 0.09;
+
+/// The shorter titles of scales that stand side by side.
+std::string short_title(RenderArray array, const std::string& unit) {
+  const std::string in_unit = unit.empty() ? "" : " (" + unit + ")";
+  if (array == RenderArray::kSource || array == RenderArray::kTarget) return "potential" + in_unit;
+  if (array == RenderArray::kDifference) return "target \xE2\x88\x92 source" + in_unit;
+  if (array == RenderArray::kMagnitude) return "|target \xE2\x88\x92 source|" + in_unit;
+  if (array == RenderArray::kSign) return "sign";
+  return legend_title(array, unit);
+}
+
+/// Pixels of the window.
+struct Paper {
+  double width, height, text_height, bar_bottom, bar_top;
+
+  PixelBox bar(double left, double right) const { return {width * left, bar_bottom, width * right, bar_top}; }
+};
+
+Paper paper_of(const Scene& scene, double scale_factor) {
+  const double width = scene.width * scale_factor, height = scene.height * scale_factor;
+  // A narrow picture needs smaller text, so that its legends stay apart.
+  const double letters = scene.layout == Layout::kLinked ? 84 : 64;
+  const double text_height = std::min(height / 42, width / letters);
+  const double bottom = height * 0.085;
+  return {width, height, text_height, bottom, bottom + 0.95 * text_height};
+}
+
+void add_scales(Legend& legend, const ComparisonScene& scene, const Paper& paper) {
+  const auto add = [&](const ColourScale& scale, double left, double right, const std::string& title) {
+    if (scale.has_bar()) legend.colours(paper.bar(left, right), scale, title);
+  };
+  if (scene.scene().layout == Layout::kLinked) {
+    const ColourScale& potential = scene.scale(RenderArray::kSource);
+    const ColourScale& compared = scene.scale(scene.panels().back().sheets.front().array);
+    add(potential, 0.22, 0.46, short_title(potential.array(), scene.unit()));
+    add(compared, 0.54, 0.76, short_title(compared.array(), scene.unit()));
+    return;
+  }
+  const ColourScale& scale = scene.scale(scene.panels().front().sheets.front().array);
+  const bool split = scene.scene().layout == Layout::kSplit;
+  add(scale, 0.31, 0.66, split ? short_title(scale.array(), scene.unit()) : legend_title(scale.array(), scene.unit()));
+}
+
+void add_keys(Legend& legend, const ComparisonScene& scene, const Paper& paper) {
+  const double left = scene.scene().layout == Layout::kLinked ? 0.82 : 0.79;
+  const auto& sheets = scene.panels().back().sheets;
+  const bool fades = std::any_of(sheets.begin(), sheets.end(), [](const Sheet& s) { return s.fades; });
+  if (fades) legend.opacity(paper.bar(left, 0.96), scene.scene().opacity);
+  const double y = paper.height * 0.02 + paper.text_height / 2;
+  double x = paper.width * left;
+  const auto key = [&](double opacity, const std::string& meaning) {
+    x += legend.key(x, y, kNoValueColour, opacity, meaning) + paper.text_height;
+  };
+  if (scene.scale(sheets.front().array).has_missing()) key(1, "no value");
+  if (scene.geometry().has(SurfacePart::kCorrupt)) key(0.3, "corrupt");
+  const bool shows_start = std::any_of(scene.panels().begin(), scene.panels().end(),
+                                       [](const Panel& p) { return p.sheets.front().morph == 0; });
+  if (shows_start && scene.geometry().has(SurfacePart::kWithoutCounterpart)) {
+    legend.hatched_key(x, y, "no counterpart");
+  }
+}
+
+void add_names(Legend& legend, const ComparisonScene& scene, const Paper& paper) {
+  const double y = paper.height * (kLegendShare + 0.015);
+  for (const Panel& panel : scene.panels()) {
+    if (!panel.name.empty())
+      legend.text(paper.width * (panel.left + panel.right) / 2, y, panel.name, Align::kCentre, 1.15);
+  }
+  if (scene.scene().layout != Layout::kSplit) return;
+  const Panel& panel = scene.panels().front();
+  const double x = paper.width * scene.scene().split;
+  legend.rule(x, paper.height * panel.bottom, paper.height * panel.top);
+  legend.text(x - paper.text_height, y, "source", Align::kRight, 1.15);
+  legend.text(x + paper.text_height, y, "target", Align::kLeft, 1.15);
+}
+
+}  // namespace
+
+LegendShares legend_shares(const Scene& scene) {
+  if (!scene.legend) return {0, 1};
+  const bool has_names = scene.layout != Layout::kTurned || scene.n_views > 1;
+  return {kLegendShare + (has_names ? kNameShare : 0), 1 - (scene.title.empty() ? 0.25 : 1) * kTitleShare};
+}
+
+void add_scene_legend(vtkRenderer* renderer, const ComparisonScene& scene, double scale_factor) {
+  const Paper paper = paper_of(scene.scene(), scale_factor);
+  Legend legend(renderer, paper.text_height);
+  if (!scene.scene().title.empty()) {
+    legend.text(paper.width / 2, paper.height * (1 - kTitleShare / 2), scene.scene().title, Align::kCentre, 1.5);
+  }
+  add_names(legend, scene, paper);
+  const Panel& panel = scene.panels().front();
+  const double pixels_per_A =
+      paper.height * (panel.top - panel.bottom) / (2 * panel.renderer->GetActiveCamera()->GetParallelScale());
+  const bool linked = scene.scene().layout == Layout::kLinked;
+  legend.length(paper.width * 0.04, (paper.bar_bottom + paper.bar_top) / 2, paper.width * (linked ? 0.12 : 0.16),
+                pixels_per_A);
+  add_scales(legend, scene, paper);
+  add_keys(legend, scene, paper);
+}
+
+}  // namespace espdiff

@@ -1,0 +1,154 @@
+// surface_geometry.cpp: fills the point arrays that the shaders take.
+#include "view/surface_geometry.h"
+
+#include <vtkCellArray.h>
+#include <vtkFloatArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+
+#include <array>
+#include <cmath>
+
+#include "view/map_sampling.h"
+
+namespace espdiff {
+namespace {
+
+/// Area-weighted mean of the triangles' normals at each vertex.
+std::vector<Vec3f> vertex_normals(const std::vector<Vec3d>& positions, const std::vector<Triangle>& triangles) {
+  std::vector<Vec3d> sums(positions.size());
+  for (const Triangle& t : triangles) {
+    const Vec3d area = cross(positions[t[1]] - positions[t[0]], positions[t[2]] - positions[t[0]]);
+    for (const std::uint32_t corner : t) sums[corner] += area;
+  }
+  std::vector<Vec3f> normals(positions.size());
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const double length = norm(sums[i]);
+    if (length > 0) normals[i] = static_cast<Vec3f>((1 / length) * sums[i]);
+  }
+  return normals;
+}
+
+/// Adds a point array and returns it, to be filled.
+vtkFloatArray* add_array(vtkPolyData* data, const char* name, int n_components) {
+  vtkNew<vtkFloatArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(n_components);
+  array->SetNumberOfTuples(data->GetNumberOfPoints());
+  data->GetPointData()->AddArray(array);
+  return array;
+}
+
+void add_vectors(vtkPolyData* data, const char* name, const std::vector<Vec3f>& vectors) {
+  vtkFloatArray* array = add_array(data, name, 3);
+  for (std::size_t i = 0; i < vectors.size(); ++i) {
+    array->SetTuple3(static_cast<vtkIdType>(i), vectors[i].x, vectors[i].y, vectors[i].z);
+  }
+}
+
+void add_indices(vtkPolyData* data, const char* name, const Grid* map, const std::vector<Vec3d>& positions) {
+  std::vector<Vec3f> indices(static_cast<std::size_t>(data->GetNumberOfPoints()));
+  if (map != nullptr) {
+    const LatticeIndex index(map->lattice, map->name);
+    for (std::size_t i = 0; i < positions.size(); ++i) indices[i] = static_cast<Vec3f>(index(positions[i]));
+  }
+  add_vectors(data, name, indices);
+}
+
+/// `missing` where there is no number.
+void add_numbers(vtkPolyData* data, const char* name, const std::vector<float>& numbers, float missing) {
+  vtkFloatArray* array = add_array(data, name, 1);
+  array->FillValue(missing);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (std::isfinite(numbers[i])) array->SetValue(static_cast<vtkIdType>(i), numbers[i]);
+  }
+}
+
+/// A vertex' two potentials. A file may hold the difference alone: then they are made to differ by it, with one sign or
+/// two as the file says.
+std::array<float, 2> potentials_at(const SurfaceFile& surface, std::size_t i) {
+  if (!surface.potential_source.empty() && !surface.potential_target.empty()) {
+    return {surface.potential_source[i], surface.potential_target[i]};
+  }
+  const float difference = surface.potential_difference[i];
+  const bool changes = !surface.sign_change.empty() && surface.sign_change[i] != 0;
+  return changes ? std::array<float, 2>{-difference / 2, difference / 2} : std::array<float, 2>{0, difference};
+}
+
+void add_potentials(vtkPolyData* data, const SurfaceFile& surface) {
+  vtkFloatArray* array = add_array(data, "vertexPotential", 3);
+  array->FillValue(0);
+  if (surface.potential_difference.empty() && (surface.potential_source.empty() || surface.potential_target.empty()))
+    return;
+  for (std::size_t i = 0; i < surface.positions.size(); ++i) {
+    const auto [source, target] = potentials_at(surface, i);
+    if (std::isfinite(source) && std::isfinite(target)) array->SetTuple3(static_cast<vtkIdType>(i), source, target, 1);
+  }
+}
+
+std::vector<Vec3f> floats(const std::vector<Vec3d>& vectors) {
+  std::vector<Vec3f> result;
+  result.reserve(vectors.size());
+  for (const Vec3d& v : vectors) result.push_back(static_cast<Vec3f>(v));
+  return result;
+}
+
+}  // namespace
+
+StartSurface superposed_start(const SurfaceFile& surface, const RunRecord& record) {
+  if (surface.source_positions.empty() || !record.found) return {floats(surface.positions), surface.normals};
+  std::vector<Vec3d> placed;
+  placed.reserve(surface.source_positions.size());
+  for (const Vec3d& p : surface.source_positions) placed.push_back(record.source_to_target.apply(p));
+  return {floats(placed), vertex_normals(placed, surface.triangles)};
+}
+
+SurfaceGeometry::SurfaceGeometry(const SurfaceFile& surface, const RunRecord& record, const MapPair& maps)
+    : surface_(surface), start_(superposed_start(surface, record)), points_(vtkSmartPointer<vtkPolyData>::New()) {
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToFloat();
+  points->SetNumberOfPoints(static_cast<vtkIdType>(surface.positions.size()));
+  for (std::size_t i = 0; i < surface.positions.size(); ++i) {
+    const Vec3d p = surface.positions[i];
+    points->SetPoint(static_cast<vtkIdType>(i), p.x, p.y, p.z);
+  }
+  points_->SetPoints(points);
+  add_vectors(points_, "normal", surface.normals);
+  points_->GetPointData()->SetActiveNormals("normal");
+  add_vectors(points_, "startMC", start_.positions);
+  add_vectors(points_, "startNormalMC", start_.normals);
+  add_indices(points_, "sourceIndex", maps.source.get(), surface.source_positions);
+  add_indices(points_, "targetIndex", maps.target.get(), surface.positions);
+  add_potentials(points_, surface);
+  add_numbers(points_, "displacement", surface.displacement, -1);
+  add_numbers(points_, "residueIndex", surface.residue_index, -1);
+}
+
+SurfacePart SurfaceGeometry::part_of(std::size_t triangle) const {
+  if (!surface_.has_counterpart(triangle)) return SurfacePart::kWithoutCounterpart;
+  return surface_.is_corrupt(triangle) ? SurfacePart::kCorrupt : SurfacePart::kTrusted;
+}
+
+bool SurfaceGeometry::has(SurfacePart part) const {
+  for (std::size_t i = 0; i < surface_.triangles.size(); ++i) {
+    if (part_of(i) == part) return true;
+  }
+  return false;
+}
+
+vtkSmartPointer<vtkPolyData> SurfaceGeometry::part(SurfacePart part) const {
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->ShallowCopy(points_);
+  vtkNew<vtkCellArray> cells;
+  for (std::size_t i = 0; i < surface_.triangles.size(); ++i) {
+    if (part_of(i) != part) continue;
+    const Triangle& t = surface_.triangles[i];
+    cells->InsertNextCell({static_cast<vtkIdType>(t[0]), static_cast<vtkIdType>(t[1]), static_cast<vtkIdType>(t[2])});
+  }
+  data->SetPolys(cells);
+  return data;
+}
+
+}  // namespace espdiff

@@ -1,0 +1,137 @@
+// surface_mapper.cpp: gives VTK's mapper our shaders, and the shaders what they ask for.
+#include "view/surface_mapper.h"
+
+#include <vtkCamera.h>
+#include <vtkDataObject.h>
+#include <vtkObjectFactory.h>
+#include <vtkOpenGLHelper.h>
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkOpenGLVertexBufferObject.h>
+#include <vtkRenderer.h>
+#include <vtkShaderProgram.h>
+
+#include "base/error.h"
+#include "view/shader_text.h"
+
+namespace espdiff {
+namespace {
+
+/// Sets a uniform that the compiler may have removed.
+template <typename Set>
+void if_used(vtkShaderProgram* program, const char* name, const Set& set) {
+  if (program->IsUniformUsed(name)) set(name);
+}
+
+void set_colour(vtkShaderProgram* program, const char* name, Rgb colour) {
+  const float rgb[3] = {static_cast<float>(colour.red) / 255, static_cast<float>(colour.green) / 255,
+                        static_cast<float>(colour.blue) / 255};
+  if_used(program, name, [&](const char* n) { program->SetUniform3f(n, rgb); });
+}
+
+void set_floats(vtkShaderProgram* program, const char* name, float a, float b) {
+  const float values[2] = {a, b};
+  if_used(program, name, [&](const char* n) { program->SetUniform2f(n, values); });
+}
+
+void set_end(vtkShaderProgram* program, const char* name, const Msh& end) {
+  const float values[4] = {static_cast<float>(end.magnitude), static_cast<float>(end.saturation),
+                           static_cast<float>(end.hue), static_cast<float>(hue_at_middle(end))};
+  if_used(program, name, [&](const char* n) { program->SetUniform4f(n, values); });
+}
+
+void set_float(vtkShaderProgram* program, const char* name, double value) {
+  if_used(program, name, [&](const char* n) { program->SetUniformf(n, static_cast<float>(value)); });
+}
+
+void set_integer(vtkShaderProgram* program, const char* name, int value) {
+  if_used(program, name, [&](const char* n) { program->SetUniformi(n, value); });
+}
+
+/// kReadBack of shaders/surface.frag.
+constexpr int kReadBack = 8;
+
+}  // namespace
+
+vtkStandardNewMacro(SurfaceMapper);
+
+SurfaceMapper::SurfaceMapper() {
+  set_maps(std::make_shared<MapTexture>(nullptr), std::make_shared<MapTexture>(nullptr));
+  this->ScalarVisibilityOff();
+  // The shaders mix two sets of positions, which must not be shifted each by its own way.
+  this->SetVBOShiftScaleMethod(vtkOpenGLVertexBufferObject::DISABLE_SHIFT_SCALE);
+  for (const char* name : kSurfaceAttributes) {
+    this->MapDataArrayToVertexAttribute(name, name, vtkDataObject::FIELD_ASSOCIATION_POINTS, -1);
+  }
+}
+
+void SurfaceMapper::set_maps(std::shared_ptr<MapTexture> source, std::shared_ptr<MapTexture> target) {
+  source_map_ = std::move(source);
+  target_map_ = std::move(target);
+}
+
+void SurfaceMapper::GetShaderTemplate(std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer*, vtkActor*) {
+  for (const bool is_vertex_shader : {true, false}) {
+    const char* name = is_vertex_shader ? "surface.vert" : "surface.frag";
+    const std::string text = shader_text(name);
+    const std::string problem = compile_problem(text, is_vertex_shader);
+    if (!problem.empty()) {
+      throw DeviceError(std::string("this OpenGL driver does not take the shader ") + name + ": " + problem +
+                        "; OpenGL 3.2 is needed, which `xvfb-run -a` provides");
+    }
+    shaders[is_vertex_shader ? vtkShader::Vertex : vtkShader::Fragment]->SetSource(text);
+  }
+  shaders[vtkShader::Geometry]->SetSource("");
+}
+
+void SurfaceMapper::RenderPieceStart(vtkRenderer* renderer, vtkActor* actor) {
+  auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  source_map_->activate(window);
+  target_map_->activate(window);
+  Superclass::RenderPieceStart(renderer, actor);
+}
+
+void SurfaceMapper::RenderPieceFinish(vtkRenderer* renderer, vtkActor* actor) {
+  Superclass::RenderPieceFinish(renderer, actor);
+  target_map_->deactivate();
+  source_map_->deactivate();
+}
+
+void SurfaceMapper::ReleaseGraphicsResources(vtkWindow* window) {
+  source_map_->release(window);
+  target_map_->release(window);
+  Superclass::ReleaseGraphicsResources(window);
+}
+
+void SurfaceMapper::SetMapperShaderParameters(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor) {
+  Superclass::SetMapperShaderParameters(cells, renderer, actor);
+  vtkShaderProgram* program = cells.Program;
+  const bool per_fragment = source_map_->map() != nullptr && target_map_->map() != nullptr;
+  set_integer(program, "sourceMap", source_map_->unit());
+  set_integer(program, "targetMap", target_map_->unit());
+  set_integer(program, "perFragment", per_fragment ? 1 : 0);
+  set_integer(program, "part", static_cast<int>(part_));
+  set_integer(program, "colourBy", look_.reads_back ? kReadBack : static_cast<int>(look_.scale.array()));
+  set_float(program, "morph", look_.morph);
+  set_float(program, "hatchPitch", look_.hatch_pixels);
+  set_float(program, "parallelView", renderer->GetActiveCamera()->GetParallelProjection() != 0 ? 1 : 0);
+  const float fade[4] = {static_cast<float>(look_.opacity.opaque_below_A),
+                         static_cast<float>(look_.opacity.faint_above_A), static_cast<float>(look_.opacity.least),
+                         look_.fades ? 1.0F : 0.0F};
+  if_used(program, "fade", [&](const char* name) { program->SetUniform4f(name, fade); });
+  set_floats(program, "shownColumns", static_cast<float>(look_.first_column), static_cast<float>(look_.last_column));
+  set_colour_uniforms(program);
+}
+
+void SurfaceMapper::set_colour_uniforms(vtkShaderProgram* program) {
+  const ColourScale& scale = look_.scale;
+  set_floats(program, "range", static_cast<float>(scale.low()), static_cast<float>(scale.high()));
+  set_end(program, "lowEnd", scale.map().low);
+  set_end(program, "highEnd", scale.map().high);
+  set_float(program, "sequentialHue", scale.hue());
+  set_colour(program, "noValueColour", kNoValueColour);
+  set_colour(program, "sameSignColour", kSameSignColour);
+  set_colour(program, "signChangeColour", kSignChangeColour);
+  set_colour(program, "plainColour", kPlainColour);
+}
+
+}  // namespace espdiff
