@@ -1,7 +1,5 @@
 // blinn_phong.glsl: two lights that move with the camera; J. Blinn's half vector, per fragment.
 
-uniform float parallelView;  // 1: parallel projection
-
 const vec3 kLights[2] = vec3[2](vec3(-0.3790, 0.5307, 0.7581), vec3(0.5565, -0.2385, 0.7950));
 const float kIntensities[2] = float[2](0.75, 0.35);
 const float kAmbient = 0.28, kDiffuse = 0.82, kSpecular = 0.10, kShininess = 40.0;
@@ -10,7 +8,7 @@ const float kAmbient = 0.28, kDiffuse = 0.82, kSpecular = 0.10, kShininess = 40.
 /// @param position of the fragment, seen from the camera
 vec3 blinnPhong(vec3 colour, vec3 normal, vec3 position)
 {
-  vec3 toViewer = parallelView > 0.5 ? vec3(0.0, 0.0, 1.0) : normalize(-position);
+  vec3 toViewer = PARALLEL ? vec3(0.0, 0.0, 1.0) : normalize(-position);
   float diffuse = 0.0, specular = 0.0;
   for (int i = 0; i < 2; ++i) {
     float facing = dot(normal, kLights[i]);

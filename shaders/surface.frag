@@ -3,6 +3,13 @@
 //VTK::Output::Dec
 //VTK::DepthPeeling::Dec
 
+// Constants of the program, #defined above this file: software renderers pay for every branch that is there.
+const bool perFragment = PER_FRAGMENT;  // else between the vertices' values, where there are no maps
+const int part = PART;                  // 0 trusted, 1 corrupt, 2 without counterpart
+const int colourBy = COLOUR_BY;         // the numbers of RenderArray
+const bool fades = FADES;
+const bool split = SPLIT;
+
 in vec3 positionVC;
 in vec3 normalVC;
 in vec3 sourceIndexFS;
@@ -13,10 +20,7 @@ flat in float residueIndexFS;
 
 uniform sampler3D sourceMap;
 uniform sampler3D targetMap;
-uniform int perFragment;      // 0: between the vertices' values, where there are no maps
-uniform int part;             // 0 trusted, 1 corrupt, 2 without counterpart
-uniform int colourBy;         // the numbers of RenderArray
-uniform vec4 fade;            // displacements of full and of least opacity, least opacity, 1 to fade at all
+uniform vec3 fade;            // displacements of full and of least opacity, least opacity
 uniform vec2 shownColumns;    // window columns from, to: the sides of a split view
 uniform float hatchPitch;     // pixels
 
@@ -30,7 +34,7 @@ const int kDifference = 0, kSource = 1, kTarget = 2, kSign = 3, kDisplacement = 
 /// Source and target potential here; z is 1 where both have a value.
 vec3 potentials()
 {
-  if (perFragment == 0) return vec3(vertexPotentialFS.xy, vertexPotentialFS.z > 0.999 ? 1.0 : 0.0);
+  if (!perFragment) return vec3(vertexPotentialFS.xy, vertexPotentialFS.z > 0.999 ? 1.0 : 0.0);
   vec2 source = sampleMap(sourceMap, sourceIndexFS);
   vec2 target = sampleMap(targetMap, targetIndexFS);
   return vec3(source.x, target.x, source.y * target.y);
@@ -54,7 +58,8 @@ vec3 surfaceColour()
 float opacityHere()
 {
   if (part == 1) return 0.3;
-  if (fade.w == 0.0 || displacementFS < 0.0) return 1.0;
+  if (!fades) return 1.0;
+  if (displacementFS < 0.0) return fade.z;
   return mix(1.0, fade.z, clamp((displacementFS - fade.x) / (fade.y - fade.x), 0.0, 1.0));
 }
 
@@ -68,7 +73,7 @@ void main()
 {
   //VTK::Depth::Impl
   //VTK::DepthPeeling::PreColor
-  if (gl_FragCoord.x < shownColumns.x || gl_FragCoord.x >= shownColumns.y) discard;
+  if (split && (gl_FragCoord.x < shownColumns.x || gl_FragCoord.x >= shownColumns.y)) discard;
   vec3 colour = part == 1 ? noValueColour : part == 2 ? (onStripe() ? noValueColour : vec3(0.93)) : surfaceColour();
   if (colourBy == kReadBack) gl_FragData[0] = vec4(colour, 1.0);
   else gl_FragData[0] = vec4(blinnPhong(colour, normalize(normalVC), positionVC), opacityHere());

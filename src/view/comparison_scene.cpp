@@ -141,8 +141,9 @@ void ComparisonScene::add_sheet(const Panel& panel, const Sheet& sheet) {
   look.fades = sheet.fades;
   look.morph = sheet.morph;
   look.hatch_pixels = 7 * scale_factor_;
-  if (sheet.from > 0) look.first_column = width * (panel.left + sheet.from * (panel.right - panel.left));
-  if (sheet.to < 1) look.last_column = width * (panel.left + sheet.to * (panel.right - panel.left));
+  look.splits = sheet.from > 0 || sheet.to < 1;
+  look.first_column = width * (panel.left + sheet.from * (panel.right - panel.left));
+  look.last_column = width * (panel.left + sheet.to * (panel.right - panel.left));
   for (const SurfacePart part : {SurfacePart::kTrusted, SurfacePart::kCorrupt, SurfacePart::kWithoutCounterpart}) {
     // What has no counterpart has its place on the source only.
     if (part == SurfacePart::kWithoutCounterpart && sheet.morph > 0) continue;

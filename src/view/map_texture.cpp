@@ -12,8 +12,8 @@ namespace espdiff {
 
 void MapTexture::upload(vtkOpenGLRenderWindow* window) {
   texture_->SetContext(window);
-  texture_->SetMinificationFilter(vtkTextureObject::Nearest);
-  texture_->SetMagnificationFilter(vtkTextureObject::Nearest);
+  texture_->SetMinificationFilter(vtkTextureObject::Linear);
+  texture_->SetMagnificationFilter(vtkTextureObject::Linear);
   float nothing = 0;
   std::array<int, 3> size{1, 1, 1};
   if (map_ != nullptr) size = map_->lattice.size;

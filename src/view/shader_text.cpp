@@ -33,8 +33,9 @@ void replace_all(std::string& text, const std::string& what, const std::string& 
 
 }  // namespace
 
-std::string shader_text(const std::string& name) {
+std::string shader_text(const std::string& name, const std::map<std::string, std::string>& definitions) {
   std::string text = "//VTK::System::Dec\n";
+  for (const auto& [word, meaning] : definitions) text += "#define " + word + " " + meaning + "\n";
   append(text, name);
   return text;
 }

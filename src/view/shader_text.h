@@ -10,9 +10,10 @@ namespace espdiff {
 const std::map<std::string, std::string>& embedded_shaders();
 
 /// A shader as VTK's mappers take it: lines `#include "name"` replaced by that file, and VTK's own first line (GLSL
-/// version) above.
+/// version) and the definitions above.
+/// @param definitions name -> what it stands for
 /// @throws Error (internal) when there is no such file
-std::string shader_text(const std::string& name);
+std::string shader_text(const std::string& name, const std::map<std::string, std::string>& definitions = {});
 
 /// Compiles a shader alone, in the OpenGL context that is current. VTK's mappers crash on one that the driver refuses.
 /// @param text as shader_text() gives it

@@ -64,15 +64,54 @@ SurfaceMapper::SurfaceMapper() {
   }
 }
 
+std::map<std::string, std::string> shader_definitions(const SurfaceLook& look, SurfacePart part, Lookup lookup,
+                                                      bool parallel_projection) {
+  const auto truth = [](bool value) { return std::string(value ? "true" : "false"); };
+  return {{"COLOUR_BY", std::to_string(look.reads_back ? kReadBack : static_cast<int>(look.scale.array()))},
+          {"PART", std::to_string(static_cast<int>(part))},
+          {"PER_FRAGMENT", truth(lookup != Lookup::kPerVertex)},
+          {"FILTERED_IN_FLOATS", truth(lookup == Lookup::kFiltered)},
+          {"FADES", truth(look.fades)},
+          {"SPLIT", truth(look.splits)},
+          {"PARALLEL", truth(parallel_projection)}};
+}
+
+Lookup SurfaceMapper::lookup(vtkRenderer* renderer) const {
+  if (source_map_->map() == nullptr || target_map_->map() == nullptr) return Lookup::kPerVertex;
+  const std::string driver = renderer->GetRenderWindow()->ReportCapabilities();
+  bool is_software = false;
+  for (const char* name : {"llvmpipe", "softpipe", "SWR"}) is_software |= driver.find(name) != std::string::npos;
+  return is_software && !look_.fetches ? Lookup::kFiltered : Lookup::kFetched;
+}
+
+void SurfaceMapper::set_look(const SurfaceLook& look) {
+  look_ = look;
+  changed_ = true;
+}
+
+void SurfaceMapper::set_part(SurfacePart part) {
+  part_ = part;
+  changed_ = true;
+}
+
+bool SurfaceMapper::GetNeedToRebuildShaders(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor) {
+  const bool needed = Superclass::GetNeedToRebuildShaders(cells, renderer, actor) || changed_;
+  changed_ = false;
+  return needed;
+}
+
 void SurfaceMapper::set_maps(std::shared_ptr<MapTexture> source, std::shared_ptr<MapTexture> target) {
   source_map_ = std::move(source);
   target_map_ = std::move(target);
+  changed_ = true;
 }
 
-void SurfaceMapper::GetShaderTemplate(std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer*, vtkActor*) {
+void SurfaceMapper::GetShaderTemplate(std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* renderer, vtkActor*) {
+  const bool parallel = renderer->GetActiveCamera()->GetParallelProjection() != 0;
+  const auto definitions = shader_definitions(look_, part_, lookup(renderer), parallel);
   for (const bool is_vertex_shader : {true, false}) {
     const char* name = is_vertex_shader ? "surface.vert" : "surface.frag";
-    const std::string text = shader_text(name);
+    const std::string text = shader_text(name, definitions);
     const std::string problem = compile_problem(text, is_vertex_shader);
     if (!problem.empty()) {
       throw DeviceError(std::string("this OpenGL driver does not take the shader ") + name + ": " + problem +
@@ -105,19 +144,13 @@ void SurfaceMapper::ReleaseGraphicsResources(vtkWindow* window) {
 void SurfaceMapper::SetMapperShaderParameters(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor) {
   Superclass::SetMapperShaderParameters(cells, renderer, actor);
   vtkShaderProgram* program = cells.Program;
-  const bool per_fragment = source_map_->map() != nullptr && target_map_->map() != nullptr;
   set_integer(program, "sourceMap", source_map_->unit());
   set_integer(program, "targetMap", target_map_->unit());
-  set_integer(program, "perFragment", per_fragment ? 1 : 0);
-  set_integer(program, "part", static_cast<int>(part_));
-  set_integer(program, "colourBy", look_.reads_back ? kReadBack : static_cast<int>(look_.scale.array()));
   set_float(program, "morph", look_.morph);
   set_float(program, "hatchPitch", look_.hatch_pixels);
-  set_float(program, "parallelView", renderer->GetActiveCamera()->GetParallelProjection() != 0 ? 1 : 0);
-  const float fade[4] = {static_cast<float>(look_.opacity.opaque_below_A),
-                         static_cast<float>(look_.opacity.faint_above_A), static_cast<float>(look_.opacity.least),
-                         look_.fades ? 1.0F : 0.0F};
-  if_used(program, "fade", [&](const char* name) { program->SetUniform4f(name, fade); });
+  const float fade[3] = {static_cast<float>(look_.opacity.opaque_below_A),
+                         static_cast<float>(look_.opacity.faint_above_A), static_cast<float>(look_.opacity.least)};
+  if_used(program, "fade", [&](const char* name) { program->SetUniform3f(name, fade); });
   set_floats(program, "shownColumns", static_cast<float>(look_.first_column), static_cast<float>(look_.last_column));
   set_colour_uniforms(program);
 }

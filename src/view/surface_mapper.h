@@ -3,7 +3,9 @@
 
 #include <vtkOpenGLPolyDataMapper.h>
 
+#include <map>
 #include <memory>
+#include <string>
 
 #include "view/colour_scale.h"
 #include "view/map_texture.h"
@@ -21,12 +23,22 @@ inline constexpr const char* kSurfaceAttributes[] = {"startMC",         "startNo
 struct SurfaceLook {
   ColourScale scale{RenderArray::kPlain, {}, 0.0};
   OpacityScale opacity;
-  bool fades = false;                             ///< opacity by displacement
-  double morph = 1;                               ///< 0 on the source, 1 on the target
-  double first_column = -1e9, last_column = 1e9;  ///< of the window that are drawn
+  bool fades = false;   ///< opacity by displacement
+  double morph = 1;     ///< 0 on the source, 1 on the target
+  bool splits = false;  ///< draws these columns of the window only
+  double first_column = 0, last_column = 0;
   double hatch_pixels = 14;
   bool reads_back = false;  ///< draws the difference as 24 bits instead of a colour; for tests
+  bool fetches = false;     ///< as on graphics processors, wherever this is drawn; for tests
 };
+
+/// How potentials are looked up. kFiltered where the OpenGL driver interpolates in floats, as software does; kFetched
+/// elsewhere.
+enum class Lookup { kPerVertex, kFiltered, kFetched };
+
+/// The constants of the shaders' program for a look.
+std::map<std::string, std::string> shader_definitions(const SurfaceLook& look, SurfacePart part, Lookup lookup,
+                                                      bool parallel_projection);
 
 /// The mapper; its input has the point arrays of kSurfaceAttributes (see surface_geometry.h).
 class SurfaceMapper : public vtkOpenGLPolyDataMapper {
@@ -36,9 +48,9 @@ class SurfaceMapper : public vtkOpenGLPolyDataMapper {
       SurfaceMapper(const SurfaceMapper&) = delete;
   SurfaceMapper& operator=(const SurfaceMapper&) = delete;
 
-  void set_look(const SurfaceLook& look) { look_ = look; }
+  void set_look(const SurfaceLook& look);
   const SurfaceLook& look() const { return look_; }
-  void set_part(SurfacePart part) { part_ = part; }
+  void set_part(SurfacePart part);
   /// Without maps (textures of nothing) values are interpolated between the vertices.
   void set_maps(std::shared_ptr<MapTexture> source, std::shared_ptr<MapTexture> target);
 
@@ -52,13 +64,16 @@ class SurfaceMapper : public vtkOpenGLPolyDataMapper {
 
   void GetShaderTemplate(std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* renderer,
                          vtkActor* actor) override;
+  bool GetNeedToRebuildShaders(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor) override;
   void SetMapperShaderParameters(vtkOpenGLHelper& cells, vtkRenderer* renderer, vtkActor* actor) override;
 
  private:
+  Lookup lookup(vtkRenderer* renderer) const;
   void set_colour_uniforms(vtkShaderProgram* program);
 
   SurfaceLook look_;
   SurfacePart part_ = SurfacePart::kTrusted;
+  bool changed_ = true;  ///< the program's constants are no longer what is to be drawn
   std::shared_ptr<MapTexture> source_map_, target_map_;
 };
 

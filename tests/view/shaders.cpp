@@ -87,7 +87,7 @@ double decoded(Rgb pixel, const ColourScale& scale) {
 }
 
 /// Compares the difference that the fragments found with the engine's, in shares of the potentials' range.
-double worst_share(const std::string& vtp) {
+double worst_share(const std::string& vtp, bool fetches) {
   const ComparisonFiles files = read_comparison(vtp, {});
   INFO(files.maps.why_not);
   REQUIRE(files.maps.complete());
@@ -104,6 +104,7 @@ double worst_share(const std::string& vtp) {
   range.limit = 2 * (high - low);
   look.scale = ColourScale(RenderArray::kDifference, surface.potential_difference, range);
   look.reads_back = true;
+  look.fetches = fetches;
   const SurfaceGeometry geometry(surface, files.record, files.maps);
   const auto part = geometry.part(SurfacePart::kTrusted);
   // The values between vertices are taken away, so that only the maps can give them.
@@ -129,8 +130,20 @@ TEST_CASE("each shader compiles here, and a wrong one is told with the driver's 
   window->SetSize(16, 16);
   window->Render();
   CHECK(compile_problem(shader_text("surface.vert"), true) == "");
-  CHECK(compile_problem(shader_text("surface.frag"), false) == "");
-  const std::string problem = compile_problem(shader_text("surface.frag") + "void oops() { nothing(); }", false);
+  SurfaceLook look;
+  std::string text;
+  for (int array = 0; array <= static_cast<int>(RenderArray::kPlain); ++array) {
+    look.scale = ColourScale(static_cast<RenderArray>(array), {1}, 0);
+    for (int choice = 0; choice < 12; ++choice) {
+      look.fades = choice % 2 == 0;
+      look.splits = choice % 3 == 0;
+      const auto part = static_cast<SurfacePart>(choice % 3);
+      text =
+          shader_text("surface.frag", shader_definitions(look, part, static_cast<Lookup>(choice / 4), choice % 4 < 2));
+      CHECK(compile_problem(text, false) == "");
+    }
+  }
+  const std::string problem = compile_problem(text + "void oops() { nothing(); }", false);
   CHECK(problem.find("nothing") != std::string::npos);
 }
 
@@ -144,7 +157,9 @@ TEST_CASE("every file in shaders/ says in its first line what it is for, and inc
 TEST_CASE("potentials looked up by the shader are the engine's, on skewed lattices") {
   if (!can_draw()) return;
   const ScratchFolder scratch;
-  CHECK(worst_share(espdiff_test::compare_made_pair(scratch)) < 1e-5);
+  const std::string vtp = espdiff_test::compare_made_pair(scratch);
+  CHECK(worst_share(vtp, false) < 1e-5);
+  CHECK(worst_share(vtp, true) < 1e-5);
 }
 
 TEST_CASE("potentials looked up by the shader are the engine's, on TIM") {
@@ -157,7 +172,7 @@ TEST_CASE("potentials looked up by the shader are the engine's, on TIM") {
       " --source-map " + *folder + "/scTIM_chainA_pot-PE0.dx --target-map " + *folder + "/dTIM_chainA_pot-PE0.dx");
   REQUIRE(run.status == 0);
   // 38,000 vertices, each a pixel of its own.
-  const double worst = worst_share(scratch.file("tim.vtp"));
+  const double worst = worst_share(scratch.file("tim.vtp"), false);
   MESSAGE("worst of TIM: ", worst, " of the range");
   CHECK(worst < 1e-3);
 }
