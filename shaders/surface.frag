@@ -20,7 +20,7 @@ flat in float residueIndexFS;
 
 uniform sampler3D sourceMap;
 uniform sampler3D targetMap;
-uniform vec3 fade;            // displacements of full and of least opacity, least opacity
+uniform vec4 fade;            // displacements of greatest and of least opacity, least opacity, greatest opacity
 uniform vec2 shownColumns;    // window columns from, to: the sides of a split view
 uniform float hatchPitch;     // pixels
 
@@ -58,9 +58,9 @@ vec3 surfaceColour()
 float opacityHere()
 {
   if (part == 1) return 0.3;
-  if (!fades) return 1.0;
+  if (!fades) return fade.w;
   if (displacementFS < 0.0) return fade.z;
-  return mix(1.0, fade.z, clamp((displacementFS - fade.x) / (fade.y - fade.x), 0.0, 1.0));
+  return mix(fade.w, fade.z, clamp((displacementFS - fade.x) / (fade.y - fade.x), 0.0, 1.0));
 }
 
 /// Diagonal stripes, fixed to the paper.

@@ -70,7 +70,20 @@ void add_colour_options(CLI::App& p, SceneArguments& a) {
               [](Scene& s, Number v) { s.opacity.opaque_below_A = v; });
   add<Number>(p, a, "--faint-above", "Displacement from which it is faintest, Angstrom [3]",
               [](Scene& s, Number v) { s.opacity.faint_above_A = v; });
+  add<Number>(p, a, "--opacity", "Opacity of what is certain, 0 to 1; below 1 a molecule inside shows [1]",
+              [](Scene& s, Number v) { s.opacity.greatest = v; });
   add<Number>(p, a, "--least-opacity", "Opacity there, 0 to 1 [0.25]", [](Scene& s, Number v) { s.opacity.least = v; });
+}
+
+void add_context_options(CLI::App& p, SceneArguments& a) {
+  add<Text>(p, a, "--molecule", "Draw the molecule too: none, cartoon, sticks (balls and sticks) or lines [none]",
+            [](Scene& s, const Text& t) { s.molecule = parse_molecule_style(t); })
+      ->check(CLI::IsMember({"none", "cartoon", "sticks", "lines"}));
+  add<Number>(p, a, "--around", "Ligands, ions and water within this distance of the protein, Angstrom [none]",
+              [](Scene& s, Number v) { s.around_A = v; });
+  add<int>(p, a, "--labels", "Name this many residues with the largest mean difference [0]",
+           [](Scene& s, int v) { s.n_labels = v; });
+  add_flag(p, a, "--no-surface", "Leave the surface out", [](Scene& s) { s.surface = false; });
 }
 
 void add_layout_options(CLI::App& p, SceneArguments& a) {
@@ -100,6 +113,7 @@ void add_layout_options(CLI::App& p, SceneArguments& a) {
 void add_scene_options(CLI::App& parser, SceneArguments& a) {
   add_colour_options(parser, a);
   add_layout_options(parser, a);
+  add_context_options(parser, a);
   parser.add_option("--scene", a.scene_file, "Scene file (JSON) to start from; options change it");
   parser.add_option("--save-scene", a.saved_scene, "Write the scene to this file");
 }

@@ -144,10 +144,9 @@ Rgb ColourScale::colour(float value) const {
 }
 
 double OpacityScale::opacity(double displacement_A) const {
-  if (std::isnan(displacement_A)) return least;
-  if (displacement_A <= opaque_below_A) return 1;
-  if (displacement_A >= faint_above_A) return least;
-  return 1 - (1 - least) * (displacement_A - opaque_below_A) / (faint_above_A - opaque_below_A);
+  if (std::isnan(displacement_A) || displacement_A >= faint_above_A) return least;
+  if (displacement_A <= opaque_below_A) return greatest;
+  return greatest - (greatest - least) * (displacement_A - opaque_below_A) / (faint_above_A - opaque_below_A);
 }
 
 }  // namespace espdiff

@@ -78,6 +78,7 @@ struct OpacityScale {
   double opaque_below_A = 0.5;  ///< displacement up to which the surface is opaque
   double faint_above_A = 3.0;   ///< displacement from which it has the least opacity; linear between
   double least = 0.25;          ///< 0 to 1
+  double greatest = 1;          ///< opacity of what is certain, 0 to 1
 
   double opacity(double displacement_A) const;
 };

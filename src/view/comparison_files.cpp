@@ -1,7 +1,11 @@
 // comparison_files.cpp: reads what a scene needs of a comparison.
 #include "view/comparison_files.h"
 
+#include <filesystem>
+
 #include "base/error.h"
+#include "io/read_structure.h"
+#include "io/sha256.h"
 
 namespace espdiff {
 namespace {
@@ -10,6 +14,29 @@ bool draws_source_shape(const Scene& scene) { return scene.layout != Layout::kTu
 
 bool draws_maps(const Scene& scene) {
   return !scene.isopotentials.empty() || scene.n_field_lines > 0 || scene.slice.has_value();
+}
+
+bool draws_molecules(const Scene& scene) {
+  return scene.molecule != MoleculeStyle::kNone || scene.around_A > 0 || scene.n_labels > 0;
+}
+
+Molecule read_molecule(const RunRecord& record, const RecordedInput& input, bool with_water) {
+  const char* const remedy = "; compare again, or draw without the molecule and labels";
+  if (!record.found) throw InputError(record.path + ": no such file; it names the structures" + remedy);
+  std::error_code ignored;
+  if (!std::filesystem::exists(input.path, ignored)) throw InputError(input.path + " is not there any more" + remedy);
+  if (sha256_of_file(input.path) != input.sha256)
+    throw InputError(input.path + " has changed since the comparison" + remedy);
+  StructureOptions options;
+  options.include_water = with_water;
+  return read_structure(input.path, options);
+}
+
+void read_molecules(ComparisonFiles& files, const Scene& scene) {
+  const bool with_water = scene.around_A > 0;
+  files.target_molecule = read_molecule(files.record, files.record.target, with_water);
+  files.source_molecule = read_molecule(files.record, files.record.source, with_water);
+  for (Vec3d& p : files.source_molecule->positions) p = files.record.source_to_target.apply(p);
 }
 
 }  // namespace
@@ -43,6 +70,7 @@ ComparisonFiles read_comparison(const std::string& vtp_path, const Scene& scene)
   if (draws_maps(scene) && !files.maps.complete()) {
     throw InputError("isopotential surfaces, field lines and slices need the maps: " + files.maps.why_not);
   }
+  if (draws_molecules(scene)) read_molecules(files, scene);
   return files;
 }
 

@@ -1,6 +1,7 @@
 // comparison_files.h: all files of one comparison that a picture may need.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@ struct ComparisonFiles {
   SurfaceFile surface;
   RunRecord record;
   MapPair maps;
+  /// Where the scene draws or names residues: in the target's frame; with ligands, ions and, where asked for, water.
+  std::optional<Molecule> source_molecule, target_molecule;
 };
 
 /// Reads OUT.vtp, the OUT.json beside it and, unless the scene can do without, the maps that it names.

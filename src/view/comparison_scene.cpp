@@ -13,6 +13,8 @@
 
 #include "base/error.h"
 #include "view/camera_view.h"
+#include "view/molecule_actors.h"
+#include "view/residue_labels.h"
 #include "view/scene_legend.h"
 
 namespace espdiff {
@@ -138,6 +140,8 @@ void ComparisonScene::add_sheet(const Panel& panel, const Sheet& sheet) {
   SurfaceLook look;
   look.scale = scale(sheet.array);
   look.opacity = scene_.opacity;
+  // Linked views keep the two sides whole, whatever shows through the third.
+  if (&panel != &panels_.back()) look.opacity.greatest = scene_.layout == Layout::kLinked ? 1 : look.opacity.greatest;
   look.fades = sheet.fades;
   look.morph = sheet.morph;
   look.hatch_pixels = 7 * scale_factor_;
@@ -157,11 +161,32 @@ void ComparisonScene::add_sheet(const Panel& panel, const Sheet& sheet) {
     actor->SetMapper(mapper);
     // Through a faint place the paper shows, not the inside of the far wall.
     actor->GetProperty()->BackfaceCullingOn();
-    if (look.fades || part == SurfacePart::kCorrupt)
+    if (look.fades || look.opacity.greatest < 1 || part == SurfacePart::kCorrupt)
       actor->ForceTranslucentOn();
     else
       actor->ForceOpaqueOn();
     panel.renderer->AddActor(actor);
+  }
+}
+
+void ComparisonScene::add_molecule(const Panel& panel) {
+  const bool is_source = panel.sheets.front().morph == 0;
+  const std::optional<Molecule>& molecule = is_source ? files_.source_molecule : files_.target_molecule;
+  if (!molecule) return;
+  const double line_pixels = 1.5 * scale_factor_;
+  const auto add = [&](const std::vector<bool>& residues, MoleculeStyle style) {
+    if (const auto drawn = make_molecule_actor(with_residues(*molecule, residues), style, line_pixels))
+      panel.renderer->AddViewProp(drawn);
+  };
+  add(polymer_residues(*molecule), scene_.molecule);
+  if (scene_.around_A > 0) add(residues_around(*molecule, scene_.around_A), MoleculeStyle::kSticks);
+}
+
+void ComparisonScene::add_labels(const Panel& panel) {
+  if (!files_.source_molecule) return;
+  for (const ResidueMark& mark : most_different_residues(files_.surface, scene_.n_labels)) {
+    const std::string text = residue_name(*files_.source_molecule, mark.residue);
+    for (const auto& prop : make_label(mark, text, scene_.height * scale_factor_ / 60)) panel.renderer->AddViewProp(prop);
   }
 }
 
@@ -178,6 +203,9 @@ void ComparisonScene::fill(Panel& panel) {
   if (scene_.surface) {
     for (const Sheet& sheet : panel.sheets) add_sheet(panel, sheet);
   }
+  add_molecule(panel);
+  // Names stand where the compared surface is.
+  if (scene_.n_labels > 0 && &panel == &panels_.back()) add_labels(panel);
   window_->AddRenderer(panel.renderer);
 }
 

@@ -63,6 +63,8 @@ class ComparisonScene {
   void choose_scales();
   void lay_out();
   void fill(Panel& panel);
+  void add_molecule(const Panel& panel);
+  void add_labels(const Panel& panel);
   void add_sheet(const Panel& panel, const Sheet& sheet);
   void write_legend();
 

@@ -80,6 +80,7 @@ bool set(Scene& s, const std::string& key, const Json& value) {
     s.opacity.faint_above_A = value;
   else if (key == "least_opacity")
     s.opacity.least = value;
+  else if (key == "opacity") s.opacity.greatest = value;
   else if (key == "layout")
     s.layout = parse_layout(value);
   else if (key == "width")
@@ -151,6 +152,7 @@ std::string scene_json(const Scene& s) {
   json["opaque_below_A"] = s.opacity.opaque_below_A;
   json["faint_above_A"] = s.opacity.faint_above_A;
   json["least_opacity"] = s.opacity.least;
+  json["opacity"] = s.opacity.greatest;
   json["layout"] = kLayouts[static_cast<std::size_t>(s.layout)];
   json["width"] = s.width;
   json["height"] = s.height;
@@ -209,6 +211,10 @@ void check(const Scene& s) {
   require(
       is_share(s.opacity.least) && s.opacity.opaque_below_A >= 0 && s.opacity.faint_above_A > s.opacity.opaque_below_A,
       "the opacity scale must rise from a displacement >= 0 to a larger one, with a least opacity of 0 to 1");
+  require(s.opacity.greatest > 0 && s.opacity.greatest <= 1 && s.opacity.greatest >= s.opacity.least,
+          "the surface's opacity must be above 0, at most 1, and no less than the least opacity");
+  require(s.layout != Layout::kSplit || s.molecule == MoleculeStyle::kNone,
+          "the layout split draws no molecules, whose halves would not match; use linked");
   require(is_share(s.morph), "a morph goes from 0 (source) to 1 (target), not to " + std::to_string(s.morph));
   require(is_share(s.split), "a split lies at 0 (left) to 1 (right), not at " + std::to_string(s.split));
   require(s.zoom >= 0.1 && s.zoom <= 50, "a zoom of " + std::to_string(s.zoom) + " cannot be drawn; use 0.1 to 50");

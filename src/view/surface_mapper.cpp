@@ -148,9 +148,10 @@ void SurfaceMapper::SetMapperShaderParameters(vtkOpenGLHelper& cells, vtkRendere
   set_integer(program, "targetMap", target_map_->unit());
   set_float(program, "morph", look_.morph);
   set_float(program, "hatchPitch", look_.hatch_pixels);
-  const float fade[3] = {static_cast<float>(look_.opacity.opaque_below_A),
-                         static_cast<float>(look_.opacity.faint_above_A), static_cast<float>(look_.opacity.least)};
-  if_used(program, "fade", [&](const char* name) { program->SetUniform3f(name, fade); });
+  const OpacityScale& opacity = look_.opacity;
+  const float fade[4] = {static_cast<float>(opacity.opaque_below_A), static_cast<float>(opacity.faint_above_A),
+                         static_cast<float>(opacity.least), static_cast<float>(opacity.greatest)};
+  if_used(program, "fade", [&](const char* name) { program->SetUniform4f(name, fade); });
   set_floats(program, "shownColumns", static_cast<float>(look_.first_column), static_cast<float>(look_.last_column));
   set_colour_uniforms(program);
 }

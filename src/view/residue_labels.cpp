@@ -1,0 +1,110 @@
+// residue_labels.cpp: picks residues and writes their names in space.
+#include "view/residue_labels.h"
+
+#include <vtkActor.h>
+#include <vtkBillboardTextActor3D.h>
+#include <vtkFreeTypeTools.h>
+#include <vtkLineSource.h>
+#include <vtkNew.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkTextProperty.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace espdiff {
+namespace {
+
+constexpr int kFewestVertices = 20;
+constexpr double kApart_A = 6, kOffSurface_A = 4;
+
+struct Sum {
+  double difference = 0;
+  Vec3d place{}, normal{};
+  int n = 0;
+};
+
+std::size_t nearest_vertex(const SurfaceFile& surface, float residue, Vec3d place) {
+  std::size_t nearest = 0;
+  double least = 1e30;
+  for (std::size_t i = 0; i < surface.positions.size(); ++i) {
+    const double distance = norm(surface.positions[i] - place);
+    if (surface.residue_index[i] == residue && distance < least) {
+      least = distance;
+      nearest = i;
+    }
+  }
+  return nearest;
+}
+
+}  // namespace
+
+std::vector<ResidueMark> most_different_residues(const SurfaceFile& surface, int n) {
+  std::map<int, Sum> sums;
+  const std::vector<float>& residues = surface.values(RenderArray::kResidue);
+  const std::vector<float>& differences = surface.values(RenderArray::kDifference);
+  for (std::size_t i = 0; i < residues.size(); ++i) {
+    if (residues[i] < 0 || !std::isfinite(differences[i])) continue;
+    Sum& sum = sums[static_cast<int>(residues[i])];
+    sum.difference += std::abs(differences[i]);
+    sum.place += surface.positions[i];
+    sum.normal += static_cast<Vec3d>(surface.normals[i]);
+    ++sum.n;
+  }
+  std::vector<std::pair<double, int>> order;
+  for (const auto& [residue, sum] : sums) {
+    if (sum.n >= kFewestVertices) order.emplace_back(-sum.difference / sum.n, residue);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<ResidueMark> marks;
+  for (const auto& [negative, residue] : order) {
+    if (static_cast<int>(marks.size()) == n) break;
+    const Sum& sum = sums[residue];
+    const std::size_t at = nearest_vertex(surface, static_cast<float>(residue), (1.0 / sum.n) * sum.place);
+    const Vec3d place = surface.positions[at];
+    const bool crowds =
+        std::any_of(marks.begin(), marks.end(), [&](const ResidueMark& m) { return norm(m.place - place) < kApart_A; });
+    if (!crowds) marks.push_back({residue, -negative, place, static_cast<Vec3d>(surface.normals[at])});
+  }
+  return marks;
+}
+
+std::string residue_name(const Molecule& molecule, int residue) {
+  const Residue& r = molecule.residues.at(static_cast<std::size_t>(residue));
+  const bool several = std::any_of(molecule.residues.begin(), molecule.residues.end(),
+                                   [&](const Residue& other) { return other.chain != r.chain; });
+  const std::string insertion = r.insertion_code == ' ' ? "" : std::string(1, r.insertion_code);
+  return r.name + " " + (several ? r.chain : "") + std::to_string(r.number) + insertion;
+}
+
+std::vector<vtkSmartPointer<vtkProp>> make_label(const ResidueMark& mark, const std::string& text, double text_pixels) {
+  vtkFreeTypeTools::GetInstance()->ForceCompiledFontsOn();
+  const Vec3d end = mark.place + kOffSurface_A * mark.outward;
+  vtkNew<vtkLineSource> line;
+  line->SetPoint1(mark.place.x, mark.place.y, mark.place.z);
+  line->SetPoint2(end.x, end.y, end.z);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(line->GetOutputPort());
+  auto pin = vtkSmartPointer<vtkActor>::New();
+  pin->SetMapper(mapper);
+  pin->GetProperty()->SetColor(0.1, 0.1, 0.1);
+  pin->GetProperty()->SetLineWidth(static_cast<float>(text_pixels / 9));
+  pin->GetProperty()->LightingOff();
+  auto label = vtkSmartPointer<vtkBillboardTextActor3D>::New();
+  label->SetInput(text.c_str());
+  label->SetPosition(end.x, end.y, end.z);
+  vtkTextProperty* style = label->GetTextProperty();
+  style->SetFontFamilyToArial();
+  style->SetBold(1);
+  style->SetFontSize(static_cast<int>(std::lround(text_pixels)));
+  style->SetColor(0.1, 0.1, 0.1);
+  style->SetBackgroundColor(1, 1, 1);
+  style->SetBackgroundOpacity(0.75);
+  style->SetJustificationToCentered();
+  style->SetVerticalJustificationToCentered();
+  return {pin, label};
+}
+
+}  // namespace espdiff
