@@ -83,6 +83,16 @@ void add_context_options(CLI::App& p, SceneArguments& a) {
               [](Scene& s, Number v) { s.around_A = v; });
   add<int>(p, a, "--labels", "Name this many residues with the largest mean difference [0]",
            [](Scene& s, int v) { s.n_labels = v; });
+  add<Numbers>(p, a, "--isopotential", "Surfaces on which the potential has these values, such as -2,2",
+               [](Scene& s, const Numbers& v) { s.isopotentials = v; })
+      ->delimiter(',');
+  add<int>(p, a, "--field-lines", "This many field lines, from where the field is strongest on the surface [0]",
+           [](Scene& s, int v) { s.n_field_lines = v; });
+  add<Number>(p, a, "--slice", "The potential on a plane across the view: 0 in front, 1 behind [none]",
+              [](Scene& s, Number v) { s.slice = v; });
+  add<Numbers>(p, a, "--offsets", "Compare also on surfaces this far outside, Angstrom, such as 1,2,4",
+               [](Scene& s, const Numbers& v) { s.offsets_A = v; })
+      ->delimiter(',');
   add_flag(p, a, "--no-surface", "Leave the surface out", [](Scene& s) { s.surface = false; });
 }
 

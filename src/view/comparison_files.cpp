@@ -13,7 +13,8 @@ namespace {
 bool draws_source_shape(const Scene& scene) { return scene.layout != Layout::kTurned || scene.morph < 1; }
 
 bool draws_maps(const Scene& scene) {
-  return !scene.isopotentials.empty() || scene.n_field_lines > 0 || scene.slice.has_value();
+  return !scene.isopotentials.empty() || scene.n_field_lines > 0 || scene.slice.has_value() ||
+         !scene.offsets_A.empty();
 }
 
 bool draws_molecules(const Scene& scene) {
@@ -68,7 +69,7 @@ ComparisonFiles read_comparison(const std::string& vtp_path, const Scene& scene)
   const bool needs_maps = (shows_potentials(scene) && !scene.per_vertex) || draws_maps(scene);
   if (needs_maps) files.maps = read_map_pair(files.record, files.surface);
   if (draws_maps(scene) && !files.maps.complete()) {
-    throw InputError("isopotential surfaces, field lines and slices need the maps: " + files.maps.why_not);
+    throw InputError("isopotential and offset surfaces, field lines and slices need the maps: " + files.maps.why_not);
   }
   if (draws_molecules(scene)) read_molecules(files, scene);
   return files;

@@ -13,6 +13,8 @@
 
 #include "base/error.h"
 #include "view/camera_view.h"
+#include "view/legend.h"
+#include "view/map_drawings.h"
 #include "view/molecule_actors.h"
 #include "view/residue_labels.h"
 #include "view/scene_legend.h"
@@ -38,26 +40,53 @@ Panel turned_panel(const Scene& scene, int i, bool fades) {
   Panel panel;
   panel.name = view_name(i, scene.n_views);
   panel.angle = kTurn * i / scene.n_views;
-  panel.sheets = {{scene.array, scene.morph, fades, 0, 1}};
+  panel.sheets = {{scene.array, scene.morph, fades, 0, 0, 1}};
   return panel;
+}
+
+/// The surface, and those outside of it, side by side.
+Panel offset_panel(const Scene& scene, std::size_t i, bool fades) {
+  Panel panel;
+  const double offset = i == 0 ? 0 : scene.offsets_A[i - 1];
+  panel.name = i == 0 ? "surface" : readable_number(offset) + " \xC3\x85 outside";
+  panel.sheets = {{scene.array, scene.morph, fades, offset, 0, 1}};
+  return panel;
+}
+
+/// The surface moved outward along its normals, on both molecules: where the potentials are compared instead.
+std::unique_ptr<SurfaceFile> moved_outward(const SurfaceFile& surface, const StartSurface& start,
+                                           const RigidTransform& source_to_target, double offset_A) {
+  auto moved = std::make_unique<SurfaceFile>(surface);
+  const double* r = source_to_target.rotation;
+  for (std::size_t i = 0; i < surface.positions.size(); ++i) {
+    moved->positions[i] += offset_A * static_cast<Vec3d>(surface.normals[i]);
+    const auto n = static_cast<Vec3d>(start.normals[i]);
+    // Back into the source's own frame, by the transpose.
+    moved->source_positions[i] += offset_A * Vec3d{r[0] * n.x + r[3] * n.y + r[6] * n.z,
+                                                   r[1] * n.x + r[4] * n.y + r[7] * n.z,
+                                                   r[2] * n.x + r[5] * n.y + r[8] * n.z};
+  }
+  return moved;
 }
 
 std::vector<Panel> panels_of(const Scene& scene, bool fades) {
   std::vector<Panel> panels;
-  if (scene.layout == Layout::kTurned) {
+  if (!scene.offsets_A.empty()) {
+    for (std::size_t i = 0; i <= scene.offsets_A.size(); ++i) panels.push_back(offset_panel(scene, i, fades));
+  } else if (scene.layout == Layout::kTurned) {
     for (int i = 0; i < scene.n_views; ++i) panels.push_back(turned_panel(scene, i, fades));
   } else if (scene.layout == Layout::kLinked) {
     panels.resize(3);
     panels[0].name = "source";
-    panels[0].sheets = {{RenderArray::kSource, 0, false, 0, 1}};
+    panels[0].sheets = {{RenderArray::kSource, 0, false, 0, 0, 1}};
     panels[1].name = "target";
-    panels[1].sheets = {{RenderArray::kTarget, 1, false, 0, 1}};
+    panels[1].sheets = {{RenderArray::kTarget, 1, false, 0, 0, 1}};
     panels[2].name = "target \xE2\x88\x92 source";
-    panels[2].sheets = {{compared(scene.array), scene.morph, fades, 0, 1}};
+    panels[2].sheets = {{compared(scene.array), scene.morph, fades, 0, 0, 1}};
   } else {
     panels.resize(1);
-    panels[0].sheets = {{RenderArray::kSource, 0, false, 0, scene.split},
-                        {RenderArray::kTarget, 1, false, scene.split, 1}};
+    panels[0].sheets = {{RenderArray::kSource, 0, false, 0, 0, scene.split},
+                        {RenderArray::kTarget, 1, false, 0, scene.split, 1}};
   }
   return panels;
 }
@@ -90,12 +119,28 @@ ComparisonScene::ComparisonScene(const ComparisonFiles& files, Scene scene)
     if (!is_shown[i]) continue;
     shown_positions_.push_back(surface.positions[i]);
     shown_values_.push_back(values.empty() ? 0 : values[i]);
+    shown_normals_.push_back(surface.normals[i]);
   }
   choose_scales();
+  make_offsets();
+}
+
+void ComparisonScene::make_offsets() {
+  offsets_.clear();
+  for (const double offset : scene_.offsets_A) {
+    auto moved = moved_outward(files_.surface, geometry_.start(), files_.record.source_to_target, offset);
+    auto geometry = std::make_unique<SurfaceGeometry>(*moved, files_.record, files_.maps);
+    offsets_.emplace_back(std::move(moved), std::move(geometry));
+  }
 }
 
 void ComparisonScene::choose_scales() {
   scales_.clear();
+  map_scale_.reset();
+  if (!scene_.isopotentials.empty() || scene_.n_field_lines > 0 || scene_.slice) {
+    const ScaleRange automatic{0, scene_.range.percentile, false, 0, 0};
+    map_scale_.emplace(RenderArray::kTarget, both_potentials(files_.surface), automatic, diverging_map(scene_.colours));
+  }
   const bool fades = false;
   for (const Panel& panel : panels_of(scene_, fades)) {
     for (const Sheet& sheet : panel.sheets) {
@@ -148,12 +193,16 @@ void ComparisonScene::add_sheet(const Panel& panel, const Sheet& sheet) {
   look.splits = sheet.from > 0 || sheet.to < 1;
   look.first_column = width * (panel.left + sheet.from * (panel.right - panel.left));
   look.last_column = width * (panel.left + sheet.to * (panel.right - panel.left));
+  const SurfaceGeometry* geometry = &geometry_;
+  for (std::size_t i = 0; i < offsets_.size(); ++i) {
+    if (sheet.offset_A == scene_.offsets_A[i]) geometry = offsets_[i].second.get();
+  }
   for (const SurfacePart part : {SurfacePart::kTrusted, SurfacePart::kCorrupt, SurfacePart::kWithoutCounterpart}) {
     // What has no counterpart has its place on the source only.
     if (part == SurfacePart::kWithoutCounterpart && sheet.morph > 0) continue;
-    if (!geometry_.has(part)) continue;
+    if (!geometry->has(part)) continue;
     vtkNew<SurfaceMapper> mapper;
-    mapper->SetInputData(geometry_.part(part));
+    mapper->SetInputData(geometry->part(part));
     mapper->set_part(part);
     mapper->set_look(look);
     if (per_fragment()) mapper->set_maps(source_texture_, target_texture_);
@@ -190,6 +239,26 @@ void ComparisonScene::add_labels(const Panel& panel) {
   }
 }
 
+void ComparisonScene::add_map_drawings(const Panel& panel) {
+  if (!map_scale_) return;
+  const bool is_source = panel.sheets.front().morph == 0;
+  PlacedMap map{files_.maps.target.get(), {}};
+  if (is_source) map = {files_.maps.source.get(), files_.record.source_to_target};
+  const auto add = [&](const vtkSmartPointer<vtkProp>& prop) {
+    if (prop != nullptr) panel.renderer->AddViewProp(prop);
+  };
+  for (const double value : scene_.isopotentials) add(make_isopotential(map, value, *map_scale_));
+  if (scene_.n_field_lines > 0) {
+    const auto lines = trace_field_lines(map, shown_positions_, shown_normals_, scene_.n_field_lines);
+    add(make_field_lines(map, lines, *map_scale_));
+  }
+  if (scene_.slice) {
+    double radius = 0;
+    for (const Vec3d& p : shown_positions_) radius = std::max(radius, norm(p - camera_.centre));
+    add(make_slice(map, camera_, 1.15 * radius, *scene_.slice, *map_scale_));
+  }
+}
+
 void ComparisonScene::fill(Panel& panel) {
   panel.renderer = vtkSmartPointer<vtkRenderer>::New();
   panel.renderer->SetViewport(panel.left, panel.bottom, panel.right, panel.top);
@@ -204,8 +273,10 @@ void ComparisonScene::fill(Panel& panel) {
     for (const Sheet& sheet : panel.sheets) add_sheet(panel, sheet);
   }
   add_molecule(panel);
+  add_map_drawings(panel);
   // Names stand where the compared surface is.
-  if (scene_.n_labels > 0 && &panel == &panels_.back()) add_labels(panel);
+  const bool is_compared = scene_.layout == Layout::kTurned || &panel == &panels_.back();
+  if (scene_.n_labels > 0 && is_compared) add_labels(panel);
   window_->AddRenderer(panel.renderer);
 }
 
@@ -219,14 +290,14 @@ void ComparisonScene::add_to(vtkRenderWindow* window, double scale_factor) {
   paper_->InteractiveOff();
   window->AddRenderer(paper_);
   lay_out();
-  for (Panel& panel : panels_) fill(panel);
   const Panel& first = panels_.front();
   const double aspect = (first.top - first.bottom) * scene_.height / ((first.right - first.left) * scene_.width);
-  const CameraView view = choose_camera(scene_, shown_positions_, shown_values_, aspect);
+  camera_ = choose_camera(scene_, shown_positions_, shown_values_, aspect);
+  for (Panel& panel : panels_) fill(panel);
   for (Panel& panel : panels_) {
     const bool shares_camera = scene_.layout == Layout::kLinked && &panel != &panels_.front();
     if (shares_camera) panel.renderer->SetActiveCamera(panels_.front().renderer->GetActiveCamera());
-    place_camera(panel.renderer, view, panel.angle);
+    place_camera(panel.renderer, camera_, panel.angle);
   }
   writing_->SetLayer(1);
   writing_->InteractiveOff();
@@ -243,14 +314,15 @@ void ComparisonScene::change_to(const Scene& scene) {
   scene_ = scene;
   check(scene_);
   choose_scales();
+  make_offsets();
   for (const Panel& panel : panels_) window_->RemoveRenderer(panel.renderer);
-  const CameraView view = camera_of(panels_.front().renderer);
+  camera_ = camera_of(panels_.front().renderer);
   lay_out();
   for (Panel& panel : panels_) fill(panel);
   for (Panel& panel : panels_) {
     if (scene_.layout == Layout::kLinked && &panel != &panels_.front())
       panel.renderer->SetActiveCamera(panels_.front().renderer->GetActiveCamera());
-    place_camera(panel.renderer, view, panel.angle);
+    place_camera(panel.renderer, camera_, panel.angle);
   }
   write_legend();
 }

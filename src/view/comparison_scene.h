@@ -6,6 +6,7 @@
 #include <vtkSmartPointer.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct Sheet {
   RenderArray array = RenderArray::kDifference;
   double morph = 1;
   bool fades = false;
+  double offset_A = 0;  ///< how far outside of the surface it is taken
   double from = 0, to = 1;  ///< shares of the view's width
 };
 
@@ -56,6 +58,8 @@ class ComparisonScene {
   /// Whether potentials are looked up at every pixel.
   bool per_fragment() const { return files_.maps.complete() && !scene_.per_vertex; }
   const SurfaceGeometry& geometry() const { return geometry_; }
+  /// Of what is drawn of the maps themselves; nullptr when nothing is.
+  const ColourScale* map_scale() const { return map_scale_ ? &*map_scale_ : nullptr; }
   /// Vertices that take part in a triangle with counterpart.
   const std::vector<Vec3d>& shown_positions() const { return shown_positions_; }
 
@@ -65,6 +69,8 @@ class ComparisonScene {
   void fill(Panel& panel);
   void add_molecule(const Panel& panel);
   void add_labels(const Panel& panel);
+  void add_map_drawings(const Panel& panel);
+  void make_offsets();
   void add_sheet(const Panel& panel, const Sheet& sheet);
   void write_legend();
 
@@ -76,6 +82,11 @@ class ComparisonScene {
   std::vector<Vec3d> shown_positions_;
   std::vector<float> shown_values_;
   std::vector<ColourScale> scales_;  ///< one for each array that is shown
+  std::optional<ColourScale> map_scale_;
+  std::vector<Vec3f> shown_normals_;
+  /// Surfaces of the scene's offsets_A, with their geometry.
+  std::vector<std::pair<std::unique_ptr<SurfaceFile>, std::unique_ptr<SurfaceGeometry>>> offsets_;
+  CameraView camera_;
   std::vector<Panel> panels_;
   vtkRenderWindow* window_ = nullptr;
   double scale_factor_ = 1;

@@ -228,6 +228,9 @@ void check(const Scene& s) {
   for (const double offset : s.offsets_A) {
     require(offset > 0 && offset <= 10, "offset surfaces lie 0 to 10 Angstrom outside, not " + std::to_string(offset));
   }
+  require(s.offsets_A.size() <= 3, "at most 3 offset surfaces fit beside the surface");
+  require(s.offsets_A.empty() || s.layout == Layout::kTurned, "offset surfaces need the layout turned");
+  require(s.offsets_A.empty() || !s.per_vertex, "offset surfaces need the maps; leave --per-vertex out");
   require(!s.slice || is_share(*s.slice), "a slice lies at 0 (front) to 1 (back)");
   if (s.camera) {
     require(s.camera->half_height_A > 0 && norm(cross(s.camera->up, s.camera->toward_viewer)) > 1e-6,

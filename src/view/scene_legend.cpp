@@ -34,33 +34,41 @@ struct Paper {
   PixelBox bar(double left, double right) const { return {width * left, bar_bottom, width * right, bar_top}; }
 };
 
-Paper paper_of(const Scene& scene, double scale_factor) {
+Paper paper_of(const ComparisonScene& drawn, double scale_factor) {
+  const Scene& scene = drawn.scene();
   const double width = scene.width * scale_factor, height = scene.height * scale_factor;
   // A narrow picture needs smaller text, so that its legends stay apart.
-  const double letters = scene.layout == Layout::kLinked ? 84 : 64;
+  const double letters = drawn.panels().size() > 2 || drawn.map_scale() != nullptr ? 84 : 64;
   const double text_height = std::min(height / 42, width / letters);
   const double bottom = height * 0.085;
   return {width, height, text_height, bottom, bottom + 0.95 * text_height};
+}
+
+bool is_potential(RenderArray array) { return array == RenderArray::kSource || array == RenderArray::kTarget; }
+
+/// The scale of both sides where they stand beside what is compared, or of what is drawn of the maps.
+const ColourScale* second_scale(const ComparisonScene& scene) {
+  if (scene.scene().layout == Layout::kLinked) return &scene.scale(RenderArray::kSource);
+  return is_potential(scene.scene().array) ? nullptr : scene.map_scale();
 }
 
 void add_scales(Legend& legend, const ComparisonScene& scene, const Paper& paper) {
   const auto add = [&](const ColourScale& scale, double left, double right, const std::string& title) {
     if (scale.has_bar()) legend.colours(paper.bar(left, right), scale, title);
   };
-  if (scene.scene().layout == Layout::kLinked) {
-    const ColourScale& potential = scene.scale(RenderArray::kSource);
-    const ColourScale& compared = scene.scale(scene.panels().back().sheets.front().array);
-    add(potential, 0.22, 0.46, short_title(potential.array(), scene.unit()));
+  const ColourScale& compared = scene.scale(scene.panels().back().sheets.front().array);
+  if (const ColourScale* potential = second_scale(scene)) {
+    add(*potential, 0.22, 0.46, short_title(potential->array(), scene.unit()));
     add(compared, 0.54, 0.76, short_title(compared.array(), scene.unit()));
     return;
   }
-  const ColourScale& scale = scene.scale(scene.panels().front().sheets.front().array);
   const bool split = scene.scene().layout == Layout::kSplit;
-  add(scale, 0.31, 0.66, split ? short_title(scale.array(), scene.unit()) : legend_title(scale.array(), scene.unit()));
+  add(compared, 0.31, 0.66,
+      split ? short_title(compared.array(), scene.unit()) : legend_title(compared.array(), scene.unit()));
 }
 
 void add_keys(Legend& legend, const ComparisonScene& scene, const Paper& paper) {
-  const double left = scene.scene().layout == Layout::kLinked ? 0.82 : 0.79;
+  const double left = second_scale(scene) != nullptr ? 0.82 : 0.79;
   const auto& sheets = scene.panels().back().sheets;
   const bool fades = std::any_of(sheets.begin(), sheets.end(), [](const Sheet& s) { return s.fades; });
   if (fades) legend.opacity(paper.bar(left, 0.96), scene.scene().opacity);
@@ -96,12 +104,12 @@ void add_names(Legend& legend, const ComparisonScene& scene, const Paper& paper)
 
 LegendShares legend_shares(const Scene& scene) {
   if (!scene.legend) return {0, 1};
-  const bool has_names = scene.layout != Layout::kTurned || scene.n_views > 1;
+  const bool has_names = scene.layout != Layout::kTurned || scene.n_views > 1 || !scene.offsets_A.empty();
   return {kLegendShare + (has_names ? kNameShare : 0), 1 - (scene.title.empty() ? 0.25 : 1) * kTitleShare};
 }
 
 void add_scene_legend(vtkRenderer* renderer, const ComparisonScene& scene, double scale_factor) {
-  const Paper paper = paper_of(scene.scene(), scale_factor);
+  const Paper paper = paper_of(scene, scale_factor);
   Legend legend(renderer, paper.text_height);
   if (!scene.scene().title.empty()) {
     legend.text(paper.width / 2, paper.height * (1 - kTitleShare / 2), scene.scene().title, Align::kCentre, 1.5);
@@ -110,7 +118,7 @@ void add_scene_legend(vtkRenderer* renderer, const ComparisonScene& scene, doubl
   const Panel& panel = scene.panels().front();
   const double pixels_per_A =
       paper.height * (panel.top - panel.bottom) / (2 * panel.renderer->GetActiveCamera()->GetParallelScale());
-  const bool linked = scene.scene().layout == Layout::kLinked;
+  const bool linked = second_scale(scene) != nullptr;
   legend.length(paper.width * 0.04, (paper.bar_bottom + paper.bar_top) / 2, paper.width * (linked ? 0.12 : 0.16),
                 pixels_per_A);
   add_scales(legend, scene, paper);
