@@ -83,7 +83,7 @@ double plain_ms(const ComparisonScene& scene, const ComparisonFiles& files, bool
   renderer->AddActor(actor);
   add_lights(renderer);
   window->AddRenderer(renderer);
-  place_camera(renderer, choose_camera(scene.scene(), scene.shown_positions(), {}, 1), 0);
+  place_camera(renderer, choose_camera(scene.scene(), files.surface.positions, {}, 1), 0);
   return frame_ms(window, {renderer}, n_frames);
 }
 

@@ -16,8 +16,8 @@
 namespace espdiff {
 namespace {
 
-constexpr int kSteps = 8;      ///< of the spline, a residue
-constexpr int kCorners = 16;   ///< of the profile
+constexpr int kSteps = 8;     ///< of the spline, a residue
+constexpr int kCorners = 16;  ///< of the profile
 constexpr double kPi = 3.14159265358979323846;
 
 /// Half axes of the profile, Angstrom.
@@ -134,8 +134,8 @@ class Strip {
 /// The direction across the ribbon at a residue: in the plane of the peptide that follows, square to the chain.
 Vec3d across_of(const Molecule& molecule, const Backbone& residue, Vec3d along, Vec3d before) {
   if (residue.c < 0 || residue.o < 0) return before;
-  const Vec3d carbonyl = molecule.positions[static_cast<std::size_t>(residue.o)] -
-                         molecule.positions[static_cast<std::size_t>(residue.c)];
+  const Vec3d carbonyl =
+      molecule.positions[static_cast<std::size_t>(residue.o)] - molecule.positions[static_cast<std::size_t>(residue.c)];
   const Vec3d across = unit(carbonyl - (dot(carbonyl, along) / dot(along, along)) * along);
   // Peptides of a strand point to alternate sides; the ribbon must not twist with them.
   return dot(across, before) < 0 ? -1.0 * across : across;

@@ -13,8 +13,7 @@ namespace {
 bool draws_source_shape(const Scene& scene) { return scene.layout != Layout::kTurned || scene.morph < 1; }
 
 bool draws_maps(const Scene& scene) {
-  return !scene.isopotentials.empty() || scene.n_field_lines > 0 || scene.slice.has_value() ||
-         !scene.offsets_A.empty();
+  return !scene.isopotentials.empty() || scene.n_field_lines > 0 || scene.slice.has_value() || !scene.offsets_A.empty();
 }
 
 bool draws_molecules(const Scene& scene) {

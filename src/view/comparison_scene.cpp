@@ -1,4 +1,4 @@
-// comparison_scene.cpp: panels, their surfaces, and one camera for all of them.
+// comparison_scene.cpp: surfaces and molecules in their panels, and one camera for all of them.
 #include "view/comparison_scene.h"
 
 #include <vtkActor.h>
@@ -9,11 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/error.h"
 #include "view/camera_view.h"
-#include "view/legend.h"
 #include "view/map_drawings.h"
 #include "view/molecule_actors.h"
 #include "view/residue_labels.h"
@@ -22,80 +20,23 @@
 namespace espdiff {
 namespace {
 
-constexpr double kTurn = 6.28318530717958647693;
-
-std::string view_name(int i, int n_views) {
-  if (n_views == 1) return "";
-  if (n_views == 2) return i == 0 ? "front" : "back";
-  return std::to_string(i * 360 / n_views) + "\xC2\xB0";
-}
-
-/// What the third of the linked views shows.
-RenderArray compared(RenderArray array) {
-  const bool is_one_side = array == RenderArray::kSource || array == RenderArray::kTarget;
-  return is_one_side ? RenderArray::kDifference : array;
-}
-
-Panel turned_panel(const Scene& scene, int i, bool fades) {
-  Panel panel;
-  panel.name = view_name(i, scene.n_views);
-  panel.angle = kTurn * i / scene.n_views;
-  panel.sheets = {{scene.array, scene.morph, fades, 0, 0, 1}};
-  return panel;
-}
-
-/// The surface, and those outside of it, side by side.
-Panel offset_panel(const Scene& scene, std::size_t i, bool fades) {
-  Panel panel;
-  const double offset = i == 0 ? 0 : scene.offsets_A[i - 1];
-  panel.name = i == 0 ? "surface" : readable_number(offset) + " \xC3\x85 outside";
-  panel.sheets = {{scene.array, scene.morph, fades, offset, 0, 1}};
-  return panel;
-}
-
-/// The surface moved outward along its normals, on both molecules: where the potentials are compared instead.
-std::unique_ptr<SurfaceFile> moved_outward(const SurfaceFile& surface, const StartSurface& start,
-                                           const RigidTransform& source_to_target, double offset_A) {
-  auto moved = std::make_unique<SurfaceFile>(surface);
-  const double* r = source_to_target.rotation;
-  for (std::size_t i = 0; i < surface.positions.size(); ++i) {
-    moved->positions[i] += offset_A * static_cast<Vec3d>(surface.normals[i]);
-    const auto n = static_cast<Vec3d>(start.normals[i]);
-    // Back into the source's own frame, by the transpose.
-    moved->source_positions[i] += offset_A * Vec3d{r[0] * n.x + r[3] * n.y + r[6] * n.z,
-                                                   r[1] * n.x + r[4] * n.y + r[7] * n.z,
-                                                   r[2] * n.x + r[5] * n.y + r[8] * n.z};
-  }
-  return moved;
-}
-
-std::vector<Panel> panels_of(const Scene& scene, bool fades) {
-  std::vector<Panel> panels;
-  if (!scene.offsets_A.empty()) {
-    for (std::size_t i = 0; i <= scene.offsets_A.size(); ++i) panels.push_back(offset_panel(scene, i, fades));
-  } else if (scene.layout == Layout::kTurned) {
-    for (int i = 0; i < scene.n_views; ++i) panels.push_back(turned_panel(scene, i, fades));
-  } else if (scene.layout == Layout::kLinked) {
-    panels.resize(3);
-    panels[0].name = "source";
-    panels[0].sheets = {{RenderArray::kSource, 0, false, 0, 0, 1}};
-    panels[1].name = "target";
-    panels[1].sheets = {{RenderArray::kTarget, 1, false, 0, 0, 1}};
-    panels[2].name = "target \xE2\x88\x92 source";
-    panels[2].sheets = {{compared(scene.array), scene.morph, fades, 0, 0, 1}};
-  } else {
-    panels.resize(1);
-    panels[0].sheets = {{RenderArray::kSource, 0, false, 0, 0, scene.split},
-                        {RenderArray::kTarget, 1, false, 0, scene.split, 1}};
-  }
-  return panels;
-}
-
 /// Colours of potentials are compared by eye: both sides have one scale.
 std::vector<float> both_potentials(const SurfaceFile& surface) {
   std::vector<float> values = surface.potential_source;
   values.insert(values.end(), surface.potential_target.begin(), surface.potential_target.end());
   return values;
+}
+
+bool draws_maps(const Scene& scene) {
+  return !scene.isopotentials.empty() || scene.n_field_lines > 0 || scene.slice.has_value();
+}
+
+/// Whether two scenes have the same things in them, whatever they look like.
+bool same_things(const Scene& a, const Scene& b) {
+  return a.layout == b.layout && a.n_views == b.n_views && a.width == b.width && a.height == b.height &&
+         a.surface == b.surface && a.molecule == b.molecule && a.around_A == b.around_A && a.n_labels == b.n_labels &&
+         a.isopotentials == b.isopotentials && a.offsets_A == b.offsets_A && a.n_field_lines == b.n_field_lines &&
+         a.slice == b.slice && a.legend == b.legend && a.title.empty() == b.title.empty() && a.colours == b.colours;
 }
 
 }  // namespace
@@ -105,24 +46,51 @@ ComparisonScene::ComparisonScene(const ComparisonFiles& files, Scene scene)
       scene_(std::move(scene)),
       geometry_(files.surface, files.record, files.maps),
       source_texture_(std::make_shared<MapTexture>(files.maps.source)),
-      target_texture_(std::make_shared<MapTexture>(files.maps.target)) {
+      target_texture_(std::make_shared<MapTexture>(files.maps.target)),
+      no_texture_(std::make_shared<MapTexture>(nullptr)) {
   check(scene_);
-  unit_ = scene_.unit.empty() ? files_.surface.potential_unit : scene_.unit;
   const SurfaceFile& surface = files_.surface;
   std::vector<bool> is_shown(surface.positions.size(), false);
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     if (!surface.has_counterpart(t)) continue;
     for (const std::uint32_t corner : surface.triangles[t]) is_shown[corner] = true;
   }
-  const std::vector<float>& values = surface.values(scene_.array);
   for (std::size_t i = 0; i < is_shown.size(); ++i) {
     if (!is_shown[i]) continue;
+    shown_.push_back(i);
     shown_positions_.push_back(surface.positions[i]);
-    shown_values_.push_back(values.empty() ? 0 : values[i]);
-    shown_normals_.push_back(surface.normals[i]);
   }
-  choose_scales();
-  make_offsets();
+  choose_scales(scene_);
+}
+
+void ComparisonScene::choose_scales(const Scene& scene) {
+  unit_ = scene.unit.empty() ? files_.surface.potential_unit : scene.unit;
+  std::vector<ColourScale> scales;
+  const ScaleRange automatic{0, scene.range.percentile, false, 0, 0};
+  const DivergingMap& map = diverging_map(scene.colours);
+  for (const Panel& panel : panels_of(scene, false)) {
+    for (const Sheet& sheet : panel.sheets) {
+      const auto is_same = [&](const ColourScale& s) { return s.array() == sheet.array; };
+      if (std::any_of(scales.begin(), scales.end(), is_same)) continue;
+      const bool is_one_side = sheet.array == RenderArray::kSource || sheet.array == RenderArray::kTarget;
+      const bool shares = scene.layout != Layout::kTurned && is_one_side;
+      // A range that was given is that of the array that it was given for.
+      const bool is_asked_for = scene.layout == Layout::kLinked ? sheet.array == compared_array(scene.array) : true;
+      scales.emplace_back(sheet.array, shares ? both_potentials(files_.surface) : files_.surface.values(sheet.array),
+                          is_asked_for ? scene.range : automatic, map);
+    }
+  }
+  std::optional<ColourScale> map_scale;
+  if (draws_maps(scene)) map_scale.emplace(RenderArray::kTarget, both_potentials(files_.surface), automatic, map);
+  scales_ = std::move(scales);
+  map_scale_ = std::move(map_scale);
+}
+
+const ColourScale& ComparisonScene::scale(RenderArray array) const {
+  for (const ColourScale& scale : scales_) {
+    if (scale.array() == array) return scale;
+  }
+  throw Error(ErrorClass::kInternal, std::string("no colour scale for ") + to_string(array));
 }
 
 void ComparisonScene::make_offsets() {
@@ -134,93 +102,70 @@ void ComparisonScene::make_offsets() {
   }
 }
 
-void ComparisonScene::choose_scales() {
-  scales_.clear();
-  map_scale_.reset();
-  if (!scene_.isopotentials.empty() || scene_.n_field_lines > 0 || scene_.slice) {
-    const ScaleRange automatic{0, scene_.range.percentile, false, 0, 0};
-    map_scale_.emplace(RenderArray::kTarget, both_potentials(files_.surface), automatic, diverging_map(scene_.colours));
-  }
-  const bool fades = false;
-  for (const Panel& panel : panels_of(scene_, fades)) {
-    for (const Sheet& sheet : panel.sheets) {
-      const bool has_scale =
-          std::any_of(scales_.begin(), scales_.end(), [&](const ColourScale& s) { return s.array() == sheet.array; });
-      if (has_scale) continue;
-      const bool is_one_side = sheet.array == RenderArray::kSource || sheet.array == RenderArray::kTarget;
-      const bool shares = scene_.layout != Layout::kTurned && is_one_side;
-      // A range that was given is that of the array that it was given for.
-      ScaleRange range = scene_.range;
-      const bool is_asked_for = sheet.array == compared(scene_.array) || (shares && scene_.layout == Layout::kSplit);
-      if (!is_asked_for && scene_.layout != Layout::kTurned) range = {0, scene_.range.percentile, false, 0, 0};
-      scales_.emplace_back(sheet.array, shares ? both_potentials(files_.surface) : files_.surface.values(sheet.array),
-                           range, diverging_map(scene_.colours));
-    }
-  }
-}
-
-const ColourScale& ComparisonScene::scale(RenderArray array) const {
-  for (const ColourScale& scale : scales_) {
-    if (scale.array() == array) return scale;
-  }
-  throw Error(ErrorClass::kInternal, std::string("no colour scale for ") + to_string(array));
-}
-
 void ComparisonScene::lay_out() {
   // A displacement is in the colour already; fading it too would hide the places it is to show.
   const bool fades = scene_.fade && scene_.array != RenderArray::kDisplacement && !files_.surface.displacement.empty();
-  panels_ = panels_of(scene_, fades);
+  std::vector<Panel> panels = panels_of(scene_, fades);
   const LegendShares shares = legend_shares(scene_);
-  const auto n = static_cast<double>(panels_.size());
-  for (std::size_t i = 0; i < panels_.size(); ++i) {
-    panels_[i].left = static_cast<double>(i) / n;
-    panels_[i].right = static_cast<double>(i + 1) / n;
-    panels_[i].bottom = shares.bottom;
-    panels_[i].top = shares.top;
-  }
+  place(panels, shares.bottom, shares.top);
+  for (std::size_t i = 0; i < panels.size() && i < panels_.size(); ++i) panels[i].renderer = panels_[i].renderer;
+  panels_ = std::move(panels);
 }
 
-void ComparisonScene::add_sheet(const Panel& panel, const Sheet& sheet) {
+SurfaceLook ComparisonScene::look_of(const Panel& panel, const Sheet& sheet) const {
   const double width = scene_.width * scale_factor_;
   SurfaceLook look;
   look.scale = scale(sheet.array);
   look.opacity = scene_.opacity;
   // Linked views keep the two sides whole, whatever shows through the third.
-  if (&panel != &panels_.back()) look.opacity.greatest = scene_.layout == Layout::kLinked ? 1 : look.opacity.greatest;
+  if (scene_.layout == Layout::kLinked && &panel != &panels_.back()) look.opacity.greatest = 1;
   look.fades = sheet.fades;
   look.morph = sheet.morph;
   look.hatch_pixels = 7 * scale_factor_;
   look.splits = sheet.from > 0 || sheet.to < 1;
   look.first_column = width * (panel.left + sheet.from * (panel.right - panel.left));
   look.last_column = width * (panel.left + sheet.to * (panel.right - panel.left));
+  return look;
+}
+
+void ComparisonScene::add_parts(std::size_t panel, std::size_t sheet) {
+  const double offset = panels_[panel].sheets[sheet].offset_A;
   const SurfaceGeometry* geometry = &geometry_;
   for (std::size_t i = 0; i < offsets_.size(); ++i) {
-    if (sheet.offset_A == scene_.offsets_A[i]) geometry = offsets_[i].second.get();
+    if (offset == scene_.offsets_A[i]) geometry = offsets_[i].second.get();
   }
   for (const SurfacePart part : {SurfacePart::kTrusted, SurfacePart::kCorrupt, SurfacePart::kWithoutCounterpart}) {
-    // What has no counterpart has its place on the source only.
-    if (part == SurfacePart::kWithoutCounterpart && sheet.morph > 0) continue;
     if (!geometry->has(part)) continue;
-    vtkNew<SurfaceMapper> mapper;
+    auto mapper = vtkSmartPointer<SurfaceMapper>::New();
     mapper->SetInputData(geometry->part(part));
     mapper->set_part(part);
-    mapper->set_look(look);
-    if (per_fragment()) mapper->set_maps(source_texture_, target_texture_);
-    vtkNew<vtkActor> actor;
+    auto actor = vtkSmartPointer<vtkActor>::New();
     actor->SetMapper(mapper);
     // Through a faint place the paper shows, not the inside of the far wall.
     actor->GetProperty()->BackfaceCullingOn();
-    if (look.fades || look.opacity.greatest < 1 || part == SurfacePart::kCorrupt)
-      actor->ForceTranslucentOn();
+    panels_[panel].renderer->AddActor(actor);
+    parts_.push_back({panel, sheet, part, mapper, actor});
+  }
+}
+
+void ComparisonScene::update_looks() {
+  for (const DrawnPart& drawn : parts_) {
+    const Panel& panel = panels_[drawn.panel];
+    const SurfaceLook look = look_of(panel, panel.sheets[drawn.sheet]);
+    drawn.mapper->set_look(look);
+    drawn.mapper->set_maps(per_fragment() ? source_texture_ : no_texture_,
+                           per_fragment() ? target_texture_ : no_texture_);
+    // What has no counterpart has its place on the source only.
+    drawn.actor->SetVisibility(drawn.part != SurfacePart::kWithoutCounterpart || look.morph == 0);
+    if (look.fades || look.opacity.greatest < 1 || drawn.part == SurfacePart::kCorrupt)
+      drawn.actor->ForceTranslucentOn();
     else
-      actor->ForceOpaqueOn();
-    panel.renderer->AddActor(actor);
+      drawn.actor->ForceTranslucentOff();
   }
 }
 
 void ComparisonScene::add_molecule(const Panel& panel) {
-  const bool is_source = panel.sheets.front().morph == 0;
-  const std::optional<Molecule>& molecule = is_source ? files_.source_molecule : files_.target_molecule;
+  const std::optional<Molecule>& molecule = panel.is_source() ? files_.source_molecule : files_.target_molecule;
   if (!molecule) return;
   const double line_pixels = 1.5 * scale_factor_;
   const auto add = [&](const std::vector<bool>& residues, MoleculeStyle style) {
@@ -232,25 +177,26 @@ void ComparisonScene::add_molecule(const Panel& panel) {
 }
 
 void ComparisonScene::add_labels(const Panel& panel) {
-  if (!files_.source_molecule) return;
+  if (scene_.n_labels == 0 || !files_.source_molecule) return;
   for (const ResidueMark& mark : most_different_residues(files_.surface, scene_.n_labels)) {
     const std::string text = residue_name(*files_.source_molecule, mark.residue);
-    for (const auto& prop : make_label(mark, text, scene_.height * scale_factor_ / 60)) panel.renderer->AddViewProp(prop);
+    for (const auto& prop : make_label(mark, text, scene_.height * scale_factor_ / 60))
+      panel.renderer->AddViewProp(prop);
   }
 }
 
 void ComparisonScene::add_map_drawings(const Panel& panel) {
   if (!map_scale_) return;
-  const bool is_source = panel.sheets.front().morph == 0;
   PlacedMap map{files_.maps.target.get(), {}};
-  if (is_source) map = {files_.maps.source.get(), files_.record.source_to_target};
+  if (panel.is_source()) map = {files_.maps.source.get(), files_.record.source_to_target};
   const auto add = [&](const vtkSmartPointer<vtkProp>& prop) {
     if (prop != nullptr) panel.renderer->AddViewProp(prop);
   };
   for (const double value : scene_.isopotentials) add(make_isopotential(map, value, *map_scale_));
   if (scene_.n_field_lines > 0) {
-    const auto lines = trace_field_lines(map, shown_positions_, shown_normals_, scene_.n_field_lines);
-    add(make_field_lines(map, lines, *map_scale_));
+    std::vector<Vec3f> normals;
+    for (const std::size_t i : shown_) normals.push_back(files_.surface.normals[i]);
+    add(make_field_lines(map, trace_field_lines(map, shown_positions_, normals, scene_.n_field_lines), *map_scale_));
   }
   if (scene_.slice) {
     double radius = 0;
@@ -259,25 +205,50 @@ void ComparisonScene::add_map_drawings(const Panel& panel) {
   }
 }
 
-void ComparisonScene::fill(Panel& panel) {
-  panel.renderer = vtkSmartPointer<vtkRenderer>::New();
-  panel.renderer->SetViewport(panel.left, panel.bottom, panel.right, panel.top);
-  panel.renderer->SetBackground(1, 1, 1);
-  // Sorts every fragment by depth; without it, faint triangles would cover or miss each other by their order in the
-  // file.
-  panel.renderer->UseDepthPeelingOn();
-  panel.renderer->SetMaximumNumberOfPeels(16);
-  panel.renderer->SetOcclusionRatio(0);
-  add_lights(panel.renderer);
-  if (scene_.surface) {
-    for (const Sheet& sheet : panel.sheets) add_sheet(panel, sheet);
+void ComparisonScene::fill_panels() {
+  parts_.clear();
+  make_offsets();
+  for (std::size_t p = 0; p < panels_.size(); ++p) {
+    Panel& panel = panels_[p];
+    panel.renderer = vtkSmartPointer<vtkRenderer>::New();
+    panel.renderer->SetViewport(panel.left, panel.bottom, panel.right, panel.top);
+    panel.renderer->SetBackground(1, 1, 1);
+    // Sorts every fragment by depth; without it, faint triangles would cover or miss each other by their order in the
+    // file.
+    panel.renderer->UseDepthPeelingOn();
+    panel.renderer->SetMaximumNumberOfPeels(16);
+    panel.renderer->SetOcclusionRatio(0);
+    add_lights(panel.renderer);
+    for (std::size_t s = 0; scene_.surface && s < panel.sheets.size(); ++s) add_parts(p, s);
+    add_molecule(panel);
+    add_map_drawings(panel);
+    // Names stand where the compared surface is.
+    if (scene_.layout == Layout::kTurned || p + 1 == panels_.size()) add_labels(panel);
+    window_->AddRenderer(panel.renderer);
   }
-  add_molecule(panel);
-  add_map_drawings(panel);
-  // Names stand where the compared surface is.
-  const bool is_compared = scene_.layout == Layout::kTurned || &panel == &panels_.back();
-  if (scene_.n_labels > 0 && is_compared) add_labels(panel);
-  window_->AddRenderer(panel.renderer);
+  update_looks();
+  share_camera();
+}
+
+void ComparisonScene::share_camera() {
+  for (Panel& panel : panels_) {
+    const bool shares = scene_.layout == Layout::kLinked && &panel != &panels_.front();
+    if (shares) panel.renderer->SetActiveCamera(panels_.front().renderer->GetActiveCamera());
+    place_camera(panel.renderer, camera_, panel.angle);
+  }
+}
+
+void ComparisonScene::aim_camera() {
+  const Panel& first = panels_.front();
+  const double aspect = (first.top - first.bottom) * scene_.height / ((first.right - first.left) * scene_.width);
+  std::vector<float> values;
+  const std::vector<float>& all = files_.surface.values(scene_.array);
+  for (const std::size_t i : shown_) values.push_back(all.empty() ? 0 : all[i]);
+  camera_ = choose_camera(scene_, shown_positions_, values, aspect);
+  const auto& offsets = scene_.offsets_A;
+  // The outermost surface has to fit too.
+  if (!offsets.empty() && !scene_.camera)
+    camera_.half_height_A += *std::max_element(offsets.begin(), offsets.end()) * std::max(1.0, aspect) / scene_.zoom;
 }
 
 void ComparisonScene::add_to(vtkRenderWindow* window, double scale_factor) {
@@ -290,15 +261,8 @@ void ComparisonScene::add_to(vtkRenderWindow* window, double scale_factor) {
   paper_->InteractiveOff();
   window->AddRenderer(paper_);
   lay_out();
-  const Panel& first = panels_.front();
-  const double aspect = (first.top - first.bottom) * scene_.height / ((first.right - first.left) * scene_.width);
-  camera_ = choose_camera(scene_, shown_positions_, shown_values_, aspect);
-  for (Panel& panel : panels_) fill(panel);
-  for (Panel& panel : panels_) {
-    const bool shares_camera = scene_.layout == Layout::kLinked && &panel != &panels_.front();
-    if (shares_camera) panel.renderer->SetActiveCamera(panels_.front().renderer->GetActiveCamera());
-    place_camera(panel.renderer, camera_, panel.angle);
-  }
+  aim_camera();
+  fill_panels();
   writing_->SetLayer(1);
   writing_->InteractiveOff();
   window->AddRenderer(writing_);
@@ -311,20 +275,27 @@ void ComparisonScene::write_legend() {
 }
 
 void ComparisonScene::change_to(const Scene& scene) {
+  check(scene);
+  choose_scales(scene);
+  const bool only_looks = same_things(scene, scene_);
   scene_ = scene;
-  check(scene_);
-  choose_scales();
-  make_offsets();
-  for (const Panel& panel : panels_) window_->RemoveRenderer(panel.renderer);
-  camera_ = camera_of(panels_.front().renderer);
-  lay_out();
-  for (Panel& panel : panels_) fill(panel);
-  for (Panel& panel : panels_) {
-    if (scene_.layout == Layout::kLinked && &panel != &panels_.front())
-      panel.renderer->SetActiveCamera(panels_.front().renderer->GetActiveCamera());
-    place_camera(panel.renderer, camera_, panel.angle);
+  if (!only_looks) {
+    camera_ = camera_of(panels_.front().renderer);
+    for (const Panel& panel : panels_) window_->RemoveRenderer(panel.renderer);
+    panels_.clear();
   }
+  lay_out();
+  if (only_looks)
+    update_looks();
+  else
+    fill_panels();
   write_legend();
+}
+
+void ComparisonScene::reset_camera() {
+  scene_.camera.reset();
+  aim_camera();
+  share_camera();
 }
 
 }  // namespace espdiff

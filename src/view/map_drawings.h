@@ -36,8 +36,8 @@ vtkSmartPointer<vtkProp> make_slice(const PlacedMap& map, const CameraView& view
 
 /// Field lines (along -grad of the potential, both ways), from places on the surface, outside of it. Starts are the
 /// vertices where the field is strongest, none within 4 A of one before it. Fourth-order Runge-Kutta steps of 0.25 A in
-/// the trilinear map's gradient by central differences; a line ends at the map's border, inside of the surface, where the
-/// field vanishes, or after 60 A.
+/// the trilinear map's gradient by central differences; a line ends at the map's border, inside of the surface, where
+/// the field vanishes, or after 60 A.
 /// @param positions [vertex]; @param normals [vertex] unit, outward
 std::vector<std::vector<Vec3d>> trace_field_lines(const PlacedMap& map, const std::vector<Vec3d>& positions,
                                                   const std::vector<Vec3f>& normals, int n_lines);

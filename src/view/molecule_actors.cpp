@@ -61,7 +61,8 @@ class Elements {
 class AtomCells {
  public:
   AtomCells(const std::vector<Vec3d>& positions, double size) : positions_(positions), size_(size) {
-    for (std::size_t i = 0; i < positions.size(); ++i) cells_[key(positions[i], 0, 0, 0)].push_back(static_cast<int>(i));
+    for (std::size_t i = 0; i < positions.size(); ++i)
+      cells_[key(positions[i], 0, 0, 0)].push_back(static_cast<int>(i));
   }
 
   /// Calls `visit(index)` for all atoms in the cubes around a place.

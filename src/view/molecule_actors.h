@@ -19,8 +19,8 @@ std::vector<std::array<int, 2>> find_bonds(const Molecule& molecule);
 /// The atoms of some residues. Radii and charges are left out.
 Molecule with_residues(const Molecule& molecule, const std::vector<bool>& is_kept);
 
-/// Residues of ligands, ions and water, as far as an atom of theirs is within a distance of the polymer's: those without
-/// a backbone, in molecules that have one. [residue]
+/// Residues of ligands, ions and water, as far as an atom of theirs is within a distance of the polymer's: those
+/// without a backbone, in molecules that have one. [residue]
 std::vector<bool> residues_around(const Molecule& molecule, double distance_A);
 /// Residues that are part of a polymer: with a backbone, or of nucleic acids. [residue]
 std::vector<bool> polymer_residues(const Molecule& molecule);

@@ -80,7 +80,8 @@ bool set(Scene& s, const std::string& key, const Json& value) {
     s.opacity.faint_above_A = value;
   else if (key == "least_opacity")
     s.opacity.least = value;
-  else if (key == "opacity") s.opacity.greatest = value;
+  else if (key == "opacity")
+    s.opacity.greatest = value;
   else if (key == "layout")
     s.layout = parse_layout(value);
   else if (key == "width")

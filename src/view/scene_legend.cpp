@@ -57,6 +57,11 @@ void add_scales(Legend& legend, const ComparisonScene& scene, const Paper& paper
     if (scale.has_bar()) legend.colours(paper.bar(left, right), scale, title);
   };
   const ColourScale& compared = scene.scale(scene.panels().back().sheets.front().array);
+  if (!scene.scene().surface) {
+    if (scene.map_scale() != nullptr)
+      add(*scene.map_scale(), 0.31, 0.66, short_title(RenderArray::kTarget, scene.unit()));
+    return;
+  }
   if (const ColourScale* potential = second_scale(scene)) {
     add(*potential, 0.22, 0.46, short_title(potential->array(), scene.unit()));
     add(compared, 0.54, 0.76, short_title(compared.array(), scene.unit()));
@@ -68,6 +73,7 @@ void add_scales(Legend& legend, const ComparisonScene& scene, const Paper& paper
 }
 
 void add_keys(Legend& legend, const ComparisonScene& scene, const Paper& paper) {
+  if (!scene.scene().surface) return;
   const double left = second_scale(scene) != nullptr ? 0.82 : 0.79;
   const auto& sheets = scene.panels().back().sheets;
   const bool fades = std::any_of(sheets.begin(), sheets.end(), [](const Sheet& s) { return s.fades; });
@@ -79,8 +85,8 @@ void add_keys(Legend& legend, const ComparisonScene& scene, const Paper& paper) 
   };
   if (scene.scale(sheets.front().array).has_missing()) key(1, "no value");
   if (scene.geometry().has(SurfacePart::kCorrupt)) key(0.3, "corrupt");
-  const bool shows_start = std::any_of(scene.panels().begin(), scene.panels().end(),
-                                       [](const Panel& p) { return p.sheets.front().morph == 0; });
+  const bool shows_start =
+      std::any_of(scene.panels().begin(), scene.panels().end(), [](const Panel& p) { return p.is_source(); });
   if (shows_start && scene.geometry().has(SurfacePart::kWithoutCounterpart)) {
     legend.hatched_key(x, y, "no counterpart");
   }

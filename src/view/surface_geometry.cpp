@@ -105,6 +105,21 @@ StartSurface superposed_start(const SurfaceFile& surface, const RunRecord& recor
   return {floats(placed), vertex_normals(placed, surface.triangles)};
 }
 
+std::unique_ptr<SurfaceFile> moved_outward(const SurfaceFile& surface, const StartSurface& start,
+                                           const RigidTransform& source_to_target, double offset_A) {
+  auto moved = std::make_unique<SurfaceFile>(surface);
+  const double* r = source_to_target.rotation;
+  for (std::size_t i = 0; i < surface.positions.size(); ++i) {
+    moved->positions[i] += offset_A * static_cast<Vec3d>(surface.normals[i]);
+    const auto n = static_cast<Vec3d>(start.normals[i]);
+    // Back into the source's own frame, by the transpose.
+    moved->source_positions[i] +=
+        offset_A * Vec3d{r[0] * n.x + r[3] * n.y + r[6] * n.z, r[1] * n.x + r[4] * n.y + r[7] * n.z,
+                         r[2] * n.x + r[5] * n.y + r[8] * n.z};
+  }
+  return moved;
+}
+
 SurfaceGeometry::SurfaceGeometry(const SurfaceFile& surface, const RunRecord& record, const MapPair& maps)
     : surface_(surface), start_(superposed_start(surface, record)), points_(vtkSmartPointer<vtkPolyData>::New()) {
   vtkNew<vtkPoints> points;

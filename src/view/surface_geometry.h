@@ -4,6 +4,7 @@
 
 #include <vtkSmartPointer.h>
 
+#include <memory>
 #include <vector>
 
 #include "view/map_pair.h"
@@ -23,6 +24,12 @@ struct StartSurface {
 
 /// Without source positions or a record of the superposition: the mapped surface itself.
 StartSurface superposed_start(const SurfaceFile& surface, const RunRecord& record);
+
+/// The surface moved outward along its normals, on both molecules: where the potentials are compared instead. The
+/// arrays keep the surface's own values; only maps tell those farther out.
+/// @param surface with source positions
+std::unique_ptr<SurfaceFile> moved_outward(const SurfaceFile& surface, const StartSurface& start,
+                                           const RigidTransform& source_to_target, double offset_A);
 
 /// The triangles of one part with the point arrays of kSurfaceAttributes. Parts that are made of the same `points`
 /// share their memory, here and on the graphics processor.
