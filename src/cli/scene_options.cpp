@@ -109,8 +109,8 @@ void add_layout_options(CLI::App& p, SceneArguments& a) {
               [](Scene& s, Number v) { s.morph = v; });
   add<Text>(p, a, "--title", "Title above the views", [](Scene& s, const Text& t) { s.title = t; });
   add_flag(p, a, "--no-legend", "Leave title, scales and keys out", [](Scene& s) { s.legend = false; });
-  add<int>(p, a, "--width", "Pixels [1800]", [](Scene& s, int v) { s.width = v; });
-  add<int>(p, a, "--height", "Pixels [1100]", [](Scene& s, int v) { s.height = v; });
+  add<int>(p, a, "--width", "Pixels [1800; in a window 1280]", [](Scene& s, int v) { s.width = v; });
+  add<int>(p, a, "--height", "Pixels [1100; in a window 860]", [](Scene& s, int v) { s.height = v; });
   add<Number>(p, a, "--turn", "Degrees to turn the molecule to the right from the automatic view [0]",
               [](Scene& s, Number v) { s.turn_deg = v; });
   add<Number>(p, a, "--tilt", "Degrees to tilt its upper side toward the viewer [0]",
@@ -128,8 +128,8 @@ void add_scene_options(CLI::App& parser, SceneArguments& a) {
   parser.add_option("--save-scene", a.saved_scene, "Write the scene to this file");
 }
 
-Scene scene_of(const SceneArguments& a) {
-  Scene scene;
+Scene scene_of(const SceneArguments& a, const Scene& defaults) {
+  Scene scene = defaults;
   if (!a.scene_file.empty()) scene = read_scene(a.scene_file, scene);
   for (const auto& change : a.changes) change(scene);
   check(scene);

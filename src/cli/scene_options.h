@@ -20,6 +20,6 @@ void add_scene_options(CLI::App& parser, SceneArguments& arguments);
 
 /// Defaults, then the scene file, then the options; written to `saved_scene` where asked for.
 /// @throws IoError, FormatError, InputError
-Scene scene_of(const SceneArguments& arguments);
+Scene scene_of(const SceneArguments& arguments, const Scene& defaults = {});
 
 }  // namespace espdiff::cli

@@ -60,6 +60,12 @@ CameraView choose_camera(const Scene& scene, const std::vector<Vec3d>& positions
   return {o.centre, o.toward_viewer, o.up, half_height / scene.zoom};
 }
 
+double height_that_fits(const CameraView& view, const std::vector<Vec3d>& positions, double aspect) {
+  const Vec3d right = cross(view.up, view.toward_viewer);
+  const double up = half_extent(positions, view.centre, view.up);
+  return std::max({kMargin * up, kMargin * half_extent(positions, view.centre, right) * aspect, 0.5});
+}
+
 void place_camera(vtkRenderer* renderer, const CameraView& view, double angle) {
   const Vec3d right = cross(view.up, view.toward_viewer);
   const Vec3d toward = std::cos(angle) * view.toward_viewer + std::sin(angle) * right;

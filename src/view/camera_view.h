@@ -16,6 +16,9 @@ namespace espdiff {
 CameraView choose_camera(const Scene& scene, const std::vector<Vec3d>& positions, const std::vector<float>& values,
                          double aspect);
 
+/// Half of the height that a view must show so that all positions are in it, looked at from where the camera is.
+double height_that_fits(const CameraView& view, const std::vector<Vec3d>& positions, double aspect);
+
 /// Places a renderer's camera, a parallel one, so that lengths are the same everywhere.
 /// @param angle about the vertical, radians
 void place_camera(vtkRenderer* renderer, const CameraView& view, double angle);

@@ -34,6 +34,8 @@ Molecule read_molecule(const RunRecord& record, const RecordedInput& input, bool
 
 void read_molecules(ComparisonFiles& files, const Scene& scene) {
   const bool with_water = scene.around_A > 0;
+  if (files.target_molecule && files.source_molecule && (!with_water || files.with_water)) return;
+  files.with_water = with_water;
   files.target_molecule = read_molecule(files.record, files.record.target, with_water);
   files.source_molecule = read_molecule(files.record, files.record.source, with_water);
   for (Vec3d& p : files.source_molecule->positions) p = files.record.source_to_target.apply(p);
@@ -52,9 +54,20 @@ ComparisonFiles read_comparison(const std::string& vtp_path, const Scene& scene)
   files.surface = read_surface_file(vtp_path);
   files.surface.values(scene.array);
   files.record = read_run_record(vtp_path);
+  const bool needs_maps = (shows_potentials(scene) && !scene.per_vertex) || draws_maps(scene);
+  if (needs_maps) files.maps = read_map_pair(files.record, files.surface);
+  read_what_is_missing(files, scene);
+  return files;
+}
+
+void read_what_is_missing(ComparisonFiles& files, const Scene& scene) {
+  const SurfaceFile& surface = files.surface;
+  surface.values(scene.array);
   if (draws_source_shape(scene)) {
-    if (files.surface.source_positions.empty())
-      throw InputError(vtp_path + ": no point array 'source_position'; the source's shape cannot be drawn without it");
+    if (surface.source_positions.empty()) {
+      throw InputError(surface.path +
+                       ": no point array 'source_position'; the source's shape cannot be drawn without it");
+    }
     if (!files.record.found) {
       throw InputError(files.record.path +
                        ": no such file; the superposition in it is needed to draw the source's shape beside the "
@@ -62,16 +75,13 @@ ComparisonFiles read_comparison(const std::string& vtp_path, const Scene& scene)
     }
   }
   if (scene.layout != Layout::kTurned) {
-    files.surface.values(RenderArray::kSource);
-    files.surface.values(RenderArray::kTarget);
+    surface.values(RenderArray::kSource);
+    surface.values(RenderArray::kTarget);
   }
-  const bool needs_maps = (shows_potentials(scene) && !scene.per_vertex) || draws_maps(scene);
-  if (needs_maps) files.maps = read_map_pair(files.record, files.surface);
   if (draws_maps(scene) && !files.maps.complete()) {
     throw InputError("isopotential and offset surfaces, field lines and slices need the maps: " + files.maps.why_not);
   }
   if (draws_molecules(scene)) read_molecules(files, scene);
-  return files;
 }
 
 }  // namespace espdiff

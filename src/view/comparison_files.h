@@ -18,12 +18,17 @@ struct ComparisonFiles {
   MapPair maps;
   /// Where the scene draws or names residues: in the target's frame; with ligands, ions and, where asked for, water.
   std::optional<Molecule> source_molecule, target_molecule;
+  bool with_water = false;  ///< the molecules have it
 };
 
 /// Reads OUT.vtp, the OUT.json beside it and, unless the scene can do without, the maps that it names.
 /// @throws as read_surface_file() and read_run_record(); InputError where the scene draws the source's shape and
 /// OUT.json is missing, or colours by an array that the file lacks
 ComparisonFiles read_comparison(const std::string& vtp_path, const Scene& scene);
+
+/// Reads what a changed scene needs besides; maps are not read again.
+/// @throws as read_comparison()
+void read_what_is_missing(ComparisonFiles& files, const Scene& scene);
 
 /// Whether pixels of a scene show potentials, and hence are better looked up in the maps.
 bool shows_potentials(const Scene& scene);

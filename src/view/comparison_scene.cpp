@@ -238,9 +238,13 @@ void ComparisonScene::share_camera() {
   }
 }
 
-void ComparisonScene::aim_camera() {
+double ComparisonScene::view_aspect() const {
   const Panel& first = panels_.front();
-  const double aspect = (first.top - first.bottom) * scene_.height / ((first.right - first.left) * scene_.width);
+  return (first.top - first.bottom) * scene_.height / ((first.right - first.left) * scene_.width);
+}
+
+void ComparisonScene::aim_camera() {
+  const double aspect = view_aspect();
   std::vector<float> values;
   const std::vector<float>& all = files_.surface.values(scene_.array);
   for (const std::size_t i : shown_) values.push_back(all.empty() ? 0 : all[i]);
@@ -278,13 +282,16 @@ void ComparisonScene::change_to(const Scene& scene) {
   check(scene);
   choose_scales(scene);
   const bool only_looks = same_things(scene, scene_);
+  camera_ = camera_of(panels_.front().renderer);
+  const double fitted = height_that_fits(camera_, shown_positions_, view_aspect());
   scene_ = scene;
   if (!only_looks) {
-    camera_ = camera_of(panels_.front().renderer);
     for (const Panel& panel : panels_) window_->RemoveRenderer(panel.renderer);
     panels_.clear();
   }
   lay_out();
+  // Views of another shape show as much of the molecule as those before did.
+  camera_.half_height_A *= height_that_fits(camera_, shown_positions_, view_aspect()) / fitted;
   if (only_looks)
     update_looks();
   else

@@ -64,6 +64,7 @@ class ComparisonScene {
 
   void choose_scales(const Scene& scene);
   void lay_out();
+  double view_aspect() const;
   void aim_camera();
   void share_camera();
   void fill_panels();

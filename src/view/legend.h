@@ -47,9 +47,9 @@ class Legend {
 
   /// A vertical line.
   void rule(double x, double bottom, double top);
+  void rectangle(const PixelBox& box, Rgb colour, double opacity = 1.0);
 
  private:
-  void rectangle(const PixelBox& box, Rgb colour, double opacity = 1.0);
   void triangle(double x0, double y0, double x1, double y1, double x2, double y2, Rgb colour);
   void frame(const PixelBox& box);
   double text_width(const std::string& words) const;

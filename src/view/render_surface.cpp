@@ -72,7 +72,11 @@ std::vector<std::string> notes_on(const ComparisonFiles& files, const Scene& sce
 
 std::vector<std::string> render_surface(const std::string& vtp_path, const std::string& png_path, const Scene& scene) {
   check(scene);
-  const ComparisonFiles files = read_comparison(vtp_path, scene);
+  return render_comparison(read_comparison(vtp_path, scene), png_path, scene);
+}
+
+std::vector<std::string> render_comparison(const ComparisonFiles& files, const std::string& png_path,
+                                           const Scene& scene) {
   AtomicFile file(png_path);  // before the drawing: an output that cannot be written is better found early
   ComparisonScene drawn(files, scene);
   const vtkSmartPointer<vtkRenderWindow> window = make_hidden_window();
@@ -83,7 +87,7 @@ std::vector<std::string> render_surface(const std::string& vtp_path, const std::
   vtkNew<vtkImageData> image = grab_picture(window, scene.width, scene.height, kOversampling, messages);
   const PictureTexts texts = {{"Title", scene.title},
                               {"Software", std::string("espdiff ") + kVersion},
-                              {"Source", std::filesystem::path(vtp_path).filename().string()},
+                              {"Source", std::filesystem::path(files.surface.path).filename().string()},
                               {"Description", description(drawn)},
                               {"Inputs", inputs(files.record)},
                               {"Scene", scene_json(scene)}};

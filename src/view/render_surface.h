@@ -21,4 +21,10 @@ namespace espdiff {
 /// Cost: about 2 s at the default size by software OpenGL. Same machine and OpenGL driver: same pixels.
 std::vector<std::string> render_surface(const std::string& vtp_path, const std::string& png_path, const Scene& scene);
 
+struct ComparisonFiles;
+
+/// The same of files that were read already.
+std::vector<std::string> render_comparison(const ComparisonFiles& files, const std::string& png_path,
+                                           const Scene& scene);
+
 }  // namespace espdiff

@@ -9,11 +9,11 @@ TEST_CASE("help and version exit 0 and say what there is") {
   const Outcome help = run_espdiff("--help");
   CHECK(help.status == 0);
   for (const char* verb :
-       {"compare", "trajectory", "matrix", "merge", "plot", "surface", "potential", "render", "doctor"})
+       {"compare", "trajectory", "matrix", "merge", "plot", "surface", "potential", "render", "view", "doctor"})
     CHECK(contains(help.out, verb));
   CHECK(run_espdiff("--version").out == "espdiff " ESPDIFF_VERSION "\n");
   for (const char* verb :
-       {"compare", "trajectory", "matrix", "merge", "plot", "surface", "potential", "render", "doctor"}) {
+       {"compare", "trajectory", "matrix", "merge", "plot", "surface", "potential", "render", "view", "doctor"}) {
     const Outcome outcome = run_espdiff(std::string(verb) + " --help");
     CHECK(outcome.status == 0);
     CHECK(contains(outcome.out, "Usage: espdiff " + std::string(verb)));

@@ -1,0 +1,65 @@
+// view.cpp: `espdiff view OUT.vtp`: the window.
+#include "base/error.h"
+#include "cli/verbs.h"
+#if defined(ESPDIFF_HAVE_VTK)
+#include <filesystem>
+
+#include "cli/scene_options.h"
+#include "view/viewer.h"
+#endif
+
+namespace espdiff::cli {
+
+#if defined(ESPDIFF_HAVE_VTK)
+namespace {
+
+struct Arguments {
+  std::string input, prefix;
+  SceneArguments scene;
+};
+
+int run(Arguments& a, const Context&) {
+  Scene window;
+  window.width = 1280;
+  window.height = 860;
+  const Scene scene = scene_of(a.scene, window);
+  if (a.prefix.empty()) a.prefix = std::filesystem::path(a.input).stem().string() + "-view";
+  run_viewer(a.input, scene, a.prefix);
+  return 0;
+}
+
+std::string footer() {
+  std::string text = "Keys:\n";
+  for (const ViewerKey& key : viewer_keys()) {
+    text += "  " + key.keys + std::string(key.keys.size() < 14 ? 14 - key.keys.size() : 1, ' ') + key.help + "\n";
+  }
+  return text + "\nExample:\n  espdiff view result.vtp --layout linked";
+}
+
+}  // namespace
+
+Verb add_view(CLI::App& app) {
+  auto a = std::make_shared<Arguments>();
+  CLI::App* parser = app.add_subcommand("view", "Look at a comparison in a window");
+  parser->footer(footer());
+  parser->add_option("SURFACE", a->input, "OUT.vtp of compare; OUT.json is looked for beside it")->required();
+  parser->add_option("-o,--output", a->prefix,
+                     "Pictures and scenes are saved as PREFIX.png and PREFIX.json [OUT-view]");
+  add_scene_options(*parser, a->scene);
+  return {parser, [a](const Context& context) { return run(*a, context); }};
+}
+
+#else
+
+Verb add_view(CLI::App& app) {
+  CLI::App* parser = app.add_subcommand("view", "Look at a comparison in a window (not in this build)");
+  parser->allow_extras();
+  return {
+      parser, [](const Context&) -> int {
+        throw InputError("this build has no viewer: VTK 9 was not found when it was configured (Debian: libvtk9-dev)");
+      }};
+}
+
+#endif
+
+}  // namespace espdiff::cli

@@ -1,0 +1,22 @@
+// viewer.h: the window of `espdiff view`.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "view/scene.h"
+
+namespace espdiff {
+
+/// A key of the viewer and what it does, for help and manual.
+struct ViewerKey {
+  std::string keys, help;
+};
+std::vector<ViewerKey> viewer_keys();
+
+/// Opens a window on a comparison and returns when it is closed. What is picked is printed to standard output, too.
+/// @param saved_prefix pictures and scenes are saved as PREFIX.png and PREFIX.json, then PREFIX-2.png and so on
+/// @throws as render_surface()
+void run_viewer(const std::string& vtp_path, const Scene& scene, const std::string& saved_prefix);
+
+}  // namespace espdiff
