@@ -249,10 +249,10 @@ void ComparisonScene::aim_camera() {
   const std::vector<float>& all = files_.surface.values(scene_.array);
   for (const std::size_t i : shown_) values.push_back(all.empty() ? 0 : all[i]);
   camera_ = choose_camera(scene_, shown_positions_, values, aspect);
-  const auto& offsets = scene_.offsets_A;
-  // The outermost surface has to fit too.
-  if (!offsets.empty() && !scene_.camera)
-    camera_.half_height_A += *std::max_element(offsets.begin(), offsets.end()) * std::max(1.0, aspect) / scene_.zoom;
+  // The outermost surface has to fit too, and names beside the surface.
+  double beside_A = scene_.n_labels > 0 ? 6 : 0;
+  for (const double offset : scene_.offsets_A) beside_A = std::max(beside_A, offset);
+  if (!scene_.camera) camera_.half_height_A += beside_A * std::max(1.0, aspect) / scene_.zoom;
 }
 
 void ComparisonScene::add_to(vtkRenderWindow* window, double scale_factor) {

@@ -18,7 +18,7 @@ namespace espdiff {
 namespace {
 
 constexpr int kFewestVertices = 20;
-constexpr double kApart_A = 6, kOffSurface_A = 4;
+constexpr double kApart_A = 9, kOffSurface_A = 4;
 
 struct Sum {
   double difference = 0;

@@ -22,7 +22,7 @@ struct ResidueMark {
 };
 
 /// The residues with the largest mean |difference| over their vertices (20 or more of them with a value), in falling
-/// order; at most `n`, and none within 6 A of one before it, so that labels can be read.
+/// order; at most `n`, and none within 9 A of one before it, so that labels can be read.
 std::vector<ResidueMark> most_different_residues(const SurfaceFile& surface, int n);
 
 /// "LYS 12", with the chain before the number where the molecule has several: "LYS A12".

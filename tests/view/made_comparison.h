@@ -37,12 +37,12 @@ inline espdiff::Grid map_of(const std::vector<PointCharge>& charges) {
   return map;
 }
 
-/// Seven atoms in a row; `bend` lifts the last three.
+/// Seven bound atoms in a row; `bend` lifts the last three.
 inline std::string bent_row(double bend) {
   std::string text;
   for (int i = 0; i < 7; ++i) {
     char line[128];
-    const double x = 2.4 * i, y = 0.8 * (i % 2), z = i > 3 ? bend * (i - 3) : 0.0;
+    const double x = 1.4 * i, y = 0.6 * (i % 2), z = i > 3 ? bend * (i - 3) : 0.0;
     std::snprintf(line, sizeof line, "ATOM  %5d  CA  ALA A%4d    %8.3f%8.3f%8.3f %7.4f %6.4f\n", i + 1, i + 1, x, y, z,
                   i % 2 == 0 ? 0.4 : -0.4, 2.0);
     text += line;
@@ -54,8 +54,8 @@ inline std::string bent_row(double bend) {
 inline std::string compare_made_pair(const ScratchFolder& scratch, const std::string& more = "") {
   scratch.write("source.pqr", bent_row(0));
   scratch.write("target.pqr", bent_row(0.6));
-  espdiff::write_dx(scratch.file("source.dx"), map_of({{{2, 3, 1}, 1}, {{11, -3, 0}, -1}}));
-  espdiff::write_dx(scratch.file("target.dx"), map_of({{{3, 3, 1}, 1}, {{11, -2, 2}, -1}}));
+  espdiff::write_dx(scratch.file("source.dx"), map_of({{{2, 4, 1}, 1}, {{7, -4, 0}, -1}}));
+  espdiff::write_dx(scratch.file("target.dx"), map_of({{{3, 4, 1}, 1}, {{7, -4, 2}, -1}}));
   const Outcome run = run_espdiff("compare " + scratch.file("source.pqr") + " " + scratch.file("target.pqr") +
                                   " --quiet -o " + scratch.file("pair") + " --source-map " + scratch.file("source.dx") +
                                   " --target-map " + scratch.file("target.dx") + " " + more);

@@ -6,9 +6,7 @@
 #include <vtkCellData.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
-#include <vtkImageData.h>
 #include <vtkNew.h>
-#include <vtkPNGReader.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -24,12 +22,14 @@
 #include "base/error.h"
 #include "base/vector.h"
 #include "support/test_data.h"
+#include "view/decoded_picture.h"
 #include "view/display_here.h"
 
 using namespace espdiff;  // NOLINT: a test of one header
 using espdiff_test::can_draw;
 using espdiff_test::DisplayName;
 using espdiff_test::message_of;
+using espdiff_test::Picture;
 using espdiff_test::ScratchFolder;
 
 namespace {
@@ -98,39 +98,6 @@ std::string write_sphere(const std::string& path, const Paint& paint) {
   REQUIRE(writer->Write() == 1);
   return path;
 }
-
-/// A decoded picture; rows from the bottom.
-class Picture {
- public:
-  explicit Picture(const std::string& path) {
-    vtkNew<vtkPNGReader> reader;
-    reader->SetFileName(path.c_str());
-    reader->Update();
-    image_->ShallowCopy(reader->GetOutput());
-  }
-
-  int width() const { return image_->GetDimensions()[0]; }
-  int height() const { return image_->GetDimensions()[1]; }
-  const unsigned char* pixel(int x, int y) const {
-    return static_cast<unsigned char*>(image_->GetScalarPointer(x, y, 0));
-  }
-
-  /// How many pixels of a box, in shares of the picture, fulfil a condition on red, green and blue.
-  int count(double left, double bottom, double right, double top,
-            const std::function<bool(int, int, int)>& condition) const {
-    int n = 0;
-    for (int y = static_cast<int>(bottom * height()); y < static_cast<int>(top * height()); ++y) {
-      for (int x = static_cast<int>(left * width()); x < static_cast<int>(right * width()); ++x) {
-        const unsigned char* p = pixel(x, y);
-        n += condition(p[0], p[1], p[2]) ? 1 : 0;
-      }
-    }
-    return n;
-  }
-
- private:
-  vtkNew<vtkImageData> image_;
-};
 
 bool is_red(int r, int g, int b) { return r > g + 60 && r > b + 60; }
 bool is_blue(int r, int g, int b) { return b > r + 60 && b > g + 40; }

@@ -1,0 +1,234 @@
+// comparison.cpp: the files of a comparison as pictures take them, and how pictures do without some of them.
+#include "view/comparison_files.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+
+#include "base/error.h"
+#include "view/display_here.h"
+#include "view/made_comparison.h"
+#include "view/pick.h"
+#include "view/render_surface.h"
+
+using namespace espdiff;  // NOLINT: a test of these headers
+using espdiff_test::can_draw;
+using espdiff_test::compare_made_pair;
+using espdiff_test::contains;
+using espdiff_test::message_of;
+using espdiff_test::ScratchFolder;
+
+namespace {
+
+/// A made pair, compared once for all tests of this file.
+const ScratchFolder& made() {
+  static const ScratchFolder scratch;
+  static const std::string vtp = compare_made_pair(scratch);
+  return scratch;
+}
+
+/// The same in a folder of its own, to be damaged.
+std::string copied(const ScratchFolder& to) {
+  for (const char* name : {"pair.vtp", "pair.json", "source.dx", "target.dx", "source.pqr", "target.pqr"}) {
+    std::filesystem::copy_file(made().file(name), to.file(name));
+  }
+  std::string json = espdiff_test::read_file(to.file("pair.json"));
+  const std::string folder = made().file("");
+  for (std::size_t at = json.find(folder); at != std::string::npos; at = json.find(folder))
+    json.erase(at, folder.size());
+  to.write("pair.json", json);
+  return to.file("pair.vtp");
+}
+
+Scene small(Layout layout = Layout::kTurned) {
+  Scene scene;
+  scene.width = 480;
+  scene.height = 400;
+  scene.layout = layout;
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("a record names inputs, superposition and trust, also after the folder has moved") {
+  const ScratchFolder moved;
+  const RunRecord record = read_run_record(copied(moved));
+  REQUIRE(record.found);
+  CHECK(record.source_map.path == moved.file("source.dx"));
+  CHECK(record.target.path == moved.file("target.pqr"));
+  CHECK(record.source.sha256.size() == 64);
+  CHECK(record.method == "morph");
+  CHECK_FALSE(record.maps_computed);
+  const Vec3d image = record.source_to_target.rotate({0, 0, 2});
+  CHECK(norm(image) == doctest::Approx(2));
+}
+
+TEST_CASE("a record that is none is refused") {
+  const ScratchFolder scratch;
+  const std::string vtp = copied(scratch);
+  scratch.write("pair.json", "{\"inputs\": []}");
+  CHECK(contains(message_of([&] { read_run_record(vtp); }), "pair.json: not a record that `espdiff compare` wrote"));
+  scratch.write("pair.json", "half a fi");
+  CHECK_THROWS_AS(read_comparison(vtp, {}), FormatError);
+}
+
+TEST_CASE("maps are taken only when they are those of the comparison") {
+  const ScratchFolder scratch;
+  const std::string vtp = copied(scratch);
+  CHECK(read_comparison(vtp, {}).maps.complete());
+  espdiff::write_dx(scratch.file("source.dx"), espdiff_test::map_of({{{5, 3, 1}, 1}}));
+  MapPair maps = read_comparison(vtp, {}).maps;
+  CHECK_FALSE(maps.complete());
+  CHECK(contains(maps.why_not, "source.dx has changed since the comparison"));
+  std::filesystem::remove(scratch.file("source.dx"));
+  maps = read_comparison(vtp, {}).maps;
+  CHECK(contains(maps.why_not, "source.dx is not there any more"));
+  std::filesystem::remove(scratch.file("pair.json"));
+  CHECK(contains(read_comparison(vtp, {}).maps.why_not, "pair.json is not there to name the maps"));
+}
+
+TEST_CASE("potentials computed in process have no maps to look up, and a note says so") {
+  if (!can_draw()) return;
+  const ScratchFolder scratch;
+  const std::string atoms = espdiff_test::bent_row(0), bent = espdiff_test::bent_row(0.6);
+  const auto run =
+      espdiff_test::run_espdiff("compare " + scratch.write("a.pqr", atoms) + " " + scratch.write("b.pqr", bent) +
+                                " --quiet --potential pme -o " + scratch.file("pme"));
+  REQUIRE(run.status == 0);
+  const auto notes = render_surface(scratch.file("pme.vtp"), scratch.file("pme.png"), small());
+  REQUIRE(notes.size() >= 1);
+  CHECK(contains(notes[0],
+                 "potentials are drawn between the vertices' values, not from the maps: the potentials were "
+                 "computed in process"));
+  CHECK(contains(espdiff_test::read_file(scratch.file("pme.png")), "potentials between the vertices' values"));
+}
+
+TEST_CASE("a picture carries inputs, fingerprints and its scene") {
+  if (!can_draw()) return;
+  const ScratchFolder scratch;
+  Scene scene = small(Layout::kLinked);
+  scene.title = "made";
+  CHECK(render_surface(made().file("pair.vtp"), scratch.file("linked.png"), scene).empty());
+  const std::string png = espdiff_test::read_file(scratch.file("linked.png"));
+  const RunRecord record = read_run_record(made().file("pair.vtp"));
+  CHECK(contains(png, "source_map " + record.source_map.path + " sha256 " + record.source_map.sha256));
+  CHECK(contains(png, "\"layout\": \"linked\""));
+  CHECK(contains(png, "coloured by potential_source, scale"));
+  CHECK(contains(png, "potentials of the maps at every pixel"));
+}
+
+TEST_CASE("what a scene needs and a file lacks is named") {
+  const ScratchFolder scratch;
+  const std::string vtp = copied(scratch);
+  const auto message = [&](const Scene& scene) { return message_of([&] { read_comparison(vtp, scene); }); };
+  Scene cartoon, sliced, linked = small(Layout::kLinked), half_way;
+  cartoon.molecule = MoleculeStyle::kCartoon;
+  sliced.slice = 0.5;
+  half_way.morph = 0.5;
+  CHECK_NOTHROW(read_comparison(vtp, cartoon));
+  scratch.write("target.pqr", espdiff_test::bent_row(2));
+  CHECK(contains(message(cartoon), "target.pqr has changed since the comparison"));
+  std::filesystem::remove(scratch.file("target.pqr"));
+  CHECK(contains(message(cartoon), "target.pqr is not there any more; compare again, or draw without the molecule"));
+  std::filesystem::remove(scratch.file("target.dx"));
+  CHECK(contains(message(sliced), "slices need the maps: "));
+  CHECK_NOTHROW(read_comparison(vtp, linked));
+  std::filesystem::remove(scratch.file("pair.json"));
+  CHECK(contains(message(linked), "pair.json: no such file; the superposition in it is needed"));
+  CHECK(contains(message(half_way), "morphs)"));
+  CHECK(contains(message(cartoon), "it names the structures"));
+}
+
+TEST_CASE("each layout, style and drawing of maps makes a picture of its own") {
+  if (!can_draw()) return;
+  const ScratchFolder scratch;
+  std::vector<std::string> pictures;
+  const auto draw = [&](const std::string& what, const std::function<void(Scene&)>& change) {
+    Scene scene = small();
+    scene.opacity.greatest = 0.6;
+    change(scene);
+    render_surface(made().file("pair.vtp"), scratch.file("one.png"), scene);
+    const std::string png = espdiff_test::read_file(scratch.file("one.png"));
+    // The scene in its text differs anyway; the pixels must, too.
+    const std::string pixels = png.substr(png.find("IDAT"));
+    INFO(what);
+    CHECK(std::find(pictures.begin(), pictures.end(), pixels) == pictures.end());
+    pictures.push_back(pixels);
+  };
+  draw("plain", [](Scene&) {});
+  draw("linked", [](Scene& s) { s.layout = Layout::kLinked; });
+  draw("split", [](Scene& s) { s.layout = Layout::kSplit; });
+  draw("moved split", [](Scene& s) {
+    s.layout = Layout::kSplit;
+    s.split = 0.4;
+  });
+  draw("morph", [](Scene& s) { s.morph = 0.4; });
+  draw("sticks", [](Scene& s) { s.molecule = MoleculeStyle::kSticks; });
+  draw("lines", [](Scene& s) { s.molecule = MoleculeStyle::kLines; });
+  draw("cartoon", [](Scene& s) { s.molecule = MoleculeStyle::kCartoon; });
+  draw("labels", [](Scene& s) { s.n_labels = 3; });
+  draw("isopotential", [](Scene& s) { s.isopotentials = {-8, 8}; });
+  draw("slice", [](Scene& s) { s.slice = 0.4; });
+  draw("field lines", [](Scene& s) { s.n_field_lines = 20; });
+  draw("offsets", [](Scene& s) { s.offsets_A = {1, 2}; });
+  draw("residues", [](Scene& s) { s.array = RenderArray::kResidue; });
+  draw("shape", [](Scene& s) { s.array = RenderArray::kPlain; });
+  draw("magnitude", [](Scene& s) { s.array = RenderArray::kMagnitude; });
+  draw("purple", [](Scene& s) { s.colours = "purple-orange"; });
+  draw("turned", [](Scene& s) { s.turn_deg = 40; });
+  draw("tilted", [](Scene& s) { s.tilt_deg = 40; });
+  draw("zoomed", [](Scene& s) { s.zoom = 2; });
+}
+
+TEST_CASE("a picked point has the values that the engine found there") {
+  const ComparisonFiles files = read_comparison(made().file("pair.vtp"), {});
+  const SurfaceFile& surface = files.surface;
+  const StartSurface start = superposed_start(surface, files.record);
+  SurfacePicker picker(files, start);
+  std::size_t n_picked = 0;
+  for (std::size_t v = 0; v < surface.positions.size(); v += 37) {
+    const Vec3d p = surface.positions[v], n = static_cast<Vec3d>(surface.normals[v]);
+    // From just outside to just inside, so that nothing else is in the way.
+    const auto picked = picker.pick(p + 0.2 * n, p - 0.2 * n, 1);
+    if (!picked) continue;
+    ++n_picked;
+    CHECK(norm(picker.place(*picked, 1) - p) < 0.02);
+    CHECK(picked->weights[0] + picked->weights[1] + picked->weights[2] == doctest::Approx(1));
+    CHECK(picked->target - picked->source == doctest::Approx(surface.potential_difference[v]).epsilon(0.02));
+    CHECK(picked->displacement_A == doctest::Approx(surface.displacement[v]).epsilon(0.05));
+    // Its counterpart on the superposed source.
+    const Vec3d there = static_cast<Vec3d>(start.positions[v]);
+    CHECK(norm(picker.place(*picked, 0) - there) < 0.03);
+  }
+  CHECK(n_picked > surface.positions.size() / 37 * 9 / 10);
+  CHECK_FALSE(picker.pick({500, 500, 500}, {500, 500, 400}, 1));
+}
+
+TEST_CASE("what is known of a picked point is said in words") {
+  Scene scene;
+  scene.n_labels = 1;
+  const ComparisonFiles files = read_comparison(made().file("pair.vtp"), scene);
+  PickedPoint point;
+  point.source = -1.25F;
+  point.target = 0.5F;
+  point.displacement_A = 0.4F;
+  point.residue = 2;
+  const auto text = [&] {
+    std::string all;
+    for (const std::string& line : picked_in_words(point, files, "kT/e")) all += line + "\n";
+    return all;
+  };
+  CHECK(contains(text(), "ALA 3 of the source"));
+  CHECK(contains(text(), "1.750 kT/e, the sign changes"));
+  CHECK(contains(text(), "0.400 A to its counterpart"));
+  CHECK(contains(text(), "trusted here"));
+  point.is_corrupt = true;
+  CHECK(contains(text(), "corrupt here"));
+  point.has_counterpart = false;
+  point.target = std::nanf("");
+  CHECK(contains(text(), "without a counterpart on the target"));
+  CHECK(contains(text(), "target            no value"));
+}

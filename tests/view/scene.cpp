@@ -1,0 +1,127 @@
+// scene.cpp: scene files: what is written is read again, and what cannot be is refused in words.
+#include "view/scene.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "support/test_data.h"
+#include "view/scene_keys.h"
+#include "view/viewer.h"
+
+using namespace espdiff;  // NOLINT: a test of these headers
+using espdiff_test::message_of;
+using espdiff_test::ScratchFolder;
+
+namespace {
+
+Scene unusual_scene() {
+  Scene s;
+  s.array = RenderArray::kMagnitude;
+  s.range.given_ends = true;
+  s.range.low = -3;
+  s.range.high = 2.5;
+  s.range.percentile = 90;
+  s.colours = "purple-orange";
+  s.unit = "mV";
+  s.per_vertex = true;
+  s.fade = false;
+  s.opacity = {0.25, 2, 0.125, 0.75};
+  s.layout = Layout::kLinked;
+  s.width = 800;
+  s.height = 640;
+  s.n_views = 3;
+  s.title = "\xCE\xB1 and \xCE\xB2";
+  s.legend = false;
+  s.morph = 0.5;
+  s.split = 0.25;
+  s.camera = CameraView{{1, 2, 3}, {0, 1, 0}, {0, 0, 1}, 17};
+  s.turn_deg = 30;
+  s.tilt_deg = -10;
+  s.zoom = 2;
+  s.surface = false;
+  s.molecule = MoleculeStyle::kSticks;
+  s.around_A = 4;
+  s.n_labels = 5;
+  s.isopotentials = {-1, 1};
+  s.n_field_lines = 40;
+  s.slice = 0.5;
+  return s;
+}
+
+std::string message_for(const ScratchFolder& scratch, const std::string& json) {
+  return message_of([&] { check(read_scene(scratch.write("scene.json", json), {})); });
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("a scene that was written is read as it was") {
+  const ScratchFolder scratch;
+  for (const Scene& scene : {Scene(), unusual_scene()}) {
+    const std::string json = scene_json(scene);
+    CHECK(scene_json(read_scene(scratch.write("scene.json", json), {})) == json);
+  }
+  CHECK(scene_json(unusual_scene()) != scene_json({}));
+}
+
+TEST_CASE("what a scene file does not say is as before") {
+  const ScratchFolder scratch;
+  const Scene scene = read_scene(scratch.write("scene.json", R"({"range": 4, "camera": null})"), unusual_scene());
+  CHECK(scene.range.limit == 4);
+  CHECK_FALSE(scene.range.given_ends);
+  CHECK_FALSE(scene.camera);
+  CHECK(scene.molecule == MoleculeStyle::kSticks);
+}
+
+TEST_CASE("scene files that cannot be are refused with the reason") {
+  const ScratchFolder scratch;
+  CHECK(contains(message_of([&] { read_scene(scratch.file("absent.json"), {}); }), "absent.json: no such scene file"));
+  CHECK(contains(message_for(scratch, "{\"zoom\": "), "scene.json: not JSON"));
+  CHECK(contains(message_for(scratch, "[1]"), "a scene is a JSON object"));
+  CHECK(contains(message_for(scratch, R"({"colour": "sign"})"), "no setting 'colour' in scenes"));
+  CHECK(contains(message_for(scratch, R"({"zoom": "big"})"), "the value of 'zoom' is of the wrong kind"));
+  CHECK(contains(message_for(scratch, R"({"range": [1]})"), "the value of 'range' is of the wrong kind"));
+  CHECK(contains(message_for(scratch, R"({"layout": "round"})"), "no layout 'round'; use turned, linked or split"));
+  CHECK(contains(message_for(scratch, R"({"molecule": "balls"})"),
+                 "no molecule style 'balls'; use none, cartoon, sticks or lines"));
+  CHECK(contains(message_for(scratch, R"({"colours": "rainbow"})"), "no colours 'rainbow'; use cool-warm or purple"));
+}
+
+TEST_CASE("values out of range are refused with the range") {
+  const ScratchFolder scratch;
+  CHECK(contains(message_for(scratch, R"({"morph": 1.5})"), "a morph goes from 0 (source) to 1 (target)"));
+  CHECK(contains(message_for(scratch, R"({"split": -1})"), "a split lies at 0 (left) to 1 (right)"));
+  CHECK(contains(message_for(scratch, R"({"zoom": 0})"), "use 0.1 to 50"));
+  CHECK(contains(message_for(scratch, R"({"labels": 99})"), "use 0 to 50"));
+  CHECK(contains(message_for(scratch, R"({"offsets_A": [-1]})"), "offset surfaces lie 0 to 10 Angstrom outside"));
+  CHECK(contains(message_for(scratch, R"({"offsets_A": [1], "layout": "linked"})"), "need the layout turned"));
+  CHECK(contains(message_for(scratch, R"({"layout": "split", "molecule": "lines"})"), "draws no molecules"));
+  CHECK(contains(message_for(scratch, R"({"opacity": 0.1})"), "no less than the least opacity"));
+  CHECK(contains(message_for(scratch, R"({"slice": 2})"), "a slice lies at 0 (front) to 1 (back)"));
+  CHECK(contains(message_for(scratch, R"({"field_lines": -1})"), "use 0 to 2000"));
+}
+
+TEST_CASE("each key of the viewer changes something, and every key is told once") {
+  std::vector<std::string> told;
+  for (const ViewerKey& key : viewer_keys()) {
+    CHECK_FALSE(key.help.empty());
+    CHECK(std::find(told.begin(), told.end(), key.keys) == told.end());
+    told.push_back(key.keys);
+  }
+  const Scene before = unusual_scene();
+  for (const char* name :
+       {"1", "3", "4", "5", "6",    "7",     "8", "l", "v", "bracketleft", "bracketright", "m", "o", "f", "s", "n",
+        "a", "e", "i", "x", "plus", "minus", "0", "c", "k"}) {
+    Scene after = before;
+    CHECK(change_by_key(after, name, 2));
+    INFO(name);
+    CHECK(scene_json(after) != scene_json(before));
+  }
+  Scene scene;
+  CHECK_FALSE(change_by_key(scene, "F12", 2));
+  change_by_key(scene, "plus", 2);
+  CHECK(scene.range.limit == doctest::Approx(2.5));
+}
