@@ -83,3 +83,44 @@ TEST_CASE("array names are read and explained") {
   CHECK(espdiff_test::message_of([] { parse_render_array("charge"); }) ==
         "cannot colour by 'charge'; use difference, source, target, sign, displacement, magnitude, residue or plain");
 }
+
+TEST_CASE("ranges by percentile, and with both ends given") {
+  std::vector<float> values;
+  for (int i = 1; i <= 100; ++i) values.push_back(static_cast<float>(i % 2 == 0 ? i : -i));
+  ScaleRange range;
+  range.percentile = 50;
+  CHECK(ColourScale(RenderArray::kDifference, values, range).high() == doctest::Approx(50));
+  range.percentile = 100;
+  CHECK(ColourScale(RenderArray::kDifference, values, range).high() == doctest::Approx(100));
+  range.percentile = 101;
+  CHECK_THROWS_AS(ColourScale(RenderArray::kDifference, values, range), InputError);
+  range = {0, 98, true, -8, 2};
+  const ColourScale given(RenderArray::kTarget, values, range);
+  CHECK(given.low() == -8);
+  CHECK(given.high() == 2);
+  CHECK(given.exceeds_low());
+  CHECK(given.colour(-3) == Rgb{221, 221, 221});
+  range = {0, 98, true, 2, 2};
+  CHECK_THROWS_AS(ColourScale(RenderArray::kTarget, values, range), InputError);
+}
+
+TEST_CASE("a magnitude is sequential and has no sign") {
+  const ColourScale scale(RenderArray::kMagnitude, {-3, 2, 1}, 3);
+  CHECK(scale.low() == 0);
+  CHECK(scale.colour(-2) == scale.colour(2));
+  CHECK_FALSE(scale.exceeds_low());
+  CHECK(scale.colour(3) == sequential_colour(1, kOrangeHue));
+}
+
+TEST_CASE("every name of a quantity is read as what it is written for") {
+  for (const std::string& name : render_array_names()) CHECK(to_string(parse_render_array(name)) == name);
+  CHECK(parse_render_array("uncertainty") == RenderArray::kDisplacement);
+  CHECK_FALSE(ColourScale(RenderArray::kPlain, {}, 0).has_bar());
+}
+
+TEST_CASE("a see-through surface fades from its own opacity") {
+  const OpacityScale scale{0.5, 2.5, 0.2, 0.6};
+  CHECK(scale.opacity(0) == doctest::Approx(0.6));
+  CHECK(scale.opacity(1.5) == doctest::Approx(0.4));
+  CHECK(scale.opacity(9) == doctest::Approx(0.2));
+}

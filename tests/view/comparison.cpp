@@ -232,3 +232,45 @@ TEST_CASE("what is known of a picked point is said in words") {
   CHECK(contains(text(), "without a counterpart on the target"));
   CHECK(contains(text(), "target            no value"));
 }
+
+TEST_CASE("the command line says what is wrong, and leaves nothing") {
+  using espdiff_test::run_espdiff;
+  const ScratchFolder scratch;
+  const std::string vtp = made().file("pair.vtp"), png = " -o " + scratch.file("out.png");
+  const auto refused = [&](const std::string& arguments, int status, const std::string& part,
+                           const std::string& before = "") {
+    const auto run = run_espdiff(arguments, before);
+    INFO(run.err);
+    CHECK(run.status == status);
+    CHECK(contains(run.err, part));
+    CHECK(espdiff_test::n_lines(run.err) <= 2);
+  };
+  refused("view " + scratch.file("absent.vtp"), 1, "DISPLAY is not set; put `xvfb-run -a` before", "env -u DISPLAY");
+  refused("view " + vtp, 1, "the X display ':9876' (DISPLAY) cannot be opened", "env DISPLAY=:9876");
+  refused("render " + vtp + png, 1, "DISPLAY is not set", "env -u DISPLAY");
+  refused("render " + scratch.file("absent.vtp") + png, 2, "absent.vtp: no such file");
+  refused("render " + vtp + png + " --scene " + scratch.file("no.json"), 2, "no.json: no such scene file");
+  refused("render " + vtp + png + " --range wide", 2, "--range wide: give one number, as 5 for -5 to 5, or two");
+  refused("render " + vtp + png + " --range 3:x", 2, "give one number");
+  refused("render " + vtp + png + " --layout round", 2, "round");
+  refused("render " + vtp + png + " --morph 2", 2, "a morph goes from 0 (source) to 1 (target)");
+  CHECK(scratch.n_files() == 0);
+}
+
+TEST_CASE("a scene that is saved draws the same picture again, and options change it") {
+  if (!can_draw()) return;
+  using espdiff_test::run_espdiff;
+  const ScratchFolder scratch;
+  const std::string size = " --width 420 --height 400";
+  REQUIRE(run_espdiff("render " + made().file("pair.vtp") + " -o " + scratch.file("a.png") + size +
+                      " --range=-3:9 --layout split --split 0.3 --save-scene " + scratch.file("s.json"))
+              .status == 0);
+  REQUIRE(run_espdiff("render " + made().file("pair.vtp") + " -o " + scratch.file("b.png") + " --scene " +
+                      scratch.file("s.json"))
+              .status == 0);
+  CHECK(espdiff_test::read_file(scratch.file("a.png")) == espdiff_test::read_file(scratch.file("b.png")));
+  REQUIRE(run_espdiff("render " + made().file("pair.vtp") + " -o " + scratch.file("c.png") + " --scene " +
+                      scratch.file("s.json") + " --split 0.6")
+              .status == 0);
+  CHECK(espdiff_test::read_file(scratch.file("a.png")) != espdiff_test::read_file(scratch.file("c.png")));
+}
