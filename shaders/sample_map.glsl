@@ -4,9 +4,14 @@
 // fetched. Renderers in software filter in floats, and in half the time.
 const bool filteredInFloats = FILTERED_IN_FLOATS;
 
-float interpolated(sampler3D map, vec3 index, ivec3 last)
+// Whether some of the surface lies outside of a map.
+const bool someOutside = SOME_OUTSIDE;
+
+float interpolated(sampler3D map, vec3 place)
 {
-  vec3 low = clamp(floor(index), vec3(0.0), vec3(last - 1));
+  ivec3 size = textureSize(map, 0);
+  vec3 index = place * vec3(size) - 0.5;
+  vec3 low = clamp(floor(index), vec3(0.0), vec3(size - 2));
   vec3 w = clamp(index - low, 0.0, 1.0);
   ivec3 i = ivec3(low);
   vec4 front = vec4(texelFetch(map, i, 0).r, texelFetch(map, i + ivec3(1, 0, 0), 0).r,
@@ -18,13 +23,18 @@ float interpolated(sampler3D map, vec3 index, ivec3 last)
   return mix(line.x, line.y, w.x);
 }
 
-/// @param index place in grid points: whole numbers are the centres of the texture's voxels
-/// @return value, and 1 inside the map or 0 outside
-vec2 sampleMap(sampler3D map, vec3 index)
+/// From the first grid point's centre to the last one's.
+bool isInside(sampler3D map, vec3 place)
 {
-  ivec3 size = textureSize(map, 0);
-  const float slack = 1e-4;
-  if (any(lessThan(index, vec3(-slack))) || any(greaterThan(index, vec3(size - 1) + slack))) return vec2(0.0);
-  if (filteredInFloats) return vec2(textureLod(map, (index + 0.5) / vec3(size), 0.0).r, 1.0);
-  return vec2(interpolated(map, index, size - 1), 1.0);
+  vec3 border = (0.5 - 1e-4) / vec3(textureSize(map, 0));
+  return all(greaterThanEqual(place, border)) && all(lessThanEqual(place, 1.0 - border));
+}
+
+/// @param place texture coordinate: 0 to 1 from border to border, (i + 0.5) / n at the centre of the voxel of point i
+/// @return value, and 1 inside the map or 0 outside
+vec2 sampleMap(sampler3D map, vec3 place)
+{
+  if (someOutside && !isInside(map, place)) return vec2(0.0);
+  if (filteredInFloats) return vec2(textureLod(map, place, 0.0).r, 1.0);
+  return vec2(interpolated(map, place), 1.0);
 }

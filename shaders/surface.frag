@@ -12,8 +12,8 @@ const bool split = SPLIT;
 
 in vec3 positionVC;
 in vec3 normalVC;
-in vec3 sourceIndexFS;
-in vec3 targetIndexFS;
+in vec3 sourcePlaceFS;
+in vec3 targetPlaceFS;
 in vec3 vertexPotentialFS;
 in float displacementFS;
 flat in float residueIndexFS;
@@ -31,12 +31,12 @@ uniform float hatchPitch;     // pixels
 const int kDifference = 0, kSource = 1, kTarget = 2, kSign = 3, kDisplacement = 4, kMagnitude = 5, kResidue = 6,
           kPlain = 7, kReadBack = 8;
 
-/// Source and target potential here; z is 1 where both have a value.
+/// Source and target potential here, as far as they are drawn; z is 1 where what is drawn has a value.
 vec3 potentials()
 {
   if (!perFragment) return vec3(vertexPotentialFS.xy, vertexPotentialFS.z > 0.999 ? 1.0 : 0.0);
-  vec2 source = sampleMap(sourceMap, sourceIndexFS);
-  vec2 target = sampleMap(targetMap, targetIndexFS);
+  vec2 source = colourBy == kTarget ? vec2(0.0, 1.0) : sampleMap(sourceMap, sourcePlaceFS);
+  vec2 target = colourBy == kSource ? vec2(0.0, 1.0) : sampleMap(targetMap, targetPlaceFS);
   return vec3(source.x, target.x, source.y * target.y);
 }
 

@@ -3,8 +3,8 @@ in vec4 vertexMC;            // on the target, Angstrom
 in vec3 normalMC;
 in vec3 startMC;             // the same point on the superposed source
 in vec3 startNormalMC;
-in vec3 sourceIndex;         // the unsuperposed source position in the source's map, in grid points
-in vec3 targetIndex;         // the mapped position in the target's map
+in vec3 sourcePlace;         // the unsuperposed source position in the source's map, as texture coordinate
+in vec3 targetPlace;         // the mapped position in the target's map
 in vec3 vertexPotential;     // source, target, and 1 where both have a value
 in float displacement;       // Angstrom; negative: unknown
 in float residueIndex;       // negative: none
@@ -16,8 +16,8 @@ uniform float morph;         // 0 on the source, 1 on the target
 
 out vec3 positionVC;
 out vec3 normalVC;
-out vec3 sourceIndexFS;
-out vec3 targetIndexFS;
+out vec3 sourcePlaceFS;
+out vec3 targetPlaceFS;
 out vec3 vertexPotentialFS;
 out float displacementFS;
 flat out float residueIndexFS;
@@ -28,8 +28,8 @@ void main()
   gl_Position = MCDCMatrix * placeMC;
   positionVC = (MCVCMatrix * placeMC).xyz;
   normalVC = normalMatrix * mix(startNormalMC, normalMC, morph);
-  sourceIndexFS = sourceIndex;
-  targetIndexFS = targetIndex;
+  sourcePlaceFS = sourcePlace;
+  targetPlaceFS = targetPlace;
   vertexPotentialFS = vertexPotential;
   displacementFS = displacement;
   residueIndexFS = residueIndex;

@@ -144,14 +144,15 @@ void ComparisonScene::add_parts(std::size_t panel, std::size_t sheet) {
     // Through a faint place the paper shows, not the inside of the far wall.
     actor->GetProperty()->BackfaceCullingOn();
     panels_[panel].renderer->AddActor(actor);
-    parts_.push_back({panel, sheet, part, mapper, actor});
+    parts_.push_back({panel, sheet, part, geometry, mapper, actor});
   }
 }
 
 void ComparisonScene::update_looks() {
   for (const DrawnPart& drawn : parts_) {
     const Panel& panel = panels_[drawn.panel];
-    const SurfaceLook look = look_of(panel, panel.sheets[drawn.sheet]);
+    SurfaceLook look = look_of(panel, panel.sheets[drawn.sheet]);
+    look.inside_maps = drawn.geometry->inside_maps();
     drawn.mapper->set_look(look);
     drawn.mapper->set_maps(per_fragment() ? source_texture_ : no_texture_,
                            per_fragment() ? target_texture_ : no_texture_);

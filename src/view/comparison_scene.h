@@ -58,6 +58,7 @@ class ComparisonScene {
   struct DrawnPart {
     std::size_t panel, sheet;
     SurfacePart part;
+    const SurfaceGeometry* geometry;
     vtkSmartPointer<SurfaceMapper> mapper;
     vtkSmartPointer<vtkActor> actor;
   };

@@ -67,6 +67,7 @@ std::string encode_png(vtkImageData* image, const PictureTexts& texts, const std
   vtkNew<vtkPNGWriter> writer;
   writer->SetInputData(image);
   writer->WriteToMemoryOn();
+  writer->SetCompressionLevel(9);
   for (const auto& [keyword, text] : texts) {
     if (!text.empty()) writer->AddText(keyword.c_str(), text.c_str());
   }

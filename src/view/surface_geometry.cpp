@@ -48,13 +48,23 @@ void add_vectors(vtkPolyData* data, const char* name, const std::vector<Vec3f>& 
   }
 }
 
-void add_indices(vtkPolyData* data, const char* name, const Grid* map, const std::vector<Vec3d>& positions) {
-  std::vector<Vec3f> indices(static_cast<std::size_t>(data->GetNumberOfPoints()));
+/// Texture coordinates: (i + 0.5) / n at grid point i of n. @returns whether all lie inside the map
+bool add_places(vtkPolyData* data, const char* name, const Grid* map, const std::vector<Vec3d>& positions) {
+  std::vector<Vec3f> places(static_cast<std::size_t>(data->GetNumberOfPoints()));
+  bool all_inside = true;
   if (map != nullptr) {
     const LatticeIndex index(map->lattice, map->name);
-    for (std::size_t i = 0; i < positions.size(); ++i) indices[i] = static_cast<Vec3f>(index(positions[i]));
+    const auto& size = map->lattice.size;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      const Vec3d at = index(positions[i]);
+      places[i] = static_cast<Vec3f>(Vec3d{(at.x + 0.5) / size[0], (at.y + 0.5) / size[1], (at.z + 0.5) / size[2]});
+      for (int axis = 0; axis < 3; ++axis) {
+        all_inside = all_inside && at[axis] >= 0 && at[axis] <= size[static_cast<std::size_t>(axis)] - 1;
+      }
+    }
   }
-  add_vectors(data, name, indices);
+  add_vectors(data, name, places);
+  return all_inside;
 }
 
 /// `missing` where there is no number.
@@ -134,8 +144,9 @@ SurfaceGeometry::SurfaceGeometry(const SurfaceFile& surface, const RunRecord& re
   points_->GetPointData()->SetActiveNormals("normal");
   add_vectors(points_, "startMC", start_.positions);
   add_vectors(points_, "startNormalMC", start_.normals);
-  add_indices(points_, "sourceIndex", maps.source.get(), surface.source_positions);
-  add_indices(points_, "targetIndex", maps.target.get(), surface.positions);
+  const bool source_inside = add_places(points_, "sourcePlace", maps.source.get(), surface.source_positions);
+  const bool target_inside = add_places(points_, "targetPlace", maps.target.get(), surface.positions);
+  inside_maps_ = source_inside && target_inside;
   add_potentials(points_, surface);
   add_numbers(points_, "displacement", surface.displacement, -1);
   add_numbers(points_, "residueIndex", surface.residue_index, -1);

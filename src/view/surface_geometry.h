@@ -41,12 +41,15 @@ class SurfaceGeometry {
   vtkSmartPointer<vtkPolyData> part(SurfacePart part) const;
   bool has(SurfacePart part) const;
   const StartSurface& start() const { return start_; }
+  /// Whether all vertices, and hence all between them, lie inside of both maps.
+  bool inside_maps() const { return inside_maps_; }
 
  private:
   SurfacePart part_of(std::size_t triangle) const;
 
   const SurfaceFile& surface_;
   StartSurface start_;
+  bool inside_maps_ = true;
   vtkSmartPointer<vtkPolyData> points_;
 };
 

@@ -71,6 +71,7 @@ std::map<std::string, std::string> shader_definitions(const SurfaceLook& look, S
           {"PART", std::to_string(static_cast<int>(part))},
           {"PER_FRAGMENT", truth(lookup != Lookup::kPerVertex)},
           {"FILTERED_IN_FLOATS", truth(lookup == Lookup::kFiltered)},
+          {"SOME_OUTSIDE", truth(!look.inside_maps)},
           {"FADES", truth(look.fades)},
           {"SPLIT", truth(look.splits)},
           {"PARALLEL", truth(parallel_projection)}};

@@ -16,16 +16,17 @@ namespace espdiff {
 enum class SurfacePart { kTrusted, kCorrupt, kWithoutCounterpart };
 
 /// Names of the point arrays that the shaders take besides positions and normals.
-inline constexpr const char* kSurfaceAttributes[] = {"startMC",         "startNormalMC", "sourceIndex", "targetIndex",
+inline constexpr const char* kSurfaceAttributes[] = {"startMC",         "startNormalMC", "sourcePlace", "targetPlace",
                                                      "vertexPotential", "displacement",  "residueIndex"};
 
 /// How a surface is drawn; may change from picture to picture.
 struct SurfaceLook {
   ColourScale scale{RenderArray::kPlain, {}, 0.0};
   OpacityScale opacity;
-  bool fades = false;   ///< opacity by displacement
-  double morph = 1;     ///< 0 on the source, 1 on the target
-  bool splits = false;  ///< draws these columns of the window only
+  bool fades = false;        ///< opacity by displacement
+  bool inside_maps = false;  ///< no fragment lies outside of a map
+  double morph = 1;          ///< 0 on the source, 1 on the target
+  bool splits = false;       ///< draws these columns of the window only
   double first_column = 0, last_column = 0;
   double hatch_pixels = 14;
   bool reads_back = false;  ///< draws the difference as 24 bits instead of a colour; for tests

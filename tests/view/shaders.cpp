@@ -99,13 +99,14 @@ double worst_share(const std::string& vtp, bool fetches) {
       high = std::max<double>(high, value);
     }
   }
+  const SurfaceGeometry geometry(surface, files.record, files.maps);
   SurfaceLook look;
   ScaleRange range;
   range.limit = 2 * (high - low);
   look.scale = ColourScale(RenderArray::kDifference, surface.potential_difference, range);
   look.reads_back = true;
   look.fetches = fetches;
-  const SurfaceGeometry geometry(surface, files.record, files.maps);
+  look.inside_maps = !fetches && geometry.inside_maps();
   const auto part = geometry.part(SurfacePart::kTrusted);
   // The values between vertices are taken away, so that only the maps can give them.
   auto* between = vtkFloatArray::SafeDownCast(part->GetPointData()->GetArray("vertexPotential"));
@@ -137,6 +138,7 @@ TEST_CASE("each shader compiles here, and a wrong one is told with the driver's 
     for (int choice = 0; choice < 12; ++choice) {
       look.fades = choice % 2 == 0;
       look.splits = choice % 3 == 0;
+      look.inside_maps = choice % 5 == 0;
       const auto part = static_cast<SurfacePart>(choice % 3);
       text =
           shader_text("surface.frag", shader_definitions(look, part, static_cast<Lookup>(choice / 4), choice % 4 < 2));
@@ -217,7 +219,7 @@ TEST_CASE("the shader's colours are the legend's") {
     double diffuse = 0, specular = 0;
     for (int i = 0; i < 2; ++i) {
       diffuse += intensity[i] * z[i];
-      specular += intensity[i] * std::pow(std::sqrt((1 + z[i]) / 2), 40.0);
+      specular += intensity[i] * std::pow(std::sqrt((1 + z[i]) / 2), 32.0);
     }
     const auto channel = [&](int c) { return std::min(255.0, c * (0.28 + 0.82 * diffuse) + 25.5 * specular); };
     return std::array<double, 3>{channel(colour.red), channel(colour.green), channel(colour.blue)};
