@@ -1,6 +1,8 @@
 // comparison_files.cpp: reads what a scene needs of a comparison.
 #include "view/comparison_files.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
 
 #include "base/error.h"
@@ -32,13 +34,45 @@ Molecule read_molecule(const RunRecord& record, const RecordedInput& input, bool
   return read_structure(input.path, options);
 }
 
+/// A file may hold several models, and OUT.json does not say which was compared: the surface must fit the one that was
+/// read.
+void check_model(const SurfaceFile& surface, const Molecule& source, const std::string& path) {
+  if (surface.source_positions.empty() || surface.residue_index.empty()) return;
+  constexpr std::size_t kStride = 23;
+  constexpr double kFar_A = 10;
+  std::size_t n = 0, n_far = 0;
+  for (std::size_t v = 0; v < surface.source_positions.size(); v += kStride) {
+    const auto residue = static_cast<std::int32_t>(surface.residue_index[v]);
+    if (residue < 0) continue;
+    double nearest = 1e9;
+    for (std::size_t a = 0; a < source.atoms.size(); ++a) {
+      if (source.atoms[a].residue == residue)
+        nearest = std::min(nearest, norm(source.positions[a] - surface.source_positions[v]));
+    }
+    ++n;
+    n_far += nearest > kFar_A ? 1 : 0;
+  }
+  if (10 * n_far > n) {
+    throw InputError(path + ": its first model is not the one that was compared; draw without the molecule and labels");
+  }
+}
+
 void read_molecules(ComparisonFiles& files, const Scene& scene) {
-  const bool with_water = scene.around_A > 0;
-  if (files.target_molecule && files.source_molecule && (!with_water || files.with_water)) return;
-  files.with_water = with_water;
-  files.target_molecule = read_molecule(files.record, files.record.target, with_water);
-  files.source_molecule = read_molecule(files.record, files.record.source, with_water);
-  for (Vec3d& p : files.source_molecule->positions) p = files.record.source_to_target.apply(p);
+  const RunRecord& record = files.record;
+  const auto superposed = [&](Molecule molecule) {
+    for (Vec3d& p : molecule.positions) p = record.source_to_target.apply(p);
+    return molecule;
+  };
+  if (!files.source_molecule || !files.target_molecule) {
+    const Molecule source = read_molecule(record, record.source, false);
+    check_model(files.surface, source, record.source.path);
+    files.target_molecule = read_molecule(record, record.target, false);
+    files.source_molecule = superposed(source);
+  }
+  if (scene.around_A > 0 && !files.source_surroundings) {
+    files.target_surroundings = read_molecule(record, record.target, true);
+    files.source_surroundings = superposed(read_molecule(record, record.source, true));
+  }
 }
 
 }  // namespace

@@ -16,9 +16,10 @@ struct ComparisonFiles {
   SurfaceFile surface;
   RunRecord record;
   MapPair maps;
-  /// Where the scene draws or names residues: in the target's frame; with ligands, ions and, where asked for, water.
+  /// Where the scene draws or names residues: as they were compared, in the target's frame.
   std::optional<Molecule> source_molecule, target_molecule;
-  bool with_water = false;  ///< the molecules have it
+  /// Where the scene shows what is around them: the same with water.
+  std::optional<Molecule> source_surroundings, target_surroundings;
 };
 
 /// Reads OUT.vtp, the OUT.json beside it and, unless the scene can do without, the maps that it names.

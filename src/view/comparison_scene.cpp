@@ -166,15 +166,16 @@ void ComparisonScene::update_looks() {
 }
 
 void ComparisonScene::add_molecule(const Panel& panel) {
-  const std::optional<Molecule>& molecule = panel.is_source() ? files_.source_molecule : files_.target_molecule;
-  if (!molecule) return;
-  const double line_pixels = 1.5 * scale_factor_;
-  const auto add = [&](const std::vector<bool>& residues, MoleculeStyle style) {
-    if (const auto drawn = make_molecule_actor(with_residues(*molecule, residues), style, line_pixels))
+  const auto add = [&](const Molecule& molecule, const std::vector<bool>& residues, MoleculeStyle style) {
+    const double line_pixels = 1.5 * scale_factor_;
+    if (const auto drawn = make_molecule_actor(with_residues(molecule, residues), style, line_pixels))
       panel.renderer->AddViewProp(drawn);
   };
-  add(polymer_residues(*molecule), scene_.molecule);
-  if (scene_.around_A > 0) add(residues_around(*molecule, scene_.around_A), MoleculeStyle::kSticks);
+  const auto& molecule = panel.is_source() ? files_.source_molecule : files_.target_molecule;
+  const auto& surroundings = panel.is_source() ? files_.source_surroundings : files_.target_surroundings;
+  if (molecule) add(*molecule, polymer_residues(*molecule), scene_.molecule);
+  if (scene_.around_A > 0 && surroundings)
+    add(*surroundings, residues_around(*surroundings, scene_.around_A), MoleculeStyle::kSticks);
 }
 
 void ComparisonScene::add_labels(const Panel& panel) {

@@ -142,6 +142,30 @@ TEST_CASE("what a scene needs and a file lacks is named") {
   CHECK(contains(message(cartoon), "it names the structures"));
 }
 
+TEST_CASE("a molecule of another model than the one compared is not drawn") {
+  const ScratchFolder scratch;
+  // The first model lies 100 A away.
+  std::string models = "MODEL        1\n";
+  for (int i = 0; i < 7; ++i) {
+    char line[128];
+    std::snprintf(line, sizeof line, "ATOM  %5d  CA  ALA A%4d    %8.3f%8.3f%8.3f %7.4f %6.4f\n", i + 1, i + 1,
+                  100 + 1.4 * i, 0.0, 0.0, 0.1, 2.0);
+    models += line;
+  }
+  models += "ENDMDL\nMODEL        2\n" + espdiff_test::bent_row(0) + "ENDMDL\n";
+  const auto run = espdiff_test::run_espdiff("compare " + scratch.write("source.pqr", models) + " " +
+                                             scratch.write("target.pqr", espdiff_test::bent_row(0.6)) +
+                                             " --source-model 2 --quiet -o " + scratch.file("pair"));
+  INFO(run.err);
+  REQUIRE(run.status == 0);
+  Scene scene;
+  scene.array = RenderArray::kDisplacement;
+  CHECK_NOTHROW(read_comparison(scratch.file("pair.vtp"), scene));
+  scene.molecule = MoleculeStyle::kSticks;
+  CHECK(contains(message_of([&] { read_comparison(scratch.file("pair.vtp"), scene); }),
+                 "source.pqr: its first model is not the one that was compared"));
+}
+
 TEST_CASE("each layout, style and drawing of maps makes a picture of its own") {
   if (!can_draw()) return;
   const ScratchFolder scratch;
