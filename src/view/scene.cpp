@@ -17,12 +17,12 @@ constexpr int kMinSize = 400, kMaxSize = 6000;
 constexpr std::array<const char*, 3> kLayouts = {"turned", "linked", "split"};
 constexpr std::array<const char*, 4> kStyles = {"none", "cartoon", "sticks", "lines"};
 
-template <typename Enum, std::size_t n>
-Enum parse_word(const std::array<const char*, n>& words, const std::string& text, const char* what) {
+template <typename Enum, std::size_t Count>
+Enum parse_word(const std::array<const char*, Count>& words, const std::string& text, const char* what) {
   std::string allowed;
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < Count; ++i) {
     if (text == words[i]) return static_cast<Enum>(i);
-    allowed += std::string(i == 0 ? "" : i + 1 == n ? " or " : ", ") + words[i];
+    allowed += std::string(i == 0 ? "" : i + 1 == Count ? " or " : ", ") + words[i];
   }
   throw InputError(std::string("no ") + what + " '" + text + "'; use " + allowed);
 }
