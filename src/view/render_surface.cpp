@@ -43,10 +43,13 @@ std::string description(const ComparisonScene& scene) {
   return text;
 }
 
+/// By name and fingerprint: a figure that is published need not tell the folders of who made it.
 std::string inputs(const RunRecord& record) {
   std::string text;
   const auto add = [&](const char* role, const RecordedInput& input) {
-    if (!input.path.empty()) text += std::string(role) + " " + input.path + " sha256 " + input.sha256 + "\n";
+    if (!input.path.empty())
+      text += std::string(role) + " " + std::filesystem::path(input.path).filename().string() + " sha256 " +
+              input.sha256 + "\n";
   };
   add("source", record.source);
   add("target", record.target);
