@@ -14,6 +14,10 @@ void MapTexture::upload(vtkOpenGLRenderWindow* window) {
   texture_->SetContext(window);
   texture_->SetMinificationFilter(vtkTextureObject::Linear);
   texture_->SetMagnificationFilter(vtkTextureObject::Linear);
+  // Repeating, VTK's default, costs a renderer in software more than the lookup.
+  texture_->SetWrapS(vtkTextureObject::ClampToEdge);
+  texture_->SetWrapT(vtkTextureObject::ClampToEdge);
+  texture_->SetWrapR(vtkTextureObject::ClampToEdge);
   float nothing = 0;
   std::array<int, 3> size{1, 1, 1};
   if (map_ != nullptr) size = map_->lattice.size;
