@@ -153,11 +153,13 @@ namespace eval ::espdiff {
             {-mol text top "Of a trajectory: molecule that goes to the frame of a point that is clicked; none for none"}
             {-callback command {} "Instead of that, called as CMD x y with the frame, or the variant's label, and the\
                 value"}
+            {-file file {} "Instead of VMD's windows: a picture, OUT.png or OUT.svg, as the command line's\
+                `espdiff plot` draws it by gnuplot; hollow points are not trustworthy"}
         } \
         summary {Plots a trajectory (its CSV file or handle), or one variant of a matrix (its handle) against all
-            others, in VMD's own plot windows (package multiplot): a window for each unit. For pictures of publications,
-            and heat maps, use the command line's `espdiff plot`.} \
-        returns {a list of multiplot's handles} \
+            others, in VMD's own plot windows (package multiplot), a window for each unit, or into a file. Heat maps
+            are drawn by the command line's `espdiff plot`.} \
+        returns {a list of multiplot's handles, or the file} \
         example {espdiff plot out.csv -metrics {mean_abs_difference rmsd_A}}]
 
     command merge [dict create arguments {states} settings none run ::espdiff::merge options {
