@@ -4,7 +4,7 @@ namespace eval ::espdiff::gui {
     variable form
     array set form {
         draw,color difference draw,surface target draw,range auto draw,low -5 draw,high 5
-        draw,transparency 1 draw,limit 2.0 draw,corrupt transparent draw,legend 1 draw,mol ""
+        draw,transparency 1 draw,limit 2.0 draw,corrupt transparent draw,legend 1 draw,view single draw,mol ""
     }
     variable drawn_on {target mapped source source}  ;# the window's word, espdiff's word
 
@@ -42,6 +42,12 @@ namespace eval ::espdiff::gui {
             -values {transparent mark hide}
         form_row $path 3 "Corrupt parts" $path.corrupt "Parts that are off the target's surface: most transparent,\
             marked in yellow, or not drawn"
+        ttk::checkbutton $path.linked -text "Source, target and this side by side" \
+            -variable ::espdiff::gui::form(draw,view) -onvalue linked -offvalue single
+        tip $path.linked "Linked views: the mouse turns all three; both potentials on the left, what is chosen here on the\
+            right. Undraw puts VMD's view back"
+        grid $path.linked -row 3 -column 2 -columnspan 2 -sticky w -padx {16 0}
+        set widget(draw,linked) $path.linked
         build_draw_buttons $path.buttons
         grid $path.buttons -row 4 -column 0 -columnspan 4 -sticky ew -pady {4 0}
         grid configure $path.label_surface -padx {16 6}
@@ -128,6 +134,7 @@ namespace eval ::espdiff::gui {
         if {$form(draw,corrupt) ne "transparent"} { lappend options -corrupt $form(draw,corrupt) }
         if {$form(draw,surface) ne "target"} { lappend options -surface [dict get $drawn_on $form(draw,surface)] }
         if {!$form(draw,legend)} { lappend options -legend 0 }
+        if {$form(draw,view) ne "single"} { lappend options -view $form(draw,view) }
         return $options
     }
 

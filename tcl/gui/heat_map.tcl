@@ -212,14 +212,13 @@ namespace eval ::espdiff::gui {
         variable chosen_cell
         variable heat
         variable matrix_pairs
-        variable widget
         variable draw_when_done
         if {$chosen_cell eq ""} return
         lassign $chosen_cell row column
         lassign $matrix_pairs endpoints settings
         set source [lindex $endpoints [lindex [dict get $heat order] $row]]
         set target [lindex $endpoints [lindex [dict get $heat order] $column]]
-        $widget(tabs) select 0
+        show_tab pair
         # The surface is drawn on the target: VMD shows the target's frame.
         if {[dict exists $target mol] && [dict get $target mol] in [molinfo list]} {
             molinfo [dict get $target mol] set frame [dict get $target frame]

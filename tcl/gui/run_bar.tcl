@@ -83,6 +83,7 @@ namespace eval ::espdiff::gui {
         set running [espdiff compare $source $target {*}$settings \
             -progress ::espdiff::gui::show_progress -command {::espdiff::gui::guard ::espdiff::gui::finish}]
         remember_compare $running $source $target $settings
+        save_settings
         show_running 1
         watch
         return $running
