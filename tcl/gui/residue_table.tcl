@@ -10,8 +10,8 @@ namespace eval ::espdiff::gui {
     # Key of `espdiff residues`, heading, whether it is of potentials, decimals, factor.
     variable residue_columns {
         residue Residue 0 "" 1
-        mean_abs_difference "|Difference|" 1 2 1
-        mean_signed_difference Difference 1 2 1
+        mean_abs_difference "|Diff.|" 1 2 1
+        mean_signed_difference Diff. 1 2 1
         mean_source Source 1 2 1
         mean_target Target 1 2 1
         sign_change_area_fraction "Sign, %" 1 0 100
@@ -24,7 +24,7 @@ namespace eval ::espdiff::gui {
         variable residue_columns
         variable residues_of -  ;# of no handle: the table is new
         ttk::frame $path.top
-        ttk::label $path.top.title -anchor w
+        ttk::label $path.top.title -anchor w -width 28
         ttk::combobox $path.top.sort -state readonly -width 15
         bind $path.top.sort <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::sort_as_chosen}
         ttk::checkbutton $path.top.falling -text "greatest first" -variable ::espdiff::gui::form(residues,falling) \
@@ -111,7 +111,7 @@ namespace eval ::espdiff::gui {
         set unit [potential_unit]
         set text "Means over each residue's share of the surface"
         if {$unit ne ""} {
-            append text "; potentials in $unit. Difference is target - source, Sign the share of the area whose sign\
+            append text "; potentials in $unit. Diff. is target - source, Sign the share of the area whose sign\
                 changes"
         }
         append text "[expr {$unit eq "" ? ";" : ","}] Moved the mean displacement."
@@ -175,6 +175,8 @@ namespace eval ::espdiff::gui {
         set still {}
         foreach item $selected { if {[$table exists $item]} { lappend still $item } }
         if {$still ne ""} { $table selection set $still; $table see [lindex $still 0] }
+        # Where the arrow keys begin.
+        $table focus [lindex [concat $still [$table children {}]] 0]
     }
 
     # Without potentials the columns of potentials are hidden.
@@ -197,7 +199,7 @@ namespace eval ::espdiff::gui {
         foreach key $visible title $titles {
             if {$key eq $form(residues,sort)} { append title " [expr {$form(residues,falling) ? "\u25be" : "\u25b4"}]" }
             $table heading $key -text $title
-            $table column $key -width [expr {max(64, 8 + [font measure [heading_font] $title])}]
+            $table column $key -width [expr {max($key eq "residue" ? 96 : 66, 10 + [font measure [heading_font] $title])}]
         }
         $widget(residues,sort) configure -values $titles
         $widget(residues,sort) set [lindex $titles [lsearch -exact $visible $form(residues,sort)]]

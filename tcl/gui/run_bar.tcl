@@ -8,12 +8,15 @@ namespace eval ::espdiff::gui {
     # twice; the bar does not go back.
     variable stages {
         "" Waiting 0 0
-        align "Superposing" 0 2
-        surface "Making the surfaces" 2 10
-        regularize "Evening out the triangles" 10 35
-        deform "Mapping source onto target" 35 85
-        certificate "Checking the mapping" 85 97
-        metrics "Comparing" 97 100
+        read "Reading" 0 2
+        align "Superposing" 2 2
+        potential "Computing the potentials" 2 4
+        surface "Making the surfaces" 4 8
+        regularize "Evening out the triangles" 8 25
+        morph "Mapping source onto target" 25 70
+        deform "Mapping source onto target" 25 70
+        certificate "Checking the mapping" 70 96
+        metrics "Comparing" 96 100
     }
 
     proc build_run_bar {path} {

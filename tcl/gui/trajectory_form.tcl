@@ -6,6 +6,7 @@ namespace eval ::espdiff::gui {
         trajectory,against "the frame" trajectory,reference 0 trajectory,map none trajectory,unit "as the map says"
         trajectory,csv trajectory.csv trajectory,resume 0 trajectory,skip 0}
     variable references {"the frame" "the frame before"}
+    variable automatic_trajectory ""  ;# the molecule that was chosen for the user, who has not chosen since
 
     proc build_trajectory {path} {
         ttk::labelframe $path.frames -text Frames -padding 6
@@ -26,7 +27,7 @@ namespace eval ::espdiff::gui {
         variable widget
         ttk::combobox $path.mol -textvariable ::espdiff::gui::form(trajectory,mol) -state readonly -width 16 \
             -postcommand {::espdiff::gui::guard ::espdiff::gui::update_trajectory}
-        bind $path.mol <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::update_trajectory}
+        bind $path.mol <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::choose_trajectory}
         form_row $path 0 Molecule $path.mol "A molecule that is loaded in VMD, with its frames"
         ttk::entry $path.sel -textvariable ::espdiff::gui::form(trajectory,sel) -width 16
         form_row $path 0 Atoms $path.sel "VMD selection of the atoms that make the surface, such as: protein; chosen\
@@ -112,14 +113,18 @@ namespace eval ::espdiff::gui {
         variable widget
         variable computed
         variable references
+        variable automatic_trajectory
         set maps [list none $computed]
         if {[in_vmd]} {
             set names [molecule_names]
             $widget(trajectory,mol) configure -values $names
-            if {$form(trajectory,mol) ni $names} {
-                set form(trajectory,mol) [lsearch -inline $names "[number_of $form(trajectory,mol)]: *"]
+            # A molecule keeps its number when it is renamed.
+            set chosen [lsearch -inline $names "[number_of $form(trajectory,mol)]: *"]
+            if {$chosen eq "" || $form(trajectory,mol) eq $automatic_trajectory} {
+                set chosen [most_frames $names]
+                set automatic_trajectory $chosen
             }
-            if {$form(trajectory,mol) eq ""} { set form(trajectory,mol) [most_frames $names] }
+            set form(trajectory,mol) $chosen
             set mol [number_of $form(trajectory,mol)]
             if {$mol ne ""} { lappend maps {*}[data_set_names $mol] }
         }
@@ -127,6 +132,11 @@ namespace eval ::espdiff::gui {
         $widget(trajectory,reference) state [expr {$form(trajectory,against) eq [lindex $references 0] ? "!disabled"
             : "disabled"}]
         show_trajectory_running
+    }
+
+    proc choose_trajectory {} {
+        variable automatic_trajectory ""
+        update_trajectory
     }
 
     # The molecule that looks most like a trajectory.

@@ -140,6 +140,7 @@ namespace eval ::espdiff::gui {
         variable draw_when_done
         if {$chosen_point eq ""} return
         lassign [endpoints_of_row $chosen_point] source target
+        choose_point $chosen_point  ;# the surface is drawn on the target: VMD shows its frame
         show_tab pair
         set draw_when_done [start_compare $source $target [dict get $trajectory_run settings]]
     }
