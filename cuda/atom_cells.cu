@@ -1,4 +1,4 @@
-// atom_cells.cu: sorts atoms into cells (counting sort on the host: atoms are few) and evaluates the analytic density.
+// atom_cells.cu: sorts atoms into cells, a counting sort on the host: atoms are few.
 #include "atom_cells.h"
 
 #include <algorithm>
@@ -8,12 +8,6 @@
 #include "base/error.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
-
-#if !defined(__CUDACC__)
-ESPDIFF_MULTIVERSION DensitySample density_at(const AtomCellsView& atoms, Vec3f p) {
-  return density_at_inline(atoms, p);
-}
-#endif
 
 namespace {
 
@@ -97,12 +91,11 @@ std::shared_ptr<AtomCells> make_atom_cells(const std::vector<Vec3d>& positions, 
   }
   for (std::size_t c = 0; c < n_cells; ++c) first[c + 1] += first[c];
 
-  // kLanes atoms of no weight at the end let vector loops read past the last run.
-  const std::size_t n_padded = atoms.kept.size() + kLanes;
-  std::vector<float> x(n_padded), y(n_padded), z(n_padded), exponent(n_padded, -1.0F), reach(n_padded);
-  std::vector<std::int32_t> residue(n_padded, -1);
+  const std::size_t n_kept = atoms.kept.size();
+  std::vector<float> x(n_kept), y(n_kept), z(n_kept), exponent(n_kept), reach(n_kept);
+  std::vector<std::int32_t> residue(n_kept);
   std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
-  if (order != nullptr) order->resize(atoms.kept.size());
+  if (order != nullptr) order->resize(n_kept);
   for (std::size_t n = 0; n < atoms.kept.size(); ++n) {
     const std::size_t i = atoms.kept[n];
     const std::size_t slot = next[cell_of[n]]++;

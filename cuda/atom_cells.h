@@ -1,4 +1,4 @@
-// atom_cells.h: atoms sorted into a cell list, and the analytic density anywhere in space from it.
+// atom_cells.h: atoms sorted into a cell list, and the visit of those near a point.
 #pragma once
 
 #include <array>
@@ -50,36 +50,6 @@ std::shared_ptr<AtomCells> make_atom_cells(const std::vector<Vec3d>& positions, 
                                            const std::vector<std::int32_t>& residues,
                                            std::vector<std::uint32_t>* order = nullptr);
 
-/// Analytic density and its gradient.
-struct DensitySample {
-  float value;
-  Vec3f gradient;  ///< 1/Angstrom
-};
-
-constexpr int kLanes = 8;
-
-/// Adds the atoms begin..end-1 to the lanes; the order of additions is fixed by position in the list alone.
-ESPDIFF_INLINE void add_atoms(const AtomCellsView& atoms, Vec3f p, std::uint32_t begin, std::uint32_t end,
-                              float (&value)[kLanes], float (&gx)[kLanes], float (&gy)[kLanes], float (&gz)[kLanes]) {
-  for (std::uint32_t i = begin; i < end; i += kLanes) {
-    // The arrays end in kLanes atoms of no weight, so that reading past `end` is safe.
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const std::uint32_t a = i + static_cast<std::uint32_t>(lane);
-      const float dx = p.x - atoms.x[a], dy = p.y - atoms.y[a], dz = p.z - atoms.z[a];
-      const float k = atoms.exponent[a];
-      const float argument = k * (dx * dx + dy * dy + dz * dz);
-      const bool counts = (a < end) & (argument > kCutoffExponent);
-      const float gaussian = exp_of_negative(counts ? argument : 0.0F);
-      const float weight = counts ? gaussian : 0.0F;
-      const float slope = weight * k;
-      value[lane] += weight;
-      gx[lane] += slope * dx;
-      gy[lane] += slope * dy;
-      gz[lane] += slope * dz;
-    }
-  }
-}
-
 /// Calls visit(begin, end) for each run of atoms that may reach p, in ascending order.
 template <typename Visit>
 ESPDIFF_INLINE void visit_atom_runs(const AtomCellsView& atoms, Vec3f p, float reach, Visit visit) {
@@ -101,25 +71,5 @@ ESPDIFF_INLINE void visit_atom_runs(const AtomCellsView& atoms, Vec3f p, float r
     }
   }
 }
-
-ESPDIFF_INLINE DensitySample density_at_inline(const AtomCellsView& atoms, Vec3f p) {
-  float value[kLanes] = {}, gx[kLanes] = {}, gy[kLanes] = {}, gz[kLanes] = {};
-  visit_atom_runs(atoms, p, atoms.max_reach, [&](std::uint32_t begin, std::uint32_t end) ESPDIFF_INLINE_LAMBDA {
-    add_atoms(atoms, p, begin, end, value, gx, gy, gz);
-  });
-  DensitySample sample{0.0F, {}};
-  for (int lane = 0; lane < kLanes; ++lane) {
-    sample.value += value[lane];
-    sample.gradient += Vec3f{2.0F * gx[lane], 2.0F * gy[lane], 2.0F * gz[lane]};
-  }
-  return sample;
-}
-
-/// Density (thesis eq. 3.1, truncated at 4.5 s) and gradient at p.
-#if defined(__CUDACC__)
-ESPDIFF_INLINE DensitySample density_at(const AtomCellsView& atoms, Vec3f p) { return density_at_inline(atoms, p); }
-#else
-DensitySample density_at(const AtomCellsView& atoms, Vec3f p);
-#endif
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -20,7 +20,7 @@ struct Place {
 ESPDIFF_INLINE float along(Vec3f p, Vec3f from, Vec3f to) {
   const Vec3f edge = to - from;
   const float square = dot(edge, edge);
-  return square > 0 ? fminf(fmaxf(dot(p - from, edge) / square, 0.0F), 1.0F) : 0.0F;
+  return square > 0 ? smaller(larger(dot(p - from, edge) / square, 0.0F), 1.0F) : 0.0F;
 }
 
 /// The place of a triangle nearest to p: its foot where that lies in the face, else the nearest place on an edge.

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "adjacency.h"
+#include "density_at_points.h"
+#include "spatial_order.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
@@ -41,7 +43,15 @@ FitReport fit_to_density(const SurfaceMesh& mapped, const AtomCells& target, flo
   const std::size_t n = mapped.n_triangles();
   const Corners* const corners = raw(mapped.topology->triangles);
   const Vec4f* const x = raw(mapped.positions);
-  const AtomCellsView atoms = target.view();
+  Buffer<Vec4f> centroids(n);
+  Vec4f* const centroid = raw(centroids);
+  for_each_index(n, [=] ESPDIFF_HD(std::size_t t) {
+    const Corners& c = corners[t];
+    centroid[t] = make_vec4((1.0F / 3.0F) * (x[c.v[0]].xyz() + x[c.v[1]].xyz() + x[c.v[2]].xyz()), 0.0F);
+  });
+  Buffer<DensitySample> sampled(n);
+  density_at_points(target, centroids, spatial_order(centroids), n, sampled);
+  const DensitySample* const density = raw(sampled);
   auto corrupt_flags = std::make_shared<Scalars>();
   corrupt_flags->values.resize(n);
   auto flipped_flags = std::make_shared<Scalars>();
@@ -50,11 +60,9 @@ FitReport fit_to_density(const SurfaceMesh& mapped, const AtomCells& target, flo
   float* const flipped = raw(flipped_flags->values);
   for_each_index(n, [=] ESPDIFF_HD(std::size_t t) {
     const Corners& c = corners[t];
-    const Vec3f centroid = (1.0F / 3.0F) * (x[c.v[0]].xyz() + x[c.v[1]].xyz() + x[c.v[2]].xyz());
-    const DensitySample density = density_at(atoms, centroid);
-    corrupt[t] = fabsf(density.value - isovalue) > kCorruptDensity ? 1.0F : 0.0F;
+    corrupt[t] = fabsf(density[t].value - isovalue) > kCorruptDensity ? 1.0F : 0.0F;
     // The density falls outward: a normal along the gradient points the wrong way.
-    flipped[t] = dot(twice_area_vector(x, c), density.gradient) > 0 ? 1.0F : 0.0F;
+    flipped[t] = dot(twice_area_vector(x, c), density[t].gradient) > 0 ? 1.0F : 0.0F;
   });
   const FitSums sums = sum_over<FitSums>(n, [=] ESPDIFF_HD(std::size_t t) {
     FitSums s;
@@ -94,7 +102,7 @@ DistanceSummary distance_summary(const SurfaceMesh& from, const SurfaceMesh& to,
   const Corners* const corners = raw(from.topology->triangles);
   for_each_index(from.n_triangles(), [=] ESPDIFF_HD(std::size_t t) {
     const Corners c = corners[t];
-    const float farthest = fmaxf(distance[c.v[0]], fmaxf(distance[c.v[1]], distance[c.v[2]]));
+    const float farthest = larger(distance[c.v[0]], larger(distance[c.v[1]], distance[c.v[2]]));
     beyond_limit[t] = farthest > limit_A ? 1.0F : 0.0F;
   });
   const std::vector<float> weights = to_host(vertex_areas(from, triangle_areas(from), nullptr));

@@ -25,7 +25,7 @@ double available_bytes() {
 }
 
 ESPDIFF_INLINE float axis_gaussian(float exponent, float delta) {
-  return exp_of_negative(fmaxf(exponent * delta * delta, -80.0F));
+  return exp_of_negative(larger(exponent * delta * delta, -80.0F));
 }
 
 /// Smallest product of the y and z Gaussians that still counts.

@@ -99,6 +99,11 @@ T exclusive_scan_in_place(Buffer<T>& counts) {
   return static_cast<T>(counts.back() + last);
 }
 
+/// The larger, the smaller of two: fmaxf and fminf are calls into a library on the host. Where the first is NaN, the
+/// second.
+ESPDIFF_INLINE float larger(float a, float b) { return a > b ? a : b; }
+ESPDIFF_INLINE float smaller(float a, float b) { return a < b ? a : b; }
+
 /// False for NaN and infinities; std::isfinite is not for device code.
 ESPDIFF_INLINE bool is_finite(float x) { return x - x == 0.0F; }
 

@@ -33,7 +33,7 @@ ESPDIFF_INLINE TriangleChange change_of(const Vec4f* from, const Vec4f* to, cons
   const Metric g = metric_of(from, c), m = metric_of(to, c);
   const float det_g = g.first * g.second - g.mixed * g.mixed, det_m = m.first * m.second - m.mixed * m.mixed;
   const float numerator = g.second * m.first - 2.0F * (g.mixed * m.mixed) + g.first * m.second;
-  const float area_g = 0.5F * sqrtf(fmaxf(det_g, 0.0F)), area_m = 0.5F * sqrtf(fmaxf(det_m, 0.0F));
+  const float area_g = 0.5F * sqrtf(larger(det_g, 0.0F)), area_m = 0.5F * sqrtf(larger(det_m, 0.0F));
   const float energy = det_g > 0 && det_m > 0 ? 0.25F * (numerator / det_g + numerator / det_m) : INFINITY;
   return {area_g, area_g > 0 ? area_m / area_g : INFINITY, energy};
 }

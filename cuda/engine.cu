@@ -15,6 +15,7 @@
 #include "coulomb.h"
 #include "deform.h"
 #include "density.h"
+#include "density_at_points.h"
 #include "distortion.h"
 #include "engine/engine.h"
 #include "engine/make_engine.h"
@@ -26,6 +27,7 @@
 #include "pme.h"
 #include "project.h"
 #include "sample.h"
+#include "spatial_order.h"
 #include "subdivide.h"
 #include "submesh.h"
 #include "vector_flow.h"
@@ -369,14 +371,12 @@ class BackEndEngine : public Engine {
 
   std::vector<float> density_at(const AtomsPtr& atoms, const std::vector<Vec3f>& points) override {
     return run([&] {
-      const AtomCellsView view = unwrap<AtomCells>(atoms).view();
-      const Buffer<Vec3f> where = to_device(points);
-      Buffer<float> values(points.size());
-      const Vec3f* const p = raw(where);
-      float* const out = raw(values);
-      for_each_index(points.size(),
-                     [=] ESPDIFF_HD(std::size_t i) { out[i] = ESPDIFF_BACKEND::density_at(view, p[i]).value; });
-      return to_host(values);
+      const Buffer<Vec4f> where = upload_positions(points);
+      Buffer<DensitySample> samples(points.size());
+      density_at_points(unwrap<AtomCells>(atoms), where, spatial_order(where), points.size(), samples);
+      std::vector<float> values;
+      for (const DensitySample& sample : to_host(samples)) values.push_back(sample.value);
+      return values;
     });
   }
 

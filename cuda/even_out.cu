@@ -23,7 +23,7 @@ ESPDIFF_INLINE float shape_quality(const Vec4f* x, const Corners& c) {
 ESPDIFF_INLINE float least_altitude(const Vec4f* x, const Corners& c) {
   const Vec3f ab = x[c.v[1]].xyz() - x[c.v[0]].xyz(), bc = x[c.v[2]].xyz() - x[c.v[1]].xyz(),
               ca = x[c.v[0]].xyz() - x[c.v[2]].xyz();
-  const float longest = sqrtf(fmaxf(dot(ab, ab), fmaxf(dot(bc, bc), dot(ca, ca))));
+  const float longest = sqrtf(larger(dot(ab, ab), larger(dot(bc, bc), dot(ca, ca))));
   return longest > 0 ? norm(cross(ab, ca)) / longest : 0.0F;
 }
 
@@ -40,13 +40,13 @@ void even_out(Travelling& surface) {
     for (std::uint32_t n = s.topology.first[v]; n < s.topology.first[v + 1]; ++n) {
       const std::uint32_t t = s.topology.incident[n];
       if (s.cut[t] != 0) return;  // at a border
-      now = fminf(now, shape_quality(s.x, s.topology.triangles[t]));
-      before = fminf(before, shape_quality(s.source, s.topology.triangles[t]));
-      altitude = fminf(altitude, least_altitude(s.x, s.topology.triangles[t]));
+      now = smaller(now, shape_quality(s.x, s.topology.triangles[t]));
+      before = smaller(before, shape_quality(s.source, s.topology.triangles[t]));
+      altitude = smaller(altitude, least_altitude(s.x, s.topology.triangles[t]));
     }
     const float need = 1.0F - now / (kKeptQuality * before);
     if (!(need > 0)) return;
-    Vec3f move = (kPace * fminf(1.0F, 2.0F * need)) * umbrella(s.topology, s.x, v).xyz();
+    Vec3f move = (kPace * smaller(1.0F, 2.0F * need)) * umbrella(s.topology, s.x, v).xyz();
     const Vec3f gradient = s.gradient[v].xyz();
     move = move - (dot(move, gradient) / dot(gradient, gradient)) * gradient;
     const float length = norm(move), most = altitude / 3.0F;

@@ -113,7 +113,7 @@ ESPDIFF_INLINE float distance_to_fan(const TopologyView& topology, const Vec4f* 
   float nearest = squared_distance(p, x[vertex].xyz());
   for (std::uint32_t n = topology.first[vertex]; n < topology.first[vertex + 1]; ++n) {
     const Corners& t = topology.triangles[topology.incident[n]];
-    nearest = fminf(nearest, squared_distance_to_triangle(p, {x[t.v[0]].xyz(), x[t.v[1]].xyz(), x[t.v[2]].xyz()}));
+    nearest = smaller(nearest, squared_distance_to_triangle(p, {x[t.v[0]].xyz(), x[t.v[1]].xyz(), x[t.v[2]].xyz()}));
   }
   return sqrtf(nearest);
 }

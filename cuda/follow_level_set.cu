@@ -1,6 +1,5 @@
 // follow_level_set.cu: along the atoms' velocity, and back onto the level set by Newton's method.
-#include <thrust/copy.h>
-
+#include "spatial_order.h"
 #include "travelling.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
@@ -27,7 +26,7 @@ void advance(Travelling& surface, float dt) {
     const Vec3f gradient = s.gradient[v].xyz();
     const float slope = norm(gradient);
     if (s.lost[v] == 0 && slope > kLeastSlope) {
-      const float along = fminf(fmaxf(dt * flow.w, -kMaxPrediction_A), kMaxPrediction_A);
+      const float along = smaller(larger(dt * flow.w, -kMaxPrediction_A), kMaxPrediction_A);
       move += (along / slope) * gradient;
     }
     s.x[v] = make_vec4(s.x[v].xyz() + move, s.x[v].w + norm(move));
@@ -56,7 +55,7 @@ void return_to_level_set(Travelling& surface, const MovingAtoms& atoms, float is
       const FlowSample sample = samples[v];
       const float excess = sample.density - isovalue;
       const float square = dot(sample.gradient, sample.gradient);
-      const float slope = fmaxf(sqrtf(square), kLeastSlope);
+      const float slope = larger(sqrtf(square), kLeastSlope);
       s.gradient[v] = make_vec4(sample.gradient, sample.density);
       s.flow[v] = make_vec4(sample.velocity, -(sample.rate + dot(sample.gradient, sample.velocity)) / slope);
       done[v] = 1;
@@ -71,12 +70,7 @@ void return_to_level_set(Travelling& surface, const MovingAtoms& atoms, float is
       s.x[v] = broken ? start[v] : make_vec4(moved, s.x[v].w + norm(shift));
       if (!broken && fabsf(excess) >= kLastStepExcess) done[v] = 0;
     });
-    Buffer<std::uint32_t> rest(n_pending);
-    const auto end =
-        thrust::copy_if(thrust::device, pending.begin(), pending.begin() + static_cast<std::ptrdiff_t>(n_pending),
-                        rest.begin(), [=] ESPDIFF_HD(std::uint32_t v) { return done[v] == 0; });
-    n_pending = static_cast<std::size_t>(end - rest.begin());
-    pending.swap(rest);
+    n_pending = drop_done(pending, n_pending, done_flags);
   }
 }
 

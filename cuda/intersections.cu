@@ -8,7 +8,7 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// fminf() and fmaxf() would be calls on the host.
+/// smaller() and larger() would be calls on the host.
 ESPDIFF_INLINE float least(float a, float b, float c) { return a < b ? (a < c ? a : c) : (b < c ? b : c); }
 ESPDIFF_INLINE float largest(float a, float b, float c) { return a > b ? (a > c ? a : c) : (b > c ? b : c); }
 

@@ -81,7 +81,7 @@ ESPDIFF_INLINE void write_vertices(const Extraction& e, std::size_t point, int i
   for (int direction = 1; direction < 8; ++direction) {
     if ((mask >> (direction - 1) & 1U) == 0) continue;
     const float a = e.density[point], b = e.density[e.corner_point(point, direction)];
-    const float t = fminf(fmaxf((e.isovalue - a) / (b - a), 1e-3F), 1.0F - 1e-3F);
+    const float t = smaller(larger((e.isovalue - a) / (b - a), 1e-3F), 1.0F - 1e-3F);
     const auto along = [&](int axis, int at) {
       const float base = e.lattice.coordinate(axis, at);
       return (direction >> axis & 1) != 0 ? base + t * e.lattice.spacing : base;

@@ -47,7 +47,7 @@ ESPDIFF_INLINE CellPosition locate(const CubicLattice& lattice, Vec3f p, int mar
   const float inverse_spacing = 1.0F / lattice.spacing;
   for (int axis = 0; axis < 3; ++axis) {
     const float lowest = static_cast<float>(margin), highest = static_cast<float>(lattice.size[axis] - 1 - margin);
-    const float c = fminf(fmaxf((p[axis] - lattice.origin[axis]) * inverse_spacing, lowest), highest);
+    const float c = smaller(larger((p[axis] - lattice.origin[axis]) * inverse_spacing, lowest), highest);
     int base = static_cast<int>(c);
     if (base > lattice.size[axis] - 2 - margin) base = lattice.size[axis] - 2 - margin;
     at.base[axis] = base;

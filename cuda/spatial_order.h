@@ -22,4 +22,8 @@ ESPDIFF_INLINE std::uint32_t morton_code(Vec3f p) {
 /// [point] the points' indices along the Morton curve of their box; equal codes in the order of the indices.
 Buffer<std::uint32_t> spatial_order(const Buffer<Vec4f>& points);
 
+/// Drops the points whose entry in `done` is nonzero from the first n of a list; the rest keeps its order.
+/// @returns how many are left
+std::size_t drop_done(Buffer<std::uint32_t>& list, std::size_t n, const Buffer<std::uint8_t>& done);
+
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -14,8 +14,8 @@ namespace {
 ESPDIFF_INLINE Box empty_box() { return {{FLT_MAX, FLT_MAX, FLT_MAX}, {-FLT_MAX, -FLT_MAX, -FLT_MAX}}; }
 
 ESPDIFF_INLINE Box join(Box a, Box b) {
-  return {{fminf(a.lower.x, b.lower.x), fminf(a.lower.y, b.lower.y), fminf(a.lower.z, b.lower.z)},
-          {fmaxf(a.upper.x, b.upper.x), fmaxf(a.upper.y, b.upper.y), fmaxf(a.upper.z, b.upper.z)}};
+  return {{smaller(a.lower.x, b.lower.x), smaller(a.lower.y, b.lower.y), smaller(a.lower.z, b.lower.z)},
+          {larger(a.upper.x, b.upper.x), larger(a.upper.y, b.upper.y), larger(a.upper.z, b.upper.z)}};
 }
 
 ESPDIFF_INLINE Box box_of(const PlacedTriangle& t) { return join(join({t.a, t.a}, {t.b, t.b}), {t.c, t.c}); }
@@ -46,7 +46,7 @@ TriangleTree make_triangle_tree(const SurfaceMesh& mesh) {
   const std::uint32_t n = static_cast<std::uint32_t>(mesh.n_triangles());
   const Box bounds = mesh_box(mesh);
   const Vec3f extent = bounds.upper - bounds.lower;
-  const float scale = 1023.0F / fmaxf(fmaxf(extent.x, extent.y), fmaxf(extent.z, 1e-6F));
+  const float scale = 1023.0F / larger(larger(extent.x, extent.y), larger(extent.z, 1e-6F));
   const Corners* const corners = raw(mesh.topology->triangles);
   const Vec4f* const x = raw(mesh.positions);
 
@@ -77,7 +77,7 @@ TriangleTree make_triangle_tree(const SurfaceMesh& mesh) {
     const Vec3f centre = (1.0F / 3.0F) * (corner.a + corner.b + corner.c);
     placed[place] = corner;
     spheres[place] =
-        make_vec4(centre, fmaxf(norm(corner.a - centre), fmaxf(norm(corner.b - centre), norm(corner.c - centre))));
+        make_vec4(centre, larger(norm(corner.a - centre), larger(norm(corner.b - centre), norm(corner.c - centre))));
   });
   const std::size_t n_leaves = tree.n_leaves;
   for_each_index(n_leaves, [=] ESPDIFF_HD(std::size_t leaf) {

@@ -50,7 +50,7 @@ TriangleTree make_triangle_tree(const SurfaceMesh& mesh);
 ESPDIFF_INLINE float squared_distance_to_segment(Vec3f p, Vec3f a, Vec3f b) {
   const Vec3f ab = b - a, ap = p - a;
   const float length_squared = dot(ab, ab);
-  const float t = length_squared > 0 ? fminf(fmaxf(dot(ap, ab) / length_squared, 0.0F), 1.0F) : 0.0F;
+  const float t = length_squared > 0 ? smaller(larger(dot(ap, ab) / length_squared, 0.0F), 1.0F) : 0.0F;
   const Vec3f d = ap - t * ab;
   return dot(d, d);
 }
@@ -65,14 +65,14 @@ ESPDIFF_INLINE float squared_distance_to_triangle(Vec3f p, const PlacedTriangle&
     const float height = dot(pa, n);
     return height * height / nn;
   }
-  return fminf(squared_distance_to_segment(p, t.a, t.b),
-               fminf(squared_distance_to_segment(p, t.b, t.c), squared_distance_to_segment(p, t.c, t.a)));
+  return smaller(squared_distance_to_segment(p, t.a, t.b),
+                 smaller(squared_distance_to_segment(p, t.b, t.c), squared_distance_to_segment(p, t.c, t.a)));
 }
 
 ESPDIFF_INLINE float squared_distance_to_box(Vec3f p, const Box& box) {
-  const float dx = fmaxf(fmaxf(box.lower.x - p.x, p.x - box.upper.x), 0.0F);
-  const float dy = fmaxf(fmaxf(box.lower.y - p.y, p.y - box.upper.y), 0.0F);
-  const float dz = fmaxf(fmaxf(box.lower.z - p.z, p.z - box.upper.z), 0.0F);
+  const float dx = larger(larger(box.lower.x - p.x, p.x - box.upper.x), 0.0F);
+  const float dy = larger(larger(box.lower.y - p.y, p.y - box.upper.y), 0.0F);
+  const float dz = larger(larger(box.lower.z - p.z, p.z - box.upper.z), 0.0F);
   return dx * dx + dy * dy + dz * dz;
 }
 

@@ -120,7 +120,7 @@ ESPDIFF_INLINE void relax_point(const Sweep& s, int i, int j, int k) {
 struct Largest {
   float value = 0;
   ESPDIFF_HD Largest& operator+=(const Largest& other) {
-    value = fmaxf(value, other.value);
+    value = larger(value, other.value);
     return *this;
   }
 };

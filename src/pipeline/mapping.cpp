@@ -20,34 +20,48 @@ bool lose(std::vector<float>& lost, const std::vector<float>& marked) {
 
 void measure(Engine& engine, Mapping& mapping, const AtomsPtr& target_atoms, const MeshPtr& target, float isovalue) {
   mapping.fit = engine.fit(mapping.counted, target_atoms, isovalue);
-  mapping.intersections = engine.self_intersections(mapping.counted);
   mapping.to_target = engine.distances(mapping.counted, target, kCounterpartLimit_A);
   mapping.distortion = engine.distortion(mapping.counted_source, mapping.counted, kAreaRatioLimit);
+}
+
+/// [triangle of the part] nonzero where it is to be lost.
+std::vector<float> faults(Engine& engine, const Mapping& mapping) {
+  std::vector<float> marked = engine.download(mapping.fit.corrupt);
+  for (const ScalarsPtr& flags : {mapping.fit.flipped, mapping.intersections.intersecting, mapping.to_target.beyond,
+                                  mapping.distortion.excessive}) {
+    if (flags == nullptr) continue;
+    const std::vector<float> other = engine.download(flags);
+    std::transform(marked.begin(), marked.end(), other.begin(), marked.begin(),
+                   [](float a, float b) { return std::max(a, b); });
+  }
+  return marked;
+}
+
+/// Takes the part of both meshes that is not lost.
+void leave_out_lost(Engine& engine, Mapping& mapping) {
+  const ScalarsPtr lost = engine.upload_scalars(mapping.lost);
+  mapping.counted = engine.without(mapping.mapped, lost);
+  mapping.counted_source = engine.without(mapping.source, lost);
 }
 
 }  // namespace
 
 void settle(Engine& engine, Mapping& mapping, const AtomsPtr& target_atoms, const MeshPtr& target, float isovalue) {
-  if (mapping.lost.empty()) {
+  const bool tells = !mapping.lost.empty();
+  if (tells) {
+    leave_out_lost(engine, mapping);
+  } else {
     mapping.counted = mapping.mapped;
     mapping.counted_source = mapping.source;
-    measure(engine, mapping, target_atoms, target, isovalue);
-    return;
   }
-  bool more = true;
-  while (more) {
-    const ScalarsPtr lost = engine.upload_scalars(mapping.lost);
-    mapping.counted = engine.without(mapping.mapped, lost);
-    mapping.counted_source = engine.without(mapping.source, lost);
+  measure(engine, mapping, target_atoms, target, isovalue);
+  mapping.intersections = engine.self_intersections(mapping.counted);
+  while (tells && lose(mapping.lost, faults(engine, mapping))) {
+    leave_out_lost(engine, mapping);
+    // Without every triangle that was in a pair there is no pair left: only the area that has grown is to be seen
+    // again, since it is measured over what lies around.
+    mapping.intersections = {};
     measure(engine, mapping, target_atoms, target, isovalue);
-    std::vector<float> marked = engine.download(mapping.fit.corrupt);
-    for (const ScalarsPtr& flags : {mapping.fit.flipped, mapping.intersections.intersecting, mapping.to_target.beyond,
-                                    mapping.distortion.excessive}) {
-      const std::vector<float> other = engine.download(flags);
-      std::transform(marked.begin(), marked.end(), other.begin(), marked.begin(),
-                     [](float a, float b) { return std::max(a, b); });
-    }
-    more = lose(mapping.lost, marked);
   }
 }
 

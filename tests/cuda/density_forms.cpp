@@ -1,5 +1,5 @@
-// density_forms.cpp: the slab form and the point form of the density agree to the last bit. Compiled with the CPU back
-// end's flags, because the engine's interface offers one of the two only.
+// density_forms.cpp: the forms of the density agree to the last bit: slabs and points of a lattice, blocks of points
+// and single points. Compiled with the CPU back end's flags, because the engine's interface offers one of the two only.
 #include <doctest/doctest.h>
 
 #include <cstring>
@@ -8,6 +8,8 @@
 #include "cuda/mesh_checks.h"
 #include "cuda/shapes.h"
 #include "density.h"
+#include "density_at_points.h"
+#include "spatial_order.h"
 
 using namespace espdiff_test;
 using namespace espdiff::cpu_backend;
@@ -113,6 +115,27 @@ TEST_CASE("the lattice holds every atom's reach however far apart they are") {
     refused = true;
   }
   if (!refused) CHECK(static_cast<double>(lattice.coordinate(0, lattice.size[0] - 1)) > 1.2e6 + 4.5 * 0.5);
+}
+
+TEST_CASE("blocks of points and single points agree, wherever the points lie") {
+  for (const std::size_t n_points : {1, 15, 16, 17, 1000}) {
+    for (const double half_side : {0.5, 8.0, 60.0}) {  // in one place, around the atoms, mostly beyond them
+      const AtomSet atoms = random_cloud(300, 19);
+      const auto cells = make_atom_cells(atoms.positions, atoms.widths, atoms.residues);
+      Random random(20);
+      std::vector<espdiff::Vec4f> where;
+      for (std::size_t i = 0; i < n_points; ++i)
+        where.push_back(espdiff::make_vec4(static_cast<Vec3f>(random.in_box(half_side)), 0));
+      const Buffer<espdiff::Vec4f> points = to_device(where);
+      const Buffer<std::uint32_t> order = spatial_order(points);
+      Buffer<DensitySample> a(n_points), b(n_points);
+      density_at_points(*cells, points, order, n_points, a);
+      density_point_by_point(*cells, points, order, n_points, b);
+      CAPTURE(n_points);
+      CAPTURE(half_side);
+      CHECK(std::memcmp(raw(a), raw(b), n_points * sizeof(DensitySample)) == 0);
+    }
+  }
 }
 
 TEST_SUITE_END();

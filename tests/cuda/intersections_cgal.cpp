@@ -5,34 +5,16 @@
 
 #if defined(ESPDIFF_HAVE_CGAL)
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#include <CGAL/Surface_mesh.h>
 
 #include <chrono>
 #include <cstdio>
 
+#include "cuda/cgal_mesh.h"
+
 using namespace espdiff_test;
 
 namespace {
-
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using CgalMesh = CGAL::Surface_mesh<Kernel::Point_3>;
-
-CgalMesh cgal_mesh(const Mesh& mesh) {
-  CgalMesh result;
-  for (const Vec3f& p : mesh.positions) {
-    const Vec3d exact = static_cast<Vec3d>(p);
-    result.add_vertex(Kernel::Point_3(exact.x, exact.y, exact.z));
-  }
-  for (const auto& t : mesh.triangles) {
-    const auto face =
-        result.add_face(CgalMesh::Vertex_index(t[0]), CgalMesh::Vertex_index(t[1]), CgalMesh::Vertex_index(t[2]));
-    REQUIRE(face != CgalMesh::null_face());
-    REQUIRE(face.idx() + 1 == result.number_of_faces());
-  }
-  return result;
-}
 
 /// Same number of pairs, and the same triangles in them; returns the number.
 std::size_t check_against_cgal(Engine& engine, const espdiff::MeshPtr& surface, const std::string& what) {
