@@ -108,6 +108,12 @@ namespace eval ::espdiff::gui {
         $widget(bar) configure -value 0
     }
 
+    proc stage_words {stage} {
+        variable stages
+        foreach {name words begin end} $stages { if {$name eq $stage} { return $words } }
+        return $stage
+    }
+
     # Called by espdiff with the stage and how much of it is done.
     proc show_progress {stage fraction} {
         variable widget

@@ -138,6 +138,9 @@ namespace eval ::espdiff::gui {
         variable widget
         if {![info exists widget(trajectory,bar)] || ![winfo exists $widget(trajectory,bar)]} return
         $widget(trajectory,bar) configure -value $fraction
+        if {[regexp {^frame (\d+): (.*)$} $stage -> frame step]} {
+            set stage "Frame $frame: [string tolower [stage_words $step] 0 0]..."
+        }
         trajectory_message $stage
     }
 
@@ -162,7 +165,8 @@ namespace eval ::espdiff::gui {
         } else {
             set bad 0
             foreach row $trajectory_rows { if {![row_is_good $row]} { incr bad } }
-            trajectory_message "[dict get $result rows] rows in [format %.1f [dict get $result seconds]] s,\
+            set there [expr {[dict get $result resumed] == 0 ? "" : ", [dict get $result resumed] were there already"}]
+            trajectory_message "[dict get $result rows] rows in [format %.1f [dict get $result seconds]] s$there;\
                 [expr {$bad == 0 ? "all" : [llength $trajectory_rows] - $bad}] trustworthy. Written:\
                 [file tail [dict get $result csv]]"
         }

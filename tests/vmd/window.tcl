@@ -111,7 +111,7 @@ test "AdK's trajectory: rows come, and the plot with them" {
     wait_until {[llength $::espdiff::gui::trajectory_rows] == 2}
     check_equal "points while it runs" [llength [[widget trajectory,plot] find withtag good||bad]] 2
     wait_until {$::espdiff::gui::trajectory_running eq ""}
-    check "message" {[string match "4 rows in * s, * trustworthy*" [[widget trajectory,message] cget -text]]}
+    check "message" {[string match "4 rows in * s; * trustworthy*" [[widget trajectory,message] cget -text]]}
     set texts {}
     foreach item [[widget trajectory,plot] find all] {
         if {[[widget trajectory,plot] type $item] eq "text"} { lappend texts [[widget trajectory,plot] itemcget $item -text] }
