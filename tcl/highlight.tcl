@@ -31,7 +31,8 @@ namespace eval ::espdiff {
         foreach residue [core::residues $handle] { dict set known [dict get $residue index] $residue }
         foreach index $residues {
             if {![dict exists $known $index]} {
-                fail "espdiff highlight: '$index' is not the `index` of a residue of $handle, as `espdiff residues` has it"
+                fail "espdiff highlight: '$index' is not the `index` of a residue of $handle, as `espdiff\
+                    residues` has it"
             }
             set residue [dict get $known $index]
             dict set keys [residue_key [dict get $residue chain] "" [dict get $residue number] \

@@ -16,8 +16,8 @@ namespace eval ::espdiff {
     # By id of the graphics molecule: its middle, in units of half the window's width.
     variable legends [dict create]
 
-    # `plan` is drawing_plan's. The legend's middle and the half of the room that it has are in units of half the window's
-    # width. Returns the molecule's id; its list is not built yet.
+    # `plan` is drawing_plan's. The legend's middle, and half of the room that it has, are in units of half the
+    # window's width. Returns the molecule's id; its list is not built yet.
     proc draw_legend {plan {middle 0} {room 1}} {
         variable legend_layout
         variable letter_width

@@ -5,7 +5,7 @@
 # panels that differ by the global matrix stay alike. The source is turned into the target's frame first.
 namespace eval ::espdiff {
     # While there is a linked view: handle, panels (by source, target, difference: molecules), saved (what the user
-    # had), rotation and centre (of the source, of the target), scale (at which the surface is as large as VMD shows it).
+    # had), rotation and centre (of the source, of the target), scale (VMD's own for the surface).
     variable linked {}
 
     # Middle of each panel, in units of half the window's width, and its title.

@@ -44,8 +44,8 @@ namespace eval ::espdiff::gui {
             marked in yellow, or not drawn"
         ttk::checkbutton $path.linked -text "Source, target and this side by side" \
             -variable ::espdiff::gui::form(draw,view) -onvalue linked -offvalue single
-        tip $path.linked "Linked views: the mouse turns all three; both potentials on the left, what is chosen here on the\
-            right. Undraw puts VMD's view back"
+        tip $path.linked "Linked views: the mouse turns all three; both potentials on the left, what is chosen here on\
+            the right. Undraw puts VMD's view back"
         grid $path.linked -row 3 -column 2 -columnspan 2 -sticky w -padx {16 0}
         set widget(draw,linked) $path.linked
         build_draw_buttons $path.buttons

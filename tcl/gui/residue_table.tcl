@@ -167,7 +167,8 @@ namespace eval ::espdiff::gui {
                 if {$key eq "residue"} { lappend cells [residue_name $row]; continue }
                 set value [dict get $row $key]
                 # Outside of an expression, which would take a number's last zeros away.
-                if {$value eq ""} { set text \u2013 } else { set text [format %.*f $decimals [expr {$factor * $value}]] }
+                set text \u2013
+                if {$value ne ""} { set text [format %.*f $decimals [expr {$factor * $value}]] }
                 lappend cells $text
             }
             $table insert {} end -id [dict get $row index] -values $cells
@@ -199,7 +200,8 @@ namespace eval ::espdiff::gui {
         foreach key $visible title $titles {
             if {$key eq $form(residues,sort)} { append title " [expr {$form(residues,falling) ? "\u25be" : "\u25b4"}]" }
             $table heading $key -text $title
-            $table column $key -width [expr {max($key eq "residue" ? 96 : 66, 10 + [font measure [heading_font] $title])}]
+            set least [expr {$key eq "residue" ? 96 : 66}]
+            $table column $key -width [expr {max($least, 10 + [font measure [heading_font] $title])}]
         }
         $widget(residues,sort) configure -values $titles
         $widget(residues,sort) set [lindex $titles [lsearch -exact $visible $form(residues,sort)]]

@@ -44,8 +44,8 @@ namespace eval ::espdiff::gui {
         button $path.choose.browse ... [list ::espdiff::gui::browse_trajectory file $structure_types]
         pack $path.choose.browse -side right -padx {4 0}
         pack $path.choose.file -fill x -expand 1
-        form_row $path 0 File $path.choose "Structure file (PQR, PDB, mmCIF) whose models are the frames; the first one is\
-            frame 0"
+        form_row $path 0 File $path.choose "Structure file (PQR, PDB, mmCIF) whose models are the frames; the first one\
+            is frame 0"
         tip $path.choose.file "Structure file whose models are the frames; the first one is frame 0"
         grid configure $path.choose -columnspan 3
         set widget(trajectory,file) $path.choose.file
@@ -79,9 +79,9 @@ namespace eval ::espdiff::gui {
         variable units
         ttk::combobox $path.map -textvariable ::espdiff::gui::form(trajectory,map) -width 16 \
             -postcommand {::espdiff::gui::guard ::espdiff::gui::update_trajectory}
-        form_row $path 2 Potential $path.map "Of each frame: computed from the charges (particle-mesh Ewald); a map file\
-            for each frame, such as map%03d.dx, where %03d stands for the frame's number; a data set or a file for all\
-            frames; or none to compare the shapes alone"
+        form_row $path 2 Potential $path.map "Of each frame: computed from the charges (particle-mesh Ewald); a map\
+            file for each frame, such as map%03d.dx, where %03d stands for the frame's number; a data set or a file\
+            for all frames; or none to compare the shapes alone"
         ttk::combobox $path.unit -textvariable ::espdiff::gui::form(trajectory,unit) -values $units -state readonly \
             -width 16
         form_row $path 2 Unit $path.unit "Unit of the maps, if they do not say" 2
@@ -97,7 +97,7 @@ namespace eval ::espdiff::gui {
         ttk::checkbutton $path.options.resume -text "go on with it" -variable ::espdiff::gui::form(trajectory,resume)
         ttk::checkbutton $path.options.skip -text "skip what fails" -variable ::espdiff::gui::form(trajectory,skip)
         tip $path.options.resume "Go on where an interrupted run left the file, with the same frames and settings"
-        tip $path.options.skip "A frame that cannot be compared becomes a row with the reason, instead of ending the run"
+        tip $path.options.skip "A frame that cannot be compared becomes a row with the reason, and the run goes on"
         pack $path.options.resume $path.options.skip -side left -padx {0 10}
         grid $path.options -row 3 -column 2 -columnspan 2 -sticky w -padx {16 0}
         ttk::label $path.note -text "The settings are those of the tab Pair." -foreground gray40

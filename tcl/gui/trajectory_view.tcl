@@ -3,7 +3,7 @@
 namespace eval ::espdiff::gui {
     variable trajectory_running ""  ;# handle that is being computed
     variable trajectory_rows {}     ;# rows on display, dicts by column
-    variable trajectory_run {}      ;# what they were computed with: options (words after `espdiff trajectory`), settings
+    variable trajectory_run {}      ;# what they were computed with: options, output, settings, as words
     variable form
     array set form {trajectory,metric ""}
 
