@@ -90,7 +90,9 @@ namespace eval ::espdiff::gui {
         set fill [expr {0.3 * $red + 0.59 * $green + 0.11 * $blue > 32768 ? "gray20" : "gray90"}]
         set x [expr {$x + $cell / 2.0}]
         set y [expr {$y + $cell / 2.0}]
-        $map create oval [expr {$x - 1}] [expr {$y - 1}] [expr {$x + 1}] [expr {$y + 1}] -fill $fill -outline ""
+        set radius [expr {max(1.0, $cell / 14.0)}]
+        $map create oval [expr {$x - $radius}] [expr {$y - $radius}] [expr {$x + $radius}] [expr {$y + $radius}] \
+            -fill $fill -outline ""
     }
 
     # Neighbours of one group.

@@ -9,7 +9,7 @@ namespace eval ::espdiff::gui {
     variable traced {}          ;# variables of VMD that tell what happens, and what is called then
     variable pending_update ""  ;# the `after` script that looks at VMD's molecules again
 
-    foreach part {widgets scrolled endpoint_form settings_form run_bar result_view draw_form session_script
+    foreach part {widgets scrolled endpoint_form presets settings_form run_bar result_view draw_form session_script
         help_window matrix_form matrix_view heat_map residue_table trajectory_form trajectory_view trajectory_point
         line_plot remembered} {
         source [file join [file dirname [info script]] $part.tcl]

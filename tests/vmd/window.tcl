@@ -56,8 +56,16 @@ test "drawn, side by side, and undrawn" {
     form draw,view linked
     press draw
     check_equal projection [display get projection] Orthographic
-    check "script" {[string match "*-view linked*" [::espdiff::gui::session_text]]}
+    ::espdiff::gui::save_picture_as $scratch/linked.tga
+    check "a picture" {[file size $scratch/linked.tga] > 10000}
+    set script [::espdiff::gui::session_text]
     press undraw
+    check_equal projection [display get projection] Perspective
+    # The script does the same again, on the molecules that are there.
+    uplevel #0 [string map {"set comparison" "set repeated" {$comparison} {$repeated}} $script]
+    check_equal "drawn by the script" [display get projection] Orthographic
+    check_equal "its number" [espdiff result $repeated rms_difference] [espdiff result $comparison rms_difference]
+    espdiff delete $repeated
     check_equal molecules [molinfo num] $before
     form draw,view single
 }
