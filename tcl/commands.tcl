@@ -80,6 +80,7 @@ namespace eval ::espdiff {
             {-style text {VDW 1.5} "Representation and its parameters, as of `mol modstyle`; spheres of 1.5 radii show\
                 through the surface"}
             {-color text {ColorID 4} "Colouring method, as of `mol modcolor`; ColorID 4 is yellow"}
+            {-face boolean 0 "Turn the view so that they are in front"}
         } \
         summary {Shows residues in VMD by a representation of their own, in the place of those that were highlighted
             before; an empty list takes it away. Residues are named by their `index` in `espdiff residues`, and found
@@ -104,8 +105,8 @@ namespace eval ::espdiff {
             {-surface choice mapped "mapped: on the target; source: where it came from, on the source" {mapped source}}
             {-legend boolean 1 "A colour bar with title and unit at the window's bottom"}
             {-view choice single "linked: three surfaces side by side that the mouse turns together, the source and the\
-                target coloured by their potentials, the third one by -color; until `undraw` other molecules are hidden\
-                and the projection is orthographic" {single linked}}
+                target coloured by their potentials, the third one on the target by -color; until `undraw` other\
+                molecules are hidden and the projection is orthographic" {single linked}}
             {-potential-range range auto "Of both potentials with -view linked; auto holds 98 % of either's points on\
                 each side"}
         } \

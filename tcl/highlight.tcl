@@ -21,7 +21,28 @@ namespace eval ::espdiff {
         foreach mol $found {
             dict lappend highlights $handle [list $mol [add_highlight $mol [dict get $atoms $mol] $options]]
         }
+        # Of the target's molecule, on which surfaces are drawn.
+        if {[dict get $options face] && $found ne ""} {
+            face_atoms [lindex $found end] [dict get $atoms [lindex $found end]]
+        }
         return $found
+    }
+
+    # Turns the view by the shortest way until the atoms are in front of their molecule's middle; all molecules alike.
+    proc face_atoms {mol indices} {
+        foreach {name text} [list middle all place "index [join $indices]"] {
+            set selection [atomselect $mol $text]
+            finally { set $name [measure center $selection] } { $selection delete }
+        }
+        set away [vecsub $place $middle]
+        if {[veclength $away] < 1e-6} return
+        lassign [vecnorm [vectrans [lindex [molinfo $mol get rotate_matrix] 0] $away]] x y z
+        set axis [expr {hypot($x, $y) < 1e-6 ? "1 0 0" : "$y [expr {-$x}] 0"}]
+        set turn [transabout $axis [expr {acos(max(-1.0, min(1.0, $z)))}] rad]
+        foreach other [molinfo list] {
+            if {[molinfo $other get fixed]} continue
+            molinfo $other set rotate_matrix [list [transmult $turn [lindex [molinfo $other get rotate_matrix] 0]]]
+        }
     }
 
     # Names of residues by their `index`, as atoms.tcl finds atoms by.

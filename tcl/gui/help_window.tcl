@@ -22,7 +22,8 @@ where more positive. Parts that travelled far are transparent: their values are 
 source, target and difference in three views that the mouse turns together; Undraw puts VMD's view back.
 
 5. Residues lists what each residue's share of the surface says; headings sort. Selected rows are highlighted in VMD,
-also through the surface; Clear highlight takes that away. Colour atoms puts the numbers into VMD's field User.
+also through the surface, and the view turns to them; Clear highlight takes the yellow away. Colour atoms puts the
+numbers into VMD's field User.
 
 6. Trajectory compares frames with one frame, or each with the one before, and draws a point as soon as a frame is
 done. Hollow points are not trustworthy. A click on a point, or the arrow keys, show its frame in VMD; Compare and draw

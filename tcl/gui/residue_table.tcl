@@ -5,7 +5,7 @@ namespace eval ::espdiff::gui {
     variable residue_rows {}    ;# what `espdiff residues` says
     variable highlighted ""     ;# handle that has a highlight of ours in VMD
     variable form
-    array set form {residues,sort mean_abs_difference residues,falling 1}
+    array set form {residues,sort mean_abs_difference residues,falling 1 residues,face 1}
 
     # Key of `espdiff residues`, heading, whether it is of potentials, decimals, factor.
     variable residue_columns {
@@ -24,15 +24,14 @@ namespace eval ::espdiff::gui {
         variable residue_columns
         variable residues_of -  ;# of no handle: the table is new
         ttk::frame $path.top
-        ttk::label $path.top.title -anchor w -width 28
+        ttk::label $path.title -anchor w -width 28 -font [bold_font]
         ttk::combobox $path.top.sort -state readonly -width 15
         bind $path.top.sort <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::sort_as_chosen}
         ttk::checkbutton $path.top.falling -text "greatest first" -variable ::espdiff::gui::form(residues,falling) \
             -command {::espdiff::gui::guard ::espdiff::gui::fill_residues}
         ttk::label $path.top.by -text "Sorted by"
         tip $path.top.sort "As a click on a heading"
-        pack $path.top.title -side left -fill x -expand 1
-        pack $path.top.falling $path.top.sort $path.top.by -side right -padx {6 0}
+        pack $path.top.by $path.top.sort $path.top.falling -side left -padx {0 6}
         ttk::frame $path.list
         set columns {}
         foreach {key heading of_potentials decimals factor} $residue_columns { lappend columns $key }
@@ -49,14 +48,16 @@ namespace eval ::espdiff::gui {
         grid rowconfigure $path.list 0 -weight 1
         build_residue_buttons $path.buttons
         ttk::label $path.message -anchor w -wraplength 620 -justify left
-        pack $path.top -fill x -padx 8 -pady {8 4}
+        pack $path.title -fill x -padx 8 -pady {8 0}
+        pack $path.top -fill x -padx 8 -pady 4
         pack $path.message -side bottom -fill x -padx 8 -pady {0 8}
         pack $path.buttons -side bottom -fill x -padx 8 -pady 4
         pack $path.list -fill both -expand 1 -padx 8
         bind $path.list.table <<TreeviewSelect>> {::espdiff::gui::residue_guard ::espdiff::gui::highlight_chosen}
         set widget(residues,table) $path.list.table
         set widget(residues,message) $path.message
-        foreach name {title sort falling} { set widget(residues,$name) $path.top.$name }
+        set widget(residues,title) $path.title
+        foreach name {sort falling} { set widget(residues,$name) $path.top.$name }
     }
 
     proc build_residue_buttons {path} {
@@ -70,8 +71,11 @@ namespace eval ::espdiff::gui {
             molecule's representations by it"
         tip $path.export "The table as it stands, with every digit"
         pack $path.export -side right
-        if {[in_vmd]} { pack $path.clear $path.atoms -side left -padx {0 6} }
-        foreach name {clear atoms export} { set widget(residues,$name) $path.$name }
+        ttk::checkbutton $path.face -text "turn to it" -variable ::espdiff::gui::form(residues,face) \
+            -command {::espdiff::gui::residue_guard ::espdiff::gui::highlight_chosen}
+        tip $path.face "Turns VMD's view so that what is highlighted is in front"
+        if {[in_vmd]} { pack $path.clear $path.face $path.atoms -side left -padx {0 6} }
+        foreach name {clear face atoms export} { set widget(residues,$name) $path.$name }
     }
 
     proc residue_message {text {kind note}} {
@@ -225,6 +229,7 @@ namespace eval ::espdiff::gui {
 
     # The selected rows' residues in VMD, in the place of those before.
     proc highlight_chosen {} {
+        variable form
         variable shown
         variable widget
         variable highlighted
@@ -234,9 +239,11 @@ namespace eval ::espdiff::gui {
             if {$highlighted ne ""} { remove_highlight; residue_message [residue_hint] }
             return
         }
-        set molecules [espdiff highlight $shown $chosen]
+        set words [list $chosen]
+        if {$form(residues,face)} { lappend words -face 1 }
+        set molecules [espdiff highlight $shown {*}$words]
         set highlighted $shown
-        remember $shown highlight [list highlight $chosen]
+        remember $shown highlight [concat highlight $words]
         set names {}
         foreach item $chosen { lappend names [lindex [$widget(residues,table) item $item -values] 0] }
         if {[llength $names] > 6} { set names [concat [lrange $names 0 5] ...] }

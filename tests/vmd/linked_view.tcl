@@ -101,6 +101,15 @@ test "a highlight is in both molecules" {
     set index [dict get [lindex [espdiff residues $comparison] 29] index]
     check_equal molecules [espdiff highlight $comparison [list $index]] [list $source $target]
     foreach mol [list $source $target] { check_equal reps [molinfo $mol get numreps] 2 }
+    espdiff highlight $comparison [list $index] -face 1
+    set front [atomselect $target [lindex [molinfo $target get "{selection 1}"] 0]]
+    set whole [atomselect $target all]
+    set place [vectrans [lindex [molinfo $target get rotate_matrix] 0] \
+        [vecsub [measure center $front] [measure center $whole]]]
+    check "in front" {[lindex $place 2] > 5 && hypot([lindex $place 0], [lindex $place 1]) < 0.1}
+    check_linked
+    $front delete
+    $whole delete
     espdiff highlight $comparison {}
     foreach mol [list $source $target] { check_equal reps [molinfo $mol get numreps] 1 }
     check_refused {espdiff highlight $comparison 99999} {ESPDIFF INPUT} "'99999' is not the `index`"
