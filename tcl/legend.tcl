@@ -25,26 +25,32 @@ namespace eval ::espdiff {
         set layout $legend_layout
         dict with layout {
             set room [expr {$room * [lindex [legend_screen] 2]}]
-            set half_width [expr {$half_width * min(1.0, $room)}]
+            set half_width [expr {min($half_width, 0.82 * $room)}]
             draw_bar $mol $half_width $bottom $top
             graphics $mol color [legend_text_color]
             set text [legend_title $plan]
             set size [expr {min(1.0, 2 * $room / ($letter_width * [string length $text] + 0.1))}]
-            draw_ticks $mol $plan $half_width $bottom $ticks [expr {0.85 * min(1.0, 1.6 * $room)}]
+            draw_ticks $mol $plan $half_width $bottom $ticks [expr {0.85 * max(0.65, min(1.0, 1.6 * $room))}]
             draw_text $mol $text 0 $title [expr {0.95 * $size}]
         }
         return $mol
     }
 
     # The name of a panel, at the window's top.
-    proc draw_panel_title {handle middle text} {
-        variable letter_width
+    proc draw_panel_title {handle middle text size} {
         set mol [new_legend "espdiff $handle title" $middle]
         graphics $mol color [legend_text_color]
-        set room [expr {[lindex [legend_screen] 2] * 2 / 3.0}]
-        draw_text $mol $text 0 0.9 [expr {min(1.0, $room / ($letter_width * [string length $text] + 0.05))}]
+        draw_text $mol $text 0 0.9 $size
         build_list $mol
         return $mol
+    }
+
+    # At which all titles have room in a third of the window's width.
+    proc panel_title_size {titles} {
+        variable letter_width
+        set most 0
+        foreach title $titles { set most [expr {max($most, [string length $title])}] }
+        expr {min(1.0, [lindex [legend_screen] 2] * 2 / 3.0 / ($letter_width * $most + 0.05))}
     }
 
     # A graphics molecule that stays where it is on the screen, from place_legends on.
@@ -135,6 +141,7 @@ namespace eval ::espdiff {
 
     proc draw_ticks {mol plan half_width bottom baseline size} {
         foreach {share label} [tick_labels $plan] {
+            if {$half_width < 0.3 && abs($share) == 0.5} continue  ;# no room for five
             set x [expr {$share * $half_width}]
             graphics $mol line [list $x $bottom 0] [list $x [expr {$bottom - 0.015}] 0] width 2
             draw_text $mol $label $x $baseline $size

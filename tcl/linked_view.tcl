@@ -76,10 +76,14 @@ namespace eval ::espdiff {
                 foreach mol $molecules { build_list $mol }
             }
         }
+        set titles [dict create]
         dict for {panel place} $panels {
-            lassign $place share title
-            if {$panel eq "difference"} { set title [dict get $plans difference color] }
-            dict lappend made fixed [draw_panel_title $handle $share [panel_title $handle $panel $title]]
+            set title [expr {$panel eq "difference" ? [dict get $plans difference color] : [lindex $place 1]}]
+            dict set titles $panel [panel_title $handle $panel $title]
+        }
+        set size [panel_title_size [dict values $titles]]
+        dict for {panel title} $titles {
+            dict lappend made fixed [draw_panel_title $handle [lindex [dict get $panels $panel] 0] $title $size]
         }
         dict set plans target title Potential  ;# of both
         if {[dict get $plans difference color] eq "difference"} { dict set plans difference title "Target - source" }
