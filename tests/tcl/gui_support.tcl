@@ -19,6 +19,20 @@ proc until {condition {seconds 120}} {
     }
 }
 
+# The widgets that the Tab key goes to from one of them, as names of `widget`; those that it does not know are left out.
+proc tab_order {first} {
+    set names [dict create]
+    foreach {name path} [array get ::espdiff::gui::widget] { dict set names $path $name }
+    set path [widget $first]
+    set order {}
+    for {set i 0} {$i < 100} {incr i} {
+        if {[dict exists $names $path]} { lappend order [dict get $names $path] }
+        set path [tk_focusNext $path]
+        if {$path eq [widget $first]} break
+    }
+    return $order
+}
+
 # `after` scripts of ours; Tk has some of its own.
 proc our_afters {} {
     set ours {}
