@@ -181,9 +181,16 @@ std::string line_plot_script(const LinePlot& plot, PictureFormat format) {
   const bool any_hollow = std::count(plot.trustworthy.begin(), plot.trustworthy.end(), false) > 0;
   const double bottom = (plot.labels.empty() ? 34 : 24 + 5.6 * static_cast<double>(longest)) + (any_hollow ? 12 : 0);
   const double height_of_panel = panels.size() == 1 ? 1.6 * kPanel : kPanel;
-  // A key stands above its panel, a line for each series.
+  // A title stands beside its panel where it is not longer than that.
+  const auto title_beside = [&](const Panel& panel) {
+    const LineSeries& first = plot.series[panel.series.front()];
+    constexpr double kLetter = 5.4;
+    return !plot.normalized && panel.series.size() == 1 &&
+           kLetter * static_cast<double>(with_unit(first.title, panel.unit).size()) < height_of_panel;
+  };
+  // Else a key stands above it, a line for each series.
   const auto key_lines = [&](const Panel& panel) {
-    return plot.normalized || panel.series.size() > 1 ? static_cast<double>(panel.series.size()) : 0.0;
+    return title_beside(panel) ? 0.0 : static_cast<double>(panel.series.size());
   };
   double height = bottom + (plot.title.empty() ? 8 : 24);
   for (const Panel& panel : panels) height += height_of_panel + kGap + kKeyLine * key_lines(panel);
@@ -215,10 +222,10 @@ std::string line_plot_script(const LinePlot& plot, PictureFormat format) {
     s << "set tmargin at screen " << top / size.height << "\nset bmargin at screen "
       << (top - height_of_panel) / size.height << '\n';
     const LineSeries& first = plot.series[panel.series.front()];
-    const std::string axis = plot.normalized            ? "Normalized"
-                             : panel.series.size() == 1 ? with_unit(first.title, panel.unit)
-                             : panel.unit.empty()       ? "Index or count"
-                                                        : panel.unit;
+    const std::string axis = plot.normalized       ? "Normalized"
+                             : title_beside(panel) ? with_unit(first.title, panel.unit)
+                             : panel.unit.empty()  ? "Index or count"
+                                                   : panel.unit;
     s << "set label 4 " << gnuplot_string(axis) << " at screen " << 14 / size.width << ", screen "
       << (top - 0.5 * height_of_panel) / size.height << " center rotate by 90\n"
       << (plot.normalized ? "set yrange [-0.05:1.05]\n" : y_range(plot, panel))
