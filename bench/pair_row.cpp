@@ -7,6 +7,8 @@
 #include <limits>
 #include <sstream>
 
+#include "pipeline/write_compare.h"
+
 namespace espdiff_bench {
 namespace {
 
@@ -37,6 +39,14 @@ constexpr Column kColumns[] = {
     {"round_trip_mean_A", &PairRow::round_trip_mean_A},
     {"round_trip_p95_A", &PairRow::round_trip_p95_A},
     {"steps", &PairRow::steps},
+    {"mean_displacement_A", &PairRow::mean_displacement_A},
+    {"mean_path_length_A", &PairRow::mean_path_length_A},
+    {"area_mapped_A2", &PairRow::area_mapped_A2},
+    {"dirichlet_median", &PairRow::dirichlet_median},
+    {"dirichlet_p95", &PairRow::dirichlet_p95},
+    {"area_ratio_p05", &PairRow::area_ratio_p05},
+    {"area_ratio_p95", &PairRow::area_ratio_p95},
+    {"irregularity_A", &PairRow::irregularity_A},
     {"cavities_left_out", &PairRow::cavities_left_out},
 };
 constexpr const char* kStages[] = {"align",  "density", "surface",    "project",     "regularize", "field",
@@ -84,6 +94,15 @@ PairRow make_row(const std::string& name, const espdiff::CompareResult& result) 
     row.round_trip_p95_A = c.round_trip->p95_A;
   }
   row.steps = result.morph_report.steps;
+  const espdiff::CountedSurface counted = espdiff::counted_surface(result);
+  row.mean_displacement_A = counted.mean_displacement_A;
+  row.mean_path_length_A = counted.mean_path_length_A;
+  row.area_mapped_A2 = result.area_mapped_A2;
+  row.dirichlet_median = c.distortion.dirichlet_median;
+  row.dirichlet_p95 = c.distortion.dirichlet_p95;
+  row.area_ratio_p05 = c.distortion.area_ratio_p05;
+  row.area_ratio_p95 = c.distortion.area_ratio_p95;
+  row.irregularity_A = c.irregularity_A;
   row.time_ms = result.time_ms;
   return row;
 }

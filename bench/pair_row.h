@@ -20,6 +20,8 @@ struct PairRow {
   double target_to_mapped_mean_A = 0, target_to_mapped_max_A = 0;
   double no_counterpart_source_percent = 0, no_counterpart_target_percent = 0;
   double intersecting_pairs = 0, same_residue_percent = 0, round_trip_mean_A = 0, round_trip_p95_A = 0, steps = 0;
+  double mean_displacement_A = 0, mean_path_length_A = 0, area_mapped_A2 = 0, dirichlet_median = 0, dirichlet_p95 = 0;
+  double area_ratio_p05 = 0, area_ratio_p95 = 0, irregularity_A = 0;
   double cavities_left_out = 0;                         ///< of both sides
   std::vector<std::pair<std::string, double>> time_ms;  ///< stage, in order, and last "total"
   std::optional<PrototypeRow> prototype;

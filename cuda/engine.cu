@@ -261,6 +261,13 @@ class BackEndEngine : public Engine {
     });
   }
 
+  MeshPtr carry_rigidly(const MeshPtr& mesh, const AtomsPtr& atoms, const std::vector<std::int32_t>& pieces,
+                        const std::vector<RigidTransform>& motions) override {
+    return run([&]() -> MeshPtr {
+      return ESPDIFF_BACKEND::carry_rigidly(unwrap<SurfaceMesh>(mesh), unwrap<AtomCells>(atoms), pieces, motions);
+    });
+  }
+
   DistortionReport distortion(const MeshPtr& source, const MeshPtr& mapped, double limit) override {
     return run(
         [&] { return ESPDIFF_BACKEND::distortion(unwrap<SurfaceMesh>(source), unwrap<SurfaceMesh>(mapped), limit); });

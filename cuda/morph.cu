@@ -36,7 +36,8 @@ int steps_for(const std::vector<MovingAtom>& atoms, const MorphOptions& options)
   double farthest = 0;
   bool fades = false;
   for (const MovingAtom& a : atoms) {
-    farthest = std::max(farthest, norm(a.end - a.start));
+    // On a screw the speed is the same everywhere but for the atom's own way.
+    farthest = std::max({farthest, norm(a.velocity_at(0)), norm(a.velocity_at(1))});
     fades = fades || !a.at_start || !a.at_end || std::abs(a.start_width - a.end_width) > 1e-3;
   }
   return std::max(fades ? kStepsOfFading : kLeastSteps, static_cast<int>(std::ceil(farthest / options.max_step_A)));

@@ -22,9 +22,9 @@ ESPDIFF_INLINE void add_atom(FlowSums<Number>& sum, const AtomChange& change, fl
   sum.gx += slope * dx;
   sum.gy += slope * dy;
   sum.gz += slope * dz;
-  sum.vx += weighted * change.velocity.x;
-  sum.vy += weighted * change.velocity.y;
-  sum.vz += weighted * change.velocity.z;
+  sum.vx += weighted * (change.velocity.x + (change.spin.y * dz - change.spin.z * dy));
+  sum.vy += weighted * (change.velocity.y + (change.spin.z * dx - change.spin.x * dz));
+  sum.vz += weighted * (change.velocity.z + (change.spin.x * dy - change.spin.y * dx));
   const Number approach = dx * change.velocity.x + dy * change.velocity.y + dz * change.velocity.z;
   sum.rate += change.weight_rate * gaussian + weighted * (change.exponent_rate * square) - 2.0F * (slope * approach);
 }
@@ -78,7 +78,7 @@ MovingAtoms atoms_at(const std::vector<MovingAtom>& atoms, double time) {
   std::vector<float> widths(atoms.size());
   for (std::size_t i = 0; i < atoms.size(); ++i) {
     const MovingAtom& a = atoms[i];
-    positions[i] = (1 - time) * a.start + time * a.end;
+    positions[i] = a.position_at(time);
     const bool there = a.weight_at(time) > 0 || a.weight_rate_at(time) > 0;
     widths[i] = there ? static_cast<float>((1 - time) * a.start_width + time * a.end_width) : 0.0F;
   }
@@ -89,8 +89,8 @@ MovingAtoms atoms_at(const std::vector<MovingAtom>& atoms, double time) {
   for (std::size_t slot = 0; slot < order.size(); ++slot) {
     const MovingAtom& a = atoms[order[slot]];
     const double width = static_cast<double>(widths[order[slot]]);
-    change[slot] = {static_cast<Vec3f>(a.end - a.start), static_cast<float>(a.weight_at(time)),
-                    static_cast<float>(a.weight_rate_at(time)),
+    change[slot] = {static_cast<Vec3f>(a.velocity_at(time)), static_cast<Vec3f>(a.spin()),
+                    static_cast<float>(a.weight_at(time)), static_cast<float>(a.weight_rate_at(time)),
                     static_cast<float>((a.end_width - a.start_width) / (width * width * width))};
   }
   now.change = to_device(change);

@@ -11,6 +11,7 @@ namespace espdiff::ESPDIFF_BACKEND {
 /// How an atom is changing. Times run from 0 (source) to 1 (target).
 struct AtomChange {
   Vec3f velocity;       ///< Angstrom / time
+  Vec3f spin;           ///< angular velocity of its rigid piece, radians / time
   float weight;         ///< 0 to 1: atoms without a counterpart fade
   float weight_rate;    ///< 1 / time
   float exponent_rate;  ///< of -1 / (2 s^2), 1 / (Angstrom^2 time)
@@ -29,8 +30,11 @@ MovingAtoms atoms_at(const std::vector<MovingAtom>& atoms, double time);
 struct FlowSample {
   float density;
   Vec3f gradient;  ///< of rho, 1 / Angstrom
-  Vec3f velocity;  ///< of the atoms, weighted by their densities, Angstrom / time; zero where no atom reaches
-  float rate;      ///< of rho at this point, 1 / time
+  /// Of the atoms' pieces at this point, velocity + spin x (x - x_i), weighted by the atoms' densities, Angstrom /
+  /// time; zero where no atom reaches. The surface lies beside the atoms: with their own velocities it would lag behind
+  /// a piece that turns.
+  Vec3f velocity;
+  float rate;  ///< of rho at this point, 1 / time
 };
 
 /// Samples at the points that `list` names: samples[list[i]] for i < n. Atoms are added in the order of the cell list,

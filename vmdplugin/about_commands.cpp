@@ -54,6 +54,7 @@ const char* name_of(SettingKind kind) {
     case SettingKind::kNumber: return "number";
     case SettingKind::kInteger: return "integer";
     case SettingKind::kBoolean: return "boolean";
+    case SettingKind::kText: return "text";
     case SettingKind::kChoice: break;
   }
   return "choice";

@@ -2,6 +2,7 @@
 #include "align/superpose.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -19,6 +20,9 @@ using IndexPairs = std::vector<std::pair<std::size_t, std::size_t>>;
 constexpr double kCollinear = 1e-10;
 /// A third moment below this share of the spread says nothing about the direction of an axis.
 constexpr double kSymmetric = 1e-9;
+
+/// Radians: a smaller turn moves no atom by what matters, and its axis is noise.
+constexpr double kNoTurn = 1e-6;
 
 Eigen::Vector3d to_eigen(const Vec3d& v) { return {v.x, v.y, v.z}; }
 Vec3d from_eigen(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
@@ -111,6 +115,21 @@ RigidTransform inverse(const RigidTransform& transform) {
 
 RigidTransform compose(const RigidTransform& outer, const RigidTransform& inner) {
   return make_transform(rotation_of(outer) * rotation_of(inner), to_eigen(outer.apply(inner.translation)));
+}
+
+Screw screw_of(const RigidTransform& transform) {
+  const Eigen::AngleAxisd turn(rotation_of(transform));
+  Screw screw;
+  screw.shift = transform.translation;
+  if (turn.angle() < kNoTurn) return screw;
+  const Eigen::Vector3d axis = turn.axis(), translation = to_eigen(transform.translation);
+  const Eigen::Vector3d along = axis.dot(translation) * axis, across = translation - along;
+  screw.axis = from_eigen(axis);
+  screw.angle = turn.angle();
+  screw.shift = from_eigen(along);
+  // (1 - R) through = across
+  screw.through = from_eigen(0.5 * (across + axis.cross(across) / std::tan(turn.angle() / 2)));
+  return screw;
 }
 
 RigidTransform principal_frame(const std::vector<Vec3d>& positions) {

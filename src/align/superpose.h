@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/screw.h"
 #include "base/types.h"
 
 namespace espdiff {
@@ -31,6 +32,10 @@ double rmsd(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b,
 RigidTransform inverse(const RigidTransform& transform);
 /// x -> outer(inner(x)).
 RigidTransform compose(const RigidTransform& outer, const RigidTransform& inner);
+
+/// The motion as a turn about an axis and a shift along it (Chasles' theorem); one that turns by less than 1e-6 as a
+/// shift alone.
+Screw screw_of(const RigidTransform& transform);
 
 /// The frame of a molecule itself: origin at the centroid, axes along the principal axes of its atoms (largest extent
 /// first), signs by third moments, right-handed. Depends on shape alone, so a rigid motion or another atom order

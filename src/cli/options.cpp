@@ -66,7 +66,9 @@ void add_settings(CLI::App& parser, GivenSettings& given, bool of_surface_only) 
         .add_option_function<std::string>(
             "--" + name, [&given, name](const std::string& text) { given.emplace_back(name, text); }, setting.help)
         ->check(CLI::Validator(check, ""))
-        ->type_name(setting.kind == SettingKind::kChoice ? joined(setting.choices, "|") : "NUMBER")
+        ->type_name(setting.kind == SettingKind::kChoice ? joined(setting.choices, "|")
+                    : setting.kind == SettingKind::kText ? "TEXT"
+                                                         : "NUMBER")
         ->default_str(value)
         ->group(setting.group);
   }

@@ -86,7 +86,7 @@ std::vector<std::pair<std::size_t, std::size_t>> pair_leftovers(const Side& from
 
 std::vector<MovingAtom> atom_ways(const Molecule& source, const Molecule& target, const AtomPairing& pairing,
                                   const RigidTransform& from_source, const RigidTransform& from_target,
-                                  double radius_scale) {
+                                  const PieceMotions& pieces, double radius_scale) {
   if (pairing.pairs.empty())
     throw InputError("the morph follows paired atoms, and none pair; use --method deform, which needs none");
   Side from(source), to(target);
@@ -105,9 +105,11 @@ std::vector<MovingAtom> atom_ways(const Molecule& source, const Molecule& target
   take_up(leftovers);
   pairs.insert(pairs.end(), leftovers.begin(), leftovers.end());
   const auto width = [&](float radius) { return radius_scale * static_cast<double>(radius); };
+  const auto motion_of = [&](std::size_t source_atom) { return pieces.of(source.atoms[source_atom].residue); };
   std::vector<MovingAtom> ways;
   for (const auto& [s, t] : pairs) {
     MovingAtom way;
+    way.motion = motion_of(s);
     way.start = from_source.apply(source.positions[s]);
     way.end = from_target.apply(target.positions[t]);
     way.start_width = width(source.radii[s]);
@@ -125,7 +127,8 @@ std::vector<MovingAtom> atom_ways(const Molecule& source, const Molecule& target
     way.start = from_source.apply(source.positions[s]);
     way.end = from_target.apply(target.positions[target_of[anchor]]);
     const Vec3d arm = way.start - from_source.apply(source.positions[anchor]);
-    if (norm(arm) > kSproutReach_A) way.end += arm;
+    way.motion = motion_of(anchor);
+    if (norm(arm) > kSproutReach_A) way.end += way.motion.turn(arm, 1);
     way.start_width = way.end_width = width(source.radii[s]);
     way.at_end = false;
     ways.push_back(way);
@@ -137,7 +140,8 @@ std::vector<MovingAtom> atom_ways(const Molecule& source, const Molecule& target
     way.start = from_source.apply(source.positions[source_of[anchor]]);
     way.end = from_target.apply(target.positions[t]);
     const Vec3d arm = way.end - from_target.apply(target.positions[anchor]);
-    if (norm(arm) > kSproutReach_A) way.start += arm;
+    way.motion = motion_of(source_of[anchor]);
+    if (norm(arm) > kSproutReach_A) way.start += way.motion.turn(arm, -1);
     way.start_width = way.end_width = width(target.radii[t]);
     way.at_start = false;
     ways.push_back(way);

@@ -5,10 +5,12 @@
 
 #include "align/pair_atoms.h"
 #include "engine/engine.h"
+#include "pipeline/piece_motions.h"
 
 namespace espdiff {
 
-/// Paired atoms go straight from where they are to where their counterpart is. Atoms left over in paired residues, as
+/// Paired atoms go from where they are to where their counterpart is, straight or with the rigid piece that their
+/// residue belongs to. Atoms left over in paired residues, as
 /// by a substitution, pair with the nearest one left over in the other, hydrogens among themselves, within 2.5 A. Any
 /// other atom without a counterpart grows out of, or shrinks into, its *anchor*, the nearest paired atom of its residue
 /// (of the molecule where its residue has none), so that a side chain sprouts instead of appearing in free space;
@@ -17,6 +19,6 @@ namespace espdiff {
 /// @throws InputError when no atoms pair
 std::vector<MovingAtom> atom_ways(const Molecule& source, const Molecule& target, const AtomPairing& pairing,
                                   const RigidTransform& from_source, const RigidTransform& from_target,
-                                  double radius_scale);
+                                  const PieceMotions& pieces, double radius_scale);
 
 }  // namespace espdiff

@@ -14,6 +14,7 @@
 #include "pipeline/map_by_deform.h"
 #include "pipeline/mapping.h"
 #include "pipeline/paired_residues.h"
+#include "pipeline/piece_motions.h"
 #include "pipeline/residue_rows.h"
 #include "pipeline/round_trip.h"
 #include "pipeline/side_maps.h"
@@ -26,9 +27,10 @@ namespace {
 /// along axes of the shape itself, and a rigid motion of either input changes nothing but rounding.
 struct CommonFrame {
   RigidTransform from_source, from_target;  // own frame -> common frame
+  PieceMotions pieces{};
 };
 
-CommonFrame align(const Molecule& source, const Molecule& target, AlignAtoms atoms, CompareResult& result) {
+CommonFrame superposed(const Molecule& source, const Molecule& target, AlignAtoms atoms, CompareResult& result) {
   CommonFrame frame;
   frame.from_source = principal_frame(source.positions);
   if (atoms == AlignAtoms::kNone) {
@@ -53,6 +55,18 @@ CommonFrame align(const Molecule& source, const Molecule& target, AlignAtoms ato
   return frame;
 }
 
+CommonFrame align(const Molecule& source, const Molecule& target, const CompareOptions& options,
+                  CompareResult& result) {
+  CommonFrame frame = superposed(source, target, options.align, result);
+  if (options.pieces == "none") return frame;
+  const auto pairs =
+      options.align == AlignAtoms::kNone ? result.pairing.pairs : select_pairs(result.pairing, source, options.align);
+  if (pairs.empty()) throw InputError("pieces are moved by their paired atoms, and none pair; give pieces none");
+  result.pieces = find_pieces(options.pieces, source, target, pairs);
+  frame.pieces = piece_motions(result.pieces, source, frame.from_source, frame.from_target);
+  return frame;
+}
+
 /// [vertex] whether it lies in a triangle with a counterpart.
 std::vector<bool> has_counterpart(const MappedSurface& s) {
   if (s.no_counterpart.empty()) return std::vector<bool>(s.positions.size(), true);
@@ -71,8 +85,9 @@ void forget_lost(const std::vector<bool>& kept, std::vector<float>& values) {
   }
 }
 
-void download_surface(Engine& engine, const MeshPtr& source, const MeshPtr& mapped, const CommonFrame& frame,
-                      MappedSurface& surface) {
+/// @param moved the source, taken along by its rigid pieces
+void download_surface(Engine& engine, const MeshPtr& source, const MeshPtr& moved, const MeshPtr& mapped,
+                      const CommonFrame& frame, MappedSurface& surface) {
   const RigidTransform to_source = inverse(frame.from_source), to_target = inverse(frame.from_target);
   const Mesh mapped_mesh = engine.download(mapped);
   surface.triangles = mapped_mesh.triangles;
@@ -81,7 +96,7 @@ void download_surface(Engine& engine, const MeshPtr& source, const MeshPtr& mapp
     surface.normals.push_back(static_cast<Vec3f>(to_target.rotate(static_cast<Vec3d>(n))));
   for (const Vec3f& p : engine.download(source).positions)
     surface.source_positions.push_back(to_source.apply(static_cast<Vec3d>(p)));
-  surface.displacement = engine.download(engine.displacement(source, mapped));
+  surface.displacement = engine.download(engine.displacement(moved, mapped));
 }
 
 /// Where each source atom's counterpart lies, in the common frame.
@@ -165,12 +180,15 @@ struct Series::Steps {
     back.regularized = espdiff::regularize(engine, target_surface, mesh, options, progress, &back.regularize_report);
     CompareResult scratch;
     for (const auto& [s, t] : pairing.pairs) scratch.pairing.pairs.emplace_back(t, s);
+    const CommonFrame reversed{
+        frame.from_target, frame.from_source,
+        inverse(frame.pieces, paired_residues(*target.molecule, *source.molecule, scratch.pairing))};
     Mapping mapping;
     if (options.method == Method::kMorph) {
-      mapping = back.map_by_morph(*source.molecule, surface, {frame.from_target, frame.from_source}, scratch, progress,
-                                  clock);
+      mapping = back.map_by_morph(*source.molecule, surface, reversed, scratch, progress, clock);
     } else {
-      mapping = back.deform(surface, back.regularized, scratch, progress, clock);
+      mapping = back.deform(surface, reversed.pieces.carry(engine, back.regularized, target_surface.atoms), reversed,
+                            scratch, progress, clock);
     }
     back.find_counterparts(mapping, surface);
     return mapping;
@@ -182,7 +200,7 @@ struct Series::Steps {
     morph.isovalue = options.surface.isovalue;
     morph.max_edge_A = options.morph_max_edge * options.surface.grid_spacing_A;
     const auto ways = atom_ways(*source.molecule, target, result.pairing, frame.from_source, frame.from_target,
-                                options.surface.radius_scale);
+                                frame.pieces, options.surface.radius_scale);
     const MorphResult morphed =
         engine.morph(regularized, ways, surface.atoms, target_surface.atoms, morph, "morph", progress);
     result.morph_report = morphed.report;
@@ -195,11 +213,11 @@ struct Series::Steps {
     return mapping;
   }
 
-  Mapping deform(const Surface& target, const MeshPtr& start, CompareResult& result, const Progress& progress,
-                 StageClock& clock) {
+  Mapping deform(const Surface& target, const MeshPtr& start, const CommonFrame& frame, CompareResult& result,
+                 const Progress& progress, StageClock& clock) {
     const FieldPtr field = make_field(engine, surface, target, options, progress, &result.flow_report);
     clock.lap("field");
-    Mapping mapping = map_by_deform(engine, surface, regularized, target, start, field, options, progress,
+    Mapping mapping = map_by_deform(engine, surface, regularized, target, start, frame.pieces, field, options, progress,
                                     result.deform_report, result.n_vertices_subdivided);
     clock.lap("deform");
     return mapping;
@@ -219,7 +237,7 @@ struct Series::Steps {
 
   /// Potentials at counterparts, and the metrics of their differences.
   void compare_potentials(const CompareInput& target, const GridPtr& target_map, const Mapping& mapping,
-                          CompareResult& result) {
+                          const MeshPtr& moved, CompareResult& result) {
     MappedSurface& s = result.surface;
     const ScalarsPtr at_source = engine.sample(source_map, mapping.source),
                      at_target = engine.sample(target_map, mapping.mapped);
@@ -234,10 +252,10 @@ struct Series::Steps {
     std::vector<float> excluded(s.corrupt.begin(), s.corrupt.end());
     for (std::size_t t = 0; t < mapping.lost.size(); ++t) excluded[t] = std::max(excluded[t], mapping.lost[t]);
     const ScalarsPtr path_length = engine.upload_scalars(mapping.path_length);
-    result.metrics = engine.compare(mapping.source, mapping.mapped, at_source, at_target,
-                                    engine.upload_scalars(excluded), path_length);
+    result.metrics =
+        engine.compare(moved, mapping.mapped, at_source, at_target, engine.upload_scalars(excluded), path_length);
     result.metrics_all =
-        engine.compare(mapping.source, mapping.mapped, at_source, at_target,
+        engine.compare(moved, mapping.mapped, at_source, at_target,
                        mapping.lost.empty() ? nullptr : engine.upload_scalars(mapping.lost), path_length);
   }
 
@@ -264,7 +282,8 @@ struct Series::Steps {
                 StageClock& clock) {
     progress.report("metrics", 0.0);
     MappedSurface& s = result.surface;
-    download_surface(engine, mapping.source, mapping.mapped, frame, s);
+    const MeshPtr moved = frame.pieces.carry(engine, mapping.source, surface.atoms);
+    download_surface(engine, mapping.source, moved, mapping.mapped, frame, s);
     s.no_counterpart.assign(mapping.lost.begin(), mapping.lost.end());
     s.corrupt = spread(engine.download(mapping.fit.corrupt), mapping.lost);
     s.path_length = mapping.path_length;
@@ -275,7 +294,7 @@ struct Series::Steps {
     result.certificate.same_residue_area_fraction =
         same_residue_share(s, s.residue, engine.vertex_residues(mapping.mapped, target_surface.atoms),
                            paired_residues(*source.molecule, *target.molecule, result.pairing));
-    if (target_map != nullptr) compare_potentials(target, target_map, mapping, result);
+    if (target_map != nullptr) compare_potentials(target, target_map, mapping, moved, result);
     result.residues = residue_rows(s, source.molecule->residues.size(), result.has_potential);
     judge(result.certificate, result);
     clock.lap("metrics");
@@ -293,7 +312,7 @@ CompareResult Series::step(const CompareInput& target, StartFrom start, const Pr
   StageClock clock(result.time_ms);
   check_maps(steps.source, target);  // before any work
   progress.report("align", 0.0);
-  const CommonFrame frame = align(source, *target.molecule, steps.options.align, result);
+  const CommonFrame frame = align(source, *target.molecule, steps.options, result);
   clock.lap("align");
   const GridPtr target_map = steps.make_maps(target, frame, progress);
   if (target_map != nullptr) clock.lap("potential");
@@ -309,7 +328,9 @@ CompareResult Series::step(const CompareInput& target, StartFrom start, const Pr
   const MeshPtr last = std::exchange(steps.last_mapped, nullptr);
   if (start == StartFrom::kPrevious && last != nullptr && steps.options.method == Method::kDeform) {
     std::vector<Vec3d> source_atoms;
-    for (const Vec3d& p : source.positions) source_atoms.push_back(frame.from_source.apply(p));
+    for (std::size_t i = 0; i < source.size(); ++i)
+      source_atoms.push_back(
+          frame.pieces.of(source.atoms[i].residue).apply(frame.from_source.apply(source.positions[i]), 1));
     if (rms_distance(steps.last_target, target_atoms) < rms_distance(source_atoms, target_atoms))
       result.start = StartFrom::kPrevious;
   }
@@ -317,8 +338,10 @@ CompareResult Series::step(const CompareInput& target, StartFrom start, const Pr
   if (steps.options.method == Method::kMorph) {
     mapping = steps.map_by_morph(*target.molecule, target_surface, frame, result, progress, clock);
   } else {
-    mapping = steps.deform(target_surface, result.start == StartFrom::kPrevious ? last : steps.regularized, result,
-                           progress, clock);
+    const MeshPtr from = result.start == StartFrom::kPrevious
+                             ? last
+                             : frame.pieces.carry(steps.engine, steps.regularized, steps.surface.atoms);
+    mapping = steps.deform(target_surface, from, frame, result, progress, clock);
   }
   steps.check(mapping, target_surface, result, progress, clock);
   if (steps.options.round_trip) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "align/pair_atoms.h"
+#include "align/rigid_pieces.h"
 #include "base/progress.h"
 #include "base/types.h"
 #include "engine/engine.h"
@@ -44,6 +45,7 @@ struct SurfaceOptions {
 struct CompareOptions {
   SurfaceOptions surface;
   AlignAtoms align = AlignAtoms::kAll;
+  std::string pieces = "none";  ///< rigid pieces that are aligned by themselves; see check_pieces()
   Method method = Method::kMorph;
   MorphOptions morph;
   double morph_max_edge = 1.4;  ///< in grid spacings; sets MorphOptions::max_edge_A
@@ -124,7 +126,9 @@ struct MappedSurface {
   std::vector<Vec3f> normals;           ///< [vertex] outward, target's frame
   std::vector<Triangle> triangles;
   std::vector<float> potential_source, potential_target;  ///< [vertex]; empty without maps; NaN outside a map
-  std::vector<float> displacement;                        ///< [vertex] NaN where there is no counterpart
+  /// [vertex] from the source's place, superposed, or with rigid pieces from where its piece takes it; NaN where there
+  /// is no counterpart
+  std::vector<float> displacement;
   /// [vertex] length of its way from where the mapping started, displacement at least; NaN as there
   std::vector<float> path_length;
   std::vector<std::int32_t> residue;  ///< [vertex] index of the source residue, -1 for none
@@ -143,6 +147,7 @@ struct CompareResult {
   AtomPairing pairing;
   std::size_t n_superposed_atoms = 0;
   RigidTransform source_to_target;  ///< the superposition
+  std::vector<RigidPiece> pieces;   ///< aligned by themselves; displacements are from where their motions end
   bool has_potential = false;
   PotentialUnit unit = PotentialUnit::kUnknown;
   Metrics metrics;                                                 ///< over valid triangles

@@ -84,7 +84,17 @@ Json metrics_all_triangles(const CompareResult& result) {
   return json;
 }
 
-Json superposition(const CompareResult& result) {
+Json pieces(const Molecule& source, const std::vector<RigidPiece>& all) {
+  Json json = Json::array();
+  for (const RigidPiece& piece : all)
+    json.push_back({{"residues", residue_ranges(source, piece.residues)},
+                    {"n_residues", piece.residues.size()},
+                    {"n_superposed_atoms", piece.n_atoms},
+                    {"rmsd_A", number(piece.rmsd_A)}});
+  return json;
+}
+
+Json superposition(const Molecule& source, const CompareResult& result) {
   const RigidTransform& t = result.source_to_target;
   Json rotation = Json::array();
   for (const double entry : t.rotation) rotation.push_back(number(entry));
@@ -95,6 +105,7 @@ Json superposition(const CompareResult& result) {
   json["n_superposed_atoms"] = result.n_superposed_atoms;
   json["rotation_row_major"] = std::move(rotation);
   json["translation_A"] = {number(t.translation.x), number(t.translation.y), number(t.translation.z)};
+  json["pieces"] = pieces(source, result.pieces);
   return json;
 }
 
@@ -119,6 +130,7 @@ Json echo(const CompareOptions& o) {
   Json json;
   json["method"] = to_string(o.method);
   json["align"] = to_string(o.align);
+  json["pieces"] = o.pieces;
   json["grid_spacing_A"] = o.surface.grid_spacing_A;
   json["radius_scale"] = o.surface.radius_scale;
   json["isovalue"] = o.surface.isovalue;
@@ -166,7 +178,7 @@ Json input_files(const Provenance& provenance) {
   return json;
 }
 
-void add_results(Json& json, const CompareResult& result, const CompareOptions& options) {
+void add_results(Json& json, const Molecule& source, const CompareResult& result, const CompareOptions& options) {
   const CountedSurface counted = counted_surface(result);
   json["rmsd_A"] = number(result.rmsd_A);
   json["n_paired_atoms"] = result.pairing.pairs.size();
@@ -180,7 +192,7 @@ void add_results(Json& json, const CompareResult& result, const CompareOptions& 
   json["mean_path_length_A"] = number(counted.mean_path_length_A);
   json["certificate"] = certificate(result.certificate);
   json["metrics_all_triangles"] = metrics_all_triangles(result);
-  json["superposition"] = superposition(result);
+  json["superposition"] = superposition(source, result);
   json["n_vertices"] = result.surface.positions.size();
   json["n_triangles"] = result.surface.triangles.size();
   json["n_components"] = result.source_surface.n_components;
@@ -205,7 +217,7 @@ void add_results(Json& json, const CompareResult& result, const CompareOptions& 
 std::string compare_json(const Molecule& source, const Molecule& target, const CompareResult& result,
                          const CompareOptions& options, const Provenance& provenance) {
   Json json;
-  add_results(json, result, options);
+  add_results(json, source, result, options);
   json["time_ms"] = Json::object();
   for (const auto& [stage, ms] : result.time_ms) json["time_ms"][stage] = number(ms);
   json["device"] = provenance.device;

@@ -52,7 +52,7 @@ void line(std::ostream& out, const std::string& label, const std::string& text) 
   out << left("  " + label, kLabelWidth) << text << '\n';
 }
 
-void print_superposition(std::ostream& out, const CompareResult& result) {
+void print_superposition(std::ostream& out, const Molecule& source, const CompareResult& result) {
   const AtomPairing& pairing = result.pairing;
   out << "Superposition\n";
   if (pairing.pairs.empty()) {
@@ -69,6 +69,8 @@ void print_superposition(std::ostream& out, const CompareResult& result) {
                                ? "after superposing " + counted(result.n_superposed_atoms, "atom")
                                : std::string("where they lie, not superposed");
   line(out, "RMSD", significant(result.rmsd_A) + " A " + over);
+  for (const RigidPiece& piece : result.pieces)
+    line(out, "rigid piece", significant(piece.rmsd_A) + " A, " + residue_ranges(source, piece.residues));
 }
 
 void print_metrics(std::ostream& out, const CompareResult& result) {
@@ -171,7 +173,7 @@ void print_verdict(std::ostream& out, const CompareResult& result) {
 
 void print_table(std::ostream& out, const Molecule& source, const Molecule& target, const CompareResult& result) {
   out << "Source  " << source.name << "\nTarget  " << target.name << "\n\n";
-  print_superposition(out, result);
+  print_superposition(out, source, result);
   if (result.has_potential) {
     print_metrics(out, result);
   } else {

@@ -47,8 +47,9 @@ FieldPtr make_field(Engine& engine, const Surface& source, const Surface& target
 }
 
 Mapping map_by_deform(Engine& engine, const Surface& source, const MeshPtr& regularized, const Surface& target,
-                      const MeshPtr& start, const FieldPtr& field, const CompareOptions& options,
-                      const Progress& progress, DeformReport& report, std::size_t& n_added) {
+                      const MeshPtr& start, const PieceMotions& pieces, const FieldPtr& field,
+                      const CompareOptions& options, const Progress& progress, DeformReport& report,
+                      std::size_t& n_added) {
   const double spacing = options.surface.grid_spacing_A;
   DeformOptions iteration = options.deform;
   iteration.min_displacement_A = options.deform_min_displacement * spacing;
@@ -58,7 +59,8 @@ Mapping map_by_deform(Engine& engine, const Surface& source, const MeshPtr& regu
   mapping.path_length.assign(engine.n_vertices(start), 0.0F);
   int n_iterations = 0;
   for (int round = 0; round < kMaxRounds; ++round) {
-    mapping.mapped = engine.deform(mapping.mapped, field, iteration, "deform", progress, &report, mapping.source);
+    mapping.mapped = engine.deform(mapping.mapped, field, iteration, "deform", progress, &report,
+                                   pieces.carry(engine, mapping.source, source.atoms));
     n_iterations += report.iterations;
     iteration.max_iterations = options.deform.max_iterations - n_iterations;
     add(mapping.path_length, engine.download(report.path_length));

@@ -230,6 +230,22 @@ std::vector<Setting> make_settings() {
       [](CompareOptions& o, const std::string& text) { o.align = parse_align_atoms(text); },
       [](const CompareOptions& o) { return to_string(o.align); },
       "Paired atoms that are superposed; none compares as given"));
+  Setting pieces{"pieces",
+                 "Molecules",
+                 SettingKind::kText,
+                 {},
+                 "Rigid pieces that are aligned by themselves before the mapping: none, chains, domains (found by a "
+                 "search), or the "
+                 "source's residues, such as A:1-29,68-117/A:30-67",
+                 false,
+                 nullptr,
+                 nullptr};
+  pieces.set = [](CompareOptions& o, const std::string& text) {
+    check_pieces(text);
+    o.pieces = text;
+  };
+  pieces.get = [](const CompareOptions& o) { return o.pieces; };
+  all.push_back(pieces);
   all.push_back(number(
       "temperature", "Potentials", kPositive, [](auto& o) -> auto& { return o.temperature_K; },
       "Temperature for converting between kT/e and other units, K"));

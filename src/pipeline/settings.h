@@ -10,7 +10,7 @@
 
 namespace espdiff {
 
-enum class SettingKind { kNumber, kInteger, kBoolean, kChoice };
+enum class SettingKind { kNumber, kInteger, kBoolean, kChoice, kText };
 
 /// One setting. Its name is the option's: `--grid-spacing 1` on the command line, `-grid-spacing 1` in Tcl.
 struct Setting {

@@ -8,42 +8,13 @@
 #include <functional>
 
 #include "base/error.h"
+#include "pipeline/built_molecule.h"
 #include "pipeline/made_side.h"
 
 using namespace espdiff_test;
 using espdiff::compare;
 
 namespace {
-
-/// A molecule that is built atom by atom.
-struct Builder {
-  Molecule molecule;
-
-  void add(const std::string& residue, int number, const std::string& name, Vec3d p, float radius = 1.7F) {
-    const bool same = !molecule.residues.empty() && molecule.residues.back().number == number;
-    if (!same) molecule.residues.push_back({residue, "A", number, ' '});
-    espdiff::Atom atom;
-    atom.name = name;
-    atom.element = "C";
-    atom.residue = static_cast<std::int32_t>(molecule.residues.size() - 1);
-    molecule.atoms.push_back(atom);
-    molecule.positions.push_back(p);
-    molecule.radii.push_back(radius);
-    molecule.name = "made.pqr";
-  }
-
-  /// A ball of atoms on a cubic lattice, a residue of its own.
-  void add_ball(int number, Vec3d centre, double radius, double spacing = 2.0) {
-    const int n = static_cast<int>(std::ceil(radius / spacing));
-    int k = 0;
-    for (int x = -n; x <= n; ++x)
-      for (int y = -n; y <= n; ++y)
-        for (int z = -n; z <= n; ++z) {
-          const Vec3d d{spacing * x, spacing * y, spacing * z};
-          if (norm(d) <= radius) add("BAL", number, "C" + std::to_string(++k), centre + d);
-        }
-  }
-};
 
 using Motion = std::function<Vec3d(std::size_t atom, Vec3d p)>;
 
