@@ -153,7 +153,9 @@ std::string curves(const LinePlot& plot, const Panel& panel) {
   for (const std::size_t i : panel.series) {
     const std::string block = "$s" + std::to_string(i);
     const std::string colour = std::string(" linecolor rgb '") + kColours[i % kColourCount] + "'";
-    const std::string title = " title " + gnuplot_string(key_title(plot, plot.series[i]));
+    const LineSeries& s = plot.series[i];
+    const bool alone = !plot.normalized && panel.series.size() == 1;
+    const std::string title = " title " + gnuplot_string(alone ? with_unit(s.title, panel.unit) : key_title(plot, s));
     const auto points = [&](int form, int hollow) {
       return ", " + block + " using 1:($4==" + std::to_string(hollow) + "?$2:NaN) with points pointtype " +
              std::to_string(form) + " pointsize 0.7" + colour + " notitle";
@@ -222,10 +224,11 @@ std::string line_plot_script(const LinePlot& plot, PictureFormat format) {
     s << "set tmargin at screen " << top / size.height << "\nset bmargin at screen "
       << (top - height_of_panel) / size.height << '\n';
     const LineSeries& first = plot.series[panel.series.front()];
-    const std::string axis = plot.normalized       ? "Normalized"
-                             : title_beside(panel) ? with_unit(first.title, panel.unit)
-                             : panel.unit.empty()  ? "Index or count"
-                                                   : panel.unit;
+    const std::string axis = plot.normalized            ? "Normalized"
+                             : title_beside(panel)      ? with_unit(first.title, panel.unit)
+                             : panel.series.size() == 1 ? ""
+                             : panel.unit.empty()       ? "Index or count"
+                                                        : panel.unit;
     s << "set label 4 " << gnuplot_string(axis) << " at screen " << 14 / size.width << ", screen "
       << (top - 0.5 * height_of_panel) / size.height << " center rotate by 90\n"
       << (plot.normalized ? "set yrange [-0.05:1.05]\n" : y_range(plot, panel))
