@@ -90,9 +90,8 @@ int run(const Settings& settings) {
   int n_failed = 0;
   for (const RealPair& pair : real_pairs({settings.all_ubiquitin, settings.all_adk})) {
     const bool wanted = settings.only.empty() ||
-                        std::any_of(settings.only.begin(), settings.only.end(), [&](const std::string& text) {
-                          return pair.name.find(text) != std::string::npos;
-                        });
+                        std::any_of(settings.only.begin(), settings.only.end(),
+                                    [&](const std::string& text) { return pair.name.find(text) != std::string::npos; });
     if (!wanted || (settings.skip_series && !pair.group.empty())) continue;
     const std::string missing = missing_file(pair);
     if (!missing.empty()) {
