@@ -75,6 +75,19 @@ namespace eval ::espdiff {
         returns {a dictionary: quantity, unit, mol, field, atoms (how many have a value), min, max; or the file} \
         example {espdiff atoms comparison1 -quantity mean_abs_difference; mol modcolor 0 top User}]
 
+    command highlight [dict create arguments {handle residues} settings none run ::espdiff::highlight options {
+            {-mol text both "Where: both, source, target (molecules of VMD that the comparison came from), or an id"}
+            {-style text {VDW 2.0} "Representation and its parameters, as of `mol modstyle`; spheres of twice the radius\
+                reach through the surface"}
+            {-color text {ColorID 4} "Colouring method, as of `mol modcolor`; ColorID 4 is yellow"}
+            {-face boolean 0 "Turn the view so that they are in front"}
+        } \
+        summary {Shows residues in VMD by a representation of their own, in the place of those that were highlighted
+            before; an empty list takes it away. Residues are named by their `index` in `espdiff residues`, and found
+            by chain, number and insertion code, in the target's molecule as well.} \
+        returns {the molecules in which some were found} \
+        example {espdiff highlight comparison1 {88 113}}]
+
     command draw [dict create arguments {handle} settings none run ::espdiff::draw options {
             {-color choice auto "What is shown; auto is difference (potential of a surface), or displacement without\
                 potentials. difference: target - source, red negative, white 0, blue positive; sign: blue turned\
@@ -91,6 +104,11 @@ namespace eval ::espdiff {
                 then what lies outside of a map), or not drawn" {transparent mark hide}}
             {-surface choice mapped "mapped: on the target; source: where it came from, on the source" {mapped source}}
             {-legend boolean 1 "A colour bar with title and unit at the window's bottom"}
+            {-view choice single "linked: three surfaces side by side that the mouse turns together, the source and the\
+                target coloured by their potentials, the third one on the target by -color; until `undraw` other\
+                molecules are hidden and the projection is orthographic" {single linked}}
+            {-potential-range range auto "Of both potentials with -view linked; auto holds 98 % of either's points on\
+                each side"}
         } \
         summary {Draws the surface in VMD, in the place of an older drawing of the same handle. View, top molecule and
             colour settings stay as they are.} \
@@ -153,11 +171,13 @@ namespace eval ::espdiff {
             {-mol text top "Of a trajectory: molecule that goes to the frame of a point that is clicked; none for none"}
             {-callback command {} "Instead of that, called as CMD x y with the frame, or the variant's label, and the\
                 value"}
+            {-file file {} "Instead of VMD's windows: a picture, OUT.png or OUT.svg, as the command line's\
+                `espdiff plot` draws it by gnuplot; hollow points are not trustworthy"}
         } \
         summary {Plots a trajectory (its CSV file or handle), or one variant of a matrix (its handle) against all
-            others, in VMD's own plot windows (package multiplot): a window for each unit. For pictures of publications,
-            and heat maps, use the command line's `espdiff plot`.} \
-        returns {a list of multiplot's handles} \
+            others, in VMD's own plot windows (package multiplot), a window for each unit, or into a file. Heat maps
+            are drawn by the command line's `espdiff plot`.} \
+        returns {a list of multiplot's handles, or the file} \
         example {espdiff plot out.csv -metrics {mean_abs_difference rmsd_A}}]
 
     command merge [dict create arguments {states} settings none run ::espdiff::merge options {

@@ -25,6 +25,8 @@ namespace eval ::espdiff {
             "outside of it `espdiff export` writes the surface, and the command line's `espdiff render` draws it"
         require_core_handle $handle
         core::check $handle
+        if {[dict get $options view] eq "linked"} { return [draw_linked $options $handle] }
+        end_linked_view
         set plan [drawing_plan $options $handle]
         set older [drawing_of $handle]
         set molecules {}
@@ -199,7 +201,8 @@ namespace eval ::espdiff {
     proc forget_drawing {handle} {
         variable drawings
         if {![dict exists $drawings $handle]} return
-        if {[in_vmd]} { keep_view { delete_molecules [drawing_of $handle] }; place_legends }
+        set scene [leave_linked_view $handle]
+        if {[in_vmd]} { keep_view { delete_molecules [drawing_of $handle] }; restore_scene $scene; place_legends }
         dict unset drawings $handle
     }
 

@@ -82,6 +82,7 @@ namespace eval ::espdiff {
         delete_temporary $handle
         dict unset jobs $handle
         forget_drawing $handle
+        forget_highlight $handle
     }
 
     # The molecule of VMD that one side came from; empty when it came from a file or is gone.

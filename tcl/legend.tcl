@@ -13,45 +13,75 @@ namespace eval ::espdiff {
         sign "Sign of the potential, target against source"
     }
 
-    variable legends {}  ;# ids of the graphics molecules
+    # By id of the graphics molecule: its middle, in units of half the window's width.
+    variable legends [dict create]
 
-    # `plan` is drawing_plan's. Returns the molecule's id; its list is not built yet.
-    proc draw_legend {plan} {
+    # `plan` is drawing_plan's. The legend's middle, and half of the room that it has, are in units of half the
+    # window's width. Returns the molecule's id; its list is not built yet.
+    proc draw_legend {plan {middle 0} {room 1}} {
         variable legend_layout
-        variable legends
-        lappend legends [set mol [mol load graphics "espdiff [dict get $plan handle] legend"]]
-        graphics $mol materials off  ;# the bar's colours as they are, without light and shade
+        variable letter_width
+        set mol [new_legend "espdiff [dict get $plan handle] legend" $middle]
         set layout $legend_layout
         dict with layout {
-            set narrowing [expr {min(1.0, [lindex [legend_screen] 2])}]
-            set half_width [expr {$half_width * $narrowing}]
+            set room [expr {$room * [lindex [legend_screen] 2]}]
+            set half_width [expr {min($half_width, 0.82 * $room)}]
             draw_bar $mol $half_width $bottom $top
             graphics $mol color [legend_text_color]
-            draw_ticks $mol $plan $half_width $bottom $ticks [expr {0.85 * $narrowing}]
-            draw_text $mol [legend_title $plan] 0 $title [expr {0.95 * $narrowing}]
+            set text [legend_title $plan]
+            set size [expr {min(1.0, 2 * $room / ($letter_width * [string length $text] + 0.1))}]
+            draw_ticks $mol $plan $half_width $bottom $ticks [expr {0.85 * max(0.65, min(1.0, 1.6 * $room))}]
+            draw_text $mol $text 0 $title [expr {0.95 * $size}]
         }
+        return $mol
+    }
+
+    # The name of a panel, at the window's top.
+    proc draw_panel_title {handle middle text size} {
+        set mol [new_legend "espdiff $handle title" $middle]
+        graphics $mol color [legend_text_color]
+        draw_text $mol $text 0 0.9 $size
+        build_list $mol
+        return $mol
+    }
+
+    # At which all titles have room in a third of the window's width.
+    proc panel_title_size {titles} {
+        variable letter_width
+        set most 0
+        foreach title $titles { set most [expr {max($most, [string length $title])}] }
+        expr {min(1.0, [lindex [legend_screen] 2] * 2 / 3.0 / ($letter_width * $most + 0.05))}
+    }
+
+    # A graphics molecule that stays where it is on the screen, from place_legends on.
+    proc new_legend {name middle} {
+        variable legends
+        set mol [mol load graphics $name]
+        dict set legends $mol $middle
+        graphics $mol materials off  ;# the bar's colours as they are, without light and shade
         trace remove variable ::vmd_logfile write ::espdiff::on_vmd_command
         trace add variable ::vmd_logfile write ::espdiff::on_vmd_command
         return $mol
     }
 
     # Puts a legend where it belongs on the screen, and fixes it there.
-    proc place_legend {mol} {
-        lassign [legend_screen] unit z
+    proc place_legend {mol middle} {
+        lassign [legend_screen] unit z aspect
+        set x [expr {$middle * $aspect * $unit}]
         mol free $mol
         molinfo $mol set center_matrix {{{1 0 0 0} {0 1 0 0} {0 0 1 0} {0 0 0 1}}}
         molinfo $mol set rotate_matrix {{{1 0 0 0} {0 1 0 0} {0 0 1 0} {0 0 0 1}}}
         molinfo $mol set scale_matrix [list [list [list $unit 0 0 0] [list 0 $unit 0 0] [list 0 0 $unit 0] {0 0 0 1}]]
-        molinfo $mol set global_matrix [list [list {1 0 0 0} {0 1 0 0} [list 0 0 1 $z] {0 0 0 1}]]
+        molinfo $mol set global_matrix [list [translation_matrix [list $x 0 $z]]]
         mol fix $mol
     }
 
     proc place_legends {} {
         variable legends
-        set there {}
-        foreach mol $legends { if {$mol in [molinfo list]} { lappend there $mol; place_legend $mol } }
-        set legends $there
-        if {[llength $there] == 0} { trace remove variable ::vmd_logfile write ::espdiff::on_vmd_command }
+        dict for {mol middle} $legends {
+            if {$mol in [molinfo list]} { place_legend $mol $middle } else { dict unset legends $mol }
+        }
+        if {[dict size $legends] == 0} { trace remove variable ::vmd_logfile write ::espdiff::on_vmd_command }
     }
 
     # VMD writes each command that changed something into ::vmd_logfile. Resetting the view centres even molecules that
@@ -61,8 +91,11 @@ namespace eval ::espdiff {
         variable legends
         # An error here would fail the user's command.
         catch {
+            if {[regexp {^display (?:resetview|resize|height|distance)} $::vmd_logfile]} { place_panels }
             if {[regexp {^display (?!update)} $::vmd_logfile]} { place_legends }
-            if {[string match "mol delete*" $::vmd_logfile] && [molinfo top] in $legends} { choose_another_top }
+            if {[string match "mol delete*" $::vmd_logfile] && [dict exists $legends [molinfo top]]} {
+                choose_another_top
+            }
         }
     }
 
@@ -70,7 +103,7 @@ namespace eval ::espdiff {
         variable legends
         set best ""
         foreach mol [molinfo list] {
-            if {$mol in $legends} continue
+            if {[dict exists $legends $mol]} continue
             if {$best eq "" || [molinfo $mol get numatoms] > 0} { set best $mol }
         }
         if {$best ne ""} { mol top $best }
@@ -108,6 +141,7 @@ namespace eval ::espdiff {
 
     proc draw_ticks {mol plan half_width bottom baseline size} {
         foreach {share label} [tick_labels $plan] {
+            if {$half_width < 0.3 && abs($share) == 0.5} continue  ;# no room for five
             set x [expr {$share * $half_width}]
             graphics $mol line [list $x $bottom 0] [list $x [expr {$bottom - 0.015}] 0] width 2
             draw_text $mol $label $x $baseline $size
@@ -134,7 +168,7 @@ namespace eval ::espdiff {
 
     proc legend_title {plan} {
         variable legend_titles
-        set title [dict get $legend_titles [dict get $plan color]]
+        set title [value_or $plan title [dict get $legend_titles [dict get $plan color]]]
         set unit [dict get $plan unit]
         if {$unit eq ""} { return $title }
         if {$unit eq "unknown"} { set unit "unit unknown" }

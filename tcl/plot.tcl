@@ -10,6 +10,7 @@ namespace eval ::espdiff {
     # A window for each unit, or one where values are normalized.
     proc plot {options input} {
         set table [plot_table $input $options]
+        if {[dict get $options file] ne ""} { return [plot_into_file $table $options] }
         set series [plot_series $table $options]
         require_multiplot
         set panels [dict create]
@@ -24,12 +25,12 @@ namespace eval ::espdiff {
 
     proc require_multiplot {} {
         if {![info exists ::tk_version]} {
-            fail "espdiff plot needs VMD with its graphics window; elsewhere the command line's `espdiff plot` draws\
-                the same into a file"
+            fail "espdiff plot needs VMD with its graphics window; elsewhere -file OUT.svg draws the same into a\
+                file"
         }
         if {[catch { package require multiplot } message]} {
-            fail "espdiff plot needs VMD's package multiplot, which is not there ($message); the command line's\
-                `espdiff plot` draws the same into a file"
+            fail "espdiff plot needs VMD's package multiplot, which is not there ($message); -file OUT.svg draws\
+                the same into a file"
         }
     }
 
@@ -92,12 +93,14 @@ namespace eval ::espdiff {
             dict for {name metric} [dict get $matrix metrics] {
                 dict set row $name [lindex [dict get $metric values] $from $to]
             }
+            dict set row trustworthy [lindex [dict get $matrix trustworthy] $from $to]
             lappend rows $row
             lappend x $to
             lappend names [lindex $labels $to]
         }
-        return [dict create x $x names $names x_title "Variant, by its number in the list from 0" title "$source against all others" rows $rows \
-            unit [dict get $matrix potential_unit] columns [dict keys [dict get $matrix metrics]]]
+        return [dict create x $x names $names x_title "Variant, by its number in the list from 0" \
+            title "$source against all others" rows $rows unit [dict get $matrix potential_unit] \
+            columns [dict keys [dict get $matrix metrics]]]
     }
 
     # Title, unit and factor of a column.
@@ -115,14 +118,16 @@ namespace eval ::espdiff {
         return [list $column "" 1]
     }
 
+    proc plot_metrics {table options} {
+        set metrics [dict get $options metrics]
+        if {$metrics ne "auto"} { return $metrics }
+        expr {[dict get $table unit] eq "" ? "mean_displacement_A" : "mean_abs_difference"}
+    }
+
     # A dict for each metric: title, unit, x, y; points without a value are left out.
     proc plot_series {table options} {
-        set metrics [dict get $options metrics]
-        if {$metrics eq "auto"} {
-            set metrics [expr {[dict get $table unit] eq "" ? "mean_displacement_A" : "mean_abs_difference"}]
-        }
         set all {}
-        foreach column $metrics {
+        foreach column [plot_metrics $table $options] {
             if {$column ni [dict get $table columns]} {
                 fail "-metrics: [unknown_word metric $column [dict get $table columns]]"
             }

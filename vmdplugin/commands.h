@@ -44,6 +44,8 @@ std::vector<Command> matrix_commands();
 std::vector<Command> potential_commands();
 /// drawing_commands.cpp: what came out, as maps and triangles for VMD.
 std::vector<Command> drawing_commands();
+/// plot_commands.cpp: plots as files.
+std::vector<Command> plot_commands();
 /// about_commands.cpp: what this module is and offers.
 std::vector<Command> about_commands();
 

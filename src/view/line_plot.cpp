@@ -153,7 +153,9 @@ std::string curves(const LinePlot& plot, const Panel& panel) {
   for (const std::size_t i : panel.series) {
     const std::string block = "$s" + std::to_string(i);
     const std::string colour = std::string(" linecolor rgb '") + kColours[i % kColourCount] + "'";
-    const std::string title = " title " + gnuplot_string(key_title(plot, plot.series[i]));
+    const LineSeries& s = plot.series[i];
+    const bool alone = !plot.normalized && panel.series.size() == 1;
+    const std::string title = " title " + gnuplot_string(alone ? with_unit(s.title, panel.unit) : key_title(plot, s));
     const auto points = [&](int form, int hollow) {
       return ", " + block + " using 1:($4==" + std::to_string(hollow) + "?$2:NaN) with points pointtype " +
              std::to_string(form) + " pointsize 0.7" + colour + " notitle";
@@ -181,9 +183,16 @@ std::string line_plot_script(const LinePlot& plot, PictureFormat format) {
   const bool any_hollow = std::count(plot.trustworthy.begin(), plot.trustworthy.end(), false) > 0;
   const double bottom = (plot.labels.empty() ? 34 : 24 + 5.6 * static_cast<double>(longest)) + (any_hollow ? 12 : 0);
   const double height_of_panel = panels.size() == 1 ? 1.6 * kPanel : kPanel;
-  // A key stands above its panel, a line for each series.
+  // A title stands beside its panel where it is not longer than that.
+  const auto title_beside = [&](const Panel& panel) {
+    const LineSeries& first = plot.series[panel.series.front()];
+    constexpr double kLetter = 5.4;
+    return !plot.normalized && panel.series.size() == 1 &&
+           kLetter * static_cast<double>(with_unit(first.title, panel.unit).size()) < height_of_panel;
+  };
+  // Else a key stands above it, a line for each series.
   const auto key_lines = [&](const Panel& panel) {
-    return plot.normalized || panel.series.size() > 1 ? static_cast<double>(panel.series.size()) : 0.0;
+    return title_beside(panel) ? 0.0 : static_cast<double>(panel.series.size());
   };
   double height = bottom + (plot.title.empty() ? 8 : 24);
   for (const Panel& panel : panels) height += height_of_panel + kGap + kKeyLine * key_lines(panel);
@@ -216,7 +225,8 @@ std::string line_plot_script(const LinePlot& plot, PictureFormat format) {
       << (top - height_of_panel) / size.height << '\n';
     const LineSeries& first = plot.series[panel.series.front()];
     const std::string axis = plot.normalized            ? "Normalized"
-                             : panel.series.size() == 1 ? with_unit(first.title, panel.unit)
+                             : title_beside(panel)      ? with_unit(first.title, panel.unit)
+                             : panel.series.size() == 1 ? ""
                              : panel.unit.empty()       ? "Index or count"
                                                         : panel.unit;
     s << "set label 4 " << gnuplot_string(axis) << " at screen " << 14 / size.width << ", screen "

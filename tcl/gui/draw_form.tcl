@@ -4,7 +4,7 @@ namespace eval ::espdiff::gui {
     variable form
     array set form {
         draw,color difference draw,surface target draw,range auto draw,low -5 draw,high 5
-        draw,transparency 1 draw,limit 2.0 draw,corrupt transparent draw,legend 1 draw,mol ""
+        draw,transparency 1 draw,limit 2.0 draw,corrupt transparent draw,legend 1 draw,view single draw,mol ""
     }
     variable drawn_on {target mapped source source}  ;# the window's word, espdiff's word
 
@@ -42,6 +42,12 @@ namespace eval ::espdiff::gui {
             -values {transparent mark hide}
         form_row $path 3 "Corrupt parts" $path.corrupt "Parts that are off the target's surface: most transparent,\
             marked in yellow, or not drawn"
+        ttk::checkbutton $path.linked -text "Source, target and this side by side" \
+            -variable ::espdiff::gui::form(draw,view) -onvalue linked -offvalue single
+        tip $path.linked "Linked views: the mouse turns all three; both potentials on the left, what is chosen here on\
+            the right. Undraw puts VMD's view back"
+        grid $path.linked -row 3 -column 2 -columnspan 2 -sticky w -padx {16 0}
+        set widget(draw,linked) $path.linked
         build_draw_buttons $path.buttons
         grid $path.buttons -row 4 -column 0 -columnspan 4 -sticky ew -pady {4 0}
         grid configure $path.label_surface -padx {16 6}
@@ -71,19 +77,21 @@ namespace eval ::espdiff::gui {
         ttk::frame $path
         button $path.draw Draw ::espdiff::gui::draw 0
         button $path.undraw Undraw ::espdiff::gui::undraw 0
+        button $path.picture Picture... ::espdiff::gui::save_picture 0
         button $path.map "Add map to" ::espdiff::gui::add_map 0
         ttk::combobox $path.mol -textvariable ::espdiff::gui::form(draw,mol) -state readonly -width 18 \
             -postcommand {::espdiff::gui::guard ::espdiff::gui::update_draw}
         tip $path.draw "Draw the surface in VMD's window, in place of this result's older drawing"
         tip $path.undraw "Remove this result's drawing"
+        tip $path.picture "VMD's window as it is, as a Targa file; File > Render in VMD's menu has other forms"
         tip $path.map "Add what is chosen under Colour by as a volumetric map to this molecule, for Color Volume and\
             Isosurface representations"
         tip $path.mol "Molecule that gets the map"
-        grid $path.draw $path.undraw $path.map $path.mol -sticky ew -padx {0 6}
+        grid $path.draw $path.undraw $path.picture $path.map $path.mol -sticky ew -padx {0 6}
         grid configure $path.map -padx {16 6}
         grid configure $path.mol -padx 0
-        grid columnconfigure $path 3 -weight 1
-        foreach name {draw undraw map} { set widget($name) $path.$name }
+        grid columnconfigure $path 4 -weight 1
+        foreach name {draw undraw picture map} { set widget($name) $path.$name }
         set widget(draw,mol) $path.mol
     }
 
@@ -128,6 +136,7 @@ namespace eval ::espdiff::gui {
         if {$form(draw,corrupt) ne "transparent"} { lappend options -corrupt $form(draw,corrupt) }
         if {$form(draw,surface) ne "target"} { lappend options -surface [dict get $drawn_on $form(draw,surface)] }
         if {!$form(draw,legend)} { lappend options -legend 0 }
+        if {$form(draw,view) ne "single"} { lappend options -view $form(draw,view) }
         return $options
     }
 
@@ -144,6 +153,23 @@ namespace eval ::espdiff::gui {
         espdiff undraw $shown
         forget $shown draw
         show_message "The drawing of $shown is removed."
+    }
+
+    proc save_picture {} {
+        variable window
+        variable shown
+        set path [tk_getSaveFile -parent $window -title "VMD's window as a picture" -initialfile $shown.tga \
+            -defaultextension .tga -filetypes {{"Targa pictures" .tga}}]
+        if {$path ne ""} { save_picture_as $path }
+    }
+
+    # VMD says nothing when it cannot write.
+    proc save_picture_as {path} {
+        file delete $path
+        display update
+        render snapshot $path
+        if {![file exists $path]} { error "VMD could not write '$path'; its console may say why" }
+        show_message "Written: $path"
     }
 
     proc add_map {} {

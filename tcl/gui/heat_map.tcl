@@ -90,7 +90,9 @@ namespace eval ::espdiff::gui {
         set fill [expr {0.3 * $red + 0.59 * $green + 0.11 * $blue > 32768 ? "gray20" : "gray90"}]
         set x [expr {$x + $cell / 2.0}]
         set y [expr {$y + $cell / 2.0}]
-        $map create oval [expr {$x - 1}] [expr {$y - 1}] [expr {$x + 1}] [expr {$y + 1}] -fill $fill -outline ""
+        set radius [expr {max(1.0, $cell / 14.0)}]
+        $map create oval [expr {$x - $radius}] [expr {$y - $radius}] [expr {$x + $radius}] [expr {$y + $radius}] \
+            -fill $fill -outline ""
     }
 
     # Neighbours of one group.
@@ -212,14 +214,13 @@ namespace eval ::espdiff::gui {
         variable chosen_cell
         variable heat
         variable matrix_pairs
-        variable widget
         variable draw_when_done
         if {$chosen_cell eq ""} return
         lassign $chosen_cell row column
         lassign $matrix_pairs endpoints settings
         set source [lindex $endpoints [lindex [dict get $heat order] $row]]
         set target [lindex $endpoints [lindex [dict get $heat order] $column]]
-        $widget(tabs) select 0
+        show_tab pair
         # The surface is drawn on the target: VMD shows the target's frame.
         if {[dict exists $target mol] && [dict get $target mol] in [molinfo list]} {
             molinfo [dict get $target mol] set frame [dict get $target frame]

@@ -18,12 +18,24 @@ weighted by area. The mapping has a direction: Swap exchanges the sides. Rest th
 Table shows all numbers, Export writes them with the surface.
 
 4. Draw colours the surface in VMD's window. Difference is target - source: red where it became more negative, blue
-where more positive. Parts that travelled far are transparent: their values are less certain.
+where more positive. Parts that travelled far are transparent: their values are less certain. "Side by side" draws
+source, target and difference in three views that the mouse turns together; Undraw puts VMD's view back.
 
-Script shows the Tcl commands that do the same again; `espdiff help` in VMD's console explains them.
+5. Residues lists what each residue's share of the surface says; headings sort. Selected rows are highlighted in VMD,
+also through the surface, and the view turns to them; Clear highlight takes the yellow away. Colour atoms puts the
+numbers into VMD's field User.
 
-Keys: Return compares, Escape cancels, Alt with an underlined letter presses a button, Alt-S shows the settings, Tab
-goes on, F1 is this help, Control-W closes the window.
+6. Trajectory compares frames with one frame, or each with the one before, and draws a point as soon as a frame is
+done. Hollow points are not trustworthy. A click on a point, or the arrow keys, show its frame in VMD; Compare and draw
+(space bar) compares it anew with its surface. Stop keeps the rows, and "go on with it" computes the rest.
+
+7. Matrix compares each of many states with each other one. A click on a cell compares and draws its pair.
+
+Script shows the Tcl commands that do the same again; `espdiff help` in VMD's console explains them. What you enter is
+remembered from one session to the next, without molecules and files.
+
+Keys: Return computes, Escape cancels, Control-Tab goes to the next tab, Alt with an underlined letter presses a button,
+Alt-S shows the settings, Tab goes on, F1 is this help, Control-W closes the window.
 }
 
     proc show_help {} {

@@ -5,6 +5,7 @@ namespace eval ::espdiff::gui {
     variable matrix_shown ""    ;# handle whose heat map is on display
     variable matrix_result {}   ;# what `espdiff result` says of it
     variable matrix_pairs {}    ;# the endpoints and settings that it was computed with
+    variable matrix_run {}      ;# the same as words for `espdiff matrix`: variants, output, settings
     variable draw_when_done ""  ;# comparison that is drawn as soon as it is done
     variable form
     array set form {matrix,metric "" matrix,ordered 0}
@@ -15,14 +16,16 @@ namespace eval ::espdiff::gui {
         button $path.compute Compute ::espdiff::gui::compute_matrix
         button $path.cancel Stop ::espdiff::gui::cancel_matrix
         ttk::progressbar $path.bar -maximum 1.0 -length 60
+        button $path.script Script... ::espdiff::gui::show_script
         ttk::label $path.message -anchor w -wraplength 560 -justify left
+        tip $path.script "The Tcl commands that do the same again"
         tip $path.compute "Compare each variant with each other one, both ways (Return)"
         tip $path.cancel "End the computation; what is done is kept, and can be gone on with (Escape)"
-        grid $path.compute $path.cancel $path.bar -sticky ew -padx {0 6}
-        grid configure $path.bar -padx 0
-        grid $path.message -columnspan 3 -sticky ew -pady {4 0}
+        grid $path.compute $path.cancel $path.bar $path.script -sticky ew -padx {0 6}
+        grid configure $path.script -padx 0
+        grid $path.message -columnspan 4 -sticky ew -pady {4 0}
         grid columnconfigure $path 2 -weight 1
-        foreach name {compute cancel bar message} { set widget(matrix,$name) $path.$name }
+        foreach name {compute cancel bar script message} { set widget(matrix,$name) $path.$name }
     }
 
     proc build_heat_map {path} {
@@ -78,6 +81,7 @@ namespace eval ::espdiff::gui {
         variable form
         variable matrix_running
         variable matrix_pairs
+        variable matrix_run
         variable variants
         if {$matrix_running ne ""} return
         set output [string trim $form(matrix,output)]
@@ -94,6 +98,9 @@ namespace eval ::espdiff::gui {
         set endpoints {}
         foreach variant $variants { lappend endpoints [variant_endpoint $variant] }
         set matrix_pairs [list $endpoints $settings]
+        set matrix_run [dict create variants [matrix_variants] output [file normalize $output] settings $settings]
+        remember_molecules matrix $endpoints
+        save_settings
         show_matrix_running
     }
 
@@ -114,9 +121,11 @@ namespace eval ::espdiff::gui {
         variable variants
         variable matrix_running
         variable matrix_shown
+        variable matrix_run
         if {![info exists widget(matrix,plot)] || ![winfo exists $widget(matrix,plot)]} return
         set_enabled [expr {$matrix_running eq "" && [llength $variants] > 1}] $widget(matrix,compute)
         set_enabled [expr {$matrix_running ne ""}] $widget(matrix,cancel)
+        set_enabled [expr {$matrix_run ne ""}] $widget(matrix,script)
         set_enabled [expr {$matrix_shown ne ""}] $widget(matrix,metric) $widget(matrix,ordered) $widget(matrix,table)
         set_enabled [expr {$matrix_shown ne "" && [in_vmd]}] $widget(matrix,plot)
         if {$matrix_running eq ""} { $widget(matrix,bar) configure -value 0 }

@@ -142,6 +142,7 @@ namespace eval ::espdiff::gui {
         show_numbers
         set_enabled [expr {$shown ne ""}] $widget(result,list) $widget(result,table) $widget(result,export) \
             $widget(result,delete)
+        show_residues
         if {[in_vmd]} { update_draw }
     }
 

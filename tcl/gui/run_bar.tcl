@@ -8,12 +8,15 @@ namespace eval ::espdiff::gui {
     # twice; the bar does not go back.
     variable stages {
         "" Waiting 0 0
-        align "Superposing" 0 2
-        surface "Making the surfaces" 2 10
-        regularize "Evening out the triangles" 10 35
-        deform "Mapping source onto target" 35 85
-        certificate "Checking the mapping" 85 97
-        metrics "Comparing" 97 100
+        read "Reading" 0 2
+        align "Superposing" 2 2
+        potential "Computing the potentials" 2 4
+        surface "Making the surfaces" 4 8
+        regularize "Evening out the triangles" 8 25
+        morph "Mapping source onto target" 25 70
+        deform "Mapping source onto target" 25 70
+        certificate "Checking the mapping" 70 96
+        metrics "Comparing" 96 100
     }
 
     proc build_run_bar {path} {
@@ -83,6 +86,7 @@ namespace eval ::espdiff::gui {
         set running [espdiff compare $source $target {*}$settings \
             -progress ::espdiff::gui::show_progress -command {::espdiff::gui::guard ::espdiff::gui::finish}]
         remember_compare $running $source $target $settings
+        save_settings
         show_running 1
         watch
         return $running
@@ -102,6 +106,12 @@ namespace eval ::espdiff::gui {
         set_enabled [expr {!$is_running}] $widget(compare) $widget(swap)
         set_enabled $is_running $widget(cancel)
         $widget(bar) configure -value 0
+    }
+
+    proc stage_words {stage} {
+        variable stages
+        foreach {name words begin end} $stages { if {$name eq $stage} { return $words } }
+        return $stage
     }
 
     # Called by espdiff with the stage and how much of it is done.

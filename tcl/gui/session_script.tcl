@@ -4,17 +4,22 @@ namespace eval ::espdiff::gui {
     # By handle: by what was done (compare, draw, map.QUANTITY.MOL, export), the words after `espdiff` without the
     # handle. Doing something again replaces it, as it does in VMD.
     variable done [dict create]
-    variable loaded [dict create]  ;# by handle: how the molecules that it came from were loaded, as comments
+    # By handle, and for `trajectory` and `matrix`: how the molecules that it came from were loaded, as comments.
+    variable loaded [dict create]
 
     proc remember_compare {handle source target settings} {
         variable done
-        variable loaded
         dict set done $handle [dict create compare [concat compare [list $source $target] $settings]]
+        remember_molecules $handle [list $source $target]
+    }
+
+    proc remember_molecules {what endpoints} {
+        variable loaded
         set lines {}
-        foreach endpoint [list $source $target] {
+        foreach endpoint $endpoints {
             if {[dict exists $endpoint mol]} { lappend lines [how_loaded [dict get $endpoint mol]] }
         }
-        dict set loaded $handle [lsort -unique $lines]
+        dict set loaded $what [lsort -unique $lines]
     }
 
     proc remember {handle what words} {
@@ -43,12 +48,23 @@ namespace eval ::espdiff::gui {
         return "# Molecule $mol was loaded by\n[join $lines \n]"
     }
 
-    # A script that does with this result's molecules or files what was done in the window.
-    proc script_text {handle} {
-        variable done
+    # A script that does again what was done in the window: the comparison on display with its drawing, the trajectory,
+    # the matrix.
+    proc session_text {} {
+        variable shown
         variable loaded
-        set lines {"package require espdiff"}
-        if {[dict exists $loaded $handle]} { lappend lines {*}[dict get $loaded $handle] }
+        set molecules {}
+        foreach what [list $shown trajectory matrix] {
+            if {[dict exists $loaded $what]} { lappend molecules {*}[dict get $loaded $what] }
+        }
+        set lines [concat {"package require espdiff"} [lsort -unique $molecules] [pair_lines $shown] \
+            [trajectory_lines] [matrix_lines]]
+        return [join $lines \n]\n
+    }
+
+    proc pair_lines {handle} {
+        variable done
+        if {$handle eq ""} { return {} }
         set steps [expr {[dict exists $done $handle] ? [dict get $done $handle] : {}}]
         if {![dict exists $steps compare]} {
             # A script made it: its own call is what does it again.
@@ -58,24 +74,57 @@ namespace eval ::espdiff::gui {
         # Another program's procedures are not there.
         if {[llength $settings] % 2 == 0} { set settings [dict remove $settings -command -progress] }
         lappend lines "set comparison \[espdiff compare [list $source] \\"
-        lappend lines "    [list $target][settings_lines $settings]\]"
+        lappend lines "    [list $target][option_lines $settings]\]"
         lappend lines {puts [espdiff table $comparison]}
         dict for {what words} [dict remove $steps compare] {
             lappend lines "espdiff [lindex $words 0] \$comparison [lrange $words 1 end]"
         }
-        return [join $lines \n]\n
+        return $lines
+    }
+
+    # The run whose rows are on display, from its first frame.
+    proc trajectory_lines {} {
+        variable trajectory_run
+        if {$trajectory_run eq ""} { return {} }
+        set options [concat [dict get $trajectory_run options] [dict get $trajectory_run output] {-overwrite 1} \
+            [dict get $trajectory_run settings]]
+        set lines [list "puts \[espdiff trajectory[option_lines $options]\]"]
+        if {[dict exists $trajectory_run plot]} {
+            lappend lines "espdiff plot [list [dict get $trajectory_run output -csv]] [dict get $trajectory_run plot]"
+        }
+        return $lines
+    }
+
+    proc matrix_lines {} {
+        variable matrix_run
+        if {$matrix_run eq ""} { return {} }
+        dict with matrix_run {
+            return [list "set variants \[list[word_lines $variants]\]" \
+                "puts \[espdiff table \[espdiff matrix \$variants[option_lines \
+                    [concat [list -output $output -overwrite 1] $settings]]\]\]"]
+        }
+    }
+
+    proc word_lines {words} {
+        set text ""
+        foreach word $words { append text " \\\n    [list $word]" }
+        return $text
     }
 
     # Options, each on a line that continues the one before.
-    proc settings_lines {settings} {
+    proc option_lines {options} {
         set text ""
-        foreach {option value} $settings { append text " \\\n    [list $option $value]" }
+        foreach {option value} $options { append text " \\\n    [list $option $value]" }
         return $text
     }
 
     proc show_script {} {
         variable shown
-        if {$shown eq ""} { error "nothing is done yet that a script could do again; press Compare first" }
-        text_window script "espdiff: script of $shown" [script_text $shown]
+        variable trajectory_run
+        variable matrix_run
+        if {$shown eq "" && $trajectory_run eq "" && $matrix_run eq ""} {
+            error "nothing is done yet that a script could do again; press Compare first"
+        }
+        text_window script "espdiff: script of this session" [session_text]
     }
 }

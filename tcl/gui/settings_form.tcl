@@ -30,7 +30,8 @@ namespace eval ::espdiff::gui {
         set widget(settings_toggle) [tip $path.toggle "How surfaces are made and mapped (Alt-S)"]
         set widget(settings) [ttk::notebook $path.pages]
         ttk::notebook::enableTraversal $path.pages
-        grid $path.toggle -sticky w
+        grid $path.toggle [build_presets $path.presets] -sticky w
+        grid configure $path.presets -column 2
         grid columnconfigure $path 0 -weight 1
         foreach row [all_settings] {
             set name [dict get $row name]
@@ -85,8 +86,8 @@ namespace eval ::espdiff::gui {
     proc toggle_settings {} {
         variable widget
         if {[winfo manager $widget(settings)] eq ""} {
-            grid $widget(settings) -sticky ew
-            grid $widget(defaults) -row 0 -column 0 -sticky e
+            grid $widget(settings) -row 1 -columnspan 3 -sticky ew
+            grid $widget(defaults) -row 0 -column 1 -sticky e
             raise $widget(defaults) $widget(settings_toggle)
         } else {
             grid forget $widget(settings) $widget(defaults)
@@ -120,6 +121,7 @@ namespace eval ::espdiff::gui {
         set arrow [expr {[winfo manager $widget(settings)] eq "" ? "\u25b8" : "\u25be"}]
         $widget(settings_toggle) configure \
             -text "$arrow Settings[expr {$n == 0 ? " (all at their defaults)" : " ($n changed)"}]"
+        show_preset
     }
 
     proc forget_settings {} { trace remove variable ::espdiff::gui::setting write ::espdiff::gui::count_changes }

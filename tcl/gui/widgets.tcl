@@ -103,8 +103,10 @@ namespace eval ::espdiff::gui {
             ttk::frame $outer.buttons
             ttk::button $outer.buttons.copy -text Copy -underline 0 \
                 -command [list ::espdiff::gui::copy_text $outer.text]
+            ttk::button $outer.buttons.save -text Save... -underline 0 \
+                -command [list ::espdiff::gui::guard ::espdiff::gui::save_text $outer.text $name]
             ttk::button $outer.buttons.close -text Close -command [list destroy $top]
-            pack $outer.buttons.close $outer.buttons.copy -side right -padx {6 0}
+            pack $outer.buttons.close $outer.buttons.save $outer.buttons.copy -side right -padx {6 0}
             grid $outer.text $outer.y -sticky news
             if {$fixed} { grid $outer.x -sticky ew }
             grid $outer.buttons -columnspan 2 -sticky ew -pady {8 0}
@@ -113,6 +115,7 @@ namespace eval ::espdiff::gui {
             pack $outer -fill both -expand 1
             bind $top <Escape> [list destroy $top]
             bind $top <Alt-c> [list $outer.buttons.copy invoke]
+            bind $top <Alt-s> [list $outer.buttons.save invoke]
         }
         wm title $top $title
         set shown $top.outer.text
@@ -129,6 +132,13 @@ namespace eval ::espdiff::gui {
     proc copy_text {path} {
         clipboard clear -displayof $path
         clipboard append -displayof $path [string trimright [$path get 1.0 end]]\n
+    }
+
+    # A script as it is; any other text for reading.
+    proc save_text {path name} {
+        set ending [expr {$name eq "script" ? ".tcl" : ".txt"}]
+        set file [tk_getSaveFile -parent [winfo toplevel $path] -initialfile espdiff$ending -defaultextension $ending]
+        if {$file ne ""} { write_whole_file $file [string trimright [$path get 1.0 end]]\n }
     }
 
     # Four significant digits and the unit; a dash for what has no value.

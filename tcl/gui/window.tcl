@@ -6,11 +6,12 @@
 # others need in `widget`.
 namespace eval ::espdiff::gui {
     variable window .espdiff
-    variable traced {}          ;# variables of VMD that tell about molecules, while the window is there
+    variable traced {}          ;# variables of VMD that tell what happens, and what is called then
     variable pending_update ""  ;# the `after` script that looks at VMD's molecules again
 
-    foreach part {widgets scrolled endpoint_form settings_form run_bar result_view draw_form session_script
-        help_window matrix_form matrix_view heat_map} {
+    foreach part {widgets scrolled endpoint_form presets settings_form run_bar result_view draw_form session_script
+        help_window matrix_form matrix_view heat_map residue_table trajectory_form trajectory_view trajectory_point
+        line_plot remembered} {
         source [file join [file dirname [info script]] $part.tcl]
     }
     unset part
@@ -43,15 +44,17 @@ namespace eval ::espdiff::gui {
         # Control-Tab goes from tab to tab; the Tab key stays in one.
         set widget(tabs) [ttk::notebook $window.tabs -takefocus 0]
         ttk::notebook::enableTraversal $window.tabs
-        build_pair_tab [ttk::frame $window.tabs.pair]
-        build_matrix_tab [ttk::frame $window.tabs.matrix]
-        $window.tabs add $window.tabs.pair -text Pair
-        $window.tabs add $window.tabs.matrix -text Matrix
+        foreach {name title build} {pair Pair build_pair residues Residues build_residues
+            trajectory Trajectory build_trajectory matrix Matrix build_matrix} {
+            $build [ttk::frame $window.tabs.$name]
+            $window.tabs add $window.tabs.$name -text $title
+        }
         pack $window.tabs -fill both -expand 1
         bind_keys
         bind $window <Destroy> {if {"%W" eq $::espdiff::gui::window} { ::espdiff::gui::closed }}
         bind $window <FocusIn> {if {"%W" eq $::espdiff::gui::window} { ::espdiff::gui::update_soon }}
         trace_molecules
+        load_settings
         update_molecules
         show_results
         keep_wheel_from_changing_values $window
@@ -59,7 +62,7 @@ namespace eval ::espdiff::gui {
         focus $::espdiff::gui::widget(compare)
     }
 
-    proc build_pair_tab {outer} {
+    proc build_pair {outer} {
         build_run_bar $outer.run
         set body [scrolled $outer.page]
         build_page $body
@@ -71,8 +74,6 @@ namespace eval ::espdiff::gui {
         # In the order of the Tab key: the page is made after the bar, and comes before it.
         lower $outer.page
     }
-
-    proc build_matrix_tab {outer} { build_matrix $outer }
 
     # The page for one comparison: what is compared, with which settings, what came out, how it is drawn.
     proc build_page {body} {
@@ -96,24 +97,40 @@ namespace eval ::espdiff::gui {
 
     proc bind_keys {} {
         variable window
-        foreach key {<Return> <KP_Enter>} { bind $window $key {::espdiff::gui::press_of_tab compare matrix,compute} }
-        bind $window <Escape> {::espdiff::gui::press_of_tab cancel matrix,cancel}
+        foreach key {<Return> <KP_Enter>} {
+            bind $window $key {::espdiff::gui::press_of_tab {pair compare trajectory trajectory,run
+                matrix matrix,compute}}
+        }
+        bind $window <Escape> {::espdiff::gui::press_of_tab {pair cancel residues residues,clear
+            trajectory trajectory,cancel matrix matrix,cancel}}
         bind $window <F1> ::espdiff::gui::show_help
         bind $window <Control-w> ::espdiff::gui::close_window
     }
 
-    # The button that a key means in the tab that is open.
-    proc press_of_tab {of_pair of_matrix} {
+    # The button that a key means in the tab that is open, from pairs of tab and button.
+    proc press_of_tab {buttons} {
+        if {[dict exists $buttons [open_tab]]} { press [dict get $buttons [open_tab]] }
+    }
+
+    # pair, residues, trajectory or matrix.
+    proc open_tab {} {
         variable widget
-        press [expr {[$widget(tabs) index current] == 0 ? $of_pair : $of_matrix}]
+        winfo name [$widget(tabs) select]
+    }
+
+    proc show_tab {name} {
+        variable widget
+        $widget(tabs) select $widget(tabs).$name
     }
 
     # VMD writes these when a molecule comes, changes or goes, and when a file has been read into one.
     proc trace_molecules {} {
         variable traced
         if {![in_vmd]} return
-        set traced {::vmd_molecule ::vmd_initialize_structure ::vmd_trajectory_read}
-        foreach name $traced { trace add variable $name write ::espdiff::gui::update_soon }
+        set traced {::vmd_molecule ::espdiff::gui::update_soon ::vmd_initialize_structure ::espdiff::gui::update_soon
+            ::vmd_trajectory_read ::espdiff::gui::update_soon ::vmd_frame ::espdiff::gui::mark_now
+            ::vmd_quit ::espdiff::gui::save_settings}
+        foreach {name command} $traced { trace add variable $name write $command }
     }
 
     # VMD is in the middle of its change when it calls this.
@@ -128,6 +145,7 @@ namespace eval ::espdiff::gui {
         if {![winfo exists $window]} return
         foreach side {source target} { update_endpoint $side }
         if {[in_vmd]} { update_draw }
+        update_trajectory
         update_matrix
     }
 
@@ -136,7 +154,8 @@ namespace eval ::espdiff::gui {
         variable window
         variable running
         variable matrix_running
-        if {$running ne "" || $matrix_running ne ""} {
+        variable trajectory_running
+        if {$running ne "" || $matrix_running ne "" || $trajectory_running ne ""} {
             set answer [tk_messageBox -parent $window -type yesno -icon question -title "Surface Potential Comparison" \
                 -message "A comparison is being computed." -detail "Cancel it and close the window?"]
             if {$answer ne "yes"} return
@@ -148,12 +167,15 @@ namespace eval ::espdiff::gui {
     proc closed {} {
         variable traced
         variable pending_update
-        foreach name $traced { trace remove variable $name write ::espdiff::gui::update_soon }
+        foreach {name command} $traced { trace remove variable $name write $command }
         set traced {}
+        save_settings
         after cancel $pending_update
         forget_tips
         forget_settings
+        remove_highlight
         abandon_run
+        abandon_trajectory
         abandon_matrix
         array unset ::espdiff::gui::widget
     }

@@ -21,6 +21,7 @@ if {![file isdirectory $data]} {
 set scratch [file join [expr {[info exists env(TMPDIR)] ? $env(TMPDIR) : "/tmp"}] espdiff-tcl-test-[pid]]
 file mkdir $scratch
 cd $scratch
+set env(XDG_CONFIG_HOME) [file join $scratch config]  ;# the user's own settings of the window are not touched
 
 proc write_file {name text} {
     set channel [open $name w]

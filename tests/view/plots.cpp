@@ -126,6 +126,18 @@ TEST_CASE("a PNG has the size of its layout, and trajectories have numbers on th
   CHECK(has(text_of(read_file(svg)), "100"));
 }
 
+TEST_CASE("a title that is longer than its panel stands above it") {
+  LinePlot plot;
+  plot.x = {0, 1, 2};
+  plot.series = {{"Mean absolute difference", "kT/e", {1, 2, 3}, {}}, {"RMSD", "A", {1, 2, 3}, {}}};
+  const std::string two = line_plot_script(plot, PictureFormat::kSvg);
+  CHECK(has(two, "title \"Mean absolute difference (kT/e)\""));
+  CHECK(!has(two, "set label 4 \"Mean"));
+  CHECK(has(two, "set label 4 \"RMSD (A)\""));
+  plot.series.pop_back();  // the only panel is higher
+  CHECK(has(line_plot_script(plot, PictureFormat::kSvg), "set label 4 \"Mean absolute difference (kT/e)\""));
+}
+
 TEST_CASE("the diagonal is left out of the colours' range, which is symmetric where both signs count") {
   HeatMap map = four();
   CHECK(colour_range(map).first == 1);

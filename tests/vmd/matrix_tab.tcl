@@ -14,7 +14,7 @@ proc wait_until {condition} {
         vwait ::tick
     }
 }
-[widget tabs] select 1
+::espdiff::gui::show_tab matrix
 update
 array set ::espdiff::gui::setting {grid-spacing 2}
 
@@ -59,7 +59,7 @@ test "a click on a cell compares its pair and draws it" {
 }
 
 test "the row in VMD's plot window" {
-    [widget tabs] select 1
+    ::espdiff::gui::show_tab matrix
     [widget matrix,plot] invoke
     update
     check "a plot" {[llength [multiplot list]] > 0}

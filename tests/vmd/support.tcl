@@ -63,6 +63,19 @@ proc input {name} {
     return $path
 }
 
+# The fenced block after a marker line of a document.
+proc block {document mark} {
+    global env
+    set channel [open [file join $env(ESPDIFF_TESTS) .. .. docs $document]]
+    fconfigure $channel -encoding utf-8
+    set text [read $channel]
+    close $channel
+    set begin [string first "<!-- $mark -->" $text]
+    if {$begin < 0} { error "docs/$document has no '$mark'" }
+    set begin [expr {[string first \n $text [string first ``` $text $begin]] + 1}]
+    return [string range $text $begin [expr {[string first \n``` $text $begin] - 1}]]
+}
+
 # Ends the script; without this line the run counts as failed.
 proc finish {} {
     global result_file

@@ -1,0 +1,310 @@
+# residue_table.tcl: the tab with the residues of the result on display: sorted, highlighted in VMD, as CSV.
+
+namespace eval ::espdiff::gui {
+    variable residues_of ""     ;# handle whose residues are in the table
+    variable residue_rows {}    ;# what `espdiff residues` says
+    variable highlighted ""     ;# handle that has a highlight of ours in VMD
+    variable form
+    array set form {residues,sort mean_abs_difference residues,falling 1 residues,face 1}
+
+    # Key of `espdiff residues`, heading, whether it is of potentials, decimals, factor.
+    variable residue_columns {
+        residue Residue 0 "" 1
+        mean_abs_difference "|Diff.|" 1 2 1
+        mean_signed_difference Diff. 1 2 1
+        mean_source Source 1 2 1
+        mean_target Target 1 2 1
+        sign_change_area_fraction "Sign, %" 1 0 100
+        mean_displacement_A "Moved, \u00c5" 0 2 1
+        area_A2 "Area, \u00c5\u00b2" 0 1 1
+    }
+
+    proc build_residues {path} {
+        variable widget
+        variable residue_columns
+        variable residues_of -  ;# of no handle: the table is new
+        ttk::frame $path.top
+        ttk::label $path.title -anchor w -width 28 -font [bold_font]
+        ttk::combobox $path.top.sort -state readonly -width 15
+        bind $path.top.sort <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::sort_as_chosen}
+        ttk::checkbutton $path.top.falling -text "greatest first" -variable ::espdiff::gui::form(residues,falling) \
+            -command {::espdiff::gui::guard ::espdiff::gui::fill_residues}
+        ttk::label $path.top.by -text "Sorted by"
+        tip $path.top.sort "As a click on a heading"
+        pack $path.top.by $path.top.sort $path.top.falling -side left -padx {0 6}
+        ttk::frame $path.list
+        set columns {}
+        foreach {key heading of_potentials decimals factor} $residue_columns { lappend columns $key }
+        ttk::treeview $path.list.table -columns $columns -show headings -height 18 -selectmode extended \
+            -yscrollcommand [list $path.list.scroll set]
+        foreach {key heading of_potentials decimals factor} $residue_columns {
+            $path.list.table heading $key -command [list ::espdiff::gui::guard ::espdiff::gui::sort_by $key]
+            $path.list.table column $key -width [expr {$key eq "residue" ? 86 : 76}] \
+                -anchor [expr {$key eq "residue" ? "w" : "e"}]
+        }
+        ttk::scrollbar $path.list.scroll -orient vertical -command [list $path.list.table yview] -takefocus 0
+        grid $path.list.table $path.list.scroll -sticky news
+        grid columnconfigure $path.list 0 -weight 1
+        grid rowconfigure $path.list 0 -weight 1
+        build_residue_buttons $path.buttons
+        ttk::label $path.message -anchor w -wraplength 620 -justify left
+        pack $path.title -fill x -padx 8 -pady {8 0}
+        pack $path.top -fill x -padx 8 -pady 4
+        pack $path.message -side bottom -fill x -padx 8 -pady {0 8}
+        pack $path.buttons -side bottom -fill x -padx 8 -pady 4
+        pack $path.list -fill both -expand 1 -padx 8
+        bind $path.list.table <<TreeviewSelect>> {::espdiff::gui::residue_guard ::espdiff::gui::highlight_chosen}
+        set widget(residues,table) $path.list.table
+        set widget(residues,message) $path.message
+        set widget(residues,title) $path.title
+        foreach name {sort falling} { set widget(residues,$name) $path.top.$name }
+    }
+
+    proc build_residue_buttons {path} {
+        variable widget
+        ttk::frame $path
+        button $path.clear "Clear highlight" ::espdiff::gui::clear_highlight
+        button $path.atoms "Colour atoms" ::espdiff::gui::colour_atoms
+        button $path.export "Export CSV..." ::espdiff::gui::export_residues
+        tip $path.clear "Deselects all rows and takes the highlight out of VMD (Escape)"
+        tip $path.atoms "Carries what the table is sorted by onto the atoms, in VMD's field User, and colours the\
+            molecule's representations by it"
+        tip $path.export "The table as it stands, with every digit"
+        pack $path.export -side right
+        ttk::checkbutton $path.face -text "turn to it" -variable ::espdiff::gui::form(residues,face) \
+            -command {::espdiff::gui::residue_guard ::espdiff::gui::highlight_chosen}
+        tip $path.face "Turns VMD's view so that what is highlighted is in front"
+        if {[in_vmd]} { pack $path.clear $path.face $path.atoms -side left -padx {0 6} }
+        foreach name {clear face atoms export} { set widget(residues,$name) $path.$name }
+    }
+
+    proc residue_message {text {kind note}} {
+        variable widget
+        if {$kind eq "error"} { tell_console $text }
+        if {![info exists widget(residues,message)] || ![winfo exists $widget(residues,message)]} return
+        $widget(residues,message) configure -text $text -foreground [expr {$kind eq "error" ? "#b00020" : "black"}]
+    }
+
+    # As guard, for what happens in this tab.
+    proc residue_guard {args} {
+        if {[catch { uplevel #0 $args } message]} { residue_message $message error }
+    }
+
+    # The residues of the result that is shown, whenever another one is.
+    proc show_residues {} {
+        variable shown
+        variable residues_of
+        variable residue_rows
+        variable chosen_result
+        variable widget
+        if {$residues_of ne $shown} {
+            remove_highlight
+            set residues_of $shown
+            set residue_rows [expr {$shown eq "" ? {} : [espdiff residues $shown]}]
+            fill_residues
+            residue_message [residue_hint]
+        }
+        $widget(residues,title) configure -text [expr {$shown eq "" ? "No comparison yet" : $chosen_result}]
+        set_enabled [expr {$shown ne ""}] $widget(residues,clear) $widget(residues,atoms) $widget(residues,export) \
+            $widget(residues,sort) $widget(residues,falling)
+    }
+
+    proc residue_hint {} {
+        variable shown
+        if {$shown eq ""} { return "Compare two states in the tab Pair; their residues are listed here." }
+        set unit [potential_unit]
+        set text "Means over each residue's share of the surface"
+        if {$unit ne ""} {
+            append text "; potentials in $unit. Diff. is target - source, Sign the share of the area whose sign\
+                changes"
+        }
+        append text "[expr {$unit eq "" ? ";" : ","}] Moved the mean displacement."
+        if {[in_vmd]} { append text " A click on a row highlights the residue in VMD." }
+        return $text
+    }
+
+    proc heading_font {} {
+        set font [ttk::style lookup Heading -font]
+        expr {$font eq "" ? "TkHeadingFont" : $font}
+    }
+
+    # A key's number for sorting; what has none sorts last.
+    proc residue_number {row key} {
+        if {$key eq "residue"} { return [dict get $row index] }
+        return [dict get $row $key]
+    }
+
+    proc sorted_residues {} {
+        variable form
+        variable residue_rows
+        set with {}
+        set without {}
+        foreach row $residue_rows {
+            set value [residue_number $row $form(residues,sort)]
+            if {$value eq ""} { lappend without $row } else { lappend with [list $value $row] }
+        }
+        set order [expr {$form(residues,falling) ? "-decreasing" : "-increasing"}]
+        set rows {}
+        foreach pair [lsort -real $order -index 0 $with] { lappend rows [lindex $pair 1] }
+        return [concat $rows $without]
+    }
+
+    proc residue_name {row} {
+        set name "[dict get $row name][dict get $row number][dict get $row insertion]"
+        if {[dict get $row chain] in {"" X " "}} { return $name }
+        return "[dict get $row chain]:$name"
+    }
+
+    # Rows in order; those that are selected stay selected.
+    proc fill_residues {} {
+        variable form
+        variable widget
+        variable residue_columns
+        variable residue_rows
+        set table $widget(residues,table)
+        set selected [$table selection]
+        $table delete [$table children {}]
+        set_residue_headings
+        foreach row [sorted_residues] {
+            set cells {}
+            foreach {key heading of_potentials decimals factor} $residue_columns {
+                if {$key eq "residue"} { lappend cells [residue_name $row]; continue }
+                set value [dict get $row $key]
+                # Outside of an expression, which would take a number's last zeros away.
+                set text \u2013
+                if {$value ne ""} { set text [format %.*f $decimals [expr {$factor * $value}]] }
+                lappend cells $text
+            }
+            $table insert {} end -id [dict get $row index] -values $cells
+        }
+        set still {}
+        foreach item $selected { if {[$table exists $item]} { lappend still $item } }
+        if {$still ne ""} { $table selection set $still; $table see [lindex $still 0] }
+        # Where the arrow keys begin.
+        $table focus [lindex [concat $still [$table children {}]] 0]
+    }
+
+    # Without potentials the columns of potentials are hidden.
+    proc set_residue_headings {} {
+        variable form
+        variable shown
+        variable widget
+        variable residue_columns
+        set has_potentials [expr {$shown eq "" || [potential_unit] ne ""}]
+        set visible {}
+        set titles {}
+        foreach {key heading of_potentials decimals factor} $residue_columns {
+            if {!$has_potentials && $of_potentials} continue
+            lappend visible $key
+            lappend titles $heading
+        }
+        if {$form(residues,sort) ni $visible} { set form(residues,sort) mean_displacement_A }
+        set table $widget(residues,table)
+        $table configure -displaycolumns $visible
+        foreach key $visible title $titles {
+            if {$key eq $form(residues,sort)} { append title " [expr {$form(residues,falling) ? "\u25be" : "\u25b4"}]" }
+            $table heading $key -text $title
+            set least [expr {$key eq "residue" ? 96 : 66}]
+            $table column $key -width [expr {max($least, 10 + [font measure [heading_font] $title])}]
+        }
+        $widget(residues,sort) configure -values $titles
+        $widget(residues,sort) set [lindex $titles [lsearch -exact $visible $form(residues,sort)]]
+    }
+
+    # A click on a heading: by that, greatest first; once more, the other way round.
+    proc sort_by {key} {
+        variable form
+        set form(residues,falling) [expr {$form(residues,sort) eq $key ? !$form(residues,falling) : $key ne "residue"}]
+        set form(residues,sort) $key
+        fill_residues
+    }
+
+    proc sort_as_chosen {} {
+        variable form
+        variable widget
+        set visible [$widget(residues,table) cget -displaycolumns]
+        set form(residues,sort) [lindex $visible [$widget(residues,sort) current]]
+        fill_residues
+    }
+
+    # The selected rows' residues in VMD, in the place of those before.
+    proc highlight_chosen {} {
+        variable form
+        variable shown
+        variable widget
+        variable highlighted
+        if {![in_vmd] || $shown eq ""} return
+        set chosen [$widget(residues,table) selection]
+        if {$chosen eq ""} {
+            if {$highlighted ne ""} { remove_highlight; residue_message [residue_hint] }
+            return
+        }
+        set words [list $chosen]
+        if {$form(residues,face)} { lappend words -face 1 }
+        set molecules [espdiff highlight $shown {*}$words]
+        set highlighted $shown
+        remember $shown highlight [concat highlight $words]
+        set names {}
+        foreach item $chosen { lappend names [lindex [$widget(residues,table) item $item -values] 0] }
+        if {[llength $names] > 6} { set names [concat [lrange $names 0 5] ...] }
+        residue_message "[join $names {, }] highlighted in [expr {[llength $molecules] == 1 ? "molecule"
+            : "molecules"}] [join $molecules { and }]."
+    }
+
+    proc clear_highlight {} {
+        variable widget
+        $widget(residues,table) selection set {}
+        remove_highlight
+        residue_message [residue_hint]
+    }
+
+    proc remove_highlight {} {
+        variable highlighted
+        set handle $highlighted
+        set highlighted ""
+        if {$handle eq "" || $handle ni [espdiff handles]} return
+        espdiff highlight $handle {}
+        forget $handle highlight
+    }
+
+    # The column that the table is sorted by, on the atoms of the molecule that the surface is drawn on.
+    proc colour_atoms {} { residue_guard ::espdiff::gui::carry_onto_atoms }
+
+    proc carry_onto_atoms {} {
+        variable form
+        variable shown
+        set quantity $form(residues,sort)
+        if {$quantity in {residue area_A2}} { error "sort by what the atoms are to be coloured by" }
+        set words [list -quantity $quantity -mol source]
+        set carried [espdiff atoms $shown {*}$words]
+        remember $shown atoms [concat atoms $words]
+        set mol [dict get $carried mol]
+        for {set rep 0} {$rep < [molinfo $mol get numreps]} {incr rep} { mol modcolor $rep $mol User }
+        residue_message "Molecule $mol is coloured by its field User: $quantity, [with_unit [dict get $carried min]] to\
+            [with_unit [dict get $carried max] [dict get $carried unit]]."
+    }
+
+    proc export_residues {} {
+        variable window
+        variable shown
+        set path [tk_getSaveFile -parent $window -title "Export the table" -initialfile $shown.residues.csv \
+            -defaultextension .csv -filetypes {{"Tables" .csv} {"All files" *}}]
+        if {$path ne ""} { residue_guard ::espdiff::gui::write_residues $path }
+    }
+
+    # In the table's order; written under another name first, so that it is there as a whole or not at all.
+    proc write_residues {path} {
+        variable residue_rows
+        set rows [sorted_residues]
+        set columns [dict keys [lindex $rows 0]]
+        set text "# [side_titles], potentials in [potential_unit]\n[::espdiff::csv_line $columns]\n"
+        foreach row $rows { append text [::espdiff::csv_line [dict values $row]]\n }
+        write_whole_file $path $text
+        residue_message "Written: $path ([llength $rows] residues)"
+    }
+
+    proc side_titles {} {
+        variable shown
+        return "[side_name $shown source] -> [side_name $shown target]"
+    }
+}

@@ -1,0 +1,207 @@
+# trajectory_form.tcl: the tab for a trajectory: which frames are compared with what, their potential, where rows go.
+
+namespace eval ::espdiff::gui {
+    variable form
+    array set form {trajectory,mol "" trajectory,file "" trajectory,sel "not water" trajectory,frames 0:1:
+        trajectory,against "the frame" trajectory,reference 0 trajectory,map none trajectory,unit "as the map says"
+        trajectory,csv trajectory.csv trajectory,resume 0 trajectory,skip 0}
+    variable references {"the frame" "the frame before"}
+    variable automatic_trajectory ""  ;# the molecule that was chosen for the user, who has not chosen since
+
+    proc build_trajectory {path} {
+        ttk::labelframe $path.frames -text Frames -padding 6
+        if {[in_vmd]} { build_frames_of_molecule $path.frames } else { build_frames_of_file $path.frames }
+        build_frame_rows $path.frames
+        build_output_rows $path.frames
+        grid columnconfigure $path.frames 1 -weight 1 -uniform field
+        grid columnconfigure $path.frames 3 -weight 1 -uniform field
+        build_trajectory_bar $path.bar
+        ttk::labelframe $path.plot -text "Along the trajectory" -padding 6
+        build_trajectory_plot $path.plot
+        pack $path.frames $path.bar -fill x -padx 8 -pady {6 0}
+        pack $path.plot -fill both -expand 1 -padx 8 -pady 6
+        update_trajectory
+    }
+
+    proc build_frames_of_molecule {path} {
+        variable widget
+        ttk::combobox $path.mol -textvariable ::espdiff::gui::form(trajectory,mol) -state readonly -width 16 \
+            -postcommand {::espdiff::gui::guard ::espdiff::gui::update_trajectory}
+        bind $path.mol <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::choose_trajectory}
+        form_row $path 0 Molecule $path.mol "A molecule that is loaded in VMD, with its frames"
+        ttk::entry $path.sel -textvariable ::espdiff::gui::form(trajectory,sel) -width 16
+        form_row $path 0 Atoms $path.sel "VMD selection of the atoms that make the surface, such as: protein; chosen\
+            once, in the reference frame" 2
+        grid configure $path.label_sel -padx {16 6}
+        foreach name {mol sel} { set widget(trajectory,$name) $path.$name }
+    }
+
+    proc build_frames_of_file {path} {
+        variable widget
+        variable structure_types
+        ttk::frame $path.choose
+        ttk::entry $path.choose.file -textvariable ::espdiff::gui::form(trajectory,file) -width 16
+        button $path.choose.browse ... [list ::espdiff::gui::browse_trajectory file $structure_types]
+        pack $path.choose.browse -side right -padx {4 0}
+        pack $path.choose.file -fill x -expand 1
+        form_row $path 0 File $path.choose "Structure file (PQR, PDB, mmCIF) whose models are the frames; the first one\
+            is frame 0"
+        tip $path.choose.file "Structure file whose models are the frames; the first one is frame 0"
+        grid configure $path.choose -columnspan 3
+        set widget(trajectory,file) $path.choose.file
+    }
+
+    proc build_frame_rows {path} {
+        variable widget
+        variable references
+        ttk::entry $path.frames -textvariable ::espdiff::gui::form(trajectory,frames) -width 16
+        form_row $path 1 Frames $path.frames "begin:step:end, such as 0:10: for every tenth up to the last one"
+        ttk::frame $path.against
+        ttk::combobox $path.against.what -textvariable ::espdiff::gui::form(trajectory,against) -state readonly \
+            -width 13 -values $references
+        ttk::spinbox $path.against.frame -textvariable ::espdiff::gui::form(trajectory,reference) -width 6 -from 0 \
+            -to 999999 -increment 1
+        bind $path.against.what <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::update_trajectory}
+        pack $path.against.what -side left -fill x -expand 1
+        pack $path.against.frame -side left -padx {4 0}
+        form_row $path 1 Against $path.against "What each frame is compared with: one frame for all, or the frame\
+            before it in the run" 2
+        tip $path.against.what "What each frame is compared with"
+        tip $path.against.frame "Number of the frame that all others are compared with"
+        grid configure $path.label_against -padx {16 6}
+        foreach name {frames against} { set widget(trajectory,$name) $path.$name }
+        set widget(trajectory,against) $path.against.what
+        set widget(trajectory,reference) $path.against.frame
+    }
+
+    proc build_output_rows {path} {
+        variable widget
+        variable units
+        ttk::combobox $path.map -textvariable ::espdiff::gui::form(trajectory,map) -width 16 \
+            -postcommand {::espdiff::gui::guard ::espdiff::gui::update_trajectory}
+        form_row $path 2 Potential $path.map "Of each frame: computed from the charges (particle-mesh Ewald); a map\
+            file for each frame, such as map%03d.dx, where %03d stands for the frame's number; a data set or a file\
+            for all frames; or none to compare the shapes alone"
+        ttk::combobox $path.unit -textvariable ::espdiff::gui::form(trajectory,unit) -values $units -state readonly \
+            -width 16
+        form_row $path 2 Unit $path.unit "Unit of the maps, if they do not say" 2
+        grid configure $path.label_unit -padx {16 6}
+        ttk::frame $path.csv
+        ttk::entry $path.csv.name -textvariable ::espdiff::gui::form(trajectory,csv) -width 16
+        button $path.csv.browse ... ::espdiff::gui::choose_csv
+        pack $path.csv.browse -side right -padx {4 0}
+        pack $path.csv.name -fill x -expand 1
+        form_row $path 3 Results $path.csv "CSV file that gets a row for each frame as soon as it is done"
+        tip $path.csv.name "CSV file that gets a row for each frame as soon as it is done"
+        ttk::frame $path.options
+        ttk::checkbutton $path.options.resume -text "go on with it" -variable ::espdiff::gui::form(trajectory,resume)
+        ttk::checkbutton $path.options.skip -text "skip what fails" -variable ::espdiff::gui::form(trajectory,skip)
+        tip $path.options.resume "Go on where an interrupted run left the file, with the same frames and settings"
+        tip $path.options.skip "A frame that cannot be compared becomes a row with the reason, and the run goes on"
+        pack $path.options.resume $path.options.skip -side left -padx {0 10}
+        grid $path.options -row 3 -column 2 -columnspan 2 -sticky w -padx {16 0}
+        ttk::label $path.note -text "The settings are those of the tab Pair." -foreground gray40
+        grid $path.note -row 4 -column 0 -columnspan 4 -sticky w
+        foreach name {map unit} { set widget(trajectory,$name) $path.$name }
+        set widget(trajectory,csv) $path.csv.name
+        foreach name {resume skip} { set widget(trajectory,$name) $path.options.$name }
+    }
+
+    # VMD's molecules and data sets as they are now.
+    proc update_trajectory {} {
+        variable form
+        variable widget
+        variable computed
+        variable references
+        variable automatic_trajectory
+        set maps [list none $computed]
+        if {[in_vmd]} {
+            set names [molecule_names]
+            $widget(trajectory,mol) configure -values $names
+            # A molecule keeps its number when it is renamed.
+            set chosen [lsearch -inline $names "[number_of $form(trajectory,mol)]: *"]
+            if {$chosen eq "" || $form(trajectory,mol) eq $automatic_trajectory} {
+                set chosen [most_frames $names]
+                set automatic_trajectory $chosen
+            }
+            set form(trajectory,mol) $chosen
+            set mol [number_of $form(trajectory,mol)]
+            if {$mol ne ""} { lappend maps {*}[data_set_names $mol] }
+        }
+        $widget(trajectory,map) configure -values $maps
+        $widget(trajectory,reference) state [expr {$form(trajectory,against) eq [lindex $references 0] ? "!disabled"
+            : "disabled"}]
+        show_trajectory_running
+    }
+
+    proc choose_trajectory {} {
+        variable automatic_trajectory ""
+        update_trajectory
+    }
+
+    # The molecule that looks most like a trajectory.
+    proc most_frames {names} {
+        set best ""
+        set most 0
+        foreach name $names {
+            set n [molinfo [number_of $name] get numframes]
+            if {$n > $most} { set best $name; set most $n }
+        }
+        return $best
+    }
+
+    proc browse_trajectory {field types} {
+        variable window
+        variable form
+        set path [tk_getOpenFile -parent $window -filetypes $types]
+        if {$path ne ""} { set form(trajectory,$field) $path }
+    }
+
+    proc choose_csv {} {
+        variable window
+        variable form
+        set path [tk_getSaveFile -parent $window -title "Rows go to" -initialfile [file tail $form(trajectory,csv)] \
+            -defaultextension .csv -filetypes {{"Tables" .csv} {"All files" *}} -confirmoverwrite 0]
+        if {$path ne ""} { set form(trajectory,csv) $path }
+    }
+
+    # The form as options of `espdiff trajectory`, without where results go.
+    proc trajectory_options {} {
+        variable form
+        variable references
+        if {[in_vmd]} {
+            set mol [number_of $form(trajectory,mol)]
+            if {$mol eq ""} { error "no molecule is chosen; load one with a trajectory into VMD" }
+            set options [list -mol $mol]
+            if {$form(trajectory,sel) ne "not water"} { lappend options -sel $form(trajectory,sel) }
+        } else {
+            set path [string trim $form(trajectory,file)]
+            if {$path eq ""} { error "File: no file is given; type its name or press the button beside it" }
+            set options [list -file $path]
+        }
+        lappend options -frames [string trim $form(trajectory,frames)]
+        if {$form(trajectory,against) eq [lindex $references 0]} {
+            lappend options -reference [list frame [string trim $form(trajectory,reference)]]
+        } else {
+            lappend options -reference previous
+        }
+        set map [trajectory_map]
+        if {$map ne ""} { lappend options -map $map }
+        if {$map ni {"" pme} && $form(trajectory,unit) ne "as the map says"} {
+            lappend options -unit $form(trajectory,unit)
+        }
+        if {$form(trajectory,skip)} { lappend options -on-error skip }
+        return $options
+    }
+
+    # As -map takes it; empty for none.
+    proc trajectory_map {} {
+        variable form
+        variable computed
+        set map [string trim $form(trajectory,map)]
+        if {$map in {none ""}} { return "" }
+        if {$map eq $computed} { return pme }
+        if {[in_vmd] && [number_of $map] ne ""} { return [number_of $map] }
+        return [list [expr {[string first % $map] >= 0 ? "files" : "file"}] $map]
+    }
+}

@@ -1,0 +1,278 @@
+# trajectory_view.tcl: the run along a trajectory, and the plot that grows with it and leads to its frames.
+
+namespace eval ::espdiff::gui {
+    variable trajectory_running ""  ;# handle that is being computed
+    variable trajectory_rows {}     ;# rows on display, dicts by column
+    variable trajectory_run {}      ;# what they were computed with: options, output, settings, as words
+    variable form
+    array set form {trajectory,metric ""}
+
+    # What can be plotted, by column; those without any value are not offered.
+    variable trajectory_metrics {mean_abs_difference rms_difference mean_signed_difference sign_change_area_fraction
+        hodgkin_index rmsd_A mean_displacement_A area_mapped_A2 corrupt_area_fraction no_counterpart_source
+        no_counterpart_target target_to_mapped_max_A}
+
+    proc build_trajectory_bar {path} {
+        variable widget
+        ttk::frame $path
+        button $path.run Run ::espdiff::gui::run_trajectory
+        button $path.cancel Stop ::espdiff::gui::cancel_trajectory
+        ttk::progressbar $path.bar -maximum 1.0 -length 60
+        button $path.script Script... ::espdiff::gui::show_script
+        ttk::label $path.message -anchor w -wraplength 600 -justify left
+        tip $path.run "Compare each frame with the reference (Return)"
+        tip $path.cancel "End the run; its rows stay in the file, and can be gone on with (Escape)"
+        tip $path.script "The Tcl commands that do the same again"
+        grid $path.run $path.cancel $path.bar $path.script -sticky ew -padx {0 6}
+        grid configure $path.script -padx 0
+        grid $path.message -columnspan 4 -sticky ew -pady {4 0}
+        grid columnconfigure $path 2 -weight 1
+        foreach name {run cancel bar script message} { set widget(trajectory,$name) $path.$name }
+    }
+
+    proc build_trajectory_plot {path} {
+        variable widget
+        ttk::frame $path.top
+        ttk::label $path.top.label -text Metric
+        ttk::combobox $path.top.metric -textvariable ::espdiff::gui::form(trajectory,metric) -state readonly -width 30
+        bind $path.top.metric <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::draw_trajectory}
+        button $path.top.open "Open CSV..." ::espdiff::gui::browse_rows
+        button $path.top.save "Save plot..." ::espdiff::gui::save_plot
+        tip $path.top.open "Rows of an earlier run"
+        tip $path.top.save "The plot as PNG or SVG, by gnuplot"
+        pack $path.top.label $path.top.metric -side left -padx {0 6}
+        pack $path.top.save $path.top.open -side right -padx {6 0}
+        canvas $path.plot -width 420 -height 240 -background white -highlightthickness 1 -takefocus 1 \
+            -highlightbackground gray80 -highlightcolor #3060c0
+        ttk::frame $path.point
+        ttk::label $path.point.text -anchor w -width 52 -wraplength 470 -justify left
+        button $path.point.compare "Compare and draw" ::espdiff::gui::compare_frame
+        tip $path.point.compare "Compares the frame of the chosen point anew, with its surface, and draws it\
+            (space bar)"
+        pack $path.point.compare -side right
+        pack $path.point.text -side left -fill x -expand 1
+        pack $path.top -fill x
+        pack $path.point -side bottom -fill x
+        pack $path.plot -fill both -expand 1 -pady 4
+        bind $path.plot <Configure> {::espdiff::gui::guard ::espdiff::gui::draw_trajectory}
+        bind $path.plot <Motion> {::espdiff::gui::guard ::espdiff::gui::tell_point_at %x %y}
+        bind $path.plot <Leave> {::espdiff::gui::guard ::espdiff::gui::tell_chosen_point}
+        bind $path.plot <ButtonPress-1> {::espdiff::gui::guard ::espdiff::gui::choose_point_at %x %y}
+        foreach {key step} {Left -1 Right 1 Home -1000000 End 1000000} {
+            bind $path.plot <$key> [list ::espdiff::gui::guard ::espdiff::gui::move_point $step]
+        }
+        bind $path.plot <space> {::espdiff::gui::press trajectory,compare; break}
+        set widget(trajectory,plot) $path.plot
+        set widget(trajectory,point) $path.point.text
+        set widget(trajectory,compare) $path.point.compare
+        foreach name {metric open save} { set widget(trajectory,$name) $path.top.$name }
+        if {![in_vmd]} { $path.point.compare configure -text Compare }
+    }
+
+    proc trajectory_message {text {kind note}} {
+        variable widget
+        if {$kind eq "error"} { tell_console $text }
+        if {![info exists widget(trajectory,message)] || ![winfo exists $widget(trajectory,message)]} return
+        $widget(trajectory,message) configure -text $text -foreground [expr {$kind eq "error" ? "#b00020" : "black"}]
+    }
+
+    # As guard, for what happens in this tab.
+    proc trajectory_guard {args} {
+        if {[catch { uplevel #0 $args } message]} { trajectory_message $message error }
+    }
+
+    proc run_trajectory {} { trajectory_guard ::espdiff::gui::start_trajectory }
+
+    proc start_trajectory {} {
+        variable form
+        variable trajectory_running
+        variable trajectory_rows
+        variable trajectory_run
+        variable chosen_point
+        if {$trajectory_running ne ""} return
+        set csv [string trim $form(trajectory,csv)]
+        if {$csv eq ""} { error "Results: no name is given" }
+        set output [list -csv $csv]
+        if {$form(trajectory,resume)} {
+            lappend output -resume 1
+        } elseif {[file exists $csv]} {
+            if {![confirm_overwrite $csv]} return
+            lappend output -overwrite 1
+        }
+        set options [trajectory_options]
+        set settings [setting_options]
+        trajectory_message ""
+        set trajectory_running [espdiff trajectory {*}$options {*}$output {*}$settings \
+            -callback ::espdiff::gui::add_row -progress ::espdiff::gui::trajectory_progress \
+            -command ::espdiff::gui::finish_trajectory]
+        save_settings
+        set trajectory_run [dict create options $options output [list -csv [file normalize $csv]] settings $settings]
+        remember_trajectory
+        set trajectory_rows [expr {$form(trajectory,resume) ? [rows_of $csv] : {}}]
+        set chosen_point ""
+        show_trajectory_running
+        draw_trajectory
+    }
+
+    proc remember_trajectory {} {
+        variable trajectory_run
+        set options [dict get $trajectory_run options]
+        remember_molecules trajectory [expr {[dict exists $options -mol] ? [list [list mol [dict get $options -mol]]]
+            : {}}]
+    }
+
+    # Those that a file has already; a run that begins has none.
+    proc rows_of {csv} {
+        if {![file exists $csv] || [file size $csv] == 0} { return {} }
+        return [dict get [::espdiff::plot_csv $csv] rows]
+    }
+
+    # Called by espdiff after each row.
+    proc add_row {frame row} {
+        variable trajectory_rows
+        lappend trajectory_rows $row
+        trajectory_guard ::espdiff::gui::draw_trajectory
+    }
+
+    proc trajectory_progress {stage fraction} {
+        variable widget
+        if {![info exists widget(trajectory,bar)] || ![winfo exists $widget(trajectory,bar)]} return
+        $widget(trajectory,bar) configure -value $fraction
+        if {[regexp {^frame (\d+): (.*)$} $stage -> frame step]} {
+            set stage "Frame $frame: [string tolower [stage_words $step] 0 0]..."
+        }
+        trajectory_message $stage
+    }
+
+    proc cancel_trajectory {} {
+        variable trajectory_running
+        if {$trajectory_running ne ""} { espdiff cancel $trajectory_running }
+    }
+
+    # Called by espdiff at the end, whatever it is.
+    proc finish_trajectory {handle} {
+        variable trajectory_running
+        variable trajectory_rows
+        if {$handle ne $trajectory_running} return
+        set trajectory_running ""
+        if {[catch { espdiff result $handle } result options]} {
+            set cancelled [expr {[lindex [dict get $options -errorcode] 1] eq "CANCELLED"}]
+            if {$cancelled} {
+                set result "Stopped: the file has [llength $trajectory_rows] rows. With \u201cgo on with it\u201d, Run\
+                    computes the rest."
+            }
+            trajectory_message $result [expr {$cancelled ? "note" : "error"}]
+        } else {
+            set bad 0
+            foreach row $trajectory_rows { if {![row_is_good $row]} { incr bad } }
+            set there [expr {[dict get $result resumed] == 0 ? "" : ", [dict get $result resumed] were there already"}]
+            trajectory_message "[dict get $result rows] rows in [format %.1f [dict get $result seconds]] s$there;\
+                [expr {$bad == 0 ? "all" : [llength $trajectory_rows] - $bad}] trustworthy. Written:\
+                [file tail [dict get $result csv]]"
+        }
+        espdiff delete $handle
+        show_trajectory_running
+        trajectory_guard ::espdiff::gui::draw_trajectory
+    }
+
+    proc row_is_good {row} {
+        expr {[dict get $row trustworthy] eq "1" || [dict get $row trustworthy] eq "true"}
+    }
+
+    proc show_trajectory_running {} {
+        variable widget
+        variable trajectory_running
+        variable trajectory_rows
+        variable trajectory_run
+        variable chosen_point
+        variable form
+        if {![info exists widget(trajectory,compare)] || ![winfo exists $widget(trajectory,compare)]} return
+        set idle [expr {$trajectory_running eq ""}]
+        set has_rows [expr {[llength $trajectory_rows] > 0}]
+        set_enabled [expr {$idle && (![in_vmd] || $form(trajectory,mol) ne "")}] $widget(trajectory,run)
+        set_enabled $idle $widget(trajectory,open)
+        set_enabled [expr {!$idle}] $widget(trajectory,cancel)
+        set_enabled $has_rows $widget(trajectory,metric)
+        set_enabled [expr {$idle && $has_rows}] $widget(trajectory,save)
+        set_enabled [expr {$trajectory_run ne ""}] $widget(trajectory,script)
+        set_enabled [expr {$chosen_point ne ""}] $widget(trajectory,compare)
+        if {$idle} { $widget(trajectory,bar) configure -value 0 }
+    }
+
+    proc browse_rows {} {
+        variable window
+        set path [tk_getOpenFile -parent $window -filetypes {{"Tables" .csv} {"All files" *}}]
+        if {$path ne ""} { trajectory_guard ::espdiff::gui::open_rows $path }
+    }
+
+    # Rows of an earlier run belong to what the form says now: the file names no molecule of VMD.
+    proc open_rows {path} {
+        variable form
+        variable trajectory_rows
+        variable trajectory_run
+        variable chosen_point
+        set rows [rows_of $path]
+        if {[llength $rows] == 0} { error "'$path' has no rows" }
+        set form(trajectory,csv) $path
+        set trajectory_rows $rows
+        set trajectory_run [dict create options [trajectory_options] output [list -csv [file normalize $path]] \
+            settings [setting_options]]
+        remember_trajectory
+        set chosen_point ""
+        trajectory_message "[llength $rows] rows of [file tail $path]"
+        show_trajectory_running
+        draw_trajectory
+    }
+
+    proc save_plot {} {
+        variable window
+        variable form
+        set path [tk_getSaveFile -parent $window -title "Save the plot" -defaultextension .svg \
+            -initialfile [file rootname [file tail $form(trajectory,csv)]].svg \
+            -filetypes {{"Scalable picture" .svg} {"Picture" .png}}]
+        if {$path ne ""} { trajectory_guard ::espdiff::gui::save_plot_as $path }
+    }
+
+    proc save_plot_as {path} {
+        variable trajectory_run
+        set metric [lindex [chosen_trajectory_metric] 0]
+        espdiff plot [dict get $trajectory_run output -csv] -metrics [list $metric] -file $path
+        dict set trajectory_run plot [list -metrics [list $metric] -file $path]
+        trajectory_message "Written: $path"
+    }
+
+    # Column, title, unit, factor of what is chosen; the first one that has values where nothing is.
+    proc chosen_trajectory_metric {} {
+        variable form
+        variable widget
+        variable trajectory_rows
+        variable trajectory_metrics
+        set unit ""
+        foreach row $trajectory_rows {
+            if {[dict get $row potential_unit] ne ""} { set unit [dict get $row potential_unit] }
+        }
+        set offered {}
+        foreach column $trajectory_metrics {
+            foreach row $trajectory_rows {
+                if {[::espdiff::is_number [dict get $row $column]]} {
+                    lappend offered [concat $column [::espdiff::plot_quantity $column $unit]]
+                    break
+                }
+            }
+        }
+        set titles {}
+        foreach metric $offered { lappend titles [lindex $metric 1] }
+        $widget(trajectory,metric) configure -values $titles
+        if {$titles eq ""} { return {} }
+        if {$form(trajectory,metric) ni $titles} { set form(trajectory,metric) [lindex $titles 0] }
+        return [lindex $offered [lsearch -exact $titles $form(trajectory,metric)]]
+    }
+
+    # The tab's window goes: so does what is computed for it. Its rows stay in the file.
+    proc abandon_trajectory {} {
+        variable trajectory_running
+        set handle $trajectory_running
+        set trajectory_running ""
+        if {$handle ne "" && $handle in [espdiff handles]} { espdiff delete $handle }
+    }
+}

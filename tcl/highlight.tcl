@@ -1,0 +1,112 @@
+# highlight.tcl: residues of a result shown in VMD by representations of ours, which go again.
+
+namespace eval ::espdiff {
+    variable highlights [dict create]  ;# by handle: {molecule name} of each representation
+
+    proc highlight {options handle residues} {
+        require_vmd "espdiff highlight" "outside of it `espdiff residues` has the numbers"
+        require_core_handle $handle
+        set keys [residue_keys $handle $residues]
+        set atoms [dict create]
+        foreach mol [highlighted_molecules $handle [dict get $options mol]] {
+            dict set atoms $mol [atoms_of_residues $mol $keys]
+        }
+        set found {}
+        dict for {mol indices} $atoms { if {[llength $indices] > 0} { lappend found $mol } }
+        if {[llength $residues] > 0 && [llength $found] == 0} {
+            fail "espdiff highlight: no molecule has a residue of that chain and number ([join [dict keys $keys] {, }])"
+        }
+        forget_highlight $handle
+        variable highlights
+        foreach mol $found {
+            dict lappend highlights $handle [list $mol [add_highlight $mol [dict get $atoms $mol] $options]]
+        }
+        # Of the target's molecule, on which surfaces are drawn.
+        if {[dict get $options face] && $found ne ""} {
+            face_atoms [lindex $found end] [dict get $atoms [lindex $found end]]
+        }
+        return $found
+    }
+
+    # Turns the view by the shortest way until the atoms are in front of their molecule's middle; all molecules alike.
+    proc face_atoms {mol indices} {
+        foreach {name text} [list middle all place "index [join $indices]"] {
+            set selection [atomselect $mol $text]
+            finally { set $name [measure center $selection] } { $selection delete }
+        }
+        set away [vecsub $place $middle]
+        if {[veclength $away] < 1e-6} return
+        lassign [vecnorm [vectrans [lindex [molinfo $mol get rotate_matrix] 0] $away]] x y z
+        set axis [expr {hypot($x, $y) < 1e-6 ? "1 0 0" : "$y [expr {-$x}] 0"}]
+        set turn [transabout $axis [expr {acos(max(-1.0, min(1.0, $z)))}] rad]
+        foreach other [molinfo list] {
+            if {[molinfo $other get fixed]} continue
+            molinfo $other set rotate_matrix [list [transmult $turn [lindex [molinfo $other get rotate_matrix] 0]]]
+        }
+    }
+
+    # Names of residues by their `index`, as atoms.tcl finds atoms by.
+    proc residue_keys {handle residues} {
+        set keys [dict create]
+        set known [dict create]
+        foreach residue [core::residues $handle] { dict set known [dict get $residue index] $residue }
+        foreach index $residues {
+            if {![dict exists $known $index]} {
+                fail "espdiff highlight: '$index' is not the `index` of a residue of $handle, as `espdiff\
+                    residues` has it"
+            }
+            set residue [dict get $known $index]
+            dict set keys [residue_key [dict get $residue chain] "" [dict get $residue number] \
+                [dict get $residue insertion]] 1
+        }
+        return $keys
+    }
+
+    proc highlighted_molecules {handle where} {
+        if {$where ni {both source target}} { return [list [vmd_molecule_id $where -mol]] }
+        set molecules {}
+        foreach side {source target} {
+            set mol [molecule_of $handle $side]
+            if {$where in [list both $side] && $mol ne "" && $mol ni $molecules} { lappend molecules $mol }
+        }
+        if {[llength $molecules] == 0} {
+            fail "-mol: $handle came from files, or its molecules are deleted; name a molecule's id"
+        }
+        return $molecules
+    }
+
+    proc atoms_of_residues {mol keys} {
+        if {[dict size $keys] == 0} { return {} }
+        set all [atomselect $mol all]
+        finally {
+            set indices {}
+            foreach atom [$all get {chain segname resid insertion}] index [$all list] {
+                if {[dict exists $keys [residue_key {*}$atom]]} { lappend indices $index }
+            }
+        } { $all delete }
+        return $indices
+    }
+
+    # VMD's name of the new representation, which stays when others are deleted.
+    proc add_highlight {mol indices options} {
+        mol addrep $mol
+        set rep [expr {[molinfo $mol get numreps] - 1}]
+        mol modselect $rep $mol "index [join $indices]"
+        mol modstyle $rep $mol {*}[dict get $options style]
+        mol modcolor $rep $mol {*}[dict get $options color]
+        mol modmaterial $rep $mol Opaque
+        return [mol repname $mol $rep]
+    }
+
+    # The user may have deleted some meanwhile, or their molecules.
+    proc forget_highlight {handle} {
+        variable highlights
+        foreach place [value_or $highlights $handle {}] {
+            lassign $place mol name
+            if {$mol ni [molinfo list]} continue
+            set rep [mol repindex $mol $name]
+            if {$rep >= 0} { mol delrep $rep $mol }
+        }
+        dict unset highlights $handle
+    }
+}

@@ -1,0 +1,244 @@
+# linked_view.tcl: source, target and difference side by side in VMD's window, turned, moved and zoomed by one mouse.
+
+# VMD has one scene, in which each molecule has matrices of its own: a point is centred, turned and scaled, and at last
+# translated by the global matrix. The mouse turns all molecules, each about its own centre, and so those in three
+# panels that differ by the global matrix stay alike. The source is turned into the target's frame first.
+namespace eval ::espdiff {
+    # While there is a linked view: handle, panels (by source, target, difference: molecules), saved (what the user
+    # had), rotation and centre (of the source, of the target), scale (VMD's own for the surface).
+    variable linked {}
+
+    # Middle of each panel, in units of half the window's width, and its title.
+    variable panels {source {-0.6667 Source} target {0.0 Target} difference {0.6667 Difference}}
+    variable panel_fill 0.72  ;# a surface that VMD would let fill a window fills so much of a panel: it may be turned
+
+    # In the place of the handle's and of any other linked drawing.
+    proc draw_linked {options handle} {
+        variable linked
+        if {[dict get [core::status $handle] kind] eq "surface"} {
+            fail "-view linked: $handle is a surface, which is drawn alone; give a comparison"
+        }
+        set plans [panel_plans $options $handle]
+        end_linked_view
+        forget_drawing $handle
+        set saved [saved_scene]
+        set made [dict create]
+        set code [catch { keep_view { draw_panels $handle $plans made } } message error]
+        if {$code} {
+            keep_view { delete_molecules [concat {*}[dict values $made]] }
+            return -options $error $message
+        }
+        set linked [dict merge [dict create handle $handle saved $saved panels [panel_members $handle $made]] \
+            [panel_frames $handle [lindex [dict get $made target] 0]]]
+        display projection Orthographic  ;# else the outer panels would be seen from the side
+        hide_others [concat {*}[dict values $made] {*}[dict values [dict get $linked panels]]]
+        place_panels
+        place_legends
+        set molecules [concat {*}[dict values $made]]
+        remember_drawing $handle $molecules
+        return $molecules
+    }
+
+    # drawing_plan's for each panel. Both potentials have the same range.
+    proc panel_plans {options handle} {
+        set quantity [drawn_quantity $handle [dict get $options color] 0]
+        set has_potentials [expr {![catch { core::range $handle source }]}]
+        set range [dict get $options potential-range]
+        if {$has_potentials && $range eq "auto"} { set range [common_range $handle] }
+        set plans [dict create]
+        foreach {panel surface} {source source target mapped} {
+            set own [dict create color [expr {$has_potentials ? $panel : "none"}] surface $surface range $range \
+                transparency none legend 0]
+            dict set plans $panel [drawing_plan [dict merge $options $own] $handle]
+        }
+        dict set plans difference [drawing_plan [dict merge $options {surface mapped}] $handle]
+        return $plans
+    }
+
+    # The wider of the two, symmetric about 0.
+    proc common_range {handle} {
+        set high 0
+        foreach side {source target} {
+            set high [expr {max($high, [dict get [drawn_range $handle $side auto] high])}]
+        }
+        return [list [expr {-$high}] $high]
+    }
+
+    # Adds to the caller's dict, by panel and by `fixed`, which are titles and legends.
+    proc draw_panels {handle plans made_name} {
+        upvar 1 $made_name made
+        variable panels
+        dict for {panel plan} $plans {
+            set molecules {}
+            with_color_scale [dict get $plan colors] {
+                draw_levels $handle $plan molecules
+                dict set made $panel $molecules
+                foreach mol $molecules { build_list $mol }
+            }
+        }
+        set titles [dict create]
+        dict for {panel place} $panels {
+            set title [expr {$panel eq "difference" ? [dict get $plans difference color] : [lindex $place 1]}]
+            dict set titles $panel [panel_title $handle $panel $title]
+        }
+        set size [panel_title_size [dict values $titles]]
+        dict for {panel title} $titles {
+            dict lappend made fixed [draw_panel_title $handle [lindex [dict get $panels $panel] 0] $title $size]
+        }
+        dict set plans target title Potential  ;# of both
+        if {[dict get $plans difference color] eq "difference"} { dict set plans difference title "Target - source" }
+        foreach {panel middle room} {target -0.3333 0.6 difference 0.6667 0.3} {
+            set plan [dict get $plans $panel]
+            if {[dict get $plan color] eq "none" || ![dict get $plans difference legend]} continue
+            with_color_scale [dict get $plan colors] {
+                dict lappend made fixed [set mol [draw_legend $plan $middle $room]]
+                build_list $mol
+            }
+        }
+    }
+
+    # "Source: scTIM_chainA", or what the third panel shows.
+    proc panel_title {handle panel title} {
+        if {$panel eq "difference"} { return [string totitle [string map {_ " "} $title]] }
+        foreach input [dict get [core::result $handle] inputs] {
+            if {[dict get $input role] ne $panel} continue
+            set name [dict get $input path]
+            set frame ""
+            regexp {^mol \d+ "(.*)" frame (\d+)} $name -> name frame
+            append title ": [file rootname [file tail $name]]"
+            if {$frame ni {"" 0}} { append title ", frame $frame" }
+        }
+        return $title
+    }
+
+    # What is in each panel: our surfaces, and the molecules that the comparison came from. A molecule that both came
+    # from shows the target.
+    proc panel_members {handle made} {
+        set members [dict create]
+        foreach panel {source target difference} { dict set members $panel [dict get $made $panel] }
+        set target [molecule_of $handle target]
+        set source [molecule_of $handle source]
+        if {$target ne ""} { dict lappend members target $target }
+        if {$source ne "" && $source ne $target} { dict lappend members source $source }
+        return $members
+    }
+
+    # Where the surface's middle is on both sides, how the source is turned into the target's frame, and the scale that
+    # VMD takes for the surface.
+    proc panel_frames {handle surface} {
+        variable matrices
+        set view [saved_view]
+        mol top $surface
+        display resetview
+        set centre [matrix_translation [lindex [molinfo $surface get center_matrix] 0]]
+        set scale [lindex [molinfo $surface get scale_matrix] 0 0 0]
+        restore_view $view
+        set superposition [dict get [core::result $handle] superposition]
+        set rotation [dict get $superposition rotation_row_major]
+        set shift [dict get $superposition translation_A]
+        # The target's middle is -centre; what lies there on the source: R^-1 (x - t).
+        set on_source {}
+        foreach column {0 1 2} {
+            set sum 0
+            foreach row {0 1 2} {
+                set sum [expr {$sum + [lindex $rotation [expr {3 * $row + $column}]]
+                    * (-[lindex $centre $row] - [lindex $shift $row])}]
+            }
+            lappend on_source [expr {-$sum}]
+        }
+        return [dict create rotation $rotation centre [dict create target $centre difference $centre \
+            source $on_source] scale $scale]
+    }
+
+    proc matrix_translation {matrix} { list [lindex $matrix 0 3] [lindex $matrix 1 3] [lindex $matrix 2 3] }
+
+    proc translation_matrix {vector} {
+        lassign $vector x y z
+        list [list 1 0 0 $x] [list 0 1 0 $y] [list 0 0 1 $z] {0 0 0 1}
+    }
+
+    proc rotation_product {matrix rotation} {
+        set product {}
+        foreach row {0 1 2} {
+            set entries {}
+            foreach column {0 1 2} {
+                set sum 0
+                foreach k {0 1 2} {
+                    set sum [expr {$sum + [lindex $matrix $row $k] * [lindex $rotation [expr {3 * $k + $column}]]}]
+                }
+                lappend entries $sum
+            }
+            lappend product [concat $entries 0]
+        }
+        return [concat $product {{0 0 0 1}}]
+    }
+
+    # Each panel's molecules to their place, all turned alike; as the target is turned now.
+    proc place_panels {} {
+        variable linked
+        variable panels
+        variable panel_fill
+        if {$linked eq ""} return
+        lassign [scene_unit] unit aspect
+        set turned [lindex [molinfo [lindex [dict get $linked panels target] 0] get rotate_matrix] 0]
+        # VMD's own scale lets a molecule fill 1.5 of its units.
+        set room [expr {$panel_fill * $unit * min(2 * $aspect / 3, 1.5)}]
+        set scale [expr {[dict get $linked scale] * $room / 1.5}]
+        dict for {panel members} [dict get $linked panels] {
+            set rotation $turned
+            if {$panel eq "source"} { set rotation [rotation_product $turned [dict get $linked rotation]] }
+            set x [expr {[lindex [dict get $panels $panel] 0] * $aspect * $unit}]
+            foreach mol $members {
+                if {$mol ni [molinfo list]} continue
+                molinfo $mol set center_matrix [list [translation_matrix [dict get $linked centre $panel]]]
+                molinfo $mol set rotate_matrix [list $rotation]
+                molinfo $mol set scale_matrix [list [list [list $scale 0 0 0] [list 0 $scale 0 0] \
+                    [list 0 0 $scale 0] {0 0 0 1}]]
+                molinfo $mol set global_matrix [list [translation_matrix [list $x [expr {0.03 * $unit}] 0]]]
+            }
+        }
+    }
+
+    # Half the window's height where molecules are, in VMD's units, and the window's width by its height.
+    proc scene_unit {} {
+        list [expr {[display get height] / 4.0}] [lindex [legend_screen] 2]
+    }
+
+    # What is put back at the end: matrices, who is displayed, projection.
+    proc saved_scene {} { dict create view [saved_view] projection [display get projection] }
+
+    proc hide_others {members} {
+        foreach mol [molinfo list] { if {$mol ni $members && [molinfo $mol get displayed]} { mol off $mol } }
+        foreach mol $members { mol on $mol }
+    }
+
+    # Takes the linked view away, whosever it is; the molecules stay turned as they are.
+    proc end_linked_view {} {
+        variable linked
+        if {$linked ne ""} { forget_drawing [dict get $linked handle] }
+    }
+
+    # Called when the drawing's molecules are about to be deleted: what has to be put back is returned for
+    # restore_scene, which is called when they are gone.
+    proc leave_linked_view {handle} {
+        variable linked
+        if {$linked eq "" || [dict get $linked handle] ne $handle} { return {} }
+        set saved [dict get $linked saved]
+        set target [lindex [dict get $linked panels target] 0]
+        if {$target in [molinfo list]} { dict set saved turned [molinfo $target get rotate_matrix] }
+        set linked {}
+        return $saved
+    }
+
+    proc restore_scene {saved} {
+        if {$saved eq ""} return
+        if {[display get projection] eq "Orthographic"} { display projection [dict get $saved projection] }
+        restore_view [dict get $saved view]
+        if {![dict exists $saved turned]} return
+        dict for {mol state} [dict get $saved view molecules] {
+            if {$mol in [molinfo list] && ![molinfo $mol get fixed]} {
+                molinfo $mol set rotate_matrix [dict get $saved turned]
+            }
+        }
+    }
+}

@@ -1,0 +1,34 @@
+# plot_file.tcl: the plots of plot.tcl as pictures for publications, drawn by gnuplot as the command line draws them.
+
+namespace eval ::espdiff {
+    # `table` is plot_table's. Points without a value leave a gap.
+    proc plot_into_file {table options} {
+        plot_series $table $options  ;# refuses what cannot be drawn, as for VMD's windows
+        set plot [dict create title [dict get $options title] normalize [dict get $options normalize]]
+        if {[dict get $table names] eq ""} {
+            dict set plot x [dict get $table x]
+            dict set plot x_title [dict get $table x_title]
+        } else {
+            dict set plot labels [dict get $table names]
+            dict set plot x_title Target
+            if {[dict get $options title] eq ""} { dict set plot title [dict get $table title] }
+        }
+        foreach row [dict get $table rows] {
+            dict lappend plot trustworthy [expr {[value_or $row trustworthy 1] ne "0"}]
+        }
+        foreach column [plot_metrics $table $options] { dict lappend plot series [plot_line $table $column] }
+        return [core::plot_lines [file normalize [dict get $options file]] $plot]
+    }
+
+    # The core's series of a column; units as they are printed.
+    proc plot_line {table column} {
+        lassign [plot_quantity $column [dict get $table unit]] title unit factor
+        set values {}
+        foreach row [dict get $table rows] {
+            set value [dict get $row $column]
+            lappend values [expr {[is_number $value] ? $factor * $value : ""}]
+        }
+        if {[string match {A*} $unit]} { set unit [string map [list A \u00c5 ^2 \u00b2] $unit] }
+        return [dict create title $title unit $unit values $values]
+    }
+}

@@ -1,0 +1,262 @@
+# window.tcl: a user's way through the window in a real VMD, by its widgets: pair, drawings, residues, trajectory, matrix, ends.
+source [file join $env(ESPDIFF_TESTS) support.tcl]
+package require espdiff
+
+proc widget {name} { return $::espdiff::gui::widget($name) }
+proc form {args} { array set ::espdiff::gui::form $args }
+proc press {name} { update; [widget $name] invoke; update }
+proc pause {ms} { after $ms {set ::tick 1}; vwait ::tick }
+proc wait_until {condition} {
+    set end [expr {[clock seconds] + 60}]
+    while {![uplevel #0 [list expr $condition]]} {
+        if {[clock seconds] > $end} { error "'$condition' did not come true" }
+        pause 30
+    }
+}
+proc message_line {} { string trim [[widget message] get 1.0 end] }
+proc tab {name} { ::espdiff::gui::show_tab $name; update }
+
+# Callbacks whose errors nobody would see.
+set background {}
+proc background_error {message options} { lappend ::background $message }
+interp bgerror {} background_error
+
+foreach {name side} {scTIM_chainA source dTIM_chainA target} {
+    set $side [mol new [input pair_tim_maps/$name.pqr] type pqr waitfor all]
+    mol addfile [input pair_tim_maps/${name}_pot-PE0.dx] type dx waitfor all [set $side]
+}
+set window [espdiff gui]
+array set ::espdiff::gui::setting {grid-spacing 2}
+update
+
+test "fits a screen of 1280 x 800 in each tab" {
+    foreach name {pair residues trajectory matrix} {
+        tab $name
+        check "$name: width" {[winfo reqwidth $window] <= 720}
+        check "$name: height" {[winfo reqheight $window] <= 760}
+    }
+}
+
+test "TIM: molecules and maps are chosen already; compared" {
+    tab pair
+    check "source" {[string match "$source: *" $::espdiff::gui::form(source,mol)]}
+    check "target's map" {[string match "0: dTIM*" $::espdiff::gui::form(target,map)]}
+    press compare
+    wait_until {$::espdiff::gui::running eq ""}
+    set comparison $::espdiff::gui::shown
+    check_equal trustworthy [[widget verdict_title] cget -text] \
+        [expr {[espdiff result $comparison certificate trustworthy] ? "Trustworthy" : "Not trustworthy"}]
+    check "a difference" {[espdiff result $comparison mean_abs_difference] > 0.5}
+}
+
+test "drawn, side by side, and undrawn" {
+    set before [molinfo num]
+    press draw
+    check "drawn" {[molinfo num] > $before}
+    form draw,view linked
+    press draw
+    check_equal projection [display get projection] Orthographic
+    ::espdiff::gui::save_picture_as $scratch/linked.tga
+    check "a picture" {[file size $scratch/linked.tga] > 10000}
+    set script [::espdiff::gui::session_text]
+    press undraw
+    check_equal projection [display get projection] Perspective
+    # The script does the same again, on the molecules that are there.
+    uplevel #0 [string map {"set comparison" "set repeated" {$comparison} {$repeated}} $script]
+    check_equal "drawn by the script" [display get projection] Orthographic
+    check_equal "its number" [espdiff result $repeated rms_difference] [espdiff result $comparison rms_difference]
+    espdiff delete $repeated
+    check_equal molecules [molinfo num] $before
+    form draw,view single
+}
+
+test "a residue is highlighted in VMD, and not any more" {
+    tab residues
+    set table [widget residues,table]
+    set first [lindex [$table children {}] 0]
+    set values {}
+    foreach item [$table children {}] { lappend values [$table set $item mean_abs_difference] }
+    set numbers [lsearch -all -inline -not -exact $values \u2013]
+    check "sorted" {$numbers eq [lsort -real -decreasing $numbers]}
+    $table selection set $first
+    update
+    check_equal source [molinfo $source get numreps] 2
+    regexp {(\d+)} [$table set $first residue] -> number
+    set chosen [atomselect $source [lindex [molinfo $source get "{selection 1}"] 0]]
+    check_equal residue [lsort -unique [$chosen get resid]] $number
+    $chosen delete
+    focus -force $table
+    $table focus $first  ;# as a click does
+    update
+    event generate $table <Down>
+    update
+    check_equal "another one" [molinfo $source get numreps] 2
+    check "moved on" {[$table selection] ne $first}
+    press residues,clear
+    check_equal "cleared" [list [molinfo $source get numreps] [molinfo $target get numreps]] {1 1}
+    $table selection set $first
+    update
+}
+
+test "its numbers on the atoms" {
+    press residues,atoms
+    set all [atomselect $source all]
+    set most [lindex [lsort -real [$all get user]] end]
+    $all delete
+    check_close "the greatest" $most [lindex $numbers 0] 0.01
+}
+
+test "AdK's trajectory: rows come, and the plot with them" {
+    set adk [mol new [input traj_adk/adk.psf] type psf waitfor all]
+    mol addfile [input traj_adk/adk_dims.dcd] type dcd waitfor all $adk
+    update
+    pause 100
+    tab trajectory
+    check "the trajectory is chosen" {[string match "$adk: adk*" $::espdiff::gui::form(trajectory,mol)]}
+    form trajectory,sel protein trajectory,frames 0:30: trajectory,map $::espdiff::gui::computed \
+        trajectory,csv $scratch/adk.csv
+    press trajectory,run
+    wait_until {[llength $::espdiff::gui::trajectory_rows] == 2}
+    check_equal "points while it runs" [llength [[widget trajectory,plot] find withtag good||bad]] 2
+    wait_until {$::espdiff::gui::trajectory_running eq ""}
+    check "message" {[string match "4 rows in * s; * trustworthy*" [[widget trajectory,message] cget -text]]}
+    set texts {}
+    foreach item [[widget trajectory,plot] find all] {
+        if {[[widget trajectory,plot] type $item] eq "text"} { lappend texts [[widget trajectory,plot] itemcget $item -text] }
+    }
+    check "title and unit" {"Mean absolute difference (kT/e)" in $texts}
+}
+
+test "a click on a point goes to its frame; keys too; VMD's frame is marked" {
+    lassign [lindex [dict get $::espdiff::gui::plot_frame points] 2] row x y
+    event generate [widget trajectory,plot] <ButtonPress-1> -x [expr {int($x)}] -y [expr {int($y)}]
+    check_equal frame [molinfo $adk get frame] 60
+    focus -force [widget trajectory,plot]
+    update
+    event generate [widget trajectory,plot] <Left>
+    check_equal frame [molinfo $adk get frame] 30
+    set at [lindex [[widget trajectory,plot] coords now] 0]
+    animate goto 90
+    update
+    check "the mark follows" {[lindex [[widget trajectory,plot] coords now] 0] > $at + 50}
+}
+
+test "that frame compared and drawn" {
+    set before [molinfo num]
+    press trajectory,compare
+    wait_until {$::espdiff::gui::running eq ""}
+    check_equal tab [::espdiff::gui::open_tab] pair
+    check_equal "the row's number" [espdiff result $::espdiff::gui::shown mean_abs_difference] \
+        [dict get [lindex $::espdiff::gui::trajectory_rows 1] mean_abs_difference]
+    check_equal "the target's frame" [molinfo $adk get frame] 30
+    check "drawn" {[molinfo num] > $before}
+    check_equal "the first one's highlight is gone" [molinfo $source get numreps] 1
+}
+
+test "the plot as a picture, beside a trajectory in memory" {
+    tab trajectory
+    ::espdiff::gui::save_plot_as $scratch/adk.svg
+    set channel [open $scratch/adk.svg]
+    set svg [read $channel]
+    close $channel
+    foreach text {"Mean absolute difference" kT/e Frame} { check $text {[string first $text $svg] > 0} }
+}
+
+test "a run that is cancelled keeps its rows, and is gone on with" {
+    form trajectory,csv $scratch/again.csv trajectory,frames 0:10:
+    press trajectory,run
+    wait_until {[llength $::espdiff::gui::trajectory_rows] == 1}
+    event generate $window <Escape>
+    wait_until {$::espdiff::gui::trajectory_running eq ""}
+    check "stopped" {[string match "Stopped: the file has 1 rows*" [[widget trajectory,message] cget -text]]}
+    form trajectory,resume 1 trajectory,frames 0:10:
+    press trajectory,run
+    wait_until {[llength $::espdiff::gui::trajectory_rows] == 2}
+    press trajectory,cancel
+    wait_until {$::espdiff::gui::trajectory_running eq ""}
+    form trajectory,resume 0
+    check_equal frames [dict get [lindex $::espdiff::gui::trajectory_rows 1] frame] 10
+}
+
+test "a small matrix, and a cell of it" {
+    tab matrix
+    form matrix,mol $::espdiff::gui::form(trajectory,mol) matrix,frames 0:45:90 matrix,sel protein \
+        matrix,output $scratch/m matrix,potential $::espdiff::gui::computed
+    press matrix,add
+    press matrix,compute
+    wait_until {$::espdiff::gui::matrix_running eq ""}
+    check "done" {[string match "6 pairs in *" [[widget matrix,message] cget -text]]}
+    dict with ::espdiff::gui::heat { set at [list [expr {int($left + 2.5 * $cell)}] [expr {int($top + 0.5 * $cell)}]] }
+    event generate [widget matrix,map] <ButtonPress-1> -x [lindex $at 0] -y [lindex $at 1]
+    wait_until {$::espdiff::gui::running eq ""}
+    check_equal "the cell's number" [espdiff result $::espdiff::gui::shown mean_abs_difference] \
+        [lindex [dict get $::espdiff::gui::matrix_result metrics mean_abs_difference values] 0 2]
+}
+
+test "a comparison that is cancelled is gone" {
+    array set ::espdiff::gui::setting {grid-spacing 0.4}
+    tab pair
+    set handles [espdiff handles]
+    press compare
+    pause 300
+    event generate $window <Escape>
+    wait_until {$::espdiff::gui::running eq ""}
+    check_equal message [message_line] Cancelled.
+    check_equal handles [espdiff handles] $handles
+}
+
+test "the script has all of it" {
+    set script [::espdiff::gui::session_text]
+    check "complete" {[info complete $script]}
+    foreach words {"espdiff compare" "espdiff trajectory" "espdiff matrix" "mol addfile"} {
+        check $words {[string first $words $script] > 0}
+    }
+}
+
+test "closing the window during a run: nothing stays but results and settings" {
+    tab residues
+    [widget residues,table] selection set [lindex [[widget residues,table] children {}] 0]
+    update
+    check_equal highlighted [molinfo $adk get numreps] 2
+    tab trajectory
+    form trajectory,csv $scratch/last.csv
+    press trajectory,run
+    tab pair
+    press compare
+    pause 200
+    set handles [list $::espdiff::gui::running $::espdiff::gui::trajectory_running]
+    check "both run" {"" ni $handles}
+    rename tk_messageBox tk_box
+    proc tk_messageBox {args} { return yes }
+    ::espdiff::gui::close_window
+    rename tk_messageBox ""
+    rename tk_box tk_messageBox
+    pause 200
+    check "gone" {![winfo exists $window]}
+    foreach handle $handles { check "$handle is gone" {$handle ni [espdiff handles]} }
+    check_equal "no highlight" [molinfo $adk get numreps] 1
+    foreach {name _} {::vmd_frame . ::vmd_quit . ::vmd_molecule .} {
+        check "no trace on $name" {![string match *gui* [trace info variable $name]]}
+    }
+    animate goto 0
+}
+
+test "opened again, in its home the settings" {
+    set file [file join $env(HOME) .config espdiff window]
+    check "kept" {[file exists $file]}
+    espdiff gui
+    update
+    check_equal frames $::espdiff::gui::form(trajectory,frames) 0:10:
+    form trajectory,frames 5:5:
+    set ::vmd_quit 1  ;# as VMD does before it ends
+    set channel [open $file]
+    check "kept when VMD is left" {[string match "*form trajectory,frames 5:5:\n*" [read $channel]]}
+    close $channel
+    destroy $window
+    update
+}
+
+test "no callback failed" { check_equal errors $background {} }
+
+espdiff delete all
+finish
