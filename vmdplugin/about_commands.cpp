@@ -125,7 +125,7 @@ Tcl_Obj* colours(const Call& call) {
   std::vector<std::string> all;
   for (int i = 0; i < n; ++i) {
     const double t = static_cast<double>(i) / (n - 1);
-    const Rgb c = kind == "diverging" ? diverging_colour(1 - t) : sequential_colour(t);
+    const Rgb c = kind == "diverging" ? diverging_colour(t, kRedBlue) : sequential_colour(t);
     char text[8];
     std::snprintf(text, sizeof text, "#%02x%02x%02x", c.red, c.green, c.blue);
     all.emplace_back(text);

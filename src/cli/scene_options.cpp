@@ -58,9 +58,9 @@ void add_colour_options(CLI::App& p, SceneArguments& a) {
       ->type_name("NUMBER");
   add<Number>(p, a, "--percentile", "Share of the values that an automatic scale holds, 50 to 100 [98]",
               [](Scene& s, Number v) { s.range.percentile = v; });
-  add<Text>(p, a, "--colours,--colors", "Signed values' colours [cool-warm]", [](Scene& s, const Text& t) {
+  add<Text>(p, a, "--colours,--colors", "Signed values' colours [red-blue]", [](Scene& s, const Text& t) {
     s.colours = t;
-  })->check(CLI::IsMember({"cool-warm", "purple-orange"}));
+  })->check(CLI::IsMember({"red-blue", "cool-warm", "purple-orange"}));
   add<Text>(p, a, "--unit", "Unit in the legend, if the file does not say",
             [](Scene& s, const Text& t) { s.unit = t; });
   add_flag(p, a, "--per-vertex", "Interpolate the vertices' values instead of looking the maps up at every pixel",

@@ -50,9 +50,10 @@ constexpr double kMiddleMagnitude = 88;
 }  // namespace
 
 const DivergingMap& diverging_map(const std::string& name) {
+  if (name == "red-blue") return kRedBlue;
   if (name == "cool-warm") return kCoolWarm;
   if (name == "purple-orange") return kPurpleOrange;
-  throw InputError("no colours '" + name + "'; use cool-warm or purple-orange");
+  throw InputError("no colours '" + name + "'; use red-blue, cool-warm or purple-orange");
 }
 
 double hue_at_middle(const Msh& end) {

@@ -33,13 +33,16 @@ struct DivergingMap {
 
 /// Blue over light grey to red: K. Moreland, "Diverging Color Maps for Scientific Visualization", ISVC 2009.
 inline constexpr DivergingMap kCoolWarm{{80, 1.08, -1.1}, {80, 1.08, 0.5}};
+/// The same turned round: in pictures of potentials red is negative and blue positive.
+inline constexpr DivergingMap kRedBlue{kCoolWarm.high, kCoolWarm.low};
 /// Purple to orange, for readers to whom red and blue mean acid and base, or who print beside red text.
 inline constexpr DivergingMap kPurpleOrange{{68, 0.905, -0.9}, {70.5, 0.932, 1.03}};
 
 /// Hue of the sequential maps, radians: green for displacements, orange for the magnitude of a difference.
 inline constexpr double kGreenHue = 2.6179938779914944, kOrangeHue = 0.95;
 
-/// @param name cool-warm or purple-orange; both keep their arms apart for red-green and blue-yellow deficient vision
+/// @param name red-blue, cool-warm or purple-orange; all keep their arms apart for red-green and blue-yellow deficient
+/// vision
 /// @throws InputError naming them
 const DivergingMap& diverging_map(const std::string& name);
 

@@ -42,7 +42,7 @@ class ColourScale {
   /// @throws InputError when the range cannot be (not finite, negative, empty, a percentile out of bounds), or no value
   /// is finite
   ColourScale(RenderArray array, const std::vector<float>& values, const ScaleRange& range,
-              const DivergingMap& map = kCoolWarm);
+              const DivergingMap& map = kRedBlue);
   ColourScale(RenderArray array, const std::vector<float>& values, double limit);
 
   RenderArray array() const { return array_; }

@@ -22,7 +22,9 @@ std::string hex(Rgb c) {
   return text;
 }
 
-Rgb colour_at(const HeatMap& map, double t) { return map.diverging ? diverging_colour(1 - t) : sequential_colour(t); }
+Rgb colour_at(const HeatMap& map, double t) {
+  return map.diverging ? diverging_colour(t, kRedBlue) : sequential_colour(t);
+}
 
 std::string palette(const HeatMap& map) {
   constexpr int kSteps = 64;

@@ -30,7 +30,7 @@ struct HeatMap {
 
 /// The script that draws it, sized to the number of things. Rows go from top to bottom. Things of one group that lie
 /// side by side are framed, with the group's name above. What has no value is struck through. Colours: an even ramp in
-/// CIE lightness (sequential_colour()), or diverging_colour() turned round, since for potentials red is negative.
+/// CIE lightness (sequential_colour()), or diverging_colour() from red to blue.
 /// @throws InputError (no values, sizes that do not fit each other, range)
 std::string heat_map_script(const HeatMap& map, PictureFormat format);
 

@@ -25,10 +25,10 @@ struct CameraView {
 struct Scene {
   RenderArray array = RenderArray::kDifference;
   ScaleRange range;
-  std::string colours = "cool-warm";  ///< or purple-orange
-  std::string unit;                   ///< of the potential; the file's when empty
-  bool per_vertex = false;            ///< values between the vertices' instead of from the maps
-  bool fade = true;                   ///< fainter where the counterpart is farther away
+  std::string colours = "red-blue";  ///< or cool-warm, purple-orange
+  std::string unit;                  ///< of the potential; the file's when empty
+  bool per_vertex = false;           ///< values between the vertices' instead of from the maps
+  bool fade = true;                  ///< fainter where the counterpart is farther away
   OpacityScale opacity;
 
   Layout layout = Layout::kTurned;

@@ -92,8 +92,8 @@ const std::vector<Key>& keys() {
       {{"0"}, "0", "automatic scale", [](Scene& s, double) { set_limit(s, 0); }},
       {{"c"},
        "c",
-       "colours: cool-warm, purple-orange",
-       [](Scene& s, double) { s.colours = s.colours == "cool-warm" ? "purple-orange" : "cool-warm"; }},
+       "colours: red-blue, purple-orange",
+       [](Scene& s, double) { s.colours = s.colours == "red-blue" ? "purple-orange" : "red-blue"; }},
       {{"k"}, "k", "key and scales on or off", [](Scene& s, double) { s.legend = !s.legend; }}};
   return all;
 }

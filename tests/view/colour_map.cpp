@@ -73,7 +73,7 @@ double distance(Rgb a, Rgb b, const Vision& vision) {
 TEST_CASE("signs are told apart with any colour vision") {
   for (const Vision& vision : kVisions) {
     INFO(std::string(vision.name));
-    for (const char* name : {"cool-warm", "purple-orange"}) {
+    for (const char* name : {"red-blue", "cool-warm", "purple-orange"}) {
       const espdiff::DivergingMap& map = espdiff::diverging_map(name);
       CHECK(distance(diverging_colour(0, map), diverging_colour(1, map), vision) > 40);
       // Already at a third of the range.
@@ -85,7 +85,7 @@ TEST_CASE("signs are told apart with any colour vision") {
 }
 
 TEST_CASE("both ends of a diverging map are equally light, and colours without a name are refused") {
-  for (const char* name : {"cool-warm", "purple-orange"}) {
+  for (const char* name : {"red-blue", "cool-warm", "purple-orange"}) {
     const espdiff::DivergingMap& map = espdiff::diverging_map(name);
     const auto low = seen(diverging_colour(0, map), kVisions[0]), high = seen(diverging_colour(1, map), kVisions[0]);
     CHECK(std::abs(low[0] - high[0]) < 2);

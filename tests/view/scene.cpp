@@ -87,7 +87,8 @@ TEST_CASE("scene files that cannot be are refused with the reason") {
   CHECK(contains(message_for(scratch, R"({"layout": "round"})"), "no layout 'round'; use turned, linked or split"));
   CHECK(contains(message_for(scratch, R"({"molecule": "balls"})"),
                  "no molecule style 'balls'; use none, cartoon, sticks or lines"));
-  CHECK(contains(message_for(scratch, R"({"colours": "rainbow"})"), "no colours 'rainbow'; use cool-warm or purple"));
+  CHECK(contains(message_for(scratch, R"({"colours": "rainbow"})"),
+                 "no colours 'rainbow'; use red-blue, cool-warm or purple"));
 }
 
 TEST_CASE("values out of range are refused with the range") {
