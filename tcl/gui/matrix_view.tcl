@@ -11,21 +11,9 @@ namespace eval ::espdiff::gui {
     array set form {matrix,metric "" matrix,ordered 0}
 
     proc build_matrix_bar {path} {
-        variable widget
-        ttk::frame $path
-        button $path.compute Compute ::espdiff::gui::compute_matrix
-        button $path.cancel Stop ::espdiff::gui::cancel_matrix
-        ttk::progressbar $path.bar -maximum 1.0 -length 60
-        button $path.script Script... ::espdiff::gui::show_script
-        ttk::label $path.message -anchor w -wraplength 560 -justify left
-        tip $path.script "The Tcl commands that do the same again"
-        tip $path.compute "Compare each variant with each other one, both ways (Return)"
-        tip $path.cancel "End the computation; what is done is kept, and can be gone on with (Escape)"
-        grid $path.compute $path.cancel $path.bar $path.script -sticky ew -padx {0 6}
-        grid configure $path.script -padx 0
-        grid $path.message -columnspan 4 -sticky ew -pady {4 0}
-        grid columnconfigure $path 2 -weight 1
-        foreach name {compute cancel bar script message} { set widget(matrix,$name) $path.$name }
+        build_tab_bar matrix $path compute Compute ::espdiff::gui::compute_matrix ::espdiff::gui::cancel_matrix \
+            "Compare each variant with each other one, both ways (Return)" \
+            "End the computation; what is done is kept, and can be gone on with (Escape)"
     }
 
     proc build_heat_map {path} {
@@ -63,19 +51,7 @@ namespace eval ::espdiff::gui {
         show_matrix_running
     }
 
-    proc matrix_message {text {kind note}} {
-        variable widget
-        if {$kind eq "error"} { tell_console $text }
-        if {![info exists widget(matrix,message)] || ![winfo exists $widget(matrix,message)]} return
-        $widget(matrix,message) configure -text $text -foreground [expr {$kind eq "error" ? "#b00020" : "black"}]
-    }
-
-    # As guard, for what happens in this tab.
-    proc matrix_guard {args} {
-        if {[catch { uplevel #0 $args } message]} { matrix_message $message error }
-    }
-
-    proc compute_matrix {} { matrix_guard ::espdiff::gui::start_matrix }
+    proc compute_matrix {} { guard_in matrix ::espdiff::gui::start_matrix }
 
     proc start_matrix {} {
         variable form
@@ -92,7 +68,7 @@ namespace eval ::espdiff::gui {
             lappend options -overwrite 1
         }
         set settings [setting_options]
-        matrix_message ""
+        tell_in matrix ""
         set matrix_running [espdiff matrix [matrix_variants] {*}$options {*}$settings \
             -progress ::espdiff::gui::matrix_progress -command ::espdiff::gui::finish_matrix]
         set endpoints {}
@@ -135,7 +111,7 @@ namespace eval ::espdiff::gui {
         variable widget
         if {![info exists widget(matrix,bar)] || ![winfo exists $widget(matrix,bar)]} return
         $widget(matrix,bar) configure -value $fraction
-        matrix_message $stage
+        tell_in matrix $stage
     }
 
     proc finish_matrix {handle} {
@@ -145,10 +121,10 @@ namespace eval ::espdiff::gui {
         show_matrix_running
         if {[catch { espdiff wait $handle } message]} {
             espdiff delete $handle
-            matrix_message $message error
+            tell_in matrix $message error
             return
         }
-        matrix_guard ::espdiff::gui::show_matrix $handle
+        guard_in matrix ::espdiff::gui::show_matrix $handle
     }
 
     proc show_matrix {handle} {
@@ -169,7 +145,7 @@ namespace eval ::espdiff::gui {
         set usual [dict get $matrix_result metrics [dict get $matrix_result clustering metric] title]
         if {$form(matrix,metric) ni $names} { set form(matrix,metric) $usual }
         set n_bad [llength [dict get $matrix_result not_trustworthy]]
-        matrix_message "[dict get $matrix_result pairs] pairs in [format %.0f [dict get $matrix_result seconds]] s,\
+        tell_in matrix "[dict get $matrix_result pairs] pairs in [format %.0f [dict get $matrix_result seconds]] s,\
             [expr {[dict get $matrix_result pairs] - $n_bad}] trustworthy. Written:\
             [join [lmap_tails [dict get $matrix_result files]] {, }]"
         show_matrix_running

@@ -53,7 +53,7 @@ namespace eval ::espdiff::gui {
         pack $path.message -side bottom -fill x -padx 8 -pady {0 8}
         pack $path.buttons -side bottom -fill x -padx 8 -pady 4
         pack $path.list -fill both -expand 1 -padx 8
-        bind $path.list.table <<TreeviewSelect>> {::espdiff::gui::residue_guard ::espdiff::gui::highlight_chosen}
+        bind $path.list.table <<TreeviewSelect>> {::espdiff::gui::guard_in residues ::espdiff::gui::highlight_chosen}
         set widget(residues,table) $path.list.table
         set widget(residues,message) $path.message
         set widget(residues,title) $path.title
@@ -72,22 +72,10 @@ namespace eval ::espdiff::gui {
         tip $path.export "The table as it stands, with every digit"
         pack $path.export -side right
         ttk::checkbutton $path.face -text "turn to it" -variable ::espdiff::gui::form(residues,face) \
-            -command {::espdiff::gui::residue_guard ::espdiff::gui::highlight_chosen}
+            -command {::espdiff::gui::guard_in residues ::espdiff::gui::highlight_chosen}
         tip $path.face "Turns VMD's view so that what is highlighted is in front"
         if {[in_vmd]} { pack $path.clear $path.face $path.atoms -side left -padx {0 6} }
         foreach name {clear face atoms export} { set widget(residues,$name) $path.$name }
-    }
-
-    proc residue_message {text {kind note}} {
-        variable widget
-        if {$kind eq "error"} { tell_console $text }
-        if {![info exists widget(residues,message)] || ![winfo exists $widget(residues,message)]} return
-        $widget(residues,message) configure -text $text -foreground [expr {$kind eq "error" ? "#b00020" : "black"}]
-    }
-
-    # As guard, for what happens in this tab.
-    proc residue_guard {args} {
-        if {[catch { uplevel #0 $args } message]} { residue_message $message error }
     }
 
     # The residues of the result that is shown, whenever another one is.
@@ -102,7 +90,7 @@ namespace eval ::espdiff::gui {
             set residues_of $shown
             set residue_rows [expr {$shown eq "" ? {} : [espdiff residues $shown]}]
             fill_residues
-            residue_message [residue_hint]
+            tell_in residues [residue_hint]
         }
         $widget(residues,title) configure -text [expr {$shown eq "" ? "No comparison yet" : $chosen_result}]
         set_enabled [expr {$shown ne ""}] $widget(residues,clear) $widget(residues,atoms) $widget(residues,export) \
@@ -236,7 +224,7 @@ namespace eval ::espdiff::gui {
         if {![in_vmd] || $shown eq ""} return
         set chosen [$widget(residues,table) selection]
         if {$chosen eq ""} {
-            if {$highlighted ne ""} { remove_highlight; residue_message [residue_hint] }
+            if {$highlighted ne ""} { remove_highlight; tell_in residues [residue_hint] }
             return
         }
         set words [list $chosen]
@@ -247,7 +235,7 @@ namespace eval ::espdiff::gui {
         set names {}
         foreach item $chosen { lappend names [lindex [$widget(residues,table) item $item -values] 0] }
         if {[llength $names] > 6} { set names [concat [lrange $names 0 5] ...] }
-        residue_message "[join $names {, }] highlighted in [expr {[llength $molecules] == 1 ? "molecule"
+        tell_in residues "[join $names {, }] highlighted in [expr {[llength $molecules] == 1 ? "molecule"
             : "molecules"}] [join $molecules { and }]."
     }
 
@@ -255,7 +243,7 @@ namespace eval ::espdiff::gui {
         variable widget
         $widget(residues,table) selection set {}
         remove_highlight
-        residue_message [residue_hint]
+        tell_in residues [residue_hint]
     }
 
     proc remove_highlight {} {
@@ -268,7 +256,7 @@ namespace eval ::espdiff::gui {
     }
 
     # The column that the table is sorted by, on the atoms of the molecule that the surface is drawn on.
-    proc colour_atoms {} { residue_guard ::espdiff::gui::carry_onto_atoms }
+    proc colour_atoms {} { guard_in residues ::espdiff::gui::carry_onto_atoms }
 
     proc carry_onto_atoms {} {
         variable form
@@ -280,8 +268,8 @@ namespace eval ::espdiff::gui {
         remember $shown atoms [concat atoms $words]
         set mol [dict get $carried mol]
         for {set rep 0} {$rep < [molinfo $mol get numreps]} {incr rep} { mol modcolor $rep $mol User }
-        residue_message "Molecule $mol is coloured by its field User: $quantity, [with_unit [dict get $carried min]] to\
-            [with_unit [dict get $carried max] [dict get $carried unit]]."
+        tell_in residues "Molecule $mol is coloured by its field User: $quantity,\
+            [with_unit [dict get $carried min]] to [with_unit [dict get $carried max] [dict get $carried unit]]."
     }
 
     proc export_residues {} {
@@ -289,7 +277,7 @@ namespace eval ::espdiff::gui {
         variable shown
         set path [tk_getSaveFile -parent $window -title "Export the table" -initialfile $shown.residues.csv \
             -defaultextension .csv -filetypes {{"Tables" .csv} {"All files" *}}]
-        if {$path ne ""} { residue_guard ::espdiff::gui::write_residues $path }
+        if {$path ne ""} { guard_in residues ::espdiff::gui::write_residues $path }
     }
 
     # In the table's order; written under another name first, so that it is there as a whole or not at all.
@@ -300,7 +288,7 @@ namespace eval ::espdiff::gui {
         set text "# [side_titles], potentials in [potential_unit]\n[::espdiff::csv_line $columns]\n"
         foreach row $rows { append text [::espdiff::csv_line [dict values $row]]\n }
         write_whole_file $path $text
-        residue_message "Written: $path ([llength $rows] residues)"
+        tell_in residues "Written: $path ([llength $rows] residues)"
     }
 
     proc side_titles {} {

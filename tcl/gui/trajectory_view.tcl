@@ -13,21 +13,9 @@ namespace eval ::espdiff::gui {
         no_counterpart_target target_to_mapped_max_A}
 
     proc build_trajectory_bar {path} {
-        variable widget
-        ttk::frame $path
-        button $path.run Run ::espdiff::gui::run_trajectory
-        button $path.cancel Stop ::espdiff::gui::cancel_trajectory
-        ttk::progressbar $path.bar -maximum 1.0 -length 60
-        button $path.script Script... ::espdiff::gui::show_script
-        ttk::label $path.message -anchor w -wraplength 600 -justify left
-        tip $path.run "Compare each frame with the reference (Return)"
-        tip $path.cancel "End the run; its rows stay in the file, and can be gone on with (Escape)"
-        tip $path.script "The Tcl commands that do the same again"
-        grid $path.run $path.cancel $path.bar $path.script -sticky ew -padx {0 6}
-        grid configure $path.script -padx 0
-        grid $path.message -columnspan 4 -sticky ew -pady {4 0}
-        grid columnconfigure $path 2 -weight 1
-        foreach name {run cancel bar script message} { set widget(trajectory,$name) $path.$name }
+        build_tab_bar trajectory $path run Run ::espdiff::gui::run_trajectory ::espdiff::gui::cancel_trajectory \
+            "Compare each frame with the reference (Return)" \
+            "End the run; its rows stay in the file, and can be gone on with (Escape)"
     }
 
     proc build_trajectory_plot {path} {
@@ -69,19 +57,7 @@ namespace eval ::espdiff::gui {
         if {![in_vmd]} { $path.point.compare configure -text Compare }
     }
 
-    proc trajectory_message {text {kind note}} {
-        variable widget
-        if {$kind eq "error"} { tell_console $text }
-        if {![info exists widget(trajectory,message)] || ![winfo exists $widget(trajectory,message)]} return
-        $widget(trajectory,message) configure -text $text -foreground [expr {$kind eq "error" ? "#b00020" : "black"}]
-    }
-
-    # As guard, for what happens in this tab.
-    proc trajectory_guard {args} {
-        if {[catch { uplevel #0 $args } message]} { trajectory_message $message error }
-    }
-
-    proc run_trajectory {} { trajectory_guard ::espdiff::gui::start_trajectory }
+    proc run_trajectory {} { guard_in trajectory ::espdiff::gui::start_trajectory }
 
     proc start_trajectory {} {
         variable form
@@ -101,7 +77,7 @@ namespace eval ::espdiff::gui {
         }
         set options [trajectory_options]
         set settings [setting_options]
-        trajectory_message ""
+        tell_in trajectory ""
         set trajectory_running [espdiff trajectory {*}$options {*}$output {*}$settings \
             -callback ::espdiff::gui::add_row -progress ::espdiff::gui::trajectory_progress \
             -command ::espdiff::gui::finish_trajectory]
@@ -131,7 +107,7 @@ namespace eval ::espdiff::gui {
     proc add_row {frame row} {
         variable trajectory_rows
         lappend trajectory_rows $row
-        trajectory_guard ::espdiff::gui::draw_trajectory
+        guard_in trajectory ::espdiff::gui::draw_trajectory
     }
 
     proc trajectory_progress {stage fraction} {
@@ -141,7 +117,7 @@ namespace eval ::espdiff::gui {
         if {[regexp {^frame (\d+): (.*)$} $stage -> frame step]} {
             set stage "Frame $frame: [string tolower [stage_words $step] 0 0]..."
         }
-        trajectory_message $stage
+        tell_in trajectory $stage
     }
 
     proc cancel_trajectory {} {
@@ -161,18 +137,18 @@ namespace eval ::espdiff::gui {
                 set result "Stopped: the file has [llength $trajectory_rows] rows. With \u201cgo on with it\u201d, Run\
                     computes the rest."
             }
-            trajectory_message $result [expr {$cancelled ? "note" : "error"}]
+            tell_in trajectory $result [expr {$cancelled ? "note" : "error"}]
         } else {
             set bad 0
             foreach row $trajectory_rows { if {![row_is_good $row]} { incr bad } }
             set there [expr {[dict get $result resumed] == 0 ? "" : ", [dict get $result resumed] were there already"}]
-            trajectory_message "[dict get $result rows] rows in [format %.1f [dict get $result seconds]] s$there;\
+            tell_in trajectory "[dict get $result rows] rows in [format %.1f [dict get $result seconds]] s$there;\
                 [expr {$bad == 0 ? "all" : [llength $trajectory_rows] - $bad}] trustworthy. Written:\
                 [file tail [dict get $result csv]]"
         }
         espdiff delete $handle
         show_trajectory_running
-        trajectory_guard ::espdiff::gui::draw_trajectory
+        guard_in trajectory ::espdiff::gui::draw_trajectory
     }
 
     proc row_is_good {row} {
@@ -202,7 +178,7 @@ namespace eval ::espdiff::gui {
     proc browse_rows {} {
         variable window
         set path [tk_getOpenFile -parent $window -filetypes {{"Tables" .csv} {"All files" *}}]
-        if {$path ne ""} { trajectory_guard ::espdiff::gui::open_rows $path }
+        if {$path ne ""} { guard_in trajectory ::espdiff::gui::open_rows $path }
     }
 
     # Rows of an earlier run belong to what the form says now: the file names no molecule of VMD.
@@ -219,7 +195,7 @@ namespace eval ::espdiff::gui {
             settings [setting_options]]
         remember_trajectory
         set chosen_point ""
-        trajectory_message "[llength $rows] rows of [file tail $path]"
+        tell_in trajectory "[llength $rows] rows of [file tail $path]"
         show_trajectory_running
         draw_trajectory
     }
@@ -230,7 +206,7 @@ namespace eval ::espdiff::gui {
         set path [tk_getSaveFile -parent $window -title "Save the plot" -defaultextension .svg \
             -initialfile [file rootname [file tail $form(trajectory,csv)]].svg \
             -filetypes {{"Scalable picture" .svg} {"Picture" .png}}]
-        if {$path ne ""} { trajectory_guard ::espdiff::gui::save_plot_as $path }
+        if {$path ne ""} { guard_in trajectory ::espdiff::gui::save_plot_as $path }
     }
 
     proc save_plot_as {path} {
@@ -238,7 +214,7 @@ namespace eval ::espdiff::gui {
         set metric [lindex [chosen_trajectory_metric] 0]
         espdiff plot [dict get $trajectory_run output -csv] -metrics [list $metric] -file $path
         dict set trajectory_run plot [list -metrics [list $metric] -file $path]
-        trajectory_message "Written: $path"
+        tell_in trajectory "Written: $path"
     }
 
     # Column, title, unit, factor of what is chosen; the first one that has values where nothing is.

@@ -155,4 +155,37 @@ namespace eval ::espdiff::gui {
         if {"EspdiffBold" ni [font names]} { font create EspdiffBold {*}[font actual TkDefaultFont] -weight bold }
         return EspdiffBold
     }
+
+    # What a tab starts and ends, how far it is, and its message: widget(TAB,...) under the names START, cancel, bar,
+    # script and message.
+    proc build_tab_bar {tab path start title start_command cancel_command start_tip cancel_tip} {
+        variable widget
+        ttk::frame $path
+        button $path.$start $title $start_command
+        button $path.cancel Stop $cancel_command
+        ttk::progressbar $path.bar -maximum 1.0 -length 60
+        button $path.script Script... ::espdiff::gui::show_script
+        ttk::label $path.message -anchor w -wraplength 600 -justify left
+        tip $path.$start $start_tip
+        tip $path.cancel $cancel_tip
+        tip $path.script "The Tcl commands that do the same again"
+        grid $path.$start $path.cancel $path.bar $path.script -sticky ew -padx {0 6}
+        grid configure $path.script -padx 0
+        grid $path.message -columnspan 4 -sticky ew -pady {4 0}
+        grid columnconfigure $path 2 -weight 1
+        foreach name [list $start cancel bar script message] { set widget($tab,$name) $path.$name }
+    }
+
+    # A tab's line of text; errors go to VMD's console as well, and are not lost where the tab is gone.
+    proc tell_in {tab text {kind note}} {
+        variable widget
+        if {$kind eq "error"} { tell_console $text }
+        if {![info exists widget($tab,message)] || ![winfo exists $widget($tab,message)]} return
+        $widget($tab,message) configure -text $text -foreground [expr {$kind eq "error" ? "#b00020" : "black"}]
+    }
+
+    # As guard, for what happens in a tab.
+    proc guard_in {tab args} {
+        if {[catch { uplevel #0 $args } message]} { tell_in $tab $message error }
+    }
 }
