@@ -2,7 +2,6 @@
 // is.
 #include <benchmark/benchmark.h>
 
-#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <fstream>
@@ -11,7 +10,10 @@
 #include <vector>
 
 #include "base/version.h"
+#include "machine_peak.h"
+#include "renumbered.h"
 #include "stage_inputs.h"
+#include "work_model.h"
 
 namespace {
 
@@ -23,12 +25,23 @@ using espdiff_bench::StageInputs;
 
 const espdiff::Progress kSilent;
 
+/// Times a call by the engine's clock: on a GPU by its events.
+template <typename Call>
+void time_calls(State& state, const StageInputs& in, Call call, int n_in_call = 1) {
+  for (auto _ : state) state.SetIterationTime(1e-3 * in.engine->elapsed_ms(call) / n_in_call);
+}
+
+void count_work(State& state, const espdiff_bench::Work& work) {
+  state.counters["work_bytes"] = work.bytes;
+  state.counters["work_operations"] = work.operations;
+}
+
 /// One benchmark: called with the inputs of a case; loops over `state`.
 struct Stage {
   std::string name;
   std::function<void(State&, const StageInputs&)> run;
   bool slow = false;  ///< seconds rather than milliseconds: fewer repetitions
-  bool manual_time = false;
+  bool once = false;  ///< a call is long enough to be timed by itself
 };
 
 void count_mesh(State& state, const StageInputs& in, const MeshPtr& mesh) {
@@ -43,14 +56,14 @@ void count_fit(State& state, const espdiff::FitReport& fit) {
 
 void density(State& state, const StageInputs& in) {
   espdiff::GridPtr grid;
-  for (auto _ : state) grid = in.engine->density(in.source.atoms, in.spacing());
+  time_calls(state, in, [&] { grid = in.engine->density(in.source.atoms, in.spacing()); });
   state.counters["lattice_points"] = static_cast<double>(in.engine->download(grid).values.size());
+  count_work(state, espdiff_bench::density_work(in));
 }
 
 void upload_atoms(State& state, const StageInputs& in) {
-  for (auto _ : state)
-    benchmark::DoNotOptimize(
-        in.engine->upload_atoms(in.source.molecule.positions, in.source.widths, in.source.residues));
+  time_calls(state, in,
+             [&] { in.engine->upload_atoms(in.source.molecule.positions, in.source.widths, in.source.residues); });
   state.counters["atoms"] = static_cast<double>(in.source.molecule.size());
 }
 
@@ -65,17 +78,18 @@ void count_surface(State& state, const StageInputs& in) {
 }
 
 void isosurface(State& state, const StageInputs& in) {
-  for (auto _ : state) benchmark::DoNotOptimize(in.engine->isosurface(in.source.density, in.isovalue()));
+  time_calls(state, in, [&] { in.engine->isosurface(in.source.density, in.isovalue()); });
   count_surface(state, in);
+  count_work(state, espdiff_bench::isosurface_work(in));
 }
 
 /// From atoms to triangles, the sorting of the atoms included: what a peer's surface has to be set against. The bar is
 /// the peer's time, times our triangles over those of marching cubes on the same grid.
 void density_and_isosurface(State& state, const StageInputs& in, double quicksurf_ms) {
-  for (auto _ : state) {
+  time_calls(state, in, [&] {
     const auto atoms = in.engine->upload_atoms(in.source.molecule.positions, in.source.widths, in.source.residues);
-    benchmark::DoNotOptimize(in.engine->isosurface(in.engine->density(atoms, in.spacing()), in.isovalue()));
-  }
+    in.engine->isosurface(in.engine->density(atoms, in.spacing()), in.isovalue());
+  });
   count_surface(state, in);
   if (in.marching_cubes.n_triangles == 0) return;
   const double ratio =
@@ -85,26 +99,28 @@ void density_and_isosurface(State& state, const StageInputs& in, double quicksur
 }
 
 void components(State& state, const StageInputs& in) {
-  for (auto _ : state) benchmark::DoNotOptimize(in.engine->components(in.source.raw));
+  time_calls(state, in, [&] { in.engine->components(in.source.raw); });
   state.counters["components"] = static_cast<double>(in.n_components);
 }
 
 void project(State& state, const StageInputs& in) {
   MeshPtr mesh;
-  for (auto _ : state) mesh = in.engine->project(in.source.raw, in.source.atoms, in.isovalue(), in.projection_limit());
+  time_calls(state, in,
+             [&] { mesh = in.engine->project(in.source.raw, in.source.atoms, in.isovalue(), in.projection_limit()); });
   count_mesh(state, in, mesh);
   count_fit(state, in.engine->fit(mesh, in.source.atoms, in.isovalue()));
 }
 
 void density_field(State& state, const StageInputs& in) {
-  for (auto _ : state) benchmark::DoNotOptimize(in.engine->density_field(in.target.density, in.isovalue()));
+  time_calls(state, in, [&] { in.engine->density_field(in.target.density, in.isovalue()); });
+  count_work(state, espdiff_bench::density_field_work(in));
 }
 
 void distance_field(State& state, const StageInputs& in) {
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(in.engine->distance_field(in.target.density, in.isovalue(), in.target.surface,
-                                                       in.options.distance_threshold_A, kSilent));
-  }
+  time_calls(state, in, [&] {
+    in.engine->distance_field(in.target.density, in.isovalue(), in.target.surface, in.options.distance_threshold_A,
+                              kSilent);
+  });
 }
 
 /// The mean time of an iteration over a run of many, as the whole is run.
@@ -114,12 +130,8 @@ void per_iteration(State& state, const StageInputs& in, const MeshPtr& mesh, con
   options.max_iterations = kIterations;
   options.min_displacement_A = 0;
   espdiff::DeformReport report;
-  for (auto _ : state) {
-    const auto start = std::chrono::steady_clock::now();
-    benchmark::DoNotOptimize(in.engine->deform(mesh, field, options, "deform", kSilent, &report));
-    state.SetIterationTime(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() /
-                           kIterations);
-  }
+  time_calls(
+      state, in, [&] { in.engine->deform(mesh, field, options, "deform", kSilent, &report); }, kIterations);
   count_mesh(state, in, mesh);
 }
 
@@ -131,8 +143,9 @@ void count_report(State& state, const espdiff::DeformReport& report) {
 void regularize(State& state, const StageInputs& in) {
   espdiff::DeformReport report;
   MeshPtr mesh;
-  for (auto _ : state)
+  time_calls(state, in, [&] {
     mesh = in.engine->deform(in.source.surface, in.own_field, in.options.regularize, "regularize", kSilent, &report);
+  });
   count_mesh(state, in, mesh);
   count_report(state, report);
   const espdiff::FitReport fit = in.engine->fit(mesh, in.source.atoms, in.isovalue());
@@ -143,7 +156,8 @@ void regularize(State& state, const StageInputs& in) {
 void deform(State& state, const StageInputs& in, const espdiff::FieldPtr& field) {
   espdiff::DeformReport report;
   MeshPtr mesh;
-  for (auto _ : state) mesh = in.engine->deform(in.start, field, in.options.deform, "deform", kSilent, &report);
+  time_calls(state, in,
+             [&] { mesh = in.engine->deform(in.start, field, in.options.deform, "deform", kSilent, &report); });
   count_mesh(state, in, mesh);
   count_report(state, report);
   count_fit(state, in.engine->fit(mesh, in.target.atoms, in.isovalue()));
@@ -152,17 +166,18 @@ void deform(State& state, const StageInputs& in, const espdiff::FieldPtr& field)
 
 void fit(State& state, const StageInputs& in) {
   espdiff::FitReport report;
-  for (auto _ : state) report = in.engine->fit(in.mapped, in.target.atoms, in.isovalue());
+  time_calls(state, in, [&] { report = in.engine->fit(in.mapped, in.target.atoms, in.isovalue()); });
   count_fit(state, report);
+  count_work(state, espdiff_bench::fit_work(in));
 }
 
 /// Both directions, as the certificate takes them.
 void distances(State& state, const StageInputs& in) {
   espdiff::DistanceSummary there, back;
-  for (auto _ : state) {
+  time_calls(state, in, [&] {
     there = in.engine->distances(in.mapped, in.target.surface, 1.0);
     back = in.engine->distances(in.target.surface, in.mapped, 1.0);
-  }
+  });
   state.counters["mean_distance_A"] = there.mean;
   state.counters["mean_distance_back_A"] = back.mean;
   state.counters["max_distance_back_A"] = back.max;
@@ -170,7 +185,7 @@ void distances(State& state, const StageInputs& in) {
 
 void self_intersections(State& state, const StageInputs& in) {
   espdiff::IntersectionReport report;
-  for (auto _ : state) report = in.engine->self_intersections(in.mapped);
+  time_calls(state, in, [&] { report = in.engine->self_intersections(in.mapped); });
   state.counters["pairs"] = static_cast<double>(report.n_pairs);
 }
 
@@ -179,25 +194,25 @@ void sample_and_metrics(State& state, const StageInputs& in) {
   const auto map = in.engine->upload_map(in.map, espdiff::RigidTransform{});
   const auto corrupt = in.engine->fit(in.mapped, in.target.atoms, in.isovalue()).corrupt;
   espdiff::Metrics metrics;
-  for (auto _ : state) {
+  time_calls(state, in, [&] {
     metrics = in.engine->compare(in.start, in.mapped, in.engine->sample(map, in.start),
                                  in.engine->sample(map, in.mapped), corrupt);
-  }
+  });
   state.counters["mean_displacement_A"] = metrics.mean_displacement_A;
   state.counters["area_A2"] = metrics.area_A2;
 }
 
 void vertex_residues(State& state, const StageInputs& in) {
-  for (auto _ : state) benchmark::DoNotOptimize(in.engine->vertex_residues(in.start, in.source.atoms));
+  time_calls(state, in, [&] { in.engine->vertex_residues(in.start, in.source.atoms); });
 }
 
 /// Everything from atoms and maps to metrics and certificate, with the pipeline's default options.
 void compare(State& state, const StageInputs& in) {
   espdiff::CompareResult result;
-  for (auto _ : state) {
+  time_calls(state, in, [&] {
     result = espdiff::compare(*in.engine, {&in.source.molecule, &in.map}, {&in.target.molecule, &in.map}, in.options,
                               kSilent);
-  }
+  });
   const espdiff::Certificate& c = result.certificate;
   state.counters["vertices"] = static_cast<double>(result.surface.positions.size());
   state.counters["rmsd_A"] = result.rmsd_A;
@@ -235,11 +250,25 @@ std::vector<Stage> stages(double quicksurf_ms) {
       {"deform_iteration",
        [](State& s, const StageInputs& in) {
          per_iteration(s, in, in.start, in.target_distance_field, in.options.deform);
+         count_work(s, espdiff_bench::deform_iteration_work(in, false));
+       },
+       false, true},
+      {"deform_iteration_along_a_curve",
+       [](State& s, const StageInputs& in) {
+         const MeshPtr mesh = in.engine->upload_mesh(espdiff_bench::along_a_curve(in.engine->download(in.start)));
+         per_iteration(s, in, mesh, in.target_distance_field, in.options.deform);
+       },
+       false, true},
+      {"deform_iteration_shuffled",
+       [](State& s, const StageInputs& in) {
+         const MeshPtr mesh = in.engine->upload_mesh(espdiff_bench::shuffled(in.engine->download(in.start)));
+         per_iteration(s, in, mesh, in.target_distance_field, in.options.deform);
        },
        false, true},
       {"deform_iteration_tricubic",
        [=](State& s, const StageInputs& in) {
          per_iteration(s, in, in.start, in.target_distance_field, tricubic(in.options.deform));
+         count_work(s, espdiff_bench::deform_iteration_work(in, true));
        },
        false, true},
       {"deform_density_field", [](State& s, const StageInputs& in) { deform(s, in, in.target_density_field); }, true},
@@ -257,28 +286,25 @@ void register_benchmarks() {
   constexpr int kRepetitions = 5, kSlowRepetitions = 3;
   constexpr std::size_t kLarge = 30000;  // atoms; seconds per stage: once will do
   for (const Case& of : espdiff_bench::cases()) {
-    for (const int n_threads : {1, 2}) {
+    for (const espdiff_bench::BenchDevice& device : espdiff_bench::devices()) {
       for (const Stage& stage : stages(of.quicksurf_ms)) {
         const auto run = [=](State& state) {
           try {
-            stage.run(state, espdiff_bench::stage_inputs(of, n_threads));
+            stage.run(state, espdiff_bench::stage_inputs(of, device));
           } catch (const std::exception& error) {
             state.SkipWithError(error.what());
           }
         };
-        const std::string name = stage.name + "/" + of.name + "/threads:" + std::to_string(n_threads);
+        const std::string name = stage.name + "/" + of.name + "/" + device.name;
         auto* registered = benchmark::RegisterBenchmark(name.c_str(), run)->Unit(benchmark::kMillisecond);
         const int slow = of.n_atoms > kLarge ? 1 : kSlowRepetitions;
         registered->Repetitions(stage.slow ? slow : kRepetitions)->ReportAggregatesOnly(true);
-        if (stage.slow || stage.manual_time) {
+        if (stage.slow || stage.once) {
           registered->Iterations(1);
         } else {
           registered->MinTime(0.05);
         }
-        if (stage.manual_time)
-          registered->UseManualTime();
-        else
-          registered->UseRealTime();
+        registered->UseManualTime();
       }
     }
   }
@@ -293,6 +319,24 @@ std::string cpu_model() {
   return "unknown";
 }
 
+void add_peak(const std::string& device, const espdiff_bench::MachinePeak& peak) {
+  benchmark::AddCustomContext("bandwidth_GBps " + device, std::to_string(peak.bandwidth_GBps));
+  benchmark::AddCustomContext("arithmetic_Gops " + device, std::to_string(peak.arithmetic_Gops));
+}
+
+/// The roofs that stages are read against, measured in the same run.
+void add_peaks() {
+  for (const espdiff_bench::BenchDevice& device : espdiff_bench::devices()) {
+    if (device.n_threads > 0) add_peak(device.name, espdiff_bench::cpu_peak(device.n_threads));
+#if defined(ESPDIFF_HAVE_CUDA)
+    if (device.n_threads == 0) {
+      add_peak(device.name, espdiff_bench::cuda_peak());
+      benchmark::AddCustomContext("gpu", espdiff::cuda_status().description);
+    }
+#endif
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -300,6 +344,7 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   benchmark::AddCustomContext("cpu_model", cpu_model());
   benchmark::AddCustomContext("espdiff_version", espdiff::kVersion);
+  add_peaks();
   register_benchmarks();
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();

@@ -73,8 +73,7 @@ MorphResult arrive(const Travelling& surface, const SurfaceMesh& mesh, const Ato
   source.positions = surface.source;
   mapped.positions = surface.x;
   auto on_source = project(source, source_atoms, isovalue, kLastShift_A);
-  thrust::copy_n(thrust::device, mesh.positions.begin(), static_cast<std::ptrdiff_t>(mesh.n_vertices()),
-                 on_source->positions.begin());
+  copy_on_device(raw(on_source->positions), raw(mesh.positions), mesh.n_vertices() * sizeof(Vec4f));
   MorphResult result;
   result.source = on_source;
   const auto on_target = project(mapped, target_atoms, isovalue, kLastShift_A);

@@ -15,6 +15,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -262,6 +263,9 @@ class Engine {
   virtual std::string description() const = 0;
   /// Threads used by the CPU back end; 0 on a device.
   virtual int n_threads() const = 0;
+  /// Milliseconds that calls of this engine take: between two events on a device's stream, by the clock on the CPU.
+  /// For benchmarks.
+  virtual double elapsed_ms(const std::function<void()>& calls) = 0;
 
   /// Sorts atoms into a cell list.
   /// @param positions [atom] Angstrom, common frame
