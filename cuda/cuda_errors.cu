@@ -1,6 +1,7 @@
 // cuda_errors.cu: chooses the words for an error of the CUDA runtime. Host code only; tested by handing it errors.
 #include "cuda_errors.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <sstream>
 #include <vector>
@@ -32,7 +33,9 @@ struct Architecture {
 
 std::vector<Architecture> parse(const std::string& architectures) {
   std::vector<Architecture> all;
-  std::istringstream entries(architectures);
+  std::string separated = architectures;
+  std::replace(separated.begin(), separated.end(), ',', ';');
+  std::istringstream entries(separated);
   for (std::string entry; std::getline(entries, entry, ';');) {
     Architecture a;
     std::size_t n = 0;

@@ -15,7 +15,7 @@ struct CudaFacts {
   std::size_t asked_bytes = 0, free_bytes = 0, total_bytes = 0;
   int driver_version = 0;  ///< the newest CUDA that the driver supports, 13000 for 13.0; 0 where there is no driver
   int runtime_version = CUDART_VERSION;
-  std::string architectures;  ///< that this build has code for, as CMAKE_CUDA_ARCHITECTURES says it
+  std::string architectures;  ///< that this build has code for, as CMAKE_CUDA_ARCHITECTURES says it, by ; or ,
 };
 
 /// Throws MemoryError where memory ran out, else DeviceError: what was being done, what failed, and the remedy.

@@ -133,6 +133,7 @@ TEST_CASE("which GPUs a build runs on") {
 
 TEST_CASE("architectures in words") {
   CHECK(architectures_in_words("75-real;80-real;120") == "compute capability 7.5, 8.0 and 12.0 or later");
+  CHECK(architectures_in_words("75-real,120") == "compute capability 7.5 and 12.0 or later");
   CHECK(architectures_in_words("90") == "compute capability 9.0 or later");
   CHECK(architectures_in_words("native") == "the architectures 'native'");
   CHECK(architectures_in_words("") == "no architecture");
