@@ -109,7 +109,7 @@ double Legend::key(double x, double y, Rgb colour, double opacity, const std::st
   rectangle(box, colour, opacity);
   frame(box);
   text(x + 1.5 * side, y, meaning, Align::kLeft);
-  return 1.5 * side + text_width(meaning);
+  return key_width(meaning);
 }
 
 double Legend::hatched_key(double x, double y, const std::string& meaning) {
@@ -130,7 +130,7 @@ double Legend::hatched_key(double x, double y, const std::string& meaning) {
   }
   frame({x, y - side / 2, x + side, y + side / 2});
   text(x + 1.5 * side, y, meaning, Align::kLeft);
-  return 1.5 * side + text_width(meaning);
+  return key_width(meaning);
 }
 
 void Legend::rule(double x, double bottom, double top) {

@@ -40,7 +40,9 @@ class Legend {
   /// How opacity fades with the displacement. Shown on the colour that the surface's neutral parts have.
   void opacity(const PixelBox& bar, const OpacityScale& scale);
 
-  /// A square of a colour with its meaning to the right. @return the width that it takes
+  /// The width of a key in pixels, nearly.
+  double key_width(const std::string& meaning) const { return 1.5 * text_height_ + text_width(meaning); }
+  /// A square of a colour with its meaning to the right. @return key_width()
   double key(double x, double y, Rgb colour, double opacity, const std::string& meaning);
   /// The same for what is hatched.
   double hatched_key(double x, double y, const std::string& meaning);

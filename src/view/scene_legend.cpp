@@ -78,18 +78,23 @@ void add_keys(Legend& legend, const ComparisonScene& scene, const Paper& paper) 
   const auto& sheets = scene.panels().back().sheets;
   const bool fades = std::any_of(sheets.begin(), sheets.end(), [](const Sheet& s) { return s.fades; });
   if (fades) legend.opacity(paper.bar(left, 0.96), scene.scene().opacity);
+  const bool shows_start =
+      std::any_of(scene.panels().begin(), scene.panels().end(), [](const Panel& p) { return p.is_source(); });
+  const bool no_value = scene.scale(sheets.front().array).has_missing();
+  const bool corrupt = scene.geometry().has(SurfacePart::kCorrupt);
+  const bool no_counterpart = shows_start && scene.geometry().has(SurfacePart::kWithoutCounterpart);
+  const auto needed = [&](bool drawn, const char* meaning) {
+    return drawn ? legend.key_width(meaning) + paper.text_height : 0.0;
+  };
+  const double all = needed(no_value, "no value") + needed(corrupt, "corrupt") + needed(no_counterpart, "no counterpart");
   const double y = paper.height * 0.02 + paper.text_height / 2;
-  double x = paper.width * left;
+  double x = std::min(paper.width * left, paper.width - all);
   const auto key = [&](double opacity, const std::string& meaning) {
     x += legend.key(x, y, kNoValueColour, opacity, meaning) + paper.text_height;
   };
-  if (scene.scale(sheets.front().array).has_missing()) key(1, "no value");
-  if (scene.geometry().has(SurfacePart::kCorrupt)) key(0.3, "corrupt");
-  const bool shows_start =
-      std::any_of(scene.panels().begin(), scene.panels().end(), [](const Panel& p) { return p.is_source(); });
-  if (shows_start && scene.geometry().has(SurfacePart::kWithoutCounterpart)) {
-    legend.hatched_key(x, y, "no counterpart");
-  }
+  if (no_value) key(1, "no value");
+  if (corrupt) key(0.3, "corrupt");
+  if (no_counterpart) legend.hatched_key(x, y, "no counterpart");
 }
 
 void add_names(Legend& legend, const ComparisonScene& scene, const Paper& paper) {
