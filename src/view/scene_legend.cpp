@@ -86,7 +86,8 @@ void add_keys(Legend& legend, const ComparisonScene& scene, const Paper& paper) 
   const auto needed = [&](bool drawn, const char* meaning) {
     return drawn ? legend.key_width(meaning) + paper.text_height : 0.0;
   };
-  const double all = needed(no_value, "no value") + needed(corrupt, "corrupt") + needed(no_counterpart, "no counterpart");
+  const double all =
+      needed(no_value, "no value") + needed(corrupt, "corrupt") + needed(no_counterpart, "no counterpart");
   const double y = paper.height * 0.02 + paper.text_height / 2;
   double x = std::min(paper.width * left, paper.width - all);
   const auto key = [&](double opacity, const std::string& meaning) {
