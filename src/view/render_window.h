@@ -3,13 +3,18 @@
 
 #include <vtkSmartPointer.h>
 
+#include <string>
+
 class vtkRenderWindow;
 
 namespace espdiff {
 
 /// With a display (DISPLAY): X and GLX. Without one: EGL (a graphics processor without a screen) or OSMesa (software),
-/// where VTK was built with them; Debian's was not.
+/// where VTK has them: 9.4 and later by default, Debian's 9.1 not.
 /// @throws DeviceError saying how to get a display
 vtkSmartPointer<vtkRenderWindow> make_hidden_window();
+
+/// Why make_hidden_window() cannot draw here, with the remedy; empty where it can.
+std::string drawing_problem();
 
 }  // namespace espdiff
