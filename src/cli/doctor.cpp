@@ -11,7 +11,7 @@
 #include "cli/verbs.h"
 #include "engine/select_engine.h"
 #if defined(ESPDIFF_HAVE_VTK)
-#include "view/render_window.h"
+#include "view/display.h"
 #endif
 
 namespace espdiff::cli {

@@ -3,8 +3,6 @@
 
 #include <vtkSmartPointer.h>
 
-#include <string>
-
 class vtkRenderWindow;
 
 namespace espdiff {
@@ -13,8 +11,5 @@ namespace espdiff {
 /// where VTK has them: 9.4 and later by default, Debian's 9.1 not.
 /// @throws DeviceError saying how to get a display
 vtkSmartPointer<vtkRenderWindow> make_hidden_window();
-
-/// Why make_hidden_window() cannot draw here, with the remedy; empty where it can.
-std::string drawing_problem();
 
 }  // namespace espdiff
