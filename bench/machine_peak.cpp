@@ -69,8 +69,8 @@ MachinePeak cpu_peak(int n_threads) {
   });
   const double lanes = sizeof(Lanes) / sizeof(float);
   MachinePeak peak;
-  peak.bandwidth_GBps = 12.0 * static_cast<double>(kElements) / triad * 1e-9;
-  peak.arithmetic_Gops = 2.0 * lanes * kChains * kSteps * n_threads / arithmetic * 1e-9;
+  peak.gigabytes_per_s = 12.0 * static_cast<double>(kElements) / triad * 1e-9;
+  peak.gigaoperations_per_s = 2.0 * lanes * kChains * kSteps * n_threads / arithmetic * 1e-9;
   return results[0] > -1e30F ? peak : MachinePeak{};
 }
 

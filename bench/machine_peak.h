@@ -4,8 +4,8 @@
 namespace espdiff_bench {
 
 struct MachinePeak {
-  double bandwidth_GBps = 0;   ///< a[i] = b[i] + s c[i] over arrays that no cache holds; 12 bytes an element
-  double arithmetic_Gops = 0;  ///< multiplications and additions, not fused, in single precision
+  double gigabytes_per_s = 0;       ///< a[i] = b[i] + s c[i] over arrays that no cache holds; 12 bytes an element
+  double gigaoperations_per_s = 0;  ///< multiplications and additions, not fused, in single precision
 };
 
 MachinePeak cpu_peak(int n_threads);

@@ -37,8 +37,8 @@ MachinePeak cuda_peak() {
     arithmetic = std::min(arithmetic, computed);
   }
   MachinePeak peak;
-  peak.bandwidth_GBps = 12.0 * static_cast<double>(kElements) / triad * 1e-6;
-  peak.arithmetic_Gops = 2.0 * kChains * kSteps * static_cast<double>(kThreads) / arithmetic * 1e-6;
+  peak.gigabytes_per_s = 12.0 * static_cast<double>(kElements) / triad * 1e-6;
+  peak.gigaoperations_per_s = 2.0 * kChains * kSteps * static_cast<double>(kThreads) / arithmetic * 1e-6;
   return peak;
 }
 

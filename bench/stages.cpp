@@ -321,8 +321,8 @@ nlohmann::ordered_json run_all(const std::regex& filter) {
 }
 
 void add_peak(nlohmann::ordered_json& context, const std::string& device, const espdiff_bench::MachinePeak& peak) {
-  context["bandwidth_GBps " + device] = peak.bandwidth_GBps;
-  context["arithmetic_Gops " + device] = peak.arithmetic_Gops;
+  context["bandwidth_GBps " + device] = peak.gigabytes_per_s;
+  context["arithmetic_Gops " + device] = peak.gigaoperations_per_s;
 }
 
 /// The roofs that stages are read against, measured in the same run.
