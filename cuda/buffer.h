@@ -27,8 +27,6 @@ class Buffer {
   static_assert(std::is_trivially_copyable_v<T>, "elements are copied as bytes");
 
  public:
-  using value_type = T;
-
   Buffer() = default;
   explicit Buffer(std::size_t n) { resize(n); }
   Buffer(std::size_t n, const T& value) { assign(n, value); }
