@@ -27,8 +27,8 @@ std::string gibibytes(std::size_t bytes) {
 
 /// One entry of CMAKE_CUDA_ARCHITECTURES.
 struct Architecture {
-  int capability = 0;                 ///< 0 for what is no number
-  bool real = true, virtual_ = true;  ///< machine code, intermediate code (PTX)
+  int capability = 0;                             ///< 0 for what is no number
+  bool machine_code = true, intermediate = true;  ///< the latter is PTX
 };
 
 std::vector<Architecture> parse(const std::string& architectures) {
@@ -42,10 +42,10 @@ std::vector<Architecture> parse(const std::string& architectures) {
     while (n < entry.size() && entry[n] >= '0' && entry[n] <= '9')
       a.capability = 10 * a.capability + (entry[n++] - '0');
     const std::string suffix = entry.substr(n);
-    if (suffix == "-real") a.virtual_ = false;
-    if (suffix == "-virtual") a.real = false;
+    if (suffix == "-real") a.intermediate = false;
+    if (suffix == "-virtual") a.machine_code = false;
     // Letters (90a, 100f) tie the code to one architecture.
-    if (!suffix.empty() && suffix[0] != '-') a.virtual_ = false;
+    if (!suffix.empty() && suffix[0] != '-') a.intermediate = false;
     all.push_back(a);
   }
   return all;
@@ -117,7 +117,7 @@ std::string architectures_in_words(const std::string& architectures) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (all[i].capability == 0) return "the architectures '" + architectures + "'";
     if (i > 0) text += i + 1 == all.size() ? " and " : ", ";
-    text += dotted(all[i].capability) + (all[i].virtual_ ? " or later" : "");
+    text += dotted(all[i].capability) + (all[i].intermediate ? " or later" : "");
   }
   return all.empty() ? "no architecture" : text;
 }
@@ -126,7 +126,7 @@ bool has_code_for(const std::string& architectures, int capability) {
   for (const Architecture& a : parse(architectures)) {
     if (a.capability == 0) return true;
     const bool not_newer = a.capability <= capability;
-    if (not_newer && ((a.real && a.capability / 10 == capability / 10) || a.virtual_)) return true;
+    if (not_newer && ((a.machine_code && a.capability / 10 == capability / 10) || a.intermediate)) return true;
   }
   return false;
 }
