@@ -4,7 +4,8 @@ namespace eval ::espdiff::gui {
     variable form
     array set form {trajectory,mol "" trajectory,file "" trajectory,sel "not water" trajectory,frames 0:1:
         trajectory,against "the frame" trajectory,reference 0 trajectory,map none trajectory,unit "as the map says"
-        trajectory,csv trajectory.csv trajectory,resume 0 trajectory,skip 0}
+        trajectory,csv trajectory.csv trajectory,resume 0 trajectory,skip 0
+        trajectory,steps 0}
     variable references {"the frame" "the frame before"}
     variable automatic_trajectory ""  ;# the molecule that was chosen for the user, who has not chosen since
 
@@ -96,15 +97,18 @@ namespace eval ::espdiff::gui {
         ttk::frame $path.options
         ttk::checkbutton $path.options.resume -text "go on with it" -variable ::espdiff::gui::form(trajectory,resume)
         ttk::checkbutton $path.options.skip -text "skip what fails" -variable ::espdiff::gui::form(trajectory,skip)
+        ttk::checkbutton $path.options.steps -text "in small steps" -variable ::espdiff::gui::form(trajectory,steps)
+        tip $path.options.steps "Each surface goes on from the frame before, where that is much nearer than the\
+            reference: takes less time, and loses a little more of the surface on a long way"
         tip $path.options.resume "Go on where an interrupted run left the file, with the same frames and settings"
         tip $path.options.skip "A frame that cannot be compared becomes a row with the reason, and the run goes on"
-        pack $path.options.resume $path.options.skip -side left -padx {0 10}
+        pack $path.options.resume $path.options.skip $path.options.steps -side left -padx {0 10}
         grid $path.options -row 3 -column 2 -columnspan 2 -sticky w -padx {16 0}
         ttk::label $path.note -text "The settings are those of the tab Pair." -foreground gray40
         grid $path.note -row 4 -column 0 -columnspan 4 -sticky w
         foreach name {map unit} { set widget(trajectory,$name) $path.$name }
         set widget(trajectory,csv) $path.csv.name
-        foreach name {resume skip} { set widget(trajectory,$name) $path.options.$name }
+        foreach name {resume skip steps} { set widget(trajectory,$name) $path.options.$name }
     }
 
     # VMD's molecules and data sets as they are now.
@@ -191,6 +195,7 @@ namespace eval ::espdiff::gui {
             lappend options -unit $form(trajectory,unit)
         }
         if {$form(trajectory,skip)} { lappend options -on-error skip }
+        if {$form(trajectory,steps)} { lappend options -start previous }
         return $options
     }
 
