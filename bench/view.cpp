@@ -20,6 +20,8 @@
 #include <vector>
 
 #include "base/error.h"
+#include "io/atomic_file.h"
+#include "io/write_csv.h"
 #include "view/camera_view.h"
 #include "view/comparison_files.h"
 #include "view/comparison_scene.h"
@@ -116,10 +118,23 @@ std::string driver() {
   window->Render();
   const std::string report = window->ReportCapabilities();
   const std::size_t at = report.find("OpenGL renderer string:");
-  return report.substr(at, report.find('\n', at) - at);
+  const std::string name = report.substr(at, report.find('\n', at) - at);
+  return name.substr(name.find_first_not_of(" ", name.find(':') + 1));
 }
 
-int run(const std::string& vtp, int n_frames) {
+void write_csv(const std::string& path, const std::string& name, const ComparisonFiles& files,
+               const std::vector<Row>& rows) {
+  AtomicFile file(path);
+  write_csv_row(file.stream(), {"case", "vertices", "triangles", "renderer", "picture", "ms", "peer_ms"});
+  for (const Row& row : rows) {
+    write_csv_row(file.stream(),
+                  {name, std::to_string(files.surface.positions.size()), std::to_string(files.surface.triangles.size()),
+                   driver(), row.name, csv_number(row.frame_ms(), 4), csv_number(rows[row.peer].frame_ms(), 4)});
+  }
+  file.commit();
+}
+
+int run(const std::string& vtp, int n_frames, const std::string& csv, const std::string& name) {
   const Scene opaque = basic_scene();
   Scene vertices = opaque, faint = opaque, linked = opaque;
   vertices.per_vertex = true;
@@ -160,6 +175,7 @@ int run(const std::string& vtp, int n_frames) {
     std::printf("| %s | %.1f | %.1f | %.2f |\n", row.name.c_str(), row.frame_ms(), 1000 / row.frame_ms(),
                 row.frame_ms() / rows[row.peer].frame_ms());
   }
+  if (!csv.empty()) write_csv(csv, name, bare, rows);
   return 0;
 }
 
@@ -167,13 +183,15 @@ int run(const std::string& vtp, int n_frames) {
 
 int main(int argc, char** argv) {
   CLI::App app("Frame rates of espdiff's viewer at 1024 x 1024 pixels.");
-  std::string vtp;
+  std::string vtp, csv, name = "surface";
   int n_frames = 40;
   app.add_option("SURFACE", vtp, "OUT.vtp of espdiff compare, with its maps where OUT.json says")->required();
   app.add_option("--frames", n_frames, "Frames a row")->capture_default_str()->check(CLI::Range(3, 10000));
+  app.add_option("--csv", csv, "Write the rows to this file");
+  app.add_option("--name", name, "Name of the surface in that file");
   CLI11_PARSE(app, argc, argv);
   try {
-    return run(vtp, n_frames);
+    return run(vtp, n_frames, csv, name);
   } catch (const Error& error) {
     std::fprintf(stderr, "espdiff_view_bench: %s\n", error.what());
     return error.exit_status();

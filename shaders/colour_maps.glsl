@@ -1,67 +1,34 @@
-// colour_maps.glsl: the maps of src/view/colour_map.h: diverging in Msh, sequential of one hue, classes.
+// colour_maps.glsl: the colours of values. src/view/colour_map.h computes the maps (diverging in Msh, sequential of one
+// hue), and a table brings them here: their powers and sines cost a renderer in software a fifth of the picture.
 
 uniform vec2 range;           // the scale's ends
-uniform vec4 lowEnd;          // Msh, and the hue that it has at the neutral middle
-uniform vec4 highEnd;
-uniform float sequentialHue;  // radians
-uniform vec3 noValueColour;   // colours are sRGB, 0 to 1
+uniform sampler2D colours;    // one row, from the scale's low end to its high end; sRGB, 0 to 1, like all colours
+uniform vec3 noValueColour;
 uniform vec3 sameSignColour;
 uniform vec3 signChangeColour;
 uniform vec3 plainColour;
-
-const float kPi = 3.14159265358979;
-const float kMiddleMagnitude = 88.0;
-
-/// Inverse of CIE's cube-root compression with its linear toe.
-vec3 expandLab(vec3 f)
-{
-  const float toe = 6.0 / 29.0;
-  return mix(3.0 * toe * toe * (f - 4.0 / 29.0), f * f * f, greaterThan(f, vec3(toe)));
-}
-
-/// CIE L*a*b* (D65) to sRGB with its gamma (IEC 61966-2-1).
-vec3 labToSrgb(vec3 lab)
-{
-  float fy = (lab.x + 16.0) / 116.0;
-  vec3 xyz = vec3(0.95047, 1.0, 1.08883) * expandLab(vec3(fy + lab.y / 500.0, fy, fy - lab.z / 200.0));
-  vec3 linear = clamp(vec3(dot(vec3(3.2406, -1.5372, -0.4986), xyz), dot(vec3(-0.9689, 1.8758, 0.0415), xyz),
-                           dot(vec3(0.0557, -0.2040, 1.0570), xyz)), 0.0, 1.0);
-  return mix(12.92 * linear, 1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, greaterThan(linear, vec3(0.0031308)));
-}
-
-/// Msh, the polar form of L*a*b*: magnitude, saturation, hue.
-vec3 mshToSrgb(vec3 msh)
-{
-  float chroma = msh.x * sin(msh.y);
-  return labToSrgb(vec3(msh.x * cos(msh.y), chroma * cos(msh.z), chroma * sin(msh.z)));
-}
 
 float positionOnScale(float value)
 {
   return clamp((value - range.x) / (range.y - range.x), 0.0, 1.0);
 }
 
-/// K. Moreland, "Diverging Color Maps for Scientific Visualization", ISVC 2009.
-vec3 divergingColour(float value)
+/// @param t place in the table, 0 to 1
+vec3 tabulated(float t)
 {
-  float t = positionOnScale(value);
-  vec4 end = t < 0.5 ? lowEnd : highEnd;
-  float towardEnd = abs(2.0 * t - 1.0);
-  return mshToSrgb(vec3(mix(kMiddleMagnitude, end.x, towardEnd), towardEnd * end.y, mix(end.w, end.z, towardEnd)));
+  return texelFetch(colours, ivec2(int(t * float(textureSize(colours, 0).x - 1) + 0.5), 0), 0).rgb;
 }
 
-/// Near-white to dark, evenly in lightness.
-vec3 sequentialColour(float value)
+vec3 scaleColour(float value)
 {
-  float t = positionOnScale(value);
-  float chroma = 42.0 * sin(kPi * (0.04 + 0.72 * t));
-  return labToSrgb(vec3(mix(95.0, 28.0, t), chroma * cos(sequentialHue), chroma * sin(sequentialHue)));
+  return tabulated(positionOnScale(value));
 }
 
-/// Hues a golden section apart, so that neighbours along the chain differ.
+/// The table is a circle of hues here. Residues' hues are a golden section apart, so that neighbours along the chain
+/// differ.
 vec3 residueColour(float index)
 {
-  return index < 0.0 ? noValueColour : mshToSrgb(vec3(82.0, 0.55, 2.0 * kPi * fract(0.61803399 * index)));
+  return index < 0.0 ? noValueColour : tabulated(fract(0.61803399 * index));
 }
 
 /// The value's place in `range` in 24 bits, the highest in red: for tests, which read it back.

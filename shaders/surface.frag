@@ -44,15 +44,15 @@ vec3 surfaceColour()
 {
   if (colourBy == kPlain) return plainColour;
   if (colourBy == kResidue) return residueColour(residueIndexFS);
-  if (colourBy == kDisplacement) return displacementFS < 0.0 ? noValueColour : sequentialColour(displacementFS);
+  if (colourBy == kDisplacement) return displacementFS < 0.0 ? noValueColour : scaleColour(displacementFS);
   vec3 both = potentials();
   if (both.z == 0.0) return noValueColour;
   if (colourBy == kReadBack) return bytesOf(both.y - both.x);
   // Zero agrees with anything.
   if (colourBy == kSign) return both.x * both.y < 0.0 ? signChangeColour : sameSignColour;
-  if (colourBy == kMagnitude) return sequentialColour(abs(both.y - both.x));
+  if (colourBy == kMagnitude) return scaleColour(abs(both.y - both.x));
   float value = colourBy == kSource ? both.x : colourBy == kTarget ? both.y : both.y - both.x;
-  return divergingColour(value);
+  return scaleColour(value);
 }
 
 float opacityHere()

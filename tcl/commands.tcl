@@ -43,7 +43,10 @@ namespace eval ::espdiff {
         summary {A comparison or a matrix as a table for reading, as the command line prints it.} \
         returns {the text} example {puts [espdiff table comparison1]}]
 
-    command export [dict create arguments {handle prefix} options {} settings none run ::espdiff::export \
+    command export [dict create arguments {handle prefix} settings none run ::espdiff::export options {
+            {-inputs boolean 0 "Of a comparison also what it was made of: PREFIX.source.pqr and PREFIX.target.pqr as\
+                they were compared, and maps that came from VMD as PREFIX.source_map.vti and PREFIX.target_map.vti"}
+        } \
         summary {Writes PREFIX.json (numbers, certificate, provenance), PREFIX.vtp (mapped surface, for ParaView) and
             PREFIX.residues.csv; of a surface PREFIX.vtp alone. All files appear together or not at all.} \
         returns {the files written} example {espdiff export comparison1 wild_mutant}]
@@ -113,6 +116,19 @@ namespace eval ::espdiff {
         summary {Draws the surface in VMD, in the place of an older drawing of the same handle. View, top molecule and
             colour settings stay as they are.} \
         returns {the graphics molecules' ids} example {espdiff draw comparison1 -color difference -range {-5 5}}]
+
+    command view [dict create arguments {input} settings none run ::espdiff::view options {
+            {-layout choice turned "From several sides; source, target and difference side by side; or one half of\
+                each" {turned linked split}}
+            {-arguments text {} "Further options of the command line's `espdiff view`, a list such as {--molecule\
+                cartoon --labels 8}"}
+            {-output file {} "Pictures and scenes that are saved in the viewer begin with this; INPUT-view in the\
+                working folder otherwise"}
+        } \
+        summary {Starts espdiff's viewer, a program of its own, with a comparison (its handle, or the PREFIX.vtp that it
+            was exported to). For a handle, what the viewer needs is written into a temporary folder, which is deleted
+            when it ends. The viewer goes on when VMD is left.} \
+        returns {the number of its process} example {espdiff view comparison1 -layout linked}]
 
     command undraw [dict create arguments {{?handle ...?}} options {} settings none run ::espdiff::undraw \
         summary {Removes drawings with their legends; without a handle all of them.} \

@@ -76,7 +76,7 @@ namespace eval ::espdiff {
 
     proc export {options handle prefix} {
         require_core_handle $handle
-        return [core::export $handle $prefix]
+        return [core::export $handle $prefix [dict get $options inputs]]
     }
 
     proc version {options} { return [core::version] }

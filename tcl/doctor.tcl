@@ -6,7 +6,7 @@ namespace eval ::espdiff {
         set items {}
         lappend items [list espdiff ok "[core::version], module [module_path]"]
         lappend items [list Tcl ok [info patchlevel]]
-        lappend items {*}[doctor_build] {*}[doctor_temporary]
+        lappend items {*}[doctor_build] {*}[doctor_viewer] {*}[doctor_temporary]
         if {![in_vmd]} {
             return [lappend items {VMD note "not running in VMD; {file PATH} endpoints work, {mol ID} ones need VMD"}]
         }
@@ -29,6 +29,18 @@ namespace eval ::espdiff {
                 again"]
         }
         return $items
+    }
+
+    proc doctor_viewer {} {
+        set program [program_path]
+        if {$program eq ""} {
+            return {{viewer missing "the program espdiff is not beside the package nor on PATH; `espdiff view` needs\
+                it"}}
+        }
+        if {![dict get [core::build] vtk]} {
+            return {{viewer missing "this build has no VTK; install its development package, and build again"}}
+        }
+        return [list [list viewer ok $program]]
     }
 
     proc doctor_temporary {} {

@@ -46,6 +46,8 @@ std::vector<Command> potential_commands();
 std::vector<Command> drawing_commands();
 /// plot_commands.cpp: plots as files.
 std::vector<Command> plot_commands();
+/// program_commands.cpp: other programs, beside this one.
+std::vector<Command> program_commands();
 /// about_commands.cpp: what this module is and offers.
 std::vector<Command> about_commands();
 

@@ -123,9 +123,21 @@ Tcl_Obj* export_files(const Call& call) {
   }
   const auto comparison = call.handles.finished_comparison(handle);
   const SeriesObject& series = *comparison->series;
-  write_compare(prefix, *series.source.molecule, *comparison->target.molecule, comparison->result,
-                series.computation.options, comparison->provenance);
-  return to_list({prefix + ".json", prefix + ".vtp", prefix + ".residues.csv"});
+  const Endpoint &source = series.source, &target = comparison->target;
+  if (!to_bool(call.arguments[2], "inputs")) {
+    write_compare(prefix, *source.molecule, *target.molecule, comparison->result, series.computation.options,
+                  comparison->provenance);
+    return to_list({prefix + ".json", prefix + ".vtp", prefix + ".residues.csv"});
+  }
+  const auto from_memory = [](const Endpoint& endpoint) {
+    return endpoint.map && endpoint.map_path.empty() ? &*endpoint.map : nullptr;
+  };
+  std::vector<Tcl_Obj*> written;
+  for (const std::string& path : write_compare_with_inputs(
+           prefix, *source.molecule, *target.molecule, comparison->result, series.computation.options,
+           comparison->provenance, {from_memory(source), from_memory(target)}))
+    written.push_back(to_obj(path));
+  return to_list(written);
 }
 
 /// The values of a quantity by residue; in the order of residues().
@@ -151,7 +163,7 @@ std::vector<Command> result_commands() {
           {"residue_pdb", 3, 3, "handle quantity file", residue_pdb},
           {"table", 1, 1, "handle", table},
           {"range", 2, 2, "handle quantity", range},
-          {"export", 2, 2, "handle prefix", export_files}};
+          {"export", 3, 3, "handle prefix inputs", export_files}};
 }
 
 }  // namespace espdiff::vmdplugin

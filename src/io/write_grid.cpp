@@ -143,6 +143,11 @@ void write_vti(const std::string& path, const Grid& grid) {
   file.commit();
 }
 
+void write_vti(std::ostream& out, const Grid& grid) {
+  check_grid(grid.name, grid);
+  write_vti_content(out, grid);
+}
+
 void check_map_ending(const std::string& path) {
   if (ends_with(path, ".dx") || ends_with(path, ".vti")) return;
   throw InputError(path + ": maps are written as OpenDX or VTI; give a name that ends in .dx or .vti");

@@ -1,6 +1,7 @@
 // write_grid.h: potential maps as OpenDX text, as APBS and VMD read it, and as VTI.
 #pragma once
 
+#include <ostream>
 #include <string>
 
 #include "base/types.h"
@@ -17,6 +18,10 @@ void write_dx(const std::string& path, const Grid& grid);
 /// field "unit". Axes that are skewed or turned are in the Direction matrix (VTK 9).
 /// @throws as write_dx()
 void write_vti(const std::string& path, const Grid& grid);
+
+/// The content of such a file.
+/// @throws InputError as write_dx(), naming the grid
+void write_vti(std::ostream& out, const Grid& grid);
 
 /// Writes the whole file's content in the format of its name's ending, .dx or .vti, without giving it its name: the
 /// caller commits.

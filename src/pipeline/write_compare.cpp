@@ -2,11 +2,17 @@
 #include "pipeline/write_compare.h"
 
 #include <cmath>
+#include <deque>
+#include <filesystem>
 #include <limits>
+#include <sstream>
 
 #include "base/error.h"
 #include "io/atomic_file.h"
+#include "io/sha256.h"
 #include "io/write_csv.h"
+#include "io/write_grid.h"
+#include "io/write_pqr.h"
 #include "io/write_vtp.h"
 
 namespace espdiff {
@@ -122,13 +128,71 @@ CountedSurface counted_surface(const CompareResult& result) {
   return counted;
 }
 
+namespace {
+
+/// Files that appear together.
+class FileSet {
+ public:
+  std::ostream& add(const std::string& path) { return files_.emplace_back(path).stream(); }
+  std::vector<std::string> commit() {
+    std::vector<AtomicFile*> all;
+    std::vector<std::string> paths;
+    for (AtomicFile& file : files_) {
+      all.push_back(&file);
+      paths.push_back(file.path());
+    }
+    commit_all(all);
+    return paths;
+  }
+
+ private:
+  std::deque<AtomicFile> files_;
+};
+
+void add_results(FileSet& files, const std::string& output_prefix, const Molecule& source, const Molecule& target,
+                 const CompareResult& result, const CompareOptions& options, const Provenance& provenance) {
+  files.add(output_prefix + ".json") << compare_json(source, target, result, options, provenance) << '\n';
+  write_surface_file(files.add(output_prefix + ".vtp"), source, result, provenance);
+  write_residue_file(files.add(output_prefix + ".residues.csv"), source, result);
+}
+
+/// Adds a file whose content is the input of this role from now on.
+void keep(FileSet& files, Provenance& provenance, const std::string& role, const std::string& path,
+          const std::string& content) {
+  files.add(path) << content;
+  const InputFile kept{role, std::filesystem::path(path).filename().string(), sha256_of(content)};
+  for (InputFile& input : provenance.inputs) {
+    if (input.role == role) input = kept;
+  }
+}
+
+}  // namespace
+
 void write_compare(const std::string& output_prefix, const Molecule& source, const Molecule& target,
                    const CompareResult& result, const CompareOptions& options, const Provenance& provenance) {
-  AtomicFile json(output_prefix + ".json"), surface(output_prefix + ".vtp"), residues(output_prefix + ".residues.csv");
-  json.stream() << compare_json(source, target, result, options, provenance) << '\n';
-  write_surface_file(surface.stream(), source, result, provenance);
-  write_residue_file(residues.stream(), source, result);
-  commit_all({&json, &surface, &residues});
+  FileSet files;
+  add_results(files, output_prefix, source, target, result, options, provenance);
+  files.commit();
+}
+
+std::vector<std::string> write_compare_with_inputs(const std::string& output_prefix, const Molecule& source,
+                                                   const Molecule& target, const CompareResult& result,
+                                                   const CompareOptions& options, Provenance provenance,
+                                                   const KeptInputs& kept) {
+  FileSet files;
+  for (const auto& [role, molecule] : {std::pair("source", &source), std::pair("target", &target)}) {
+    std::ostringstream content;
+    write_pqr(content, *molecule);
+    keep(files, provenance, role, output_prefix + "." + role + ".pqr", content.str());
+  }
+  for (const auto& [role, map] : {std::pair("source_map", kept.source_map), std::pair("target_map", kept.target_map)}) {
+    if (map == nullptr) continue;
+    std::ostringstream content;
+    write_vti(content, *map);
+    keep(files, provenance, role, output_prefix + "." + role + ".vti", content.str());
+  }
+  add_results(files, output_prefix, source, target, result, options, provenance);
+  return files.commit();
 }
 
 }  // namespace espdiff

@@ -47,6 +47,22 @@ struct Provenance {
 void write_compare(const std::string& output_prefix, const Molecule& source, const Molecule& target,
                    const CompareResult& result, const CompareOptions& options, const Provenance& provenance);
 
+/// What a comparison was made of, to be written beside its results: molecules as they were compared (one model, one
+/// frame, a selection), and the maps that are in no file (null for those that are, or were computed).
+struct KeptInputs {
+  const Grid* source_map = nullptr;
+  const Grid* target_map = nullptr;
+};
+/// As write_compare(), with OUT.source.pqr and OUT.target.pqr and, for maps from memory, OUT.source_map.vti and
+/// OUT.target_map.vti, which OUT.json then names as its inputs, by names that lie beside it: the comparison can be
+/// repeated from these files, and drawn with maps and molecules.
+/// @returns all files written
+/// @throws IoError; InputError (a map with values that are not finite)
+std::vector<std::string> write_compare_with_inputs(const std::string& output_prefix, const Molecule& source,
+                                                   const Molecule& target, const CompareResult& result,
+                                                   const CompareOptions& options, Provenance provenance,
+                                                   const KeptInputs& kept);
+
 /// The content of OUT.json.
 /// What has no value (NaN, potentials without maps, what this version does not check) is null.
 std::string compare_json(const Molecule& source, const Molecule& target, const CompareResult& result,

@@ -47,15 +47,7 @@ Rgb to_srgb(const Lab& lab) {
 
 constexpr double kMiddleMagnitude = 88;
 
-}  // namespace
-
-const DivergingMap& diverging_map(const std::string& name) {
-  if (name == "red-blue") return kRedBlue;
-  if (name == "cool-warm") return kCoolWarm;
-  if (name == "purple-orange") return kPurpleOrange;
-  throw InputError("no colours '" + name + "'; use red-blue, cool-warm or purple-orange");
-}
-
+/// Hue that the unsaturated middle takes on the way to a saturated end (Moreland's adjusted hue).
 double hue_at_middle(const Msh& end) {
   // Turning the hue while the magnitude grows makes the path leave the end at the same rate of perceived change as the
   // saturation's. It turns away from purple, so that the arms stay apart.
@@ -63,6 +55,15 @@ double hue_at_middle(const Msh& end) {
   const double growth = std::sqrt(kMiddleMagnitude * kMiddleMagnitude - end.magnitude * end.magnitude);
   const double spin = end.saturation * growth / (end.magnitude * std::sin(end.saturation));
   return end.hue > -kPi / 3 ? end.hue + spin : end.hue - spin;
+}
+
+}  // namespace
+
+const DivergingMap& diverging_map(const std::string& name) {
+  if (name == "red-blue") return kRedBlue;
+  if (name == "cool-warm") return kCoolWarm;
+  if (name == "purple-orange") return kPurpleOrange;
+  throw InputError("no colours '" + name + "'; use red-blue, cool-warm or purple-orange");
 }
 
 Rgb diverging_colour(double t, const DivergingMap& map) {
@@ -84,10 +85,12 @@ Rgb sequential_colour(double t, double hue) {
                   chroma * std::sin(hue)});
 }
 
+Rgb residue_hue(double turn) { return to_srgb(to_lab({82, 0.55, 2 * kPi * turn})); }
+
 Rgb residue_colour(int index) {
   if (index < 0) return kNoValueColour;
   double whole = 0;
-  return to_srgb(to_lab({82, 0.55, 2 * kPi * std::modf(0.61803399 * index, &whole)}));
+  return residue_hue(std::modf(0.61803399 * index, &whole));
 }
 
 }  // namespace espdiff

@@ -52,12 +52,13 @@ const DivergingMap& diverging_map(const std::string& name);
 /// @param t 0 (lowest value) to 1 (highest); clamped
 Rgb diverging_colour(double t, const DivergingMap& map = kCoolWarm);
 
-/// Hue that the unsaturated middle takes on the way to a saturated end (Moreland's adjusted hue).
-double hue_at_middle(const Msh& end);
-
 /// Near-white to dark of one hue, evenly in CIE lightness, for magnitudes such as a displacement.
 /// @param t 0 to 1; clamped
 Rgb sequential_colour(double t, double hue = kGreenHue);
+
+/// The circle of hues that residues have.
+/// @param turn 0 to 1
+Rgb residue_hue(double turn);
 
 /// Colours of residues: hues a golden section apart, so that neighbours along the chain differ. Negative: no residue.
 Rgb residue_colour(int index);

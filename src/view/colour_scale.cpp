@@ -143,6 +143,17 @@ Rgb ColourScale::colour(float value) const {
   return is_sequential() ? sequential_colour(t, hue()) : diverging_colour(t, map_);
 }
 
+std::vector<Rgb> ColourScale::table(std::size_t n) const {
+  std::vector<Rgb> colours(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double t = static_cast<double>(i) / static_cast<double>(n - 1);
+    colours[i] = array_ == RenderArray::kResidue ? residue_hue(t)
+                 : is_sequential()               ? sequential_colour(t, hue())
+                                                 : diverging_colour(t, map_);
+  }
+  return colours;
+}
+
 double OpacityScale::opacity(double displacement_A) const {
   if (std::isnan(displacement_A) || displacement_A >= faint_above_A) return least;
   if (displacement_A <= opaque_below_A) return greatest;

@@ -1,6 +1,7 @@
 // colour_scale.h: from a value on a vertex to its colour and opacity, and what a legend must say about it.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -46,10 +47,9 @@ class ColourScale {
   ColourScale(RenderArray array, const std::vector<float>& values, double limit);
 
   RenderArray array() const { return array_; }
-  const DivergingMap& map() const { return map_; }
-  /// Of the sequential map.
-  double hue() const;
   Rgb colour(float value) const;
+  /// So many colours from the low end to the high one; of residues, the circle of their hues.
+  std::vector<Rgb> table(std::size_t n) const;
   double low() const { return low_; }
   double high() const { return high_; }
   bool two_classes() const { return array_ == RenderArray::kSign; }
@@ -61,6 +61,7 @@ class ColourScale {
   bool has_missing() const { return has_missing_; }
 
  private:
+  double hue() const;
   bool is_sequential() const { return array_ == RenderArray::kDisplacement || array_ == RenderArray::kMagnitude; }
   void set_ends(std::vector<float> magnitudes, const ScaleRange& range);
 

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "base/vector.h"
 #include "view/colour_map.h"
 #include "view/colour_scale.h"
 
@@ -40,16 +42,25 @@ class Legend {
   /// How opacity fades with the displacement. Shown on the colour that the surface's neutral parts have.
   void opacity(const PixelBox& bar, const OpacityScale& scale);
 
-  /// A square of a colour with its meaning to the right. @return the width that it takes
+  /// The width of a key in pixels, nearly.
+  double key_width(const std::string& meaning) const { return 1.5 * text_height_ + text_width(meaning); }
+  /// A square of a colour with its meaning to the right. @return key_width()
   double key(double x, double y, Rgb colour, double opacity, const std::string& meaning);
   /// The same for what is hatched.
   double hatched_key(double x, double y, const std::string& meaning);
+
+  /// Directions of three axes with their letters, from their origin. Those that point away from the viewer are paler.
+  /// @param right, up, toward_viewer unit vectors of the picture in the frame of the axes
+  void axes(double x, double y, double length, Vec3d right, Vec3d up, Vec3d toward_viewer);
 
   /// A vertical line.
   void rule(double x, double bottom, double top);
   void rectangle(const PixelBox& box, Rgb colour, double opacity = 1.0);
 
  private:
+  /// Steps of a bar from left to right, as one shape.
+  void strip(const PixelBox& bar, const std::vector<Rgb>& colours, const std::vector<double>& opacities);
+  void line(double x0, double y0, double x1, double y1, Rgb colour);
   void triangle(double x0, double y0, double x1, double y1, double x2, double y2, Rgb colour);
   void frame(const PixelBox& box);
   double text_width(const std::string& words) const;

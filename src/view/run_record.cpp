@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "io/sha256.h"
 
 namespace espdiff {
 namespace {
@@ -13,11 +14,13 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-std::string found_from(const fs::path& folder, const std::string& path) {
+/// The file with the recorded content, where there are two of this name.
+RecordedInput found_from(const fs::path& folder, const std::string& path, const std::string& sha256) {
   std::error_code ignored;
-  if (fs::exists(path, ignored)) return path;
-  const fs::path beside = folder / path;
-  return fs::exists(beside, ignored) ? beside.string() : path;
+  const std::string beside = (folder / path).string();
+  if (!fs::exists(beside, ignored)) return {path, sha256};
+  const bool is_here = fs::is_regular_file(path, ignored) && sha256_of_file(path) == sha256;
+  return {is_here ? path : beside, sha256};
 }
 
 void read_inputs(const Json& inputs, const fs::path& folder, RunRecord& record) {
@@ -33,7 +36,7 @@ void read_inputs(const Json& inputs, const fs::path& folder, RunRecord& record) 
       record.maps_computed = true;
       continue;
     }
-    *to = {found_from(folder, input.at("path")), input.at("sha256")};
+    *to = found_from(folder, input.at("path"), input.at("sha256"));
   }
 }
 

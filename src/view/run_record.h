@@ -27,7 +27,7 @@ struct RunRecord {
 };
 
 /// Reads the OUT.json beside an OUT.vtp. Input paths that are relative are taken from the folder where the comparison
-/// ran; when no file is there, from the folder of OUT.json.
+/// ran; when the recorded content is not there, from the folder of OUT.json.
 /// @throws FormatError when the file is damaged or is no record of a comparison
 RunRecord read_run_record(const std::string& vtp_path);
 

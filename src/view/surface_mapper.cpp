@@ -33,12 +33,6 @@ void set_floats(vtkShaderProgram* program, const char* name, float a, float b) {
   if_used(program, name, [&](const char* n) { program->SetUniform2f(n, values); });
 }
 
-void set_end(vtkShaderProgram* program, const char* name, const Msh& end) {
-  const float values[4] = {static_cast<float>(end.magnitude), static_cast<float>(end.saturation),
-                           static_cast<float>(end.hue), static_cast<float>(hue_at_middle(end))};
-  if_used(program, name, [&](const char* n) { program->SetUniform4f(n, values); });
-}
-
 void set_float(vtkShaderProgram* program, const char* name, double value) {
   if_used(program, name, [&](const char* n) { program->SetUniformf(n, static_cast<float>(value)); });
 }
@@ -46,6 +40,9 @@ void set_float(vtkShaderProgram* program, const char* name, double value) {
 void set_integer(vtkShaderProgram* program, const char* name, int value) {
   if_used(program, name, [&](const char* n) { program->SetUniformi(n, value); });
 }
+
+/// In a table: its steps are below those of eight bits. Graphics processors of the last fifteen years take 8192.
+constexpr std::size_t kColours = 2048;
 
 /// kReadBack of shaders/surface.frag.
 constexpr int kReadBack = 8;
@@ -56,6 +53,7 @@ vtkStandardNewMacro(SurfaceMapper);
 
 SurfaceMapper::SurfaceMapper() {
   set_maps(std::make_shared<MapTexture>(nullptr), std::make_shared<MapTexture>(nullptr));
+  set_look({});
   this->ScalarVisibilityOff();
   // The shaders mix two sets of positions, which must not be shifted each by its own way.
   this->SetVBOShiftScaleMethod(vtkOpenGLVertexBufferObject::DISABLE_SHIFT_SCALE);
@@ -87,6 +85,7 @@ Lookup SurfaceMapper::lookup(vtkRenderer* renderer) const {
 
 void SurfaceMapper::set_look(const SurfaceLook& look) {
   look_ = look;
+  colours_.set(look.scale.table(kColours));
   changed_ = true;
 }
 
@@ -127,11 +126,13 @@ void SurfaceMapper::RenderPieceStart(vtkRenderer* renderer, vtkActor* actor) {
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   source_map_->activate(window);
   target_map_->activate(window);
+  colours_.activate(window);
   Superclass::RenderPieceStart(renderer, actor);
 }
 
 void SurfaceMapper::RenderPieceFinish(vtkRenderer* renderer, vtkActor* actor) {
   Superclass::RenderPieceFinish(renderer, actor);
+  colours_.deactivate();
   target_map_->deactivate();
   source_map_->deactivate();
 }
@@ -139,6 +140,7 @@ void SurfaceMapper::RenderPieceFinish(vtkRenderer* renderer, vtkActor* actor) {
 void SurfaceMapper::ReleaseGraphicsResources(vtkWindow* window) {
   source_map_->release(window);
   target_map_->release(window);
+  colours_.release(window);
   Superclass::ReleaseGraphicsResources(window);
 }
 
@@ -160,9 +162,7 @@ void SurfaceMapper::SetMapperShaderParameters(vtkOpenGLHelper& cells, vtkRendere
 void SurfaceMapper::set_colour_uniforms(vtkShaderProgram* program) {
   const ColourScale& scale = look_.scale;
   set_floats(program, "range", static_cast<float>(scale.low()), static_cast<float>(scale.high()));
-  set_end(program, "lowEnd", scale.map().low);
-  set_end(program, "highEnd", scale.map().high);
-  set_float(program, "sequentialHue", scale.hue());
+  set_integer(program, "colours", colours_.unit());
   set_colour(program, "noValueColour", kNoValueColour);
   set_colour(program, "sameSignColour", kSameSignColour);
   set_colour(program, "signChangeColour", kSignChangeColour);

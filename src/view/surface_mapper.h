@@ -8,6 +8,7 @@
 #include <string>
 
 #include "view/colour_scale.h"
+#include "view/colour_texture.h"
 #include "view/map_texture.h"
 
 namespace espdiff {
@@ -76,6 +77,7 @@ class SurfaceMapper : public vtkOpenGLPolyDataMapper {
   SurfacePart part_ = SurfacePart::kTrusted;
   bool changed_ = true;  ///< the program's constants are no longer what is to be drawn
   std::shared_ptr<MapTexture> source_map_, target_map_;
+  ColourTexture colours_;
 };
 
 }  // namespace espdiff

@@ -36,12 +36,15 @@ namespace eval ::espdiff::gui {
         tip $path.top.list "Results that exist, those of scripts as well"
         bind $path.top.list <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::choose_result}
         button $path.top.table Table... ::espdiff::gui::show_table 0
+        button $path.top.view Viewer ::espdiff::gui::view_result 0
         button $path.top.export Export... ::espdiff::gui::export 0
         button $path.top.delete Delete ::espdiff::gui::delete_result 2
         tip $path.top.table "All numbers, as the command line prints them"
+        tip $path.top.view "Open the result in espdiff's viewer: both maps at every pixel, cartoon, field lines,\
+            pictures for print"
         tip $path.top.export "Write numbers (.json), mapped surface (.vtp) and residues (.csv)"
         tip $path.top.delete "Free this result and its drawing"
-        grid $path.top.list $path.top.table $path.top.export $path.top.delete -sticky ew -padx {0 6}
+        grid $path.top.list $path.top.view $path.top.table $path.top.export $path.top.delete -sticky ew -padx {0 6}
         grid configure $path.top.delete -padx 0
         grid columnconfigure $path.top 0 -weight 1
         build_verdict $path.verdict
@@ -51,7 +54,7 @@ namespace eval ::espdiff::gui {
         grid columnconfigure $path.numbers {1 4} -weight 1
         grid columnconfigure $path.numbers 2 -minsize 16
         pack $path.top $path.verdict $path.numbers -fill x -pady {0 4}
-        foreach name {list table export delete} { set widget(result,$name) $path.top.$name }
+        foreach name {list view table export delete} { set widget(result,$name) $path.top.$name }
     }
 
     # A coloured band: one line in bold, and reasons if there are any.
@@ -140,8 +143,8 @@ namespace eval ::espdiff::gui {
         set shown [lindex [split $chosen_result :] 0]
         show_verdict
         show_numbers
-        set_enabled [expr {$shown ne ""}] $widget(result,list) $widget(result,table) $widget(result,export) \
-            $widget(result,delete)
+        set_enabled [expr {$shown ne ""}] $widget(result,list) $widget(result,view) $widget(result,table) \
+            $widget(result,export) $widget(result,delete)
         show_residues
         if {[in_vmd]} { update_draw }
     }
@@ -189,6 +192,12 @@ namespace eval ::espdiff::gui {
     proc show_table {} {
         variable shown
         text_window table "espdiff: $shown" [espdiff table $shown]
+    }
+
+    proc view_result {} {
+        variable shown
+        espdiff view $shown
+        show_message "The viewer is starting; h there shows its keys."
     }
 
     proc export {} {

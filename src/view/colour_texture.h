@@ -1,0 +1,33 @@
+// colour_texture.h: the colours of a scale as a texture in the memory of the graphics processor.
+#pragma once
+
+#include <vtkNew.h>
+#include <vtkTextureObject.h>
+
+#include <vector>
+
+#include "view/colour_map.h"
+
+class vtkOpenGLRenderWindow;
+class vtkWindow;
+
+namespace espdiff {
+
+/// One row of colours, uploaded when it is first drawn and after each change.
+class ColourTexture {
+ public:
+  void set(std::vector<Rgb> colours);
+  /// Binds it to a texture unit of its own.
+  /// @throws DeviceError when the graphics processor does not take it
+  void activate(vtkOpenGLRenderWindow* window);
+  void deactivate() { texture_->Deactivate(); }
+  int unit() { return texture_->GetTextureUnit(); }
+  void release(vtkWindow* window) { texture_->ReleaseGraphicsResources(window); }
+
+ private:
+  std::vector<Rgb> colours_;
+  bool changed_ = true;
+  vtkNew<vtkTextureObject> texture_;
+};
+
+}  // namespace espdiff
