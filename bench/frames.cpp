@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <exception>
 #include <fstream>
 #include <string>
@@ -33,6 +34,7 @@ struct Run {
   std::size_t every = 1;
   std::vector<PairRow> rows{};
   int n_from_previous = 0;
+  double processor_s = 0;  ///< of all threads together
 };
 
 std::string name_of(StartFrom start) { return start == StartFrom::kSource ? "source" : "previous"; }
@@ -46,12 +48,14 @@ void measure(espdiff::Engine& engine, const std::vector<espdiff::Molecule>& fram
   espdiff::CompareOptions options;
   options.method = run.method;
   options.pieces = a.pieces;
+  const std::clock_t begun = std::clock();
   espdiff::Series series(engine, {&frames[0], nullptr}, options);
   for (std::size_t f = run.every; f < frames.size(); f += run.every) {
     const espdiff::CompareResult result = series.step({&frames[f], nullptr}, run.start, {});
     run.rows.push_back(make_row(std::to_string(f), result));
     run.n_from_previous += result.start == StartFrom::kPrevious ? 1 : 0;
   }
+  run.processor_s = static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
 }
 
 std::vector<double> column(const Run& run, double PairRow::*value) {
@@ -69,8 +73,9 @@ std::string csv_of(const Run& run) {
     sum += totals.back();
   }
   char text[160];
-  std::snprintf(text, sizeof text, "%s,%s,%zu,%zu,%d,%.1f,%.0f,%.0f", to_string(run.method).c_str(),
-                name_of(run.start).c_str(), run.every, run.rows.size(), run.n_from_previous, sum / 1000, median(totals),
+  std::snprintf(text, sizeof text, "%s,%s,%zu,%zu,%d,%.1f,%.1f,%.0f,%.0f", to_string(run.method).c_str(),
+                name_of(run.start).c_str(), run.every, run.rows.size(), run.n_from_previous, sum / 1000,
+                run.processor_s, median(totals),
                 median(column(run, run.method == Method::kMorph ? &PairRow::steps : &PairRow::deform_iterations)));
   std::string line = text;
   const auto add = [&](double value, int digits) {
@@ -99,7 +104,7 @@ std::string csv_of(const Run& run) {
 }
 
 constexpr const char* kHeader =
-    "method,start,every,frames,from_previous,total_s,median_ms,median_steps,median_lost_source_percent,"
+    "method,start,every,frames,from_previous,total_s,processor_s,median_ms,median_steps,median_lost_source_percent,"
     "worst_lost_source_percent,median_lost_target_percent,worst_lost_target_percent,median_same_residue_percent,"
     "least_same_residue_percent,median_displacement_A,median_path_length_A,median_mapped_to_target_A,"
     "median_coverage_A,median_corrupt_percent,most_intersecting_pairs,most_vertices";
