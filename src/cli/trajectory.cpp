@@ -36,7 +36,8 @@ void add_run_options(CLI::App& p, Arguments& a) {
   p.add_option(
        "--start", a.start,
        "Begin each frame's mapping at the source, or at the previous frame's where that is nearer (by the morph "
-       "at most half as far, with at most 1 % of the source lost there): small steps, in less time; auto: source "
+       "less than half as far, with at most 0.5 % of the source lost on the way): small steps, in less time; auto: "
+       "source "
        "by --method morph, previous by deform")
       ->check(CLI::IsMember({"auto", "previous", "source"}))
       ->capture_default_str()

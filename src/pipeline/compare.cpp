@@ -273,7 +273,7 @@ struct Series::Steps {
     }
     evaluate(target, frame, target_surface, target_map, mapping, result, progress, clock);
     if (options.method == Method::kMorph) {
-      last = after_morph(morphed, *target.molecule, frame.from_target, std::move(target_atoms),
+      last = after_morph(morphed, *target.molecule, frame.from_target, std::move(target_atoms), before,
                          result.certificate.no_counterpart_source);
     } else if (result.deform_report.converged) {
       last = after_deform(engine, regularized, mapping.mapped, std::move(target_atoms));

@@ -191,7 +191,9 @@ struct SeriesState {
     std::vector<float> lost;         ///< [triangle] nonzero: lost in this step or one before
     std::vector<float> path_length;  ///< [vertex] length of its way so far
     Molecule target;                 ///< the last target
-    double no_counterpart_source = 0;
+    /// Shares of the source's area without counterpart: on the last target, and where the surface came from the source
+    /// last.
+    double lost_share = 0, lost_share_at_start = 0;
   };
   std::optional<Morph> morph;  ///< nothing by the method deform
 };
@@ -210,12 +212,12 @@ class Series {
   /// By deform, where the last mapping converged and its target lies nearer to this one than the source does (RMSD of
   /// the paired atoms, as superposed). The internal force is measured from the source's shape in both cases.
   ///
-  /// By the morph, where the last target lies nearer than half as far as the source and at most 1 % of the source's
-  /// area was without counterpart there. Its surface then travels on with the atoms from the last target to this one:
-  /// the correspondence is composed of small steps. Path lengths add up; edges that were halved stay halved; what the
-  /// surface lost on the way stays without counterpart until a step starts from the source again. What settle() left
-  /// out beyond that is about one target alone, and not carried on. A surface that starts from the source again jumps
-  /// to the counterparts of the direct way.
+  /// By the morph, where the last target lies less than half as far as the source, and the surface has lost at most
+  /// 0.5 % of the source's area since it came from there. Its surface then travels on with the atoms from the last
+  /// target to this one: the correspondence is composed of small steps. Path lengths add up; edges that were halved
+  /// stay halved; what the surface lost on the way stays without counterpart until a step starts from the source again.
+  /// What settle() left out beyond that is about one target alone, and not carried on. A surface that starts from the
+  /// source again jumps to the counterparts of the direct way.
   /// @throws as compare()
   CompareResult step(const CompareInput& target, StartFrom start, const Progress& progress);
 

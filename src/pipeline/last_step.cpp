@@ -16,8 +16,9 @@ namespace {
 /// By the morph: going on keeps what was lost on the way, hence pays only along a motion, whose next frame lies much
 /// nearer than the source. Between models of an ensemble, all as far from one another, it lost several times as much.
 constexpr double kSmallStep = 0.5;
-/// By the morph: with more lost the next mapping is made anew, from the source, which may find some of it again.
-constexpr double kMostLost = 0.01;
+/// By the morph: with more of the source's area lost since it came from there, the next mapping is made anew, which may
+/// find some of it again.
+constexpr double kMostLostOnWay = 0.005;
 
 /// Root mean square distance over the atoms that both have; NaN when there are none.
 double rms_distance(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
@@ -88,8 +89,9 @@ LastStep after_deform(Engine& engine, const MeshPtr& regularized, const MeshPtr&
 }
 
 LastStep after_morph(const MorphResult& morphed, const Molecule& molecule, const RigidTransform& to_common,
-                     std::vector<Vec3d> target, double no_counterpart_source) {
-  LastStep last{morphed.mapped, std::move(target), morphed, molecule, no_counterpart_source};
+                     std::vector<Vec3d> target, const LastStep* before, double lost) {
+  LastStep last{
+      morphed.mapped, std::move(target), morphed, molecule, lost, before != nullptr ? before->lost_at_start : lost};
   for (Vec3d& p : last.molecule.positions) p = to_common.apply(p);
   last.molecule.charges.clear();
   return last;
@@ -104,7 +106,8 @@ SeriesState state_of(Engine& engine, const LastStep& last) {
                                      engine.download(last.morphed->lost),
                                      engine.download(last.morphed->path_length),
                                      last.molecule,
-                                     last.no_counterpart_source};
+                                     last.lost,
+                                     last.lost_at_start};
   }
   return state;
 }
@@ -126,11 +129,16 @@ LastStep last_step_of(Engine& engine, const SeriesState& state, const MeshPtr& r
   morphed.mapped = engine.with_positions(morphed.source, state.mapped);
   morphed.lost = engine.upload_scalars(state.morph->lost);
   morphed.path_length = engine.upload_scalars(state.morph->path_length);
-  return {morphed.mapped, state.target, morphed, state.morph->target, state.morph->no_counterpart_source};
+  return {morphed.mapped,
+          state.target,
+          morphed,
+          state.morph->target,
+          state.morph->lost_share,
+          state.morph->lost_share_at_start};
 }
 
 bool goes_on(const LastStep& last, const Molecule& source, const CommonFrame& frame, const std::vector<Vec3d>& target) {
-  if (last.morphed && last.no_counterpart_source > kMostLost) return false;
+  if (last.morphed && last.lost - last.lost_at_start > kMostLostOnWay) return false;
   std::vector<Vec3d> moved;
   for (std::size_t i = 0; i < source.size(); ++i)
     moved.push_back(frame.pieces.of(source.atoms[i].residue).apply(frame.from_source.apply(source.positions[i]), 1));

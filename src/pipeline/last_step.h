@@ -15,7 +15,8 @@ struct LastStep {
   std::vector<Vec3d> target;  ///< see SeriesState
   std::optional<MorphResult> morphed{};  ///< by the morph: what its surface goes on from
   Molecule molecule{};                   ///< by the morph: the target
-  double no_counterpart_source = 0;      ///< share of the source's area
+  double lost = 0;                       ///< by the morph: share of the source's area without counterpart
+  double lost_at_start = 0;              ///< the same where the surface came from the source last
 };
 
 /// Where each source atom's counterpart lies, in the common frame; NaN where there is none.
@@ -23,8 +24,9 @@ std::vector<Vec3d> counterparts(const Molecule& source, const Molecule& target, 
                                 const RigidTransform& to_common);
 
 LastStep after_deform(Engine& engine, const MeshPtr& regularized, const MeshPtr& mapped, std::vector<Vec3d> target);
+/// @param before what the step went on from, null for the source; @param lost share of the source's area
 LastStep after_morph(const MorphResult& morphed, const Molecule& molecule, const RigidTransform& to_common,
-                     std::vector<Vec3d> target, double no_counterpart_source);
+                     std::vector<Vec3d> target, const LastStep* before, double lost);
 
 SeriesState state_of(Engine& engine, const LastStep& last);
 /// @throws InputError when the state is of another surface than `regularized`, or of the other method

@@ -122,7 +122,8 @@ void write_series_state(const std::string& path, const SeriesState& state, const
     append_counted(bytes, state.morph->lost);
     append_counted(bytes, state.morph->path_length);
     append_molecule(bytes, state.morph->target);
-    append(bytes, &state.morph->no_counterpart_source, 1);
+    append(bytes, &state.morph->lost_share, 1);
+    append(bytes, &state.morph->lost_share_at_start, 1);
   }
   AtomicFile file(path);
   file.stream() << bytes << sha256_of(bytes);
@@ -160,7 +161,8 @@ SeriesState read_series_state(const std::string& path, const std::string& finger
     morph.lost = reader.take_counted<float>();
     morph.path_length = reader.take_counted<float>();
     morph.target = take_molecule(reader);
-    morph.no_counterpart_source = reader.take<double>(1)[0];
+    morph.lost_share = reader.take<double>(1)[0];
+    morph.lost_share_at_start = reader.take<double>(1)[0];
     state.morph = std::move(morph);
   }
   if (!reader.at_end()) throw Reader::damaged(path);

@@ -97,18 +97,21 @@ namespace eval ::espdiff::gui {
         ttk::frame $path.options
         ttk::checkbutton $path.options.resume -text "go on with it" -variable ::espdiff::gui::form(trajectory,resume)
         ttk::checkbutton $path.options.skip -text "skip what fails" -variable ::espdiff::gui::form(trajectory,skip)
-        ttk::checkbutton $path.options.steps -text "in small steps" -variable ::espdiff::gui::form(trajectory,steps)
-        tip $path.options.steps "Each surface goes on from the frame before, where that is much nearer than the\
-            reference: takes less time, and loses a little more of the surface on a long way"
         tip $path.options.resume "Go on where an interrupted run left the file, with the same frames and settings"
         tip $path.options.skip "A frame that cannot be compared becomes a row with the reason, and the run goes on"
-        pack $path.options.resume $path.options.skip $path.options.steps -side left -padx {0 10}
+        pack $path.options.resume $path.options.skip -side left -padx {0 10}
         grid $path.options -row 3 -column 2 -columnspan 2 -sticky w -padx {16 0}
         ttk::label $path.note -text "The settings are those of the tab Pair." -foreground gray40
-        grid $path.note -row 4 -column 0 -columnspan 4 -sticky w
+        grid $path.note -row 4 -column 0 -columnspan 2 -sticky w
+        ttk::checkbutton $path.steps -text "in small steps" -variable ::espdiff::gui::form(trajectory,steps)
+        tip $path.steps "Each surface goes on from the frame before, where that is much nearer than the reference:\
+            takes less time, and loses a little more of the surface on a long way. A frame that is chosen below is\
+            compared with the reference directly"
+        grid $path.steps -row 4 -column 2 -columnspan 2 -sticky w -padx {16 0}
         foreach name {map unit} { set widget(trajectory,$name) $path.$name }
         set widget(trajectory,csv) $path.csv.name
-        foreach name {resume skip steps} { set widget(trajectory,$name) $path.options.$name }
+        set widget(trajectory,steps) $path.steps
+        foreach name {resume skip} { set widget(trajectory,$name) $path.options.$name }
     }
 
     # VMD's molecules and data sets as they are now.
