@@ -167,7 +167,7 @@ TEST_CASE("what a scene needs and a file lacks is named") {
   CHECK(contains(message(cartoon), "it names the structures"));
 }
 
-TEST_CASE("a molecule of another model than the one compared is not drawn") {
+TEST_CASE("the model that was compared is drawn; where the record does not say which, another one is refused") {
   const ScratchFolder scratch;
   // The first model lies 100 A away.
   std::string models = "MODEL        1\n";
@@ -187,8 +187,16 @@ TEST_CASE("a molecule of another model than the one compared is not drawn") {
   scene.array = RenderArray::kDisplacement;
   CHECK_NOTHROW(read_comparison(scratch.file("pair.vtp"), scene));
   scene.molecule = MoleculeStyle::kSticks;
+  const ComparisonFiles files = read_comparison(scratch.file("pair.vtp"), scene);
+  REQUIRE(files.source_molecule);
+  CHECK(files.source_molecule->positions[0].x < 50);
+  // As an earlier version wrote it.
+  std::string json = espdiff_test::read_file(scratch.file("pair.json"));
+  const std::size_t at = json.find("\"model\": 2");
+  REQUIRE(at != std::string::npos);
+  scratch.write("pair.json", json.replace(at, 10, "\"model\": 1"));
   CHECK(contains(message_of([&] { read_comparison(scratch.file("pair.vtp"), scene); }),
-                 "source.pqr: its first model is not the one that was compared"));
+                 "source.pqr: its model is not the one that was compared"));
 }
 
 TEST_CASE("each layout, style and drawing of maps makes a picture of its own") {
