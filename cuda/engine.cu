@@ -227,6 +227,15 @@ class BackEndEngine : public Engine {
     });
   }
 
+  MorphResult continue_morph(const MorphResult& so_far, const std::vector<MovingAtom>& atoms,
+                             const AtomsPtr& source_atoms, const AtomsPtr& target_atoms, const MorphOptions& options,
+                             const std::string& stage, const Progress& progress) override {
+    return run([&] {
+      return ESPDIFF_BACKEND::continue_morph(so_far, atoms, unwrap<AtomCells>(source_atoms),
+                                             unwrap<AtomCells>(target_atoms), options, stage, progress);
+    });
+  }
+
   GridPtr upload_map(const Grid& map, const RigidTransform& to_map) override {
     return run([&] { return make_map(map, to_map); });
   }

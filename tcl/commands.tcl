@@ -145,9 +145,9 @@ namespace eval ::espdiff {
             {-reference-map text {} "Potential of the reference; without it by the rule of -map for its frame"}
             {-unit text {} "Unit of the maps if they do not say: kT/e, mV, V, kcal/mol/e, kJ/mol/e, hartree/e"}
             {-radii choice vmd "Radii of the molecule: VMD's, or Bondi's by element" {vmd element}}
-            {-start choice previous "Begin each frame's mapping at the previous frame's where that is nearer than the\
-                source, or always at the source; with -method deform only, the morph always begins at the source"\
-                {previous source}}
+            {-start choice auto "Begin each frame's mapping at the source, or at the previous frame's where that is\
+                nearer: small steps; auto: source by -method morph, previous by deform; see Trajectories"\
+                {auto previous source}}
             {-csv file required "File that gets one row for each frame"}
             {-resume boolean 0 "Go on where an interrupted run left the file"}
             {-overwrite boolean 0 "Replace the file if it exists"}

@@ -350,6 +350,17 @@ class Engine {
                             const AtomsPtr& target_atoms, const MorphOptions& options, const std::string& stage,
                             const Progress& progress) = 0;
 
+  /// The same from where an earlier morph has brought the surface: a trajectory in small steps. What is lost stays
+  /// lost, edges that are halved stay so, and path lengths go on.
+  /// @param so_far  of this engine, or its four parts as they were downloaded; its report is not read
+  /// @param atoms   at time 0 those that so_far.mapped is the surface of
+  /// @param source_atoms  those that so_far.source is the surface of
+  /// @throws GeometryError (the parts of `so_far` do not fit together), and as morph()
+  virtual MorphResult continue_morph(const MorphResult& so_far, const std::vector<MovingAtom>& atoms,
+                                     const AtomsPtr& source_atoms, const AtomsPtr& target_atoms,
+                                     const MorphOptions& options, const std::string& stage,
+                                     const Progress& progress) = 0;
+
   /// @param map         potential
   /// @param to_map      common frame -> the map's frame
   virtual GridPtr upload_map(const Grid& map, const RigidTransform& to_map) = 0;
