@@ -29,7 +29,7 @@ ESPDIFF_INLINE void add_atom(FlowSums<Number>& sum, const AtomChange& change, fl
   sum.gx += slope * dx;
   sum.gy += slope * dy;
   sum.gz += slope * dz;
-  Number blended;
+  Number blended{};
   square_root(gaussian, blended);
   blended = change.weight * blended;
   sum.blend += blended;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -10,12 +11,13 @@
 namespace espdiff {
 namespace {
 
-/// Atoms farther away than this at either end are no neighbours: with fewer, the turns are those of side chains, which
-/// tear the surface between them; with more, a domain's.
+/// Atoms farther away than this at either end are no neighbours.
 constexpr double kReach_A = 12;
-/// Added to the covariance, which makes no turn the answer where the neighbours determine none, as on a line. A
-/// protein's neighbourhood has some thousand times as much.
-constexpr double kNoTurn_A2 = 1;
+/// Added to the covariance, which turns less what little says that it turns: loops that swing by themselves, few atoms,
+/// atoms on a line. Inside a protein a neighbourhood has about 2600 along each axis, at its surface half of that.
+/// With less more of the surface stays on its residue, and more of it is torn where one neighbourhood parts from
+/// another; see bench/study_notes.md.
+constexpr double kNoTurn_A2 = 300;
 
 using Cell = std::array<int, 3>;
 
