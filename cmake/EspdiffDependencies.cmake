@@ -82,7 +82,7 @@ endif()
 espdiff_resolve(ESPDIFF_GEMMI "${gemmi_found}" "PDB and mmCIF reader" "gemmi was not found (Debian: gemmi-dev tao-pegtl-dev)")
 
 if(NOT ESPDIFF_VTK STREQUAL "OFF")
-  find_package(VTK QUIET COMPONENTS CommonCore CommonMisc CommonDataModel CommonExecutionModel IOXML IOImage FiltersCore RenderingCore RenderingOpenGL2
+  find_package(VTK QUIET COMPONENTS CommonCore CommonMath CommonMisc CommonDataModel CommonExecutionModel IOCore IOXML IOXMLParser IOImage FiltersCore RenderingCore RenderingOpenGL2
     RenderingFreeType RenderingUI FiltersSources DomainsChemistryOpenGL2)
 endif()
 espdiff_resolve(ESPDIFF_VTK "${VTK_FOUND}" "VTI reader and renderer" "VTK 9 was not found (Debian: libvtk9-dev)")

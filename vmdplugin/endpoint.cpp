@@ -238,7 +238,8 @@ Molecule named_atoms(const std::vector<Tcl_Obj*>& atoms, const std::vector<Vec3d
 void load(Endpoint& endpoint, double temperature_K) {
   if (!endpoint.molecule) {
     endpoint.molecule = read_structure(endpoint.structure_path, endpoint.structure);
-    endpoint.inputs.push_back({endpoint.role, endpoint.structure_path, sha256_of_file(endpoint.structure_path)});
+    endpoint.inputs.push_back({endpoint.role, endpoint.structure_path, sha256_of_file(endpoint.structure_path),
+                               std::nullopt, endpoint.structure});
   }
   if (endpoint.map || endpoint.computed_map) return;
   if (endpoint.map_request) {

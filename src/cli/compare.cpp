@@ -56,12 +56,16 @@ struct Side {
   CompareInput input() const { return {&molecule, map ? &*map : nullptr, computed ? computed->maker() : MapMaker()}; }
 };
 
-Side read_side(const Arguments& a, const std::string& role) {
-  Side side{role, role == "source" ? a.source : a.target, {}, {}, {}};
+StructureOptions structure_options(const Arguments& a, const std::string& role) {
   StructureOptions options = a.structure;
   options.model = role == "source" ? a.source_model : a.target_model;
+  return options;
+}
+
+Side read_side(const Arguments& a, const std::string& role) {
+  Side side{role, role == "source" ? a.source : a.target, {}, {}, {}};
   const StructureFile file(side.path);
-  side.molecule = file.read(options);
+  side.molecule = file.read(structure_options(a, role));
   return side;
 }
 
@@ -87,7 +91,8 @@ int run(const Arguments& a, const Context& context) {
   Provenance provenance;
   provenance.command_line = context.command_line;
   for (const Side* side : {&source, &target})
-    provenance.inputs.push_back({side->role, side->path, sha256_of_file(side->path)});
+    provenance.inputs.push_back(
+        {side->role, side->path, sha256_of_file(side->path), std::nullopt, structure_options(a, side->role)});
   for (Side* side : {&source, &target}) add_map(a, *side, options.temperature_K, provenance.inputs);
   const std::unique_ptr<Engine> engine = make_engine(a.device);
   provenance.device = engine->back_end();

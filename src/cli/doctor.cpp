@@ -10,6 +10,9 @@
 #include "base/version.h"
 #include "cli/verbs.h"
 #include "engine/select_engine.h"
+#if defined(ESPDIFF_HAVE_VTK)
+#include "view/display.h"
+#endif
 
 namespace espdiff::cli {
 namespace {
@@ -52,11 +55,13 @@ int run() {
 #endif
 #if defined(ESPDIFF_HAVE_VTK)
   line("maps", true, "DX, cube, VTI");
+  const std::string problem = drawing_problem();
   const char* display = std::getenv("DISPLAY");
   const bool has_display = display != nullptr && *display != '\0';
-  line("render", has_display,
-       has_display ? std::string("display ") + display
-                   : "no DISPLAY; run `xvfb-run -a espdiff render ...` (Debian: xvfb, xauth)");
+  line("render", problem.empty(),
+       !problem.empty() ? problem
+       : has_display    ? std::string("display ") + display
+                        : "without a display, by EGL or OSMesa");
 #else
   line("maps", false, "DX and cube; no VTI: VTK 9 was not found when this was built (Debian: libvtk9-dev)");
   line("render", false, "VTK 9 was not found when this was built (Debian: libvtk9-dev)");

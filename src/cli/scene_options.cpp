@@ -109,6 +109,7 @@ void add_layout_options(CLI::App& p, SceneArguments& a) {
               [](Scene& s, Number v) { s.morph = v; });
   add<Text>(p, a, "--title", "Title above the views", [](Scene& s, const Text& t) { s.title = t; });
   add_flag(p, a, "--no-legend", "Leave title, scales and keys out", [](Scene& s) { s.legend = false; });
+  add_flag(p, a, "--axes", "Show the directions of the target's x, y and z", [](Scene& s) { s.axes = true; });
   add<int>(p, a, "--width", "Pixels [1800; in a window 1280]", [](Scene& s, int v) { s.width = v; });
   add<int>(p, a, "--height", "Pixels [1100; in a window 860]", [](Scene& s, int v) { s.height = v; });
   add<Number>(p, a, "--turn", "Degrees to turn the molecule to the right from the automatic view [0]",

@@ -174,6 +174,10 @@ Json input_files(const Provenance& provenance) {
   for (const InputFile& input : provenance.inputs) {
     json.push_back({{"role", input.role}, {"path", input.path}, {"sha256", input.sha256}});
     if (input.computed) json.back()["computed"] = recipe(*input.computed);
+    if (!input.read_with) continue;
+    json.back()["model"] = input.read_with->model;
+    json.back()["hetero"] = input.read_with->include_hetero;
+    json.back()["water"] = input.read_with->include_water;
   }
   return json;
 }

@@ -160,7 +160,9 @@ void add_results(FileSet& files, const std::string& output_prefix, const Molecul
 void keep(FileSet& files, Provenance& provenance, const std::string& role, const std::string& path,
           const std::string& content) {
   files.add(path) << content;
-  const InputFile kept{role, std::filesystem::path(path).filename().string(), sha256_of(content)};
+  InputFile kept{role, std::filesystem::path(path).filename().string(), sha256_of(content)};
+  // All that is in it was compared.
+  if (role == "source" || role == "target") kept.read_with = StructureOptions{1, true, true};
   for (InputFile& input : provenance.inputs) {
     if (input.role == role) input = kept;
   }

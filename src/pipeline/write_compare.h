@@ -8,6 +8,7 @@
 
 #include "base/types.h"
 #include "base/version.h"
+#include "io/read_structure.h"
 #include "pipeline/compare.h"
 #include "pipeline/computed_map.h"
 
@@ -19,6 +20,8 @@ struct InputFile {
   std::string path;    ///< of a computed map: "pme of" whose charges
   std::string sha256;  ///< of a computed map: of charges, positions, cell and options
   std::optional<MapRecipe> computed = std::nullopt;
+  /// Of a structure that was read from a file: which of its models and atoms.
+  std::optional<StructureOptions> read_with = std::nullopt;
 };
 /// A computed map as an input.
 InputFile computed_input(const std::string& role, const ComputedMap& map);

@@ -29,13 +29,13 @@ Molecule read_molecule(const RunRecord& record, const RecordedInput& input, bool
   if (!std::filesystem::exists(input.path, ignored)) throw InputError(input.path + " is not there any more" + remedy);
   if (sha256_of_file(input.path) != input.sha256)
     throw InputError(input.path + " has changed since the comparison" + remedy);
-  StructureOptions options;
-  options.include_water = with_water;
+  StructureOptions options = input.read_with;
+  if (with_water) options.include_hetero = options.include_water = true;
   return read_structure(input.path, options);
 }
 
-/// A file may hold several models, and OUT.json does not say which was compared: the surface must fit the one that was
-/// read.
+/// A file may hold several models, and records of earlier versions do not say which was compared: the surface must fit
+/// the one that was read.
 void check_model(const SurfaceFile& surface, const Molecule& source, const std::string& path) {
   if (surface.source_positions.empty() || surface.residue_index.empty()) return;
   constexpr std::size_t kStride = 23;
@@ -53,7 +53,7 @@ void check_model(const SurfaceFile& surface, const Molecule& source, const std::
     n_far += nearest > kFar_A ? 1 : 0;
   }
   if (10 * n_far > n) {
-    throw InputError(path + ": its first model is not the one that was compared; draw without the molecule and labels");
+    throw InputError(path + ": its model is not the one that was compared; draw without the molecule and labels");
   }
 }
 

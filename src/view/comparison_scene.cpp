@@ -272,12 +272,21 @@ void ComparisonScene::add_to(vtkRenderWindow* window, double scale_factor) {
   writing_->SetLayer(1);
   writing_->InteractiveOff();
   window->AddRenderer(writing_);
+  gauges_->SetLayer(1);
+  gauges_->InteractiveOff();
+  window->AddRenderer(gauges_);
   write_legend();
 }
 
 void ComparisonScene::write_legend() {
   writing_->RemoveAllViewProps();
   if (scene_.legend) add_scene_legend(writing_, *this, scale_factor_);
+  camera_moved();
+}
+
+void ComparisonScene::camera_moved() {
+  gauges_->RemoveAllViewProps();
+  add_scene_gauges(gauges_, *this, scale_factor_);
 }
 
 void ComparisonScene::change_to(const Scene& scene) {
@@ -305,6 +314,7 @@ void ComparisonScene::reset_camera() {
   scene_.camera.reset();
   aim_camera();
   share_camera();
+  camera_moved();
 }
 
 }  // namespace espdiff

@@ -39,6 +39,8 @@ class ComparisonScene {
   void change_to(const Scene& scene);
   /// The same with the automatic camera.
   void reset_camera();
+  /// Brings what follows the camera, length bar and axes, up to where it is now.
+  void camera_moved();
 
   const Scene& scene() const { return scene_; }
   const std::vector<Panel>& panels() const { return panels_; }
@@ -94,7 +96,7 @@ class ComparisonScene {
   CameraView camera_;
   vtkRenderWindow* window_ = nullptr;
   double scale_factor_ = 1;
-  vtkNew<vtkRenderer> paper_, writing_;
+  vtkNew<vtkRenderer> paper_, writing_, gauges_;
 };
 
 }  // namespace espdiff

@@ -11,4 +11,8 @@ namespace espdiff {
 /// connects.
 std::string display_problem();
 
+/// Why a picture cannot be drawn here, by a window that nobody sees (render_window.h), with the remedy; empty where it
+/// can, which may be without a display.
+std::string drawing_problem();
+
 }  // namespace espdiff

@@ -3,6 +3,7 @@
 
 #include <vtkActor2D.h>
 #include <vtkCellArray.h>
+#include <vtkCellData.h>
 #include <vtkFreeTypeTools.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
@@ -12,8 +13,10 @@
 #include <vtkRenderer.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <vector>
@@ -89,6 +92,63 @@ void Legend::triangle(double x0, double y0, double x1, double y1, double x2, dou
   add_polygon(renderer_, {{x0, y0}, {x1, y1}, {x2, y2}}, colour, 1.0);
 }
 
+void Legend::strip(const PixelBox& bar, const std::vector<Rgb>& colours, const std::vector<double>& opacities) {
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> cells;
+  vtkNew<vtkUnsignedCharArray> bytes;
+  bytes->SetNumberOfComponents(4);
+  const auto n = static_cast<double>(colours.size());
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    const double left = bar.left + bar.width() * static_cast<double>(i) / n,
+                 right = bar.left + bar.width() * static_cast<double>(i + 1) / n;
+    cells->InsertNextCell(4);
+    for (const Point2& corner : {Point2{left, bar.bottom}, {right, bar.bottom}, {right, bar.top}, {left, bar.top}})
+      cells->InsertCellPoint(points->InsertNextPoint(corner.x, corner.y, 0));
+    bytes->InsertNextTuple4(colours[i].red, colours[i].green, colours[i].blue, std::round(255 * opacities[i]));
+  }
+  vtkNew<vtkPolyData> shape;
+  shape->SetPoints(points);
+  shape->SetPolys(cells);
+  shape->GetCellData()->SetScalars(bytes);
+  vtkNew<vtkPolyDataMapper2D> mapper;
+  mapper->SetInputData(shape);
+  mapper->SetScalarModeToUseCellData();
+  vtkNew<vtkActor2D> actor;
+  actor->SetMapper(mapper);
+  renderer_->AddActor2D(actor);
+}
+
+void Legend::line(double x0, double y0, double x1, double y1, Rgb colour) {
+  const double length = std::hypot(x1 - x0, y1 - y0);
+  const double half = std::max(2.0, text_height_ / 8) / 2;
+  if (length < half) return;
+  const double across_x = -(y1 - y0) / length * half, across_y = (x1 - x0) / length * half;
+  add_polygon(renderer_,
+              {{x0 - across_x, y0 - across_y},
+               {x1 - across_x, y1 - across_y},
+               {x1 + across_x, y1 + across_y},
+               {x0 + across_x, y0 + across_y}},
+              colour, 1.0);
+}
+
+void Legend::axes(double x, double y, double length, Vec3d right, Vec3d up, Vec3d toward_viewer) {
+  struct Axis {
+    double across, upward, toward;
+    const char* letter;
+  };
+  std::array<Axis, 3> all = {{{right.x, up.x, toward_viewer.x, "x"},
+                              {right.y, up.y, toward_viewer.y, "y"},
+                              {right.z, up.z, toward_viewer.z, "z"}}};
+  std::sort(all.begin(), all.end(), [](const Axis& a, const Axis& b) { return a.toward < b.toward; });
+  for (const Axis& axis : all) {
+    const Rgb colour = axis.toward < -0.05 ? Rgb{150, 150, 150} : Rgb{26, 26, 26};
+    line(x, y, x + length * axis.across, y + length * axis.upward, colour);
+    // Beside the end, where the axis is seen; an axis that points at the viewer has its letter at the origin.
+    const double beyond = length + 0.7 * text_height_;
+    text(x + beyond * axis.across, y + beyond * axis.upward, axis.letter, Align::kCentre);
+  }
+}
+
 void Legend::frame(const PixelBox& box) {
   const double line = std::max(1.0, text_height_ / 16);
   constexpr Rgb kLine{90, 90, 90};
@@ -148,11 +208,12 @@ void Legend::colours(const PixelBox& bar, const ColourScale& scale, const std::s
     return;
   }
   constexpr int kSteps = 256;
+  std::vector<Rgb> colours;
   for (int i = 0; i < kSteps; ++i) {
     const double value = scale.low() + (scale.high() - scale.low()) * (i + 0.5) / kSteps;
-    rectangle({bar.left + bar.width() * i / kSteps, bar.bottom, bar.left + bar.width() * (i + 1) / kSteps, bar.top},
-              scale.colour(static_cast<float>(value)));
+    colours.push_back(scale.colour(static_cast<float>(value)));
   }
+  strip(bar, colours, std::vector<double>(kSteps, 1.0));
   frame(bar);
   const double gap = text_height_ / 6;
   const double middle_y = (bar.bottom + bar.top) / 2;
@@ -192,10 +253,9 @@ void Legend::opacity(const PixelBox& bar, const OpacityScale& scale) {
   text((bar.left + bar.right) / 2, bar.top + text_height_, "faint: far from its counterpart", Align::kCentre);
   const double highest_A = scale.faint_above_A * 1.2;
   constexpr int kSteps = 64;
-  for (int i = 0; i < kSteps; ++i) {
-    rectangle({bar.left + bar.width() * i / kSteps, bar.bottom, bar.left + bar.width() * (i + 1) / kSteps, bar.top},
-              {110, 110, 110}, scale.opacity(highest_A * (i + 0.5) / kSteps));
-  }
+  std::vector<double> opacities;
+  for (int i = 0; i < kSteps; ++i) opacities.push_back(scale.opacity(highest_A * (i + 0.5) / kSteps));
+  strip(bar, std::vector<Rgb>(kSteps, {110, 110, 110}), opacities);
   frame(bar);
   for (const double value : {scale.opaque_below_A, scale.faint_above_A}) {
     const double x = bar.left + bar.width() * std::clamp(value / highest_A, 0.0, 1.0);

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "base/vector.h"
 #include "view/colour_map.h"
 #include "view/colour_scale.h"
 
@@ -47,11 +49,18 @@ class Legend {
   /// The same for what is hatched.
   double hatched_key(double x, double y, const std::string& meaning);
 
+  /// Directions of three axes with their letters, from their origin. Those that point away from the viewer are paler.
+  /// @param right, up, toward_viewer unit vectors of the picture in the frame of the axes
+  void axes(double x, double y, double length, Vec3d right, Vec3d up, Vec3d toward_viewer);
+
   /// A vertical line.
   void rule(double x, double bottom, double top);
   void rectangle(const PixelBox& box, Rgb colour, double opacity = 1.0);
 
  private:
+  /// Steps of a bar from left to right, as one shape.
+  void strip(const PixelBox& bar, const std::vector<Rgb>& colours, const std::vector<double>& opacities);
+  void line(double x0, double y0, double x1, double y1, Rgb colour);
   void triangle(double x0, double y0, double x1, double y1, double x2, double y2, Rgb colour);
   void frame(const PixelBox& box);
   double text_width(const std::string& words) const;

@@ -107,6 +107,7 @@ void OrbitStyle::zoom(double factor) {
 
 void OrbitStyle::draw() {
   for (vtkRenderer* renderer : calls_.renderers()) renderer->ResetCameraClippingRange();
+  calls_.moved();
   this->Interactor->Render();
 }
 

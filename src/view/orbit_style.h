@@ -23,6 +23,7 @@ class OrbitStyle : public vtkInteractorStyle {
   /// Called with window pixels from the lower left corner.
   struct Calls {
     std::function<std::vector<vtkRenderer*>()> renderers;
+    std::function<void()> moved;         ///< after the cameras have
     std::function<bool(int, int)> grab;  ///< whether something there takes the drag that begins
     std::function<void(int, int)> drag;
     std::function<void(int, int)> click;

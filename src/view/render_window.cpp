@@ -1,8 +1,15 @@
 // render_window.cpp: picks the kind of window.
 #include "view/render_window.h"
 
+#include <dlfcn.h>
 #include <vtkRenderWindow.h>
-#if __has_include(<vtkEGLRenderWindow.h>)
+#include <vtkVersionMacros.h>
+
+#include <cstdlib>
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 4, 0)
+#include <vtkOpenGLRenderWindow.h>
+#define ESPDIFF_VTK_CHOOSES  // among X, EGL and OSMesa, when the program runs
+#elif __has_include(<vtkEGLRenderWindow.h>)
 #include <vtkEGLRenderWindow.h>
 #elif __has_include(<vtkOSOpenGLRenderWindow.h>)
 #include <vtkOSOpenGLRenderWindow.h>
@@ -10,12 +17,32 @@
 
 #include "base/error.h"
 #include "view/display.h"
+#include "view/vtk_messages.h"
 
 namespace espdiff {
 namespace {
 
+#if defined(ESPDIFF_VTK_CHOOSES)
+/// VTK's window draws without it as well, and ends the program.
+bool has_osmesa() {
+  for (const char* name : {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"}) {
+    if (dlopen(name, RTLD_LAZY) != nullptr) return true;
+  }
+  return false;
+}
+#endif
+
+/// Null where this VTK, or this machine, has neither EGL nor OSMesa.
 vtkSmartPointer<vtkRenderWindow> without_display() {
-#if __has_include(<vtkEGLRenderWindow.h>)
+#if defined(ESPDIFF_VTK_CHOOSES)
+  // Its first choice would be X, with warnings. Where EGL does not work it takes OSMesa.
+  setenv("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow", 0);
+  const VtkMessages messages;
+  vtkSmartPointer<vtkRenderWindow> window = vtkSmartPointer<vtkOpenGLRenderWindow>::New();
+  window->SetShowWindow(false);
+  if (window->IsA("vtkOSOpenGLRenderWindow") != 0 && !has_osmesa()) return nullptr;
+  return window->SupportsOpenGL() != 0 ? window : nullptr;
+#elif __has_include(<vtkEGLRenderWindow.h>)
   return vtkSmartPointer<vtkEGLRenderWindow>::New();
 #elif __has_include(<vtkOSOpenGLRenderWindow.h>)
   return vtkSmartPointer<vtkOSOpenGLRenderWindow>::New();
@@ -35,6 +62,11 @@ vtkSmartPointer<vtkRenderWindow> make_hidden_window() {
   window->SetUseOffScreenBuffers(true);
   window->SetDPI(72);
   return window;
+}
+
+std::string drawing_problem() {
+  const std::string problem = display_problem();
+  return problem.empty() || without_display() != nullptr ? std::string() : problem;
 }
 
 }  // namespace espdiff

@@ -8,7 +8,7 @@ class vtkRenderWindow;
 namespace espdiff {
 
 /// With a display (DISPLAY): X and GLX. Without one: EGL (a graphics processor without a screen) or OSMesa (software),
-/// where VTK was built with them; Debian's was not.
+/// where VTK has them: 9.4 and later by default, Debian's 9.1 not.
 /// @throws DeviceError saying how to get a display
 vtkSmartPointer<vtkRenderWindow> make_hidden_window();
 

@@ -18,9 +18,9 @@ using Json = nlohmann::json;
 RecordedInput found_from(const fs::path& folder, const std::string& path, const std::string& sha256) {
   std::error_code ignored;
   const std::string beside = (folder / path).string();
-  if (!fs::exists(beside, ignored)) return {path, sha256};
+  if (!fs::exists(beside, ignored)) return {path, sha256, {}};
   const bool is_here = fs::is_regular_file(path, ignored) && sha256_of_file(path) == sha256;
-  return {is_here ? path : beside, sha256};
+  return {is_here ? path : beside, sha256, {}};
 }
 
 void read_inputs(const Json& inputs, const fs::path& folder, RunRecord& record) {
@@ -37,6 +37,7 @@ void read_inputs(const Json& inputs, const fs::path& folder, RunRecord& record) 
       continue;
     }
     *to = found_from(folder, input.at("path"), input.at("sha256"));
+    to->read_with = {input.value("model", 1), input.value("hetero", true), input.value("water", false)};
   }
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/vector.h"
+#include "io/read_structure.h"
 
 namespace espdiff {
 
@@ -12,6 +13,8 @@ namespace espdiff {
 struct RecordedInput {
   std::string path;    ///< empty: there was none, or it was computed in process
   std::string sha256;  ///< of the content
+  /// Of a structure: which of the file's models and atoms were compared. Records of earlier versions do not say.
+  StructureOptions read_with;
 };
 
 struct RunRecord {

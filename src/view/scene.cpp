@@ -94,6 +94,8 @@ bool set(Scene& s, const std::string& key, const Json& value) {
     s.title = value;
   else if (key == "legend")
     s.legend = value;
+  else if (key == "axes")
+    s.axes = value;
   else if (key == "morph")
     s.morph = value;
   else if (key == "split")
@@ -160,6 +162,7 @@ std::string scene_json(const Scene& s) {
   json["views"] = s.n_views;
   json["title"] = s.title;
   json["legend"] = s.legend;
+  json["axes"] = s.axes;
   json["morph"] = s.morph;
   json["split"] = s.split;
   json["camera"] = s.camera ? camera_json(*s.camera) : Json(nullptr);

@@ -37,6 +37,7 @@ struct Scene {
   int n_views = 2;    ///< of the layout `turned`, each turned on about the vertical by a full turn / n_views; 1 to 4
   std::string title;  ///< above the views; none when empty
   bool legend = true;
+  bool axes = false;   ///< directions of the target's x, y and z in each view
   double morph = 1;    ///< 0 draws the surface on the source, 1 on the target, between: on the way
   double split = 0.5;  ///< of the width, where the layout `split` has its line
 

@@ -94,6 +94,7 @@ const std::vector<Key>& keys() {
        "c",
        "colours: red-blue, purple-orange",
        [](Scene& s, double) { s.colours = s.colours == "red-blue" ? "purple-orange" : "red-blue"; }},
+      {{"t"}, "t", "axes of the target's file", [](Scene& s, double) { s.axes = !s.axes; }},
       {{"k"}, "k", "key and scales on or off", [](Scene& s, double) { s.legend = !s.legend; }}};
   return all;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <string>
 
+#include "view/camera_view.h"
 #include "view/comparison_scene.h"
 #include "view/legend.h"
 
@@ -127,14 +128,33 @@ void add_scene_legend(vtkRenderer* renderer, const ComparisonScene& scene, doubl
     legend.text(paper.width / 2, paper.height * (1 - kTitleShare / 2), scene.scene().title, Align::kCentre, 1.5);
   }
   add_names(legend, scene, paper);
-  const Panel& panel = scene.panels().front();
-  const double pixels_per_A =
-      paper.height * (panel.top - panel.bottom) / (2 * panel.renderer->GetActiveCamera()->GetParallelScale());
-  const bool linked = second_scale(scene) != nullptr;
-  legend.length(paper.width * 0.04, (paper.bar_bottom + paper.bar_top) / 2, paper.width * (linked ? 0.12 : 0.16),
-                pixels_per_A);
   add_scales(legend, scene, paper);
   add_keys(legend, scene, paper);
+}
+
+void add_scene_gauges(vtkRenderer* renderer, const ComparisonScene& scene, double scale_factor) {
+  const Paper paper = paper_of(scene, scale_factor);
+  Legend legend(renderer, paper.text_height);
+  const Panel& panel = scene.panels().front();
+  if (scene.scene().legend) {
+    const double pixels_per_A =
+        paper.height * (panel.top - panel.bottom) / (2 * panel.renderer->GetActiveCamera()->GetParallelScale());
+    const bool linked = second_scale(scene) != nullptr;
+    legend.length(paper.width * 0.04, (paper.bar_bottom + paper.bar_top) / 2, paper.width * (linked ? 0.12 : 0.16),
+                  pixels_per_A);
+  }
+  if (!scene.scene().axes) return;
+  const double length = 2.2 * paper.text_height, room = 2 * paper.text_height + length;
+  const double* before = nullptr;
+  for (const Panel& each : scene.panels()) {
+    // Where all look from one place, one is enough.
+    const double* from = each.renderer->GetActiveCamera()->GetDirectionOfProjection();
+    if (before != nullptr && std::equal(from, from + 3, before)) continue;
+    before = from;
+    const CameraView view = camera_of(each.renderer);
+    legend.axes(paper.width * each.left + room, paper.height * each.bottom + room, length,
+                cross(view.up, view.toward_viewer), view.up, view.toward_viewer);
+  }
 }
 
 }  // namespace espdiff

@@ -16,8 +16,12 @@ struct LegendShares {
 
 LegendShares legend_shares(const Scene& scene);
 
-/// Length bar on the left, colours in the middle, opacity and keys on the right.
+/// Title and names, colours in the middle, opacity and keys on the right.
 /// @param scale_factor pixels of the window per pixel of the scene
 void add_scene_legend(vtkRenderer* renderer, const ComparisonScene& scene, double scale_factor);
+
+/// What depends on where the camera is: length bar on the left, axes where the scene asks for them.
+/// @param scale_factor as above
+void add_scene_gauges(vtkRenderer* renderer, const ComparisonScene& scene, double scale_factor);
 
 }  // namespace espdiff

@@ -48,9 +48,9 @@ class Viewer {
     overlay_.add_to(window_);
     interactor_->SetRenderWindow(window_);
     vtkNew<OrbitStyle> style;
-    style->set_calls({[this] { return renderers(); }, [this](int x, int y) { return grab(x, y); },
-                      [this](int x, int y) { drag(x, y); }, [this](int x, int y) { click(x, y); },
-                      [this](const std::string& key) { press(key); }});
+    style->set_calls({[this] { return renderers(); }, [this] { drawn_.camera_moved(); },
+                      [this](int x, int y) { return grab(x, y); }, [this](int x, int y) { drag(x, y); },
+                      [this](int x, int y) { click(x, y); }, [this](const std::string& key) { press(key); }});
     interactor_->SetInteractorStyle(style);
     vtkNew<vtkCallbackCommand> resized;
     resized->SetClientData(this);

@@ -2,17 +2,26 @@
 #include "view/comparison_files.h"
 
 #include <doctest/doctest.h>
+#include <vtkCamera.h>
+#include <vtkPropCollection.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkRendererCollection.h>
+#include <vtkTextActor.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <set>
 
 #include "base/error.h"
+#include "view/comparison_scene.h"
 #include "view/display_here.h"
 #include "view/made_comparison.h"
 #include "view/pick.h"
 #include "view/render_surface.h"
+#include "view/render_window.h"
 
 using namespace espdiff;  // NOLINT: a test of these headers
 using espdiff_test::can_draw;
@@ -49,6 +58,21 @@ Scene small(Layout layout = Layout::kTurned) {
   scene.height = 400;
   scene.layout = layout;
   return scene;
+}
+
+/// All that is written in a window.
+std::set<std::string> texts_of(vtkRenderWindow* window) {
+  std::set<std::string> texts;
+  vtkRendererCollection* renderers = window->GetRenderers();
+  renderers->InitTraversal();
+  while (vtkRenderer* renderer = renderers->GetNextItem()) {
+    vtkPropCollection* props = renderer->GetViewProps();
+    props->InitTraversal();
+    while (vtkProp* prop = props->GetNextProp()) {
+      if (auto* text = vtkTextActor::SafeDownCast(prop)) texts.insert(text->GetInput());
+    }
+  }
+  return texts;
 }
 
 }  // namespace
@@ -143,7 +167,7 @@ TEST_CASE("what a scene needs and a file lacks is named") {
   CHECK(contains(message(cartoon), "it names the structures"));
 }
 
-TEST_CASE("a molecule of another model than the one compared is not drawn") {
+TEST_CASE("the model that was compared is drawn; where the record does not say which, another one is refused") {
   const ScratchFolder scratch;
   // The first model lies 100 A away.
   std::string models = "MODEL        1\n";
@@ -163,8 +187,16 @@ TEST_CASE("a molecule of another model than the one compared is not drawn") {
   scene.array = RenderArray::kDisplacement;
   CHECK_NOTHROW(read_comparison(scratch.file("pair.vtp"), scene));
   scene.molecule = MoleculeStyle::kSticks;
+  const ComparisonFiles files = read_comparison(scratch.file("pair.vtp"), scene);
+  REQUIRE(files.source_molecule);
+  CHECK(files.source_molecule->positions[0].x < 50);
+  // As an earlier version wrote it.
+  std::string json = espdiff_test::read_file(scratch.file("pair.json"));
+  const std::size_t at = json.find("\"model\": 2");
+  REQUIRE(at != std::string::npos);
+  scratch.write("pair.json", json.replace(at, 10, "\"model\": 1"));
   CHECK(contains(message_of([&] { read_comparison(scratch.file("pair.vtp"), scene); }),
-                 "source.pqr: its first model is not the one that was compared"));
+                 "source.pqr: its model is not the one that was compared"));
 }
 
 TEST_CASE("each layout, style and drawing of maps makes a picture of its own") {
@@ -298,4 +330,30 @@ TEST_CASE("a scene that is saved draws the same picture again, and options chang
                       scratch.file("s.json") + " --split 0.6")
               .status == 0);
   CHECK(espdiff_test::read_file(scratch.file("a.png")) != espdiff_test::read_file(scratch.file("c.png")));
+}
+
+TEST_CASE("the length bar follows the camera, and axes show the target's x, y and z") {
+  if (!can_draw()) return;
+  Scene scene = small();
+  const ComparisonFiles files = read_comparison(made().file("pair.vtp"), scene);
+  ComparisonScene drawn(files, scene);
+  const auto window = make_hidden_window();
+  window->SetSize(scene.width, scene.height);
+  drawn.add_to(window, 1);
+  const auto length_of_bar = [&] {
+    for (const std::string& text : texts_of(window)) {
+      // The opacity's key has lengths as well, of 0.5 and 3 A.
+      if (contains(text, " \xC3\x85") && text != "0.5 \xC3\x85" && text != "3 \xC3\x85") return std::stod(text);
+    }
+    return 0.0;
+  };
+  const double before = length_of_bar();
+  CHECK(before > 0);
+  drawn.panels().front().renderer->GetActiveCamera()->Zoom(10);
+  drawn.camera_moved();
+  CHECK(length_of_bar() < before / 4);
+  CHECK(texts_of(window).count("x") == 0);
+  scene.axes = true;
+  drawn.change_to(scene);
+  for (const char* letter : {"x", "y", "z"}) CHECK(texts_of(window).count(letter) == 1);
 }

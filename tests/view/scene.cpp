@@ -34,6 +34,7 @@ Scene unusual_scene() {
   s.n_views = 3;
   s.title = "\xCE\xB1 and \xCE\xB2";
   s.legend = false;
+  s.axes = true;
   s.morph = 0.5;
   s.split = 0.25;
   s.camera = CameraView{{1, 2, 3}, {0, 1, 0}, {0, 0, 1}, 17};
