@@ -32,8 +32,8 @@ struct FlowSample {
   Vec3f gradient;  ///< of rho, 1 / Angstrom
   /// Of the atoms' surroundings at this point, velocity + spin x (x - x_i), Angstrom / time; zero where no atom
   /// reaches. The surface lies beside the atoms: with their own velocities it would lag behind what turns. Weighted by
-  /// the square roots of the atoms' densities, Gaussians wider by a factor of sqrt(2): with the densities themselves the
-  /// flow shears so much between atoms that part that it tears the surface, and does not come back.
+  /// the square roots of the atoms' densities, Gaussians wider by a factor of sqrt(2): with the densities themselves
+  /// the flow shears so much between atoms that part that it tears the surface, and does not come back.
   Vec3f velocity;
   float rate;  ///< of rho at this point, 1 / time
 };

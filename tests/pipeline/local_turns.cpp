@@ -99,8 +99,7 @@ TEST_CASE("the way back turns by the inverse, beside a piece's motion too") {
   double turned = 0;
   for (std::size_t i = 0; i < there.size(); ++i) {
     turned = std::max(turned, norm(there[i].own_turn));
-    for (const double time : {0.0, 0.3, 1.0})
-      CHECK(norm(there[i].spin_at(time) + back[i].spin_at(1 - time)) < 1e-6);
+    for (const double time : {0.0, 0.3, 1.0}) CHECK(norm(there[i].spin_at(time) + back[i].spin_at(1 - time)) < 1e-6);
   }
   CHECK(turned > 0.05);
 }
