@@ -7,7 +7,7 @@ namespace {
 
 /// A vertex moves only where a triangle has less than this part of the quality that it had on the source: a surface
 /// that is carried rigidly is not touched.
-constexpr float kKeptQuality = 0.7F;
+constexpr float kKeptQuality = 0.4F;
 /// Share of the way to the middle of the ring, at most.
 constexpr float kPace = 0.5F;
 

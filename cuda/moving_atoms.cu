@@ -6,11 +6,18 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// Sums over atoms, before the velocity is divided by the density. Number is float, or several lanes of it.
+/// Sums over atoms, before the velocity is divided by `blend`. Number is float, or several lanes of it.
 template <typename Number>
 struct FlowSums {
-  Number density{}, gx{}, gy{}, gz{}, vx{}, vy{}, vz{}, rate{};
+  Number density{}, gx{}, gy{}, gz{}, blend{}, vx{}, vy{}, vz{}, rate{};
 };
+
+ESPDIFF_INLINE void square_root(float x, float& result) { result = sqrtf(x); }
+#if !defined(__CUDACC__)
+ESPDIFF_INLINE void square_root(const Lanes& x, Lanes& result) {
+  for (std::size_t lane = 0; lane < kBlock; ++lane) result[lane] = sqrtf(x[lane]);
+}
+#endif
 
 /// Adds an atom: `d*` from it to the point, `square` their squares' sum, `gaussian` its Gaussian there, 0 beyond reach.
 template <typename Number>
@@ -22,18 +29,22 @@ ESPDIFF_INLINE void add_atom(FlowSums<Number>& sum, const AtomChange& change, fl
   sum.gx += slope * dx;
   sum.gy += slope * dy;
   sum.gz += slope * dz;
-  sum.vx += weighted * (change.velocity.x + (change.spin.y * dz - change.spin.z * dy));
-  sum.vy += weighted * (change.velocity.y + (change.spin.z * dx - change.spin.x * dz));
-  sum.vz += weighted * (change.velocity.z + (change.spin.x * dy - change.spin.y * dx));
+  Number blended{};
+  square_root(gaussian, blended);
+  blended = change.weight * blended;
+  sum.blend += blended;
+  sum.vx += blended * (change.velocity.x + (change.spin.y * dz - change.spin.z * dy));
+  sum.vy += blended * (change.velocity.y + (change.spin.z * dx - change.spin.x * dz));
+  sum.vz += blended * (change.velocity.z + (change.spin.x * dy - change.spin.y * dx));
   const Number approach = dx * change.velocity.x + dy * change.velocity.y + dz * change.velocity.z;
   sum.rate += change.weight_rate * gaussian + weighted * (change.exponent_rate * square) - 2.0F * (slope * approach);
 }
 
-ESPDIFF_INLINE FlowSample finished(float density, Vec3f gradient, Vec3f momentum, float rate) {
+ESPDIFF_INLINE FlowSample finished(float density, Vec3f gradient, float blend, Vec3f momentum, float rate) {
   FlowSample sample;
   sample.density = density;
   sample.gradient = 2.0F * gradient;
-  sample.velocity = density > 1e-12F ? (1.0F / density) * momentum : Vec3f{};
+  sample.velocity = blend > 1e-12F ? (1.0F / blend) * momentum : Vec3f{};
   sample.rate = rate;
   return sample;
 }
@@ -60,8 +71,9 @@ ESPDIFF_INLINE void sample_block(const Sampling& in, std::size_t block) {
                    ESPDIFF_INLINE_LAMBDA { add_atom(sum, in.change[a], k, dx, dy, dz, square, gaussian); });
   const std::size_t begin = block * kBlock;
   for (std::size_t lane = 0; lane < kBlock && begin + lane < in.points.n; ++lane) {
-    in.samples[in.points.list[begin + lane]] = finished(sum.density[lane], {sum.gx[lane], sum.gy[lane], sum.gz[lane]},
-                                                        {sum.vx[lane], sum.vy[lane], sum.vz[lane]}, sum.rate[lane]);
+    in.samples[in.points.list[begin + lane]] =
+        finished(sum.density[lane], {sum.gx[lane], sum.gy[lane], sum.gz[lane]}, sum.blend[lane],
+                 {sum.vx[lane], sum.vy[lane], sum.vz[lane]}, sum.rate[lane]);
   }
 }
 
@@ -89,7 +101,7 @@ MovingAtoms atoms_at(const std::vector<MovingAtom>& atoms, double time) {
   for (std::size_t slot = 0; slot < order.size(); ++slot) {
     const MovingAtom& a = atoms[order[slot]];
     const double width = static_cast<double>(widths[order[slot]]);
-    change[slot] = {static_cast<Vec3f>(a.velocity_at(time)), static_cast<Vec3f>(a.spin()),
+    change[slot] = {static_cast<Vec3f>(a.velocity_at(time)), static_cast<Vec3f>(a.spin_at(time)),
                     static_cast<float>(a.weight_at(time)), static_cast<float>(a.weight_rate_at(time)),
                     static_cast<float>((a.end_width - a.start_width) / (width * width * width))};
   }
@@ -106,7 +118,7 @@ void flow_point_by_point(const MovingAtoms& atoms, const Buffer<Vec4f>& points, 
     sum_at_point(in.cells, in.points.points[at].xyz(),
                  [&](std::uint32_t a, float k, float dx, float dy, float dz, float square, float gaussian)
                      ESPDIFF_INLINE_LAMBDA { add_atom(sum, in.change[a], k, dx, dy, dz, square, gaussian); });
-    in.samples[at] = finished(sum.density, {sum.gx, sum.gy, sum.gz}, {sum.vx, sum.vy, sum.vz}, sum.rate);
+    in.samples[at] = finished(sum.density, {sum.gx, sum.gy, sum.gz}, sum.blend, {sum.vx, sum.vy, sum.vz}, sum.rate);
   });
 }
 

@@ -11,7 +11,7 @@ namespace espdiff::ESPDIFF_BACKEND {
 /// How an atom is changing. Times run from 0 (source) to 1 (target).
 struct AtomChange {
   Vec3f velocity;       ///< Angstrom / time
-  Vec3f spin;           ///< angular velocity of its rigid piece, radians / time
+  Vec3f spin;           ///< angular velocity of its surroundings, radians / time
   float weight;         ///< 0 to 1: atoms without a counterpart fade
   float weight_rate;    ///< 1 / time
   float exponent_rate;  ///< of -1 / (2 s^2), 1 / (Angstrom^2 time)
@@ -30,9 +30,10 @@ MovingAtoms atoms_at(const std::vector<MovingAtom>& atoms, double time);
 struct FlowSample {
   float density;
   Vec3f gradient;  ///< of rho, 1 / Angstrom
-  /// Of the atoms' pieces at this point, velocity + spin x (x - x_i), weighted by the atoms' densities, Angstrom /
-  /// time; zero where no atom reaches. The surface lies beside the atoms: with their own velocities it would lag behind
-  /// a piece that turns.
+  /// Of the atoms' surroundings at this point, velocity + spin x (x - x_i), Angstrom / time; zero where no atom
+  /// reaches. The surface lies beside the atoms: with their own velocities it would lag behind what turns. Weighted by
+  /// the square roots of the atoms' densities, Gaussians wider by a factor of sqrt(2): with the densities themselves
+  /// the flow shears so much between atoms that part that it tears the surface, and does not come back.
   Vec3f velocity;
   float rate;  ///< of rho at this point, 1 / time
 };

@@ -178,6 +178,7 @@ struct CoulombOptions {
 struct MovingAtom {
   Vec3d start{}, end{};
   Screw motion{};                         ///< of the rigid piece that it belongs to; its own way is straight beside it
+  Vec3d own_turn{};                       ///< of its surroundings beside the piece's motion: axis times angle, radians
   double start_width = 0, end_width = 0;  ///< standard deviation of its Gaussian; 0 counts as absent
   /// Atoms without a counterpart are absent at one end. They appear and vanish in the half of the way that lies at that
   /// end.
@@ -185,8 +186,8 @@ struct MovingAtom {
 
   Vec3d position_at(double time) const { return motion.apply(start + time * own_way(), time); }
   Vec3d velocity_at(double time) const { return motion.velocity_at(position_at(time)) + motion.turn(own_way(), time); }
-  /// Angular velocity of its piece.
-  Vec3d spin() const { return motion.angle * motion.axis; }
+  /// Angular velocity of its surroundings.
+  Vec3d spin_at(double time) const { return motion.angle * motion.axis + motion.turn(own_turn, time); }
   /// From where it starts to where it would end if its piece stood still.
   Vec3d own_way() const { return motion.apply(end, -1) - start; }
 

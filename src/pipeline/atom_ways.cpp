@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "pipeline/local_turns.h"
 #include "pipeline/paired_residues.h"
 
 namespace espdiff {
@@ -146,6 +147,7 @@ std::vector<MovingAtom> atom_ways(const Molecule& source, const Molecule& target
     way.at_start = false;
     ways.push_back(way);
   }
+  set_local_turns(ways);
   return ways;
 }
 

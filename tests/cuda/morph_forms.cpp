@@ -159,6 +159,36 @@ TEST_CASE("the velocity is that of the atoms where all move alike, and none wher
   CHECK(far.density == 0);
 }
 
+TEST_CASE("the velocity is that of the atoms' turning surroundings, by the square roots of their densities") {
+  Random random(24);
+  std::vector<MovingAtom> ways = random_ways(60, 25);
+  for (MovingAtom& way : ways) {
+    way.motion.axis = random.direction();
+    way.motion.angle = random.uniform(-1, 1);
+    way.own_turn = random.in_box(1);
+  }
+  constexpr std::size_t kPoints = 100;
+  const double time = 0.4;
+  const Buffer<Vec4f> points = random_points(kPoints, 6);
+  Buffer<FlowSample> samples(kPoints);
+  flow_at_points(atoms_at(ways, time), points, spatial_order(points), kPoints, samples);
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    const Vec4f point = points[i];
+    Vec3d sum{};
+    double all = 0;
+    for (const MovingAtom& a : ways) {
+      const Vec3d d = static_cast<Vec3d>(point.xyz()) - a.position_at(time);
+      const double width = (1 - time) * a.start_width + time * a.end_width;
+      if (dot(d, d) > 4.5 * 4.5 * width * width) continue;
+      const double weight = a.weight_at(time) * std::exp(-dot(d, d) / (4 * width * width));
+      all += weight;
+      sum += weight * (a.velocity_at(time) + cross(a.spin_at(time), d));
+    }
+    const FlowSample s = samples[i];
+    CHECK(norm(static_cast<Vec3d>(s.velocity) - (1 / all) * sum) < 1e-3);
+  }
+}
+
 TEST_CASE("an atom that fades has all its weight in the half of the way where it exists") {
   MovingAtom appears, leaves;
   appears.at_start = false;

@@ -1,7 +1,9 @@
 // round_trip.cpp: there and back ends where it began, for both methods; and what the option changes.
 #include <doctest/doctest.h>
 
+#include "io/read_structure.h"
 #include "pipeline/made_side.h"
+#include "support/test_data.h"
 
 using namespace espdiff_test;
 using espdiff::compare;
@@ -24,6 +26,21 @@ TEST_CASE("there and back ends near the start, nearer by the morph") {
   const CompareResult deformed = compare(*engine, a.shape(), b.shape(), options, {});
   REQUIRE(deformed.certificate.round_trip.has_value());
   CHECK(morphed.certificate.round_trip->mean_A < deformed.certificate.round_trip->mean_A);
+}
+
+TEST_CASE("a protein in two conformations, 3.8 A apart, comes back to within the limit") {
+  const auto from = real_input("series19_ubq_2k39/m13.pqr"), to = real_input("series19_ubq_2k39/m02.pqr");
+  if (!from || !to) return;
+  const Molecule a = espdiff::read_structure(*from), b = espdiff::read_structure(*to);
+  const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
+  CompareOptions options;
+  options.round_trip = true;
+  const CompareResult result = compare(*engine, {&a, nullptr}, {&b, nullptr}, options, {});
+  REQUIRE(result.certificate.round_trip.has_value());
+  CHECK(result.certificate.round_trip->mean_A < 0.09);
+  CHECK(result.certificate.no_counterpart_source < 0.025);
+  CHECK(result.certificate.same_residue_area_fraction > 0.75);
+  CHECK(result.certificate.trustworthy);
 }
 
 TEST_CASE("the way back changes nothing else, and is named as not checked without the option") {
