@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "cuda/mesh_checks.h"
-#include "engine/select_engine.h"
 #include "io/read_structure.h"
 #include "real_pairs.h"
 #include "synthetic_protein.h"
@@ -47,11 +46,20 @@ std::vector<Case> cases() {
                         {"50k", 50000, "", 38}, {"100k", 100000, "", 77}, {"123k", 123000, "", 0}};
   const std::string file = data_folder() + "/ref_apbs/1tca.pqr";
   if (std::filesystem::exists(file)) all.push_back({"1tca", 0, file, 4.3});
+  const std::string tim = data_folder() + "/pair_tim_maps/scTIM_chainA.pqr";
+  if (std::filesystem::exists(tim)) all.push_back({"tim", 0, tim, 0});
   return all;
 }
 
-StageInputs::StageInputs(const Case& of, int n_threads)
-    : engine(espdiff::select_engine(espdiff::DeviceChoice::kCpu, n_threads)) {
+std::vector<BenchDevice> devices() {
+  std::vector<BenchDevice> all{{"threads:1", espdiff::DeviceChoice::kCpu, 1},
+                               {"threads:2", espdiff::DeviceChoice::kCpu, 2}};
+  if (espdiff::cuda_status().available) all.push_back({"cuda", espdiff::DeviceChoice::kCuda, 0});
+  return all;
+}
+
+StageInputs::StageInputs(const Case& of, const BenchDevice& device)
+    : engine(espdiff::select_engine(device.request, device.n_threads)) {
   constexpr double kDisplacement_A = 0.5;
   options.regularize.min_displacement_A = options.regularize_min_displacement * spacing();
   options.deform.min_displacement_A = options.deform_min_displacement * spacing();
@@ -80,13 +88,13 @@ StageInputs::StageInputs(const Case& of, int n_threads)
 #endif
 }
 
-const StageInputs& stage_inputs(const Case& of, int n_threads) {
+const StageInputs& stage_inputs(const Case& of, const BenchDevice& device) {
   static std::unique_ptr<StageInputs> last;
   static std::string last_key;
-  const std::string key = of.name + "/" + std::to_string(n_threads);
+  const std::string key = of.name + "/" + device.name;
   if (key != last_key) {
     last.reset();  // two of the largest would take twice the memory
-    last = std::make_unique<StageInputs>(of, n_threads);
+    last = std::make_unique<StageInputs>(of, device);
     last_key = key;
   }
   return *last;

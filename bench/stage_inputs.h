@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/types.h"
-#include "engine/engine.h"
+#include "engine/select_engine.h"
 #include "marching_cubes_peer.h"
 #include "pipeline/compare.h"
 
@@ -20,8 +20,18 @@ struct Case {
   double quicksurf_ms = 0;  ///< bar of density and isosurface at 1 A on one thread (BARS.md); 0 where there is none
 };
 
-/// The generated sizes, and the real 1tca.pqr when it is there.
+/// The generated sizes, and the real 1tca.pqr and TIM when they are there.
 std::vector<Case> cases();
+
+/// What to benchmark on.
+struct BenchDevice {
+  std::string name;  ///< "threads:2", "cuda"
+  espdiff::DeviceRequest request;
+  int n_threads;
+};
+
+/// One thread, two threads, and the first GPU where one answers.
+std::vector<BenchDevice> devices();
 
 /// One side of a pair on the engine, in the frame of the molecule's centroid.
 struct Side {
@@ -34,9 +44,9 @@ struct Side {
   espdiff::MeshPtr surface;  ///< projected, without cavities, as the pipeline uses it
 };
 
-/// All inputs of the stages for one case and number of threads, made with the pipeline's default options.
+/// All inputs of the stages for one case and device, made with the pipeline's default options.
 struct StageInputs {
-  StageInputs(const Case& of, int n_threads);
+  StageInputs(const Case& of, const BenchDevice& device);
 
   std::unique_ptr<espdiff::Engine> engine;
   espdiff::CompareOptions options;
@@ -55,6 +65,6 @@ struct StageInputs {
 };
 
 /// The inputs of a case; the last ones are kept, so that stages of one case share them.
-const StageInputs& stage_inputs(const Case& of, int n_threads);
+const StageInputs& stage_inputs(const Case& of, const BenchDevice& device);
 
 }  // namespace espdiff_bench

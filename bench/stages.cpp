@@ -1,214 +1,223 @@
 // stages.cpp: times every stage of the pipeline and the whole of it, and prints beside each time how good its result
 // is.
-#include <benchmark/benchmark.h>
-
-#include <chrono>
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
-#include <fstream>
 #include <functional>
+#include <regex>
 #include <string>
 #include <vector>
 
-#include "base/version.h"
+#include "io/atomic_file.h"
+#include "machine_peak.h"
+#include "renumbered.h"
 #include "stage_inputs.h"
+#include "stage_timer.h"
+#include "work_model.h"
 
 namespace {
 
-using benchmark::State;
 using espdiff::DeformOptions;
 using espdiff::MeshPtr;
 using espdiff_bench::Case;
 using espdiff_bench::StageInputs;
+using espdiff_bench::StageTimer;
 
 const espdiff::Progress kSilent;
 
-/// One benchmark: called with the inputs of a case; loops over `state`.
+void count_work(StageTimer& timer, const espdiff_bench::Work& work) {
+  timer.counters["work_bytes"] = work.bytes;
+  timer.counters["work_operations"] = work.operations;
+}
+
+/// One benchmark: called with the inputs of a case; times itself.
 struct Stage {
   std::string name;
-  std::function<void(State&, const StageInputs&)> run;
+  std::function<void(StageTimer&, const StageInputs&)> run;
   bool slow = false;  ///< seconds rather than milliseconds: fewer repetitions
-  bool manual_time = false;
+  bool once = false;  ///< a call is long enough to be timed by itself
 };
 
-void count_mesh(State& state, const StageInputs& in, const MeshPtr& mesh) {
-  state.counters["vertices"] = static_cast<double>(in.engine->n_vertices(mesh));
-  state.counters["triangles"] = static_cast<double>(in.engine->n_triangles(mesh));
+void count_mesh(StageTimer& timer, const StageInputs& in, const MeshPtr& mesh) {
+  timer.counters["vertices"] = static_cast<double>(in.engine->n_vertices(mesh));
+  timer.counters["triangles"] = static_cast<double>(in.engine->n_triangles(mesh));
 }
 
-void count_fit(State& state, const espdiff::FitReport& fit) {
-  state.counters["corrupt_percent"] = 100 * fit.corrupt_area_fraction;
-  state.counters["flipped_percent"] = 100 * fit.flipped_area_fraction;
+void count_fit(StageTimer& timer, const espdiff::FitReport& fit) {
+  timer.counters["corrupt_percent"] = 100 * fit.corrupt_area_fraction;
+  timer.counters["flipped_percent"] = 100 * fit.flipped_area_fraction;
 }
 
-void density(State& state, const StageInputs& in) {
+void density(StageTimer& timer, const StageInputs& in) {
   espdiff::GridPtr grid;
-  for (auto _ : state) grid = in.engine->density(in.source.atoms, in.spacing());
-  state.counters["lattice_points"] = static_cast<double>(in.engine->download(grid).values.size());
+  timer.time(*in.engine, [&] { grid = in.engine->density(in.source.atoms, in.spacing()); });
+  timer.counters["lattice_points"] = static_cast<double>(in.engine->download(grid).values.size());
+  count_work(timer, espdiff_bench::density_work(in));
 }
 
-void upload_atoms(State& state, const StageInputs& in) {
-  for (auto _ : state)
-    benchmark::DoNotOptimize(
-        in.engine->upload_atoms(in.source.molecule.positions, in.source.widths, in.source.residues));
-  state.counters["atoms"] = static_cast<double>(in.source.molecule.size());
+void upload_atoms(StageTimer& timer, const StageInputs& in) {
+  timer.time(*in.engine,
+             [&] { in.engine->upload_atoms(in.source.molecule.positions, in.source.widths, in.source.residues); });
+  timer.counters["atoms"] = static_cast<double>(in.source.molecule.size());
 }
 
-void count_surface(State& state, const StageInputs& in) {
-  count_mesh(state, in, in.source.raw);
-  state.counters["components"] = static_cast<double>(in.n_components);
-  state.counters["closed_manifold"] = in.fault.empty() ? 1 : 0;
+void count_surface(StageTimer& timer, const StageInputs& in) {
+  count_mesh(timer, in, in.source.raw);
+  timer.counters["components"] = static_cast<double>(in.n_components);
+  timer.counters["closed_manifold"] = in.fault.empty() ? 1 : 0;
   if (in.marching_cubes.n_triangles == 0) return;
-  state.counters["marching_cubes_triangles"] = static_cast<double>(in.marching_cubes.n_triangles);
-  state.counters["marching_cubes_ms"] = in.marching_cubes.ms;
-  state.counters["flying_edges_ms"] = in.flying_edges.ms;
+  timer.counters["marching_cubes_triangles"] = static_cast<double>(in.marching_cubes.n_triangles);
+  timer.counters["marching_cubes_ms"] = in.marching_cubes.ms;
+  timer.counters["flying_edges_ms"] = in.flying_edges.ms;
 }
 
-void isosurface(State& state, const StageInputs& in) {
-  for (auto _ : state) benchmark::DoNotOptimize(in.engine->isosurface(in.source.density, in.isovalue()));
-  count_surface(state, in);
+void isosurface(StageTimer& timer, const StageInputs& in) {
+  timer.time(*in.engine, [&] { in.engine->isosurface(in.source.density, in.isovalue()); });
+  count_surface(timer, in);
+  count_work(timer, espdiff_bench::isosurface_work(in));
 }
 
 /// From atoms to triangles, the sorting of the atoms included: what a peer's surface has to be set against. The bar is
 /// the peer's time, times our triangles over those of marching cubes on the same grid.
-void density_and_isosurface(State& state, const StageInputs& in, double quicksurf_ms) {
-  for (auto _ : state) {
+void density_and_isosurface(StageTimer& timer, const StageInputs& in, double quicksurf_ms) {
+  timer.time(*in.engine, [&] {
     const auto atoms = in.engine->upload_atoms(in.source.molecule.positions, in.source.widths, in.source.residues);
-    benchmark::DoNotOptimize(in.engine->isosurface(in.engine->density(atoms, in.spacing()), in.isovalue()));
-  }
-  count_surface(state, in);
+    in.engine->isosurface(in.engine->density(atoms, in.spacing()), in.isovalue());
+  });
+  count_surface(timer, in);
   if (in.marching_cubes.n_triangles == 0) return;
   const double ratio =
       static_cast<double>(in.engine->n_triangles(in.source.raw)) / static_cast<double>(in.marching_cubes.n_triangles);
-  state.counters["triangle_ratio"] = ratio;
-  if (quicksurf_ms > 0 && in.engine->n_threads() == 1) state.counters["bar_ms"] = quicksurf_ms * ratio;
+  timer.counters["triangle_ratio"] = ratio;
+  if (quicksurf_ms > 0 && in.engine->n_threads() == 1) timer.counters["bar_ms"] = quicksurf_ms * ratio;
 }
 
-void components(State& state, const StageInputs& in) {
-  for (auto _ : state) benchmark::DoNotOptimize(in.engine->components(in.source.raw));
-  state.counters["components"] = static_cast<double>(in.n_components);
+void components(StageTimer& timer, const StageInputs& in) {
+  timer.time(*in.engine, [&] { in.engine->components(in.source.raw); });
+  timer.counters["components"] = static_cast<double>(in.n_components);
 }
 
-void project(State& state, const StageInputs& in) {
+void project(StageTimer& timer, const StageInputs& in) {
   MeshPtr mesh;
-  for (auto _ : state) mesh = in.engine->project(in.source.raw, in.source.atoms, in.isovalue(), in.projection_limit());
-  count_mesh(state, in, mesh);
-  count_fit(state, in.engine->fit(mesh, in.source.atoms, in.isovalue()));
+  timer.time(*in.engine,
+             [&] { mesh = in.engine->project(in.source.raw, in.source.atoms, in.isovalue(), in.projection_limit()); });
+  count_mesh(timer, in, mesh);
+  count_fit(timer, in.engine->fit(mesh, in.source.atoms, in.isovalue()));
 }
 
-void density_field(State& state, const StageInputs& in) {
-  for (auto _ : state) benchmark::DoNotOptimize(in.engine->density_field(in.target.density, in.isovalue()));
+void density_field(StageTimer& timer, const StageInputs& in) {
+  timer.time(*in.engine, [&] { in.engine->density_field(in.target.density, in.isovalue()); });
+  count_work(timer, espdiff_bench::density_field_work(in));
 }
 
-void distance_field(State& state, const StageInputs& in) {
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(in.engine->distance_field(in.target.density, in.isovalue(), in.target.surface,
-                                                       in.options.distance_threshold_A, kSilent));
-  }
+void distance_field(StageTimer& timer, const StageInputs& in) {
+  timer.time(*in.engine, [&] {
+    in.engine->distance_field(in.target.density, in.isovalue(), in.target.surface, in.options.distance_threshold_A,
+                              kSilent);
+  });
 }
 
 /// The mean time of an iteration over a run of many, as the whole is run.
-void per_iteration(State& state, const StageInputs& in, const MeshPtr& mesh, const espdiff::FieldPtr& field,
+void per_iteration(StageTimer& timer, const StageInputs& in, const MeshPtr& mesh, const espdiff::FieldPtr& field,
                    DeformOptions options) {
   constexpr int kIterations = 50;
   options.max_iterations = kIterations;
   options.min_displacement_A = 0;
   espdiff::DeformReport report;
-  for (auto _ : state) {
-    const auto start = std::chrono::steady_clock::now();
-    benchmark::DoNotOptimize(in.engine->deform(mesh, field, options, "deform", kSilent, &report));
-    state.SetIterationTime(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() /
-                           kIterations);
-  }
-  count_mesh(state, in, mesh);
+  timer.time(
+      *in.engine, [&] { in.engine->deform(mesh, field, options, "deform", kSilent, &report); }, kIterations);
+  count_mesh(timer, in, mesh);
 }
 
-void count_report(State& state, const espdiff::DeformReport& report) {
-  state.counters["deform_iterations"] = report.iterations;
-  state.counters["converged"] = report.converged ? 1 : 0;
+void count_report(StageTimer& timer, const espdiff::DeformReport& report) {
+  timer.counters["deform_iterations"] = report.iterations;
+  timer.counters["converged"] = report.converged ? 1 : 0;
 }
 
-void regularize(State& state, const StageInputs& in) {
+void regularize(StageTimer& timer, const StageInputs& in) {
   espdiff::DeformReport report;
   MeshPtr mesh;
-  for (auto _ : state)
+  timer.time(*in.engine, [&] {
     mesh = in.engine->deform(in.source.surface, in.own_field, in.options.regularize, "regularize", kSilent, &report);
-  count_mesh(state, in, mesh);
-  count_report(state, report);
+  });
+  count_mesh(timer, in, mesh);
+  count_report(timer, report);
   const espdiff::FitReport fit = in.engine->fit(mesh, in.source.atoms, in.isovalue());
-  count_fit(state, fit);
-  state.counters["irregularity_A"] = fit.irregularity_A;
+  count_fit(timer, fit);
+  timer.counters["irregularity_A"] = fit.irregularity_A;
 }
 
-void deform(State& state, const StageInputs& in, const espdiff::FieldPtr& field) {
+void deform(StageTimer& timer, const StageInputs& in, const espdiff::FieldPtr& field) {
   espdiff::DeformReport report;
   MeshPtr mesh;
-  for (auto _ : state) mesh = in.engine->deform(in.start, field, in.options.deform, "deform", kSilent, &report);
-  count_mesh(state, in, mesh);
-  count_report(state, report);
-  count_fit(state, in.engine->fit(mesh, in.target.atoms, in.isovalue()));
-  state.counters["mean_distance_A"] = in.engine->distances(mesh, in.target.surface, 1.0).mean;
+  timer.time(*in.engine,
+             [&] { mesh = in.engine->deform(in.start, field, in.options.deform, "deform", kSilent, &report); });
+  count_mesh(timer, in, mesh);
+  count_report(timer, report);
+  count_fit(timer, in.engine->fit(mesh, in.target.atoms, in.isovalue()));
+  timer.counters["mean_distance_A"] = in.engine->distances(mesh, in.target.surface, 1.0).mean;
 }
 
-void fit(State& state, const StageInputs& in) {
+void fit(StageTimer& timer, const StageInputs& in) {
   espdiff::FitReport report;
-  for (auto _ : state) report = in.engine->fit(in.mapped, in.target.atoms, in.isovalue());
-  count_fit(state, report);
+  timer.time(*in.engine, [&] { report = in.engine->fit(in.mapped, in.target.atoms, in.isovalue()); });
+  count_fit(timer, report);
+  count_work(timer, espdiff_bench::fit_work(in));
 }
 
 /// Both directions, as the certificate takes them.
-void distances(State& state, const StageInputs& in) {
+void distances(StageTimer& timer, const StageInputs& in) {
   espdiff::DistanceSummary there, back;
-  for (auto _ : state) {
+  timer.time(*in.engine, [&] {
     there = in.engine->distances(in.mapped, in.target.surface, 1.0);
     back = in.engine->distances(in.target.surface, in.mapped, 1.0);
-  }
-  state.counters["mean_distance_A"] = there.mean;
-  state.counters["mean_distance_back_A"] = back.mean;
-  state.counters["max_distance_back_A"] = back.max;
+  });
+  timer.counters["mean_distance_A"] = there.mean;
+  timer.counters["mean_distance_back_A"] = back.mean;
+  timer.counters["max_distance_back_A"] = back.max;
 }
 
-void self_intersections(State& state, const StageInputs& in) {
+void self_intersections(StageTimer& timer, const StageInputs& in) {
   espdiff::IntersectionReport report;
-  for (auto _ : state) report = in.engine->self_intersections(in.mapped);
-  state.counters["pairs"] = static_cast<double>(report.n_pairs);
+  timer.time(*in.engine, [&] { report = in.engine->self_intersections(in.mapped); });
+  timer.counters["pairs"] = static_cast<double>(report.n_pairs);
 }
 
 /// Sampling of both potentials and their comparison; the maps are on the device already.
-void sample_and_metrics(State& state, const StageInputs& in) {
+void sample_and_metrics(StageTimer& timer, const StageInputs& in) {
   const auto map = in.engine->upload_map(in.map, espdiff::RigidTransform{});
   const auto corrupt = in.engine->fit(in.mapped, in.target.atoms, in.isovalue()).corrupt;
   espdiff::Metrics metrics;
-  for (auto _ : state) {
+  timer.time(*in.engine, [&] {
     metrics = in.engine->compare(in.start, in.mapped, in.engine->sample(map, in.start),
                                  in.engine->sample(map, in.mapped), corrupt);
-  }
-  state.counters["mean_displacement_A"] = metrics.mean_displacement_A;
-  state.counters["area_A2"] = metrics.area_A2;
+  });
+  timer.counters["mean_displacement_A"] = metrics.mean_displacement_A;
+  timer.counters["area_A2"] = metrics.area_A2;
 }
 
-void vertex_residues(State& state, const StageInputs& in) {
-  for (auto _ : state) benchmark::DoNotOptimize(in.engine->vertex_residues(in.start, in.source.atoms));
+void vertex_residues(StageTimer& timer, const StageInputs& in) {
+  timer.time(*in.engine, [&] { in.engine->vertex_residues(in.start, in.source.atoms); });
 }
 
 /// Everything from atoms and maps to metrics and certificate, with the pipeline's default options.
-void compare(State& state, const StageInputs& in) {
+void compare(StageTimer& timer, const StageInputs& in) {
   espdiff::CompareResult result;
-  for (auto _ : state) {
+  timer.time(*in.engine, [&] {
     result = espdiff::compare(*in.engine, {&in.source.molecule, &in.map}, {&in.target.molecule, &in.map}, in.options,
                               kSilent);
-  }
+  });
   const espdiff::Certificate& c = result.certificate;
-  state.counters["vertices"] = static_cast<double>(result.surface.positions.size());
-  state.counters["rmsd_A"] = result.rmsd_A;
-  state.counters["corrupt_percent"] = 100 * c.corrupt_area_fraction;
-  state.counters["flipped_percent"] = 100 * c.flipped_area_fraction;
-  state.counters["mean_distance_A"] = c.mapped_to_target.mean;
-  state.counters["mean_distance_back_A"] = c.target_to_mapped.mean;
-  state.counters["deform_iterations"] = result.deform_report.iterations;
-  state.counters["regularize_iterations"] = result.regularize_report.iterations;
-  state.counters["converged"] = c.converged ? 1 : 0;
-  for (const auto& [stage, ms] : result.time_ms) state.counters["ms_" + stage] = ms;
+  timer.counters["vertices"] = static_cast<double>(result.surface.positions.size());
+  timer.counters["rmsd_A"] = result.rmsd_A;
+  timer.counters["corrupt_percent"] = 100 * c.corrupt_area_fraction;
+  timer.counters["flipped_percent"] = 100 * c.flipped_area_fraction;
+  timer.counters["mean_distance_A"] = c.mapped_to_target.mean;
+  timer.counters["mean_distance_back_A"] = c.target_to_mapped.mean;
+  timer.counters["deform_iterations"] = result.deform_report.iterations;
+  timer.counters["regularize_iterations"] = result.regularize_report.iterations;
+  timer.counters["converged"] = c.converged ? 1 : 0;
+  for (const auto& [stage, ms] : result.time_ms) timer.counters["ms_" + stage] = ms;
 }
 
 /// In the order of the data flow.
@@ -221,29 +230,46 @@ std::vector<Stage> stages(double quicksurf_ms) {
       {"upload_atoms", upload_atoms},
       {"density", density},
       {"isosurface", isosurface},
-      {"density_and_isosurface", [=](State& s, const StageInputs& in) { density_and_isosurface(s, in, quicksurf_ms); }},
+      {"density_and_isosurface",
+       [=](StageTimer& s, const StageInputs& in) { density_and_isosurface(s, in, quicksurf_ms); }},
       {"components", components},
       {"project", project},
       {"density_field", density_field},
       {"distance_field", distance_field},
       {"regularize_iteration",
-       [](State& s, const StageInputs& in) {
+       [](StageTimer& s, const StageInputs& in) {
          per_iteration(s, in, in.source.surface, in.own_field, in.options.regularize);
        },
        false, true},
       {"regularize", regularize, true},
       {"deform_iteration",
-       [](State& s, const StageInputs& in) {
+       [](StageTimer& s, const StageInputs& in) {
          per_iteration(s, in, in.start, in.target_distance_field, in.options.deform);
+         count_work(s, espdiff_bench::deform_iteration_work(in, false));
+       },
+       false, true},
+      {"deform_iteration_along_a_curve",
+       [](StageTimer& s, const StageInputs& in) {
+         const MeshPtr mesh = in.engine->upload_mesh(espdiff_bench::along_a_curve(in.engine->download(in.start)));
+         per_iteration(s, in, mesh, in.target_distance_field, in.options.deform);
+       },
+       false, true},
+      {"deform_iteration_shuffled",
+       [](StageTimer& s, const StageInputs& in) {
+         const MeshPtr mesh = in.engine->upload_mesh(espdiff_bench::shuffled(in.engine->download(in.start)));
+         per_iteration(s, in, mesh, in.target_distance_field, in.options.deform);
        },
        false, true},
       {"deform_iteration_tricubic",
-       [=](State& s, const StageInputs& in) {
+       [=](StageTimer& s, const StageInputs& in) {
          per_iteration(s, in, in.start, in.target_distance_field, tricubic(in.options.deform));
+         count_work(s, espdiff_bench::deform_iteration_work(in, true));
        },
        false, true},
-      {"deform_density_field", [](State& s, const StageInputs& in) { deform(s, in, in.target_density_field); }, true},
-      {"deform_distance_field", [](State& s, const StageInputs& in) { deform(s, in, in.target_distance_field); }, true},
+      {"deform_density_field", [](StageTimer& s, const StageInputs& in) { deform(s, in, in.target_density_field); },
+       true},
+      {"deform_distance_field", [](StageTimer& s, const StageInputs& in) { deform(s, in, in.target_distance_field); },
+       true},
       {"fit", fit},
       {"distances", distances},
       {"self_intersections", self_intersections},
@@ -253,55 +279,86 @@ std::vector<Stage> stages(double quicksurf_ms) {
   };
 }
 
-void register_benchmarks() {
+void print(const std::string& name, const StageTimer& timer) {
+  std::printf("%-50s %10.4f ms", name.c_str(), timer.median_ms());
+  for (const auto& [what, value] : timer.counters) std::printf("  %s=%g", what.c_str(), value);
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
+nlohmann::ordered_json record_of(const std::string& name, const StageTimer& timer) {
+  nlohmann::ordered_json record{{"name", name}, {"real_time", timer.median_ms()}, {"time_unit", "ms"}};
+  record["repetitions"] = timer.n_repetitions();
+  for (const auto& [what, value] : timer.counters) record[what] = value;
+  return record;
+}
+
+/// Runs what matches, case by case, so that the stages of one share its inputs.
+nlohmann::ordered_json run_all(const std::regex& filter) {
   constexpr int kRepetitions = 5, kSlowRepetitions = 3;
   constexpr std::size_t kLarge = 30000;  // atoms; seconds per stage: once will do
+  constexpr double kLeast_ms = 50;
+  nlohmann::ordered_json records = nlohmann::ordered_json::array();
   for (const Case& of : espdiff_bench::cases()) {
-    for (const int n_threads : {1, 2}) {
+    for (const espdiff_bench::BenchDevice& device : espdiff_bench::devices()) {
       for (const Stage& stage : stages(of.quicksurf_ms)) {
-        const auto run = [=](State& state) {
-          try {
-            stage.run(state, espdiff_bench::stage_inputs(of, n_threads));
-          } catch (const std::exception& error) {
-            state.SkipWithError(error.what());
-          }
-        };
-        const std::string name = stage.name + "/" + of.name + "/threads:" + std::to_string(n_threads);
-        auto* registered = benchmark::RegisterBenchmark(name.c_str(), run)->Unit(benchmark::kMillisecond);
+        const std::string name = stage.name + "/" + of.name + "/" + device.name;
+        if (!std::regex_search(name, filter)) continue;
         const int slow = of.n_atoms > kLarge ? 1 : kSlowRepetitions;
-        registered->Repetitions(stage.slow ? slow : kRepetitions)->ReportAggregatesOnly(true);
-        if (stage.slow || stage.manual_time) {
-          registered->Iterations(1);
-        } else {
-          registered->MinTime(0.05);
+        StageTimer timer(stage.slow ? slow : kRepetitions, stage.slow || stage.once ? 0 : kLeast_ms);
+        try {
+          stage.run(timer, espdiff_bench::stage_inputs(of, device));
+        } catch (const std::exception& error) {
+          std::printf("%-50s SKIPPED: %s\n", name.c_str(), error.what());
+          continue;
         }
-        if (stage.manual_time)
-          registered->UseManualTime();
-        else
-          registered->UseRealTime();
+        print(name, timer);
+        records.push_back(record_of(name, timer));
       }
     }
   }
+  return records;
 }
 
-std::string cpu_model() {
-  std::ifstream in("/proc/cpuinfo");
-  std::string line;
-  while (std::getline(in, line)) {
-    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+void add_peak(nlohmann::ordered_json& context, const std::string& device, const espdiff_bench::MachinePeak& peak) {
+  context["bandwidth_GBps " + device] = peak.gigabytes_per_s;
+  context["arithmetic_Gops " + device] = peak.gigaoperations_per_s;
+}
+
+/// The roofs that stages are read against, measured in the same run.
+void add_peaks(nlohmann::ordered_json& context) {
+  for (const espdiff_bench::BenchDevice& device : espdiff_bench::devices()) {
+    if (device.n_threads > 0) add_peak(context, device.name, espdiff_bench::cpu_peak(device.n_threads));
+#if defined(ESPDIFF_HAVE_CUDA)
+    if (device.n_threads == 0) {
+      add_peak(context, device.name, espdiff_bench::cuda_peak());
+      context["gpu"] = espdiff::cuda_status().description;
+    }
+#endif
   }
-  return "unknown";
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  benchmark::AddCustomContext("cpu_model", cpu_model());
-  benchmark::AddCustomContext("espdiff_version", espdiff::kVersion);
-  register_benchmarks();
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
+  CLI::App app("Times the stages of the pipeline, and prints beside each time how good its result is");
+  std::string filter = ".", out;
+  app.add_option("--filter", filter, "Regular expression for STAGE/CASE/DEVICE, such as '^deform.*/1tca/threads:1'");
+  app.add_option("--out", out, "Write the results as JSON");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    nlohmann::ordered_json results;
+    results["context"] = espdiff_bench::machine_context();
+    add_peaks(results["context"]);
+    results["benchmarks"] = run_all(std::regex(filter));
+    if (!out.empty()) {
+      espdiff::AtomicFile file(out);
+      file.stream() << results.dump(1) << "\n";
+      file.commit();
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "espdiff_stages: %s\n", error.what());
+    return 1;
+  }
   return 0;
 }

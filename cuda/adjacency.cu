@@ -39,7 +39,7 @@ std::shared_ptr<const Topology> make_topology(std::size_t n_vertices, Buffer<Cor
   for_each_index(n_triangles, [=] ESPDIFF_HD(std::size_t t) {
     for (int c = 0; c < 3; ++c) slot[3 * t + c] = atomic_increment(&first[corners[t].v[c]]);
   });
-  exclusive_scan_in_place(topology->first);
+  running_sum_in_place(topology->first);
   for_each_index(n_triangles, [=] ESPDIFF_HD(std::size_t t) {
     for (int c = 0; c < 3; ++c) {
       const std::uint32_t place = first[corners[t].v[c]] + slot[3 * t + c];

@@ -30,7 +30,7 @@ Buffer<std::uint32_t> smallest_vertex_labels(const SurfaceMesh& mesh) {
   const TopologyView topology = mesh.view();
   for_each_index(labels.size(), [=] ESPDIFF_HD(std::size_t v) { label[v] = static_cast<std::uint32_t>(v); });
   do {
-    changes[0] = 0;
+    changes.assign(1, 0);
     for_each_index(labels.size(), [=] ESPDIFF_HD(std::size_t v) {
       const std::uint32_t own = root_of(label, static_cast<std::uint32_t>(v));
       for (std::uint32_t n = topology.first[v]; n < topology.first[v + 1]; ++n) {

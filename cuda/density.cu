@@ -5,8 +5,6 @@
 // the cutoff.
 #include "density.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -18,11 +16,6 @@ namespace {
 
 /// Bytes a run needs per lattice point: density, inside flags, cases, vertex offsets, and the field with its gradient.
 constexpr double kBytesPerPoint = 4 + 1 + 1 + 4 + 16 + 8;
-
-double available_bytes() {
-  const long pages = sysconf(_SC_PHYS_PAGES), page_size = sysconf(_SC_PAGE_SIZE);
-  return pages > 0 && page_size > 0 ? 0.8 * static_cast<double>(pages) * static_cast<double>(page_size) : 1e18;
-}
 
 ESPDIFF_INLINE float axis_gaussian(float exponent, float delta) {
   return exp_of_negative(larger(exponent * delta * delta, -80.0F));
@@ -189,7 +182,7 @@ std::shared_ptr<DensityGrid> density_by_slabs(const AtomCells& atoms, const Cubi
   }
   auto grid = std::make_shared<DensityGrid>();
   grid->lattice = lattice;
-  grid->values.resize(lattice.n_points());
+  grid->values.assign(lattice.n_points(), 0.0F);
   const AtomCellsView view = atoms.view();
   float* const values = raw(grid->values);
   const std::size_t n_slabs = static_cast<std::size_t>((lattice.size[2] + kSlabLayers - 1) / kSlabLayers);

@@ -4,11 +4,6 @@
 // ESPDIFF_BACKEND=cuda_backend by nvcc. The namespace keeps the two sets of inline functions apart.
 #pragma once
 
-#include <thrust/copy.h>
-#include <thrust/device_vector.h>
-#include <thrust/execution_policy.h>
-#include <thrust/for_each.h>
-#include <thrust/iterator/counting_iterator.h>
 #include <thrust/scan.h>
 
 #include <cstddef>
@@ -17,6 +12,8 @@
 #include <vector>
 
 #include "base/vector.h"
+#include "buffer.h"
+#include "launch.h"
 
 // Compiles a hot host function for several instruction sets and picks one at load time. Without contraction all give
 // the same bits, so the choice changes speed alone.
@@ -36,41 +33,62 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
-// Each target wraps its Thrust in a namespace of its own (THRUST_CUB_WRAPPED_NAMESPACE).
-namespace thrust = THRUST_NS_QUALIFIER;
-
-/// An array on the device.
-template <typename T>
-using Buffer = thrust::device_vector<T>;
-
-template <typename T>
-T* raw(Buffer<T>& buffer) {
-  return thrust::raw_pointer_cast(buffer.data());
-}
-template <typename T>
-const T* raw(const Buffer<T>& buffer) {
-  return thrust::raw_pointer_cast(buffer.data());
-}
-
-template <typename T>
-Buffer<T> to_device(const std::vector<T>& host) {
-  return Buffer<T>(host.begin(), host.end());
-}
-template <typename T>
-std::vector<T> to_host(const Buffer<T>& buffer) {
-  std::vector<T> host(buffer.size());
-  thrust::copy(buffer.begin(), buffer.end(), host.begin());
-  return host;
-}
-
-/// Calls body(i) for each i in [0, n) in parallel. Deterministic when no call writes what another reads or writes.
-template <typename Body>
-void for_each_index(std::size_t n, Body body) {
-  if (n == 0) return;
-  thrust::for_each_n(thrust::device, thrust::counting_iterator<std::size_t>(0), n, body);
-}
-
 constexpr std::size_t kReductionChunk = 2048;
+
+#if defined(ESPDIFF_BACKEND_CUDA)
+
+constexpr unsigned kReductionThreads = 128;
+
+/// Adds term(i) over [begin, end) in a block of kReductionThreads threads, in an order that depends on the range alone:
+/// each thread its share in strides, then the threads' sums by halves. Thread 0 writes the sum.
+template <typename T, typename Term>
+__device__ void block_sum(std::size_t begin, std::size_t end, const Term& term, T* out) {
+  // Raw memory, since a T may have a constructor.
+  __shared__ __align__(16) unsigned char shared[kReductionThreads * sizeof(T)];
+  T* const sums = reinterpret_cast<T*>(shared);
+  T sum{};
+  for (std::size_t i = begin + threadIdx.x; i < end; i += kReductionThreads) sum += term(i);
+  sums[threadIdx.x] = sum;
+  for (unsigned half = kReductionThreads / 2; half > 0; half /= 2) {
+    __syncthreads();
+    if (threadIdx.x < half) sums[threadIdx.x] += sums[threadIdx.x + half];
+  }
+  if (threadIdx.x == 0) *out = sums[0];
+}
+
+template <typename T, typename Term>
+__global__ void __launch_bounds__(kReductionThreads) sum_chunks_kernel(std::size_t n, Term term, T* partial) {
+  const std::size_t begin = blockIdx.x * kReductionChunk;
+  block_sum<T>(begin, begin + kReductionChunk < n ? begin + kReductionChunk : n, term, partial + blockIdx.x);
+}
+
+/// The elements of an array, as a term.
+template <typename T>
+struct ElementOf {
+  const T* values;
+  __device__ T operator()(std::size_t i) const { return values[i]; }
+};
+
+template <typename T>
+__global__ void __launch_bounds__(kReductionThreads) sum_partial_kernel(std::size_t n, const T* partial, T* total) {
+  block_sum<T>(0, n, ElementOf<T>{partial}, total);
+}
+
+/// Sum of term(i) over [0, n) as a T (with operator+=, value-initialized to zero), the same bits each time: chunks of
+/// fixed size, then the chunks.
+template <typename T, typename Term>
+T sum_over(std::size_t n, Term term) {
+  if (n == 0) return T{};
+  const std::size_t n_chunks = (n + kReductionChunk - 1) / kReductionChunk;
+  Buffer<T> partial(n_chunks + 1);  // the last one is the total
+  const cudaStream_t stream = CudaContext::current()->stream();
+  sum_chunks_kernel<<<static_cast<unsigned>(n_chunks), kReductionThreads, 0, stream>>>(n, term, raw(partial));
+  sum_partial_kernel<<<1, kReductionThreads, 0, stream>>>(n_chunks, raw(partial), raw(partial) + n_chunks);
+  check_cuda(cudaGetLastError(), "starting a sum");
+  return partial.back();
+}
+
+#else
 
 /// Sum of term(i) over [0, n) as a T (with operator+=, value-initialized to zero): chunks of fixed size in order, then
 /// the chunks in order, so that the result does not depend on the number of threads.
@@ -90,12 +108,20 @@ T sum_over(std::size_t n, Term term) {
   return total;
 }
 
-/// Replaces counts by their running sum before each; returns the total.
+#endif
+
+/// Replaces counts by their running sum before each.
+template <typename T>
+void running_sum_in_place(Buffer<T>& counts) {
+  if (!counts.empty()) thrust::exclusive_scan(on_device(), counts.begin(), counts.end(), counts.begin());
+}
+
+/// The same; returns the total, for which the host waits.
 template <typename T>
 T exclusive_scan_in_place(Buffer<T>& counts) {
   if (counts.empty()) return T{};
   const T last = counts.back();
-  thrust::exclusive_scan(thrust::device, counts.begin(), counts.end(), counts.begin());
+  running_sum_in_place(counts);
   return static_cast<T>(counts.back() + last);
 }
 

@@ -2,6 +2,8 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <chrono>
+#include <functional>
 #include <map>
 #include <new>
 #include <string>
@@ -33,8 +35,10 @@
 #include "vector_flow.h"
 
 #if defined(ESPDIFF_BACKEND_CUDA)
-#include <cuda_runtime.h>
+#include <cuda_runtime_api.h>
 #include <thrust/system_error.h>
+
+#include "cuda_context.h"
 #endif
 
 namespace espdiff::ESPDIFF_BACKEND {
@@ -57,7 +61,8 @@ auto guarded(Stage stage) -> decltype(stage()) {
     throw;
 #if defined(ESPDIFF_BACKEND_CUDA)
   } catch (const thrust::system_error& error) {
-    throw DeviceError(std::string("CUDA failed: ") + error.what() + "; try --device cpu");
+    cudaGetLastError();
+    throw_cuda_error(static_cast<cudaError_t>(error.code().value()), "sorting or summing", facts_of_current_device());
 #endif
   } catch (const std::bad_alloc&) {
     throw MemoryError("not enough memory for this surface; use a larger grid spacing or fewer atoms");
@@ -90,19 +95,40 @@ void check_closed(const Mesh& mesh) {
 
 class BackEndEngine : public Engine {
  public:
-  explicit BackEndEngine(int n_threads) : n_threads_(n_threads) {}
-
 #if defined(ESPDIFF_BACKEND_CUDA)
+  explicit BackEndEngine(int device) : context_(std::make_shared<CudaContext>(device)) {}
+  ~BackEndEngine() override {
+    try {
+      const CudaContext::Use use(context_);
+      pme_ = {};  // its plans belong to the device
+    } catch (const Error&) {
+      // A device that is lost has nothing to give back.
+    }
+  }
+
   std::string back_end() const override { return "cuda"; }
-  std::string description() const override { return cuda_device_description(); }
+  std::string description() const override { return describe_device(context_->device()); }
   int n_threads() const override { return 0; }
 #else
+  explicit BackEndEngine(int n_threads) : n_threads_(n_threads) {}
+
   std::string back_end() const override { return "cpu"; }
   std::string description() const override {
     return std::to_string(n_threads_) + (n_threads_ == 1 ? " thread" : " OpenMP threads");
   }
   int n_threads() const override { return n_threads_; }
 #endif
+
+  double elapsed_ms(const std::function<void()>& calls) override {
+#if defined(ESPDIFF_BACKEND_CUDA)
+    const CudaContext::Use use(context_);
+    return context_->elapsed_ms(calls);
+#else
+    const auto start = std::chrono::steady_clock::now();
+    calls();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+#endif
+  }
 
   AtomsPtr upload_atoms(const std::vector<Vec3d>& positions, const std::vector<float>& widths,
                         const std::vector<std::int32_t>& residues) override {
@@ -198,6 +224,15 @@ class BackEndEngine : public Engine {
     return run([&] {
       return ESPDIFF_BACKEND::morph(unwrap<SurfaceMesh>(mesh), atoms, unwrap<AtomCells>(source_atoms),
                                     unwrap<AtomCells>(target_atoms), options, stage, progress);
+    });
+  }
+
+  MorphResult continue_morph(const MorphResult& so_far, const std::vector<MovingAtom>& atoms,
+                             const AtomsPtr& source_atoms, const AtomsPtr& target_atoms, const MorphOptions& options,
+                             const std::string& stage, const Progress& progress) override {
+    return run([&] {
+      return ESPDIFF_BACKEND::continue_morph(so_far, atoms, unwrap<AtomCells>(source_atoms),
+                                             unwrap<AtomCells>(target_atoms), options, stage, progress);
     });
   }
 
@@ -394,27 +429,29 @@ class BackEndEngine : public Engine {
     return to_device(padded);
   }
 
+#if defined(ESPDIFF_BACKEND_CUDA)
+  /// Runs a stage on this engine's device, and waits for it, so that what fails there is told here.
+  template <typename Stage>
+  auto run(Stage stage) const -> decltype(stage()) {
+    const CudaContext::Use use(context_);
+    return guarded([&] {
+      auto result = stage();
+      context_->synchronize();
+      return result;
+    });
+  }
+
+  std::shared_ptr<CudaContext> context_;
+#else
   /// Sets the number of threads for this call (another engine may have set its own) and guards the stage.
   template <typename Stage>
   auto run(Stage stage) const -> decltype(stage()) {
-#if !defined(ESPDIFF_BACKEND_CUDA)
     omp_set_num_threads(n_threads_);
-#endif
     return guarded(stage);
   }
 
-#if defined(ESPDIFF_BACKEND_CUDA)
-  static std::string cuda_device_description() {
-    int device = 0;
-    cudaDeviceProp properties{};
-    if (cudaGetDevice(&device) != cudaSuccess || cudaGetDeviceProperties(&properties, device) != cudaSuccess)
-      return "CUDA device";
-    return std::string(properties.name) + " (compute capability " + std::to_string(properties.major) + "." +
-           std::to_string(properties.minor) + ")";
-  }
-#endif
-
   int n_threads_;
+#endif
   PmeSolver pme_;
 };
 
@@ -427,25 +464,47 @@ Lattice host_lattice(const CubicLattice& lattice) {
           {{{h, 0, 0}, {0, h, 0}, {0, 0, h}}}};
 }
 
-std::unique_ptr<Engine> make_engine(int n_threads) { return std::make_unique<BackEndEngine>(n_threads); }
-
 #if defined(ESPDIFF_BACKEND_CUDA)
-std::string probe_device(bool* available) {
+
+std::unique_ptr<Engine> make_engine(int device) { return std::make_unique<BackEndEngine>(device); }
+
+std::vector<CudaDeviceStatus> probe_devices(std::string* why_none) {
   int n = 0;
   const cudaError_t status = cudaGetDeviceCount(&n);
-  *available = status == cudaSuccess && n > 0;
-  if (status == cudaErrorNoDevice || (status == cudaSuccess && n == 0))
-    return "no NVIDIA GPU was found; use --device cpu";
-  if (status == cudaErrorInsufficientDriver) {
-    return "no NVIDIA driver, or one older than this build needs, is installed; install or update it, or use --device "
-           "cpu";
+  cudaGetLastError();
+  const CudaFacts facts = facts_of_current_device();
+  try {
+    if (status != cudaSuccess) throw_cuda_error(status, "looking for GPUs", facts);
+    if (n == 0) throw_cuda_error(cudaErrorNoDevice, "looking for GPUs", facts);
+  } catch (const Error& error) {
+    *why_none = error.what();
+    return {};
   }
-  if (status != cudaSuccess)
-    return std::string("the CUDA runtime says: ") + cudaGetErrorString(status) + "; use --device cpu";
-  cudaDeviceProp properties{};
-  cudaGetDeviceProperties(&properties, 0);
-  return properties.name;
+  std::vector<CudaDeviceStatus> devices;
+  for (int device = 0; device < n; ++device) {
+    int major = 0, minor = 0;
+    cudaDeviceGetAttribute(&major, cudaDevAttrComputeCapabilityMajor, device);
+    cudaDeviceGetAttribute(&minor, cudaDevAttrComputeCapabilityMinor, device);
+    CudaDeviceStatus found{true, describe_device(device)};
+    if (!has_code_for(facts.architectures, 10 * major + minor)) {
+      CudaFacts of_it = facts;
+      of_it.device = found.description;
+      of_it.capability = 10 * major + minor;
+      try {
+        throw_cuda_error(cudaErrorNoKernelImageForDevice, "looking for GPUs", of_it);
+      } catch (const Error& error) {
+        found = {false, error.what()};
+      }
+    }
+    devices.push_back(found);
+  }
+  return devices;
 }
+
+#else
+
+std::unique_ptr<Engine> make_engine(int n_threads) { return std::make_unique<BackEndEngine>(n_threads); }
+
 #endif
 
 }  // namespace espdiff::ESPDIFF_BACKEND

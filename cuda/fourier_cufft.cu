@@ -25,6 +25,7 @@ class CufftLibrary {
   }
 
   decltype(&cufftPlan3d) plan_3d = nullptr;
+  decltype(&cufftSetStream) set_stream = nullptr;
   decltype(&cufftDestroy) destroy = nullptr;
   decltype(&cufftExecR2C) forward_float = nullptr;
   decltype(&cufftExecC2R) back_float = nullptr;
@@ -44,6 +45,7 @@ class CufftLibrary {
                         "add its folder to LD_LIBRARY_PATH, or use --device cpu");
     }
     load(library, "cufftPlan3d", plan_3d);
+    load(library, "cufftSetStream", set_stream);
     load(library, "cufftDestroy", destroy);
     load(library, "cufftExecR2C", forward_float);
     load(library, "cufftExecC2R", back_float);
@@ -92,11 +94,14 @@ struct Cufft<double> {
   }
 };
 
-/// A plan, destroyed with its owner.
+/// A plan on the engine's stream, destroyed with its owner.
 class Plan {
  public:
   Plan(std::array<int, 3> size, cufftType type) {
     check(CufftLibrary::get().plan_3d(&handle_, size[2], size[1], size[0], type), "plan a transform");
+    const cufftResult status = CufftLibrary::get().set_stream(handle_, CudaContext::current()->stream());
+    if (status != CUFFT_SUCCESS) CufftLibrary::get().destroy(handle_);
+    check(status, "plan a transform on a stream");
   }
   ~Plan() { CufftLibrary::get().destroy(handle_); }
   Plan(const Plan&) = delete;

@@ -117,10 +117,11 @@ class FftwGrid : public FourierGrid<T> {
     plane_ = odd_multiple(complex_row_ * ny);
     n_parts_ = std::min(nz, kMostParts);
     // Aligned as FFTW's plans want it: one more block, from which the first aligned address is taken.
-    values_.resize(slab_ * nz + kBlock);
-    modes_.resize(2 * plane_ * nz + kBlock);
+    // The gaps between slabs and columns are transformed along with the rest, hence hold numbers.
+    values_.assign(slab_ * nz + kBlock, T(0));
+    modes_.assign(2 * plane_ * nz + kBlock, T(0));
     scratch_per_part_ = 2 * std::max(plane_, kBlock * nz);
-    scratch_.resize(scratch_per_part_ * n_parts_ + kBlock);
+    scratch_.assign(scratch_per_part_ * n_parts_ + kBlock, T(0));
     make_plans();
   }
   ~FftwGrid() override {

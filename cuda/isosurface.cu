@@ -127,7 +127,7 @@ std::shared_ptr<SurfaceMesh> isosurface(const DensityGrid& density, float isoval
   Buffer<std::uint8_t> inside(n_points), cases(n_points);
   Buffer<std::uint32_t> first_vertex(n_points);
   Buffer<RowCounts> rows(n_rows);
-  const Buffer<CellCase> cell_cases(kCellCases.begin(), kCellCases.end());
+  const Buffer<CellCase> cell_cases(kCellCases.data(), kCellCases.data() + kCellCases.size());
   Extraction e{lattice,    raw(density.values), isovalue, raw(cell_cases), raw(inside),
                raw(cases), raw(first_vertex),   nullptr,  nullptr};
   RowCounts* const row_counts = raw(rows);

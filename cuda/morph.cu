@@ -64,6 +64,33 @@ std::shared_ptr<Scalars> path_lengths(const Travelling& surface, const SurfaceMe
   return lengths;
 }
 
+/// A surface that an earlier morph has brought so far. Its vertices that are lost are those that have no triangle left.
+Travelling take_up(const MorphResult& so_far) {
+  const auto& source = dynamic_cast<const SurfaceMesh&>(*so_far.source);
+  const auto& mapped = dynamic_cast<const SurfaceMesh&>(*so_far.mapped);
+  const auto& cut = dynamic_cast<const Scalars&>(*so_far.lost);
+  const auto& path_length = dynamic_cast<const Scalars&>(*so_far.path_length);
+  if (mapped.n_vertices() != source.n_vertices() || mapped.n_triangles() != source.n_triangles() ||
+      cut.values.size() != source.n_triangles() || path_length.values.size() != source.n_vertices())
+    throw GeometryError("a morph of " + std::to_string(source.n_vertices()) +
+                        " vertices cannot go on: its meshes, what it lost and its path lengths differ in size");
+  Travelling surface = set_out(source);
+  surface.x = mapped.positions;
+  const TravellingView s = view_of(surface);
+  const float* const length = raw(path_length.values);
+  const float* const lost = raw(cut.values);
+  for_each_index(s.topology.n_triangles, [=] ESPDIFF_HD(std::size_t t) { s.cut[t] = lost[t] != 0 ? 1 : 0; });
+  for_each_index(s.topology.n_vertices, [=] ESPDIFF_HD(std::size_t v) {
+    s.x[v].w = length[v];
+    bool any = false;
+    for (std::uint32_t n = s.topology.first[v]; n < s.topology.first[v + 1]; ++n)
+      any = any || s.cut[s.topology.incident[n]] == 0;
+    s.lost[v] = any ? 0 : 1;
+  });
+  surface.order = spatial_order(surface.x);
+  return surface;
+}
+
 /// Both ends on their isosurfaces. Vertices of the given mesh keep the places that they came with; those added lie in
 /// the middles of edges, beside the surface.
 MorphResult arrive(const Travelling& surface, const SurfaceMesh& mesh, const AtomCells& source_atoms,
@@ -73,8 +100,7 @@ MorphResult arrive(const Travelling& surface, const SurfaceMesh& mesh, const Ato
   source.positions = surface.source;
   mapped.positions = surface.x;
   auto on_source = project(source, source_atoms, isovalue, kLastShift_A);
-  thrust::copy_n(thrust::device, mesh.positions.begin(), static_cast<std::ptrdiff_t>(mesh.n_vertices()),
-                 on_source->positions.begin());
+  copy_on_device(raw(on_source->positions), raw(mesh.positions), mesh.n_vertices() * sizeof(Vec4f));
   MorphResult result;
   result.source = on_source;
   const auto on_target = project(mapped, target_atoms, isovalue, kLastShift_A);
@@ -84,6 +110,39 @@ MorphResult arrive(const Travelling& surface, const SurfaceMesh& mesh, const Ato
   const std::uint8_t* const lost = raw(surface.lost);
   result.report.n_vertices_lost =
       sum_over<std::size_t>(surface.n_vertices(), [=] ESPDIFF_HD(std::size_t v) { return std::size_t{lost[v]}; });
+  return result;
+}
+
+/// All the way of the atoms. `mesh` is where the surface comes from.
+MorphResult travel(Travelling surface, const SurfaceMesh& mesh, const std::vector<MovingAtom>& atoms,
+                   const AtomCells& source_atoms, const AtomCells& target_atoms, const MorphOptions& options,
+                   const std::string& stage, const Progress& progress) {
+  check_options(options);
+  const float isovalue = static_cast<float>(options.isovalue);
+  const float max_edge = static_cast<float>(options.max_edge_A), max_stretch = static_cast<float>(options.max_stretch);
+  const int n_steps = steps_for(atoms, options);
+  std::size_t n_added = 0;
+  return_to_level_set(surface, atoms_at(atoms, 0.0), isovalue);
+  surface.previous = surface.flow;
+  for (int step = 1; step <= n_steps; ++step) {
+    progress.report(stage, static_cast<double>(step - 1) / n_steps);
+    advance(surface, 1.0F / static_cast<float>(n_steps));
+    return_to_level_set(surface, atoms_at(atoms, static_cast<double>(step) / n_steps), isovalue);
+    cut_out(surface);
+    even_out(surface);
+    n_added += divide_long(surface, max_edge, max_stretch);
+  }
+  // What the last step added or evened out lies beside the level set.
+  const MovingAtoms arrived = atoms_at(atoms, 1.0);
+  for (int round = 0; round < kLastRounds; ++round) {
+    return_to_level_set(surface, arrived, isovalue);
+    cut_out(surface);
+    if (round + 1 < kLastRounds) even_out(surface);
+  }
+  progress.report(stage, 1.0);
+  MorphResult result = arrive(surface, mesh, source_atoms, target_atoms, isovalue);
+  result.report.steps = n_steps;
+  result.report.n_vertices_added = n_added;
   return result;
 }
 
@@ -108,34 +167,14 @@ Travelling set_out(const SurfaceMesh& mesh) {
 MorphResult morph(const SurfaceMesh& mesh, const std::vector<MovingAtom>& atoms, const AtomCells& source_atoms,
                   const AtomCells& target_atoms, const MorphOptions& options, const std::string& stage,
                   const Progress& progress) {
-  check_options(options);
-  const float isovalue = static_cast<float>(options.isovalue);
-  const float max_edge = static_cast<float>(options.max_edge_A), max_stretch = static_cast<float>(options.max_stretch);
-  const int n_steps = steps_for(atoms, options);
-  std::size_t n_added = 0;
-  Travelling surface = set_out(mesh);
-  return_to_level_set(surface, atoms_at(atoms, 0.0), isovalue);
-  surface.previous = surface.flow;
-  for (int step = 1; step <= n_steps; ++step) {
-    progress.report(stage, static_cast<double>(step - 1) / n_steps);
-    advance(surface, 1.0F / static_cast<float>(n_steps));
-    return_to_level_set(surface, atoms_at(atoms, static_cast<double>(step) / n_steps), isovalue);
-    cut_out(surface);
-    even_out(surface);
-    n_added += divide_long(surface, max_edge, max_stretch);
-  }
-  // What the last step added or evened out lies beside the level set.
-  const MovingAtoms arrived = atoms_at(atoms, 1.0);
-  for (int round = 0; round < kLastRounds; ++round) {
-    return_to_level_set(surface, arrived, isovalue);
-    cut_out(surface);
-    if (round + 1 < kLastRounds) even_out(surface);
-  }
-  progress.report(stage, 1.0);
-  MorphResult result = arrive(surface, mesh, source_atoms, target_atoms, isovalue);
-  result.report.steps = n_steps;
-  result.report.n_vertices_added = n_added;
-  return result;
+  return travel(set_out(mesh), mesh, atoms, source_atoms, target_atoms, options, stage, progress);
+}
+
+MorphResult continue_morph(const MorphResult& so_far, const std::vector<MovingAtom>& atoms,
+                           const AtomCells& source_atoms, const AtomCells& target_atoms, const MorphOptions& options,
+                           const std::string& stage, const Progress& progress) {
+  return travel(take_up(so_far), dynamic_cast<const SurfaceMesh&>(*so_far.source), atoms, source_atoms, target_atoms,
+                options, stage, progress);
 }
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -14,4 +14,9 @@ MorphResult morph(const SurfaceMesh& mesh, const std::vector<MovingAtom>& atoms,
                   const AtomCells& target_atoms, const MorphOptions& options, const std::string& stage,
                   const Progress& progress);
 
+/// See Engine::continue_morph().
+MorphResult continue_morph(const MorphResult& so_far, const std::vector<MovingAtom>& atoms,
+                           const AtomCells& source_atoms, const AtomCells& target_atoms, const MorphOptions& options,
+                           const std::string& stage, const Progress& progress);
+
 }  // namespace espdiff::ESPDIFF_BACKEND

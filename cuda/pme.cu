@@ -1,8 +1,6 @@
 // pme.cu: smooth particle-mesh Ewald: checks what is asked for, spreads the charges, and convolves the grid.
 #include "pme.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -68,8 +66,7 @@ void check_options(const PmeOptions& o) {
 void check_memory(const PmeOptions& o) {
   const double per_point = o.precision == Precision::kDouble ? 8 + 9 + 4 : 4 + 5 + 4;
   const double n_points = static_cast<double>(o.size[0]) * o.size[1] * o.size[2];
-  const long pages = sysconf(_SC_PHYS_PAGES), page_size = sysconf(_SC_PAGE_SIZE);
-  const double limit = std::min(0.8 * static_cast<double>(pages) * static_cast<double>(page_size) / per_point, 2.0e9);
+  const double limit = std::min(available_bytes() / per_point, 2.0e9);
   if (n_points <= limit) return;
   throw MemoryError("a grid of " + std::to_string(o.size[0]) + " x " + std::to_string(o.size[1]) + " x " +
                     std::to_string(o.size[2]) + " points is more than memory holds (" + std::to_string(limit) +

@@ -33,7 +33,7 @@ Buffer<std::uint32_t> spatial_order(const Buffer<Vec4f>& points) {
   for_each_index(n, [=] ESPDIFF_HD(std::size_t i) {
     code[i] = static_cast<std::uint64_t>(morton_code(scale * (x[i].xyz() - lower))) << 32 | i;
   });
-  thrust::sort(thrust::device, codes.begin(), codes.end());
+  thrust::sort(on_device(), codes.begin(), codes.end());
   Buffer<std::uint32_t> order(n);
   std::uint32_t* const out = raw(order);
   for_each_index(n, [=] ESPDIFF_HD(std::size_t i) { out[i] = static_cast<std::uint32_t>(code[i]); });
@@ -43,7 +43,7 @@ Buffer<std::uint32_t> spatial_order(const Buffer<Vec4f>& points) {
 std::size_t drop_done(Buffer<std::uint32_t>& list, std::size_t n, const Buffer<std::uint8_t>& done) {
   const std::uint8_t* const flag = raw(done);
   Buffer<std::uint32_t> rest(n);
-  const auto end = thrust::copy_if(thrust::device, list.begin(), list.begin() + static_cast<std::ptrdiff_t>(n),
+  const auto end = thrust::copy_if(on_device(), list.begin(), list.begin() + static_cast<std::ptrdiff_t>(n),
                                    rest.begin(), [=] ESPDIFF_HD(std::uint32_t i) { return flag[i] == 0; });
   list.swap(rest);
   return static_cast<std::size_t>(end - list.begin());

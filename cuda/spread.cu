@@ -40,7 +40,7 @@ Buffer<GridCharge> sort_by_rows(const std::vector<GridCharge>& charges, std::vec
   for (const GridCharge& c : charges) sorted[next[c.row]++] = c;
 #if defined(ESPDIFF_BACKEND_CUDA)
   Buffer<GridCharge> result = to_device(sorted);
-  thrust::sort(thrust::device, result.begin(), result.end(), InOrder());
+  thrust::sort(on_device(), result.begin(), result.end(), InOrder());
   return result;
 #else
   GridCharge* const first = sorted.data();

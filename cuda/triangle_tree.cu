@@ -57,7 +57,7 @@ TriangleTree make_triangle_tree(const SurfaceMesh& mesh) {
     const Vec3f c = scale * ((1.0F / 3.0F) * sum - bounds.lower);
     code[t] = static_cast<std::uint64_t>(morton_code(c)) << 32 | t;
   });
-  thrust::sort(thrust::device, codes.begin(), codes.end());
+  thrust::sort(on_device(), codes.begin(), codes.end());
 
   TriangleTree tree;
   tree.n_leaves = 1;

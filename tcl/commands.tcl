@@ -8,7 +8,7 @@
 #   run        the procedure; called with the dict of options and the arguments
 namespace eval ::espdiff {
     variable computing {
-        {-device choice auto "Where to compute: auto takes a GPU if one answers" {auto cpu cuda}}
+        {-device device auto "Where to compute: auto takes a GPU if one answers, cuda:1 the second one"}
         {-threads count 0 "CPU threads; 0 takes all. The result is the same for any number"}
         {-progress command {} "Called as CMD stage fraction (0 to 1) about 20 times a second; `break` from it cancels"}
         {-command command {} "Compute in the background, and call CMD handle from the event loop at the end"}
@@ -145,9 +145,9 @@ namespace eval ::espdiff {
             {-reference-map text {} "Potential of the reference; without it by the rule of -map for its frame"}
             {-unit text {} "Unit of the maps if they do not say: kT/e, mV, V, kcal/mol/e, kJ/mol/e, hartree/e"}
             {-radii choice vmd "Radii of the molecule: VMD's, or Bondi's by element" {vmd element}}
-            {-start choice previous "Begin each frame's mapping at the previous frame's where that is nearer than the\
-                source, or always at the source; with -method deform only, the morph always begins at the source"\
-                {previous source}}
+            {-start choice auto "Begin each frame's mapping at the source, or at the previous frame's where that is\
+                nearer: small steps; auto: source by -method morph, previous by deform; see Trajectories"\
+                {auto previous source}}
             {-csv file required "File that gets one row for each frame"}
             {-resume boolean 0 "Go on where an interrupted run left the file"}
             {-overwrite boolean 0 "Replace the file if it exists"}
@@ -232,7 +232,7 @@ namespace eval ::espdiff {
             {-error boolean 0 "Also the standard error of the mean from the blocks, a data set or FILE.error.dx"}
             {-dxfile file {} "Write the mean to this DX file"}
             {-loadmol text same "Molecule that gets the maps as data sets: an id, same, new, or none"}
-            {-device choice auto "Where to compute: auto takes a GPU if one answers" {auto cpu cuda}}
+            {-device device auto "Where to compute: auto takes a GPU if one answers, cuda:1 the second one"}
             {-threads count 0 "CPU threads; 0 takes all. The result is the same for any number"}
             {-progress command {} "Called as CMD stage fraction; `break` from it cancels"}
         } \
@@ -265,6 +265,12 @@ namespace eval ::espdiff {
 
     command handles [dict create arguments {} options {} settings none run ::espdiff::handles \
         summary {The handles that exist.} returns {a list} example {espdiff handles}]
+
+    command device [dict create arguments {?name?} options {} settings none run ::espdiff::device \
+        summary {Where later commands compute that are given no -device: auto, cpu, cuda, or cuda:N for the GPU of that
+            index. Without a name, changes nothing. `espdiff doctor` lists the GPUs.} \
+        returns {the name} \
+        example {espdiff device cuda:1}]
 
     command doctor [dict create arguments {} options {} settings none run ::espdiff::doctor \
         summary {What is installed, found and loaded, what is missing, and how to mend it.} \

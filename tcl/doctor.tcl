@@ -18,6 +18,11 @@ namespace eval ::espdiff {
         foreach back_end [core::back_ends] {
             set state [expr {[dict get $back_end available] ? "ok" : "note"}]
             lappend items [list "back end [dict get $back_end name]" $state [dict get $back_end description]]
+            foreach gpu [dict get $back_end devices] {
+                if {[llength [dict get $back_end devices]] < 2} continue
+                set state [expr {[dict get $gpu available] ? "ok" : "note"}]
+                lappend items [list [dict get $gpu name] $state [dict get $gpu description]]
+            }
             if {![dict get $back_end available]} continue
             set state [expr {[dict get $back_end fourier available] ? "ok" : "missing"}]
             lappend items [list "PME on [dict get $back_end name]" $state [dict get $back_end fourier description]]
@@ -97,6 +102,14 @@ namespace eval ::espdiff {
         set radii [expr {[vmd_radii_origin $mol] eq "file" ? "radii from its file" : "radii guessed by VMD"}]
         if {$charged == 0} { return "$radii, no charges (PSF, PQR and prmtop files have them)" }
         return "$radii, charges on $charged atoms"
+    }
+
+    # `espdiff device`: a device that is not there is told at once.
+    proc device {options {name {}}} {
+        variable default_device
+        if {$name eq ""} { return $default_device }
+        core::device $name
+        return [set default_device $name]
     }
 
     proc doctor {options} {

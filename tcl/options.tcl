@@ -2,6 +2,7 @@
 
 namespace eval ::espdiff {
     variable table [dict create]
+    variable default_device auto
     variable call {}  ;# the command that runs, for the provenance of its result
 
     # Ends the calling procedure with an error; classes are those of the manual's last part.
@@ -102,6 +103,7 @@ namespace eval ::espdiff {
         boolean "0 or 1"
         range "two numbers {LOW HIGH}, the lower one first, or auto"
         command "a Tcl command"
+        device "auto, cpu, cuda or cuda:N"
         text "a text"
         file "a file name"
         molecule "the id of a molecule in VMD, or top"
@@ -129,6 +131,7 @@ namespace eval ::espdiff {
             }
             range { set valid [expr {$value eq "auto" || [is_range $value]}] }
             command { set valid [string is list $value] }
+            device { set valid [regexp {^(auto|cpu|cuda(:[0-9]{1,4})?)$} $value] }
             choice {
                 # Of settings the core knows more, such as values that a later version will have.
                 set valid [expr {$value in $choices || $setting}]
@@ -157,6 +160,13 @@ namespace eval ::espdiff {
         return -code error -errorcode {TCL WRONGARGS} "wrong # args: should be \"[usage $name]\""
     }
 
+    # Where to compute can be set for all commands, by `espdiff device`.
+    proc default_of {option} {
+        variable default_device
+        if {[dict get $option kind] eq "device"} { return $default_device }
+        return [dict get $option default]
+    }
+
     # -option value pairs as a dict of names without the dash; the settings that were given are under `settings`.
     # Options without a default are absent unless given.
     proc parse_options {name words} {
@@ -165,7 +175,7 @@ namespace eval ::espdiff {
         foreach option [options_of $name] {
             dict set known [dict get $option name] $option
             if {![dict get $option setting] && [dict get $option default] ne "required"} {
-                dict set options [string range [dict get $option name] 1 end] [dict get $option default]
+                dict set options [string range [dict get $option name] 1 end] [default_of $option]
             }
         }
         while {[llength $words] > 0} {

@@ -60,7 +60,8 @@ namespace eval ::espdiff {
         prepare_frames run $options
         check_frame_maps run
         set run(core_options) [core_options $options]
-        set run(about) [about_run run $options]
+        if {$run(start) eq "auto"} { set run(start) [usual_start $run(core_options)] }
+        set run(about) [about_run run [dict replace $options start $run(start)]]
         lassign [csv_open $run(csv) [dict get $options resume] [dict get $options overwrite] $run(about)] \
             earlier run(head)
         set run(written) [llength $earlier]
@@ -168,12 +169,15 @@ namespace eval ::espdiff {
         return [one_line "frame $frame $run(head)"]
     }
 
+    # Where mappings begin unless the user says.
+    proc usual_start {core_options} {
+        set usual [expr {[value_or $core_options thesis 0] ? "deform" : "morph"}]
+        expr {[value_or $core_options method $usual] eq "deform" ? "previous" : "source"}
+    }
+
     proc saves_mappings {run_name} {
         upvar 1 $run_name run
-        # A morph needs no mapping before it.
-        set usual [expr {[value_or $run(core_options) thesis 0] ? "deform" : "morph"}]
-        set method [value_or $run(core_options) method $usual]
-        expr {$run(start) eq "previous" && $run(series) ne "" && $method eq "deform"}
+        expr {$run(start) eq "previous" && $run(series) ne ""}
     }
 
     # Whether the frame after this row's may begin at its mapping; else, and without a row, at the source.

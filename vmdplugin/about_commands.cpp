@@ -1,5 +1,5 @@
-// about_commands.cpp: version, build, back_ends, settings, abi, models, map_unit, colours, volumes: what this module is
-// and offers.
+// about_commands.cpp: version, build, back_ends, device, settings, abi, models, map_unit, colours, volumes: what this
+// module is and offers.
 #include <cstdio>
 
 #include "base/error.h"
@@ -36,15 +36,27 @@ Tcl_Obj* build(const Call&) {
                   {"tcl", to_obj(TCL_PATCH_LEVEL)}});
 }
 
+/// What a name given as -device means.
+Tcl_Obj* device(const Call& call) {
+  const BackEndStatus status = device_status(parse_device(call.text(0)));
+  return to_dict({{"name", to_obj(status.name)}, {"description", to_obj(in_tcl_words(status.description))}});
+}
+
 Tcl_Obj* back_ends(const Call&) {
+  std::vector<Tcl_Obj*> gpus;
+  for (const BackEndStatus& gpu : cuda_devices())
+    gpus.push_back(to_dict({{"name", to_obj(gpu.name)},
+                            {"available", to_obj(gpu.available)},
+                            {"description", to_obj(in_tcl_words(gpu.description))}}));
   std::vector<Tcl_Obj*> all;
   for (const auto& [status, fourier] :
        {std::pair(cpu_status(), cpu_fourier_status()), std::pair(cuda_status(), cuda_fourier_status())}) {
     all.push_back(to_dict({{"name", to_obj(status.name)},
                            {"available", to_obj(status.available)},
-                           {"description", to_obj(status.description)},
+                           {"description", to_obj(in_tcl_words(status.description))},
+                           {"devices", status.name == "cuda" ? to_list(gpus) : Tcl_NewObj()},
                            {"fourier", to_dict({{"available", to_obj(fourier.available)},
-                                                {"description", to_obj(fourier.description)}})}}));
+                                                {"description", to_obj(in_tcl_words(fourier.description))}})}}));
   }
   return to_list(all);
 }
@@ -139,6 +151,7 @@ std::vector<Command> about_commands() {
   return {{"version", 0, 0, "", version},
           {"build", 0, 0, "", build},
           {"back_ends", 0, 0, "", back_ends},
+          {"device", 1, 1, "name", device},
           {"settings", 0, 0, "", list_settings},
           {"abi", 0, 0, "", abi},
           {"models", 1, 1, "file", models},

@@ -11,7 +11,7 @@ namespace espdiff::vmdplugin {
 Computation parse_computation(DictReader& reader, bool* regularize) {
   Computation computation;
   computation.device = reader.text("device", "auto");
-  parse_device_choice(computation.device);  // a wrong one is told at once
+  parse_device(computation.device);  // a wrong one is told at once
   computation.threads = reader.integer("threads", 0);
   if (computation.threads < 0)
     throw InputError("threads: " + std::to_string(computation.threads) + " is negative; 0 takes all");
@@ -22,7 +22,7 @@ Computation parse_computation(DictReader& reader, bool* regularize) {
 }
 
 std::unique_ptr<Engine> engine_for(const Computation& computation) {
-  return select_engine(parse_device_choice(computation.device), computation.threads);
+  return select_engine(parse_device(computation.device), computation.threads);
 }
 
 namespace {

@@ -28,7 +28,7 @@ KeptEngine& kept_engine() {
 std::shared_ptr<Engine> take_engine(const Computation& wanted) {
   KeptEngine& kept = kept_engine();
   if (kept.engine == nullptr || kept.device != wanted.device || kept.threads != wanted.threads)
-    return select_engine(parse_device_choice(wanted.device), wanted.threads);
+    return select_engine(parse_device(wanted.device), wanted.threads);
   return kept.engine;
 }
 
@@ -42,7 +42,7 @@ Tcl_Obj* potential(const Call& call) {
   auto object = std::make_shared<PotentialObject>();
   DictReader reader(call.arguments[0], "options");
   object->computation.device = reader.text("device", "auto");
-  parse_device_choice(object->computation.device);  // a wrong one is told at once
+  parse_device(object->computation.device);  // a wrong one is told at once
   object->computation.threads = reader.integer("threads", 0);
   object->potential = parse_potential_options(reader);
   object->potential.method = parse_potential_method(reader.text("method", "pme"));

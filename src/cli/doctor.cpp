@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "base/version.h"
 #include "cli/verbs.h"
@@ -45,6 +46,10 @@ int run() {
   const BackEndStatus cpu = cpu_status(), cuda = cuda_status();
   line("cpu", cpu.available, cpu.description);
   line("cuda", cuda.available, cuda.description);
+  const std::vector<BackEndStatus> gpus = cuda_devices();
+  for (const BackEndStatus& gpu : gpus) {
+    if (gpus.size() > 1) line(("  " + gpu.name).c_str(), gpu.available, gpu.description);
+  }
   line("--device auto", true, std::string("takes ") + (cuda.available ? "cuda" : "cpu"));
   for (const BackEndStatus& status : {cpu_fourier_status(), cuda_fourier_status()})
     line(("pme on " + status.name).c_str(), status.available, status.description);

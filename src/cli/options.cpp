@@ -1,6 +1,7 @@
 // options.cpp: options that several verbs share.
 #include "cli/options.h"
 
+#include "base/error.h"
 #include "engine/select_engine.h"
 #include "io/read_grid.h"
 #include "io/write_csv.h"
@@ -17,8 +18,19 @@ std::string joined(const std::vector<std::string>& words, const char* between) {
 }  // namespace
 
 void add_device_options(CLI::App& parser, DeviceArguments& arguments) {
-  parser.add_option("--device", arguments.device, "Where to compute: auto takes a GPU if one answers")
-      ->check(CLI::IsMember({"auto", "cpu", "cuda"}))
+  const auto check = [](const std::string& text) {
+    try {
+      parse_device(text);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  parser
+      .add_option("--device", arguments.device,
+                  "Where to compute: auto takes a GPU if one answers; doctor lists those there are")
+      ->check(CLI::Validator(check, ""))
+      ->type_name("auto|cpu|cuda|cuda:N")
       ->capture_default_str()
       ->group("Computation");
   parser.add_option("--threads", arguments.threads, "CPU threads; 0 takes all. The result is the same for any number")
@@ -28,7 +40,7 @@ void add_device_options(CLI::App& parser, DeviceArguments& arguments) {
 }
 
 std::unique_ptr<Engine> make_engine(const DeviceArguments& arguments) {
-  return select_engine(parse_device_choice(arguments.device), arguments.threads);
+  return select_engine(parse_device(arguments.device), arguments.threads);
 }
 
 void add_structure_options(CLI::App& parser, StructureOptions& options) {

@@ -15,6 +15,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -263,6 +264,9 @@ class Engine {
   virtual std::string description() const = 0;
   /// Threads used by the CPU back end; 0 on a device.
   virtual int n_threads() const = 0;
+  /// Milliseconds that calls of this engine take: between two events on a device's stream, by the clock on the CPU.
+  /// For benchmarks.
+  virtual double elapsed_ms(const std::function<void()>& calls) = 0;
 
   /// Sorts atoms into a cell list.
   /// @param positions [atom] Angstrom, common frame
@@ -346,6 +350,17 @@ class Engine {
   virtual MorphResult morph(const MeshPtr& mesh, const std::vector<MovingAtom>& atoms, const AtomsPtr& source_atoms,
                             const AtomsPtr& target_atoms, const MorphOptions& options, const std::string& stage,
                             const Progress& progress) = 0;
+
+  /// The same from where an earlier morph has brought the surface: a trajectory in small steps. What is lost stays
+  /// lost, edges that are halved stay so, and path lengths go on.
+  /// @param so_far  of this engine, or its four parts as they were downloaded; its report is not read
+  /// @param atoms   at time 0 those that so_far.mapped is the surface of
+  /// @param source_atoms  those that so_far.source is the surface of
+  /// @throws GeometryError (the parts of `so_far` do not fit together), and as morph()
+  virtual MorphResult continue_morph(const MorphResult& so_far, const std::vector<MovingAtom>& atoms,
+                                     const AtomsPtr& source_atoms, const AtomsPtr& target_atoms,
+                                     const MorphOptions& options, const std::string& stage,
+                                     const Progress& progress) = 0;
 
   /// @param map         potential
   /// @param to_map      common frame -> the map's frame

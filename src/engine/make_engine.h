@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "engine/engine.h"
 
@@ -15,9 +16,17 @@ std::string probe_fourier(bool* available);
 }  // namespace cpu_backend
 
 namespace cuda_backend {
-std::unique_ptr<Engine> make_engine(int n_threads);
-/// Whether a device answers; returns its name, or why there is none and what to do.
-std::string probe_device(bool* available);
+/// @param device its index
+/// @throws DeviceError where it does not work
+std::unique_ptr<Engine> make_engine(int device);
+
+/// What is known of a GPU before it is used.
+struct CudaDeviceStatus {
+  bool usable;              ///< this build has code for it
+  std::string description;  ///< name, compute capability, memory; or why it cannot be used and what to do
+};
+/// The GPUs that answer, by index; where there are none, says why, and what to do. Starts nothing on them.
+std::vector<CudaDeviceStatus> probe_devices(std::string* why_none);
 std::string probe_fourier(bool* available);
 }  // namespace cuda_backend
 

@@ -8,12 +8,55 @@
 #include "engine/make_engine.h"
 
 namespace espdiff {
+namespace {
 
-DeviceChoice parse_device_choice(const std::string& text) {
+/// The GPUs, or why there are none.
+struct CudaDevices {
+  std::vector<BackEndStatus> all;
+  std::string why_none;
+};
+
+CudaDevices find_cuda_devices() {
+  CudaDevices found;
+#if defined(ESPDIFF_HAVE_CUDA)
+  for (const auto& device : cuda_backend::probe_devices(&found.why_none))
+    found.all.push_back({"cuda:" + std::to_string(found.all.size()), device.usable, device.description});
+#else
+  found.why_none =
+      "this build has no CUDA back end; configure with -DESPDIFF_CUDA=ON where nvcc is installed, or use --device cpu";
+#endif
+  return found;
+}
+
+/// What `--device` was given, for messages.
+std::string option_of(const DeviceRequest& device) {
+  return "--device cuda" + (device.index > 0 ? ":" + std::to_string(device.index) : std::string());
+}
+
+void check_cuda_device(const DeviceRequest& device, const CudaDevices& found) {
+  const std::string option = option_of(device);
+  if (found.all.empty()) throw DeviceError(option + ": " + found.why_none);
+  const std::size_t n = found.all.size(), index = static_cast<std::size_t>(device.index);
+  if (index >= n) {
+    throw DeviceError(
+        option + ": there " +
+        (n == 1 ? "is 1 GPU, cuda:0" : "are " + std::to_string(n) + " GPUs, cuda:0 to cuda:" + std::to_string(n - 1)) +
+        "; take one of them, or use --device cpu");
+  }
+  if (!found.all[index].available) throw DeviceError(option + ": " + found.all[index].description);
+}
+
+}  // namespace
+
+DeviceRequest parse_device(const std::string& text) {
   if (text == "auto") return DeviceChoice::kAuto;
   if (text == "cpu") return DeviceChoice::kCpu;
   if (text == "cuda") return DeviceChoice::kCuda;
-  throw InputError("unknown device '" + text + "'; use auto, cpu or cuda");
+  const std::string index = text.rfind("cuda:", 0) == 0 ? text.substr(5) : std::string();
+  constexpr std::size_t kMostDigits = 4;
+  if (!index.empty() && index.size() <= kMostDigits && index.find_first_not_of("0123456789") == std::string::npos)
+    return {DeviceChoice::kCuda, std::stoi(index)};
+  throw InputError("unknown device '" + text + "'; use auto, cpu, cuda, or cuda:N for the GPU of that index");
 }
 
 BackEndStatus cpu_status() {
@@ -22,15 +65,22 @@ BackEndStatus cpu_status() {
 }
 
 BackEndStatus cuda_status() {
-  BackEndStatus status{"cuda", false, ""};
-#if defined(ESPDIFF_HAVE_CUDA)
-  status.description = cuda_backend::probe_device(&status.available);
-#else
-  status.description =
-      "this build has no CUDA back end; configure with -DESPDIFF_CUDA=ON where nvcc is installed, or use --device cpu";
-#endif
-  return status;
+  const CudaDevices found = find_cuda_devices();
+  if (found.all.empty()) return {"cuda", false, found.why_none};
+  return {"cuda", found.all.front().available, found.all.front().description};
 }
+
+BackEndStatus device_status(const DeviceRequest& device) {
+  if (device.choice == DeviceChoice::kCpu) return cpu_status();
+  const CudaDevices found = find_cuda_devices();
+  if (device.choice == DeviceChoice::kCuda) {
+    check_cuda_device(device, found);
+    return found.all[static_cast<std::size_t>(device.index)];
+  }
+  return !found.all.empty() && found.all.front().available ? found.all.front() : cpu_status();
+}
+
+std::vector<BackEndStatus> cuda_devices() { return find_cuda_devices().all; }
 
 BackEndStatus cpu_fourier_status() {
   BackEndStatus status{"cpu", false, ""};
@@ -46,16 +96,14 @@ BackEndStatus cuda_fourier_status() {
   return status;
 }
 
-std::unique_ptr<Engine> select_engine(DeviceChoice choice, int n_threads) {
+std::unique_ptr<Engine> select_engine(const DeviceRequest& device, int n_threads) {
   if (n_threads < 0)
     throw InputError("the number of threads, " + std::to_string(n_threads) + ", is negative; 0 takes all");
-  if (choice != DeviceChoice::kCpu) {
-    const BackEndStatus cuda = cuda_status();
-    if (choice == DeviceChoice::kCuda && !cuda.available) throw DeviceError("--device cuda: " + cuda.description);
 #if defined(ESPDIFF_HAVE_CUDA)
-    if (cuda.available) return cuda_backend::make_engine(0);
+  if (device_status(device).name != "cpu") return cuda_backend::make_engine(device.index);
+#else
+  device_status(device);
 #endif
-  }
   const int all = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   return cpu_backend::make_engine(n_threads > 0 ? n_threads : all);
 }

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "engine/engine.h"
 
@@ -10,24 +11,43 @@ namespace espdiff {
 
 enum class DeviceChoice { kAuto, kCpu, kCuda };
 
-/// @throws InputError for anything but auto, cpu, cuda
-DeviceChoice parse_device_choice(const std::string& text);
+/// A back end, and which of several GPUs.
+struct DeviceRequest {
+  // Not explicit: mostly the back end alone is asked for.
+  DeviceRequest(DeviceChoice which, int gpu = 0) : choice(which), index(gpu) {}
+
+  DeviceChoice choice;
+  int index;  ///< of the GPU; for DeviceChoice::kCuda only
+};
+inline bool operator==(const DeviceRequest& a, const DeviceRequest& b) {
+  return a.choice == b.choice && a.index == b.index;
+}
+
+/// @throws InputError for anything but auto, cpu, cuda, cuda:N
+DeviceRequest parse_device(const std::string& text);
 
 /// What selecting would do, for `doctor`.
 struct BackEndStatus {
-  std::string name;  ///< "cpu" or "cuda"
+  std::string name;  ///< "cpu", "cuda", or "cuda:1"
   bool available = false;
   std::string description;  ///< the device, or why there is none and the remedy
 };
 BackEndStatus cpu_status();
+/// What select_engine() would take.
+/// @throws DeviceError as select_engine()
+BackEndStatus device_status(const DeviceRequest& device);
+/// Of the GPU that `cuda` takes: the first.
 BackEndStatus cuda_status();
+/// Of all GPUs that answer, "cuda:0" and so on.
+std::vector<BackEndStatus> cuda_devices();
 /// Of the Fourier transforms that PME potentials need there.
 BackEndStatus cpu_fourier_status();
 BackEndStatus cuda_fourier_status();
 
 /// Makes an engine.
 /// @param n_threads CPU threads; 0 takes as many as the machine offers. A device ignores it.
-/// @throws DeviceError when an explicit cuda is not available; InputError when n_threads is negative
-std::unique_ptr<Engine> select_engine(DeviceChoice choice, int n_threads);
+/// @throws DeviceError when the GPU that was asked for is not there or does not work; InputError when n_threads is
+/// negative
+std::unique_ptr<Engine> select_engine(const DeviceRequest& device, int n_threads);
 
 }  // namespace espdiff

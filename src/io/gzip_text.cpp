@@ -2,7 +2,10 @@
 #include "io/gzip_text.h"
 
 #include <sys/stat.h>
+
+#if defined(ESPDIFF_HAVE_ZLIB)
 #include <zlib.h>
+#endif
 
 #include <algorithm>
 #include <cerrno>
@@ -54,6 +57,8 @@ std::string read_bytes(std::FILE* file, const std::string& path, std::size_t lim
 bool starts_as_gzip(const std::string& bytes) {
   return bytes.size() >= 2 && bytes[0] == '\x1f' && static_cast<unsigned char>(bytes[1]) == 0x8b;
 }
+
+#if defined(ESPDIFF_HAVE_ZLIB)
 
 /// One zlib stream; the object frees what zlib allocated.
 class Inflater {
@@ -114,6 +119,21 @@ class Inflater {
   z_stream stream_{};
 };
 
+std::string inflated(const std::string& path, const std::string& packed, std::size_t limit, bool complete) {
+  return Inflater(path).inflate_all(packed, limit, complete);
+}
+
+#else
+
+std::string inflated(const std::string& path, const std::string&, std::size_t, bool) {
+  throw FormatError(
+      path, 0,
+      "is compressed, and this build has no zlib to read it with; decompress it with gunzip, or install zlib "
+      "(Debian: zlib1g-dev) and build again");
+}
+
+#endif
+
 std::string read_up_to(const std::string& path, std::size_t limit) {
   try {
     const File file = open_file(path);
@@ -122,7 +142,7 @@ std::string read_up_to(const std::string& path, std::size_t limit) {
     if (bytes.empty()) throw InputError(path + ": is empty; give a file with content");
     if (starts_as_gzip(bytes)) {
       const bool complete = limit == kWholeFile || bytes.size() < std::max(limit, kChunk);
-      bytes = Inflater(path).inflate_all(bytes, limit, complete);
+      bytes = inflated(path, bytes, limit, complete);
       if (bytes.empty()) throw InputError(path + ": the gzip file is empty inside; give a file with content");
     }
     if (bytes.size() > limit) bytes.resize(limit);

@@ -12,6 +12,7 @@
 #include "pipeline/build_surface.h"
 #include "pipeline/certificate.h"
 #include "pipeline/common_frame.h"
+#include "pipeline/last_step.h"
 #include "pipeline/map_by_deform.h"
 #include "pipeline/mapping.h"
 #include "pipeline/paired_residues.h"
@@ -56,38 +57,6 @@ void download_surface(Engine& engine, const MeshPtr& source, const MeshPtr& move
   surface.displacement = engine.download(engine.displacement(moved, mapped));
 }
 
-/// Where each source atom's counterpart lies, in the common frame.
-std::vector<Vec3d> counterparts(const Molecule& source, const Molecule& target, const AtomPairing& pairing,
-                                const RigidTransform& to_common) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  std::vector<Vec3d> positions(source.size(), Vec3d{kNan, kNan, kNan});
-  for (const auto& pair : pairing.pairs) positions[pair.first] = to_common.apply(target.positions[pair.second]);
-  return positions;
-}
-
-/// The mapped surface on the source's own vertices, without those that a subdivision added.
-MeshPtr without_added(Engine& engine, const MeshPtr& source, const MeshPtr& mapped) {
-  const std::size_t n = engine.n_vertices(source);
-  if (engine.n_vertices(mapped) == n) return mapped;
-  std::vector<Vec3f> positions = engine.download(mapped).positions;
-  positions.resize(n);
-  return engine.with_positions(source, positions);
-}
-
-/// Root mean square distance over the atoms that both have; NaN when there are none.
-double rms_distance(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
-  double sum = 0;
-  std::size_t n = 0;
-  for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) {
-    const Vec3d d = a[i] - b[i];
-    const double square = dot(d, d);
-    if (!std::isfinite(square)) continue;
-    sum += square;
-    ++n;
-  }
-  return n > 0 ? std::sqrt(sum / static_cast<double>(n)) : std::numeric_limits<double>::quiet_NaN();
-}
-
 }  // namespace
 
 /// The stages of a step, and what is kept from one to the next; all in the common frame, which is the source's own.
@@ -101,8 +70,7 @@ struct Series::Steps {
   DeformReport regularize_report{};
   PotentialUnit unit = PotentialUnit::kUnknown;  ///< of the source's map
   GridPtr source_map{};                          ///< made by the first step
-  MeshPtr last_mapped{};                         ///< null where the next step starts from the source
-  std::vector<Vec3d> last_target{};              ///< see SeriesState
+  std::optional<LastStep> last{};                ///< nothing where the next step starts from the source
   std::optional<SeriesState> restored{};
 
   void prepare(const RigidTransform& to_common, const Progress& progress, StageClock& clock) {
@@ -118,12 +86,7 @@ struct Series::Steps {
 
   void take_up_restored() {
     if (!restored) return;
-    const std::size_t n = engine.n_vertices(regularized);
-    if (n != restored->mapped.size())
-      throw InputError("the saved state is of a surface with " + std::to_string(restored->mapped.size()) +
-                       " vertices, this one has " + std::to_string(n) + "; start the series anew");
-    last_mapped = engine.with_positions(regularized, restored->mapped);
-    last_target = restored->target;
+    last = last_step_of(engine, *restored, regularized, options.method);
     restored.reset();
   }
 
@@ -142,7 +105,7 @@ struct Series::Steps {
         inverse(frame.pieces, paired_residues(*target.molecule, *source.molecule, scratch.pairing))};
     Mapping mapping;
     if (options.method == Method::kMorph) {
-      mapping = back.map_by_morph(*source.molecule, surface, reversed, scratch, progress, clock);
+      mapping = mapping_of(back.morph(*source.molecule, surface, reversed, nullptr, scratch, progress, clock));
     } else {
       mapping = back.deform(surface, reversed.pieces.carry(engine, back.regularized, target_surface.atoms), reversed,
                             scratch, progress, clock);
@@ -151,22 +114,32 @@ struct Series::Steps {
     return mapping;
   }
 
-  Mapping map_by_morph(const Molecule& target, const Surface& target_surface, const CommonFrame& frame,
-                       CompareResult& result, const Progress& progress, StageClock& clock) {
+  /// @param from where the surface goes on from; null for the source
+  MorphResult morph(const Molecule& target, const Surface& target_surface, const CommonFrame& frame,
+                    const LastStep* from, CompareResult& result, const Progress& progress, StageClock& clock) const {
     MorphOptions morph = options.morph;
     morph.isovalue = options.surface.isovalue;
     morph.max_edge_A = options.morph_max_edge * options.surface.grid_spacing_A;
-    const auto ways = atom_ways(*source.molecule, target, result.pairing, frame.from_source, frame.from_target,
-                                frame.pieces, options.surface.radius_scale);
-    const MorphResult morphed =
-        engine.morph(regularized, ways, surface.atoms, target_surface.atoms, morph, "morph", progress);
+    const auto ways = from != nullptr
+                          ? ways_from(*from, *source.molecule, target, frame.from_target, result.pieces, options)
+                          : atom_ways(*source.molecule, target, result.pairing, frame.from_source, frame.from_target,
+                                      frame.pieces, options.surface.radius_scale);
+    MorphResult morphed =
+        from != nullptr
+            ? engine.continue_morph(*from->morphed, ways, surface.atoms, target_surface.atoms, morph, "morph", progress)
+            : engine.morph(regularized, ways, surface.atoms, target_surface.atoms, morph, "morph", progress);
     result.morph_report = morphed.report;
+    result.morph_report.n_vertices_added = engine.n_vertices(morphed.source) - engine.n_vertices(regularized);
+    clock.lap("morph");
+    return morphed;
+  }
+
+  Mapping mapping_of(const MorphResult& morphed) const {
     Mapping mapping;
     mapping.source = morphed.source;
     mapping.mapped = morphed.mapped;
     mapping.lost = engine.download(morphed.lost);
     mapping.path_length = engine.download(morphed.path_length);
-    clock.lap("morph");
     return mapping;
   }
 
@@ -256,6 +229,59 @@ struct Series::Steps {
     judge(result.certificate, result);
     clock.lap("metrics");
   }
+
+  /// The order of the stages; see Series::step().
+  CompareResult step(const CompareInput& target, StartFrom start, const Progress& progress) {
+    CompareResult result;
+    StageClock clock(result.time_ms);
+    check_maps(source, target);  // before any work
+    progress.report("align", 0.0);
+    const CommonFrame frame = align(*source.molecule, *target.molecule, options, result);
+    clock.lap("align");
+    const GridPtr target_map = make_maps(target, frame, progress);
+    if (target_map != nullptr) clock.lap("potential");
+
+    prepare(frame.from_source, progress, clock);
+    const Surface target_surface =
+        build_surface(engine, *target.molecule, frame.from_target, options.surface, progress, clock);
+    result.source_surface = surface.summary;
+    result.target_surface = target_surface.summary;
+    result.regularize_report = regularize_report;
+
+    std::vector<Vec3d> target_atoms =
+        counterparts(*source.molecule, *target.molecule, result.pairing, frame.from_target);
+    const std::optional<LastStep> from = std::exchange(last, std::nullopt);
+    if (start == StartFrom::kPrevious && from && goes_on(*from, *source.molecule, frame, target_atoms))
+      result.start = StartFrom::kPrevious;
+    const LastStep* const before = result.start == StartFrom::kPrevious ? &*from : nullptr;
+    Mapping mapping;
+    MorphResult morphed;
+    if (options.method == Method::kMorph) {
+      morphed = morph(*target.molecule, target_surface, frame, before, result, progress, clock);
+      mapping = mapping_of(morphed);
+    } else {
+      const MeshPtr begin = before != nullptr ? before->mapped : frame.pieces.carry(engine, regularized, surface.atoms);
+      mapping = deform(target_surface, begin, frame, result, progress, clock);
+    }
+    check(mapping, target_surface, result, progress, clock);
+    if (options.round_trip) {
+      const Mapping back = map_back(target, target_surface, frame, result.pairing, progress);
+      result.certificate.round_trip = measure_round_trip(engine, mapping, back);
+      clock.lap("round trip");
+    } else {
+      result.certificate.not_checked.emplace_back("round_trip");
+    }
+    evaluate(target, frame, target_surface, target_map, mapping, result, progress, clock);
+    if (options.method == Method::kMorph) {
+      last = after_morph(morphed, *target.molecule, frame.from_target, std::move(target_atoms), before,
+                         result.certificate.no_counterpart_source);
+    } else if (result.deform_report.converged) {
+      last = after_deform(engine, regularized, mapping.mapped, std::move(target_atoms));
+    }
+    clock.finish();
+    progress.report("metrics", 1.0);
+    return result;
+  }
 };
 
 Series::Series(Engine& engine, const CompareInput& source, const CompareOptions& options)
@@ -263,66 +289,20 @@ Series::Series(Engine& engine, const CompareInput& source, const CompareOptions&
 Series::~Series() = default;
 
 CompareResult Series::step(const CompareInput& target, StartFrom start, const Progress& progress) {
-  Steps& steps = *steps_;
-  const Molecule& source = *steps.source.molecule;
-  CompareResult result;
-  StageClock clock(result.time_ms);
-  check_maps(steps.source, target);  // before any work
-  progress.report("align", 0.0);
-  const CommonFrame frame = align(source, *target.molecule, steps.options, result);
-  clock.lap("align");
-  const GridPtr target_map = steps.make_maps(target, frame, progress);
-  if (target_map != nullptr) clock.lap("potential");
-
-  steps.prepare(frame.from_source, progress, clock);
-  const Surface target_surface =
-      build_surface(steps.engine, *target.molecule, frame.from_target, steps.options.surface, progress, clock);
-  result.source_surface = steps.surface.summary;
-  result.target_surface = target_surface.summary;
-  result.regularize_report = steps.regularize_report;
-
-  std::vector<Vec3d> target_atoms = counterparts(source, *target.molecule, result.pairing, frame.from_target);
-  const MeshPtr last = std::exchange(steps.last_mapped, nullptr);
-  if (start == StartFrom::kPrevious && last != nullptr && steps.options.method == Method::kDeform) {
-    std::vector<Vec3d> source_atoms;
-    for (std::size_t i = 0; i < source.size(); ++i)
-      source_atoms.push_back(
-          frame.pieces.of(source.atoms[i].residue).apply(frame.from_source.apply(source.positions[i]), 1));
-    if (rms_distance(steps.last_target, target_atoms) < rms_distance(source_atoms, target_atoms))
-      result.start = StartFrom::kPrevious;
+  try {
+    return steps_->step(target, start, progress);
+  } catch (...) {
+    steps_->last.reset();
+    steps_->restored.reset();
+    throw;
   }
-  Mapping mapping;
-  if (steps.options.method == Method::kMorph) {
-    mapping = steps.map_by_morph(*target.molecule, target_surface, frame, result, progress, clock);
-  } else {
-    const MeshPtr from = result.start == StartFrom::kPrevious
-                             ? last
-                             : frame.pieces.carry(steps.engine, steps.regularized, steps.surface.atoms);
-    mapping = steps.deform(target_surface, from, frame, result, progress, clock);
-  }
-  steps.check(mapping, target_surface, result, progress, clock);
-  if (steps.options.round_trip) {
-    const Mapping back = steps.map_back(target, target_surface, frame, result.pairing, progress);
-    result.certificate.round_trip = measure_round_trip(steps.engine, mapping, back);
-    clock.lap("round trip");
-  } else {
-    result.certificate.not_checked.emplace_back("round_trip");
-  }
-  steps.evaluate(target, frame, target_surface, target_map, mapping, result, progress, clock);
-  if (steps.options.method == Method::kDeform && result.deform_report.converged) {
-    steps.last_mapped = without_added(steps.engine, steps.regularized, mapping.mapped);
-    steps.last_target = std::move(target_atoms);
-  }
-  clock.finish();
-  progress.report("metrics", 1.0);
-  return result;
 }
 
 std::optional<SeriesState> Series::state() const {
   const Steps& steps = *steps_;
   if (steps.restored) return steps.restored;
-  if (steps.last_mapped == nullptr) return std::nullopt;
-  return SeriesState{steps.engine.download(steps.last_mapped).positions, steps.last_target};
+  if (!steps.last) return std::nullopt;
+  return state_of(steps.engine, *steps.last);
 }
 
 void Series::restore(SeriesState state) {

@@ -44,8 +44,7 @@ class Run {
   void remove_state() const { std::remove(state_path().c_str()); }
   std::string state_fingerprint(const std::string& frame) const { return "frame " + frame + " " + file_.fingerprint(); }
 
-  /// A morph needs no mapping before it.
-  bool saves_mappings() const { return run_.start == StartFrom::kPrevious && run_.options.method == Method::kDeform; }
+  bool saves_mappings() const { return run_.start == StartFrom::kPrevious; }
 
   void check_earlier_rows() const {
     const auto& rows = file_.rows();

@@ -38,7 +38,7 @@ struct TrajectorySummary {
 /// Compares each frame with the source and adds its row to the file as it is done. Rows that the file has already are
 /// not computed again: their frames must be the run's first ones.
 ///
-/// Where mappings start from the previous frame's (Method::kDeform), that mapping is kept in FILE.state while the run
+/// Where mappings start from the previous frame's, that mapping is kept in FILE.state while the run
 /// lasts, so that a resumed run gives the same rows as one that was not interrupted. Where a run broke off between a
 /// row and its mapping, that row is computed again, and must come out as it stands. Without a usable state the next
 /// mapping starts from the source; `warn` is told why.

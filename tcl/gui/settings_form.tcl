@@ -13,11 +13,23 @@ namespace eval ::espdiff::gui {
     # The core's settings and those of the commands that compute.
     proc all_settings {} {
         set rows [::espdiff::core::settings]
-        lappend rows {name device group Computing kind choice choices {auto cpu cuda} default auto
-            help "Where to compute: auto takes a GPU if one answers"}
+        lappend rows [dict create name device group Computing kind choice choices [device_choices] default auto \
+            help "Where to compute: auto takes a GPU if one answers"]
         lappend rows {name threads group Computing kind integer choices {} default 0
             help "CPU threads; 0 takes all. The result is the same for any number"}
         return $rows
+    }
+
+    # With several GPUs, each by its name. They are looked for once.
+    proc device_choices {} {
+        variable known_devices
+        if {[info exists known_devices]} { return $known_devices }
+        set choices {auto cpu cuda}
+        foreach back_end [::espdiff::core::back_ends] {
+            foreach gpu [dict get $back_end devices] { lappend gpus [dict get $gpu name] }
+        }
+        if {[info exists gpus] && [llength $gpus] > 1} { lappend choices {*}$gpus }
+        return [set known_devices $choices]
     }
 
     proc build_settings {path} {

@@ -4,7 +4,8 @@ namespace eval ::espdiff::gui {
     variable form
     array set form {trajectory,mol "" trajectory,file "" trajectory,sel "not water" trajectory,frames 0:1:
         trajectory,against "the frame" trajectory,reference 0 trajectory,map none trajectory,unit "as the map says"
-        trajectory,csv trajectory.csv trajectory,resume 0 trajectory,skip 0}
+        trajectory,csv trajectory.csv trajectory,resume 0 trajectory,skip 0
+        trajectory,steps 0}
     variable references {"the frame" "the frame before"}
     variable automatic_trajectory ""  ;# the molecule that was chosen for the user, who has not chosen since
 
@@ -101,9 +102,15 @@ namespace eval ::espdiff::gui {
         pack $path.options.resume $path.options.skip -side left -padx {0 10}
         grid $path.options -row 3 -column 2 -columnspan 2 -sticky w -padx {16 0}
         ttk::label $path.note -text "The settings are those of the tab Pair." -foreground gray40
-        grid $path.note -row 4 -column 0 -columnspan 4 -sticky w
+        grid $path.note -row 4 -column 0 -columnspan 2 -sticky w
+        ttk::checkbutton $path.steps -text "in small steps" -variable ::espdiff::gui::form(trajectory,steps)
+        tip $path.steps "Each surface goes on from the frame before, where that is much nearer than the reference:\
+            takes half the time, and loses a little more of the surface. A frame that is chosen below is\
+            compared with the reference directly"
+        grid $path.steps -row 4 -column 2 -columnspan 2 -sticky w -padx {16 0}
         foreach name {map unit} { set widget(trajectory,$name) $path.$name }
         set widget(trajectory,csv) $path.csv.name
+        set widget(trajectory,steps) $path.steps
         foreach name {resume skip} { set widget(trajectory,$name) $path.options.$name }
     }
 
@@ -191,6 +198,7 @@ namespace eval ::espdiff::gui {
             lappend options -unit $form(trajectory,unit)
         }
         if {$form(trajectory,skip)} { lappend options -on-error skip }
+        if {$form(trajectory,steps)} { lappend options -start previous }
         return $options
     }
 

@@ -39,12 +39,27 @@ TEST_CASE("auto takes the device where there is one; an explicit cuda without on
   }
 }
 
+TEST_CASE("a GPU of an index that is not there is an error that says how many there are") {
+  const std::size_t n = espdiff::cuda_devices().size();
+  const auto select = [&] { espdiff::select_engine({DeviceChoice::kCuda, 999}, 0); };
+  CHECK_THROWS_AS(select(), espdiff::DeviceError);
+  const std::string text = message_of(select);
+  CHECK_MESSAGE(text.find("--device cuda:999: ") == 0, text);
+  if (n == 1) CHECK_MESSAGE(text.find("there is 1 GPU, cuda:0") != std::string::npos, text);
+  if (n > 1) CHECK_MESSAGE(text.find("there are " + std::to_string(n) + " GPUs") != std::string::npos, text);
+  if (n == 0) CHECK(text == "--device cuda:999: " + espdiff::cuda_status().description);
+}
+
 TEST_CASE("device names and thread counts that do not exist are refused") {
-  CHECK(espdiff::parse_device_choice("auto") == DeviceChoice::kAuto);
-  CHECK(espdiff::parse_device_choice("cpu") == DeviceChoice::kCpu);
-  CHECK(espdiff::parse_device_choice("cuda") == DeviceChoice::kCuda);
-  CHECK_THROWS_AS(espdiff::parse_device_choice("CPU"), espdiff::InputError);
-  CHECK(message_of([] { espdiff::parse_device_choice("gpu"); }) == "unknown device 'gpu'; use auto, cpu or cuda");
+  CHECK(espdiff::parse_device("auto") == DeviceChoice::kAuto);
+  CHECK(espdiff::parse_device("cpu") == DeviceChoice::kCpu);
+  CHECK(espdiff::parse_device("cuda") == DeviceChoice::kCuda);
+  CHECK(espdiff::parse_device("cuda:0") == DeviceChoice::kCuda);
+  CHECK(espdiff::parse_device("cuda:12") == espdiff::DeviceRequest(DeviceChoice::kCuda, 12));
+  for (const char* wrong : {"CPU", "", "cuda:", "cuda:x", "cuda:-1", "cuda: 1", "cuda:1 ", "cuda:99999", "cpu:0"})
+    CHECK_THROWS_AS(espdiff::parse_device(wrong), espdiff::InputError);
+  CHECK(message_of([] { espdiff::parse_device("gpu"); }) ==
+        "unknown device 'gpu'; use auto, cpu, cuda, or cuda:N for the GPU of that index");
   CHECK(message_of([] { espdiff::select_engine(DeviceChoice::kCpu, -2); }) ==
         "the number of threads, -2, is negative; 0 takes all");
 }

@@ -144,6 +144,67 @@ TEST_CASE("there and back returns every vertex") {
   }
 }
 
+TEST_CASE("a morph that goes on: at rest it leaves every vertex, and two halves make the whole") {
+  const AtomSet atoms = random_cloud(150, 5);
+  const auto bent = [&](double amount) {
+    return moved_atoms(atoms, [=](Vec3d p) { return p + Vec3d{0, 0, amount * p.x * p.x}; });
+  };
+  const Journey first = journey(atoms, bent(0.015)), second = journey(bent(0.015), bent(0.03));
+  for (const auto& engine : back_ends()) {
+    const auto source = upload(*engine, atoms), middle = upload(*engine, first.target),
+               target = upload(*engine, second.target);
+    const espdiff::MeshPtr mesh = surface_of(*engine, source);
+    const MorphResult half = engine->morph(mesh, first.ways, source, middle, {}, "morph", espdiff::Progress{});
+    const MorphResult rest = engine->continue_morph(half, journey(first.target, first.target).ways, source, middle, {},
+                                                    "morph", espdiff::Progress{});
+    CHECK(rest.report.n_vertices_added == 0);
+    CHECK(engine->download(rest.lost) == engine->download(half.lost));
+    CHECK(farthest(engine->download(rest.mapped).positions, engine->download(half.mapped).positions) < 1e-3);
+    CHECK(engine->download(rest.source).positions == engine->download(half.source).positions);
+
+    const MorphResult composed =
+        engine->continue_morph(half, second.ways, source, target, {}, "morph", espdiff::Progress{});
+    const MorphResult whole =
+        engine->morph(mesh, journey(atoms, second.target).ways, source, target, {}, "morph", espdiff::Progress{});
+    const Mesh a = engine->download(composed.mapped), b = engine->download(whole.mapped);
+    CHECK(manifold_fault(a).empty());
+    const std::vector<float> lengths = engine->download(composed.path_length),
+                             before = engine->download(half.path_length);
+    double sum = 0;
+    for (std::size_t v = 0; v < engine->n_vertices(mesh); ++v) {
+      sum += static_cast<double>(norm(a.positions[v] - b.positions[v]));
+      CHECK(lengths[v] >= before[v]);
+    }
+    CHECK(sum / static_cast<double>(engine->n_vertices(mesh)) < 0.03);
+
+    MorphResult torn = half;
+    torn.lost = engine->upload_scalars({1, 0, 0});
+    CHECK_THROWS_AS(engine->continue_morph(torn, second.ways, source, target, {}, "morph", espdiff::Progress{}),
+                    espdiff::GeometryError);
+  }
+}
+
+TEST_CASE("what a morph has lost stays lost when it goes on") {
+  AtomSet together, apart;
+  for (const double x : {0.0, 4.5}) {
+    together.add({x, 0, 0}, 2);
+    apart.add({x > 0 ? x + 6 : x, 0, 0}, 2);
+  }
+  const Journey parting = journey(together, apart), meeting = journey(apart, together);
+  for (const auto& engine : back_ends()) {
+    const auto source = upload(*engine, together), target = upload(*engine, apart);
+    const MorphResult parted =
+        engine->morph(surface_of(*engine, source), parting.ways, source, target, {}, "morph", espdiff::Progress{});
+    const MorphResult met =
+        engine->continue_morph(parted, meeting.ways, source, source, {}, "morph", espdiff::Progress{});
+    const auto area_lost = [&](const MorphResult& r) {
+      return 1 - engine->area(engine->without(r.source, r.lost)) / engine->area(r.source);
+    };
+    CHECK(area_lost(parted) > 0.02);
+    CHECK(area_lost(met) >= area_lost(parted) - 1e-6);
+  }
+}
+
 TEST_CASE("an atom that appears grows out of where its way begins, one that vanishes shrinks into where it ends") {
   AtomSet bare;
   for (int x = -2; x <= 2; ++x)

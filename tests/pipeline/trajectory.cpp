@@ -12,6 +12,7 @@
 using namespace espdiff_test;
 using espdiff::ExistingFile;
 using espdiff::FrameInput;
+using espdiff::Method;
 using espdiff::Progress;
 using espdiff::SeriesCsv;
 using espdiff::SeriesHead;
@@ -29,13 +30,13 @@ struct Motion {
   Motion() {
     for (int frame = 0; frame < 5; ++frame) {
       Side side = source;
-      for (Vec3d& p : side.molecule.positions) p.z += 0.02 * (frame + 1) * p.x * p.x;
+      for (Vec3d& p : side.molecule.positions) p.z += 0.02 * (frame + 2) * p.x * p.x;
       side.map = potential_map(side.molecule, 1.0);
       sides.push_back(std::move(side));
     }
   }
 
-  Trajectory run() const {
+  Trajectory run(Method method = Method::kDeform) const {
     Trajectory t;
     t.source = source.input();
     t.reference = "file source.pqr";
@@ -45,7 +46,7 @@ struct Motion {
       return FrameInput{side.molecule, &side.map, nullptr};
     };
     t.options = quick_options();
-    t.options.method = espdiff::Method::kDeform;  // whose mappings start from the one before
+    t.options.method = method;
     t.options.surface.grid_spacing_A = 1.5;
     t.options.deform.max_iterations = 3000;
     return t;
@@ -127,37 +128,41 @@ TEST_CASE("a row a frame, with the values of the pair, and what the rows were ma
 
 TEST_CASE("a run that broke off anywhere goes on with the same rows") {
   const Motion motion;
-  const ScratchFolder folder;
-  Runner runner;
-  const Trajectory run = motion.run();
-  const std::string whole = folder.file("whole.csv"), part = folder.file("part.csv"), state = part + ".state";
-  runner(run, whole);
-  const auto expected = rows_of(whole);
-  REQUIRE(expected.size() == 5);
-  CHECK_FALSE(std::filesystem::exists(whole + ".state"));
-  std::string before;
-  for (const int last : {1, 2, 4}) {
-    CAPTURE(last);
-    runner.interrupted(run, part, last);
-    std::ofstream(part, std::ios::app) << last << ",file source.pqr,1.2";  // a row that was being written
-    if (last == 2) {
-      // Between a row and its mapping: the state is that of the row before.
-      const std::string rows = read_file(part), now = read_file(state);
+  for (const Method method : {Method::kMorph, Method::kDeform}) {
+    CAPTURE(to_string(method));
+    const ScratchFolder folder;
+    Runner runner;
+    const Trajectory run = motion.run(method);
+    const std::string whole = folder.file("whole.csv"), part = folder.file("part.csv"), state = part + ".state";
+    runner(run, whole);
+    const auto expected = rows_of(whole);
+    REQUIRE(expected.size() == 5);
+    CHECK_FALSE(std::filesystem::exists(whole + ".state"));
+    std::string before;
+    for (const int last : {1, 2, 4}) {
+      CAPTURE(last);
+      runner.interrupted(run, part, last);
+      std::ofstream(part, std::ios::app) << last << ",file source.pqr,1.2";  // a row that was being written
+      if (last == 2) {
+        // Between a row and its mapping: the state is that of the row before.
+        const std::string rows = read_file(part), now = read_file(state);
+        std::filesystem::remove(part);
+        runner.interrupted(run, part, 1);
+        std::ofstream(part, std::ios::binary) << rows;
+      }
+      const TrajectorySummary summary = runner(run, part, ExistingFile::kResume);
+      CHECK(summary.n_resumed == static_cast<std::size_t>(last));
+      CHECK(summary.n_rows == 5 - static_cast<std::size_t>(last));
+      CHECK(rows_of(part) == expected);
+      CHECK(runner.warnings.empty());
+      CHECK_FALSE(std::filesystem::exists(state));
       std::filesystem::remove(part);
-      runner.interrupted(run, part, 1);
-      std::ofstream(part, std::ios::binary) << rows;
     }
-    const TrajectorySummary summary = runner(run, part, ExistingFile::kResume);
-    CHECK(summary.n_resumed == static_cast<std::size_t>(last));
-    CHECK(summary.n_rows == 5 - static_cast<std::size_t>(last));
-    CHECK(rows_of(part) == expected);
-    CHECK(runner.warnings.empty());
-    CHECK_FALSE(std::filesystem::exists(state));
-    std::filesystem::remove(part);
+    // Complete: left as it is.
+    CHECK(runner(run, whole, ExistingFile::kResume).n_rows == 0);
+    CHECK(rows_of(whole) == expected);
+    CHECK(SeriesCsv(whole, kHead, ExistingFile::kResume).rows()[3]["start"] == "previous");
   }
-  // Complete: left as it is.
-  CHECK(runner(run, whole, ExistingFile::kResume).n_rows == 0);
-  CHECK(rows_of(whole) == expected);
 }
 
 TEST_CASE("without its mapping a resumed run says so and starts from the source; changed rows are refused") {

@@ -44,22 +44,26 @@ test "one row a frame, and the first is what compare says" {
     espdiff delete all
 }
 
-test "resumed after an interruption: the same rows" {
-    set all [list -mol $mol -frames 1:1:6 -csv $scratch/whole.csv -grid-spacing 1.5]
-    espdiff trajectory {*}$all
-    set parts [lreplace $all 5 5 $scratch/parts.csv]
-    proc stop_after {frame row} { if {$frame == 3} { return -code break } }
-    check_refused {espdiff trajectory {*}$parts -callback stop_after} {ESPDIFF CANCELLED} cancelled
-    check "some rows" {[llength [read_rows $scratch/parts.csv]] == 3}
-    # A row that was being written when the machine went down.
-    set channel [open $scratch/parts.csv a]
-    puts -nonewline $channel "4,0,1.2"
-    close $channel
-    espdiff trajectory {*}$parts -resume 1
-    check_equal rows [without_time $scratch/parts.csv] [without_time $scratch/whole.csv]
-    check "no state is left" {[llength [glob -nocomplain $scratch/parts.csv?*]] == 0}
-    check_refused {espdiff trajectory {*}$parts} {ESPDIFF IO} "-resume 1" "-overwrite 1"
-    check_refused {espdiff trajectory {*}$parts -resume 1 -isovalue 0.6} {ESPDIFF INPUT} "isovalue"
+foreach start {source previous} {
+    test "resumed after an interruption, each from $start: the same rows" {
+        file delete $scratch/whole.csv $scratch/parts.csv
+        set all [list -mol $mol -frames 41:1:46 -csv $scratch/whole.csv -grid-spacing 1.5 -start $start]
+        espdiff trajectory {*}$all
+        set parts [lreplace $all 5 5 $scratch/parts.csv]
+        proc stop_after {frame row} { if {$frame == 43} { return -code break } }
+        check_refused {espdiff trajectory {*}$parts -callback stop_after} {ESPDIFF CANCELLED} cancelled
+        check "some rows" {[llength [read_rows $scratch/parts.csv]] == 3}
+        # A row that was being written when the machine went down.
+        set channel [open $scratch/parts.csv a]
+        puts -nonewline $channel "44,0,1.2"
+        close $channel
+        espdiff trajectory {*}$parts -resume 1
+        check_equal rows [without_time $scratch/parts.csv] [without_time $scratch/whole.csv]
+        check "starts" {[regexp ",previous," [read_rows $scratch/whole.csv]] == ($start eq "previous")}
+        check "no state is left" {[llength [glob -nocomplain $scratch/parts.csv?*]] == 0}
+        check_refused {espdiff trajectory {*}$parts} {ESPDIFF IO} "-resume 1" "-overwrite 1"
+        check_refused {espdiff trajectory {*}$parts -resume 1 -isovalue 0.6} {ESPDIFF INPUT} "isovalue"
+    }
 }
 
 test "against the frame before" {

@@ -1,0 +1,15 @@
+// machine_peak.h: what a device can do at best, measured by loops that do nothing else: the roofs of the roofline.
+#pragma once
+
+namespace espdiff_bench {
+
+struct MachinePeak {
+  double gigabytes_per_s = 0;       ///< a[i] = b[i] + s c[i] over arrays that no cache holds; 12 bytes an element
+  double gigaoperations_per_s = 0;  ///< multiplications and additions, not fused, in single precision
+};
+
+MachinePeak cpu_peak(int n_threads);
+/// Of the first GPU; only in builds with CUDA.
+MachinePeak cuda_peak();
+
+}  // namespace espdiff_bench

@@ -1,0 +1,58 @@
+// memory.h: memory of a back end's device: the block that owns a piece of it, and the ways in and out.
+#pragma once
+
+#include <cstddef>
+#include <utility>
+
+#if defined(ESPDIFF_BACKEND_CUDA)
+#include <memory>
+#endif
+
+namespace espdiff::ESPDIFF_BACKEND {
+
+#if defined(ESPDIFF_BACKEND_CUDA)
+class CudaContext;
+#endif
+
+/// Owns a piece of the device's memory, uninitialized. On the CPU it comes from the heap, at a cache line's start. On a
+/// GPU it comes from the pool of the engine whose call runs on this thread, goes back to it in the order of that
+/// engine's stream, and may outlive the engine.
+class MemoryBlock {
+ public:
+  MemoryBlock() = default;
+  /// @throws std::bad_alloc (CPU), MemoryError (GPU)
+  explicit MemoryBlock(std::size_t n_bytes);
+  MemoryBlock(MemoryBlock&& other) noexcept { swap(other); }
+  MemoryBlock& operator=(MemoryBlock&& other) noexcept {
+    MemoryBlock(std::move(other)).swap(*this);
+    return *this;
+  }
+  MemoryBlock(const MemoryBlock&) = delete;
+  MemoryBlock& operator=(const MemoryBlock&) = delete;
+  ~MemoryBlock();
+
+  void swap(MemoryBlock& other) noexcept {
+    std::swap(start_, other.start_);
+#if defined(ESPDIFF_BACKEND_CUDA)
+    std::swap(context_, other.context_);
+#endif
+  }
+  void* get() const { return start_; }
+
+ private:
+  void* start_ = nullptr;
+#if defined(ESPDIFF_BACKEND_CUDA)
+  std::shared_ptr<CudaContext> context_;
+#endif
+};
+
+/// From the host; `from` may change as soon as the call returns.
+void copy_to_device(void* to, const void* from, std::size_t n_bytes);
+/// To the host, once all that was asked for before is done.
+void copy_to_host(void* to, const void* from, std::size_t n_bytes);
+void copy_on_device(void* to, const void* from, std::size_t n_bytes);
+
+/// What a run may take: of the machine's memory 80 %; of a GPU's 90 % of what is free or waits in the engine's pool.
+double available_bytes();
+
+}  // namespace espdiff::ESPDIFF_BACKEND
