@@ -34,6 +34,13 @@ void check_options(const DeformOptions& o) {
 
 }  // namespace
 
+void set_steps(Iteration& it, const DeformOptions& options) {
+  const double internal = internal_step(options);
+  it.step_external = static_cast<float>(options.sigma * options.mu);
+  it.step_tension = static_cast<float>(internal * (1 - options.rho));
+  it.step_rigidity = static_cast<float>(internal * options.rho);
+}
+
 void iterate_one_by_one(DeformState& state, const DeformOptions& options, const std::string& stage,
                         const Progress& progress, DeformReport& report) {
   const std::size_t n = state.positions.size();
@@ -78,10 +85,7 @@ std::shared_ptr<SurfaceMesh> deform(const SurfaceMesh& mesh, const SurfaceMesh& 
   it.laplacian = raw(laplacians);
   it.rest = raw(rest_laplacians);
   it.tricubic = options.interpolation == Interpolation::kTricubic;
-  const double internal = internal_step(options);
-  it.step_external = static_cast<float>(options.sigma * options.mu);
-  it.step_tension = static_cast<float>(internal * (1 - options.rho));
-  it.step_rigidity = static_cast<float>(internal * options.rho);
+  set_steps(it, options);
   it.from = raw(state.positions);
   const Iteration start = it;
   for_each_index(n, [=] ESPDIFF_HD(std::size_t v) {

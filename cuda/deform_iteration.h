@@ -58,6 +58,9 @@ ESPDIFF_INLINE void take_laplacian(const Iteration& it, std::size_t v) {
   it.laplacian[v] = umbrella(it.topology, it.from, v) - it.rest[v];
 }
 
+/// Sets the steps of the iteration's forces.
+void set_steps(Iteration& it, const DeformOptions& options);
+
 /// What is iterated: positions, and room for the next ones.
 struct DeformState {
   Iteration iteration{};  ///< all but `from` and `to`

@@ -80,8 +80,8 @@ namespace eval ::espdiff {
 
     command highlight [dict create arguments {handle residues} settings none run ::espdiff::highlight options {
             {-mol text both "Where: both, source, target (molecules of VMD that the comparison came from), or an id"}
-            {-style text {VDW 2.0} "Representation and its parameters, as of `mol modstyle`; spheres of twice the radius\
-                reach through the surface"}
+            {-style text {VDW 2.0} "Representation and its parameters, as of `mol modstyle`; spheres of twice the\
+                radius reach through the surface"}
             {-color text {ColorID 4} "Colouring method, as of `mol modcolor`; ColorID 4 is yellow"}
             {-face boolean 0 "Turn the view so that they are in front"}
         } \

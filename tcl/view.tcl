@@ -30,9 +30,17 @@ namespace eval ::espdiff {
             }
             if {$prefix eq ""} { set prefix [file join [pwd] [file rootname [file tail $surface]]-view] }
             # The shell tidies up when the viewer has ended, since VMD may have been left by then.
-            set process [core::start_program [list /bin/sh -c \
-                {trap : HUP INT TERM; folder=$1 log=$2; shift 2; "$@"; status=$?; rm -rf "$folder"; [ $status = 0 ] && rm -f "$log"
-                    exit $status} espdiff-view $folder $log \
+            set script {
+                trap : HUP INT TERM
+                folder=$1 log=$2
+                shift 2
+                "$@"
+                status=$?
+                rm -rf "$folder"
+                [ $status = 0 ] && rm -f "$log"
+                exit $status
+            }
+            set process [core::start_program [list /bin/sh -c $script espdiff-view $folder $log \
                 $program view $surface -o $prefix --layout [dict get $options layout] \
                 {*}[dict get $options arguments]] $log]
             # What is wrong with display or options shows at once.
@@ -79,7 +87,9 @@ namespace eval ::espdiff {
         if {![catch { open $log } channel]} {
             set text [string trim [read $channel]]
             close $channel
-            if {![regexp -line {^espdiff: (.*)$} $text all words] && $text ne ""} { set words [lindex [split $text \n] end] }
+            if {![regexp -line {^espdiff: (.*)$} $text all words] && $text ne ""} {
+                set words [lindex [split $text \n] end]
+            }
         }
         file delete $log
         fail "the viewer: $words" DEVICE

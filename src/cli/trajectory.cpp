@@ -37,8 +37,7 @@ void add_run_options(CLI::App& p, Arguments& a) {
        "--start", a.start,
        "Begin each frame's mapping at the source, or at the previous frame's where that is nearer (by the morph "
        "less than half as far, with at most 0.5 % of the source lost on the way): small steps, in less time; auto: "
-       "source "
-       "by --method morph, previous by deform")
+       "source by --method morph, previous by deform")
       ->check(CLI::IsMember({"auto", "previous", "source"}))
       ->capture_default_str()
       ->group(group);

@@ -15,8 +15,8 @@ namespace espdiff {
 void write_series_state(const std::string& path, const SeriesState& state, const std::string& fingerprint);
 
 /// @throws IoError (missing, unreadable), FormatError (damaged, cut off, of another version, another file), InputError
-/// (of another
-///         fingerprint); each says what to do
+/// (of another fingerprint); each
+/// says what to do
 SeriesState read_series_state(const std::string& path, const std::string& fingerprint);
 
 }  // namespace espdiff

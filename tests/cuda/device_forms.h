@@ -245,10 +245,7 @@ inline void check_deform() {
     it.rest = raw(rest);
     it.way = raw(ways);
     it.strength = raw(strengths);
-    const double internal = options.sigma * (1 - options.mu);
-    it.step_external = static_cast<float>(options.sigma * options.mu);
-    it.step_tension = static_cast<float>(internal * (1 - options.rho));
-    it.step_rigidity = static_cast<float>(internal * options.rho);
+    set_steps(it, options);
     iterate_one_by_one(state, options, "deform", {}, expected_report);
     CHECK(report.iterations == expected_report.iterations);
     CHECK(report.converged == expected_report.converged);
