@@ -24,6 +24,7 @@
 #include "fields.h"
 #include "intersections.h"
 #include "isosurface.h"
+#include "level_set_normals.h"
 #include "metrics.h"
 #include "morph.h"
 #include "pme.h"
@@ -180,6 +181,16 @@ class BackEndEngine : public Engine {
     return run([&] {
       return ESPDIFF_BACKEND::project(unwrap<SurfaceMesh>(mesh), unwrap<AtomCells>(atoms), isovalue,
                                       static_cast<float>(max_shift_A));
+    });
+  }
+
+  std::vector<Vec3f> level_set_normals(const MeshPtr& mesh, const AtomsPtr& atoms, float isovalue) override {
+    return run([&] {
+      std::vector<Vec3f> result;
+      for (const Vec4f& n :
+           to_host(ESPDIFF_BACKEND::level_set_normals(unwrap<SurfaceMesh>(mesh), unwrap<AtomCells>(atoms), isovalue)))
+        result.push_back(n.xyz());
+      return result;
     });
   }
 

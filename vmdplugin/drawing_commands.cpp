@@ -33,21 +33,6 @@ std::vector<Vec3f> single_precision(const std::vector<Vec3d>& positions) {
   return result;
 }
 
-/// Area-weighted means of the triangles' normals.
-std::vector<Vec3f> vertex_normals(const std::vector<Vec3d>& positions, const std::vector<Triangle>& triangles) {
-  std::vector<Vec3d> sums(positions.size());
-  for (const Triangle& t : triangles) {
-    const Vec3d normal = cross(positions[t[1]] - positions[t[0]], positions[t[2]] - positions[t[0]]);
-    for (const std::uint32_t v : t) sums[v] += normal;
-  }
-  std::vector<Vec3f> normals;
-  for (const Vec3d& sum : sums) {
-    const double length = norm(sum);
-    normals.push_back(length > 0 ? static_cast<Vec3f>((1 / length) * sum) : Vec3f{0, 0, 1});
-  }
-  return normals;
-}
-
 DrawnSurface drawn_surface(const std::string& handle, const Object& object, const std::string& which) {
   require_done(handle, object);
   DrawnSurface drawn;
@@ -67,7 +52,7 @@ DrawnSurface drawn_surface(const std::string& handle, const Object& object, cons
     drawn.left_out = &s.no_counterpart;
   } else if (which == "source") {
     drawn.positions = single_precision(s.source_positions);
-    drawn.normals = vertex_normals(s.source_positions, s.triangles);
+    drawn.normals = s.source_normals;
     drawn.corrupt = s.corrupt;
     for (std::size_t t = 0; t < s.no_counterpart.size(); ++t) drawn.corrupt[t] |= s.no_counterpart[t];
   } else {

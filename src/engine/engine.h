@@ -302,6 +302,11 @@ class Engine {
   /// move farther than `max_shift_A` stays where it is.
   virtual MeshPtr project(const MeshPtr& mesh, const AtomsPtr& atoms, float isovalue, double max_shift_A) = 0;
 
+  /// [vertex] unit, outward: the normal of the analytic isosurface, which the mesh's triangles only approximate. Where
+  /// the density is off the isovalue by more than a tenth of it, or falls against the triangles' side, the mean of the
+  /// triangles' normals, as download() gives it.
+  virtual std::vector<Vec3f> level_set_normals(const MeshPtr& mesh, const AtomsPtr& atoms, float isovalue) = 0;
+
   /// Density and gradient for deform().
   virtual FieldPtr density_field(const GridPtr& density, float isovalue) = 0;
   /// Signed distance to `surface` (positive inside) where it exceeds `threshold_A` in magnitude, the density elsewhere

@@ -95,6 +95,8 @@ SurfaceResult make_surface(Engine& engine, const CompareInput& input, const Comp
   }
   result.mesh = engine.download(surface.mesh);
   for (const Vec3f& p : result.mesh.positions) result.positions.push_back(from_common.apply(static_cast<Vec3d>(p)));
+  result.mesh.normals =
+      engine.level_set_normals(surface.mesh, surface.atoms, static_cast<float>(options.surface.isovalue));
   for (Vec3f& n : result.mesh.normals) n = static_cast<Vec3f>(from_common.rotate(static_cast<Vec3d>(n)));
   for (std::size_t v = 0; v < result.positions.size(); ++v)
     result.mesh.positions[v] = static_cast<Vec3f>(result.positions[v]);

@@ -43,17 +43,23 @@ void forget_lost(const std::vector<bool>& kept, std::vector<float>& values) {
   }
 }
 
+std::vector<Vec3f> rotated(std::vector<Vec3f> normals, const RigidTransform& to_frame) {
+  for (Vec3f& n : normals) n = static_cast<Vec3f>(to_frame.rotate(static_cast<Vec3d>(n)));
+  return normals;
+}
+
 /// @param moved the source, taken along by its rigid pieces
-void download_surface(Engine& engine, const MeshPtr& source, const MeshPtr& moved, const MeshPtr& mapped,
-                      const CommonFrame& frame, MappedSurface& surface) {
+void download_surface(Engine& engine, const MeshPtr& source, const AtomsPtr& source_atoms, const MeshPtr& moved,
+                      const MeshPtr& mapped, const AtomsPtr& target_atoms, float isovalue, const CommonFrame& frame,
+                      MappedSurface& surface) {
   const RigidTransform to_source = inverse(frame.from_source), to_target = inverse(frame.from_target);
   const Mesh mapped_mesh = engine.download(mapped);
   surface.triangles = mapped_mesh.triangles;
   for (const Vec3f& p : mapped_mesh.positions) surface.positions.push_back(to_target.apply(static_cast<Vec3d>(p)));
-  for (const Vec3f& n : mapped_mesh.normals)
-    surface.normals.push_back(static_cast<Vec3f>(to_target.rotate(static_cast<Vec3d>(n))));
   for (const Vec3f& p : engine.download(source).positions)
     surface.source_positions.push_back(to_source.apply(static_cast<Vec3d>(p)));
+  surface.normals = rotated(engine.level_set_normals(mapped, target_atoms, isovalue), to_target);
+  surface.source_normals = rotated(engine.level_set_normals(source, source_atoms, isovalue), to_source);
   surface.displacement = engine.download(engine.displacement(moved, mapped));
 }
 
@@ -213,7 +219,8 @@ struct Series::Steps {
     progress.report("metrics", 0.0);
     MappedSurface& s = result.surface;
     const MeshPtr moved = frame.pieces.carry(engine, mapping.source, surface.atoms);
-    download_surface(engine, mapping.source, moved, mapping.mapped, frame, s);
+    download_surface(engine, mapping.source, surface.atoms, moved, mapping.mapped, target_surface.atoms,
+                     static_cast<float>(options.surface.isovalue), frame, s);
     s.no_counterpart.assign(mapping.lost.begin(), mapping.lost.end());
     s.corrupt = spread(engine.download(mapping.fit.corrupt), mapping.lost);
     s.path_length = mapping.path_length;

@@ -123,7 +123,8 @@ struct Certificate {
 struct MappedSurface {
   std::vector<Vec3d> positions;         ///< [vertex] in the target's own frame
   std::vector<Vec3d> source_positions;  ///< [vertex] in the source's own frame (regularized, not superposed)
-  std::vector<Vec3f> normals;           ///< [vertex] outward, target's frame
+  std::vector<Vec3f> normals;           ///< [vertex] outward, of the target's analytic surface; target's frame
+  std::vector<Vec3f> source_normals;    ///< [vertex] of the source's; source's frame
   std::vector<Triangle> triangles;
   std::vector<float> potential_source, potential_target;  ///< [vertex]; empty without maps; NaN outside a map
   /// [vertex] from the source's place, superposed, or with rigid pieces from where its piece takes it; NaN where there

@@ -54,6 +54,7 @@ void write_surface_file(std::ostream& out, const Molecule& source, const Compare
                        {"displacement", s.displacement},
                        {"path_length", s.path_length},
                        {"normal", s.normals},
+                       {"source_normal", s.source_normals},
                        {"residue_number", derived.residue_number},
                        {"residue_index", s.residue}};
   file.active_normals = "normal";

@@ -120,16 +120,18 @@ std::string text_of(vtkPolyData* surface, const char* name) {
   return texts != nullptr && texts->GetNumberOfValues() > 0 ? std::string(texts->GetValue(0)) : std::string();
 }
 
-std::vector<Vec3d> source_positions_of(vtkPolyData* surface) {
-  vtkDataArray* array = surface->GetPointData()->GetArray("source_position");
-  std::vector<Vec3d> positions;
-  if (array == nullptr || array->GetNumberOfComponents() != 3) return positions;
+/// Empty where there is none with three components.
+template <typename Vector>
+std::vector<Vector> vectors_of(vtkPolyData* surface, const char* name) {
+  vtkDataArray* array = surface->GetPointData()->GetArray(name);
+  std::vector<Vector> vectors;
+  if (array == nullptr || array->GetNumberOfComponents() != 3) return vectors;
   for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i) {
-    double p[3];
-    array->GetTuple(i, p);
-    positions.push_back({p[0], p[1], p[2]});
+    double v[3];
+    array->GetTuple(i, v);
+    vectors.push_back(static_cast<Vector>(Vec3d{v[0], v[1], v[2]}));
   }
-  return positions;
+  return vectors;
 }
 
 std::vector<Vec3d> positions_of(const std::string& path, vtkPolyData* surface) {
@@ -148,7 +150,8 @@ std::vector<Vec3d> positions_of(const std::string& path, vtkPolyData* surface) {
 
 void read_arrays(SurfaceFile& file, vtkPolyData* surface) {
   file.normals = normals_of(surface);
-  file.source_positions = source_positions_of(surface);
+  file.source_positions = vectors_of<Vec3d>(surface, "source_position");
+  file.source_normals = vectors_of<Vec3f>(surface, "source_normal");
   file.displacement = numbers_of(surface, "displacement");
   file.potential_source = numbers_of(surface, "potential_source");
   file.potential_target = numbers_of(surface, "potential_target");

@@ -16,6 +16,7 @@ struct SurfaceFile {
   std::vector<Vec3d> positions;         ///< mapped, in the target's frame, Angstrom
   std::vector<Vec3d> source_positions;  ///< in the source's own frame, Angstrom
   std::vector<Vec3f> normals;           ///< unit, outward, at the mapped positions
+  std::vector<Vec3f> source_normals;    ///< the same at the source's, in its frame
   std::vector<Triangle> triangles;
   std::vector<std::uint8_t> corrupt;         ///< [triangle]
   std::vector<std::uint8_t> no_counterpart;  ///< [triangle] 1: its mapped positions mean nothing

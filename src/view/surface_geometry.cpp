@@ -112,7 +112,11 @@ StartSurface superposed_start(const SurfaceFile& surface, const RunRecord& recor
   std::vector<Vec3d> placed;
   placed.reserve(surface.source_positions.size());
   for (const Vec3d& p : surface.source_positions) placed.push_back(record.source_to_target.apply(p));
-  return {floats(placed), vertex_normals(placed, surface.triangles)};
+  if (surface.source_normals.empty()) return {floats(placed), vertex_normals(placed, surface.triangles)};
+  StartSurface start{floats(placed), {}};
+  for (const Vec3f& n : surface.source_normals)
+    start.normals.push_back(static_cast<Vec3f>(record.source_to_target.rotate(static_cast<Vec3d>(n))));
+  return start;
 }
 
 std::unique_ptr<SurfaceFile> moved_outward(const SurfaceFile& surface, const StartSurface& start,

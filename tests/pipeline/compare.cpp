@@ -62,13 +62,16 @@ TEST_CASE("a rigid copy with its map differs by almost nothing") {
     CHECK(r.n_outside_source_map == 0);
     CHECK(r.n_outside_target_map == 0);
     // Every vertex lies in its own frame: the motion takes the one into the other but for its displacement.
-    double worst = 0;
+    double worst = 0, least_cosine = 1;
     for (std::size_t v = 0; v < r.surface.positions.size(); ++v) {
       const Vec3d there = r.source_to_target.apply(r.surface.source_positions[v]);
       worst = std::max(
           worst, std::fabs(norm(r.surface.positions[v] - there) - static_cast<double>(r.surface.displacement[v])));
+      const Vec3d turned = r.source_to_target.rotate(static_cast<Vec3d>(r.surface.source_normals[v]));
+      least_cosine = std::min(least_cosine, dot(turned, static_cast<Vec3d>(r.surface.normals[v])));
     }
     CHECK(worst < 1e-4);
+    CHECK(least_cosine > 0.99);
   }
 }
 

@@ -62,6 +62,7 @@ CompareResult made_result() {
   s.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   s.source_positions = {{5, 0, 0}, {6, 0, 0}, {5, 1, 0}, {5, 0, 1}};
   s.normals = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
+  s.source_normals = s.normals;
   s.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
   s.potential_source = {1, -1, 0, 2};
   s.potential_target = {-1, -3, -2, kNan};
@@ -222,8 +223,9 @@ TEST_CASE("OUT.vtp has the arrays of the contract") {
   const ScratchFolder folder;
   write(folder.file("out"));
   const std::string text = read_file(folder.file("out.vtp"));
-  for (const char* name : {"source_position", "potential_source", "potential_target", "potential_difference",
-                           "sign_change", "displacement", "path_length", "normal", "residue_number", "corrupt"}) {
+  for (const char* name :
+       {"source_position", "potential_source", "potential_target", "potential_difference", "sign_change",
+        "displacement", "path_length", "normal", "source_normal", "residue_number", "corrupt"}) {
     CHECK_MESSAGE(text.find("Name=\"" + std::string(name) + "\"") != std::string::npos, name);
   }
   // Bytes of an array: after its length, where its offset says.

@@ -264,6 +264,25 @@ TEST_CASE("a picked point has the values that the engine found there") {
   CHECK_FALSE(picker.pick({500, 500, 500}, {500, 500, 400}, 1));
 }
 
+TEST_CASE("the superposed source is lit by its own surface's normals, by its triangles' in files without them") {
+  ComparisonFiles files = read_comparison(made().file("pair.vtp"), {});
+  SurfaceFile& surface = files.surface;
+  REQUIRE(surface.source_normals.size() == surface.positions.size());
+  const StartSurface analytic = superposed_start(surface, files.record);
+  for (std::size_t v = 0; v < surface.positions.size(); v += 7) {
+    const Vec3d turned = files.record.source_to_target.rotate(static_cast<Vec3d>(surface.source_normals[v]));
+    CHECK(norm(static_cast<Vec3d>(analytic.normals[v]) - turned) < 1e-6);
+  }
+  surface.source_normals.clear();
+  const StartSurface of_triangles = superposed_start(surface, files.record);
+  double mean_cosine = 0;
+  for (std::size_t v = 0; v < surface.positions.size(); ++v)
+    mean_cosine += static_cast<double>(dot(analytic.normals[v], of_triangles.normals[v])) /
+                   static_cast<double>(surface.positions.size());
+  CHECK(mean_cosine > 0.98);
+  CHECK(mean_cosine < 1 - 1e-6);
+}
+
 TEST_CASE("what is known of a picked point is said in words") {
   Scene scene;
   scene.n_labels = 1;
