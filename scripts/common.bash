@@ -19,6 +19,12 @@ job_count() {
   echo $((cores < by_memory ? cores : by_memory))
 }
 
+# Whether a GPU answers.
+has_gpu() { command -v nvidia-smi >/dev/null && nvidia-smi -L >/dev/null 2>&1; }
+
+# Whether the CUDA back end can be built; CMake looks in the same places.
+has_nvcc() { command -v nvcc >/dev/null || [[ -x /usr/local/cuda/bin/nvcc ]]; }
+
 # Every source file of ours under the given folders, with one of the given extensions: our_files "h cpp" src tests
 our_files() {
   local extension folder

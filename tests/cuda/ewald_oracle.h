@@ -157,7 +157,7 @@ inline bool can_run(Engine& engine) {
     engine.pme_potential({{1, 2, 3}}, {1.0F}, cells()[0].cell, {{8, 8, 8}}, {}, {});
     return true;
   } catch (const espdiff::DeviceError& error) {
-    MESSAGE("SKIPPED: ", engine.back_end(), ": ", error.what());
+    MESSAGE("SKIPPED: ", engine.back_end(), ": ", std::string(error.what()));
     return false;
   }
 }

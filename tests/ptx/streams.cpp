@@ -1,0 +1,53 @@
+#include "streams.h"
+
+#include <set>
+
+#include "device_memory.h"
+#include "settings.h"
+
+namespace ptx {
+namespace {
+
+std::set<Stream*>& all_streams() {
+  static std::set<Stream*> all;
+  return all;
+}
+
+}  // namespace
+
+Stream::Stream() { all_streams().insert(this); }
+Stream::~Stream() { all_streams().erase(this); }
+
+void Stream::put(Work work) {
+  if (capturing) {
+    captured.push_back(std::move(work));
+    return;
+  }
+  waiting.push_back(std::move(work));
+  if (settings().eager) finish();
+}
+
+void Stream::finish() {
+  while (!waiting.empty()) {
+    const Work work = std::move(waiting.front());
+    waiting.pop_front();
+    work();
+  }
+}
+
+void finish_all_streams() {
+  for (Stream* stream : all_streams()) stream->finish();
+}
+
+Stream& stream_of(void* handle) {
+  static Stream default_stream;
+  return handle == nullptr ? default_stream : *static_cast<Stream*>(handle);
+}
+
+}  // namespace ptx
+
+void ptx_put(void* stream, void (*work)(void*), void* data) {
+  ptx::stream_of(stream).put([work, data] { work(data); });
+}
+void* ptx_view(void* place) { return ptx::view(static_cast<char*>(place)); }
+void ptx_mark_written(void* place, unsigned long n_bytes) { ptx::mark_written(place, n_bytes); }
