@@ -12,11 +12,13 @@
 #include <fstream>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
 #include "dcd_frames.h"
 #include "engine/select_engine.h"
+#include "random_charges.h"
 
 namespace {
 
@@ -32,22 +34,9 @@ struct Case {
   int n_points = 0;  ///< along each edge
 };
 
-PmeCell cube(double edge, Vec3d centre) { return {centre, {Vec3d{edge, 0, 0}, Vec3d{0, edge, 0}, Vec3d{0, 0, edge}}}; }
-
-/// Charges spread evenly through a cube, in random order, as water boxes have them.
 Case random_case(const std::string& name, std::size_t n_atoms, double edge, int n_points) {
-  Case result{name, {}, {}, cube(edge, {}), n_points};
-  std::uint64_t state = 12345;
-  const auto uniform = [&state] {
-    state = state * 6364136223846793005ULL + 1442695040888963407ULL;
-    return static_cast<double>(state >> 33) / 2147483648.0 - 0.5;
-  };
-  for (std::size_t i = 0; i < n_atoms; ++i) {
-    const double x = edge * uniform(), y = edge * uniform();
-    result.positions.push_back({x, y, edge * uniform()});
-    result.charges.push_back(static_cast<float>(uniform()));
-  }
-  return result;
+  espdiff_bench::RandomCharges of = espdiff_bench::random_charges(n_atoms, edge);
+  return {name, std::move(of.positions), std::move(of.charges), of.cell, n_points};
 }
 
 /// The charges of an Amber topology: 5 fields of 16 columns a line, in kcal/mol's unit of charge.
@@ -75,7 +64,7 @@ Case dhfr_case(const std::string& folder) {
   molecule.positions.resize(molecule.charges.size());
   const espdiff::Molecule frame = espdiff_bench::read_frame(molecule, folder + "/JAC_from_ncrst.dcd", 0);
   constexpr double kEdge = 62.23;
-  return {"dhfr", frame.positions, molecule.charges, cube(kEdge, {}), 64};
+  return {"dhfr", frame.positions, molecule.charges, espdiff_bench::cubic_cell(kEdge), 64};
 }
 
 double median_ms(int repeats, const std::function<void()>& work) {

@@ -13,6 +13,7 @@
 #include "renumbered.h"
 #include "stage_inputs.h"
 #include "stage_timer.h"
+#include "whole_runs.h"
 #include "work_model.h"
 
 namespace {
@@ -200,12 +201,14 @@ void vertex_residues(StageTimer& timer, const StageInputs& in) {
   timer.time(*in.engine, [&] { in.engine->vertex_residues(in.start, in.source.atoms); });
 }
 
-/// Everything from atoms and maps to metrics and certificate, with the pipeline's default options.
-void compare(StageTimer& timer, const StageInputs& in) {
+/// Everything from atoms and maps to metrics and certificate, with the pipeline's default options but for the method.
+void compare(StageTimer& timer, const StageInputs& in, espdiff::Method method) {
   espdiff::CompareResult result;
+  espdiff::CompareOptions options = in.options;
+  options.method = method;
   timer.time(*in.engine, [&] {
-    result = espdiff::compare(*in.engine, {&in.source.molecule, &in.map}, {&in.target.molecule, &in.map}, in.options,
-                              kSilent);
+    result =
+        espdiff::compare(*in.engine, {&in.source.molecule, &in.map}, {&in.target.molecule, &in.map}, options, kSilent);
   });
   const espdiff::Certificate& c = result.certificate;
   timer.counters["vertices"] = static_cast<double>(result.surface.positions.size());
@@ -214,7 +217,10 @@ void compare(StageTimer& timer, const StageInputs& in) {
   timer.counters["flipped_percent"] = 100 * c.flipped_area_fraction;
   timer.counters["mean_distance_A"] = c.mapped_to_target.mean;
   timer.counters["mean_distance_back_A"] = c.target_to_mapped.mean;
-  timer.counters["deform_iterations"] = result.deform_report.iterations;
+  timer.counters["trustworthy"] = c.trustworthy ? 1 : 0;
+  timer.counters["intersecting_pairs"] = static_cast<double>(c.self_intersecting_pairs);
+  if (method == espdiff::Method::kDeform) timer.counters["deform_iterations"] = result.deform_report.iterations;
+  if (method == espdiff::Method::kMorph) timer.counters["morph_steps"] = result.morph_report.steps;
   timer.counters["regularize_iterations"] = result.regularize_report.iterations;
   timer.counters["converged"] = c.converged ? 1 : 0;
   for (const auto& [stage, ms] : result.time_ms) timer.counters["ms_" + stage] = ms;
@@ -275,7 +281,8 @@ std::vector<Stage> stages(double quicksurf_ms) {
       {"self_intersections", self_intersections},
       {"sample_and_metrics", sample_and_metrics},
       {"vertex_residues", vertex_residues},
-      {"compare", compare, true},
+      {"compare_morph", [](StageTimer& s, const StageInputs& in) { compare(s, in, espdiff::Method::kMorph); }, true},
+      {"compare_deform", [](StageTimer& s, const StageInputs& in) { compare(s, in, espdiff::Method::kDeform); }, true},
   };
 }
 
@@ -293,9 +300,23 @@ nlohmann::ordered_json record_of(const std::string& name, const StageTimer& time
   return record;
 }
 
+constexpr int kRepetitions = 5, kSlowRepetitions = 3;
+
+/// Runs one, prints it, and adds it to the records.
+void run_one(const std::string& name, StageTimer timer, const std::function<void(StageTimer&)>& run,
+             nlohmann::ordered_json& records) {
+  try {
+    run(timer);
+  } catch (const std::exception& error) {
+    std::printf("%-50s SKIPPED: %s\n", name.c_str(), error.what());
+    return;
+  }
+  print(name, timer);
+  records.push_back(record_of(name, timer));
+}
+
 /// Runs what matches, case by case, so that the stages of one share its inputs.
-nlohmann::ordered_json run_all(const std::regex& filter) {
-  constexpr int kRepetitions = 5, kSlowRepetitions = 3;
+nlohmann::ordered_json run_stages(const std::regex& filter) {
   constexpr std::size_t kLarge = 30000;  // atoms; seconds per stage: once will do
   constexpr double kLeast_ms = 50;
   nlohmann::ordered_json records = nlohmann::ordered_json::array();
@@ -305,19 +326,25 @@ nlohmann::ordered_json run_all(const std::regex& filter) {
         const std::string name = stage.name + "/" + of.name + "/" + device.name;
         if (!std::regex_search(name, filter)) continue;
         const int slow = of.n_atoms > kLarge ? 1 : kSlowRepetitions;
-        StageTimer timer(stage.slow ? slow : kRepetitions, stage.slow || stage.once ? 0 : kLeast_ms);
-        try {
-          stage.run(timer, espdiff_bench::stage_inputs(of, device));
-        } catch (const std::exception& error) {
-          std::printf("%-50s SKIPPED: %s\n", name.c_str(), error.what());
-          continue;
-        }
-        print(name, timer);
-        records.push_back(record_of(name, timer));
+        run_one(
+            name, {stage.slow ? slow : kRepetitions, stage.slow || stage.once ? 0 : kLeast_ms},
+            [&](StageTimer& timer) { stage.run(timer, espdiff_bench::stage_inputs(of, device)); }, records);
       }
     }
   }
   return records;
+}
+
+void run_wholes(const std::regex& filter, nlohmann::ordered_json& records) {
+  for (const espdiff_bench::WholeRun& whole : espdiff_bench::whole_runs()) {
+    for (const espdiff_bench::BenchDevice& device : espdiff_bench::devices()) {
+      const std::string name = whole.name + "/" + device.name;
+      if (!std::regex_search(name, filter) || (whole.slow && device.n_threads == 1)) continue;
+      const auto engine = espdiff::select_engine(device.request, device.n_threads);
+      run_one(
+          name, {whole.slow ? 1 : kRepetitions, 0}, [&](StageTimer& timer) { whole.run(timer, *engine); }, records);
+    }
+  }
 }
 
 void add_peak(nlohmann::ordered_json& context, const std::string& device, const espdiff_bench::MachinePeak& peak) {
@@ -350,7 +377,8 @@ int main(int argc, char** argv) {
     nlohmann::ordered_json results;
     results["context"] = espdiff_bench::machine_context();
     add_peaks(results["context"]);
-    results["benchmarks"] = run_all(std::regex(filter));
+    results["benchmarks"] = run_stages(std::regex(filter));
+    run_wholes(std::regex(filter), results["benchmarks"]);
     if (!out.empty()) {
       espdiff::AtomicFile file(out);
       file.stream() << results.dump(1) << "\n";

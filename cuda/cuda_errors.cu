@@ -19,9 +19,11 @@ std::string dotted(int capability) { return std::to_string(capability / 10) + ".
 std::string cuda_version(int version) {
   return "CUDA " + std::to_string(version / 1000) + "." + std::to_string(version % 1000 / 10);
 }
-std::string gibibytes(std::size_t bytes) {
+std::string memory_text(std::size_t bytes) {
+  constexpr double kMebi = 1048576.0, kGibi = 1073741824.0;
+  const double n = static_cast<double>(bytes);
   char text[32];
-  std::snprintf(text, sizeof text, "%.2f GiB", static_cast<double>(bytes) / 1073741824.0);
+  std::snprintf(text, sizeof text, n < kGibi ? "%.1f MiB" : "%.2f GiB", n / (n < kGibi ? kMebi : kGibi));
   return text;
 }
 
@@ -136,8 +138,8 @@ void throw_cuda_error(cudaError_t status, const std::string& doing, const CudaFa
   const std::string words = std::string(cudaGetErrorName(status)) + ", " + cudaGetErrorString(status);
   if (status == cudaErrorMemoryAllocation) {
     throw MemoryError(
-        device + " has no room for another " + gibibytes(facts.asked_bytes) + " (" + doing +
-        "): " + gibibytes(facts.free_bytes) + " of its " + gibibytes(facts.total_bytes) +
+        device + " has no room for another " + memory_text(facts.asked_bytes) + " (" + doing +
+        "): " + memory_text(facts.free_bytes) + " of its " + memory_text(facts.total_bytes) +
         " are free; use a larger grid spacing or fewer atoms, another GPU (--device cuda:N), or --device cpu");
   }
   if (status == cudaErrorNoDevice) throw DeviceError("no NVIDIA GPU was found; use --device cpu");

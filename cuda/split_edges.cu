@@ -41,11 +41,6 @@ ESPDIFF_INLINE Halves halves_of(const Division& in, const Corners& corners) {
   return halves;
 }
 
-ESPDIFF_INLINE float square_distance(const Vec4f* x, std::uint32_t a, std::uint32_t b) {
-  const Vec3f d = x[a].xyz() - x[b].xyz();
-  return dot(d, d);
-}
-
 /// Writes a triangle's parts.
 ESPDIFF_INLINE void divide(const Corners& t, const Halves& halves, const Vec4f* x, Corners* out) {
   if (halves.n == 0) {

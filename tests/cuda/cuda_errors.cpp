@@ -63,6 +63,10 @@ TEST_CASE("memory that runs out is an error of memory: how much was asked for, w
         "cuda:1 (NVIDIA Test) has no room for another 1.50 GiB (computing): 1.00 GiB of its 8.00 GiB are free; use a "
         "larger "
         "grid spacing or fewer atoms, another GPU (--device cuda:N), or --device cpu");
+  facts.asked_bytes = std::size_t{300} << 20;
+  facts.free_bytes = 1 << 19;
+  const std::string little = words_for(cudaErrorMemoryAllocation, ErrorClass::kMemory, facts);
+  CHECK(little.find("another 300.0 MiB (computing): 0.5 MiB of its 8.00 GiB") != std::string::npos);
 }
 
 TEST_CASE("a GPU that the build has no code for: which it has, and how to get it") {

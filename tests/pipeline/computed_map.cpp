@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "base/error.h"
 #include "cuda/ewald_oracle.h"
@@ -23,7 +24,7 @@ bool can_run() {
     espdiff::potential_map(*cpu(), make_side(1, 0).molecule, {}, {});
     return true;
   } catch (const espdiff::DeviceError& error) {
-    MESSAGE("SKIPPED: ", error.what());
+    MESSAGE("SKIPPED: ", std::string(error.what()));
     return false;
   }
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "align/superpose.h"
 #include "base/error.h"
@@ -28,7 +29,7 @@ bool can_run() {
     espdiff::potential_map(*cpu(), make_side(1, 0).molecule, {}, {});
     return true;
   } catch (const espdiff::DeviceError& error) {
-    MESSAGE("SKIPPED: ", error.what());
+    MESSAGE("SKIPPED: ", std::string(error.what()));
     return false;
   }
 }

@@ -1,0 +1,22 @@
+// random_charges.h: charges to time Ewald sums on.
+#pragma once
+
+#include <vector>
+
+#include "engine/engine.h"
+
+namespace espdiff_bench {
+
+struct RandomCharges {
+  std::vector<espdiff::Vec3d> positions;  ///< Angstrom
+  std::vector<float> charges;             ///< e, from -0.5 to 0.5
+  espdiff::PmeCell cell;
+};
+
+espdiff::PmeCell cubic_cell(double edge_A);
+
+/// Charges spread evenly through a cube around the origin, in random order, as water boxes have them; the same each
+/// time.
+RandomCharges random_charges(std::size_t n_atoms, double edge_A);
+
+}  // namespace espdiff_bench
