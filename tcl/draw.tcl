@@ -141,12 +141,13 @@ namespace eval ::espdiff {
         return $mol
     }
 
-    # A material for each opacity, made once; the user may change it, and it stays as the user wants it.
+    # A material for each opacity, made once; the user may change it, and it stays as the user wants it. Where both of
+    # VMD's lights fall, ambient and diffuse light add up to 1: more would wash the colours out, to white on white.
     proc material_of {opacity} {
         set name Espdiff[format %.0f [expr {100 * $opacity}]]
         if {$name ni [material list]} {
             material add $name copy Opaque
-            foreach {property value} {ambient 0.05 diffuse 0.75 specular 0.25 shininess 0.45} {
+            foreach {property value} {ambient 0.15 diffuse 0.55 specular 0.1 shininess 0.45} {
                 material change $property $name $value
             }
             material change opacity $name $opacity

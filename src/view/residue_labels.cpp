@@ -19,6 +19,7 @@ namespace {
 
 constexpr int kFewestVertices = 20;
 constexpr double kApart_A = 9, kOffSurface_A = 4;
+constexpr double kPin_A = 2.8;  // ends short of the text, which it would strike through
 
 struct Sum {
   double difference = 0;
@@ -82,9 +83,10 @@ std::string residue_name(const Molecule& molecule, int residue) {
 std::vector<vtkSmartPointer<vtkProp>> make_label(const ResidueMark& mark, const std::string& text, double text_pixels) {
   vtkFreeTypeTools::GetInstance()->ForceCompiledFontsOn();
   const Vec3d end = mark.place + kOffSurface_A * mark.outward;
+  const Vec3d tip = mark.place + kPin_A * mark.outward;
   vtkNew<vtkLineSource> line;
   line->SetPoint1(mark.place.x, mark.place.y, mark.place.z);
-  line->SetPoint2(end.x, end.y, end.z);
+  line->SetPoint2(tip.x, tip.y, tip.z);
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputConnection(line->GetOutputPort());
   auto pin = vtkSmartPointer<vtkActor>::New();

@@ -13,7 +13,7 @@ proc state {} {
     return $state
 }
 
-# The picture in the window, as counts of red, blue, light and dark pixels.
+# The picture in the window, as counts of red, blue, light, white and dark pixels.
 proc count_pixels {name} {
     global scratch
     display update
@@ -24,7 +24,7 @@ proc count_pixels {name} {
     close $channel
     binary scan [string range $bytes 12 15] ss width height
     set pixels [string range $bytes 18 [expr {17 + 3 * $width * $height}]]
-    array set n {red 0 blue 0 light 0 dark 0 brown 0}
+    array set n {red 0 blue 0 light 0 white 0 dark 0 brown 0}
     # Every seventh pixel will do.
     for {set i 0} {$i < $width * $height} {incr i 7} {
         binary scan $pixels @[expr {3 * $i}]cucucu b g r
@@ -32,6 +32,7 @@ proc count_pixels {name} {
         if {$b > $r + 60 && $b > $g + 40} { incr n(blue) }
         if {$r > $b + 60 && $g > $b + 20} { incr n(brown) }
         if {min($r, $g, $b) > 110} { incr n(light) }
+        if {min($r, $g, $b) > 250} { incr n(white) }
         if {max($r, $g, $b) < 20} { incr n(dark) }
     }
     return [array get n]
@@ -59,7 +60,7 @@ test "the difference is drawn, and the user's settings are as they were" {
     note "    $n"
     check "red" {[dict get $n red] > 200}
     check "blue" {[dict get $n blue] > 200}
-    check "white" {[dict get $n light] > 1000}
+    check "light" {[dict get $n light] > 1000}
 }
 
 test "it stays as it is when the user changes the colour scale" {
@@ -85,6 +86,15 @@ test "another quantity takes its place, with other colours" {
     espdiff draw $comparison -color none -legend 0
     set n [count_pixels none]
     check "no colour" {[dict get $n red] + [dict get $n blue] + [dict get $n brown] < 20}
+}
+
+test "VMD's lights do not wash the colours out" {
+    espdiff draw $comparison -transparency none -legend 0
+    rotate y by -30
+    set n [count_pixels lights]
+    rotate y by 30
+    note "    $n"
+    check "not white" {[dict get $n white] < 0.005 * [dict get $n light]}
 }
 
 test "what is uncertain is transparent" {
