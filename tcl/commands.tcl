@@ -9,7 +9,7 @@
 namespace eval ::espdiff {
     variable computing {
         {-device device auto "Where to compute: auto takes a GPU if one answers, cuda:1 the second one"}
-        {-threads count 0 "CPU threads; 0 takes all. The result is the same for any number"}
+        {-threads count 0 "CPU threads; 0 takes OMP_NUM_THREADS, else all. The result is the same for any number"}
         {-progress command {} "Called as CMD stage fraction (0 to 1) about 20 times a second; `break` from it cancels"}
         {-command command {} "Compute in the background, and call CMD handle from the event loop at the end"}
     }
@@ -233,7 +233,7 @@ namespace eval ::espdiff {
             {-dxfile file {} "Write the mean to this DX file"}
             {-loadmol text same "Molecule that gets the maps as data sets: an id, same, new, or none"}
             {-device device auto "Where to compute: auto takes a GPU if one answers, cuda:1 the second one"}
-            {-threads count 0 "CPU threads; 0 takes all. The result is the same for any number"}
+            {-threads count 0 "CPU threads; 0 takes OMP_NUM_THREADS, else all. The result is the same for any number"}
             {-progress command {} "Called as CMD stage fraction; `break` from it cancels"}
         } \
         summary {Computes the electrostatic potential of a molecule's charges, by PME in the cell of each frame, or its

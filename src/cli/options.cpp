@@ -33,7 +33,9 @@ void add_device_options(CLI::App& parser, DeviceArguments& arguments) {
       ->type_name("auto|cpu|cuda|cuda:N")
       ->capture_default_str()
       ->group("Computation");
-  parser.add_option("--threads", arguments.threads, "CPU threads; 0 takes all. The result is the same for any number")
+  parser
+      .add_option("--threads", arguments.threads,
+                  "CPU threads; 0 takes OMP_NUM_THREADS, else all. The result is the same for any number")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str()
       ->group("Computation");

@@ -2,6 +2,7 @@
 #include "engine/select_engine.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <thread>
 
 #include "base/error.h"
@@ -59,8 +60,18 @@ DeviceRequest parse_device(const std::string& text) {
   throw InputError("unknown device '" + text + "'; use auto, cpu, cuda, or cuda:N for the GPU of that index");
 }
 
+int available_threads() {
+  // As OpenMP reads it: of a list the first, for the outermost team. Read here, since the engine sets the number
+  // itself.
+  constexpr long kMost = 4096;
+  const char* const text = std::getenv("OMP_NUM_THREADS");
+  const long wanted = text != nullptr ? std::strtol(text, nullptr, 10) : 0;
+  if (wanted > 0 && wanted <= kMost) return static_cast<int>(wanted);
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
 BackEndStatus cpu_status() {
-  const unsigned n = std::max(1U, std::thread::hardware_concurrency());
+  const int n = available_threads();
   return {"cpu", true, std::to_string(n) + (n == 1 ? " thread" : " threads")};
 }
 
@@ -104,8 +115,7 @@ std::unique_ptr<Engine> select_engine(const DeviceRequest& device, int n_threads
 #else
   device_status(device);
 #endif
-  const int all = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  return cpu_backend::make_engine(n_threads > 0 ? n_threads : all);
+  return cpu_backend::make_engine(n_threads > 0 ? n_threads : available_threads());
 }
 
 }  // namespace espdiff

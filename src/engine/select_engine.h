@@ -32,6 +32,9 @@ struct BackEndStatus {
   bool available = false;
   std::string description;  ///< the device, or why there is none and the remedy
 };
+/// CPU threads where none are asked for: what OMP_NUM_THREADS says, as batch systems set it, else all cores that the
+/// process may run on.
+int available_threads();
 BackEndStatus cpu_status();
 /// What select_engine() would take.
 /// @throws DeviceError as select_engine()
@@ -45,7 +48,7 @@ BackEndStatus cpu_fourier_status();
 BackEndStatus cuda_fourier_status();
 
 /// Makes an engine.
-/// @param n_threads CPU threads; 0 takes as many as the machine offers. A device ignores it.
+/// @param n_threads CPU threads; 0 takes available_threads(). A device ignores it.
 /// @throws DeviceError when the GPU that was asked for is not there or does not work; InputError when n_threads is
 /// negative
 std::unique_ptr<Engine> select_engine(const DeviceRequest& device, int n_threads);

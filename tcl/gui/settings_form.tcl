@@ -16,7 +16,7 @@ namespace eval ::espdiff::gui {
         lappend rows [dict create name device group Computing kind choice choices [device_choices] default auto \
             help "Where to compute: auto takes a GPU if one answers"]
         lappend rows {name threads group Computing kind integer choices {} default 0
-            help "CPU threads; 0 takes all. The result is the same for any number"}
+            help "CPU threads; 0 takes OMP_NUM_THREADS, else all. The result is the same for any number"}
         return $rows
     }
 

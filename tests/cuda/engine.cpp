@@ -1,7 +1,10 @@
 // engine.cpp: choosing a back end, and what it says of itself; handles that do not fit a stage.
 #include <doctest/doctest.h>
 
+#include <cstdlib>
 #include <memory>
+#include <string>
+#include <utility>
 
 #include "base/error.h"
 #include "cuda/shapes.h"
@@ -20,7 +23,27 @@ TEST_CASE("the CPU back end is always there and has the threads asked for") {
     CHECK(engine->n_threads() == n);
     CHECK(engine->description().find(std::to_string(n)) == 0);
   }
-  CHECK(espdiff::select_engine(DeviceChoice::kCpu, 0)->n_threads() >= 1);
+  CHECK(espdiff::select_engine(DeviceChoice::kCpu, 0)->n_threads() == espdiff::available_threads());
+}
+
+TEST_CASE("without a number of threads OMP_NUM_THREADS holds, else every core") {
+  const char* const before = std::getenv("OMP_NUM_THREADS");
+  const std::string kept = before != nullptr ? before : "";
+  unsetenv("OMP_NUM_THREADS");
+  const int all = espdiff::available_threads();
+  CHECK(all >= 1);
+  for (const auto& [text, n] :
+       {std::pair<const char*, int>{"3", 3}, {"5,2", 5}, {"0", all}, {"many", all}, {"-1", all}}) {
+    setenv("OMP_NUM_THREADS", text, 1);
+    CAPTURE(text);
+    CHECK(espdiff::available_threads() == n);
+    CHECK(espdiff::select_engine(DeviceChoice::kCpu, 0)->n_threads() == n);
+    CHECK(espdiff::select_engine(DeviceChoice::kCpu, 2)->n_threads() == 2);
+  }
+  if (before != nullptr)
+    setenv("OMP_NUM_THREADS", kept.c_str(), 1);
+  else
+    unsetenv("OMP_NUM_THREADS");
 }
 
 TEST_CASE("auto takes the device where there is one; an explicit cuda without one is an error with a remedy") {
