@@ -21,23 +21,26 @@
 
 namespace ptx {
 
-template <std::size_t kBytes>
+__extension__ using Int128 = __int128;
+__extension__ using UInt128 = unsigned __int128;
+
+template <std::size_t Bytes>
 struct BitsOf;
 template <>
 struct BitsOf<1> {
-  using type = std::uint8_t;
+  using Type = std::uint8_t;
 };
 template <>
 struct BitsOf<2> {
-  using type = std::uint16_t;
+  using Type = std::uint16_t;
 };
 template <>
 struct BitsOf<4> {
-  using type = std::uint32_t;
+  using Type = std::uint32_t;
 };
 template <>
 struct BitsOf<8> {
-  using type = std::uint64_t;
+  using Type = std::uint64_t;
 };
 
 /// The same bits as another type of that size.
@@ -55,7 +58,7 @@ inline To as(From from) {
   if constexpr (sizeof(To) == sizeof(From))
     return bits<To>(from);
   else
-    return bits<To>(static_cast<typename BitsOf<sizeof(To)>::type>(bits<typename BitsOf<sizeof(From)>::type>(from)));
+    return bits<To>(static_cast<typename BitsOf<sizeof(To)>::Type>(bits<typename BitsOf<sizeof(From)>::Type>(from)));
 }
 
 /// Puts a value into a register that is at least as wide.
@@ -94,9 +97,9 @@ inline std::uint64_t shared_offset(const Thread* t, std::uint64_t place) { retur
 
 // ---- memory
 
-template <typename T, int kN>
+template <typename T, int N>
 struct Elements {
-  T value[kN];
+  T value[N];
 };
 
 template <typename T>
@@ -179,13 +182,13 @@ inline Wide multiply_wide(T a, T b) {
 
 template <typename T>
 inline T multiply_high(T a, T b) {
-  using Product = std::conditional_t<std::is_signed_v<T>, __int128, unsigned __int128>;
+  using Product = std::conditional_t<std::is_signed_v<T>, Int128, UInt128>;
   return static_cast<T>(static_cast<Product>(a) * static_cast<Product>(b) >> CHAR_BIT * sizeof(T));
 }
 
 template <typename Register, typename T>
 inline void add_with_carry(std::uint32_t& carry, Register& to, T a, T b) {
-  const unsigned __int128 sum = static_cast<unsigned __int128>(a) + b + carry;
+  const UInt128 sum = static_cast<UInt128>(a) + b + carry;
   carry = static_cast<std::uint32_t>(sum >> CHAR_BIT * sizeof(T)) & 1U;
   set(to, static_cast<T>(sum));
 }
@@ -249,33 +252,33 @@ inline T reciprocal_root(T a) {
 
 enum Rounding { kNearest, kTowardZero, kDown, kUp };
 
-template <Rounding kMode, typename T>
+template <Rounding Mode, typename T>
 inline T round_to_integer(T a) {
-  return kMode == kNearest      ? std::nearbyint(a)
-         : kMode == kTowardZero ? std::trunc(a)
-         : kMode == kDown       ? std::floor(a)
-                                : std::ceil(a);
+  return Mode == kNearest      ? std::nearbyint(a)
+         : Mode == kTowardZero ? std::trunc(a)
+         : Mode == kDown       ? std::floor(a)
+                               : std::ceil(a);
 }
 
-template <typename To, Rounding kMode, typename From>
+template <typename To, Rounding Mode, typename From>
 inline To convert(From from) {
   if constexpr (std::is_floating_point_v<From> && std::is_floating_point_v<To>) {
-    if constexpr (sizeof(To) == sizeof(From)) return round_to_integer<kMode>(from);
-    static_assert(kMode == kNearest || sizeof(To) >= sizeof(From), "a rounding that is not known");
+    if constexpr (sizeof(To) == sizeof(From)) return round_to_integer<Mode>(from);
+    static_assert(Mode == kNearest || sizeof(To) >= sizeof(From), "a rounding that is not known");
     return static_cast<To>(from);
   } else if constexpr (std::is_floating_point_v<From>) {
     if (from != from) return sizeof(To) == 8 ? static_cast<To>(std::uint64_t{1} << 63) : To{0};
-    const From rounded = round_to_integer<kMode>(from);
+    const From rounded = round_to_integer<Mode>(from);
     if (rounded >= static_cast<From>(std::numeric_limits<To>::max())) return std::numeric_limits<To>::max();
     if (rounded <= static_cast<From>(std::numeric_limits<To>::min())) return std::numeric_limits<To>::min();
     return static_cast<To>(rounded);
   } else {
     To to = static_cast<To>(from);
-    if constexpr (std::is_floating_point_v<To> && kMode != kNearest) {
+    if constexpr (std::is_floating_point_v<To> && Mode != kNearest) {
       const long double error = static_cast<long double>(to) - static_cast<long double>(from);
       const To infinity = std::numeric_limits<To>::infinity();
-      if (error > 0 && (kMode == kDown || (kMode == kTowardZero && to > 0))) to = std::nextafter(to, -infinity);
-      if (error < 0 && (kMode == kUp || (kMode == kTowardZero && to < 0))) to = std::nextafter(to, infinity);
+      if (error > 0 && (Mode == kDown || (Mode == kTowardZero && to > 0))) to = std::nextafter(to, -infinity);
+      if (error < 0 && (Mode == kUp || (Mode == kTowardZero && to < 0))) to = std::nextafter(to, infinity);
     }
     return to;
   }
@@ -357,7 +360,7 @@ inline T reverse_bits(T a) {
 
 template <typename T>
 inline std::uint32_t highest_bit(T a) {
-  using Bits = typename BitsOf<sizeof(T)>::type;
+  using Bits = typename BitsOf<sizeof(T)>::Type;
   const Bits b = static_cast<Bits>(std::is_signed_v<T> && a < 0 ? ~a : a);
   return b == 0 ? UINT32_MAX : static_cast<std::uint32_t>(CHAR_BIT * sizeof(T)) - 1 - leading_zeros(b);
 }

@@ -4,7 +4,7 @@
 Usage: translate_ptx.py OUTPUT_FOLDER OBJECT...
 
 An object must hold its PTX uncompressed (nvcc --no-compress, a virtual architecture). For NAME.cu.o, OUTPUT_FOLDER gets
-NAME.ptx.cpp: a function for each kernel, which runs one thread, and an entry in the table of ptx_machine.h. Registers
+NAME.ptx.cpp: a function for each kernel, which runs one thread, and an entry in the table of kernel.h. Registers
 become variables, branches become goto, and an instruction becomes a call of what ptx_instructions.h says that it does.
 A kernel that was seen in an earlier object (an instance of a template) is not written again.
 
