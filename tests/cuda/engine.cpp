@@ -32,12 +32,12 @@ TEST_CASE("without a number of threads OMP_NUM_THREADS holds, else every core") 
   unsetenv("OMP_NUM_THREADS");
   const int all = espdiff::available_threads();
   CHECK(all >= 1);
-  for (const auto& [text, n] :
-       {std::pair<const char*, int>{"3", 3}, {"5,2", 5}, {"0", all}, {"many", all}, {"-1", all}}) {
-    setenv("OMP_NUM_THREADS", text, 1);
-    CAPTURE(text);
-    CHECK(espdiff::available_threads() == n);
-    CHECK(espdiff::select_engine(DeviceChoice::kCpu, 0)->n_threads() == n);
+  using TextAndNumber = std::pair<const char*, int>;
+  for (const TextAndNumber& given : {TextAndNumber{"3", 3}, {"5,2", 5}, {"0", all}, {"many", all}, {"-1", all}}) {
+    setenv("OMP_NUM_THREADS", given.first, 1);
+    CAPTURE(given.first);
+    CHECK(espdiff::available_threads() == given.second);
+    CHECK(espdiff::select_engine(DeviceChoice::kCpu, 0)->n_threads() == given.second);
     CHECK(espdiff::select_engine(DeviceChoice::kCpu, 2)->n_threads() == 2);
   }
   if (before != nullptr)
