@@ -1,3 +1,4 @@
+// whole_runs.cpp: makes the variants and charges, and times the matrix and PME on them.
 #include "whole_runs.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// device_memory.cpp: a file in memory, mapped twice; allocations with red zones around them.
 #include "device_memory.h"
 
 #include <sys/mman.h>

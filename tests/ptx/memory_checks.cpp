@@ -1,3 +1,4 @@
+// memory_checks.cpp: what is known of each byte, and what was found.
 #include "memory_checks.h"
 
 #include <sys/mman.h>

@@ -16,6 +16,12 @@ SPECIAL_REGISTERS = {
 for _register, _member in (("tid", "thread"), ("ntid", "block_size"), ("ctaid", "block"), ("nctaid", "grid_size")):
     for _axis in "xyz":
         SPECIAL_REGISTERS[f"%{_register}.{_axis}"] = f"t->{_member}.{_axis}"
+# Instructions that are a function of their operands, all of the type that the instruction ends with.
+FUNCTIONS = {
+    "rem": "remainder_of", "min": "minimum", "max": "maximum", "abs": "absolute", "sqrt": "std::sqrt",
+    "rcp": "reciprocal", "rsqrt": "reciprocal_root", "ex2": "std::exp2", "lg2": "std::log2", "sin": "std::sin",
+    "cos": "std::cos", "popc": "count_ones", "clz": "leading_zeros", "brev": "reverse_bits",
+}
 
 
 class Function:
@@ -140,6 +146,8 @@ class Function:
         words = text.split(None, 1)
         operation = words[0].split(".")
         operands = split_operands(words[1]) if len(words) > 1 else []
+        if operation[0] in FUNCTIONS:
+            return f"  {condition}{{ {self.call(FUNCTIONS[operation[0]], operation[1:], operands)} }}"
         method = getattr(self, "op_" + operation[0], None)
         if method is None:
             raise Unknown("instruction")
@@ -229,45 +237,12 @@ class Function:
         given = types or (q[-1],) * (len(o) - 1)
         return self.write(o[0], f"{name}({', '.join(self.read(x, t) for x, t in zip(o[1:], given))})")
 
-    def op_rem(self, q, o, _):
-        return self.call("remainder_of", q, o)
-
-    def op_min(self, q, o, _):
-        return self.call("minimum", q, o)
-
-    def op_max(self, q, o, _):
-        return self.call("maximum", q, o)
-
     def op_neg(self, q, o, _):
         value = self.read(o[1], q[-1])
         return self.write(o[0], f"-{value}" if q[-1] in FLOATS else f"static_cast<{C_TYPES[q[-1]]}>(0 - wide({value}))")
 
-    def op_abs(self, q, o, _):
-        return self.call("absolute", q, o)
-
     def op_copysign(self, q, o, _):
         return self.write(o[0], f"std::copysign({self.read(o[2], q[-1])}, {self.read(o[1], q[-1])})")
-
-    def op_sqrt(self, q, o, _):
-        return self.call("std::sqrt", q, o)
-
-    def op_rcp(self, q, o, _):
-        return self.call("reciprocal", q, o)
-
-    def op_rsqrt(self, q, o, _):
-        return self.call("reciprocal_root", q, o)
-
-    def op_ex2(self, q, o, _):
-        return self.call("std::exp2", q, o)
-
-    def op_lg2(self, q, o, _):
-        return self.call("std::log2", q, o)
-
-    def op_sin(self, q, o, _):
-        return self.call("std::sin", q, o)
-
-    def op_cos(self, q, o, _):
-        return self.call("std::cos", q, o)
 
     # ---- bits
 
@@ -308,15 +283,6 @@ class Function:
 
     def op_bfi(self, q, o, _):
         return self.call("insert_bits", q, o, q[-1], q[-1], "u32", "u32")
-
-    def op_popc(self, q, o, _):
-        return self.call("count_ones", q, o)
-
-    def op_clz(self, q, o, _):
-        return self.call("leading_zeros", q, o)
-
-    def op_brev(self, q, o, _):
-        return self.call("reverse_bits", q, o)
 
     def op_bfind(self, q, o, _):
         if "shiftamt" in q:

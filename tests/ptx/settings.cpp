@@ -1,3 +1,4 @@
+// settings.cpp: reads ESPDIFF_PTX; ends the program where something is wrong.
 #include "settings.h"
 
 #include <cstdarg>

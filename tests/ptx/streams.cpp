@@ -1,3 +1,4 @@
+// streams.cpp: queues of work, and the functions that a library calls to put some in.
 #include "streams.h"
 
 #include <set>

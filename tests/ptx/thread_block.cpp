@@ -1,3 +1,4 @@
+// thread_block.cpp: runs grids: threads that meet are fibers, switched by hand; others run one after the other.
 #include "thread_block.h"
 
 #include <sys/mman.h>
