@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "base/error.h"
+#include "compare/compare.h"
 #include "dcd_frames.h"
 #include "engine/select_engine.h"
 #include "pair_row.h"
-#include "pipeline/compare.h"
 
 namespace {
 

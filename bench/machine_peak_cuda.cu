@@ -1,7 +1,7 @@
 // machine_peak_cuda.cu: the first GPU's bandwidth and arithmetic.
 #include <algorithm>
 
-#include "device.h"
+#include "cuda/device/device.h"
 #include "machine_peak.h"
 
 namespace espdiff_bench {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <sstream>
 
-#include "pipeline/write_compare.h"
+#include "report/write_compare.h"
 
 namespace espdiff_bench {
 namespace {

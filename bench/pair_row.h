@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "pipeline/compare.h"
+#include "compare/compare.h"
 #include "real_pairs.h"
 
 namespace espdiff_bench {

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "compare/settings.h"
 #include "engine/select_engine.h"
 #include "pair_row.h"
-#include "pipeline/settings.h"
 #include "real_pairs.h"
 
 namespace {

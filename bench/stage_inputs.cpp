@@ -4,7 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "cuda/mesh_checks.h"
+#include "cuda/certificate/mesh_checks.h"
 #include "io/read_structure.h"
 #include "real_pairs.h"
 #include "synthetic_protein.h"

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/types.h"
+#include "compare/compare.h"
 #include "engine/select_engine.h"
 #include "marching_cubes_peer.h"
-#include "pipeline/compare.h"
 
 namespace espdiff_bench {
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "io/read_structure.h"
-#include "pipeline/matrix.h"
+#include "matrix/matrix.h"
 #include "random_charges.h"
 #include "real_pairs.h"
 #include "synthetic_protein.h"

@@ -9,37 +9,37 @@
 #include <string>
 #include <thread>
 
-#include "adjacency.h"
 #include "base/error.h"
-#include "carry.h"
-#include "certificate.h"
-#include "components.h"
-#include "coulomb.h"
-#include "deform.h"
-#include "density.h"
-#include "density_at_points.h"
-#include "distortion.h"
+#include "cuda/certificate/carry.h"
+#include "cuda/certificate/certificate.h"
+#include "cuda/certificate/distortion.h"
+#include "cuda/certificate/intersections.h"
+#include "cuda/certificate/metrics.h"
+#include "cuda/deform/deform.h"
+#include "cuda/deform/fields.h"
+#include "cuda/deform/vector_flow.h"
+#include "cuda/device/spatial_order.h"
+#include "cuda/morph/morph.h"
+#include "cuda/potential/coulomb.h"
+#include "cuda/potential/pme.h"
+#include "cuda/surface/adjacency.h"
+#include "cuda/surface/components.h"
+#include "cuda/surface/density.h"
+#include "cuda/surface/density_at_points.h"
+#include "cuda/surface/isosurface.h"
+#include "cuda/surface/level_set_normals.h"
+#include "cuda/surface/project.h"
+#include "cuda/surface/sample.h"
+#include "cuda/surface/subdivide.h"
+#include "cuda/surface/submesh.h"
 #include "engine/engine.h"
 #include "engine/make_engine.h"
-#include "fields.h"
-#include "intersections.h"
-#include "isosurface.h"
-#include "level_set_normals.h"
-#include "metrics.h"
-#include "morph.h"
-#include "pme.h"
-#include "project.h"
-#include "sample.h"
-#include "spatial_order.h"
-#include "subdivide.h"
-#include "submesh.h"
-#include "vector_flow.h"
 
 #if defined(ESPDIFF_BACKEND_CUDA)
 #include <cuda_runtime_api.h>
 #include <thrust/system_error.h>
 
-#include "cuda_context.h"
+#include "cuda/device/cuda_context.h"
 #endif
 
 namespace espdiff::ESPDIFF_BACKEND {

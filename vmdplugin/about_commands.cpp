@@ -5,13 +5,13 @@
 #include "base/error.h"
 #include "base/version.h"
 #include "commands.h"
+#include "compare/settings.h"
 #include "engine/select_engine.h"
 #include "io/read_dx.h"
 #include "io/read_structure.h"
 #include "molfile_bridge.h"
-#include "pipeline/settings.h"
+#include "plot/colour_map.h"
 #include "tcl_values.h"
-#include "view/colour_map.h"
 
 namespace espdiff::vmdplugin {
 namespace {

@@ -2,10 +2,10 @@
 // it.
 #include "base/error.h"
 #include "commands.h"
+#include "compare/settings.h"
 #include "engine/select_engine.h"
-#include "pipeline/series_file.h"
-#include "pipeline/settings.h"
 #include "tcl_values.h"
+#include "trajectory/series_file.h"
 
 namespace espdiff::vmdplugin {
 Computation parse_computation(DictReader& reader, bool* regularize) {

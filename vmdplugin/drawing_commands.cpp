@@ -6,7 +6,7 @@
 #include "commands.h"
 #include "graphics_draw.h"
 #include "io/write_grid.h"
-#include "pipeline/difference_map.h"
+#include "report/difference_map.h"
 #include "tcl_values.h"
 #include "vertex_quantity.h"
 #include "volume_store.h"

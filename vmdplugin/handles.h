@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "endpoint.h"
-#include "pipeline/matrix_run.h"
-#include "pipeline/write_compare.h"
+#include "matrix/matrix_run.h"
+#include "report/write_compare.h"
 #include "worker.h"
 
 namespace espdiff::vmdplugin {

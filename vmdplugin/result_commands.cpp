@@ -3,9 +3,9 @@
 #include <sstream>
 
 #include "commands.h"
-#include "pipeline/residue_values.h"
-#include "pipeline/write_matrix.h"
-#include "pipeline/write_surface.h"
+#include "matrix/write_matrix.h"
+#include "report/residue_values.h"
+#include "report/write_surface.h"
 #include "tcl_values.h"
 #include "vertex_quantity.h"
 

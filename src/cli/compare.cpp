@@ -5,8 +5,8 @@
 #include "cli/verbs.h"
 #include "io/atomic_file.h"
 #include "io/sha256.h"
-#include "pipeline/residue_values.h"
-#include "pipeline/write_compare.h"
+#include "report/residue_values.h"
+#include "report/write_compare.h"
 
 namespace espdiff::cli {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "cli/options.h"
 #include "io/read_unit_cells.h"
-#include "pipeline/computed_map.h"
-#include "pipeline/write_compare.h"
+#include "potential/computed_map.h"
+#include "report/write_compare.h"
 
 namespace espdiff::cli {
 

@@ -6,8 +6,8 @@
 #include "cli/map_options.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
-#include "pipeline/matrix_run.h"
-#include "pipeline/write_matrix.h"
+#include "matrix/matrix_run.h"
+#include "matrix/write_matrix.h"
 
 namespace espdiff::cli {
 namespace {

@@ -2,8 +2,8 @@
 #include <iostream>
 
 #include "cli/verbs.h"
-#include "pipeline/matrix_run.h"
-#include "pipeline/write_matrix.h"
+#include "matrix/matrix_run.h"
+#include "matrix/write_matrix.h"
 
 namespace espdiff::cli {
 namespace {

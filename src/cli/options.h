@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "compare/settings.h"
 #include "engine/engine.h"
 #include "io/read_structure.h"
-#include "pipeline/potential.h"
-#include "pipeline/settings.h"
+#include "potential/potential.h"
 
 namespace espdiff::cli {
 

@@ -6,10 +6,10 @@
 #include "cli/verbs.h"
 #include "io/read_csv.h"
 #include "io/text_cursor.h"
-#include "pipeline/matrix.h"
-#include "pipeline/read_matrix.h"
-#include "view/heat_map.h"
-#include "view/line_plot.h"
+#include "matrix/matrix.h"
+#include "matrix/read_matrix.h"
+#include "plot/heat_map.h"
+#include "plot/line_plot.h"
 
 namespace espdiff::cli {
 namespace {

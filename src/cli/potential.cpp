@@ -9,8 +9,8 @@
 #include "cli/verbs.h"
 #include "io/read_unit_cells.h"
 #include "io/write_grid.h"
-#include "pipeline/frame_range.h"
-#include "pipeline/potential.h"
+#include "potential/potential.h"
+#include "trajectory/frame_range.h"
 
 namespace espdiff::cli {
 namespace {

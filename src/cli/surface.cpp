@@ -5,7 +5,7 @@
 #include "cli/options.h"
 #include "cli/verbs.h"
 #include "io/write_grid.h"
-#include "pipeline/write_surface.h"
+#include "report/write_surface.h"
 
 namespace espdiff::cli {
 namespace {

@@ -1,5 +1,5 @@
 // trajectory.cpp: `espdiff trajectory SOURCE FRAMES... -o OUT.csv`.
-#include "pipeline/trajectory.h"
+#include "trajectory/trajectory.h"
 
 #include <chrono>
 #include <cstdio>
@@ -11,8 +11,8 @@
 #include "cli/verbs.h"
 #include "io/sha256.h"
 #include "io/write_csv.h"
-#include "pipeline/frame_files.h"
-#include "pipeline/frame_range.h"
+#include "trajectory/frame_files.h"
+#include "trajectory/frame_range.h"
 
 namespace espdiff::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <vtkSmartPointer.h>
 
 #include "base/types.h"
-#include "view/colour_map.h"
+#include "plot/colour_map.h"
 
 class vtkPolyData;
 

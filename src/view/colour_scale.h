@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "view/colour_map.h"
+#include "plot/colour_map.h"
 
 namespace espdiff {
 

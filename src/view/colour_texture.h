@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "view/colour_map.h"
+#include "plot/colour_map.h"
 
 class vtkOpenGLRenderWindow;
 class vtkWindow;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/vector.h"
-#include "view/colour_map.h"
+#include "plot/colour_map.h"
 #include "view/colour_scale.h"
 
 class vtkRenderer;

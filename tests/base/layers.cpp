@@ -19,10 +19,16 @@ const Rooms kAllowed = {
     {"align", {"base"}},
     {"engine", {"base"}},
     {"cuda", {"base", "engine"}},
-    {"pipeline", {"base", "align", "engine", "io"}},
-    {"view", {"base", "io"}},
-    {"cli", {"base", "align", "engine", "io", "pipeline", "view"}},
-    {"vmdplugin", {"base", "align", "engine", "io", "pipeline", "view"}},
+    {"compare", {"base", "align", "engine"}},
+    {"potential", {"base", "align", "engine", "io", "compare"}},
+    {"plot", {"base", "io"}},
+    {"view", {"base", "io", "plot"}},
+    {"report", {"base", "align", "engine", "io", "compare", "potential"}},
+    {"trajectory", {"base", "align", "engine", "io", "compare", "potential", "report"}},
+    {"matrix", {"base", "align", "engine", "io", "compare", "potential", "report"}},
+    {"cli",
+     {"base", "align", "engine", "io", "compare", "potential", "plot", "view", "report", "trajectory", "matrix"}},
+    {"vmdplugin", {"base", "align", "engine", "io", "compare", "potential", "plot", "report", "trajectory", "matrix"}},
 };
 
 std::string quoted_include(const std::string& line) {

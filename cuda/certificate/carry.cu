@@ -1,0 +1,79 @@
+// carry.cu: finds each point's nearest place on a surface and takes the same place of its image.
+#include "cuda/certificate/carry.h"
+
+#include <cmath>
+
+#include "base/error.h"
+#include "cuda/surface/triangle_tree.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+namespace {
+
+/// Points handled one after the other: neighbours in the list are neighbours in space.
+constexpr std::size_t kRun = 32;
+
+/// Weights of a triangle's corners.
+struct Place {
+  float a, b, c;
+};
+
+ESPDIFF_INLINE float along(Vec3f p, Vec3f from, Vec3f to) {
+  const Vec3f edge = to - from;
+  const float square = dot(edge, edge);
+  return square > 0 ? smaller(larger(dot(p - from, edge) / square, 0.0F), 1.0F) : 0.0F;
+}
+
+/// The place of a triangle nearest to p: its foot where that lies in the face, else the nearest place on an edge.
+ESPDIFF_INLINE Place nearest_place(Vec3f p, const PlacedTriangle& t) {
+  const Vec3f n = cross(t.b - t.a, t.c - t.a);
+  const float nn = dot(n, n);
+  if (nn > 0) {
+    const float a = dot(cross(t.c - t.b, p - t.b), n) / nn, b = dot(cross(t.a - t.c, p - t.c), n) / nn;
+    const float c = 1.0F - a - b;
+    if (a >= 0 && b >= 0 && c >= 0) return {a, b, c};
+  }
+  const float ab = along(p, t.a, t.b), bc = along(p, t.b, t.c), ca = along(p, t.c, t.a);
+  const Place places[3] = {{1.0F - ab, ab, 0.0F}, {0.0F, 1.0F - bc, bc}, {ca, 0.0F, 1.0F - ca}};
+  int nearest = 0;
+  float least = 0;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3f d = p - (places[i].a * t.a + places[i].b * t.b + places[i].c * t.c);
+    if (i > 0 && dot(d, d) >= least) continue;
+    least = dot(d, d);
+    nearest = i;
+  }
+  return places[nearest];
+}
+
+}  // namespace
+
+std::shared_ptr<SurfaceMesh> carry(const SurfaceMesh& points, const SurfaceMesh& surface, const SurfaceMesh& image,
+                                   float max_distance_A) {
+  if (surface.n_vertices() != image.n_vertices() || surface.n_triangles() != image.n_triangles())
+    throw GeometryError("carry: the surface and its image are not of one topology");
+  const TriangleTree tree_of_surface = make_triangle_tree(surface);
+  const TriangleTreeView tree = tree_of_surface.view();
+  auto carried = std::make_shared<SurfaceMesh>();
+  carried->topology = points.topology;
+  const std::size_t n = points.n_vertices();
+  carried->positions.resize(n);
+  const Corners* const corners = raw(surface.topology->triangles);
+  const Vec4f *const from = raw(points.positions), *const to = raw(image.positions);
+  Vec4f* const out = raw(carried->positions);
+  for_each_index((n + kRun - 1) / kRun, [=] ESPDIFF_HD(std::size_t run) {
+    std::uint32_t guess = 0;
+    for (std::size_t v = run * kRun; v < (run + 1) * kRun && v < n; ++v) {
+      const Vec3f p = from[v].xyz();
+      const NearestTriangle nearest = nearest_triangle(tree, p, guess);
+      guess = nearest.place;
+      const Place place = nearest_place(p, tree.triangles[guess]);
+      const Corners c = corners[tree.order[guess]];
+      const Vec3f there = place.a * to[c.v[0]].xyz() + place.b * to[c.v[1]].xyz() + place.c * to[c.v[2]].xyz();
+      const bool near = nearest.squared_distance <= max_distance_A * max_distance_A;
+      out[v] = make_vec4(near ? there : Vec3f{NAN, NAN, NAN}, 0.0F);
+    }
+  });
+  return carried;
+}
+
+}  // namespace espdiff::ESPDIFF_BACKEND

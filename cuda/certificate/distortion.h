@@ -1,0 +1,11 @@
+// distortion.h: how a mapping stretches and crushes the surface.
+#pragma once
+
+#include "cuda/surface/mesh.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+
+/// See Engine::distortion().
+DistortionReport distortion(const SurfaceMesh& source, const SurfaceMesh& mapped, double limit);
+
+}  // namespace espdiff::ESPDIFF_BACKEND

@@ -1,0 +1,83 @@
+// deform_iteration.h: one iteration of deform() for one vertex, and the two ways of running many: one by one, and on a
+// GPU as a graph of many that is launched again and again.
+#pragma once
+
+#include "cuda/deform/deform.h"
+#include "cuda/surface/adjacency.h"
+#include "cuda/surface/sample.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+
+/// Iterations between checks for convergence: a check sums over all vertices.
+constexpr int kCheckInterval = 5;
+
+/// What one iteration reads and writes.
+struct Iteration {
+  TopologyView topology;
+  CubicLattice lattice;
+  const Vec4f* field;
+  const Vec4f* from;  // [vertex]
+  const Vec4f* rest;  // [vertex] L of the rest shape
+  Vec4f* laplacian;   // [vertex] L of `from`, less that of the rest shape
+  Vec4f* to;          // [vertex] w: how far the vertex moved
+  float* way;         // [vertex] how far it has moved in all iterations
+  float* strength;    // [vertex] s: positive while outside, negative while inside, halved at each crossing
+  float step_external, step_tension, step_rigidity;  // sigma mu, g sigma (1 - mu)(1 - rho), g sigma (1 - mu) rho
+  bool tricubic;
+};
+
+ESPDIFF_INLINE Vec4f field_at(const Iteration& it, Vec3f p) {
+  return it.tricubic ? sample_tricubic(it.lattice, it.field, p) : sample_trilinear(it.lattice, it.field, p);
+}
+
+ESPDIFF_INLINE void move_vertex(const Iteration& it, std::size_t v) {
+  const Vec4f x = it.from[v];
+  const Vec4f laplacian = it.laplacian[v];
+  const Vec4f laplacian_squared = umbrella(it.topology, it.laplacian, v);
+  Vec3f internal = (it.step_tension * laplacian - it.step_rigidity * laplacian_squared).xyz();
+
+  const Vec4f sample = field_at(it, x.xyz());
+  float s = it.strength[v];
+  if ((sample.w > 0) == (s > 0)) {
+    s *= -0.5F;
+    it.strength[v] = s;
+  }
+  const float length = norm(sample.xyz());
+  Vec3f moved = internal;
+  const bool has_neighbours = it.topology.first[v + 1] > it.topology.first[v];
+  if (length > 1e-12F && has_neighbours) {
+    const Vec3f n = (1.0F / length) * sample.xyz();
+    moved = internal + (it.step_external * s - dot(internal, n)) * n;
+  }
+  const float distance = norm(moved);
+  it.way[v] += distance;
+  it.to[v] = make_vec4(x.xyz() + moved, distance);
+}
+
+ESPDIFF_INLINE void take_laplacian(const Iteration& it, std::size_t v) {
+  it.laplacian[v] = umbrella(it.topology, it.from, v) - it.rest[v];
+}
+
+/// Sets the steps of the iteration's forces.
+void set_steps(Iteration& it, const DeformOptions& options);
+
+/// What is iterated: positions, and room for the next ones.
+struct DeformState {
+  Iteration iteration{};  ///< all but `from` and `to`
+  Buffer<Vec4f> positions, moved;
+};
+
+/// Iterates until the mean displacement falls below the smallest or the iterations are used up; positions end in
+/// `positions`. Reports progress, and may throw Cancelled, at checks.
+void iterate_one_by_one(DeformState& state, const DeformOptions& options, const std::string& stage,
+                        const Progress& progress, DeformReport& report);
+
+#if defined(ESPDIFF_BACKEND_CUDA)
+/// The same bits: some rounds of kCheckInterval iterations and a check are recorded once as a CUDA graph. The check
+/// decides on the device, and what follows it in the graph does nothing once it has converged, so that the host waits
+/// once for all rounds.
+void iterate_in_graphs(DeformState& state, const DeformOptions& options, const std::string& stage,
+                       const Progress& progress, DeformReport& report);
+#endif
+
+}  // namespace espdiff::ESPDIFF_BACKEND

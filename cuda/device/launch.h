@@ -1,0 +1,73 @@
+// launch.h: how a stage's work is started on the device: a body for each index, and the policy for Thrust's algorithms.
+#pragma once
+
+#include <cstddef>
+
+#include "base/vector.h"
+
+#if defined(ESPDIFF_BACKEND_CUDA)
+#include <thrust/system/cuda/execution_policy.h>
+
+#include "cuda/device/cuda_context.h"
+#else
+#include <thrust/execution_policy.h>
+#include <thrust/for_each.h>
+#include <thrust/iterator/counting_iterator.h>
+#endif
+
+namespace espdiff::ESPDIFF_BACKEND {
+
+// Each target wraps its Thrust in a namespace of its own (THRUST_CUB_WRAPPED_NAMESPACE).
+namespace thrust = THRUST_NS_QUALIFIER;
+
+#if defined(ESPDIFF_BACKEND_CUDA)
+
+/// Few threads to a block: a surface's 40,000 vertices then make blocks for every multiprocessor of a large GPU.
+constexpr unsigned kThreadsPerBlock = 128;
+
+template <typename Body>
+__global__ void __launch_bounds__(kThreadsPerBlock) for_each_kernel(std::size_t n, Body body) {
+  const std::size_t i = static_cast<std::size_t>(blockIdx.x) * kThreadsPerBlock + threadIdx.x;
+  if (i < n) body(i);
+}
+
+/// Calls body(i) for each i in [0, n) in parallel, after all that was asked for before; returns before it is done.
+/// Deterministic when no call writes what another reads or writes.
+template <typename Body>
+void for_each_index(std::size_t n, Body body) {
+  if (n == 0) return;
+  const std::size_t n_blocks = (n + kThreadsPerBlock - 1) / kThreadsPerBlock;
+  for_each_kernel<<<static_cast<unsigned>(n_blocks), kThreadsPerBlock, 0, CudaContext::current()->stream()>>>(n, body);
+  check_cuda(cudaGetLastError(), "starting a kernel");
+}
+
+/// Gives Thrust's algorithms their temporary memory from the engine's pool.
+struct ScratchAllocator {
+  using value_type = char;
+  char* allocate(std::ptrdiff_t n) {
+    return static_cast<char*>(CudaContext::current()->allocate(static_cast<std::size_t>(n)));
+  }
+  void deallocate(char* start, std::size_t) { CudaContext::current()->release(start); }
+};
+
+/// What Thrust's algorithms are called with: the engine's stream and pool. They may return before they are done.
+inline auto on_device() {
+  static ScratchAllocator scratch;  // has no state
+  return thrust::cuda::par_nosync(scratch).on(CudaContext::current()->stream());
+}
+
+#else
+
+/// Calls body(i) for each i in [0, n) in parallel. Deterministic when no call writes what another reads or writes.
+template <typename Body>
+void for_each_index(std::size_t n, Body body) {
+  if (n == 0) return;
+  thrust::for_each_n(thrust::device, thrust::counting_iterator<std::size_t>(0), n, body);
+}
+
+/// What Thrust's algorithms are called with.
+inline auto on_device() { return thrust::device; }
+
+#endif
+
+}  // namespace espdiff::ESPDIFF_BACKEND

@@ -1,0 +1,50 @@
+// moving_atoms.h: atoms on their way from source to target, at one time, and what a surface that follows them needs to
+// know at a point: density, gradient, the atoms' velocity, and the density's change in time.
+#pragma once
+
+#include <vector>
+
+#include "cuda/surface/atom_cells.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+
+/// How an atom is changing. Times run from 0 (source) to 1 (target).
+struct AtomChange {
+  Vec3f velocity;       ///< Angstrom / time
+  Vec3f spin;           ///< angular velocity of its surroundings, radians / time
+  float weight;         ///< 0 to 1: atoms without a counterpart fade
+  float weight_rate;    ///< 1 / time
+  float exponent_rate;  ///< of -1 / (2 s^2), 1 / (Angstrom^2 time)
+};
+
+/// Atoms at one time.
+struct MovingAtoms {
+  std::shared_ptr<AtomCells> cells;
+  Buffer<AtomChange> change;  ///< [sorted atom]
+};
+
+/// @throws InputError as make_atom_cells()
+MovingAtoms atoms_at(const std::vector<MovingAtom>& atoms, double time);
+
+/// At a point: rho = sum_i w_i exp(-|x - x_i|^2 / (2 s_i^2)).
+struct FlowSample {
+  float density;
+  Vec3f gradient;  ///< of rho, 1 / Angstrom
+  /// Of the atoms' surroundings at this point, velocity + spin x (x - x_i), Angstrom / time; zero where no atom
+  /// reaches. The surface lies beside the atoms: with their own velocities it would lag behind what turns. Weighted by
+  /// the square roots of the atoms' densities, Gaussians wider by a factor of sqrt(2): with the densities themselves
+  /// the flow shears so much between atoms that part that it tears the surface, and does not come back.
+  Vec3f velocity;
+  float rate;  ///< of rho at this point, 1 / time
+};
+
+/// Samples at the points that `list` names: samples[list[i]] for i < n. Atoms are added in the order of the cell list,
+/// whatever the form. The list should be in a spatial order: the CPU takes points by blocks that share their atoms.
+void flow_at_points(const MovingAtoms& atoms, const Buffer<Vec4f>& points, const Buffer<std::uint32_t>& list,
+                    std::size_t n, Buffer<FlowSample>& samples);
+
+/// The general form, point by point: the same bits.
+void flow_point_by_point(const MovingAtoms& atoms, const Buffer<Vec4f>& points, const Buffer<std::uint32_t>& list,
+                         std::size_t n, Buffer<FlowSample>& samples);
+
+}  // namespace espdiff::ESPDIFF_BACKEND

@@ -1,0 +1,36 @@
+// remove_torn_triangles.cu: finds where the surface was torn or crushed, by the side that its triangles turn to the
+// molecule.
+#include "cuda/morph/moving_surface.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+
+void cut_out(Travelling& surface) {
+  const TravellingView s = view_of(surface);
+  Buffer<std::uint8_t> flipped_flags(surface.cut.size());
+  std::uint8_t* const flipped = raw(flipped_flags);
+  for_each_index(surface.cut.size(), [=] ESPDIFF_HD(std::size_t t) {
+    const Corners c = s.topology.triangles[t];
+    const Vec3f uphill = s.gradient[c.v[0]].xyz() + s.gradient[c.v[1]].xyz() + s.gradient[c.v[2]].xyz();
+    flipped[t] = dot(twice_area_vector(s.x, c), uphill) >= 0 ? 1 : 0;
+  });
+  for_each_index(surface.x.size(), [=] ESPDIFF_HD(std::size_t v) {
+    if (s.lost[v] != 0) return;
+    Vec3f normal{};
+    bool any = false;
+    for (std::uint32_t n = s.topology.first[v]; n < s.topology.first[v + 1]; ++n) {
+      const std::uint32_t t = s.topology.incident[n];
+      if (s.cut[t] != 0) continue;
+      any = true;
+      normal += twice_area_vector(s.x, s.topology.triangles[t]);
+    }
+    if (!any || dot(normal, s.gradient[v].xyz()) > 0) s.lost[v] = 1;
+  });
+  for_each_index(surface.cut.size(), [=] ESPDIFF_HD(std::size_t t) {
+    if (s.cut[t] != 0) return;
+    const Corners c = s.topology.triangles[t];
+    const bool lost = s.lost[c.v[0]] != 0 || s.lost[c.v[1]] != 0 || s.lost[c.v[2]] != 0;
+    if (lost || flipped[t] != 0) s.cut[t] = 1;
+  });
+}
+
+}  // namespace espdiff::ESPDIFF_BACKEND

@@ -1,0 +1,79 @@
+// split_long_edges.cu: halves the edges that have grown too long; where one has grown beyond all measure the surface is
+// torn.
+#include "cuda/device/spatial_order.h"
+#include "cuda/morph/moving_surface.h"
+#include "cuda/surface/split_edges.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+namespace {
+
+constexpr std::uint32_t kHalve = 1, kTorn = 2;
+
+template <typename T>
+Buffer<T> with_middles(const Buffer<T>& values, const EdgeSplit& split) {
+  const std::size_t n = values.size();
+  Buffer<T> result = values;
+  result.resize(n + split.ends.size());
+  T* const out = raw(result);
+  const EdgeSplit::Ends* const ends = raw(split.ends);
+  for_each_index(split.ends.size(),
+                 [=] ESPDIFF_HD(std::size_t k) { out[n + k] = 0.5F * (out[ends[k].a] + out[ends[k].b]); });
+  return result;
+}
+
+}  // namespace
+
+std::size_t divide_long(Travelling& surface, float max_edge_A, float max_stretch) {
+  const TravellingView s = view_of(surface);
+  Buffer<std::uint32_t> marks(3 * surface.cut.size());
+  std::uint32_t* const mark = raw(marks);
+  for_each_index(surface.x.size(), [=] ESPDIFF_HD(std::size_t v) {
+    for (std::uint32_t p = s.topology.first[v]; p < s.topology.first[v + 1]; ++p) {
+      mark[p] = 0;
+      const std::uint32_t other = s.topology.neighbour[p];
+      if (v > other || s.lost[v] != 0 || s.lost[other] != 0) continue;
+      const Vec3f edge = s.x[v].xyz() - s.x[other].xyz();
+      const float length = norm(edge);
+      if (length <= max_edge_A) continue;
+      // An edge whose triangles are both cut is no longer part of the surface.
+      bool live = false;
+      for (std::uint32_t n = s.topology.first[v]; n < s.topology.first[v + 1]; ++n) {
+        const std::uint32_t t = s.topology.incident[n];
+        const Corners c = s.topology.triangles[t];
+        live = live || (s.cut[t] == 0 && (c.v[0] == other || c.v[1] == other || c.v[2] == other));
+      }
+      if (!live) continue;
+      const float from = norm(s.source[v].xyz() - s.source[other].xyz());
+      mark[p] = length > max_stretch * from ? kTorn : kHalve;
+    }
+  });
+  // Cut at what is stretched beyond all measure.
+  for_each_index(surface.x.size(), [=] ESPDIFF_HD(std::size_t v) {
+    for (std::uint32_t p = s.topology.first[v]; p < s.topology.first[v + 1]; ++p) {
+      if (mark[p] != kTorn) continue;
+      mark[p] = 0;
+      s.lost[v] = 1;
+    }
+  });
+  const std::size_t n_marked =
+      sum_over<std::size_t>(marks.size(), [=] ESPDIFF_HD(std::size_t p) { return std::size_t{mark[p]}; });
+  if (n_marked == 0) return 0;
+  EdgeSplit split = split_edges(*surface.topology, marks, surface.x);
+  Buffer<std::uint8_t> cut(split.parent.size());
+  const std::uint8_t* const old_cut = raw(surface.cut);
+  std::uint8_t* const new_cut = raw(cut);
+  const std::uint32_t* const parent = raw(split.parent);
+  for_each_index(cut.size(), [=] ESPDIFF_HD(std::size_t t) { new_cut[t] = old_cut[parent[t]]; });
+  surface.source = with_middles(surface.source, split);
+  surface.x = with_middles(surface.x, split);
+  surface.flow = with_middles(surface.flow, split);
+  surface.previous = with_middles(surface.previous, split);
+  surface.gradient = with_middles(surface.gradient, split);
+  surface.lost.resize(surface.x.size(), 0);
+  surface.cut.swap(cut);
+  surface.topology = split.topology;
+  surface.order = spatial_order(surface.x);
+  return split.ends.size();
+}
+
+}  // namespace espdiff::ESPDIFF_BACKEND

@@ -1,0 +1,11 @@
+// subdivide.h: halves the edges that a mapping has stretched, on both of its meshes.
+#pragma once
+
+#include "cuda/surface/mesh.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+
+/// See Engine::subdivide().
+SubdivisionResult subdivide(const SurfaceMesh& source, const SurfaceMesh& mapped, float max_edge_A);
+
+}  // namespace espdiff::ESPDIFF_BACKEND

@@ -1,0 +1,103 @@
+// certificate.cpp: the limits of a trustworthy mapping, and the words for what exceeds them.
+#include "compare/certificate.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+
+namespace espdiff {
+namespace {
+
+/// The limits within which a result counts as trustworthy.
+struct Limits {
+  static constexpr double kCorruptArea = 1e-3;
+  static constexpr double kFlippedArea = 0.0;
+  static constexpr double kMeanDistance_A = 0.05;
+  static constexpr double kRoundTrip_A = 0.1;
+  static constexpr double kNoCounterpartSource = 0.05;
+  static constexpr double kNoCounterpartTarget = 0.1;  ///< surface that is new on the target is no flaw of the mapping
+  static constexpr std::size_t kSelfIntersectingPairs = 0;
+};
+
+std::string percent(double fraction) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g %%", 100 * fraction);
+  return text;
+}
+std::string angstrom(double length) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g A", length);
+  return text;
+}
+/// "3 pairs of triangles intersect (limit 0)"
+std::string intersecting_pairs(std::size_t n) {
+  return std::to_string(n) + (n == 1 ? " pair of triangles intersects" : " pairs of triangles intersect") + " (limit " +
+         std::to_string(Limits::kSelfIntersectingPairs) + ")";
+}
+
+}  // namespace
+
+Certificate certify(Engine& engine, const Mapping& mapping, const MeshPtr& target) {
+  Certificate c;
+  c.corrupt_area_fraction = mapping.fit.corrupt_area_fraction;
+  c.flipped_area_fraction = mapping.fit.flipped_area_fraction;
+  c.irregularity_A = mapping.fit.irregularity_A;
+  c.mapped_to_target = mapping.to_target;
+  c.distortion = mapping.distortion;
+  c.target_to_mapped = engine.distances(target, mapping.counted, kCounterpartLimit_A);
+  c.self_intersecting_pairs = mapping.intersections.n_pairs;
+  const double kept = engine.area(mapping.counted_source) / engine.area(mapping.source);
+  c.no_counterpart_source = 1 - kept * (1 - c.mapped_to_target.area_fraction_beyond_limit);
+  c.no_counterpart_target = c.target_to_mapped.area_fraction_beyond_limit;
+  return c;
+}
+
+double same_residue_share(const MappedSurface& s, const std::vector<std::int32_t>& source_residue,
+                          const std::vector<std::int32_t>& target_residue, const std::vector<std::int32_t>& target_of) {
+  double same = 0, all = 0;
+  for (std::size_t t = 0; t < s.triangles.size(); ++t) {
+    if (!s.no_counterpart.empty() && s.no_counterpart[t] != 0) continue;
+    const Triangle& v = s.triangles[t];
+    const double area = 0.5 * norm(cross(s.positions[v[1]] - s.positions[v[0]], s.positions[v[2]] - s.positions[v[0]]));
+    for (const std::uint32_t c : v) {
+      if (source_residue[c] < 0 || target_of[static_cast<std::size_t>(source_residue[c])] < 0) continue;
+      all += area / 3;
+      if (target_of[static_cast<std::size_t>(source_residue[c])] == target_residue[c]) same += area / 3;
+    }
+  }
+  return all > 0 ? same / all : std::numeric_limits<double>::quiet_NaN();
+}
+
+void judge(Certificate& c, const CompareResult& result) {
+  const auto refuse = [&](bool bad, const std::string& reason) {
+    if (bad) c.reasons.push_back(reason);
+  };
+  refuse(!c.converged, "the mapping did not converge; raise --max-iterations");
+  refuse(c.corrupt_area_fraction > Limits::kCorruptArea, percent(c.corrupt_area_fraction) +
+                                                             " of the mapped area is corrupt (limit " +
+                                                             percent(Limits::kCorruptArea) + ")");
+  refuse(c.flipped_area_fraction > Limits::kFlippedArea,
+         percent(c.flipped_area_fraction) + " of the mapped area is flipped (limit 0 %)");
+  refuse(c.self_intersecting_pairs > Limits::kSelfIntersectingPairs, intersecting_pairs(c.self_intersecting_pairs));
+  refuse(c.mapped_to_target.mean_within_limit > Limits::kMeanDistance_A,
+         "the mapped surface lies " + angstrom(c.mapped_to_target.mean_within_limit) +
+             " from the target on average (limit " + angstrom(Limits::kMeanDistance_A) + ")");
+  refuse(c.target_to_mapped.mean_within_limit > Limits::kMeanDistance_A,
+         "the target lies " + angstrom(c.target_to_mapped.mean_within_limit) +
+             " from the mapped surface on average (limit " + angstrom(Limits::kMeanDistance_A) + ")");
+  refuse(c.no_counterpart_source > Limits::kNoCounterpartSource,
+         percent(c.no_counterpart_source) + " of the source's area has no counterpart on the target (limit " +
+             percent(Limits::kNoCounterpartSource) + ")");
+  refuse(c.no_counterpart_target > Limits::kNoCounterpartTarget,
+         percent(c.no_counterpart_target) + " of the target's area has no counterpart on the source (limit " +
+             percent(Limits::kNoCounterpartTarget) + ")");
+  refuse(c.round_trip && c.round_trip->mean_A > Limits::kRoundTrip_A,
+         "there and back ends " + angstrom(c.round_trip ? c.round_trip->mean_A : 0) +
+             " from the start on average (limit " + angstrom(Limits::kRoundTrip_A) + ")");
+  const double n = static_cast<double>(result.surface.positions.size());
+  const double outside = static_cast<double>(std::max(result.n_outside_source_map, result.n_outside_target_map));
+  refuse(outside > 0, percent(outside / n) + " of the vertices lie outside a map");
+  c.trustworthy = c.reasons.empty();
+}
+
+}  // namespace espdiff

@@ -1,0 +1,43 @@
+// domain_motions.cpp: from each molecule's own frame into the common one, and back.
+#include "compare/domain_motions.h"
+
+#include "align/superpose.h"
+
+namespace espdiff {
+
+Screw PieceMotions::of(std::int32_t residue) const {
+  if (residue < 0 || static_cast<std::size_t>(residue) >= of_residue.size()) return {};
+  const std::int32_t piece = of_residue[static_cast<std::size_t>(residue)];
+  return piece < 0 ? Screw{} : screws[static_cast<std::size_t>(piece)];
+}
+
+MeshPtr PieceMotions::carry(Engine& engine, const MeshPtr& mesh, const AtomsPtr& atoms) const {
+  return none() ? mesh : engine.carry_rigidly(mesh, atoms, of_residue, motions);
+}
+
+PieceMotions piece_motions(const std::vector<RigidPiece>& pieces, const Molecule& source,
+                           const RigidTransform& from_source, const RigidTransform& from_target) {
+  PieceMotions result;
+  if (pieces.empty()) return result;
+  result.of_residue.assign(source.residues.size(), -1);
+  for (const RigidPiece& piece : pieces) {
+    for (const std::size_t r : piece.residues) result.of_residue[r] = static_cast<std::int32_t>(result.motions.size());
+    result.motions.push_back(compose(from_target, compose(piece.motion, inverse(from_source))));
+    result.screws.push_back(screw_of(result.motions.back()));
+  }
+  return result;
+}
+
+PieceMotions inverse(const PieceMotions& motions, const std::vector<std::int32_t>& source_residue) {
+  PieceMotions result;
+  if (motions.none()) return result;
+  for (const RigidTransform& motion : motions.motions) {
+    result.motions.push_back(inverse(motion));
+    result.screws.push_back(screw_of(result.motions.back()));
+  }
+  for (const std::int32_t r : source_residue)
+    result.of_residue.push_back(r < 0 ? -1 : motions.of_residue[static_cast<std::size_t>(r)]);
+  return result;
+}
+
+}  // namespace espdiff

@@ -1,0 +1,162 @@
+// last_step.cpp: from one target of a series to the next.
+#include "compare/last_step.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "align/superpose.h"
+#include "base/error.h"
+#include "compare/atom_paths.h"
+#include "compare/paired_residues.h"
+
+namespace espdiff {
+namespace {
+
+/// By the morph: going on keeps what was lost on the way, hence pays only along a motion, whose next frame lies much
+/// nearer than the source. Between models of an ensemble, all as far from one another, it lost several times as much.
+constexpr double kSmallStep = 0.5;
+/// By the morph: with more of the source's area lost since it came from there, the next mapping is made anew, which may
+/// find some of it again.
+constexpr double kMostLostOnWay = 0.005;
+
+/// Root mean square distance over the atoms that both have; NaN when there are none.
+double rms_distance(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
+  double sum = 0;
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) {
+    const Vec3d d = a[i] - b[i];
+    const double square = dot(d, d);
+    if (!std::isfinite(square)) continue;
+    sum += square;
+    ++n;
+  }
+  return n > 0 ? std::sqrt(sum / static_cast<double>(n)) : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// The same residues on the last target, with their motions to this one. One in which too few atoms pair to tell stays
+/// without motion.
+std::vector<RigidPiece> pieces_on(const Molecule& last, const Molecule& source, const Molecule& target,
+                                  const std::vector<std::pair<std::size_t, std::size_t>>& pairs,
+                                  const std::vector<RigidPiece>& pieces) {
+  constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> piece_of(source.residues.size(), kNone);
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    for (const std::size_t r : pieces[k].residues) piece_of[r] = k;
+  }
+  const std::vector<std::int32_t> source_residue = paired_residues(last, source, pair_atoms(last, source));
+  std::vector<RigidPiece> on_last(pieces.size());
+  std::vector<std::vector<std::pair<std::size_t, std::size_t>>> own(pieces.size());
+  const auto piece_on_last = [&](std::size_t residue) {
+    const std::int32_t s = source_residue[residue];
+    return s < 0 ? kNone : piece_of[static_cast<std::size_t>(s)];
+  };
+  for (std::size_t r = 0; r < last.residues.size(); ++r) {
+    if (const std::size_t k = piece_on_last(r); k != kNone) on_last[k].residues.push_back(r);
+  }
+  for (const auto& pair : pairs) {
+    const std::size_t k = piece_on_last(static_cast<std::size_t>(last.atoms[pair.first].residue));
+    if (k != kNone) own[k].push_back(pair);
+  }
+  std::vector<RigidPiece> moving;
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    try {
+      on_last[k].motion = superpose(last.positions, target.positions, own[k]).transform;
+    } catch (const GeometryError&) {
+      continue;
+    }
+    moving.push_back(std::move(on_last[k]));
+  }
+  return moving;
+}
+
+}  // namespace
+
+std::vector<Vec3d> counterparts(const Molecule& source, const Molecule& target, const AtomPairing& pairing,
+                                const RigidTransform& to_common) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  std::vector<Vec3d> positions(source.size(), Vec3d{kNan, kNan, kNan});
+  for (const auto& pair : pairing.pairs) positions[pair.first] = to_common.apply(target.positions[pair.second]);
+  return positions;
+}
+
+LastStep after_deform(Engine& engine, const MeshPtr& regularized, const MeshPtr& mapped, std::vector<Vec3d> target) {
+  const std::size_t n = engine.n_vertices(regularized);
+  if (engine.n_vertices(mapped) == n) return {mapped, std::move(target)};
+  std::vector<Vec3f> positions = engine.download(mapped).positions;
+  positions.resize(n);
+  return {engine.with_positions(regularized, positions), std::move(target)};
+}
+
+LastStep after_morph(const MorphResult& morphed, const Molecule& molecule, const RigidTransform& to_common,
+                     std::vector<Vec3d> target, const LastStep* before, double lost) {
+  LastStep last{
+      morphed.mapped, std::move(target), morphed, molecule, lost, before != nullptr ? before->lost_at_start : lost};
+  for (Vec3d& p : last.molecule.positions) p = to_common.apply(p);
+  last.molecule.charges.clear();
+  return last;
+}
+
+SeriesState state_of(Engine& engine, const LastStep& last) {
+  SeriesState state{engine.download(last.mapped).positions, last.target, std::nullopt};
+  if (last.morphed) {
+    Mesh source = engine.download(last.morphed->source);
+    state.morph = SeriesState::Morph{std::move(source.positions),
+                                     std::move(source.triangles),
+                                     engine.download(last.morphed->lost),
+                                     engine.download(last.morphed->path_length),
+                                     last.molecule,
+                                     last.lost,
+                                     last.lost_at_start};
+  }
+  return state;
+}
+
+LastStep last_step_of(Engine& engine, const SeriesState& state, const MeshPtr& regularized, Method method) {
+  if (state.morph.has_value() != (method == Method::kMorph))
+    throw InputError("the saved state is of the method " + to_string(state.morph ? Method::kMorph : Method::kDeform) +
+                     ", this series is by " + to_string(method) + "; start the series anew");
+  const std::size_t n = engine.n_vertices(regularized), n_saved = state.mapped.size();
+  if (state.morph ? n_saved < n : n_saved != n)
+    throw InputError("the saved state is of a surface with " + std::to_string(n_saved) + " vertices, this one has " +
+                     std::to_string(n) + "; start the series anew");
+  if (!state.morph) return {engine.with_positions(regularized, state.mapped), state.target};
+  Mesh source;
+  source.positions = state.morph->source;
+  source.triangles = state.morph->triangles;
+  MorphResult morphed;
+  morphed.source = engine.upload_mesh(source);
+  morphed.mapped = engine.with_positions(morphed.source, state.mapped);
+  morphed.lost = engine.upload_scalars(state.morph->lost);
+  morphed.path_length = engine.upload_scalars(state.morph->path_length);
+  return {morphed.mapped,
+          state.target,
+          morphed,
+          state.morph->target,
+          state.morph->lost_share,
+          state.morph->lost_share_at_start};
+}
+
+bool goes_on(const LastStep& last, const Molecule& source, const CommonFrame& frame, const std::vector<Vec3d>& target) {
+  if (last.morphed && last.lost - last.lost_at_start > kMostLostOnWay) return false;
+  std::vector<Vec3d> moved;
+  for (std::size_t i = 0; i < source.size(); ++i)
+    moved.push_back(frame.pieces.of(source.atoms[i].residue).apply(frame.from_source.apply(source.positions[i]), 1));
+  const double nearer = last.morphed ? kSmallStep : 1.0;
+  return rms_distance(last.target, target) < nearer * rms_distance(moved, target);
+}
+
+std::vector<MovingAtom> ways_from(const LastStep& last, const Molecule& source, const Molecule& target,
+                                  const RigidTransform& from_target, const std::vector<RigidPiece>& pieces,
+                                  const CompareOptions& options) {
+  const AtomPairing pairing = pair_atoms(last.molecule, target);
+  PieceMotions motions;
+  if (!pieces.empty()) {
+    const auto pairs =
+        options.align == AlignAtoms::kNone ? pairing.pairs : select_pairs(pairing, last.molecule, options.align);
+    motions = piece_motions(pieces_on(last.molecule, source, target, pairs, pieces), last.molecule, {}, from_target);
+  }
+  return atom_ways(last.molecule, target, pairing, {}, from_target, motions, options.surface.radius_scale);
+}
+
+}  // namespace espdiff

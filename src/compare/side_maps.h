@@ -1,0 +1,32 @@
+// side_maps.h: the potentials of a comparison's sides on the device, in one unit, whether given or computed.
+#pragma once
+
+#include "compare/compare.h"
+
+namespace espdiff {
+
+/// Whether this side has a potential.
+inline bool has_map(const CompareInput& side) { return side.map != nullptr || side.make_map != nullptr; }
+
+/// @throws InputError (a map on one side only; units that differ, one of them unknown)
+void check_maps(const CompareInput& source, const CompareInput& target);
+
+/// The unit in which two sides are compared: that of a computed map where there is one, else the source's.
+PotentialUnit common_unit(const CompareInput& source, const CompareInput& target);
+/// The unit of one side's map.
+PotentialUnit unit_of(const CompareInput& side);
+
+/// The side's map, computed or uploaded, in a unit.
+/// @param to_map the common frame -> the molecule's own
+/// @param unit   kUnknown takes a given map as it is
+/// @throws as CompareInput::make_map; InputError (units that cannot be converted)
+GridPtr device_map(Engine& engine, const CompareInput& side, const RigidTransform& to_map, PotentialUnit unit,
+                   double temperature_K, const Progress& progress);
+
+/// How many samples lie outside the map.
+/// @param counts [sample] whether it is counted; empty counts all
+/// @throws InputError when all of the surface lies outside
+std::size_t count_outside(const CompareInput& side, const std::vector<float>& samples,
+                          const std::vector<bool>& counts = {});
+
+}  // namespace espdiff

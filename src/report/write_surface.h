@@ -1,0 +1,16 @@
+// write_surface.h: one molecule's surface as a .vtp file.
+#pragma once
+
+#include <string>
+
+#include "compare/compare.h"
+
+namespace espdiff {
+
+/// Point arrays: normal, component, residue_number (0 where no atom reaches) and, with a map, potential (NaN outside
+/// the map).
+/// @param unit of the potential
+/// @throws IoError; then nothing is written
+void write_surface(const std::string& path, const Molecule& molecule, const SurfaceResult& result, PotentialUnit unit);
+
+}  // namespace espdiff

@@ -1,0 +1,139 @@
+// rigid_domains.cpp: molecules whose parts move far are compared part by part, by both methods.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/screw.h"
+#include "compare/built_molecule.h"
+#include "compare/made_side.h"
+#include "report/write_compare.h"
+
+using namespace espdiff_test;
+using espdiff::compare;
+using espdiff::Method;
+
+namespace {
+
+/// A dumbbell: two lopsided balls, chains A and B, joined by a thin bridge of chain A.
+Molecule dumbbell() {
+  Builder b;
+  b.add_ball(1, {0, 0, 0}, 7, 2.0, "A");
+  b.add_ball(2, {4, 5, 0}, 4, 2.0, "A");
+  for (int i = 0; i < 4; ++i) b.add("BRG", 3, "C" + std::to_string(i), {8.0 + 2 * i, 0, 0.4 * (i % 2)}, 1.7F, "A");
+  b.add_ball(1, {22, 0, 0}, 7, 2.0, "B");
+  b.add_ball(2, {24, 3, 5}, 4, 2.0, "B");
+  b.molecule.charges.assign(b.molecule.size(), 0.0F);
+  return b.molecule;
+}
+
+/// Chain B swung about the middle of the bridge.
+Molecule swung(const Molecule& m, double angle) {
+  espdiff::Screw screw;
+  screw.axis = {0, 0.6, 0.8};
+  screw.through = {11, 0, 0};
+  screw.angle = angle;
+  Molecule result = m;
+  for (std::size_t i = 0; i < m.size(); ++i) {
+    if (m.residues[static_cast<std::size_t>(m.atoms[i].residue)].chain == "B")
+      result.positions[i] = screw.apply(m.positions[i], 1);
+  }
+  return result;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("rigid_pieces");
+
+TEST_CASE("what swings as a rigid body is displaced by nothing, by both methods") {
+  const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
+  const Molecule source = dumbbell(), target = swung(source, 1.0);
+  for (const Method method : {Method::kMorph, Method::kDeform}) {
+    CompareOptions options;
+    options.method = method;
+    const auto displacement_with = [&](const char* pieces) {
+      options.pieces = pieces;
+      const CompareResult r = compare(*engine, {&source, nullptr}, {&target, nullptr}, options, {});
+      CHECK(r.certificate.converged);
+      if (method == Method::kMorph) CHECK(r.certificate.self_intersecting_pairs == 0);
+      return std::pair(espdiff::counted_surface(r).mean_displacement_A, r);
+    };
+    const auto [as_a_whole, whole] = displacement_with("none");
+    const auto [by_pieces, chains] = displacement_with("chains");
+    CAPTURE(to_string(method));
+    CHECK(by_pieces < 0.1);
+    CHECK(as_a_whole > 8 * by_pieces);  // deform lets a ball turn under its surface, so that it moves little
+    CHECK(whole.pieces.empty());
+    REQUIRE(chains.pieces.size() == 2);
+    CHECK(chains.pieces[1].rmsd_A < 1e-9);
+    CHECK(chains.certificate.same_residue_area_fraction > 0.95);
+  }
+}
+
+TEST_CASE("there and back goes by the pieces' motions and their inverses") {
+  const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
+  const Molecule source = dumbbell(), target = swung(source, 1.2);
+  CompareOptions options;
+  options.pieces = "chains";
+  options.round_trip = true;
+  const CompareResult r = compare(*engine, {&source, nullptr}, {&target, nullptr}, options, {});
+  REQUIRE(r.certificate.round_trip.has_value());
+  CHECK(r.certificate.round_trip->mean_A < 0.1);
+  CHECK(r.certificate.trustworthy);
+}
+
+TEST_CASE("one piece that is all of the molecule changes nothing but rounding") {
+  const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
+  const Side a = make_side(1, 0), b = make_side(2, 0.3);
+  CompareOptions options = quick_options();
+  const CompareResult whole = compare(*engine, a.input(), b.input(), options, {});
+  options.pieces = "chains";
+  const CompareResult piece = compare(*engine, a.input(), b.input(), options, {});
+  REQUIRE(piece.pieces.size() == 1);
+  CHECK(piece.pieces[0].rmsd_A == doctest::Approx(whole.rmsd_A));
+  CHECK(piece.metrics.mean_abs_difference == doctest::Approx(whole.metrics.mean_abs_difference).epsilon(1e-3));
+  CHECK(piece.metrics.mean_displacement_A == doctest::Approx(whole.metrics.mean_displacement_A).epsilon(1e-3));
+}
+
+TEST_CASE("a result names its pieces") {
+  const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
+  const Molecule source = dumbbell(), target = swung(source, 0.5);
+  CompareOptions options;
+  options.pieces = "A:1-3/B:1-2";
+  const CompareResult r = compare(*engine, {&source, nullptr}, {&target, nullptr}, options, {});
+  const auto json = nlohmann::json::parse(espdiff::compare_json(source, target, r, options, {}));
+  const auto& pieces = json["superposition"]["pieces"];
+  REQUIRE(pieces.size() == 2);
+  CHECK(pieces[1]["residues"] == "B:1-2");
+  CHECK(pieces[1]["n_residues"] == 2);
+  CHECK(pieces[1]["rmsd_A"].get<double>() < 1e-9);
+  CHECK(json["options"]["pieces"] == "A:1-3/B:1-2");
+  std::ostringstream table;
+  espdiff::print_table(table, source, target, r);
+  CHECK(table.str().find("rigid piece               ") != std::string::npos);
+  CHECK(table.str().find("A, B:1-2\n") != std::string::npos);
+}
+
+TEST_CASE("pieces of molecules in which nothing pairs are refused") {
+  const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
+  const Molecule source = dumbbell();
+  Molecule other;
+  for (std::size_t i = 0; i < 200; ++i) {
+    other.positions.push_back(
+        {static_cast<double>(i % 6), static_cast<double>(i / 6 % 6), static_cast<double>(i / 36)});
+    other.radii.push_back(1.7F);
+    other.atoms.push_back({"X" + std::to_string(i), "C", 0, true});
+  }
+  other.residues.push_back({"LIG", "L", 1, ' '});
+  CompareOptions options;
+  options.method = Method::kDeform;
+  options.align = espdiff::AlignAtoms::kNone;
+  options.pieces = "chains";
+  CHECK(message_of([&] {
+          compare(*engine, {&source, nullptr}, {&other, nullptr}, options, {});
+        }) == "pieces are moved by their paired atoms, and none pair; give pieces none");
+}
+
+TEST_SUITE_END();
