@@ -47,7 +47,7 @@ std::string input(const std::string& name) {
 void measure(espdiff::Engine& engine, const std::vector<espdiff::Molecule>& frames, const Arguments& a, Run& run) {
   espdiff::CompareOptions options;
   options.method = run.method;
-  options.pieces = a.pieces;
+  options.domains = a.pieces;
   const std::clock_t begun = std::clock();
   espdiff::Series series(engine, {&frames[0], nullptr}, options);
   for (std::size_t f = run.every; f < frames.size(); f += run.every) {
@@ -158,7 +158,7 @@ int main(int argc, char** argv) {
   app.add_option("--start", a.start, "Only this start")->check(CLI::IsMember({"source", "previous"}));
   app.add_option("--every", a.every, "Only every frame (1), or every eighth (8)")
       ->check(CLI::IsMember(std::vector<std::size_t>{1, 8}));
-  app.add_option("--pieces", a.pieces, "Rigid pieces, as espdiff compare has them")->capture_default_str();
+  app.add_option("--domains", a.pieces, "Rigid domains, as espdiff compare has them")->capture_default_str();
   app.add_option("--threads", a.threads, "CPU threads; 0 takes all")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {

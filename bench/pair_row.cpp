@@ -82,8 +82,8 @@ PairRow make_row(const std::string& name, const espdiff::CompareResult& result) 
   row.mapped_to_target_max_A = c.mapped_to_target.max;
   row.target_to_mapped_mean_A = c.target_to_mapped.mean;
   row.target_to_mapped_max_A = c.target_to_mapped.max;
-  row.no_counterpart_source_percent = 100 * c.no_counterpart_source;
-  row.no_counterpart_target_percent = 100 * c.no_counterpart_target;
+  row.no_counterpart_source_percent = 100 * c.unmatched_source;
+  row.no_counterpart_target_percent = 100 * c.unmatched_target;
   row.cavities_left_out =
       static_cast<double>(result.source_surface.n_cavities_left_out + result.target_surface.n_cavities_left_out);
   row.intersecting_pairs = static_cast<double>(c.self_intersecting_pairs);

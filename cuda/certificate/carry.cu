@@ -1,4 +1,4 @@
-// carry.cu: finds each point's nearest place on a surface and takes the same place of its image.
+// carry.cu: finds each point's nearest at on a surface and takes the same at of its image.
 #include "cuda/certificate/carry.h"
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kRun = 32;
 
 /// Weights of a triangle's corners.
-struct Place {
+struct Barycentric {
   float a, b, c;
 };
 
@@ -23,8 +23,8 @@ ESPDIFF_INLINE float along(Vec3f p, Vec3f from, Vec3f to) {
   return square > 0 ? smaller(larger(dot(p - from, edge) / square, 0.0F), 1.0F) : 0.0F;
 }
 
-/// The place of a triangle nearest to p: its foot where that lies in the face, else the nearest place on an edge.
-ESPDIFF_INLINE Place nearest_place(Vec3f p, const PlacedTriangle& t) {
+/// The at of a triangle nearest to p: its foot where that lies in the face, else the nearest at on an edge.
+ESPDIFF_INLINE Barycentric nearest_point(Vec3f p, const PlacedTriangle& t) {
   const Vec3f n = cross(t.b - t.a, t.c - t.a);
   const float nn = dot(n, n);
   if (nn > 0) {
@@ -33,16 +33,16 @@ ESPDIFF_INLINE Place nearest_place(Vec3f p, const PlacedTriangle& t) {
     if (a >= 0 && b >= 0 && c >= 0) return {a, b, c};
   }
   const float ab = along(p, t.a, t.b), bc = along(p, t.b, t.c), ca = along(p, t.c, t.a);
-  const Place places[3] = {{1.0F - ab, ab, 0.0F}, {0.0F, 1.0F - bc, bc}, {ca, 0.0F, 1.0F - ca}};
+  const Barycentric candidates[3] = {{1.0F - ab, ab, 0.0F}, {0.0F, 1.0F - bc, bc}, {ca, 0.0F, 1.0F - ca}};
   int nearest = 0;
   float least = 0;
   for (int i = 0; i < 3; ++i) {
-    const Vec3f d = p - (places[i].a * t.a + places[i].b * t.b + places[i].c * t.c);
+    const Vec3f d = p - (candidates[i].a * t.a + candidates[i].b * t.b + candidates[i].c * t.c);
     if (i > 0 && dot(d, d) >= least) continue;
     least = dot(d, d);
     nearest = i;
   }
-  return places[nearest];
+  return candidates[nearest];
 }
 
 }  // namespace
@@ -65,10 +65,10 @@ std::shared_ptr<SurfaceMesh> carry(const SurfaceMesh& points, const SurfaceMesh&
     for (std::size_t v = run * kRun; v < (run + 1) * kRun && v < n; ++v) {
       const Vec3f p = from[v].xyz();
       const NearestTriangle nearest = nearest_triangle(tree, p, guess);
-      guess = nearest.place;
-      const Place place = nearest_place(p, tree.triangles[guess]);
+      guess = nearest.at;
+      const Barycentric at = nearest_point(p, tree.triangles[guess]);
       const Corners c = corners[tree.order[guess]];
-      const Vec3f there = place.a * to[c.v[0]].xyz() + place.b * to[c.v[1]].xyz() + place.c * to[c.v[2]].xyz();
+      const Vec3f there = at.a * to[c.v[0]].xyz() + at.b * to[c.v[1]].xyz() + at.c * to[c.v[2]].xyz();
       const bool near = nearest.squared_distance <= max_distance_A * max_distance_A;
       out[v] = make_vec4(near ? there : Vec3f{NAN, NAN, NAN}, 0.0F);
     }

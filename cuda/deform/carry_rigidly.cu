@@ -34,18 +34,18 @@ Buffer<Displacement> displacements(const std::vector<RigidTransform>& motions) {
 }  // namespace
 
 std::shared_ptr<SurfaceMesh> carry_rigidly(const SurfaceMesh& mesh, const AtomCells& atoms,
-                                           const std::vector<std::int32_t>& pieces,
+                                           const std::vector<std::int32_t>& domains,
                                            const std::vector<RigidTransform>& motions) {
-  for (const std::int32_t piece : pieces) {
-    if (piece >= static_cast<std::int32_t>(motions.size()))
-      throw GeometryError("a residue belongs to rigid piece " + std::to_string(piece) + " of " +
+  for (const std::int32_t domain : domains) {
+    if (domain >= static_cast<std::int32_t>(motions.size()))
+      throw GeometryError("a residue belongs to rigid piece " + std::to_string(domain) + " of " +
                           std::to_string(motions.size()));
   }
   const Buffer<Displacement> moves = displacements(motions);
-  const Buffer<std::int32_t> piece_of_residue = to_device(pieces);
+  const Buffer<std::int32_t> domain_of_residue = to_device(domains);
   const Displacement* const move = raw(moves);
-  const std::int32_t* const piece_of = raw(piece_of_residue);
-  const std::int32_t n_residues = static_cast<std::int32_t>(pieces.size());
+  const std::int32_t* const domain_of = raw(domain_of_residue);
+  const std::int32_t n_residues = static_cast<std::int32_t>(domains.size());
   const AtomCellsView cells = atoms.view();
   const Vec4f* const from = raw(mesh.positions);
   auto result = std::make_shared<SurfaceMesh>();
@@ -60,8 +60,8 @@ std::shared_ptr<SurfaceMesh> carry_rigidly(const SurfaceMesh& mesh, const AtomCe
                  [&](std::uint32_t a, float, float, float, float, float, float gaussian) ESPDIFF_INLINE_LAMBDA {
                    density += gaussian;
                    const std::int32_t residue = cells.residue[a];
-                   const std::int32_t piece = residue >= 0 && residue < n_residues ? piece_of[residue] : -1;
-                   if (piece >= 0) sum += gaussian * move[piece].at(p);
+                   const std::int32_t domain = residue >= 0 && residue < n_residues ? domain_of[residue] : -1;
+                   if (domain >= 0) sum += gaussian * move[domain].at(p);
                  });
     to[v] = make_vec4(density > 0 ? p + (1.0F / density) * sum : p, 0.0F);
   });

@@ -90,7 +90,7 @@ bool lacks_code(cudaError_t status) {
 }
 
 /// After these nothing can be done on the device in this process any more.
-bool is_lost(cudaError_t status) {
+bool is_unmatched(cudaError_t status) {
   switch (status) {
     case cudaErrorIllegalAddress:
     case cudaErrorLaunchFailure:
@@ -155,7 +155,7 @@ void throw_cuda_error(cudaError_t status, const std::string& doing, const CudaFa
     throw DeviceError(
         "CUDA could not be started (" + words +
         "); check the driver with nvidia-smi, restart the machine after an update of it, or use --device cpu");
-  if (is_lost(status))
+  if (is_unmatched(status))
     throw DeviceError(device + " failed while " + doing + " (" + words +
                       ") and cannot be used by this process any more; start again, with --device cpu if it recurs, and "
                       "report it with the command line");

@@ -9,7 +9,7 @@ constexpr int kMaxNewtonSteps = 4;
 /// Off the isovalue by less than this, the next Newton step is the last.
 constexpr float kLastStepExcess = 0.03F;
 /// Off by more than this after the last one, a vertex is lost.
-constexpr float kLostExcess = 0.1F;
+constexpr float kUnmatchedExcess = 0.1F;
 /// A vertex that Newton's method takes farther than this at one time has left its sheet of the surface.
 constexpr float kMaxShift_A = 0.6F;
 /// The predicted change of the level set counts only this far in one step: where the slope is small it is a guess.
@@ -18,14 +18,14 @@ constexpr float kMaxPrediction_A = 0.5F;
 }  // namespace
 
 // Second order in time for the atoms' part (Adams and Bashforth): one evaluation a step.
-void advance(Travelling& surface, float dt) {
-  const TravellingView s = view_of(surface);
+void advance(MovingSurface& surface, float dt) {
+  const MovingSurfaceView s = view_of(surface);
   for_each_index(surface.x.size(), [=] ESPDIFF_HD(std::size_t v) {
     const Vec4f flow = s.flow[v], before = s.previous[v];
     Vec3f move = dt * (1.5F * flow.xyz() - 0.5F * before.xyz());
     const Vec3f gradient = s.gradient[v].xyz();
     const float slope = norm(gradient);
-    if (s.lost[v] == 0 && slope > kLeastSlope) {
+    if (s.unmatched[v] == 0 && slope > kLeastSlope) {
       const float along = smaller(larger(dt * flow.w, -kMaxPrediction_A), kMaxPrediction_A);
       move += (along / slope) * gradient;
     }
@@ -35,8 +35,8 @@ void advance(Travelling& surface, float dt) {
 }
 
 // Vertices that have arrived drop out of the list, so that all but the first pass are short.
-void return_to_level_set(Travelling& surface, const MovingAtoms& atoms, float isovalue) {
-  const TravellingView s = view_of(surface);
+void return_to_level_set(MovingSurface& surface, const MovingAtoms& atoms, float isovalue) {
+  const MovingSurfaceView s = view_of(surface);
   const std::size_t n = surface.x.size();
   Buffer<FlowSample> sampled(n);
   const Buffer<Vec4f> before = surface.x;
@@ -59,14 +59,14 @@ void return_to_level_set(Travelling& surface, const MovingAtoms& atoms, float is
       s.gradient[v] = make_vec4(sample.gradient, sample.density);
       s.flow[v] = make_vec4(sample.velocity, -(sample.rate + dot(sample.gradient, sample.velocity)) / slope);
       done[v] = 1;
-      if (s.lost[v] != 0) return;
+      if (s.unmatched[v] != 0) return;
       Vec3f shift = (-excess / (slope * slope)) * sample.gradient;
       const float length = norm(shift);
       if (length > 0.5F * kMaxShift_A) shift = (0.5F * kMaxShift_A / length) * shift;
       const Vec3f moved = s.x[v].xyz() + shift;
       const bool broken = !(square > kLeastSlope * kLeastSlope) || norm(moved - start[v].xyz()) > kMaxShift_A ||
-                          (last && fabsf(excess) > kLostExcess);
-      s.lost[v] = broken ? 1 : 0;
+                          (last && fabsf(excess) > kUnmatchedExcess);
+      s.unmatched[v] = broken ? 1 : 0;
       s.x[v] = broken ? start[v] : make_vec4(moved, s.x[v].w + norm(shift));
       if (!broken && fabsf(excess) >= kLastStepExcess) done[v] = 0;
     });

@@ -53,7 +53,7 @@ std::shared_ptr<Scalars> as_scalars(const Buffer<std::uint8_t>& flags) {
 }
 
 /// With the last projection.
-std::shared_ptr<Scalars> path_lengths(const Travelling& surface, const SurfaceMesh& arrived) {
+std::shared_ptr<Scalars> path_lengths(const MovingSurface& surface, const SurfaceMesh& arrived) {
   auto lengths = std::make_shared<Scalars>();
   lengths->values.resize(surface.n_vertices());
   const Vec4f* const before = raw(surface.x);
@@ -65,27 +65,27 @@ std::shared_ptr<Scalars> path_lengths(const Travelling& surface, const SurfaceMe
 }
 
 /// A surface that an earlier morph has brought so far. Its vertices that are lost are those that have no triangle left.
-Travelling take_up(const MorphResult& so_far) {
+MovingSurface take_up(const MorphResult& so_far) {
   const auto& source = dynamic_cast<const SurfaceMesh&>(*so_far.source);
   const auto& mapped = dynamic_cast<const SurfaceMesh&>(*so_far.mapped);
-  const auto& cut = dynamic_cast<const Scalars&>(*so_far.lost);
+  const auto& cut = dynamic_cast<const Scalars&>(*so_far.unmatched);
   const auto& path_length = dynamic_cast<const Scalars&>(*so_far.path_length);
   if (mapped.n_vertices() != source.n_vertices() || mapped.n_triangles() != source.n_triangles() ||
       cut.values.size() != source.n_triangles() || path_length.values.size() != source.n_vertices())
     throw GeometryError("a morph of " + std::to_string(source.n_vertices()) +
                         " vertices cannot go on: its meshes, what it lost and its path lengths differ in size");
-  Travelling surface = set_out(source);
+  MovingSurface surface = set_out(source);
   surface.x = mapped.positions;
-  const TravellingView s = view_of(surface);
+  const MovingSurfaceView s = view_of(surface);
   const float* const length = raw(path_length.values);
-  const float* const lost = raw(cut.values);
-  for_each_index(s.topology.n_triangles, [=] ESPDIFF_HD(std::size_t t) { s.cut[t] = lost[t] != 0 ? 1 : 0; });
+  const float* const unmatched = raw(cut.values);
+  for_each_index(s.topology.n_triangles, [=] ESPDIFF_HD(std::size_t t) { s.cut[t] = unmatched[t] != 0 ? 1 : 0; });
   for_each_index(s.topology.n_vertices, [=] ESPDIFF_HD(std::size_t v) {
     s.x[v].w = length[v];
     bool any = false;
     for (std::uint32_t n = s.topology.first[v]; n < s.topology.first[v + 1]; ++n)
       any = any || s.cut[s.topology.incident[n]] == 0;
-    s.lost[v] = any ? 0 : 1;
+    s.unmatched[v] = any ? 0 : 1;
   });
   surface.order = spatial_order(surface.x);
   return surface;
@@ -93,7 +93,7 @@ Travelling take_up(const MorphResult& so_far) {
 
 /// Both ends on their isosurfaces. Vertices of the given mesh keep the places that they came with; those added lie in
 /// the middles of edges, beside the surface.
-MorphResult arrive(const Travelling& surface, const SurfaceMesh& mesh, const AtomCells& source_atoms,
+MorphResult arrive(const MovingSurface& surface, const SurfaceMesh& mesh, const AtomCells& source_atoms,
                    const AtomCells& target_atoms, float isovalue) {
   SurfaceMesh source, mapped;
   source.topology = mapped.topology = surface.topology;
@@ -105,16 +105,16 @@ MorphResult arrive(const Travelling& surface, const SurfaceMesh& mesh, const Ato
   result.source = on_source;
   const auto on_target = project(mapped, target_atoms, isovalue, kLastShift_A);
   result.mapped = on_target;
-  result.lost = as_scalars(surface.cut);
+  result.unmatched = as_scalars(surface.cut);
   result.path_length = path_lengths(surface, *on_target);
-  const std::uint8_t* const lost = raw(surface.lost);
-  result.report.n_vertices_lost =
-      sum_over<std::size_t>(surface.n_vertices(), [=] ESPDIFF_HD(std::size_t v) { return std::size_t{lost[v]}; });
+  const std::uint8_t* const unmatched = raw(surface.unmatched);
+  result.report.n_vertices_unmatched =
+      sum_over<std::size_t>(surface.n_vertices(), [=] ESPDIFF_HD(std::size_t v) { return std::size_t{unmatched[v]}; });
   return result;
 }
 
 /// All the way of the atoms. `mesh` is where the surface comes from.
-MorphResult travel(Travelling surface, const SurfaceMesh& mesh, const std::vector<MovingAtom>& atoms,
+MorphResult travel(MovingSurface surface, const SurfaceMesh& mesh, const std::vector<MovingAtom>& atoms,
                    const AtomCells& source_atoms, const AtomCells& target_atoms, const MorphOptions& options,
                    const std::string& stage, const Progress& progress) {
   check_options(options);
@@ -128,16 +128,16 @@ MorphResult travel(Travelling surface, const SurfaceMesh& mesh, const std::vecto
     progress.report(stage, static_cast<double>(step - 1) / n_steps);
     advance(surface, 1.0F / static_cast<float>(n_steps));
     return_to_level_set(surface, atoms_at(atoms, static_cast<double>(step) / n_steps), isovalue);
-    cut_out(surface);
-    even_out(surface);
-    n_added += divide_long(surface, max_edge, max_stretch);
+    remove_torn_triangles(surface);
+    smooth_tangentially(surface);
+    n_added += split_long_edges(surface, max_edge, max_stretch);
   }
   // What the last step added or evened out lies beside the level set.
   const MovingAtoms arrived = atoms_at(atoms, 1.0);
   for (int round = 0; round < kLastRounds; ++round) {
     return_to_level_set(surface, arrived, isovalue);
-    cut_out(surface);
-    if (round + 1 < kLastRounds) even_out(surface);
+    remove_torn_triangles(surface);
+    if (round + 1 < kLastRounds) smooth_tangentially(surface);
   }
   progress.report(stage, 1.0);
   MorphResult result = arrive(surface, mesh, source_atoms, target_atoms, isovalue);
@@ -148,8 +148,8 @@ MorphResult travel(Travelling surface, const SurfaceMesh& mesh, const std::vecto
 
 }  // namespace
 
-Travelling set_out(const SurfaceMesh& mesh) {
-  Travelling surface;
+MovingSurface set_out(const SurfaceMesh& mesh) {
+  MovingSurface surface;
   surface.topology = mesh.topology;
   surface.source = mesh.positions;
   surface.x = mesh.positions;
@@ -158,7 +158,7 @@ Travelling set_out(const SurfaceMesh& mesh) {
   surface.flow.assign(mesh.n_vertices(), Vec4f{});
   surface.previous.assign(mesh.n_vertices(), Vec4f{});
   surface.gradient.assign(mesh.n_vertices(), Vec4f{});
-  surface.lost.assign(mesh.n_vertices(), 0);
+  surface.unmatched.assign(mesh.n_vertices(), 0);
   surface.cut.assign(mesh.n_triangles(), 0);
   surface.order = spatial_order(surface.x);
   return surface;

@@ -4,8 +4,8 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
-void cut_out(Travelling& surface) {
-  const TravellingView s = view_of(surface);
+void remove_torn_triangles(MovingSurface& surface) {
+  const MovingSurfaceView s = view_of(surface);
   Buffer<std::uint8_t> flipped_flags(surface.cut.size());
   std::uint8_t* const flipped = raw(flipped_flags);
   for_each_index(surface.cut.size(), [=] ESPDIFF_HD(std::size_t t) {
@@ -14,7 +14,7 @@ void cut_out(Travelling& surface) {
     flipped[t] = dot(twice_area_vector(s.x, c), uphill) >= 0 ? 1 : 0;
   });
   for_each_index(surface.x.size(), [=] ESPDIFF_HD(std::size_t v) {
-    if (s.lost[v] != 0) return;
+    if (s.unmatched[v] != 0) return;
     Vec3f normal{};
     bool any = false;
     for (std::uint32_t n = s.topology.first[v]; n < s.topology.first[v + 1]; ++n) {
@@ -23,13 +23,13 @@ void cut_out(Travelling& surface) {
       any = true;
       normal += twice_area_vector(s.x, s.topology.triangles[t]);
     }
-    if (!any || dot(normal, s.gradient[v].xyz()) > 0) s.lost[v] = 1;
+    if (!any || dot(normal, s.gradient[v].xyz()) > 0) s.unmatched[v] = 1;
   });
   for_each_index(surface.cut.size(), [=] ESPDIFF_HD(std::size_t t) {
     if (s.cut[t] != 0) return;
     const Corners c = s.topology.triangles[t];
-    const bool lost = s.lost[c.v[0]] != 0 || s.lost[c.v[1]] != 0 || s.lost[c.v[2]] != 0;
-    if (lost || flipped[t] != 0) s.cut[t] = 1;
+    const bool unmatched = s.unmatched[c.v[0]] != 0 || s.unmatched[c.v[1]] != 0 || s.unmatched[c.v[2]] != 0;
+    if (unmatched || flipped[t] != 0) s.cut[t] = 1;
   });
 }
 

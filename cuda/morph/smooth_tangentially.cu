@@ -29,13 +29,13 @@ ESPDIFF_INLINE float least_altitude(const Vec4f* x, const Corners& c) {
 
 }  // namespace
 
-void even_out(Travelling& surface) {
+void smooth_tangentially(MovingSurface& surface) {
   Buffer<Vec4f> evened(surface.n_vertices());
-  const TravellingView s = view_of(surface);
+  const MovingSurfaceView s = view_of(surface);
   Vec4f* const to = raw(evened);
   for_each_index(surface.x.size(), [=] ESPDIFF_HD(std::size_t v) {
     to[v] = s.x[v];
-    if (s.lost[v] != 0) return;
+    if (s.unmatched[v] != 0) return;
     float now = 1.0F, before = 1.0F, altitude = 1e30F;
     for (std::uint32_t n = s.topology.first[v]; n < s.topology.first[v + 1]; ++n) {
       const std::uint32_t t = s.topology.incident[n];

@@ -23,15 +23,15 @@ Buffer<T> with_middles(const Buffer<T>& values, const EdgeSplit& split) {
 
 }  // namespace
 
-std::size_t divide_long(Travelling& surface, float max_edge_A, float max_stretch) {
-  const TravellingView s = view_of(surface);
+std::size_t split_long_edges(MovingSurface& surface, float max_edge_A, float max_stretch) {
+  const MovingSurfaceView s = view_of(surface);
   Buffer<std::uint32_t> marks(3 * surface.cut.size());
   std::uint32_t* const mark = raw(marks);
   for_each_index(surface.x.size(), [=] ESPDIFF_HD(std::size_t v) {
     for (std::uint32_t p = s.topology.first[v]; p < s.topology.first[v + 1]; ++p) {
       mark[p] = 0;
       const std::uint32_t other = s.topology.neighbour[p];
-      if (v > other || s.lost[v] != 0 || s.lost[other] != 0) continue;
+      if (v > other || s.unmatched[v] != 0 || s.unmatched[other] != 0) continue;
       const Vec3f edge = s.x[v].xyz() - s.x[other].xyz();
       const float length = norm(edge);
       if (length <= max_edge_A) continue;
@@ -52,7 +52,7 @@ std::size_t divide_long(Travelling& surface, float max_edge_A, float max_stretch
     for (std::uint32_t p = s.topology.first[v]; p < s.topology.first[v + 1]; ++p) {
       if (mark[p] != kTorn) continue;
       mark[p] = 0;
-      s.lost[v] = 1;
+      s.unmatched[v] = 1;
     }
   });
   const std::size_t n_marked =
@@ -69,7 +69,7 @@ std::size_t divide_long(Travelling& surface, float max_edge_A, float max_stretch
   surface.flow = with_middles(surface.flow, split);
   surface.previous = with_middles(surface.previous, split);
   surface.gradient = with_middles(surface.gradient, split);
-  surface.lost.resize(surface.x.size(), 0);
+  surface.unmatched.resize(surface.x.size(), 0);
   surface.cut.swap(cut);
   surface.topology = split.topology;
   surface.order = spatial_order(surface.x);

@@ -19,12 +19,12 @@ using AtomPairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
 /// A residue belongs to a rigid motion that takes it to within this of its counterpart.
 constexpr double kTolerance_A = 2.0;
-/// A smaller piece is no domain.
+/// A smaller domain is no domain.
 constexpr std::size_t kLeastResidues = 20;
 /// Residues of a stretch that a search starts from, and the most stretches that are tried.
 constexpr std::size_t kSeed = 10, kMostSeeds = 400;
 constexpr int kRounds = 10;
-/// Shorter runs within another piece are chance.
+/// Shorter runs within another domain are chance.
 constexpr std::size_t kLeastRun = 5;
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
@@ -35,8 +35,8 @@ struct Range {
 };
 
 [[noreturn]] void refuse(const std::string& text, const std::string& why) {
-  throw InputError("pieces: '" + text + "' " + why +
-                   "; give none, chains, domains, or residues such as A:1-29,68-117/A:30-67");
+  throw InputError("domains: '" + text + "' " + why +
+                   "; give none, chains, auto, or residues such as A:1-29,68-117/A:30-67");
 }
 
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -79,22 +79,22 @@ Range parse_range(const std::string& part, const std::string& text) {
   return range;
 }
 
-/// [piece][range]; nothing where the text is one of the words.
+/// [domain][range]; nothing where the text is one of the words.
 std::vector<std::vector<Range>> parse(const std::string& text) {
-  if (text == "none" || text == "chains" || text == "domains") return {};
-  std::vector<std::vector<Range>> pieces;
-  for (const std::string& piece : split(text, '/')) {
-    pieces.emplace_back();
-    for (const std::string& part : split(piece, ',')) {
+  if (text == "none" || text == "chains" || text == "auto") return {};
+  std::vector<std::vector<Range>> domains;
+  for (const std::string& domain : split(text, '/')) {
+    domains.emplace_back();
+    for (const std::string& part : split(domain, ',')) {
       Range range = parse_range(part, text);
-      if (range.any_chain && !pieces.back().empty()) {
-        range.chain = pieces.back().back().chain;
-        range.any_chain = pieces.back().back().any_chain;
+      if (range.any_chain && !domains.back().empty()) {
+        range.chain = domains.back().back().chain;
+        range.any_chain = domains.back().back().any_chain;
       }
-      pieces.back().push_back(range);
+      domains.back().push_back(range);
     }
   }
-  return pieces;
+  return domains;
 }
 
 /// [source residue] the pairs of its atoms.
@@ -161,9 +161,9 @@ struct Search {
     return best;
   }
 
-  /// [source residue] its piece; kNone where nothing of it pairs.
+  /// [source residue] its domain; kNone where nothing of it pairs.
   std::vector<std::size_t> domains() const {
-    std::vector<std::size_t> piece(source.residues.size(), kNone), free;
+    std::vector<std::size_t> domain(source.residues.size(), kNone), free;
     for (std::size_t r = 0; r < pairs.size(); ++r) {
       if (!pairs[r].empty()) free.push_back(r);
     }
@@ -171,48 +171,48 @@ struct Search {
     while (free.size() >= kLeastResidues) {
       const std::vector<std::size_t> block = largest_block(free);
       if (block.size() < kLeastResidues) break;
-      for (const std::size_t r : block) piece[r] = motions.size();
+      for (const std::size_t r : block) domain[r] = motions.size();
       motions.push_back(superpose(source.positions, target.positions, representatives(block)).transform);
-      free.erase(std::remove_if(free.begin(), free.end(), [&](std::size_t r) { return piece[r] != kNone; }),
+      free.erase(std::remove_if(free.begin(), free.end(), [&](std::size_t r) { return domain[r] != kNone; }),
                  free.end());
     }
-    if (motions.empty()) return piece;
+    if (motions.empty()) return domain;
     for (const std::size_t r : free) {
-      piece[r] = 0;
+      domain[r] = 0;
       for (std::size_t k = 1; k < motions.size(); ++k) {
-        if (miss(motions[k], r) < miss(motions[piece[r]], r)) piece[r] = k;
+        if (miss(motions[k], r) < miss(motions[domain[r]], r)) domain[r] = k;
       }
     }
-    return smoothed(piece);
+    return smoothed(domain);
   }
 
-  /// Without short runs that interrupt a piece.
-  std::vector<std::size_t> smoothed(std::vector<std::size_t> piece) const {
-    for (std::size_t begin = 0; begin < piece.size();) {
+  /// Without short runs that interrupt a domain.
+  std::vector<std::size_t> smoothed(std::vector<std::size_t> domain) const {
+    for (std::size_t begin = 0; begin < domain.size();) {
       std::size_t end = begin + 1;
       const auto& residues = source.residues;
-      while (end < piece.size() && piece[end] == piece[begin] && residues[end].chain == residues[begin].chain) ++end;
-      if (begin > 0 && end < piece.size() && end - begin < kLeastRun && piece[begin] != kNone &&
-          piece[begin - 1] == piece[end] && residues[begin - 1].chain == residues[end].chain && piece[end] != kNone)
-        std::fill(piece.begin() + static_cast<std::ptrdiff_t>(begin), piece.begin() + static_cast<std::ptrdiff_t>(end),
-                  piece[end]);
+      while (end < domain.size() && domain[end] == domain[begin] && residues[end].chain == residues[begin].chain) ++end;
+      if (begin > 0 && end < domain.size() && end - begin < kLeastRun && domain[begin] != kNone &&
+          domain[begin - 1] == domain[end] && residues[begin - 1].chain == residues[end].chain && domain[end] != kNone)
+        std::fill(domain.begin() + static_cast<std::ptrdiff_t>(begin),
+                  domain.begin() + static_cast<std::ptrdiff_t>(end), domain[end]);
       begin = end;
     }
-    return piece;
+    return domain;
   }
 };
 
 std::vector<std::size_t> by_chain(const Molecule& source) {
   std::map<std::string, std::size_t> number;
-  std::vector<std::size_t> piece;
+  std::vector<std::size_t> domain;
   for (const Residue& residue : source.residues)
-    piece.push_back(number.emplace(residue.chain, number.size()).first->second);
-  return piece;
+    domain.push_back(number.emplace(residue.chain, number.size()).first->second);
+  return domain;
 }
 
 std::vector<std::size_t> by_name(const Molecule& source, const std::string& text,
                                  const std::vector<std::vector<Range>>& ranges) {
-  std::vector<std::size_t> piece(source.residues.size(), kNone);
+  std::vector<std::size_t> domain(source.residues.size(), kNone);
   for (std::size_t k = 0; k < ranges.size(); ++k) {
     for (const Range& range : ranges[k]) {
       bool found = false;
@@ -220,10 +220,10 @@ std::vector<std::size_t> by_name(const Molecule& source, const std::string& text
         const Residue& residue = source.residues[r];
         if (residue.number < range.first || residue.number > range.last) continue;
         if (!range.any_chain && residue.chain != range.chain) continue;
-        if (piece[r] != kNone && piece[r] != k)
+        if (domain[r] != kNone && domain[r] != k)
           refuse(text, "names residue " + residue.chain + ":" + std::to_string(residue.number) + " of " + source.name +
-                           " in two pieces");
-        piece[r] = k;
+                           " in two domains");
+        domain[r] = k;
         found = true;
       }
       if (!found)
@@ -231,41 +231,41 @@ std::vector<std::size_t> by_name(const Molecule& source, const std::string& text
                          "-" + std::to_string(range.last) + ", and " + source.name + " has none of them");
     }
   }
-  return piece;
+  return domain;
 }
 
 }  // namespace
 
-void check_pieces(const std::string& text) { parse(text); }
+void check_domains(const std::string& text) { parse(text); }
 
-std::vector<RigidPiece> find_pieces(const std::string& text, const Molecule& source, const Molecule& target,
-                                    const AtomPairs& pairs) {
+std::vector<RigidDomain> find_domains(const std::string& text, const Molecule& source, const Molecule& target,
+                                      const AtomPairs& pairs) {
   const std::vector<std::vector<Range>> ranges = parse(text);
   if (text == "none") return {};
   const Search search{source, target, pairs_of_residues(source, pairs)};
   const std::vector<std::size_t> number = text == "chains"    ? by_chain(source)
-                                          : text == "domains" ? search.domains()
+                                          : text == "auto" ? search.domains()
                                                               : by_name(source, text, ranges);
-  std::map<std::size_t, RigidPiece> pieces;
+  std::map<std::size_t, RigidDomain> domains;
   for (std::size_t r = 0; r < number.size(); ++r) {
-    if (number[r] != kNone) pieces[number[r]].residues.push_back(r);
+    if (number[r] != kNone) domains[number[r]].residues.push_back(r);
   }
-  std::vector<RigidPiece> all;
-  for (auto& [k, piece] : pieces) {
+  std::vector<RigidDomain> all;
+  for (auto& [k, domain] : domains) {
     AtomPairs own;
-    for (const std::size_t r : piece.residues) own.insert(own.end(), search.pairs[r].begin(), search.pairs[r].end());
+    for (const std::size_t r : domain.residues) own.insert(own.end(), search.pairs[r].begin(), search.pairs[r].end());
     try {
       const Superposition fit = superpose(source.positions, target.positions, own);
-      piece.motion = fit.transform;
-      piece.rmsd_A = fit.rmsd_A;
+      domain.motion = fit.transform;
+      domain.rmsd_A = fit.rmsd_A;
     } catch (const GeometryError&) {
       if (ranges.empty()) continue;
-      refuse(text, "has a piece, " + residue_ranges(source, piece.residues) + ", in which only " +
+      refuse(text, "has a domain, " + residue_ranges(source, domain.residues) + ", in which only " +
                        std::to_string(own.size()) +
                        " atoms pair or all lie on a line, so that its motion is not known");
     }
-    piece.n_atoms = own.size();
-    all.push_back(std::move(piece));
+    domain.n_atoms = own.size();
+    all.push_back(std::move(domain));
   }
   return all;
 }

@@ -22,7 +22,7 @@ constexpr double kCollinear = 1e-10;
 constexpr double kSymmetric = 1e-9;
 
 /// Radians: a smaller turn moves no atom by what matters, and its axis is noise.
-constexpr double kNoTurn = 1e-6;
+constexpr double kNoRotation = 1e-6;
 
 Eigen::Vector3d to_eigen(const Vec3d& v) { return {v.x, v.y, v.z}; }
 Vec3d from_eigen(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
@@ -121,7 +121,7 @@ Screw screw_of(const RigidTransform& transform) {
   const Eigen::AngleAxisd turn(rotation_of(transform));
   Screw screw;
   screw.shift = transform.translation;
-  if (turn.angle() < kNoTurn) return screw;
+  if (turn.angle() < kNoRotation) return screw;
   const Eigen::Vector3d axis = turn.axis(), translation = to_eigen(transform.translation);
   const Eigen::Vector3d along = axis.dot(translation) * axis, across = translation - along;
   screw.axis = from_eigen(axis);

@@ -75,8 +75,8 @@ Vec3d shortest_image(Vec3d v, const std::array<Vec3d, 3>& edges) {
   return best;
 }
 
-std::vector<Vec3d> mended(const std::vector<Vec3d>& atoms, const std::array<Vec3d, 3>& edges,
-                          const std::vector<Vec3d>& reference) {
+std::vector<Vec3d> unwrapped(const std::vector<Vec3d>& atoms, const std::array<Vec3d, 3>& edges,
+                             const std::vector<Vec3d>& reference) {
   if (!(std::fabs(dot(edges[0], cross(edges[1], edges[2]))) > 0))
     throw InputError("a molecule cannot be put together in a cell without volume; correct the cell");
   if (!reference.empty() && reference.size() != atoms.size())

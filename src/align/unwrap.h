@@ -20,7 +20,7 @@ Vec3d shortest_image(Vec3d v, const std::array<Vec3d, 3>& edges);
 /// @param edges     of the cell
 /// @param reference the same atoms in a frame that is whole; empty where there is none
 /// @throws InputError (edges that do not span space; another number of atoms in the reference)
-std::vector<Vec3d> mended(const std::vector<Vec3d>& atoms, const std::array<Vec3d, 3>& edges,
-                          const std::vector<Vec3d>& reference);
+std::vector<Vec3d> unwrapped(const std::vector<Vec3d>& atoms, const std::array<Vec3d, 3>& edges,
+                             const std::vector<Vec3d>& reference);
 
 }  // namespace espdiff

@@ -52,7 +52,23 @@ void add_structure_options(CLI::App& parser, StructureOptions& options) {
       ->group("Molecules");
 }
 
+namespace {
+
+/// An earlier name is refused with the present one. Help does not list it.
+void refuse_earlier_names(CLI::App& parser) {
+  for (const RenamedSetting& renamed : renamed_settings()) {
+    const std::string message = "--" + renamed.old_name + " is called --" + renamed.name + " now";
+    parser
+        .add_option_function<std::string>(
+            "--" + renamed.old_name, [message](const std::string&) { throw CLI::ValidationError(message); }, "")
+        ->group("");
+  }
+}
+
+}  // namespace
+
 void add_settings(CLI::App& parser, GivenSettings& given, bool of_surface_only) {
+  if (!of_surface_only) refuse_earlier_names(parser);
   const CompareOptions defaults;
   for (const Setting& setting : settings()) {
     if (of_surface_only && !setting.of_surface) continue;

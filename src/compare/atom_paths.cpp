@@ -85,9 +85,9 @@ std::vector<std::pair<std::size_t, std::size_t>> pair_leftovers(const Side& from
 
 }  // namespace
 
-std::vector<MovingAtom> atom_ways(const Molecule& source, const Molecule& target, const AtomPairing& pairing,
-                                  const RigidTransform& from_source, const RigidTransform& from_target,
-                                  const PieceMotions& pieces, double radius_scale) {
+std::vector<MovingAtom> atom_paths(const Molecule& source, const Molecule& target, const AtomPairing& pairing,
+                                   const RigidTransform& from_source, const RigidTransform& from_target,
+                                   const DomainMotions& domains, double radius_scale) {
   if (pairing.pairs.empty())
     throw InputError("the morph follows paired atoms, and none pair; use --method deform, which needs none");
   Side from(source), to(target);
@@ -106,49 +106,49 @@ std::vector<MovingAtom> atom_ways(const Molecule& source, const Molecule& target
   take_up(leftovers);
   pairs.insert(pairs.end(), leftovers.begin(), leftovers.end());
   const auto width = [&](float radius) { return radius_scale * static_cast<double>(radius); };
-  const auto motion_of = [&](std::size_t source_atom) { return pieces.of(source.atoms[source_atom].residue); };
-  std::vector<MovingAtom> ways;
+  const auto motion_of = [&](std::size_t source_atom) { return domains.of(source.atoms[source_atom].residue); };
+  std::vector<MovingAtom> paths;
   for (const auto& [s, t] : pairs) {
-    MovingAtom way;
-    way.motion = motion_of(s);
-    way.start = from_source.apply(source.positions[s]);
-    way.end = from_target.apply(target.positions[t]);
-    way.start_width = width(source.radii[s]);
-    way.end_width = width(target.radii[t]);
-    way.at_start = way.start_width > 0;
-    way.at_end = way.end_width > 0;
-    if (!way.at_start) way.start_width = way.end_width;
-    if (!way.at_end) way.end_width = way.start_width;
-    if (way.at_start || way.at_end) ways.push_back(way);
+    MovingAtom path;
+    path.motion = motion_of(s);
+    path.start = from_source.apply(source.positions[s]);
+    path.end = from_target.apply(target.positions[t]);
+    path.start_width = width(source.radii[s]);
+    path.end_width = width(target.radii[t]);
+    path.at_start = path.start_width > 0;
+    path.at_end = path.end_width > 0;
+    if (!path.at_start) path.start_width = path.end_width;
+    if (!path.at_end) path.end_width = path.start_width;
+    if (path.at_start || path.at_end) paths.push_back(path);
   }
   for (std::size_t s = 0; s < source.size(); ++s) {
     if (from.paired[s] || !(source.radii[s] > 0)) continue;
     const std::size_t anchor = from.anchor(s);
-    MovingAtom way;
-    way.start = from_source.apply(source.positions[s]);
-    way.end = from_target.apply(target.positions[target_of[anchor]]);
-    const Vec3d arm = way.start - from_source.apply(source.positions[anchor]);
-    way.motion = motion_of(anchor);
-    if (norm(arm) > kSproutReach_A) way.end += way.motion.turn(arm, 1);
-    way.start_width = way.end_width = width(source.radii[s]);
-    way.at_end = false;
-    ways.push_back(way);
+    MovingAtom path;
+    path.start = from_source.apply(source.positions[s]);
+    path.end = from_target.apply(target.positions[target_of[anchor]]);
+    const Vec3d arm = path.start - from_source.apply(source.positions[anchor]);
+    path.motion = motion_of(anchor);
+    if (norm(arm) > kSproutReach_A) path.end += path.motion.turn(arm, 1);
+    path.start_width = path.end_width = width(source.radii[s]);
+    path.at_end = false;
+    paths.push_back(path);
   }
   for (std::size_t t = 0; t < target.size(); ++t) {
     if (to.paired[t] || !(target.radii[t] > 0)) continue;
     const std::size_t anchor = to.anchor(t);
-    MovingAtom way;
-    way.start = from_source.apply(source.positions[source_of[anchor]]);
-    way.end = from_target.apply(target.positions[t]);
-    const Vec3d arm = way.end - from_target.apply(target.positions[anchor]);
-    way.motion = motion_of(source_of[anchor]);
-    if (norm(arm) > kSproutReach_A) way.start += way.motion.turn(arm, -1);
-    way.start_width = way.end_width = width(target.radii[t]);
-    way.at_start = false;
-    ways.push_back(way);
+    MovingAtom path;
+    path.start = from_source.apply(source.positions[source_of[anchor]]);
+    path.end = from_target.apply(target.positions[t]);
+    const Vec3d arm = path.end - from_target.apply(target.positions[anchor]);
+    path.motion = motion_of(source_of[anchor]);
+    if (norm(arm) > kSproutReach_A) path.start += path.motion.turn(arm, -1);
+    path.start_width = path.end_width = width(target.radii[t]);
+    path.at_start = false;
+    paths.push_back(path);
   }
-  set_local_turns(ways);
-  return ways;
+  set_local_rotations(paths);
+  return paths;
 }
 
 }  // namespace espdiff

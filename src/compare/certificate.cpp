@@ -14,8 +14,8 @@ struct Limits {
   static constexpr double kFlippedArea = 0.0;
   static constexpr double kMeanDistance_A = 0.05;
   static constexpr double kRoundTrip_A = 0.1;
-  static constexpr double kNoCounterpartSource = 0.05;
-  static constexpr double kNoCounterpartTarget = 0.1;  ///< surface that is new on the target is no flaw of the mapping
+  static constexpr double kMaxUnmatchedSource = 0.05;
+  static constexpr double kMaxUnmatchedTarget = 0.1;  ///< surface that is new on the target is no flaw of the mapping
   static constexpr std::size_t kSelfIntersectingPairs = 0;
 };
 
@@ -47,8 +47,8 @@ Certificate certify(Engine& engine, const Mapping& mapping, const MeshPtr& targe
   c.target_to_mapped = engine.distances(target, mapping.counted, kCounterpartLimit_A);
   c.self_intersecting_pairs = mapping.intersections.n_pairs;
   const double kept = engine.area(mapping.counted_source) / engine.area(mapping.source);
-  c.no_counterpart_source = 1 - kept * (1 - c.mapped_to_target.area_fraction_beyond_limit);
-  c.no_counterpart_target = c.target_to_mapped.area_fraction_beyond_limit;
+  c.unmatched_source = 1 - kept * (1 - c.mapped_to_target.area_fraction_beyond_limit);
+  c.unmatched_target = c.target_to_mapped.area_fraction_beyond_limit;
   return c;
 }
 
@@ -56,7 +56,7 @@ double same_residue_share(const MappedSurface& s, const std::vector<std::int32_t
                           const std::vector<std::int32_t>& target_residue, const std::vector<std::int32_t>& target_of) {
   double same = 0, all = 0;
   for (std::size_t t = 0; t < s.triangles.size(); ++t) {
-    if (!s.no_counterpart.empty() && s.no_counterpart[t] != 0) continue;
+    if (!s.unmatched.empty() && s.unmatched[t] != 0) continue;
     const Triangle& v = s.triangles[t];
     const double area = 0.5 * norm(cross(s.positions[v[1]] - s.positions[v[0]], s.positions[v[2]] - s.positions[v[0]]));
     for (const std::uint32_t c : v) {
@@ -85,12 +85,12 @@ void judge(Certificate& c, const CompareResult& result) {
   refuse(c.target_to_mapped.mean_within_limit > Limits::kMeanDistance_A,
          "the target lies " + angstrom(c.target_to_mapped.mean_within_limit) +
              " from the mapped surface on average (limit " + angstrom(Limits::kMeanDistance_A) + ")");
-  refuse(c.no_counterpart_source > Limits::kNoCounterpartSource,
-         percent(c.no_counterpart_source) + " of the source's area has no counterpart on the target (limit " +
-             percent(Limits::kNoCounterpartSource) + ")");
-  refuse(c.no_counterpart_target > Limits::kNoCounterpartTarget,
-         percent(c.no_counterpart_target) + " of the target's area has no counterpart on the source (limit " +
-             percent(Limits::kNoCounterpartTarget) + ")");
+  refuse(c.unmatched_source > Limits::kMaxUnmatchedSource,
+         percent(c.unmatched_source) + " of the source's area has no counterpart on the target (limit " +
+             percent(Limits::kMaxUnmatchedSource) + ")");
+  refuse(c.unmatched_target > Limits::kMaxUnmatchedTarget,
+         percent(c.unmatched_target) + " of the target's area has no counterpart on the source (limit " +
+             percent(Limits::kMaxUnmatchedTarget) + ")");
   refuse(c.round_trip && c.round_trip->mean_A > Limits::kRoundTrip_A,
          "there and back ends " + angstrom(c.round_trip ? c.round_trip->mean_A : 0) +
              " from the start on average (limit " + angstrom(Limits::kRoundTrip_A) + ")");

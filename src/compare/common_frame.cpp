@@ -1,4 +1,4 @@
-// common_frame.cpp: superposition of the whole, then of pieces.
+// common_frame.cpp: superposition of the whole, then of domains.
 #include "compare/common_frame.h"
 
 #include <limits>
@@ -39,12 +39,12 @@ CommonFrame superposed(const Molecule& source, const Molecule& target, AlignAtom
 CommonFrame align(const Molecule& source, const Molecule& target, const CompareOptions& options,
                   CompareResult& result) {
   CommonFrame frame = superposed(source, target, options.align, result);
-  if (options.pieces == "none") return frame;
+  if (options.domains == "none") return frame;
   const auto pairs =
       options.align == AlignAtoms::kNone ? result.pairing.pairs : select_pairs(result.pairing, source, options.align);
-  if (pairs.empty()) throw InputError("pieces are moved by their paired atoms, and none pair; give pieces none");
-  result.pieces = find_pieces(options.pieces, source, target, pairs);
-  frame.pieces = piece_motions(result.pieces, source, frame.from_source, frame.from_target);
+  if (pairs.empty()) throw InputError("domains are moved by their paired atoms, and none pair; give domains none");
+  result.domains = find_domains(options.domains, source, target, pairs);
+  frame.domains = domain_motions(result.domains, source, frame.from_source, frame.from_target);
   return frame;
 }
 

@@ -9,12 +9,12 @@ namespace espdiff {
 /// along axes of the shape itself, and a rigid motion of either input changes nothing but rounding.
 struct CommonFrame {
   RigidTransform from_source, from_target;  // own frame -> common frame
-  PieceMotions pieces{};
+  DomainMotions domains{};
 };
 
-/// Pairs atoms, superposes the target, and finds the rigid pieces that are aligned by themselves, as the options say.
-/// @param result gets the pairing, the superposition and its RMSD, and the pieces
-/// @throws InputError (nothing pairs where that is needed, pieces), GeometryError (too few pairs)
+/// Pairs atoms, superposes the target, and finds the rigid domains that are aligned by themselves, as the options say.
+/// @param result gets the pairing, the superposition and its RMSD, and the domains
+/// @throws InputError (nothing pairs where that is needed, domains), GeometryError (too few pairs)
 CommonFrame align(const Molecule& source, const Molecule& target, const CompareOptions& options, CompareResult& result);
 
 }  // namespace espdiff

@@ -26,18 +26,18 @@ namespace espdiff {
 namespace {
 
 /// [vertex] whether it lies in a triangle with a counterpart.
-std::vector<bool> has_counterpart(const MappedSurface& s) {
-  if (s.no_counterpart.empty()) return std::vector<bool>(s.positions.size(), true);
+std::vector<bool> is_matched(const MappedSurface& s) {
+  if (s.unmatched.empty()) return std::vector<bool>(s.positions.size(), true);
   std::vector<bool> has(s.positions.size(), false);
   for (std::size_t t = 0; t < s.triangles.size(); ++t) {
-    if (s.no_counterpart[t] != 0) continue;
+    if (s.unmatched[t] != 0) continue;
     for (const std::uint32_t v : s.triangles[t]) has[v] = true;
   }
   return has;
 }
 
 /// What a vertex without a counterpart has there is no number.
-void forget_lost(const std::vector<bool>& kept, std::vector<float>& values) {
+void forget_unmatched(const std::vector<bool>& kept, std::vector<float>& values) {
   for (std::size_t v = 0; v < values.size(); ++v) {
     if (!kept[v]) values[v] = std::numeric_limits<float>::quiet_NaN();
   }
@@ -48,7 +48,7 @@ std::vector<Vec3f> rotated(std::vector<Vec3f> normals, const RigidTransform& to_
   return normals;
 }
 
-/// @param moved the source, taken along by its rigid pieces
+/// @param moved the source, taken along by its rigid domains
 void download_surface(Engine& engine, const MeshPtr& source, const AtomsPtr& source_atoms, const MeshPtr& moved,
                       const MeshPtr& mapped, const AtomsPtr& target_atoms, float isovalue, const CommonFrame& frame,
                       MappedSurface& surface) {
@@ -108,12 +108,12 @@ struct Series::Steps {
     for (const auto& [s, t] : pairing.pairs) scratch.pairing.pairs.emplace_back(t, s);
     const CommonFrame reversed{
         frame.from_target, frame.from_source,
-        inverse(frame.pieces, paired_residues(*target.molecule, *source.molecule, scratch.pairing))};
+        inverse(frame.domains, paired_residues(*target.molecule, *source.molecule, scratch.pairing))};
     Mapping mapping;
     if (options.method == Method::kMorph) {
       mapping = mapping_of(back.morph(*source.molecule, surface, reversed, nullptr, scratch, progress, clock));
     } else {
-      mapping = back.deform(surface, reversed.pieces.carry(engine, back.regularized, target_surface.atoms), reversed,
+      mapping = back.deform(surface, reversed.domains.carry(engine, back.regularized, target_surface.atoms), reversed,
                             scratch, progress, clock);
     }
     back.find_counterparts(mapping, surface);
@@ -126,14 +126,14 @@ struct Series::Steps {
     MorphOptions morph = options.morph;
     morph.isovalue = options.surface.isovalue;
     morph.max_edge_A = options.morph_max_edge * options.surface.grid_spacing_A;
-    const auto ways = from != nullptr
-                          ? ways_from(*from, *source.molecule, target, frame.from_target, result.pieces, options)
-                          : atom_ways(*source.molecule, target, result.pairing, frame.from_source, frame.from_target,
-                                      frame.pieces, options.surface.radius_scale);
-    MorphResult morphed =
-        from != nullptr
-            ? engine.continue_morph(*from->morphed, ways, surface.atoms, target_surface.atoms, morph, "morph", progress)
-            : engine.morph(regularized, ways, surface.atoms, target_surface.atoms, morph, "morph", progress);
+    const auto paths = from != nullptr
+                           ? paths_from(*from, *source.molecule, target, frame.from_target, result.domains, options)
+                           : atom_paths(*source.molecule, target, result.pairing, frame.from_source, frame.from_target,
+                                        frame.domains, options.surface.radius_scale);
+    MorphResult morphed = from != nullptr ? engine.continue_morph(*from->morphed, paths, surface.atoms,
+                                                                  target_surface.atoms, morph, "morph", progress)
+                                          : engine.morph(regularized, paths, surface.atoms, target_surface.atoms, morph,
+                                                         "morph", progress);
     result.morph_report = morphed.report;
     result.morph_report.n_vertices_added = engine.n_vertices(morphed.source) - engine.n_vertices(regularized);
     clock.lap("morph");
@@ -144,7 +144,7 @@ struct Series::Steps {
     Mapping mapping;
     mapping.source = morphed.source;
     mapping.mapped = morphed.mapped;
-    mapping.lost = engine.download(morphed.lost);
+    mapping.unmatched = engine.download(morphed.unmatched);
     mapping.path_length = engine.download(morphed.path_length);
     return mapping;
   }
@@ -153,8 +153,8 @@ struct Series::Steps {
                  const Progress& progress, StageClock& clock) {
     const FieldPtr field = make_field(engine, surface, target, options, progress, &result.flow_report);
     clock.lap("field");
-    Mapping mapping = map_by_deform(engine, surface, regularized, target, start, frame.pieces, field, options, progress,
-                                    result.deform_report, result.n_vertices_subdivided);
+    Mapping mapping = map_by_deform(engine, surface, regularized, target, start, frame.domains, field, options,
+                                    progress, result.deform_report, result.n_vertices_subdivided);
     clock.lap("deform");
     return mapping;
   }
@@ -180,19 +180,20 @@ struct Series::Steps {
     result.unit = unit;
     s.potential_source = engine.download(at_source);
     s.potential_target = engine.download(at_target);
-    const std::vector<bool> kept = has_counterpart(s);
+    const std::vector<bool> kept = is_matched(s);
     result.n_outside_source_map = count_outside(source, s.potential_source, kept);
     result.n_outside_target_map = count_outside(target, s.potential_target, kept);
-    forget_lost(kept, s.potential_target);
+    forget_unmatched(kept, s.potential_target);
     result.has_potential = true;
     std::vector<float> excluded(s.corrupt.begin(), s.corrupt.end());
-    for (std::size_t t = 0; t < mapping.lost.size(); ++t) excluded[t] = std::max(excluded[t], mapping.lost[t]);
+    for (std::size_t t = 0; t < mapping.unmatched.size(); ++t)
+      excluded[t] = std::max(excluded[t], mapping.unmatched[t]);
     const ScalarsPtr path_length = engine.upload_scalars(mapping.path_length);
     result.metrics =
         engine.compare(moved, mapping.mapped, at_source, at_target, engine.upload_scalars(excluded), path_length);
     result.metrics_all =
         engine.compare(moved, mapping.mapped, at_source, at_target,
-                       mapping.lost.empty() ? nullptr : engine.upload_scalars(mapping.lost), path_length);
+                       mapping.unmatched.empty() ? nullptr : engine.upload_scalars(mapping.unmatched), path_length);
   }
 
   /// What of the mapping has a counterpart on the target's surface; closed cavities that found none are left out.
@@ -218,15 +219,15 @@ struct Series::Steps {
                 StageClock& clock) {
     progress.report("metrics", 0.0);
     MappedSurface& s = result.surface;
-    const MeshPtr moved = frame.pieces.carry(engine, mapping.source, surface.atoms);
+    const MeshPtr moved = frame.domains.carry(engine, mapping.source, surface.atoms);
     download_surface(engine, mapping.source, surface.atoms, moved, mapping.mapped, target_surface.atoms,
                      static_cast<float>(options.surface.isovalue), frame, s);
-    s.no_counterpart.assign(mapping.lost.begin(), mapping.lost.end());
-    s.corrupt = spread(engine.download(mapping.fit.corrupt), mapping.lost);
+    s.unmatched.assign(mapping.unmatched.begin(), mapping.unmatched.end());
+    s.corrupt = spread(engine.download(mapping.fit.corrupt), mapping.unmatched);
     s.path_length = mapping.path_length;
-    const std::vector<bool> kept = has_counterpart(s);
-    forget_lost(kept, s.displacement);
-    forget_lost(kept, s.path_length);
+    const std::vector<bool> kept = is_matched(s);
+    forget_unmatched(kept, s.displacement);
+    forget_unmatched(kept, s.path_length);
     s.residue = engine.vertex_residues(mapping.source, surface.atoms);
     result.certificate.same_residue_area_fraction =
         same_residue_share(s, s.residue, engine.vertex_residues(mapping.mapped, target_surface.atoms),
@@ -267,7 +268,8 @@ struct Series::Steps {
       morphed = morph(*target.molecule, target_surface, frame, before, result, progress, clock);
       mapping = mapping_of(morphed);
     } else {
-      const MeshPtr begin = before != nullptr ? before->mapped : frame.pieces.carry(engine, regularized, surface.atoms);
+      const MeshPtr begin =
+          before != nullptr ? before->mapped : frame.domains.carry(engine, regularized, surface.atoms);
       mapping = deform(target_surface, begin, frame, result, progress, clock);
     }
     check(mapping, target_surface, result, progress, clock);
@@ -281,7 +283,7 @@ struct Series::Steps {
     evaluate(target, frame, target_surface, target_map, mapping, result, progress, clock);
     if (options.method == Method::kMorph) {
       last = after_morph(morphed, *target.molecule, frame.from_target, std::move(target_atoms), before,
-                         result.certificate.no_counterpart_source);
+                         result.certificate.unmatched_source);
     } else if (result.deform_report.converged) {
       last = after_deform(engine, regularized, mapping.mapped, std::move(target_atoms));
     }

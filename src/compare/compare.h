@@ -45,7 +45,7 @@ struct SurfaceOptions {
 struct CompareOptions {
   SurfaceOptions surface;
   AlignAtoms align = AlignAtoms::kAll;
-  std::string pieces = "none";  ///< rigid pieces that are aligned by themselves; see check_pieces()
+  std::string domains = "none";  ///< rigid domains that are aligned by themselves; see check_domains()
   Method method = Method::kMorph;
   MorphOptions morph;
   double morph_max_edge = 1.4;  ///< in grid spacings; sets MorphOptions::max_edge_A
@@ -91,12 +91,12 @@ struct ResidueRow {
 /// on its own. Angstrom, weighted by the source's area.
 struct RoundTrip {
   double mean_A = 0, p95_A = 0, max_A = 0;
-  double lost_target_area_fraction = 0;  ///< of the target's surface, by the mapping back
+  double unmatched_target_area_fraction = 0;  ///< of the target's surface, by the mapping back
 };
 
 /// How well the part of the mapping that has a counterpart fits the target. By the morph corrupt, flipped and
 /// intersecting triangles count as without one (see settle()), so that what says how well it went is
-/// no_counterpart_source. target_to_mapped is from all of the target's surface; its mean_within_limit leaves out what
+/// unmatched_source. target_to_mapped is from all of the target's surface; its mean_within_limit leaves out what
 /// has none.
 struct Certificate {
   double corrupt_area_fraction = 0;
@@ -106,8 +106,8 @@ struct Certificate {
   DistanceSummary mapped_to_target;
   DistanceSummary target_to_mapped;
   /// Share of the source's area that the mapping lost, or that it took farther than 1 A from the target.
-  double no_counterpart_source = 0;
-  double no_counterpart_target = 0;  ///< share of the target's area farther than 1 A from the mapped surface
+  double unmatched_source = 0;
+  double unmatched_target = 0;  ///< share of the target's area farther than 1 A from the mapped surface
   DistortionReport distortion;
   std::optional<RoundTrip> round_trip;
   /// Share of the mapped area whose residue (of most density) on the target is the one paired with that on the source;
@@ -127,8 +127,8 @@ struct MappedSurface {
   std::vector<Vec3f> source_normals;    ///< [vertex] of the source's; source's frame
   std::vector<Triangle> triangles;
   std::vector<float> potential_source, potential_target;  ///< [vertex]; empty without maps; NaN outside a map
-  /// [vertex] from the source's place, superposed, or with rigid pieces from where its piece takes it; NaN where there
-  /// is no counterpart
+  /// [vertex] from the source's place, superposed, or with rigid domains from where its domain takes it; NaN where
+  /// there is no counterpart
   std::vector<float> displacement;
   /// [vertex] length of its way from where the mapping started, displacement at least; NaN as there
   std::vector<float> path_length;
@@ -136,7 +136,7 @@ struct MappedSurface {
   std::vector<std::uint8_t> corrupt;  ///< [triangle]
   /// [triangle] nonzero where the mapping found no counterpart: the mapped positions there mean nothing; empty where it
   /// found one everywhere.
-  std::vector<std::uint8_t> no_counterpart;
+  std::vector<std::uint8_t> unmatched;
 };
 
 /// Where the mapping of a target starts: from the source's surface, or from that of the target before, which is nearer
@@ -147,8 +147,8 @@ struct CompareResult {
   double rmsd_A = 0;
   AtomPairing pairing;
   std::size_t n_superposed_atoms = 0;
-  RigidTransform source_to_target;  ///< the superposition
-  std::vector<RigidPiece> pieces;   ///< aligned by themselves; displacements are from where their motions end
+  RigidTransform source_to_target;   ///< the superposition
+  std::vector<RigidDomain> domains;  ///< aligned by themselves; displacements are from where their motions end
   bool has_potential = false;
   PotentialUnit unit = PotentialUnit::kUnknown;
   Metrics metrics;                                                 ///< over valid triangles
@@ -189,12 +189,12 @@ struct SeriesState {
   struct Morph {
     std::vector<Vec3f> source;  ///< [vertex] where it comes from
     std::vector<Triangle> triangles;
-    std::vector<float> lost;         ///< [triangle] nonzero: lost in this step or one before
+    std::vector<float> unmatched;    ///< [triangle] nonzero: lost in this step or one before
     std::vector<float> path_length;  ///< [vertex] length of its way so far
     Molecule target;                 ///< the last target
     /// Shares of the source's area without counterpart: on the last target, and where the surface came from the source
     /// last.
-    double lost_share = 0, lost_share_at_start = 0;
+    double unmatched_share = 0, unmatched_share_at_start = 0;
   };
   std::optional<Morph> morph;  ///< nothing by the method deform
 };

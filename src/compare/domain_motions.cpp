@@ -5,31 +5,31 @@
 
 namespace espdiff {
 
-Screw PieceMotions::of(std::int32_t residue) const {
+Screw DomainMotions::of(std::int32_t residue) const {
   if (residue < 0 || static_cast<std::size_t>(residue) >= of_residue.size()) return {};
-  const std::int32_t piece = of_residue[static_cast<std::size_t>(residue)];
-  return piece < 0 ? Screw{} : screws[static_cast<std::size_t>(piece)];
+  const std::int32_t domain = of_residue[static_cast<std::size_t>(residue)];
+  return domain < 0 ? Screw{} : screws[static_cast<std::size_t>(domain)];
 }
 
-MeshPtr PieceMotions::carry(Engine& engine, const MeshPtr& mesh, const AtomsPtr& atoms) const {
+MeshPtr DomainMotions::carry(Engine& engine, const MeshPtr& mesh, const AtomsPtr& atoms) const {
   return none() ? mesh : engine.carry_rigidly(mesh, atoms, of_residue, motions);
 }
 
-PieceMotions piece_motions(const std::vector<RigidPiece>& pieces, const Molecule& source,
-                           const RigidTransform& from_source, const RigidTransform& from_target) {
-  PieceMotions result;
-  if (pieces.empty()) return result;
+DomainMotions domain_motions(const std::vector<RigidDomain>& domains, const Molecule& source,
+                             const RigidTransform& from_source, const RigidTransform& from_target) {
+  DomainMotions result;
+  if (domains.empty()) return result;
   result.of_residue.assign(source.residues.size(), -1);
-  for (const RigidPiece& piece : pieces) {
-    for (const std::size_t r : piece.residues) result.of_residue[r] = static_cast<std::int32_t>(result.motions.size());
-    result.motions.push_back(compose(from_target, compose(piece.motion, inverse(from_source))));
+  for (const RigidDomain& domain : domains) {
+    for (const std::size_t r : domain.residues) result.of_residue[r] = static_cast<std::int32_t>(result.motions.size());
+    result.motions.push_back(compose(from_target, compose(domain.motion, inverse(from_source))));
     result.screws.push_back(screw_of(result.motions.back()));
   }
   return result;
 }
 
-PieceMotions inverse(const PieceMotions& motions, const std::vector<std::int32_t>& source_residue) {
-  PieceMotions result;
+DomainMotions inverse(const DomainMotions& motions, const std::vector<std::int32_t>& source_residue) {
+  DomainMotions result;
   if (motions.none()) return result;
   for (const RigidTransform& motion : motions.motions) {
     result.motions.push_back(inverse(motion));

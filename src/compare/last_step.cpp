@@ -18,7 +18,7 @@ namespace {
 constexpr double kSmallStep = 0.5;
 /// By the morph: with more of the source's area lost since it came from there, the next mapping is made anew, which may
 /// find some of it again.
-constexpr double kMostLostOnWay = 0.005;
+constexpr double kMaxUnmatchedOnPath = 0.005;
 
 /// Root mean square distance over the atoms that both have; NaN when there are none.
 double rms_distance(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
@@ -36,30 +36,30 @@ double rms_distance(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
 
 /// The same residues on the last target, with their motions to this one. One in which too few atoms pair to tell stays
 /// without motion.
-std::vector<RigidPiece> pieces_on(const Molecule& last, const Molecule& source, const Molecule& target,
-                                  const std::vector<std::pair<std::size_t, std::size_t>>& pairs,
-                                  const std::vector<RigidPiece>& pieces) {
+std::vector<RigidDomain> domains_on(const Molecule& last, const Molecule& source, const Molecule& target,
+                                    const std::vector<std::pair<std::size_t, std::size_t>>& pairs,
+                                    const std::vector<RigidDomain>& domains) {
   constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-  std::vector<std::size_t> piece_of(source.residues.size(), kNone);
-  for (std::size_t k = 0; k < pieces.size(); ++k) {
-    for (const std::size_t r : pieces[k].residues) piece_of[r] = k;
+  std::vector<std::size_t> domain_of(source.residues.size(), kNone);
+  for (std::size_t k = 0; k < domains.size(); ++k) {
+    for (const std::size_t r : domains[k].residues) domain_of[r] = k;
   }
   const std::vector<std::int32_t> source_residue = paired_residues(last, source, pair_atoms(last, source));
-  std::vector<RigidPiece> on_last(pieces.size());
-  std::vector<std::vector<std::pair<std::size_t, std::size_t>>> own(pieces.size());
-  const auto piece_on_last = [&](std::size_t residue) {
+  std::vector<RigidDomain> on_last(domains.size());
+  std::vector<std::vector<std::pair<std::size_t, std::size_t>>> own(domains.size());
+  const auto domain_on_last = [&](std::size_t residue) {
     const std::int32_t s = source_residue[residue];
-    return s < 0 ? kNone : piece_of[static_cast<std::size_t>(s)];
+    return s < 0 ? kNone : domain_of[static_cast<std::size_t>(s)];
   };
   for (std::size_t r = 0; r < last.residues.size(); ++r) {
-    if (const std::size_t k = piece_on_last(r); k != kNone) on_last[k].residues.push_back(r);
+    if (const std::size_t k = domain_on_last(r); k != kNone) on_last[k].residues.push_back(r);
   }
   for (const auto& pair : pairs) {
-    const std::size_t k = piece_on_last(static_cast<std::size_t>(last.atoms[pair.first].residue));
+    const std::size_t k = domain_on_last(static_cast<std::size_t>(last.atoms[pair.first].residue));
     if (k != kNone) own[k].push_back(pair);
   }
-  std::vector<RigidPiece> moving;
-  for (std::size_t k = 0; k < pieces.size(); ++k) {
+  std::vector<RigidDomain> moving;
+  for (std::size_t k = 0; k < domains.size(); ++k) {
     try {
       on_last[k].motion = superpose(last.positions, target.positions, own[k]).transform;
     } catch (const GeometryError&) {
@@ -89,9 +89,9 @@ LastStep after_deform(Engine& engine, const MeshPtr& regularized, const MeshPtr&
 }
 
 LastStep after_morph(const MorphResult& morphed, const Molecule& molecule, const RigidTransform& to_common,
-                     std::vector<Vec3d> target, const LastStep* before, double lost) {
-  LastStep last{
-      morphed.mapped, std::move(target), morphed, molecule, lost, before != nullptr ? before->lost_at_start : lost};
+                     std::vector<Vec3d> target, const LastStep* before, double unmatched) {
+  LastStep last{morphed.mapped, std::move(target), morphed,
+                molecule,       unmatched,         before != nullptr ? before->unmatched_at_start : unmatched};
   for (Vec3d& p : last.molecule.positions) p = to_common.apply(p);
   last.molecule.charges.clear();
   return last;
@@ -103,11 +103,11 @@ SeriesState state_of(Engine& engine, const LastStep& last) {
     Mesh source = engine.download(last.morphed->source);
     state.morph = SeriesState::Morph{std::move(source.positions),
                                      std::move(source.triangles),
-                                     engine.download(last.morphed->lost),
+                                     engine.download(last.morphed->unmatched),
                                      engine.download(last.morphed->path_length),
                                      last.molecule,
-                                     last.lost,
-                                     last.lost_at_start};
+                                     last.unmatched,
+                                     last.unmatched_at_start};
   }
   return state;
 }
@@ -127,36 +127,36 @@ LastStep last_step_of(Engine& engine, const SeriesState& state, const MeshPtr& r
   MorphResult morphed;
   morphed.source = engine.upload_mesh(source);
   morphed.mapped = engine.with_positions(morphed.source, state.mapped);
-  morphed.lost = engine.upload_scalars(state.morph->lost);
+  morphed.unmatched = engine.upload_scalars(state.morph->unmatched);
   morphed.path_length = engine.upload_scalars(state.morph->path_length);
   return {morphed.mapped,
           state.target,
           morphed,
           state.morph->target,
-          state.morph->lost_share,
-          state.morph->lost_share_at_start};
+          state.morph->unmatched_share,
+          state.morph->unmatched_share_at_start};
 }
 
 bool goes_on(const LastStep& last, const Molecule& source, const CommonFrame& frame, const std::vector<Vec3d>& target) {
-  if (last.morphed && last.lost - last.lost_at_start > kMostLostOnWay) return false;
+  if (last.morphed && last.unmatched - last.unmatched_at_start > kMaxUnmatchedOnPath) return false;
   std::vector<Vec3d> moved;
   for (std::size_t i = 0; i < source.size(); ++i)
-    moved.push_back(frame.pieces.of(source.atoms[i].residue).apply(frame.from_source.apply(source.positions[i]), 1));
+    moved.push_back(frame.domains.of(source.atoms[i].residue).apply(frame.from_source.apply(source.positions[i]), 1));
   const double nearer = last.morphed ? kSmallStep : 1.0;
   return rms_distance(last.target, target) < nearer * rms_distance(moved, target);
 }
 
-std::vector<MovingAtom> ways_from(const LastStep& last, const Molecule& source, const Molecule& target,
-                                  const RigidTransform& from_target, const std::vector<RigidPiece>& pieces,
-                                  const CompareOptions& options) {
+std::vector<MovingAtom> paths_from(const LastStep& last, const Molecule& source, const Molecule& target,
+                                   const RigidTransform& from_target, const std::vector<RigidDomain>& domains,
+                                   const CompareOptions& options) {
   const AtomPairing pairing = pair_atoms(last.molecule, target);
-  PieceMotions motions;
-  if (!pieces.empty()) {
+  DomainMotions motions;
+  if (!domains.empty()) {
     const auto pairs =
         options.align == AlignAtoms::kNone ? pairing.pairs : select_pairs(pairing, last.molecule, options.align);
-    motions = piece_motions(pieces_on(last.molecule, source, target, pairs, pieces), last.molecule, {}, from_target);
+    motions = domain_motions(domains_on(last.molecule, source, target, pairs, domains), last.molecule, {}, from_target);
   }
-  return atom_ways(last.molecule, target, pairing, {}, from_target, motions, options.surface.radius_scale);
+  return atom_paths(last.molecule, target, pairing, {}, from_target, motions, options.surface.radius_scale);
 }
 
 }  // namespace espdiff

@@ -33,17 +33,17 @@ Cell cell_of(const Eigen::Vector3d& p) {
           static_cast<int>(std::floor(p.z() / kReach_A))};
 }
 
-/// All ways' ends, without the motions of their pieces.
+/// All ways' ends, without the motions of their domains.
 struct Neighbourhoods {
-  const std::vector<MovingAtom>& ways;
+  const std::vector<MovingAtom>& paths;
   std::vector<Eigen::Vector3d> start{}, end{};
   std::map<Cell, std::vector<std::size_t>> cells{};  ///< by the start; of atoms that are there at both ends
 
-  explicit Neighbourhoods(const std::vector<MovingAtom>& all) : ways(all) {
-    for (std::size_t i = 0; i < ways.size(); ++i) {
-      start.push_back(to_eigen(ways[i].start));
-      end.push_back(to_eigen(ways[i].start + ways[i].own_way()));
-      if (ways[i].at_start && ways[i].at_end) cells[cell_of(start[i])].push_back(i);
+  explicit Neighbourhoods(const std::vector<MovingAtom>& all) : paths(all) {
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      start.push_back(to_eigen(paths[i].start));
+      end.push_back(to_eigen(paths[i].start + paths[i].own_path()));
+      if (paths[i].at_start && paths[i].at_end) cells[cell_of(start[i])].push_back(i);
     }
   }
 
@@ -68,7 +68,7 @@ struct Neighbourhoods {
     visit(i, [&](std::size_t j) {
       const Eigen::Vector3d a = start[j] - start[i], b = end[j] - end[i];
       const double share = 1 - std::max(a.squaredNorm(), b.squaredNorm()) / (kReach_A * kReach_A);
-      if (share <= 0 || !same_motion(ways[i].motion, ways[j].motion)) return;
+      if (share <= 0 || !same_motion(paths[i].motion, paths[j].motion)) return;
       const double weight = share * share;
       all += weight;
       sum_start += weight * a;
@@ -89,9 +89,9 @@ struct Neighbourhoods {
 
 }  // namespace
 
-void set_local_turns(std::vector<MovingAtom>& ways) {
-  const Neighbourhoods neighbourhoods(ways);
-  for (std::size_t i = 0; i < ways.size(); ++i) ways[i].own_turn = neighbourhoods.turn(i);
+void set_local_rotations(std::vector<MovingAtom>& paths) {
+  const Neighbourhoods neighbourhoods(paths);
+  for (std::size_t i = 0; i < paths.size(); ++i) paths[i].own_rotation = neighbourhoods.turn(i);
 }
 
 }  // namespace espdiff

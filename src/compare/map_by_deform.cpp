@@ -47,7 +47,7 @@ FieldPtr make_field(Engine& engine, const Surface& source, const Surface& target
 }
 
 Mapping map_by_deform(Engine& engine, const Surface& source, const MeshPtr& regularized, const Surface& target,
-                      const MeshPtr& start, const PieceMotions& pieces, const FieldPtr& field,
+                      const MeshPtr& start, const DomainMotions& domains, const FieldPtr& field,
                       const CompareOptions& options, const Progress& progress, DeformReport& report,
                       std::size_t& n_added) {
   const double spacing = options.surface.grid_spacing_A;
@@ -60,7 +60,7 @@ Mapping map_by_deform(Engine& engine, const Surface& source, const MeshPtr& regu
   int n_iterations = 0;
   for (int round = 0; round < kMaxRounds; ++round) {
     mapping.mapped = engine.deform(mapping.mapped, field, iteration, "deform", progress, &report,
-                                   pieces.carry(engine, mapping.source, source.atoms));
+                                   domains.carry(engine, mapping.source, source.atoms));
     n_iterations += report.iterations;
     iteration.max_iterations = options.deform.max_iterations - n_iterations;
     add(mapping.path_length, engine.download(report.path_length));

@@ -23,13 +23,13 @@ FieldPtr make_field(Engine& engine, const Surface& source, const Surface& target
 /// are those of `regularized`.
 ///
 /// @param regularized the source's surface; @param start where it starts, of the same topology
-/// @param pieces what rigid pieces do to the shape that the internal force restores
+/// @param domains what rigid domains do to the shape that the internal force restores
 /// @param report  iterations of all rounds, which options.deform.max_iterations limits together, and the last one's
 /// displacement
 /// @param n_added vertices
 /// @return source, mapped and path_length
 Mapping map_by_deform(Engine& engine, const Surface& source, const MeshPtr& regularized, const Surface& target,
-                      const MeshPtr& start, const PieceMotions& pieces, const FieldPtr& field,
+                      const MeshPtr& start, const DomainMotions& domains, const FieldPtr& field,
                       const CompareOptions& options, const Progress& progress, DeformReport& report,
                       std::size_t& n_added);
 

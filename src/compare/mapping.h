@@ -20,7 +20,7 @@ constexpr double kAreaRatioLimit = 10;
 struct Mapping {
   MeshPtr source, mapped;
   /// [triangle] nonzero where there is no counterpart; empty where the method does not tell.
-  std::vector<float> lost;
+  std::vector<float> unmatched;
   std::vector<float> path_length;  ///< [vertex] length of its way, Angstrom
 
   // What has a counterpart, and how well it fits the target; see settle().
@@ -40,6 +40,6 @@ void settle(Engine& engine, Mapping& mapping, const AtomsPtr& target_atoms, cons
 void drop_closed_cavities(Engine& engine, Mapping& mapping);
 
 /// [triangle of the whole] from [triangle with a counterpart]; 0 where lost.
-std::vector<std::uint8_t> spread(const std::vector<float>& counted, const std::vector<float>& lost);
+std::vector<std::uint8_t> spread(const std::vector<float>& counted, const std::vector<float>& unmatched);
 
 }  // namespace espdiff

@@ -17,7 +17,7 @@ std::vector<ResidueRow> residue_rows(const MappedSurface& s, std::size_t n_resid
   std::vector<double> weight(s.positions.size(), 0.0);
   for (std::size_t t = 0; t < s.triangles.size(); ++t) {
     const Triangle& v = s.triangles[t];
-    bool counts = s.corrupt[t] == 0 && (s.no_counterpart.empty() || s.no_counterpart[t] == 0);
+    bool counts = s.corrupt[t] == 0 && (s.unmatched.empty() || s.unmatched[t] == 0);
     for (const std::uint32_t c : v) {
       counts =
           counts && (!has_potential || (std::isfinite(s.potential_source[c]) && std::isfinite(s.potential_target[c])));

@@ -39,7 +39,7 @@ RoundTrip measure_round_trip(Engine& engine, const Mapping& there, const Mapping
     trip.p95_A = distance;
     if (below >= 0.95 * area) break;
   }
-  trip.lost_target_area_fraction = 1 - engine.area(back.counted_source) / engine.area(back.source);
+  trip.unmatched_target_area_fraction = 1 - engine.area(back.counted_source) / engine.area(back.source);
   return trip;
 }
 

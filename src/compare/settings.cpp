@@ -230,22 +230,22 @@ std::vector<Setting> make_settings() {
       [](CompareOptions& o, const std::string& text) { o.align = parse_align_atoms(text); },
       [](const CompareOptions& o) { return to_string(o.align); },
       "Paired atoms that are superposed; none compares as given"));
-  Setting pieces{"pieces",
-                 "Molecules",
-                 SettingKind::kText,
-                 {},
-                 "Rigid pieces that are aligned by themselves before the mapping: none, chains, domains (found by a "
-                 "search), or the "
-                 "source's residues, such as A:1-29,68-117/A:30-67",
-                 false,
-                 nullptr,
-                 nullptr};
-  pieces.set = [](CompareOptions& o, const std::string& text) {
-    check_pieces(text);
-    o.pieces = text;
+  Setting domains{"domains",
+                  "Molecules",
+                  SettingKind::kText,
+                  {},
+                  "Rigid domains that are superposed by themselves before the mapping: none, chains, auto (found by a "
+                  "search), or the "
+                  "source's residues, such as A:1-29,68-117/A:30-67",
+                  false,
+                  nullptr,
+                  nullptr};
+  domains.set = [](CompareOptions& o, const std::string& text) {
+    check_domains(text);
+    o.domains = text;
   };
-  pieces.get = [](const CompareOptions& o) { return o.pieces; };
-  all.push_back(pieces);
+  domains.get = [](const CompareOptions& o) { return o.domains; };
+  all.push_back(domains);
   all.push_back(number(
       "temperature", "Potentials", kPositive, [](auto& o) -> auto& { return o.temperature_K; },
       "Temperature for converting between kT/e and other units, K"));
@@ -270,7 +270,15 @@ const Setting& find_setting(const std::string& name) {
   for (const Setting& setting : settings()) {
     if (setting.name == name) return setting;
   }
+  for (const RenamedSetting& renamed : renamed_settings()) {
+    if (renamed.old_name == name) throw InputError(name + ": the setting is called " + renamed.name + " now; give " + renamed.name);
+  }
   throw InputError("there is no setting '" + name + "'");
+}
+
+const std::vector<RenamedSetting>& renamed_settings() {
+  static const std::vector<RenamedSetting> all{{"pieces", "domains"}};
+  return all;
 }
 
 namespace {

@@ -30,8 +30,14 @@ struct Setting {
 /// All settings, in the order in which manuals list them.
 const std::vector<Setting>& settings();
 
-/// @throws InputError when there is none of that name
+/// @throws InputError when there is none of that name; for an earlier name the message gives the present one
 const Setting& find_setting(const std::string& name);
+
+/// A setting's earlier name, refused with the present one until 1.0.
+struct RenamedSetting {
+  std::string old_name, name;
+};
+const std::vector<RenamedSetting>& renamed_settings();
 
 /// The setting that takes the thesis' iteration as it stands as the base of all others.
 constexpr const char* kThesisSetting = "thesis";

@@ -177,19 +177,19 @@ struct CoulombOptions {
 /// An atom's way from the source to the target, in a straight line, for Engine::morph(). Common frame, Angstrom.
 struct MovingAtom {
   Vec3d start{}, end{};
-  Screw motion{};                         ///< of the rigid piece that it belongs to; its own way is straight beside it
-  Vec3d own_turn{};                       ///< of its surroundings beside the piece's motion: axis times angle, radians
+  Screw motion{};                         ///< of the rigid domain that it belongs to; its own way is straight beside it
+  Vec3d own_rotation{};                   ///< of its surroundings beside the domain's motion: axis times angle, radians
   double start_width = 0, end_width = 0;  ///< standard deviation of its Gaussian; 0 counts as absent
   /// Atoms without a counterpart are absent at one end. They appear and vanish in the half of the way that lies at that
   /// end.
   bool at_start = true, at_end = true;
 
-  Vec3d position_at(double time) const { return motion.apply(start + time * own_way(), time); }
-  Vec3d velocity_at(double time) const { return motion.velocity_at(position_at(time)) + motion.turn(own_way(), time); }
+  Vec3d position_at(double time) const { return motion.apply(start + time * own_path(), time); }
+  Vec3d velocity_at(double time) const { return motion.velocity_at(position_at(time)) + motion.turn(own_path(), time); }
   /// Angular velocity of its surroundings.
-  Vec3d spin_at(double time) const { return motion.angle * motion.axis + motion.turn(own_turn, time); }
-  /// From where it starts to where it would end if its piece stood still.
-  Vec3d own_way() const { return motion.apply(end, -1) - start; }
+  Vec3d spin_at(double time) const { return motion.angle * motion.axis + motion.turn(own_rotation, time); }
+  /// From where it starts to where it would end if its domain stood still.
+  Vec3d own_path() const { return motion.apply(end, -1) - start; }
 
   static constexpr double kFadingShare = 0.5;
   /// Share of the Gaussian that is there at a time from 0 (source) to 1 (target).
@@ -217,7 +217,7 @@ struct MorphOptions {
 struct MorphReport {
   int steps = 0;
   std::size_t n_vertices_added = 0;
-  std::size_t n_vertices_lost = 0;  ///< without counterpart
+  std::size_t n_vertices_unmatched = 0;  ///< without counterpart
 };
 
 /// What morph() gives: meshes of one topology, that of the source with some edges halved.
@@ -226,7 +226,7 @@ struct MorphResult {
   MeshPtr mapped;  ///< where it lies on the target's
   /// [triangle] 1 where the surface was torn or crushed on the way, so that there is no counterpart; the mapped
   /// positions there mean nothing.
-  ScalarsPtr lost;
+  ScalarsPtr unmatched;
   ScalarsPtr path_length;  ///< [vertex] length of its way, Angstrom; an added vertex begins with its ends' mean
   MorphReport report;
 };
@@ -341,7 +341,7 @@ class Engine {
   /// Carries a surface from source to target by the level sets of the density of moving atoms.
   ///
   /// rho(x, t) = sum_i w_i exp(-|x - x_i|^2 / (2 s_i^2)), t from 0 to 1, positions as MovingAtom::position_at() says
-  /// (straight, but for rigid pieces), widths linear in t, weights 1 but
+  /// (straight, but for rigid domains), widths linear in t, weights 1 but
   /// for atoms without a counterpart. A vertex flows with the atoms under it, at
   /// u = sum_i rho_i dx_i/dt / sum_i rho_i, plus what along the gradient keeps it on the level set (the change of rho
   /// along u, predicted, then corrected by Newton's method). Edges that grow too long are halved; triangles whose
@@ -443,9 +443,9 @@ class Engine {
   virtual MeshPtr carry(const MeshPtr& points, const MeshPtr& surface, const MeshPtr& image, double max_distance_A) = 0;
   /// A mesh taken along by rigid motions of the atoms: each vertex goes where the motions of the atoms around would
   /// take it, weighted by their densities there.
-  /// @param pieces [residue] index of its motion, -1 for none; residues as given to upload_atoms()
+  /// @param domains [residue] index of its motion, -1 for none; residues as given to upload_atoms()
   /// @throws GeometryError (an index beyond the motions)
-  virtual MeshPtr carry_rigidly(const MeshPtr& mesh, const AtomsPtr& atoms, const std::vector<std::int32_t>& pieces,
+  virtual MeshPtr carry_rigidly(const MeshPtr& mesh, const AtomsPtr& atoms, const std::vector<std::int32_t>& domains,
                                 const std::vector<RigidTransform>& motions) = 0;
   /// Compares the triangles of two meshes of one topology (Smith and Schaefer, ACM Trans. Graph. 34, 70 (2015), for the
   /// energy).

@@ -81,7 +81,7 @@ void check_end_tag(const std::string& path, const std::string& bytes) {
 
 /// VTK leaves points that no piece covers as they are in memory. Pieces share points at their borders, so cells are
 /// counted.
-void check_pieces(const std::string& path, const std::string& bytes, const Lattice& lattice) {
+void check_domains(const std::string& path, const std::string& bytes, const Lattice& lattice) {
   const std::string_view text = std::string_view(bytes).substr(0, bytes.find("<AppendedData"));
   long long n_cells = 0;
   for (std::size_t piece = text.find("<Piece"); piece != std::string_view::npos;
@@ -121,7 +121,7 @@ Lattice read_lattice(vtkXMLImageDataReader* reader, const std::string& path, con
   const bool packed = bytes.find("compressor=") < bytes.find("<ImageData");
   const std::size_t least = packed ? lattice.n_points() / kBestPacking : lattice.n_points();
   check_size_promise(lattice.n_points(), least, bytes.size(), path, 0);
-  check_pieces(path, bytes, lattice);
+  check_domains(path, bytes, lattice);
   return lattice;
 }
 

@@ -76,7 +76,7 @@ std::vector<Vec3d> PotentialSeries::superposed_atoms(const Molecule& frame,
   for (const std::size_t i : first_->atoms) atoms.push_back(frame.positions[i]);
   const bool is_periodic = options_.cell || (own_cell && !options_.pad_A);
   if (atoms.empty() || !is_periodic) return atoms;
-  return mended(atoms, choose_cell(options_, frame.positions, own_cell).edges, first_->positions);
+  return unwrapped(atoms, choose_cell(options_, frame.positions, own_cell).edges, first_->positions);
 }
 
 Grid PotentialSeries::compute(const std::vector<Vec3d>& positions, const Molecule& frame, const PmeCell& cell,

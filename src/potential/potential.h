@@ -47,7 +47,7 @@ struct PotentialOptions {
   CoulombOptions coulomb;
   /// Superposes each frame on the first by these atoms (water left out), and samples all maps on the first one's
   /// lattice: the average then stays with the molecule. In a periodic cell these atoms are put together first where its
-  /// border has cut the molecule (mended()). kNone: frames stay where they are.
+  /// border has cut the molecule (unwrapped()). kNone: frames stay where they are.
   AlignAtoms align = AlignAtoms::kNone;
   std::size_t frames_per_block = 1;  ///< for the error bar
 };

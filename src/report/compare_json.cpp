@@ -43,14 +43,14 @@ Json certificate(const Certificate& c) {
   json["target_to_mapped_A"] = distances(c.target_to_mapped);
   json["self_intersecting_pairs"] = c.self_intersecting_pairs;
   json["flipped_area_fraction"] = number(c.flipped_area_fraction);
-  json["no_counterpart_area_fraction"] = {{"source", number(c.no_counterpart_source)},
-                                          {"target", number(c.no_counterpart_target)}};
+  json["no_counterpart_area_fraction"] = {{"source", number(c.unmatched_source)},
+                                          {"target", number(c.unmatched_target)}};
   json["round_trip"] = nullptr;
   if (c.round_trip) {
     json["round_trip"] = {{"mean_A", number(c.round_trip->mean_A)},
                           {"p95_A", number(c.round_trip->p95_A)},
                           {"max_A", number(c.round_trip->max_A)},
-                          {"lost_target_area_fraction", number(c.round_trip->lost_target_area_fraction)}};
+                          {"lost_target_area_fraction", number(c.round_trip->unmatched_target_area_fraction)}};
   }
   const DistortionReport& d = c.distortion;
   json["area_ratio"] = {
@@ -84,13 +84,13 @@ Json metrics_all_triangles(const CompareResult& result) {
   return json;
 }
 
-Json pieces(const Molecule& source, const std::vector<RigidPiece>& all) {
+Json domains(const Molecule& source, const std::vector<RigidDomain>& all) {
   Json json = Json::array();
-  for (const RigidPiece& piece : all)
-    json.push_back({{"residues", residue_ranges(source, piece.residues)},
-                    {"n_residues", piece.residues.size()},
-                    {"n_superposed_atoms", piece.n_atoms},
-                    {"rmsd_A", number(piece.rmsd_A)}});
+  for (const RigidDomain& domain : all)
+    json.push_back({{"residues", residue_ranges(source, domain.residues)},
+                    {"n_residues", domain.residues.size()},
+                    {"n_superposed_atoms", domain.n_atoms},
+                    {"rmsd_A", number(domain.rmsd_A)}});
   return json;
 }
 
@@ -105,7 +105,7 @@ Json superposition(const Molecule& source, const CompareResult& result) {
   json["n_superposed_atoms"] = result.n_superposed_atoms;
   json["rotation_row_major"] = std::move(rotation);
   json["translation_A"] = {number(t.translation.x), number(t.translation.y), number(t.translation.z)};
-  json["pieces"] = pieces(source, result.pieces);
+  json["domains"] = domains(source, result.domains);
   return json;
 }
 
@@ -130,7 +130,7 @@ Json echo(const CompareOptions& o) {
   Json json;
   json["method"] = to_string(o.method);
   json["align"] = to_string(o.align);
-  json["pieces"] = o.pieces;
+  json["domains"] = o.domains;
   json["grid_spacing_A"] = o.surface.grid_spacing_A;
   json["radius_scale"] = o.surface.radius_scale;
   json["isovalue"] = o.surface.isovalue;

@@ -69,7 +69,7 @@ void print_superposition(std::ostream& out, const Molecule& source, const Compar
                                ? "after superposing " + counted(result.n_superposed_atoms, "atom")
                                : std::string("where they lie, not superposed");
   line(out, "RMSD", significant(result.rmsd_A) + " A " + over);
-  for (const RigidPiece& piece : result.pieces)
+  for (const RigidDomain& piece : result.pieces)
     line(out, "rigid piece", significant(piece.rmsd_A) + " A, " + residue_ranges(source, piece.residues));
 }
 
@@ -121,8 +121,7 @@ void print_certificate(std::ostream& out, const CompareResult& result) {
   line(out, "mapped to target", in_words(c.mapped_to_target));
   line(out, "target to mapped", in_words(c.target_to_mapped));
   line(out, "without counterpart",
-       percent(c.no_counterpart_source) + " of the source's, " + percent(c.no_counterpart_target) +
-           " of the target's area");
+       percent(c.unmatched_source) + " of the source's, " + percent(c.unmatched_target) + " of the target's area");
   if (c.round_trip) {
     line(out, "there and back",
          "mean " + significant(c.round_trip->mean_A) + " A from the start, 95 % of the area within " +

@@ -68,8 +68,7 @@ void write_surface_file(std::ostream& out, const Molecule& source, const Compare
     file.texts.emplace_back("potential_unit", to_string(result.unit));
   }
   const std::vector<std::uint8_t> everywhere(s.triangles.size(), 0);
-  file.cell_arrays = {{"corrupt", s.corrupt},
-                      {"no_counterpart", s.no_counterpart.empty() ? everywhere : s.no_counterpart}};
+  file.cell_arrays = {{"corrupt", s.corrupt}, {"no_counterpart", s.unmatched.empty() ? everywhere : s.unmatched}};
   file.texts.emplace_back("length_unit", "Angstrom");
   file.texts.emplace_back("written_by", "espdiff " + provenance.version);
   write_vtp(out, file);

@@ -42,7 +42,7 @@ struct Provenance {
 /// OUT.vtp: the mapped surface in the target's frame. Point arrays source_position, displacement, path_length, normal,
 /// residue_number (of the source residue; 0 where there is none) and residue_index (row of the table, from 0; -1 where
 /// there is none); with potentials also potential_source, potential_target, potential_difference (target - source) and
-/// sign_change. Outside a map potentials are NaN and sign_change is 0. Cell arrays corrupt, no_counterpart. Field data:
+/// sign_change. Outside a map potentials are NaN and sign_change is 0. Cell arrays corrupt, unmatched. Field data:
 /// units. OUT.residues.csv: one row a source residue, in file order; empty fields where a residue has no valid surface.
 /// @param output_prefix OUT; its folder must exist
 /// @param source, target the molecules that `result` compares

@@ -119,11 +119,11 @@ void write_series_state(const std::string& path, const SeriesState& state, const
   if (state.morph) {
     append_counted(bytes, state.morph->source);
     append_counted(bytes, state.morph->triangles);
-    append_counted(bytes, state.morph->lost);
+    append_counted(bytes, state.morph->unmatched);
     append_counted(bytes, state.morph->path_length);
     append_molecule(bytes, state.morph->target);
-    append(bytes, &state.morph->lost_share, 1);
-    append(bytes, &state.morph->lost_share_at_start, 1);
+    append(bytes, &state.morph->unmatched_share, 1);
+    append(bytes, &state.morph->unmatched_share_at_start, 1);
   }
   AtomicFile file(path);
   file.stream() << bytes << sha256_of(bytes);
@@ -158,11 +158,11 @@ SeriesState read_series_state(const std::string& path, const std::string& finger
     SeriesState::Morph morph;
     morph.source = reader.take_counted<Vec3f>();
     morph.triangles = reader.take_counted<Triangle>();
-    morph.lost = reader.take_counted<float>();
+    morph.unmatched = reader.take_counted<float>();
     morph.path_length = reader.take_counted<float>();
     morph.target = take_molecule(reader);
-    morph.lost_share = reader.take<double>(1)[0];
-    morph.lost_share_at_start = reader.take<double>(1)[0];
+    morph.unmatched_share = reader.take<double>(1)[0];
+    morph.unmatched_share_at_start = reader.take<double>(1)[0];
     state.morph = std::move(morph);
   }
   if (!reader.at_end()) throw Reader::damaged(path);

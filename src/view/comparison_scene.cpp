@@ -52,7 +52,7 @@ ComparisonScene::ComparisonScene(const ComparisonFiles& files, Scene scene)
   const SurfaceFile& surface = files_.surface;
   std::vector<bool> is_shown(surface.positions.size(), false);
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    if (!surface.has_counterpart(t)) continue;
+    if (!surface.is_matched(t)) continue;
     for (const std::uint32_t corner : surface.triangles[t]) is_shown[corner] = true;
   }
   for (std::size_t i = 0; i < is_shown.size(); ++i) {
@@ -134,7 +134,7 @@ void ComparisonScene::add_parts(std::size_t panel, std::size_t sheet) {
   for (std::size_t i = 0; i < offsets_.size(); ++i) {
     if (offset == scene_.offsets_A[i]) geometry = offsets_[i].second.get();
   }
-  for (const SurfacePart part : {SurfacePart::kTrusted, SurfacePart::kCorrupt, SurfacePart::kWithoutCounterpart}) {
+  for (const SurfacePart part : {SurfacePart::kTrusted, SurfacePart::kCorrupt, SurfacePart::kUnmatched}) {
     if (!geometry->has(part)) continue;
     auto mapper = vtkSmartPointer<SurfaceMapper>::New();
     mapper->SetInputData(geometry->part(part));
@@ -157,7 +157,7 @@ void ComparisonScene::update_looks() {
     drawn.mapper->set_maps(per_fragment() ? source_texture_ : no_texture_,
                            per_fragment() ? target_texture_ : no_texture_);
     // What has no counterpart has its place on the source only.
-    drawn.actor->SetVisibility(drawn.part != SurfacePart::kWithoutCounterpart || look.morph == 0);
+    drawn.actor->SetVisibility(drawn.part != SurfacePart::kUnmatched || look.morph == 0);
     if (look.fades || look.opacity.greatest < 1 || drawn.part == SurfacePart::kCorrupt)
       drawn.actor->ForceTranslucentOn();
     else

@@ -23,7 +23,7 @@ struct PickedPoint {
   float displacement_A = 0;         ///< NaN: unknown
   int residue = -1;                 ///< index into the source's residues; negative: none
   int residue_number = 0;
-  bool is_corrupt = false, has_counterpart = true;
+  bool is_corrupt = false, is_matched = true;
   bool from_maps = false;  ///< potentials looked up there, not between the vertices' values
 };
 

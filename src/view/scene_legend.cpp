@@ -83,12 +83,11 @@ void add_keys(Legend& legend, const ComparisonScene& scene, const Paper& paper) 
       std::any_of(scene.panels().begin(), scene.panels().end(), [](const Panel& p) { return p.is_source(); });
   const bool no_value = scene.scale(sheets.front().array).has_missing();
   const bool corrupt = scene.geometry().has(SurfacePart::kCorrupt);
-  const bool no_counterpart = shows_start && scene.geometry().has(SurfacePart::kWithoutCounterpart);
+  const bool unmatched = shows_start && scene.geometry().has(SurfacePart::kUnmatched);
   const auto needed = [&](bool drawn, const char* meaning) {
     return drawn ? legend.key_width(meaning) + paper.text_height : 0.0;
   };
-  const double all =
-      needed(no_value, "no value") + needed(corrupt, "corrupt") + needed(no_counterpart, "no counterpart");
+  const double all = needed(no_value, "no value") + needed(corrupt, "corrupt") + needed(unmatched, "no counterpart");
   const double y = paper.height * 0.02 + paper.text_height / 2;
   double x = std::min(paper.width * left, paper.width - all);
   const auto key = [&](double opacity, const std::string& meaning) {
@@ -96,7 +95,7 @@ void add_keys(Legend& legend, const ComparisonScene& scene, const Paper& paper) 
   };
   if (no_value) key(1, "no value");
   if (corrupt) key(0.3, "corrupt");
-  if (no_counterpart) legend.hatched_key(x, y, "no counterpart");
+  if (unmatched) legend.hatched_key(x, y, "no counterpart");
 }
 
 void add_names(Legend& legend, const ComparisonScene& scene, const Paper& paper) {

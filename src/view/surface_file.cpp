@@ -166,7 +166,7 @@ void read_arrays(SurfaceFile& file, vtkPolyData* surface) {
   file.residue_number = numbers_of(surface, "residue_number");
   // Lines or points in the file would come before the polygons in cell data; espdiff writes none.
   file.corrupt = flags_of(surface, "corrupt");
-  file.no_counterpart = flags_of(surface, "no_counterpart");
+  file.unmatched = flags_of(surface, "no_counterpart");
   file.potential_unit = text_of(surface, "potential_unit");
   file.written_by = text_of(surface, "written_by");
   file.array_names = names_of(surface->GetPointData());
@@ -215,7 +215,7 @@ SurfaceFile read_surface_file(const std::string& path) {
   if (file.triangles.empty()) throw FormatError(path, 0, "the surface has no triangles; nothing to draw");
   file.positions = positions_of(path, surface);
   read_arrays(file, surface);
-  const auto& lost = file.no_counterpart;
+  const auto& lost = file.unmatched;
   if (!lost.empty() && std::find(lost.begin(), lost.end(), 0) == lost.end()) {
     throw FormatError(path, 0, "no triangle has a counterpart; nothing to draw");
   }

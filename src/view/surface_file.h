@@ -18,9 +18,9 @@ struct SurfaceFile {
   std::vector<Vec3f> normals;           ///< unit, outward, at the mapped positions
   std::vector<Vec3f> source_normals;    ///< the same at the source's, in its frame
   std::vector<Triangle> triangles;
-  std::vector<std::uint8_t> corrupt;         ///< [triangle]
-  std::vector<std::uint8_t> no_counterpart;  ///< [triangle] 1: its mapped positions mean nothing
-  std::vector<float> displacement;           ///< Angstrom
+  std::vector<std::uint8_t> corrupt;    ///< [triangle]
+  std::vector<std::uint8_t> unmatched;  ///< [triangle] 1: its mapped positions mean nothing
+  std::vector<float> displacement;      ///< Angstrom
   std::vector<float> potential_source, potential_target, potential_difference;  ///< NaN where there is no value
   std::vector<float> sign_change;                                               ///< NaN where there is no value
   std::vector<float> residue_index;   ///< of the source's residues; negative: none
@@ -29,7 +29,7 @@ struct SurfaceFile {
   std::string written_by;             ///< field data `written_by`
   std::string array_names;            ///< of the point arrays in the file, for messages
 
-  bool has_counterpart(std::size_t triangle) const { return no_counterpart.empty() || no_counterpart[triangle] == 0; }
+  bool is_matched(std::size_t triangle) const { return unmatched.empty() || unmatched[triangle] == 0; }
   bool is_corrupt(std::size_t triangle) const { return !corrupt.empty() && corrupt[triangle] != 0; }
   /// What the surface is coloured by.
   /// @throws InputError when the file lacks it, naming what it has

@@ -157,7 +157,7 @@ SurfaceGeometry::SurfaceGeometry(const SurfaceFile& surface, const RunRecord& re
 }
 
 SurfacePart SurfaceGeometry::part_of(std::size_t triangle) const {
-  if (!surface_.has_counterpart(triangle)) return SurfacePart::kWithoutCounterpart;
+  if (!surface_.is_matched(triangle)) return SurfacePart::kUnmatched;
   return surface_.is_corrupt(triangle) ? SurfacePart::kCorrupt : SurfacePart::kTrusted;
 }
 

@@ -14,7 +14,7 @@
 namespace espdiff {
 
 /// Which triangles a mapper draws; the numbers are those of shaders/surface.frag.
-enum class SurfacePart { kTrusted, kCorrupt, kWithoutCounterpart };
+enum class SurfacePart { kTrusted, kCorrupt, kUnmatched };
 
 /// Names of the point arrays that the shaders take besides positions and normals.
 inline constexpr const char* kSurfaceAttributes[] = {"startMC",         "startNormalMC", "sourcePlace", "targetPlace",

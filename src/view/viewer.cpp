@@ -178,7 +178,7 @@ class Viewer {
     if (!picked_) return;
     for (const Panel& panel : drawn_.panels()) {
       const double morph = panel.sheets.front().morph;
-      if (morph > 0 && !picked_->has_counterpart) continue;
+      if (morph > 0 && !picked_->is_matched) continue;
       const Vec3d place = picker_.place(*picked_, morph);
       vtkNew<vtkSphereSource> ball;
       ball->SetCenter(place.x, place.y, place.z);

@@ -1,4 +1,4 @@
-// rigid_domains.cpp: pieces by chain, by name and by search; motions as screws; and what is refused.
+// rigid_domains.cpp: domains by chain, by name and by search; motions as screws; and what is refused.
 #include "align/rigid_domains.h"
 
 #include <doctest/doctest.h>
@@ -70,11 +70,11 @@ Molecule moved(Molecule m, Motion motion, double noise) {
   return m;
 }
 
-/// Residues that are not in the piece expected.
-std::size_t n_misplaced(const std::vector<RigidPiece>& pieces, const std::vector<std::size_t>& expected) {
+/// Residues that are not in the domain expected.
+std::size_t n_misplaced(const std::vector<RigidDomain>& domains, const std::vector<std::size_t>& expected) {
   std::vector<std::size_t> found(expected.size(), 99);
-  for (std::size_t k = 0; k < pieces.size(); ++k) {
-    for (const std::size_t r : pieces[k].residues) found[r] = k;
+  for (std::size_t k = 0; k < domains.size(); ++k) {
+    for (const std::size_t r : domains[k].residues) found[r] = k;
   }
   std::size_t n = 0;
   for (std::size_t r = 0; r < found.size(); ++r) n += found[r] == expected[r] ? 0 : 1;
@@ -83,7 +83,7 @@ std::size_t n_misplaced(const std::vector<RigidPiece>& pieces, const std::vector
 
 }  // namespace
 
-TEST_SUITE_BEGIN("rigid_pieces");
+TEST_SUITE_BEGIN("rigid_domains");
 
 TEST_CASE("domains that move as rigid bodies are found, the largest first, with their motions") {
   const Molecule source = four_stretches();
@@ -95,16 +95,16 @@ TEST_CASE("domains that move as rigid bodies are found, the largest first, with 
         source, [&](int r) { return r < 60   ? RigidTransform{}
                                     : r < 90 ? second
                                              : third; }, noise);
-    const auto pieces = find_pieces("domains", source, target, one_to_one(source));
-    REQUIRE(pieces.size() == 3);
+    const auto domains = find_domains("auto", source, target, one_to_one(source));
+    REQUIRE(domains.size() == 3);
     std::vector<std::size_t> expected(120, 0);
-    const bool turned_first = pieces[1].residues.front() < 90;
+    const bool turned_first = domains[1].residues.front() < 90;
     for (std::size_t r = 60; r < 120; ++r) expected[r] = (r < 90) == turned_first ? 1 : 2;
     CAPTURE(noise);
-    CHECK(n_misplaced(pieces, expected) <= (noise == 0 ? 2U : 6U));  // beside a hinge either motion may suit
-    const RigidPiece& piece = pieces[turned_first ? 1 : 2];
-    CHECK(piece.rmsd_A < 0.1 + 2 * noise);
-    CHECK(norm(piece.motion.apply(source.positions[360]) - second.apply(source.positions[360])) < 0.2 + noise);
+    CHECK(n_misplaced(domains, expected) <= (noise == 0 ? 2U : 6U));  // beside a hinge either motion may suit
+    const RigidDomain& domain = domains[turned_first ? 1 : 2];
+    CHECK(domain.rmsd_A < 0.1 + 2 * noise);
+    CHECK(norm(domain.motion.apply(source.positions[360]) - second.apply(source.positions[360])) < 0.2 + noise);
   }
 }
 
@@ -113,10 +113,10 @@ TEST_CASE("what moves as a whole is one piece, and nothing is left out") {
   const RigidTransform motion = turn({1, 1, 1}, 2.0, {3, 0, 0}, {5, 5, 5});
   const Molecule target = moved(
       source, [&](int) { return motion; }, 0.5);
-  const auto pieces = find_pieces("domains", source, target, one_to_one(source));
-  REQUIRE(pieces.size() == 1);
-  CHECK(pieces[0].residues.size() == 120);
-  CHECK(pieces[0].n_atoms == source.size());
+  const auto domains = find_domains("auto", source, target, one_to_one(source));
+  REQUIRE(domains.size() == 1);
+  CHECK(domains[0].residues.size() == 120);
+  CHECK(domains[0].n_atoms == source.size());
 }
 
 TEST_CASE("chains are pieces, but for one that is too small to have a motion") {
@@ -128,11 +128,11 @@ TEST_CASE("chains are pieces, but for one that is too small to have a motion") {
   const RigidTransform shift = turn({0, 0, 1}, 0.3, {}, {10, 0, 0});
   const Molecule target = moved(
       source, [&](int r) { return r < 5 ? RigidTransform{} : shift; }, 0);
-  const auto pieces = find_pieces("chains", source, target, one_to_one(source));
-  REQUIRE(pieces.size() == 2);
-  CHECK(pieces[1].residues == std::vector<std::size_t>{5, 6, 7, 8, 9});
-  CHECK(pieces[1].rmsd_A < 1e-9);
-  CHECK(norm(pieces[1].motion.apply({1, 2, 3}) - shift.apply({1, 2, 3})) < 1e-9);
+  const auto domains = find_domains("chains", source, target, one_to_one(source));
+  REQUIRE(domains.size() == 2);
+  CHECK(domains[1].residues == std::vector<std::size_t>{5, 6, 7, 8, 9});
+  CHECK(domains[1].rmsd_A < 1e-9);
+  CHECK(norm(domains[1].motion.apply({1, 2, 3}) - shift.apply({1, 2, 3})) < 1e-9);
 }
 
 TEST_CASE("residues that the user names, with and without chains") {
@@ -142,8 +142,8 @@ TEST_CASE("residues that the user names, with and without chains") {
   const Molecule& m = made.molecule;
   const auto residues_of = [&](const std::string& text) {
     std::vector<std::string> all;
-    for (const RigidPiece& piece : find_pieces(text, m, m, one_to_one(m)))
-      all.push_back(residue_ranges(m, piece.residues));
+    for (const RigidDomain& domain : find_domains(text, m, m, one_to_one(m)))
+      all.push_back(residue_ranges(m, domain.residues));
     return all;
   };
   using Texts = std::vector<std::string>;
@@ -159,21 +159,21 @@ TEST_CASE("what cannot be read, found or fitted is refused with the remedy") {
   made.residue("A", 9, "NA", {"NA"});
   const Molecule& m = made.molecule;
   const auto refusal = [&](const std::string& text) {
-    return message_of([&] { find_pieces(text, m, m, one_to_one(m)); });
+    return message_of([&] { find_domains(text, m, m, one_to_one(m)); });
   };
-  const std::string remedy = "; give none, chains, domains, or residues such as A:1-29,68-117/A:30-67";
-  CHECK(refusal("") == "pieces: '' has a range of residues that cannot be read, ''" + remedy);
-  CHECK(refusal("A:1-x") == "pieces: 'A:1-x' has a range of residues that cannot be read, 'A:1-x'" + remedy);
-  CHECK(refusal("domain") == "pieces: 'domain' has a range of residues that cannot be read, 'domain'" + remedy);
-  CHECK(refusal("1-3/") == "pieces: '1-3/' has a range of residues that cannot be read, ''" + remedy);
-  CHECK(refusal("5-2") == "pieces: '5-2' has a range whose end comes before its start, '5-2'" + remedy);
-  CHECK(refusal("B:1-3") == "pieces: 'B:1-3' names residues B:1-3, and made.pdb has none of them" + remedy);
-  CHECK(refusal("1-3/3-5") == "pieces: '1-3/3-5' names residue A:3 of made.pdb in two pieces" + remedy);
+  const std::string remedy = "; give none, chains, auto, or residues such as A:1-29,68-117/A:30-67";
+  CHECK(refusal("") == "domains: '' has a range of residues that cannot be read, ''" + remedy);
+  CHECK(refusal("A:1-x") == "domains: 'A:1-x' has a range of residues that cannot be read, 'A:1-x'" + remedy);
+  CHECK(refusal("domain") == "domains: 'domain' has a range of residues that cannot be read, 'domain'" + remedy);
+  CHECK(refusal("1-3/") == "domains: '1-3/' has a range of residues that cannot be read, ''" + remedy);
+  CHECK(refusal("5-2") == "domains: '5-2' has a range whose end comes before its start, '5-2'" + remedy);
+  CHECK(refusal("B:1-3") == "domains: 'B:1-3' names residues B:1-3, and made.pdb has none of them" + remedy);
+  CHECK(refusal("1-3/3-5") == "domains: '1-3/3-5' names residue A:3 of made.pdb in two domains" + remedy);
   CHECK(refusal("1-5/9") ==
-        "pieces: '1-5/9' has a piece, A:9, in which only 1 atoms pair or all lie on a line, so that its motion is not "
+        "domains: '1-5/9' has a domain, A:9, in which only 1 atoms pair or all lie on a line, so that its motion is not "
         "known" +
             remedy);
-  CHECK_NOTHROW(check_pieces("-4--2,1"));
+  CHECK_NOTHROW(check_domains("-4--2,1"));
 }
 
 TEST_CASE("a motion as a screw ends where the motion ends, and its parts add up") {

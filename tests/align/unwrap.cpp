@@ -12,8 +12,8 @@
 #include "align/superpose.h"
 #include "base/error.h"
 
-using espdiff::mended;
 using espdiff::shortest_image;
+using espdiff::unwrapped;
 using espdiff::Vec3d;
 
 namespace {
@@ -76,8 +76,8 @@ TEST_CASE("the shortest image is that of all near ones") {
 
 TEST_CASE("a chain whose atoms are scattered over images is whole, and one that is whole stays so") {
   const auto whole = coil(60, {1, 2, 3});  // 89 A long, longer than the cell
-  CHECK(distortion(whole, mended(scattered(whole, kSkewed), kSkewed, {})) < 1e-9);
-  CHECK(distortion(whole, mended(whole, kSkewed, {})) < 1e-9);
+  CHECK(distortion(whole, unwrapped(scattered(whole, kSkewed), kSkewed, {})) < 1e-9);
+  CHECK(distortion(whole, unwrapped(whole, kSkewed, {})) < 1e-9);
 }
 
 TEST_CASE("two chains lie as in the reference, though another image is nearer") {
@@ -87,14 +87,14 @@ TEST_CASE("two chains lie as in the reference, though another image is nearer") 
   std::vector<Vec3d> later = whole;
   const double c = std::cos(0.4), s = std::sin(0.4);
   for (Vec3d& p : later) p = {c * p.x - s * p.y + 17, s * p.x + c * p.y - 9, p.z + 0.01 * p.x};
-  CHECK(distortion(later, mended(scattered(later, kSkewed), kSkewed, whole)) < 1e-9);
+  CHECK(distortion(later, unwrapped(scattered(later, kSkewed), kSkewed, whole)) < 1e-9);
   // Without it the second chain goes to the nearest image.
-  const auto alone = mended(scattered(whole, kSkewed), kSkewed, {});
+  const auto alone = unwrapped(scattered(whole, kSkewed), kSkewed, {});
   CHECK(norm(alone[25] - alone[0]) < norm(whole[25] - whole[0]));
 }
 
 TEST_CASE("what cannot be mended is refused") {
-  CHECK(mended({}, kSkewed, {}).empty());
-  CHECK_THROWS_AS(mended({{1, 2, 3}}, kSkewed, {{1, 2, 3}, {4, 5, 6}}), espdiff::InputError);
-  CHECK_THROWS_AS(mended({{1, 2, 3}}, {Vec3d{1, 0, 0}, Vec3d{2, 0, 0}, Vec3d{0, 0, 1}}, {}), espdiff::InputError);
+  CHECK(unwrapped({}, kSkewed, {}).empty());
+  CHECK_THROWS_AS(unwrapped({{1, 2, 3}}, kSkewed, {{1, 2, 3}, {4, 5, 6}}), espdiff::InputError);
+  CHECK_THROWS_AS(unwrapped({{1, 2, 3}}, {Vec3d{1, 0, 0}, Vec3d{2, 0, 0}, Vec3d{0, 0, 1}}, {}), espdiff::InputError);
 }

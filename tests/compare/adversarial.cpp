@@ -34,9 +34,9 @@ CompareResult mapped_or_reported(const char* name, const Molecule& source, const
   std::printf(
       "%s: %s; without counterpart %.2f %% of the source, %.2f %% of the target; target to mapped at most %.2f A; "
       "same residue %.1f %%; %zu vertices added, %zu lost\n",
-      name, c.trustworthy ? "trustworthy" : "NOT trustworthy", 100 * c.no_counterpart_source,
-      100 * c.no_counterpart_target, c.target_to_mapped.max, 100 * c.same_residue_area_fraction,
-      r.morph_report.n_vertices_added, r.morph_report.n_vertices_lost);
+      name, c.trustworthy ? "trustworthy" : "NOT trustworthy", 100 * c.unmatched_source, 100 * c.unmatched_target,
+      c.target_to_mapped.max, 100 * c.same_residue_area_fraction, r.morph_report.n_vertices_added,
+      r.morph_report.n_vertices_unmatched);
   for (const std::string& reason : c.reasons) std::printf("    %s\n", reason.c_str());
   CHECK(c.trustworthy == c.reasons.empty());
   CHECK(c.self_intersecting_pairs == 0);
@@ -47,7 +47,7 @@ CompareResult mapped_or_reported(const char* name, const Molecule& source, const
   const espdiff::MappedSurface& s = r.surface;
   std::vector<bool> counts(s.positions.size(), false);
   for (std::size_t t = 0; t < s.triangles.size(); ++t) {
-    if (s.no_counterpart[t] != 0) continue;
+    if (s.unmatched[t] != 0) continue;
     for (const std::uint32_t v : s.triangles[t]) counts[v] = true;
   }
   double worst = 0;
@@ -80,7 +80,7 @@ TEST_CASE("two chains that separate: the faces that met have no counterpart") {
   });
   const CompareResult r = mapped_or_reported("separating chains", b.molecule, target);
   CHECK(r.certificate.same_residue_area_fraction > 0.97);
-  CHECK(r.certificate.no_counterpart_target > 0.01);
+  CHECK(r.certificate.unmatched_target > 0.01);
 }
 
 TEST_CASE("two chains that meet: what they bury has no counterpart") {
@@ -93,7 +93,7 @@ TEST_CASE("two chains that meet: what they bury has no counterpart") {
   });
   const CompareResult r = mapped_or_reported("meeting chains", b.molecule, target);
   CHECK(r.certificate.same_residue_area_fraction > 0.97);
-  CHECK(r.certificate.no_counterpart_source > 0.01);
+  CHECK(r.certificate.unmatched_source > 0.01);
 }
 
 TEST_CASE("a closed cavity that opens") {
@@ -110,7 +110,7 @@ TEST_CASE("a closed cavity that opens") {
   const CompareResult r = mapped_or_reported("opened cavity", b.molecule, target);
   CHECK(r.source_surface.n_cavities_left_out == 1);
   // Its wall is part of the target's surface now, and was carried there.
-  CHECK(r.certificate.no_counterpart_target < 0.05);
+  CHECK(r.certificate.unmatched_target < 0.05);
 }
 
 TEST_CASE("a tunnel that forms") {
@@ -154,8 +154,8 @@ TEST_CASE("a ligand that appears, bound and free") {
     const CompareResult back =
         mapped_or_reported(distance < 15 ? "bound ligand leaves" : "free ligand leaves", with.molecule, b.molecule);
     if (distance > 15) {
-      CHECK(r.certificate.no_counterpart_target > 0.05);
-      CHECK(back.certificate.no_counterpart_source > 0.05);
+      CHECK(r.certificate.unmatched_target > 0.05);
+      CHECK(back.certificate.unmatched_source > 0.05);
     }
   }
 }

@@ -19,12 +19,12 @@ const Vec3d kAxis{2.0 / 3, -1.0 / 3, 2.0 / 3};
 /// Atoms as densely packed as a protein's, 0.1 / A^3, in a cube.
 std::vector<MovingAtom> packed(double half_side, std::uint64_t seed) {
   Random random(seed);
-  std::vector<MovingAtom> ways(static_cast<std::size_t>(0.8 * half_side * half_side * half_side));
-  for (MovingAtom& way : ways) {
-    way.start = way.end = random.in_box(half_side);
-    way.start_width = way.end_width = 1.5;
+  std::vector<MovingAtom> paths(static_cast<std::size_t>(0.8 * half_side * half_side * half_side));
+  for (MovingAtom& path : paths) {
+    path.start = path.end = random.in_box(half_side);
+    path.start_width = path.end_width = 1.5;
   }
-  return ways;
+  return paths;
 }
 
 Screw turn_by(double angle) {
@@ -37,9 +37,10 @@ Screw turn_by(double angle) {
 
 /// The largest distance of a turn from what it should be.
 template <typename Expected>
-double farthest_from(const std::vector<MovingAtom>& ways, Expected expected) {
+double farthest_from(const std::vector<MovingAtom>& paths, Expected expected) {
   double farthest = 0;
-  for (std::size_t i = 0; i < ways.size(); ++i) farthest = std::max(farthest, norm(ways[i].own_turn - expected(i)));
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    farthest = std::max(farthest, norm(paths[i].own_rotation - expected(i)));
   return farthest;
 }
 
@@ -48,34 +49,34 @@ double farthest_from(const std::vector<MovingAtom>& ways, Expected expected) {
 TEST_SUITE_BEGIN("local_turns");
 
 TEST_CASE("what turns as a whole turns all neighbourhoods, at corners less") {
-  std::vector<MovingAtom> ways = packed(12, 1);
+  std::vector<MovingAtom> paths = packed(12, 1);
   const Screw screw = turn_by(0.6);
-  for (MovingAtom& way : ways) way.end = screw.apply(way.start, 1);
-  set_local_turns(ways);
-  for (const MovingAtom& way : ways) {
-    const double along = dot(way.own_turn, kAxis);
+  for (MovingAtom& path : paths) path.end = screw.apply(path.start, 1);
+  set_local_rotations(paths);
+  for (const MovingAtom& path : paths) {
+    const double along = dot(path.own_rotation, kAxis);
     CHECK(along > 0.15);
     CHECK(along < 0.6);
-    if (std::max({std::fabs(way.start.x), std::fabs(way.start.y), std::fabs(way.start.z)}) > 3) continue;
-    CHECK(norm(way.own_turn - 0.6 * kAxis) < 0.1);
+    if (std::max({std::fabs(path.start.x), std::fabs(path.start.y), std::fabs(path.start.z)}) > 3) continue;
+    CHECK(norm(path.own_rotation - 0.6 * kAxis) < 0.1);
   }
 }
 
 TEST_CASE("nothing turns where atoms rest, move together, or go with their piece") {
-  std::vector<MovingAtom> ways = packed(8, 2);
+  std::vector<MovingAtom> paths = packed(8, 2);
   const auto none = [](std::size_t) { return Vec3d{}; };
-  set_local_turns(ways);
-  CHECK(farthest_from(ways, none) < 1e-6);
-  for (MovingAtom& way : ways) way.end = way.start + Vec3d{1, 2, 3};
-  set_local_turns(ways);
-  CHECK(farthest_from(ways, none) < 1e-6);
+  set_local_rotations(paths);
+  CHECK(farthest_from(paths, none) < 1e-6);
+  for (MovingAtom& path : paths) path.end = path.start + Vec3d{1, 2, 3};
+  set_local_rotations(paths);
+  CHECK(farthest_from(paths, none) < 1e-6);
   const Screw screw = turn_by(0.6);
-  for (std::size_t i = 0; i < ways.size(); i += 2) {
-    ways[i].motion = screw;
-    ways[i].end = screw.apply(ways[i].start, 1);
+  for (std::size_t i = 0; i < paths.size(); i += 2) {
+    paths[i].motion = screw;
+    paths[i].end = screw.apply(paths[i].start, 1);
   }
-  set_local_turns(ways);
-  CHECK(farthest_from(ways, none) < 1e-6);
+  set_local_rotations(paths);
+  CHECK(farthest_from(paths, none) < 1e-6);
 }
 
 TEST_CASE("the way back turns by the inverse, beside a piece's motion too") {
@@ -85,37 +86,37 @@ TEST_CASE("the way back turns by the inverse, beside a piece's motion too") {
   Screw inverse = screw;
   inverse.angle = -screw.angle;
   inverse.shift = -1.0 * screw.shift;
-  for (MovingAtom& way : there) {
-    way.motion = screw;
-    way.end = screw.apply(way.start, 1) + random.in_box(5);
+  for (MovingAtom& path : there) {
+    path.motion = screw;
+    path.end = screw.apply(path.start, 1) + random.in_box(5);
   }
   std::vector<MovingAtom> back = there;
-  for (MovingAtom& way : back) {
-    std::swap(way.start, way.end);
-    way.motion = inverse;
+  for (MovingAtom& path : back) {
+    std::swap(path.start, path.end);
+    path.motion = inverse;
   }
-  set_local_turns(there);
-  set_local_turns(back);
+  set_local_rotations(there);
+  set_local_rotations(back);
   double turned = 0;
   for (std::size_t i = 0; i < there.size(); ++i) {
-    turned = std::max(turned, norm(there[i].own_turn));
+    turned = std::max(turned, norm(there[i].own_rotation));
     for (const double time : {0.0, 0.3, 1.0}) CHECK(norm(there[i].spin_at(time) + back[i].spin_at(1 - time)) < 1e-6);
   }
   CHECK(turned > 0.05);
 }
 
 TEST_CASE("atoms on a line, few atoms and atoms that fade say little") {
-  std::vector<MovingAtom> ways(3);
+  std::vector<MovingAtom> paths(3);
   const Screw screw = turn_by(1);
-  for (std::size_t i = 0; i < ways.size(); ++i) {
-    ways[i].start = {1.5 * static_cast<double>(i), 0, 0};
-    ways[i].end = screw.apply(ways[i].start, 1);
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    paths[i].start = {1.5 * static_cast<double>(i), 0, 0};
+    paths[i].end = screw.apply(paths[i].start, 1);
   }
-  set_local_turns(ways);
-  CHECK(farthest_from(ways, [](std::size_t) { return Vec3d{}; }) < 0.05);
+  set_local_rotations(paths);
+  CHECK(farthest_from(paths, [](std::size_t) { return Vec3d{}; }) < 0.05);
   // Those that fade have no say, but turn with the others.
   std::vector<MovingAtom> all = packed(8, 5);
-  for (MovingAtom& way : all) way.end = screw.apply(way.start, 1);
+  for (MovingAtom& path : all) path.end = screw.apply(path.start, 1);
   const std::size_t n = all.size();
   std::vector<MovingAtom> with_fading = all;
   MovingAtom fading = all[0];
@@ -123,11 +124,11 @@ TEST_CASE("atoms on a line, few atoms and atoms that fade say little") {
   with_fading.push_back(fading);
   fading.end = {50, 0, 0};
   with_fading.push_back(fading);
-  set_local_turns(all);
-  set_local_turns(with_fading);
-  for (std::size_t i = 0; i < n; ++i) CHECK(with_fading[i].own_turn == all[i].own_turn);
-  CHECK(norm(with_fading[n].own_turn - all[0].own_turn) < 1e-12);
-  CHECK(norm(with_fading[n + 1].own_turn) == 0);
+  set_local_rotations(all);
+  set_local_rotations(with_fading);
+  for (std::size_t i = 0; i < n; ++i) CHECK(with_fading[i].own_rotation == all[i].own_rotation);
+  CHECK(norm(with_fading[n].own_rotation - all[0].own_rotation) < 1e-12);
+  CHECK(norm(with_fading[n + 1].own_rotation) == 0);
 }
 
 TEST_SUITE_END();

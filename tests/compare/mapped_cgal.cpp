@@ -42,13 +42,13 @@ TEST_CASE("CGAL finds no intersection in what has a counterpart") {
     std::vector<CgalMesh::Face_index> counted, all;
     for (const CgalMesh::Face_index face : theirs.faces()) {
       all.push_back(face);
-      if (surface.no_counterpart[face.idx()] == 0) counted.push_back(face);
+      if (surface.unmatched[face.idx()] == 0) counted.push_back(face);
     }
-    std::vector<std::pair<CgalMesh::Face_index, CgalMesh::Face_index>> pairs, lost_too;
+    std::vector<std::pair<CgalMesh::Face_index, CgalMesh::Face_index>> pairs, unmatched_too;
     CGAL::Polygon_mesh_processing::self_intersections(counted, theirs, std::back_inserter(pairs));
-    CGAL::Polygon_mesh_processing::self_intersections(all, theirs, std::back_inserter(lost_too));
+    CGAL::Polygon_mesh_processing::self_intersections(all, theirs, std::back_inserter(unmatched_too));
     std::printf("%s onto %s: %zu of %zu triangles have a counterpart, CGAL finds %zu pairs in them, %zu in all\n", from,
-                to, counted.size(), all.size(), pairs.size(), lost_too.size());
+                to, counted.size(), all.size(), pairs.size(), unmatched_too.size());
     CHECK(pairs.empty());
     CHECK(result.certificate.self_intersecting_pairs == 0);
     CHECK(counted.size() > all.size() * 9 / 10);

@@ -45,7 +45,7 @@ Molecule swung(const Molecule& m, double angle) {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("rigid_pieces");
+TEST_SUITE_BEGIN("rigid_domains");
 
 TEST_CASE("what swings as a rigid body is displaced by nothing, by both methods") {
   const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
@@ -53,21 +53,21 @@ TEST_CASE("what swings as a rigid body is displaced by nothing, by both methods"
   for (const Method method : {Method::kMorph, Method::kDeform}) {
     CompareOptions options;
     options.method = method;
-    const auto displacement_with = [&](const char* pieces) {
-      options.pieces = pieces;
+    const auto displacement_with = [&](const char* domains) {
+      options.domains = domains;
       const CompareResult r = compare(*engine, {&source, nullptr}, {&target, nullptr}, options, {});
       CHECK(r.certificate.converged);
       if (method == Method::kMorph) CHECK(r.certificate.self_intersecting_pairs == 0);
       return std::pair(espdiff::counted_surface(r).mean_displacement_A, r);
     };
     const auto [as_a_whole, whole] = displacement_with("none");
-    const auto [by_pieces, chains] = displacement_with("chains");
+    const auto [by_domains, chains] = displacement_with("chains");
     CAPTURE(to_string(method));
-    CHECK(by_pieces < 0.1);
-    CHECK(as_a_whole > 8 * by_pieces);  // deform lets a ball turn under its surface, so that it moves little
-    CHECK(whole.pieces.empty());
-    REQUIRE(chains.pieces.size() == 2);
-    CHECK(chains.pieces[1].rmsd_A < 1e-9);
+    CHECK(by_domains < 0.1);
+    CHECK(as_a_whole > 8 * by_domains);  // deform lets a ball turn under its surface, so that it moves little
+    CHECK(whole.domains.empty());
+    REQUIRE(chains.domains.size() == 2);
+    CHECK(chains.domains[1].rmsd_A < 1e-9);
     CHECK(chains.certificate.same_residue_area_fraction > 0.95);
   }
 }
@@ -76,7 +76,7 @@ TEST_CASE("there and back goes by the pieces' motions and their inverses") {
   const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
   const Molecule source = dumbbell(), target = swung(source, 1.2);
   CompareOptions options;
-  options.pieces = "chains";
+  options.domains = "chains";
   options.round_trip = true;
   const CompareResult r = compare(*engine, {&source, nullptr}, {&target, nullptr}, options, {});
   REQUIRE(r.certificate.round_trip.has_value());
@@ -89,27 +89,27 @@ TEST_CASE("one piece that is all of the molecule changes nothing but rounding") 
   const Side a = make_side(1, 0), b = make_side(2, 0.3);
   CompareOptions options = quick_options();
   const CompareResult whole = compare(*engine, a.input(), b.input(), options, {});
-  options.pieces = "chains";
-  const CompareResult piece = compare(*engine, a.input(), b.input(), options, {});
-  REQUIRE(piece.pieces.size() == 1);
-  CHECK(piece.pieces[0].rmsd_A == doctest::Approx(whole.rmsd_A));
-  CHECK(piece.metrics.mean_abs_difference == doctest::Approx(whole.metrics.mean_abs_difference).epsilon(1e-3));
-  CHECK(piece.metrics.mean_displacement_A == doctest::Approx(whole.metrics.mean_displacement_A).epsilon(1e-3));
+  options.domains = "chains";
+  const CompareResult domain = compare(*engine, a.input(), b.input(), options, {});
+  REQUIRE(domain.domains.size() == 1);
+  CHECK(domain.domains[0].rmsd_A == doctest::Approx(whole.rmsd_A));
+  CHECK(domain.metrics.mean_abs_difference == doctest::Approx(whole.metrics.mean_abs_difference).epsilon(1e-3));
+  CHECK(domain.metrics.mean_displacement_A == doctest::Approx(whole.metrics.mean_displacement_A).epsilon(1e-3));
 }
 
 TEST_CASE("a result names its pieces") {
   const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
   const Molecule source = dumbbell(), target = swung(source, 0.5);
   CompareOptions options;
-  options.pieces = "A:1-3/B:1-2";
+  options.domains = "A:1-3/B:1-2";
   const CompareResult r = compare(*engine, {&source, nullptr}, {&target, nullptr}, options, {});
   const auto json = nlohmann::json::parse(espdiff::compare_json(source, target, r, options, {}));
-  const auto& pieces = json["superposition"]["pieces"];
-  REQUIRE(pieces.size() == 2);
-  CHECK(pieces[1]["residues"] == "B:1-2");
-  CHECK(pieces[1]["n_residues"] == 2);
-  CHECK(pieces[1]["rmsd_A"].get<double>() < 1e-9);
-  CHECK(json["options"]["pieces"] == "A:1-3/B:1-2");
+  const auto& domains = json["superposition"]["domains"];
+  REQUIRE(domains.size() == 2);
+  CHECK(domains[1]["residues"] == "B:1-2");
+  CHECK(domains[1]["n_residues"] == 2);
+  CHECK(domains[1]["rmsd_A"].get<double>() < 1e-9);
+  CHECK(json["options"]["domains"] == "A:1-3/B:1-2");
   std::ostringstream table;
   espdiff::print_table(table, source, target, r);
   CHECK(table.str().find("rigid piece               ") != std::string::npos);
@@ -130,10 +130,10 @@ TEST_CASE("pieces of molecules in which nothing pairs are refused") {
   CompareOptions options;
   options.method = Method::kDeform;
   options.align = espdiff::AlignAtoms::kNone;
-  options.pieces = "chains";
+  options.domains = "chains";
   CHECK(message_of([&] {
           compare(*engine, {&source, nullptr}, {&other, nullptr}, options, {});
-        }) == "pieces are moved by their paired atoms, and none pair; give pieces none");
+        }) == "domains are moved by their paired atoms, and none pair; give domains none");
 }
 
 TEST_SUITE_END();

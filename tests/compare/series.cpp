@@ -75,7 +75,7 @@ TEST_CASE("a surface that the morph carries on from frame to frame ends where th
     CHECK(on.start == (f == 0 ? StartFrom::kSource : StartFrom::kPrevious));
     CHECK(on.certificate.mapped_to_target.mean < 0.02);
     CHECK(on.certificate.self_intersecting_pairs == 0);
-    CHECK(on.certificate.no_counterpart_source < 0.02);
+    CHECK(on.certificate.unmatched_source < 0.02);
     CHECK(on.metrics.mean_signed_difference == doctest::Approx(direct.metrics.mean_signed_difference).epsilon(0.05));
     CHECK(on.metrics.mean_path_length_A >= on.metrics.mean_displacement_A);
     // Vertices of the source's own surface come first in both.
@@ -107,7 +107,7 @@ TEST_CASE("the morph carried on to the same target leaves the surface where it i
   REQUIRE(again.surface.positions.size() == once.surface.positions.size());
   for (std::size_t v = 0; v < once.surface.positions.size(); ++v)
     CHECK(norm(once.surface.positions[v] - again.surface.positions[v]) < 0.02);  // some even out a little further
-  CHECK(again.surface.no_counterpart == once.surface.no_counterpart);
+  CHECK(again.surface.unmatched == once.surface.unmatched);
 }
 
 TEST_CASE("what the morph lost stays lost in the next step, and after too much it starts anew") {
@@ -125,14 +125,14 @@ TEST_CASE("what the morph lost stays lost in the next step, and after too much i
     return series.step({&target, nullptr}, StartFrom::kPrevious, {});
   };
   double closed = 2.1;  // by so much
-  double lost = step(19 - closed).certificate.no_counterpart_source;
+  double lost = step(19 - closed).certificate.unmatched_source;
   const double at_start = lost;
   while (lost <= at_start + 0.005 && closed < 10) {
     closed *= 1.8;  // the last target then lies less than half as far as the source
     const CompareResult next = step(19 - closed);
     CHECK(next.start == StartFrom::kPrevious);
-    CHECK(next.certificate.no_counterpart_source >= lost - 1e-4);
-    lost = next.certificate.no_counterpart_source;
+    CHECK(next.certificate.unmatched_source >= lost - 1e-4);
+    lost = next.certificate.unmatched_source;
   }
   REQUIRE(lost > at_start + 0.005);
   const CompareResult anew = step(18.5 - closed);
@@ -145,7 +145,7 @@ TEST_CASE("rigid pieces go on from frame to frame as well") {
   const Motion motion;
   const auto engine = one_engine();
   CompareOptions options = quick_options();
-  options.pieces = "1-6/7-12";
+  options.domains = "1-6/7-12";
   Series along(*engine, motion.source.input(), options), apart(*engine, motion.source.input(), options);
   for (const std::size_t f : {0, 1, 2}) {
     const CompareResult on = along.step(motion.frames[f].input(), StartFrom::kPrevious, {});
@@ -229,7 +229,7 @@ TEST_CASE("a series that goes on from its saved state gives the same bits") {
     const CompareResult result = resumed.step(motion.frames[2].input(), StartFrom::kPrevious, {});
     CHECK(result.start == StartFrom::kPrevious);
     CHECK(hash_of(result) == hash_of(expected));
-    CHECK(result.surface.no_counterpart == expected.surface.no_counterpart);
+    CHECK(result.surface.unmatched == expected.surface.unmatched);
     // And what it would hand on.
     write_series_state(folder.file("expected"), whole.state().value(), "");
     write_series_state(folder.file("resumed"), resumed.state().value(), "");

@@ -34,8 +34,8 @@ struct Allocation {
 
 struct Device {
   std::map<char*, Allocation> allocations;
-  std::multimap<std::size_t, char*> free_pieces;  ///< size: where its first red zone begins
-  char* untouched = nullptr;                      ///< from here on nothing was ever allocated
+  std::multimap<std::size_t, char*> free_domains;  ///< size: where its first red zone begins
+  char* untouched = nullptr;                       ///< from here on nothing was ever allocated
   std::size_t n_bytes = 0;
 
   Device() {
@@ -67,11 +67,11 @@ char* allocate(std::size_t n_bytes) {
   Device& d = device();
   std::size_t taken = (n_bytes + kGranularity - 1) / kGranularity * kGranularity + 2 * kRedZone;
   char* start = nullptr;
-  const auto piece = d.free_pieces.lower_bound(taken);
-  if (piece != d.free_pieces.end() && piece->first <= 2 * taken) {
+  const auto piece = d.free_domains.lower_bound(taken);
+  if (piece != d.free_domains.end() && piece->first <= 2 * taken) {
     taken = piece->first;
     start = piece->second;
-    d.free_pieces.erase(piece);
+    d.free_domains.erase(piece);
   } else {
     if (taken > static_cast<std::size_t>(device_begin + device_size - d.untouched)) return nullptr;
     start = d.untouched;
@@ -100,7 +100,7 @@ void release(char* start) {
   std::memset(view(start), kCanary, it.asked);
   mark_released(start, it.asked);
   d.allocations.erase(found);
-  d.free_pieces.emplace(it.taken, start - kRedZone);
+  d.free_domains.emplace(it.taken, start - kRedZone);
   d.n_bytes -= it.asked;
 }
 

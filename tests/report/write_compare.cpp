@@ -49,7 +49,7 @@ CompareResult made_result() {
   result.certificate.corrupt_area_fraction = 0.125;
   result.certificate.mapped_to_target = {0.01, 0.05, 0.5, 0, 0.01, nullptr};
   result.certificate.target_to_mapped = {0.02, 0.06, 1.5, 0.25, 0.015, nullptr};
-  result.certificate.no_counterpart_target = 0.25;
+  result.certificate.unmatched_target = 0.25;
   result.certificate.converged = true;
   result.certificate.reasons = {"12.5 % of the mapped area is corrupt (limit 0.1 %)"};
   result.certificate.self_intersecting_pairs = 3;

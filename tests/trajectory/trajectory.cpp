@@ -114,7 +114,7 @@ TEST_CASE("a row a frame, with the values of the pair, and what the rows were ma
     CHECK(row["reference_frame"] == "file source.pqr");
     CHECK(std::stod(row["rmsd_A"]) == alone.rmsd_A);
     CHECK(std::stod(row["mean_abs_difference"]) == alone.metrics.mean_abs_difference);
-    CHECK(std::stod(row["no_counterpart_target"]) == alone.certificate.no_counterpart_target);
+    CHECK(std::stod(row["no_counterpart_target"]) == alone.certificate.unmatched_target);
     CHECK(row["potential_unit"] == "kT/e");
     CHECK(row["start"] == "source");
     CHECK(row["converged"] == (alone.certificate.converged ? "1" : "0"));

@@ -303,7 +303,7 @@ TEST_CASE("what is known of a picked point is said in words") {
   CHECK(contains(text(), "trusted here"));
   point.is_corrupt = true;
   CHECK(contains(text(), "corrupt here"));
-  point.has_counterpart = false;
+  point.is_matched = false;
   point.target = std::nanf("");
   CHECK(contains(text(), "without a counterpart on the target"));
   CHECK(contains(text(), "target            no value"));

@@ -42,11 +42,11 @@ AtomSet moved_atoms(AtomSet atoms, const std::function<Vec3d(Vec3d)>& move) {
 
 struct Travelled {
   Mesh source, mapped;
-  std::vector<float> lost;
+  std::vector<float> unmatched;
   espdiff::MorphReport report;
 
-  std::size_t n_lost() const {
-    return static_cast<std::size_t>(std::count_if(lost.begin(), lost.end(), [](float f) { return f != 0; }));
+  std::size_t n_unmatched() const {
+    return static_cast<std::size_t>(std::count_if(unmatched.begin(), unmatched.end(), [](float f) { return f != 0; }));
   }
 };
 
@@ -58,7 +58,7 @@ Travelled travel(Engine& engine, const Journey& j, const MorphOptions& options =
   const auto source = upload(engine, j.source), target = upload(engine, j.target);
   const MorphResult r =
       engine.morph(surface_of(engine, source, spacing), j.ways, source, target, options, "morph", espdiff::Progress{});
-  return {engine.download(r.source), engine.download(r.mapped), engine.download(r.lost), r.report};
+  return {engine.download(r.source), engine.download(r.mapped), engine.download(r.unmatched), r.report};
 }
 
 double farthest(const std::vector<Vec3f>& a, const std::vector<Vec3f>& b) {
@@ -76,7 +76,7 @@ TEST_CASE("atoms at rest leave every vertex where it is") {
   for (const auto& engine : back_ends()) {
     const Travelled t = travel(*engine, journey(atoms, atoms));
     CHECK(t.report.n_vertices_added == 0);
-    CHECK(t.n_lost() == 0);
+    CHECK(t.n_unmatched() == 0);
     CHECK(farthest(t.source.positions, t.mapped.positions) < 1e-3);
   }
 }
@@ -86,7 +86,7 @@ TEST_CASE("atoms that move together carry the surface rigidly") {
   const Vec3d shift{5, -3, 8};
   for (const auto& engine : back_ends()) {
     const Travelled t = travel(*engine, journey(atoms, moved_atoms(atoms, [&](Vec3d p) { return p + shift; })));
-    CHECK(t.n_lost() == 0);
+    CHECK(t.n_unmatched() == 0);
     CHECK(t.report.n_vertices_added == 0);
     CHECK(t.report.steps == static_cast<int>(std::ceil(norm(shift) / MorphOptions{}.max_step_A)));
     double worst = 0;
@@ -103,7 +103,7 @@ TEST_CASE("a Gaussian that widens sends every vertex out along its radius, and l
     options.max_edge_A = 1.2;
     const Travelled t = travel(*engine, journey(one_gaussian({0, 0, 0}, 2), one_gaussian({0, 0, 0}, 4)), options);
     const double radius = std::sqrt(2 * std::log(2.0));  // of the isosurface of a Gaussian of width 1, isovalue 1/2
-    CHECK(t.n_lost() == 0);
+    CHECK(t.n_unmatched() == 0);
     CHECK(t.report.n_vertices_added > 0);
     CHECK(manifold_fault(t.mapped).empty());
     CHECK(manifold_fault(t.source).empty());
@@ -158,7 +158,7 @@ TEST_CASE("a morph that goes on: at rest it leaves every vertex, and two halves 
     const MorphResult rest = engine->continue_morph(half, journey(first.target, first.target).ways, source, middle, {},
                                                     "morph", espdiff::Progress{});
     CHECK(rest.report.n_vertices_added == 0);
-    CHECK(engine->download(rest.lost) == engine->download(half.lost));
+    CHECK(engine->download(rest.unmatched) == engine->download(half.unmatched));
     CHECK(farthest(engine->download(rest.mapped).positions, engine->download(half.mapped).positions) < 1e-3);
     CHECK(engine->download(rest.source).positions == engine->download(half.source).positions);
 
@@ -178,7 +178,7 @@ TEST_CASE("a morph that goes on: at rest it leaves every vertex, and two halves 
     CHECK(sum / static_cast<double>(engine->n_vertices(mesh)) < 0.03);
 
     MorphResult torn = half;
-    torn.lost = engine->upload_scalars({1, 0, 0});
+    torn.unmatched = engine->upload_scalars({1, 0, 0});
     CHECK_THROWS_AS(engine->continue_morph(torn, second.ways, source, target, {}, "morph", espdiff::Progress{}),
                     espdiff::GeometryError);
   }
@@ -197,11 +197,11 @@ TEST_CASE("what a morph has lost stays lost when it goes on") {
         engine->morph(surface_of(*engine, source), parting.ways, source, target, {}, "morph", espdiff::Progress{});
     const MorphResult met =
         engine->continue_morph(parted, meeting.ways, source, source, {}, "morph", espdiff::Progress{});
-    const auto area_lost = [&](const MorphResult& r) {
-      return 1 - engine->area(engine->without(r.source, r.lost)) / engine->area(r.source);
+    const auto unmatched_area = [&](const MorphResult& r) {
+      return 1 - engine->area(engine->without(r.source, r.unmatched)) / engine->area(r.source);
     };
-    CHECK(area_lost(parted) > 0.02);
-    CHECK(area_lost(met) >= area_lost(parted) - 1e-6);
+    CHECK(unmatched_area(parted) > 0.02);
+    CHECK(unmatched_area(met) >= unmatched_area(parted) - 1e-6);
   }
 }
 
@@ -226,7 +226,7 @@ TEST_CASE("an atom that appears grows out of where its way begins, one that vani
   for (const auto& engine : back_ends()) {
     for (const Journey* j : {&appears, &vanishes}) {
       const Travelled t = travel(*engine, *j);
-      CHECK(t.n_lost() == 0);
+      CHECK(t.n_unmatched() == 0);
       const auto target = upload(*engine, j->target);
       for (const float density : engine->density_at(target, t.mapped.positions))
         CHECK(std::fabs(density - 0.5F) < 1e-3F);
@@ -244,12 +244,12 @@ TEST_CASE("two balls that part: the neck is lost, the rest lies on the target") 
   }
   for (const auto& engine : back_ends()) {
     const Travelled t = travel(*engine, journey(together, apart));
-    CHECK(t.n_lost() > 0);
-    CHECK(t.report.n_vertices_lost > 0);
-    REQUIRE(t.lost.size() == t.mapped.triangles.size());
+    CHECK(t.n_unmatched() > 0);
+    CHECK(t.report.n_vertices_unmatched > 0);
+    REQUIRE(t.unmatched.size() == t.mapped.triangles.size());
     const std::vector<float> density = engine->density_at(upload(*engine, apart), t.mapped.positions);
-    for (std::size_t k = 0; k < t.lost.size(); ++k) {
-      if (t.lost[k] != 0) continue;
+    for (std::size_t k = 0; k < t.unmatched.size(); ++k) {
+      if (t.unmatched[k] != 0) continue;
       for (const std::uint32_t v : t.mapped.triangles[k]) CHECK(std::fabs(density[v] - 0.5F) < 0.01F);
     }
   }
@@ -265,7 +265,7 @@ TEST_CASE("the same bits at any number of threads") {
     const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, n_threads);
     const Travelled t = travel(*engine, j);
     const std::uint64_t hash =
-        Hash().add(t.source.positions).add(t.mapped.positions).add(t.mapped.triangles).add(t.lost).value();
+        Hash().add(t.source.positions).add(t.mapped.positions).add(t.mapped.triangles).add(t.unmatched).value();
     if (n_threads == 1) first = hash;
     CHECK(hash == first);
   }

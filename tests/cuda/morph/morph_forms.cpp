@@ -18,7 +18,7 @@ using espdiff::Vec4f;
 
 namespace {
 
-std::vector<MovingAtom> random_ways(std::size_t n, std::uint64_t seed) {
+std::vector<MovingAtom> random_paths(std::size_t n, std::uint64_t seed) {
   const AtomSet atoms = random_cloud(n, seed);
   Random random(seed + 100);
   std::vector<MovingAtom> ways;
@@ -103,7 +103,7 @@ TEST_SUITE_BEGIN("morph");
 TEST_CASE("blocks of points and single points give the same bits") {
   for (const std::size_t n_points : {1, 15, 16, 17, 1000}) {
     for (const double time : {0.0, 0.3, 1.0}) {
-      const MovingAtoms atoms = atoms_at(random_ways(200, 21), time);
+      const MovingAtoms atoms = atoms_at(random_paths(200, 21), time);
       const Buffer<Vec4f> points = random_points(n_points, 12);
       const Buffer<std::uint32_t> order = spatial_order(points);
       Buffer<FlowSample> a(n_points), b(n_points);
@@ -122,7 +122,7 @@ TEST_CASE("blocks of points and single points give the same bits") {
 }
 
 TEST_CASE("density, gradient and rate are those of the sum, by finite differences in double precision") {
-  const std::vector<MovingAtom> ways = random_ways(200, 22);
+  const std::vector<MovingAtom> ways = random_paths(200, 22);
   constexpr std::size_t kPoints = 200;
   const double time = 0.4, step = 1e-5;
   const Buffer<Vec4f> points = random_points(kPoints, 8);
@@ -145,7 +145,7 @@ TEST_CASE("density, gradient and rate are those of the sum, by finite difference
 }
 
 TEST_CASE("the velocity is that of the atoms where all move alike, and none where there are none") {
-  std::vector<MovingAtom> ways = random_ways(50, 23);
+  std::vector<MovingAtom> ways = random_paths(50, 23);
   for (MovingAtom& way : ways) way.end = way.start + Vec3d{1, -2, 3};
   const Buffer<Vec4f> points = to_device(std::vector<Vec4f>{{0, 0, 0, 0}, {2, 1, 0, 0}, {500, 0, 0, 0}});
   Buffer<FlowSample> samples(3);
@@ -161,11 +161,11 @@ TEST_CASE("the velocity is that of the atoms where all move alike, and none wher
 
 TEST_CASE("the velocity is that of the atoms' turning surroundings, by the square roots of their densities") {
   Random random(24);
-  std::vector<MovingAtom> ways = random_ways(60, 25);
+  std::vector<MovingAtom> ways = random_paths(60, 25);
   for (MovingAtom& way : ways) {
     way.motion.axis = random.direction();
     way.motion.angle = random.uniform(-1, 1);
-    way.own_turn = random.in_box(1);
+    way.own_rotation = random.in_box(1);
   }
   constexpr std::size_t kPoints = 100;
   const double time = 0.4;
