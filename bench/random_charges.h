@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "engine/engine.h"
+#include "engine/potential_stage.h"
 
 namespace espdiff_bench {
 

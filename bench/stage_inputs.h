@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "base/types.h"
-#include "compare/compare.h"
+#include "compare/options.h"
+#include "engine/handles.h"
 #include "engine/select_engine.h"
 #include "marching_cubes_peer.h"
 

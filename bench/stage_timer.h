@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "engine/engine.h"
+#include "engine/handles.h"
 
 namespace espdiff_bench {
 

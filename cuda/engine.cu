@@ -10,7 +10,6 @@
 #include <thread>
 
 #include "base/error.h"
-#include "cuda/certificate/carry.h"
 #include "cuda/certificate/certificate.h"
 #include "cuda/certificate/distortion.h"
 #include "cuda/certificate/intersections.h"
@@ -23,6 +22,7 @@
 #include "cuda/potential/coulomb.h"
 #include "cuda/potential/pme.h"
 #include "cuda/surface/adjacency.h"
+#include "cuda/surface/carry.h"
 #include "cuda/surface/components.h"
 #include "cuda/surface/density.h"
 #include "cuda/surface/density_at_points.h"
@@ -32,8 +32,14 @@
 #include "cuda/surface/sample.h"
 #include "cuda/surface/subdivide.h"
 #include "cuda/surface/submesh.h"
+#include "engine/certificate_stage.h"
+#include "engine/deform_stage.h"
 #include "engine/engine.h"
+#include "engine/handles.h"
 #include "engine/make_engine.h"
+#include "engine/morph_stage.h"
+#include "engine/potential_stage.h"
+#include "engine/surface_stage.h"
 
 #if defined(ESPDIFF_BACKEND_CUDA)
 #include <cuda_runtime_api.h>

@@ -2,7 +2,10 @@
 // it.
 #include "base/error.h"
 #include "commands.h"
+#include "compare/result.h"
 #include "compare/settings.h"
+#include "compare/surface.h"
+#include "engine/engine.h"
 #include "engine/select_engine.h"
 #include "tcl_values.h"
 #include "trajectory/series_file.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/types.h"
-#include "engine/engine.h"
+#include "compare/input.h"
 #include "io/read_structure.h"
 #include "potential/potential.h"
 #include "report/write_compare.h"

@@ -6,6 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "compare/options.h"
+#include "compare/result.h"
+#include "compare/series.h"
+#include "compare/surface.h"
 #include "endpoint.h"
 #include "matrix/matrix_run.h"
 #include "report/write_compare.h"

@@ -1,6 +1,7 @@
 // matrix_commands.cpp: matrix, merge: many variants, each with each, and parts of a matrix put together.
 #include "base/error.h"
 #include "commands.h"
+#include "engine/engine.h"
 #include "tcl_values.h"
 
 namespace espdiff::vmdplugin {

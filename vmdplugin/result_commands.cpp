@@ -3,6 +3,8 @@
 #include <sstream>
 
 #include "commands.h"
+#include "compare/result.h"
+#include "compare/surface.h"
 #include "matrix/write_matrix.h"
 #include "report/residue_values.h"
 #include "report/write_surface.h"

@@ -9,6 +9,7 @@
 #include "cuda/device/spatial_order.h"
 #include "cuda/surface/adjacency.h"
 #include "cuda/surface/density_at_points.h"
+#include "engine/certificate_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {

@@ -5,6 +5,7 @@
 #include "cuda/surface/atom_cells.h"
 #include "cuda/surface/mesh.h"
 #include "cuda/surface/triangle_tree.h"
+#include "engine/certificate_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

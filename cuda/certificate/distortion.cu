@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "cuda/surface/adjacency.h"
+#include "engine/certificate_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {

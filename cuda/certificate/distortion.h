@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cuda/surface/mesh.h"
+#include "engine/certificate_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

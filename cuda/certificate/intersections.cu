@@ -4,6 +4,7 @@
 
 #include "cuda/certificate/triangle_pairs.h"
 #include "cuda/surface/triangle_tree.h"
+#include "engine/certificate_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {

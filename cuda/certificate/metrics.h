@@ -3,6 +3,7 @@
 
 #include "cuda/surface/atom_cells.h"
 #include "cuda/surface/mesh.h"
+#include "engine/certificate_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

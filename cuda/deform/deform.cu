@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "cuda/deform/deform_iteration.h"
+#include "engine/deform_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {

@@ -4,6 +4,7 @@
 #include "base/progress.h"
 #include "cuda/surface/grid.h"
 #include "cuda/surface/mesh.h"
+#include "engine/deform_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

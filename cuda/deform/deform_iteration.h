@@ -5,6 +5,7 @@
 #include "cuda/deform/deform.h"
 #include "cuda/surface/adjacency.h"
 #include "cuda/surface/sample.h"
+#include "engine/deform_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "cuda/deform/fields.h"
 #include "cuda/surface/sample.h"
+#include "engine/deform_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {

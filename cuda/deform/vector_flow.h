@@ -3,6 +3,7 @@
 
 #include "base/progress.h"
 #include "cuda/surface/grid.h"
+#include "engine/deform_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

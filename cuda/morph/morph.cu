@@ -6,9 +6,11 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/progress.h"
 #include "cuda/device/spatial_order.h"
 #include "cuda/morph/moving_surface.h"
 #include "cuda/surface/project.h"
+#include "engine/morph_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {

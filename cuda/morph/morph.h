@@ -4,8 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "base/progress.h"
 #include "cuda/surface/atom_cells.h"
 #include "cuda/surface/mesh.h"
+#include "engine/morph_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

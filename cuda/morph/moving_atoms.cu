@@ -2,6 +2,7 @@
 #include "cuda/morph/moving_atoms.h"
 
 #include "cuda/surface/point_sums.h"
+#include "engine/morph_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {

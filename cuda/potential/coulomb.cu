@@ -6,6 +6,8 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/progress.h"
+#include "engine/potential_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {

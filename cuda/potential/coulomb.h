@@ -4,7 +4,9 @@
 #include <memory>
 #include <vector>
 
+#include "base/progress.h"
 #include "cuda/surface/sample.h"
+#include "engine/potential_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/progress.h"
 #include "cuda/potential/coulomb.h"
 #include "cuda/potential/pmepot_places.h"
 #include "cuda/potential/spread.h"

@@ -4,8 +4,10 @@
 #include <memory>
 #include <vector>
 
+#include "base/progress.h"
 #include "cuda/potential/fourier.h"
 #include "cuda/surface/sample.h"
+#include "engine/potential_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

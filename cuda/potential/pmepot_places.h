@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "engine/engine.h"
+#include "engine/potential_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

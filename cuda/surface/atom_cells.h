@@ -5,7 +5,7 @@
 
 #include "cuda/device/device.h"
 #include "cuda/surface/gaussian.h"
-#include "engine/engine.h"
+#include "engine/handles.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "cuda/surface/submesh.h"
+#include "engine/surface_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cuda/surface/mesh.h"
+#include "engine/surface_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

@@ -3,8 +3,9 @@
 
 #include <array>
 
+#include "base/types.h"
 #include "cuda/device/device.h"
-#include "engine/engine.h"
+#include "engine/handles.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

@@ -5,7 +5,7 @@
 
 #include "base/types.h"
 #include "cuda/device/device.h"
-#include "engine/engine.h"
+#include "engine/handles.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

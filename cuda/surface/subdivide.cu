@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "cuda/surface/split_edges.h"
+#include "engine/surface_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {

@@ -243,9 +243,9 @@ std::vector<RigidDomain> find_domains(const std::string& text, const Molecule& s
   const std::vector<std::vector<Range>> ranges = parse(text);
   if (text == "none") return {};
   const Search search{source, target, pairs_of_residues(source, pairs)};
-  const std::vector<std::size_t> number = text == "chains"    ? by_chain(source)
+  const std::vector<std::size_t> number = text == "chains" ? by_chain(source)
                                           : text == "auto" ? search.domains()
-                                                              : by_name(source, text, ranges);
+                                                           : by_name(source, text, ranges);
   std::map<std::size_t, RigidDomain> domains;
   for (std::size_t r = 0; r < number.size(); ++r) {
     if (number[r] != kNone) domains[number[r]].residues.push_back(r);

@@ -3,6 +3,9 @@
 
 #include "cli/map_options.h"
 #include "cli/verbs.h"
+#include "compare/compare.h"
+#include "compare/result.h"
+#include "engine/engine.h"
 #include "io/atomic_file.h"
 #include "io/sha256.h"
 #include "report/residue_values.h"

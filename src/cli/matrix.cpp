@@ -6,6 +6,7 @@
 #include "cli/map_options.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
+#include "engine/engine.h"
 #include "matrix/matrix_run.h"
 #include "matrix/write_matrix.h"
 

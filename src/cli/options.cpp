@@ -1,5 +1,6 @@
 // options.cpp: options that several verbs share.
 #include "cli/options.h"
+#include "engine/engine.h"
 
 #include "base/error.h"
 #include "engine/select_engine.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "compare/settings.h"
-#include "engine/engine.h"
+#include "engine/handles.h"
 #include "io/read_structure.h"
 #include "potential/potential.h"
 

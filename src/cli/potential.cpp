@@ -7,6 +7,7 @@
 
 #include "cli/options.h"
 #include "cli/verbs.h"
+#include "engine/engine.h"
 #include "io/read_unit_cells.h"
 #include "io/write_grid.h"
 #include "potential/potential.h"

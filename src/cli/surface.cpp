@@ -4,6 +4,9 @@
 
 #include "cli/options.h"
 #include "cli/verbs.h"
+#include "compare/input.h"
+#include "compare/surface.h"
+#include "engine/engine.h"
 #include "io/write_grid.h"
 #include "report/write_surface.h"
 

@@ -1,5 +1,6 @@
 // trajectory.cpp: `espdiff trajectory SOURCE FRAMES... -o OUT.csv`.
 #include "trajectory/trajectory.h"
+#include "engine/engine.h"
 
 #include <chrono>
 #include <cstdio>

@@ -5,7 +5,7 @@
 
 #include "align/pair_atoms.h"
 #include "compare/domain_motions.h"
-#include "engine/engine.h"
+#include "engine/morph_stage.h"
 
 namespace espdiff {
 

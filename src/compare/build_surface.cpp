@@ -3,7 +3,10 @@
 
 #include "align/superpose.h"
 #include "base/error.h"
+#include "compare/options.h"
 #include "compare/side_maps.h"
+#include "compare/surface.h"
+#include "engine/engine.h"
 
 namespace espdiff {
 namespace {

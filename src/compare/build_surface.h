@@ -3,10 +3,17 @@
 
 #include <vector>
 
-#include "compare/compare.h"
+#include "base/progress.h"
+#include "compare/result.h"
 #include "compare/stage_clock.h"
+#include "engine/handles.h"
+#include "engine/surface_stage.h"
 
 namespace espdiff {
+
+struct CompareOptions;
+struct DeformReport;
+struct SurfaceOptions;
 
 /// How far a vertex may move onto the analytic surface, in grid spacings: linear interpolation errs by less than a
 /// tenth.

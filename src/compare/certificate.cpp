@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <limits>
 
+#include "engine/engine.h"
+
 namespace espdiff {
 namespace {
 

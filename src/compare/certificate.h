@@ -1,10 +1,14 @@
 // certificate.h: whether a comparison can be trusted, and why not.
 #pragma once
 
-#include "compare/compare.h"
 #include "compare/mapping.h"
+#include "compare/result.h"
+#include "engine/handles.h"
 
 namespace espdiff {
+
+struct CompareResult;
+struct MappedSurface;
 
 /// Distances both ways, intersecting triangles and the fit of the mapped mesh; not yet judged.
 Certificate certify(Engine& engine, const Mapping& mapping, const MeshPtr& target);

@@ -5,6 +5,7 @@
 
 #include "align/superpose.h"
 #include "base/error.h"
+#include "compare/options.h"
 
 namespace espdiff {
 namespace {

@@ -1,5 +1,4 @@
 // compare.cpp: the order of the stages for one pair.
-#include "compare/compare.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,14 +11,24 @@
 #include "compare/build_surface.h"
 #include "compare/certificate.h"
 #include "compare/common_frame.h"
+#include "compare/compare.h"
 #include "compare/domain_motions.h"
+#include "compare/input.h"
 #include "compare/last_step.h"
 #include "compare/map_by_deform.h"
 #include "compare/mapping.h"
+#include "compare/options.h"
 #include "compare/paired_residues.h"
 #include "compare/residue_rows.h"
+#include "compare/result.h"
 #include "compare/round_trip.h"
+#include "compare/series.h"
 #include "compare/side_maps.h"
+#include "engine/certificate_stage.h"
+#include "engine/deform_stage.h"
+#include "engine/engine.h"
+#include "engine/handles.h"
+#include "engine/morph_stage.h"
 
 namespace espdiff {
 

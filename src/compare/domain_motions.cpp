@@ -2,6 +2,7 @@
 #include "compare/domain_motions.h"
 
 #include "align/superpose.h"
+#include "engine/engine.h"
 
 namespace espdiff {
 

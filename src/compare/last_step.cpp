@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "compare/atom_paths.h"
 #include "compare/paired_residues.h"
+#include "engine/engine.h"
 
 namespace espdiff {
 namespace {

@@ -5,9 +5,14 @@
 #include <vector>
 
 #include "compare/common_frame.h"
-#include "compare/compare.h"
+#include "compare/options.h"
+#include "compare/series.h"
+#include "engine/handles.h"
+#include "engine/morph_stage.h"
 
 namespace espdiff {
+
+struct CompareOptions;
 
 /// A step's end, all in the common frame.
 struct LastStep {

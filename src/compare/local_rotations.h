@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "engine/engine.h"
+#include "engine/morph_stage.h"
 
 namespace espdiff {
 

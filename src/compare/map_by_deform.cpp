@@ -4,6 +4,9 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/progress.h"
+#include "compare/options.h"
+#include "engine/engine.h"
 
 namespace espdiff {
 namespace {

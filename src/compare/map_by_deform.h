@@ -1,6 +1,7 @@
 // map_by_deform.h: the method `deform`: field, force iteration, temporary subdivision, projection.
 #pragma once
 
+#include "base/progress.h"
 #include "compare/build_surface.h"
 #include "compare/domain_motions.h"
 #include "compare/mapping.h"

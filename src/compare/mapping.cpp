@@ -3,6 +3,10 @@
 
 #include <algorithm>
 
+#include "engine/engine.h"
+#include "engine/handles.h"
+#include "engine/surface_stage.h"
+
 namespace espdiff {
 namespace {
 

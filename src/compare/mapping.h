@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/engine.h"
+#include "engine/certificate_stage.h"
+#include "engine/handles.h"
 
 namespace espdiff {
 

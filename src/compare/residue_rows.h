@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <vector>
 
-#include "compare/compare.h"
+#include "compare/result.h"
 
 namespace espdiff {
+
+struct MappedSurface;
 
 /// One row a source residue: averages over its valid area, weighted like the metrics.
 std::vector<ResidueRow> residue_rows(const MappedSurface& surface, std::size_t n_residues, bool has_potential);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "engine/engine.h"
 
 namespace espdiff {
 

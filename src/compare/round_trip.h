@@ -1,8 +1,9 @@
 // round_trip.h: how near there and back comes to where it began.
 #pragma once
 
-#include "compare/compare.h"
 #include "compare/mapping.h"
+#include "compare/result.h"
+#include "engine/handles.h"
 
 namespace espdiff {
 

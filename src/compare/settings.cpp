@@ -7,6 +7,7 @@
 #include <locale>
 #include <sstream>
 
+#include "align/rigid_domains.h"
 #include "base/error.h"
 
 namespace espdiff {
@@ -271,7 +272,8 @@ const Setting& find_setting(const std::string& name) {
     if (setting.name == name) return setting;
   }
   for (const RenamedSetting& renamed : renamed_settings()) {
-    if (renamed.old_name == name) throw InputError(name + ": the setting is called " + renamed.name + " now; give " + renamed.name);
+    if (renamed.old_name == name)
+      throw InputError(name + ": the setting is called " + renamed.name + " now; give " + renamed.name);
   }
   throw InputError("there is no setting '" + name + "'");
 }

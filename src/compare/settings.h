@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "compare/compare.h"
+#include "compare/options.h"
 
 namespace espdiff {
 

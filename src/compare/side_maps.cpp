@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "engine/engine.h"
 
 namespace espdiff {
 namespace {

@@ -1,7 +1,8 @@
 // side_maps.h: the potentials of a comparison's sides on the device, in one unit, whether given or computed.
 #pragma once
 
-#include "compare/compare.h"
+#include "compare/input.h"
+#include "engine/handles.h"
 
 namespace espdiff {
 

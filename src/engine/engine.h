@@ -11,247 +11,35 @@
 // Same input, same bits, at any number of threads. Density is high inside: *inside* means density > isovalue.
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "base/progress.h"
-#include "base/screw.h"
 #include "base/types.h"
+#include "engine/handles.h"
 
 namespace espdiff {
 
-/// Opaque device objects. Each belongs to the engine that made it and may not outlive it.
-struct DeviceAtoms {
-  virtual ~DeviceAtoms() = default;
-};  ///< atoms sorted into a cell list
-struct DeviceGrid {
-  virtual ~DeviceGrid() = default;
-};  ///< a scalar on a lattice
-struct DeviceField {
-  virtual ~DeviceField() = default;
-};  ///< a scalar and its gradient on a lattice
-struct DeviceMesh {
-  virtual ~DeviceMesh() = default;
-};  ///< positions and shared topology (triangles, one-rings)
-struct DeviceScalars {
-  virtual ~DeviceScalars() = default;
-};  ///< one float per vertex or per triangle
-
-using AtomsPtr = std::shared_ptr<const DeviceAtoms>;
-using GridPtr = std::shared_ptr<const DeviceGrid>;
-using FieldPtr = std::shared_ptr<const DeviceField>;
-using MeshPtr = std::shared_ptr<const DeviceMesh>;
-using ScalarsPtr = std::shared_ptr<const DeviceScalars>;
-
-enum class Interpolation { kTrilinear, kTricubic };
-
-/// A connected component of a closed mesh.
-struct ComponentSummary {
-  std::uint32_t n_vertices = 0;
-  std::uint32_t n_triangles = 0;
-  double area_A2 = 0;
-  double volume_A3 = 0;  ///< signed: negative for a cavity, whose normals point into the void
-};
-
-/// Parameters of the force iteration (thesis section 3.5.4); defaults are its study's values for the mapping.
-struct DeformOptions {
-  double sigma = 0.1;                ///< step scale, > 0
-  double mu = 0.75;                  ///< weight of the external against the internal force, 0 to 1
-  double rho = 0.3;                  ///< rigidity (thin plate) against tension (membrane), 0 to 1
-  double min_displacement_A = 1e-3;  ///< converged when the mean displacement of an iteration falls below it
-  int max_iterations = 1000;
-  Interpolation interpolation = Interpolation::kTrilinear;
-  /// Multiplies the internal force; 1 is the thesis' iteration. That force moves vertices along the surface only, so a
-  /// larger one lets them spread into what the surface has been drawn into sooner, and the surface itself no less
-  /// exact.
-  double tangential_gain = 1;
-  /// Measures the internal force from a rest shape (see Engine::deform), so that it resists distortion; else from
-  /// equal edges (the thesis), so that the mesh goes on sliding along the surface even when nothing is to be deformed.
-  bool rest_shape = false;
-};
-
-struct DeformReport {
-  int iterations = 0;
-  double mean_displacement_A = 0;  ///< of the last iteration
-  bool converged = false;
-  ScalarsPtr path_length;  ///< [vertex] length of the way that the iterations took it, Angstrom
-};
-
-/// Parameters of gvf_field().
-struct VectorFlowOptions {
-  double weight_A2 = 0.05;  ///< mu: smoothness against the normals at the surface; they are blended over its root
-  double tolerance = 1e-3;  ///< converged when no point would move by more in a sweep; normals are 1 long
-  int max_sweeps = 1000;
-};
-
-struct VectorFlowReport {
-  int sweeps = 0;
-  double residual = 0;  ///< largest move of a point in the last sweep looked at
-  bool converged = false;
-};
-
-/// Area-weighted comparison of two potentials on the mapped mesh. Weights are a third of the area of each counted
-/// triangle at each of its vertices. Potentials in the unit of the samples.
-struct Metrics {
-  double area_A2 = 0;  ///< of the counted triangles of the mapped mesh; all else is NaN when it is 0
-  double mean_abs_difference = 0;
-  double rms_difference = 0;
-  double mean_signed_difference = 0;     ///< target - source
-  double sign_change_area_fraction = 0;  ///< a vertex with a potential of exactly 0 agrees with anything
-  double hodgkin_index = 0;              ///< 2<ab> / (<aa> + <bb>)
-  double carbo_index = 0;                ///< <ab> / sqrt(<aa><bb>)
-  double mean_displacement_A = 0;        ///< |mapped - source| in the common frame
-  double mean_path_length_A = 0;         ///< of the vertices' ways from the one to the other; NaN where not given
-};
-
-/// Distances of one surface's vertices to the other surface's triangles, area-weighted over its vertices. Angstrom.
-struct DistanceSummary {
-  double mean = 0;
-  double p95 = 0;  ///< 95 % of the area lies nearer
-  double max = 0;
-  double area_fraction_beyond_limit = 0;
-  double mean_within_limit = 0;  ///< of the area within the limit
-  ScalarsPtr beyond;             ///< [triangle of the first surface] 1 where a corner lies beyond the limit, else 0
-};
-
-/// How well a mapped mesh fits its target.
-struct FitReport {
-  double corrupt_area_fraction =
-      0;  ///< triangles whose analytic density at the centroid is off the isovalue by more than 0.1
-  double flipped_area_fraction = 0;  ///< triangles whose normal opposes the density's outward normal at their centroid
-  double irregularity_A = 0;         ///< mean length of the umbrella Laplacian
-  double area_A2 = 0;
-  ScalarsPtr corrupt;  ///< [triangle] 1 where corrupt, else 0
-  ScalarsPtr flipped;  ///< [triangle] 1 where flipped, else 0
-};
-
-/// A periodic cell: `edges` span it, `centre` lies in its middle. Angstrom.
-struct PmeCell {
-  Vec3d centre{};
-  std::array<Vec3d, 3> edges{};
-};
-
-/// The points of a grid over a cell, symmetric about its centre: (0, 0, 0) lies at centre - sum_i (K_i - 1) / (2 K_i)
-/// edge_i, steps are edge_i / K_i. As PMEPot lays them.
-inline Lattice lattice_over(const PmeCell& cell, const std::array<int, 3>& size) {
-  Lattice lattice;
-  lattice.size = size;
-  lattice.origin = cell.centre;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double n = size[axis];
-    lattice.step[axis] = (1.0 / n) * cell.edges[axis];
-    lattice.origin += (-0.5 * (n - 1) / n) * cell.edges[axis];
-  }
-  return lattice;
-}
-
-enum class Precision { kSingle, kDouble };
-
-/// Parameters of pme_potential().
-struct PmeOptions {
-  std::array<int, 3> size{0, 0, 0};  ///< grid points along each edge
-  double ewald_factor = 0.25;        ///< beta, 1/A: charges are smeared into Gaussians of variance 1 / (2 beta^2)
-  int order = 6;                     ///< of the B-splines, 4 to 8; 4 with `compatible`
-  Precision precision = Precision::kSingle;
-  /// As VMD's PMEPot 1.0.4 computes it: the splines' factor squared, the volume truncated to whole A^3.
-  bool compatible = false;
-  /// Later samples of the map use splines of `order` instead of trilinear interpolation, and err no more between the
-  /// grid's points than on them. Not with `compatible`.
-  bool smooth_samples = false;
-  double temperature_K = 300;
-};
-
-/// Parameters of coulomb_potential().
-struct CoulombOptions {
-  double dielectric = 1;            ///< epsilon, > 0
-  bool distance_dependent = false;  ///< epsilon * r / (1 A) instead of epsilon
-  double temperature_K = 300;
-};
-
-/// An atom's way from the source to the target, in a straight line, for Engine::morph(). Common frame, Angstrom.
-struct MovingAtom {
-  Vec3d start{}, end{};
-  Screw motion{};                         ///< of the rigid domain that it belongs to; its own way is straight beside it
-  Vec3d own_rotation{};                   ///< of its surroundings beside the domain's motion: axis times angle, radians
-  double start_width = 0, end_width = 0;  ///< standard deviation of its Gaussian; 0 counts as absent
-  /// Atoms without a counterpart are absent at one end. They appear and vanish in the half of the way that lies at that
-  /// end.
-  bool at_start = true, at_end = true;
-
-  Vec3d position_at(double time) const { return motion.apply(start + time * own_path(), time); }
-  Vec3d velocity_at(double time) const { return motion.velocity_at(position_at(time)) + motion.turn(own_path(), time); }
-  /// Angular velocity of its surroundings.
-  Vec3d spin_at(double time) const { return motion.angle * motion.axis + motion.turn(own_rotation, time); }
-  /// From where it starts to where it would end if its domain stood still.
-  Vec3d own_path() const { return motion.apply(end, -1) - start; }
-
-  static constexpr double kFadingShare = 0.5;
-  /// Share of the Gaussian that is there at a time from 0 (source) to 1 (target).
-  double weight_at(double time) const {
-    const double appeared = at_start ? 1.0 : std::min(1.0, time / kFadingShare);
-    const double left = at_end ? 1.0 : std::min(1.0, (1.0 - time) / kFadingShare);
-    return std::min(appeared, left);
-  }
-  /// Its derivative; at a kink that of the later side.
-  double weight_rate_at(double time) const {
-    if (!at_start && time < kFadingShare) return 1.0 / kFadingShare;
-    if (!at_end && time >= 1.0 - kFadingShare) return -1.0 / kFadingShare;
-    return 0.0;
-  }
-};
-
-/// Parameters of morph(). Lengths in Angstrom.
-struct MorphOptions {
-  double isovalue = 0.5;
-  double max_step_A = 0.35;  ///< no atom moves farther in one step
-  double max_edge_A = 1.4;   ///< longer edges are halved
-  double max_stretch = 20;   ///< where an edge to be halved has grown by more the surface counts as torn
-};
-
-struct MorphReport {
-  int steps = 0;
-  std::size_t n_vertices_added = 0;
-  std::size_t n_vertices_unmatched = 0;  ///< without counterpart
-};
-
-/// What morph() gives: meshes of one topology, that of the source with some edges halved.
-struct MorphResult {
-  MeshPtr source;  ///< where each vertex comes from, on the source's surface
-  MeshPtr mapped;  ///< where it lies on the target's
-  /// [triangle] 1 where the surface was torn or crushed on the way, so that there is no counterpart; the mapped
-  /// positions there mean nothing.
-  ScalarsPtr unmatched;
-  ScalarsPtr path_length;  ///< [vertex] length of its way, Angstrom; an added vertex begins with its ends' mean
-  MorphReport report;
-};
-
-/// What subdivide() gives: both meshes with the same edges halved. Old vertices keep their numbers and places.
-struct SubdivisionResult {
-  MeshPtr source, mapped;
-  std::vector<std::array<std::uint32_t, 2>> ends;  ///< [new vertex] the vertices that it lies in the middle of
-};
-
-/// How a mapping changes areas and shapes; see Engine::distortion(). Quantiles by the source's area.
-struct DistortionReport {
-  double area_ratio_p05 = 1, area_ratio_median = 1, area_ratio_p95 = 1;  ///< mapped area / source area
-  /// Symmetric Dirichlet energy (|J|^2 + |J^-1|^2) / 4, J the triangle's linear map: 1 where nothing is distorted,
-  /// infinite for a triangle without area.
-  double dirichlet_median = 1, dirichlet_p95 = 1;
-  ScalarsPtr excessive;  ///< [triangle] 1 where the area around it has grown by more than the limit, else 0
-};
-
-/// The triangles of a closed mesh that intersect one another; see Engine::self_intersections().
-struct IntersectionReport {
-  std::size_t n_pairs = 0;       ///< of triangles that intersect, and each triangle without area as a pair with itself
-  std::size_t n_degenerate = 0;  ///< the latter
-  ScalarsPtr intersecting;       ///< [triangle] 1 where it takes part in a pair, else 0
-};
+struct ComponentSummary;
+struct CoulombOptions;
+struct DeformOptions;
+struct DeformReport;
+struct DistanceSummary;
+struct DistortionReport;
+struct FitReport;
+struct IntersectionReport;
+struct Metrics;
+struct MorphOptions;
+struct MorphResult;
+struct MovingAtom;
+struct PmeCell;
+struct PmeOptions;
+struct SubdivisionResult;
+struct VectorFlowOptions;
+struct VectorFlowReport;
 
 /// One back end on one device.
 class Engine {

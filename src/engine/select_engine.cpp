@@ -1,5 +1,6 @@
 // select_engine.cpp: probes the back ends and makes the engine that was asked for.
 #include "engine/select_engine.h"
+#include "engine/engine.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -6,6 +6,9 @@
 #include <memory>
 
 #include "base/error.h"
+#include "compare/result.h"
+#include "compare/series.h"
+#include "engine/certificate_stage.h"
 #include "io/text_cursor.h"
 #include "report/write_compare.h"
 

@@ -6,10 +6,13 @@
 #include <utility>
 #include <vector>
 
-#include "compare/compare.h"
+#include "engine/handles.h"
 #include "matrix/variants.h"
 
 namespace espdiff {
+
+struct CompareOptions;
+struct CompareResult;
 
 /// What the numbers of a metric are in.
 enum class MetricUnit { kPotential, kAngstrom, kSquareAngstrom, kFraction, kIndex, kCount };

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "engine/engine.h"
 #include "io/sha256.h"
 
 namespace espdiff {

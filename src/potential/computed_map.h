@@ -5,7 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "compare/compare.h"
+#include "compare/input.h"
+#include "engine/potential_stage.h"
 #include "potential/potential.h"
 
 namespace espdiff {

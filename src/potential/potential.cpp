@@ -8,6 +8,7 @@
 #include "align/superpose.h"
 #include "align/unwrap.h"
 #include "base/error.h"
+#include "engine/engine.h"
 #include "io/molecule_builder.h"
 
 namespace espdiff {

@@ -2,6 +2,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "align/rigid_domains.h"
+#include "compare/options.h"
+#include "compare/result.h"
+#include "engine/certificate_stage.h"
+#include "engine/deform_stage.h"
 #include "report/write_compare.h"
 
 namespace espdiff {

@@ -3,6 +3,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "align/rigid_domains.h"
+#include "compare/result.h"
+#include "engine/certificate_stage.h"
 #include "report/write_compare.h"
 
 namespace espdiff {
@@ -69,7 +72,7 @@ void print_superposition(std::ostream& out, const Molecule& source, const Compar
                                ? "after superposing " + counted(result.n_superposed_atoms, "atom")
                                : std::string("where they lie, not superposed");
   line(out, "RMSD", significant(result.rmsd_A) + " A " + over);
-  for (const RigidDomain& piece : result.pieces)
+  for (const RigidDomain& piece : result.domains)
     line(out, "rigid piece", significant(piece.rmsd_A) + " A, " + residue_ranges(source, piece.residues));
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/types.h"
-#include "compare/compare.h"
+#include "compare/result.h"
 
 namespace espdiff {
 

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/version.h"
+#include "compare/result.h"
 #include "io/atomic_file.h"
 #include "io/write_pdb.h"
 

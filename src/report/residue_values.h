@@ -4,9 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "compare/compare.h"
+#include "base/types.h"
 
 namespace espdiff {
+
+struct CompareResult;
 
 /// The quantities of a residue, as the columns of the residue table are named without units.
 const std::vector<std::string>& residue_quantities();

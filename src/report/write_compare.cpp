@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "compare/result.h"
 #include "io/atomic_file.h"
 #include "io/sha256.h"
 #include "io/write_csv.h"

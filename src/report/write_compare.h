@@ -8,11 +8,13 @@
 
 #include "base/types.h"
 #include "base/version.h"
-#include "compare/compare.h"
 #include "io/read_structure.h"
 #include "potential/computed_map.h"
 
 namespace espdiff {
+
+struct CompareOptions;
+struct CompareResult;
 
 /// An input by what it was used for: "source", "target", "source_map", "target_map".
 struct InputFile {

@@ -1,6 +1,7 @@
 // write_surface.cpp: one molecule's surface as a .vtp file.
 #include "report/write_surface.h"
 
+#include "compare/surface.h"
 #include "io/atomic_file.h"
 #include "io/write_vtp.h"
 

@@ -3,9 +3,11 @@
 
 #include <string>
 
-#include "compare/compare.h"
+#include "base/types.h"
 
 namespace espdiff {
+
+struct SurfaceResult;
 
 /// Point arrays: normal, component, residue_number (0 where no atom reaches) and, with a map, potential (NaN outside
 /// the map).

@@ -6,9 +6,12 @@
 #include <utility>
 #include <vector>
 
-#include "compare/compare.h"
+#include "base/types.h"
 
 namespace espdiff {
+
+struct CompareOptions;
+struct CompareResult;
 
 /// Names of the columns, in order.
 const std::vector<std::string>& series_columns();

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "compare/compare.h"
+#include "compare/series.h"
 
 namespace espdiff {
 

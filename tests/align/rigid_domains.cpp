@@ -169,10 +169,11 @@ TEST_CASE("what cannot be read, found or fitted is refused with the remedy") {
   CHECK(refusal("5-2") == "domains: '5-2' has a range whose end comes before its start, '5-2'" + remedy);
   CHECK(refusal("B:1-3") == "domains: 'B:1-3' names residues B:1-3, and made.pdb has none of them" + remedy);
   CHECK(refusal("1-3/3-5") == "domains: '1-3/3-5' names residue A:3 of made.pdb in two domains" + remedy);
-  CHECK(refusal("1-5/9") ==
-        "domains: '1-5/9' has a domain, A:9, in which only 1 atoms pair or all lie on a line, so that its motion is not "
-        "known" +
-            remedy);
+  CHECK(
+      refusal("1-5/9") ==
+      "domains: '1-5/9' has a domain, A:9, in which only 1 atoms pair or all lie on a line, so that its motion is not "
+      "known" +
+          remedy);
   CHECK_NOTHROW(check_domains("-4--2,1"));
 }
 

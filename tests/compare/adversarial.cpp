@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "compare/built_molecule.h"
+#include "compare/compare.h"
 #include "compare/made_side.h"
 
 using namespace espdiff_test;

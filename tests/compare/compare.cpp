@@ -1,6 +1,5 @@
 // compare.cpp: the whole comparison: rigid copies, invariances, point charges, determinism, and every refusal with its
 // text.
-#include "compare/compare.h"
 
 #include <doctest/doctest.h>
 
@@ -9,7 +8,12 @@
 #include <limits>
 
 #include "base/error.h"
+#include "compare/compare.h"
+#include "compare/input.h"
 #include "compare/made_side.h"
+#include "compare/options.h"
+#include "compare/result.h"
+#include "engine/engine.h"
 
 using namespace espdiff_test;
 using espdiff::compare;

@@ -6,7 +6,10 @@
 #include <cstdio>
 #include <optional>
 
+#include "compare/compare.h"
 #include "compare/made_side.h"
+#include "compare/series.h"
+#include "engine/engine.h"
 
 using namespace espdiff_test;
 using espdiff::FieldKind;

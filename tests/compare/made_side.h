@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/compare.h"
+#include "compare/input.h"
+#include "compare/options.h"
+#include "compare/result.h"
 #include "cuda/certificate/mesh_checks.h"
 #include "cuda/surface/shapes.h"
 

@@ -1,6 +1,11 @@
 // mapped_cgal.cpp: what the morph says has a counterpart does not intersect itself, by CGAL, on real pairs.
 #include <doctest/doctest.h>
 
+#include "compare/compare.h"
+#include "compare/input.h"
+#include "compare/options.h"
+#include "compare/result.h"
+#include "engine/engine.h"
 #include "support/test_data.h"
 
 #if defined(ESPDIFF_HAVE_CGAL)
@@ -9,7 +14,6 @@
 
 #include <cstdio>
 
-#include "compare/compare.h"
 #include "cuda/certificate/cgal_mesh.h"
 #include "engine/select_engine.h"
 #include "io/read_structure.h"

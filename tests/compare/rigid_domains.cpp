@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/screw.h"
 #include "compare/built_molecule.h"
+#include "compare/compare.h"
 #include "compare/made_side.h"
 #include "report/write_compare.h"
 

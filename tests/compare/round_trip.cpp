@@ -1,6 +1,7 @@
 // round_trip.cpp: there and back ends where it began, for both methods; and what the option changes.
 #include <doctest/doctest.h>
 
+#include "compare/compare.h"
 #include "compare/made_side.h"
 #include "io/read_structure.h"
 #include "support/test_data.h"

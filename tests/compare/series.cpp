@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "compare/built_molecule.h"
+#include "compare/compare.h"
 #include "compare/made_side.h"
 #include "io/sha256.h"
 #include "support/test_data.h"
@@ -150,7 +151,7 @@ TEST_CASE("rigid pieces go on from frame to frame as well") {
   for (const std::size_t f : {0, 1, 2}) {
     const CompareResult on = along.step(motion.frames[f].input(), StartFrom::kPrevious, {});
     const CompareResult direct = apart.step(motion.frames[f].input(), StartFrom::kSource, {});
-    CHECK(on.pieces.size() == 2);
+    CHECK(on.domains.size() == 2);
     CHECK(on.certificate.mapped_to_target.mean < 0.02);
     CHECK(on.metrics.mean_displacement_A == doctest::Approx(direct.metrics.mean_displacement_A).epsilon(0.1));
   }

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "compare/compare.h"
 #include "io/read_csv.h"
 #include "matrix/made_variants.h"
 #include "matrix/write_matrix.h"

@@ -7,7 +7,9 @@
 #include <string>
 
 #include "base/error.h"
+#include "compare/compare.h"
 #include "compare/made_side.h"
+#include "compare/series.h"
 #include "cuda/potential/ewald_oracle.h"
 #include "report/write_compare.h"
 

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "compare/made_side.h"
 #include "cuda/potential/ewald_oracle.h"
+#include "engine/engine.h"
 #include "trajectory/frame_range.h"
 
 using namespace espdiff_test;

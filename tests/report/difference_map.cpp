@@ -1,5 +1,7 @@
 // difference_map.cpp: the map around a surface: constants, linear fields, its band, its edge, a real surface, refusals.
 #include "report/difference_map.h"
+#include "compare/input.h"
+#include "compare/options.h"
 
 #include <doctest/doctest.h>
 
@@ -8,6 +10,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "compare/surface.h"
 #include "cuda/certificate/mesh_checks.h"
 #include "cuda/surface/shapes.h"
 

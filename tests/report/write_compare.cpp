@@ -9,6 +9,9 @@
 
 #include "../support/test_data.h"
 #include "base/error.h"
+#include "compare/options.h"
+#include "compare/result.h"
+#include "engine/deform_stage.h"
 
 using namespace espdiff;
 using espdiff_test::message_of;

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "compare/compare.h"
 #include "compare/made_side.h"
 #include "support/test_data.h"
 #include "trajectory/frame_files.h"

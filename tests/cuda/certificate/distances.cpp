@@ -5,6 +5,8 @@
 #include <cstdio>
 
 #include "cuda/surface/oracles.h"
+#include "engine/certificate_stage.h"
+#include "engine/engine.h"
 
 using namespace espdiff_test;
 using espdiff::DistanceSummary;

@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "cuda/certificate/intersection_oracle.h"
+#include "engine/certificate_stage.h"
+#include "engine/engine.h"
 
 using namespace espdiff_test;
 using espdiff::IntersectionReport;

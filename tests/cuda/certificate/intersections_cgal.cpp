@@ -2,6 +2,9 @@
 #include <doctest/doctest.h>
 
 #include "cuda/certificate/intersection_oracle.h"
+#include "engine/certificate_stage.h"
+#include "engine/deform_stage.h"
+#include "engine/engine.h"
 
 #if defined(ESPDIFF_HAVE_CGAL)
 

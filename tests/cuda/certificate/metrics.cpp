@@ -7,6 +7,8 @@
 
 #include "base/error.h"
 #include "cuda/surface/oracles.h"
+#include "engine/certificate_stage.h"
+#include "engine/engine.h"
 
 using namespace espdiff_test;
 using espdiff::Metrics;

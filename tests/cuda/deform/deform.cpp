@@ -8,8 +8,11 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/progress.h"
 #include "cuda/certificate/mesh_checks.h"
 #include "cuda/surface/shapes.h"
+#include "engine/deform_stage.h"
+#include "engine/engine.h"
 
 using namespace espdiff_test;
 using espdiff::DeformOptions;

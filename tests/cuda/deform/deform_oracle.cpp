@@ -8,6 +8,8 @@
 #include <set>
 
 #include "cuda/surface/shapes.h"
+#include "engine/deform_stage.h"
+#include "engine/engine.h"
 
 using namespace espdiff_test;
 using espdiff::DeformOptions;

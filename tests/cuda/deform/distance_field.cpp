@@ -6,7 +6,9 @@
 #include <cstdio>
 
 #include "base/error.h"
+#include "base/progress.h"
 #include "cuda/surface/oracles.h"
+#include "engine/engine.h"
 
 using namespace espdiff_test;
 using espdiff::Grid;

@@ -16,6 +16,7 @@
 #include "cuda/deform/deform_iteration.h"
 #include "cuda/device/device.h"
 #include "cuda/device/spatial_order.h"
+#include "engine/deform_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND::forms {
 

@@ -4,8 +4,12 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/progress.h"
 #include "cuda/certificate/mesh_checks.h"
 #include "cuda/surface/shapes.h"
+#include "engine/certificate_stage.h"
+#include "engine/engine.h"
+#include "engine/morph_stage.h"
 
 using namespace espdiff_test;
 using espdiff::MorphOptions;

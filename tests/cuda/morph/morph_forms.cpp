@@ -10,6 +10,7 @@
 #include "cuda/morph/moving_atoms.h"
 #include "cuda/surface/shapes.h"
 #include "cuda/surface/split_edges.h"
+#include "engine/morph_stage.h"
 
 using namespace espdiff_test;
 using namespace espdiff::cpu_backend;

@@ -11,6 +11,8 @@
 
 #include "base/error.h"
 #include "cuda/surface/shapes.h"
+#include "engine/engine.h"
+#include "engine/potential_stage.h"
 
 namespace espdiff_test {
 

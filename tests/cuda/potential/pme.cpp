@@ -6,6 +6,8 @@
 #include <numeric>
 
 #include "cuda/potential/ewald_oracle.h"
+#include "engine/engine.h"
+#include "engine/potential_stage.h"
 
 using namespace espdiff_test;
 using espdiff::Grid;

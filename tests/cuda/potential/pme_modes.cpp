@@ -8,6 +8,8 @@
 
 #include "base/error.h"
 #include "cuda/potential/ewald_oracle.h"
+#include "engine/engine.h"
+#include "engine/potential_stage.h"
 
 using namespace espdiff_test;
 using espdiff::Grid;

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "cuda/surface/oracles.h"
+#include "engine/engine.h"
 
 using namespace espdiff_test;
 

@@ -10,6 +10,7 @@
 #include "cuda/surface/density.h"
 #include "cuda/surface/density_at_points.h"
 #include "cuda/surface/shapes.h"
+#include "engine/engine.h"
 
 using namespace espdiff_test;
 using namespace espdiff::cpu_backend;

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "cuda/surface/oracles.h"
+#include "engine/engine.h"
 
 using namespace espdiff_test;
 using espdiff::AtomsPtr;

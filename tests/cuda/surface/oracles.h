@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cuda/surface/shapes.h"
+#include "engine/certificate_stage.h"
 
 namespace espdiff_test {
 

@@ -6,6 +6,7 @@
 
 #include "cuda/certificate/mesh_checks.h"
 #include "cuda/surface/oracles.h"
+#include "engine/engine.h"
 
 using namespace espdiff_test;
 

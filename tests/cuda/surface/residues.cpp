@@ -6,6 +6,7 @@
 #include <map>
 
 #include "cuda/surface/oracles.h"
+#include "engine/engine.h"
 
 using namespace espdiff_test;
 

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "cuda/surface/shapes.h"
+#include "engine/engine.h"
 
 using namespace espdiff_test;
 using espdiff::Grid;

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/engine.h"
 #include "engine/select_engine.h"
 #include "io/read_structure.h"
 #include "support/test_data.h"

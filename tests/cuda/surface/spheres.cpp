@@ -6,6 +6,8 @@
 
 #include "cuda/certificate/mesh_checks.h"
 #include "cuda/surface/shapes.h"
+#include "engine/engine.h"
+#include "engine/surface_stage.h"
 
 using namespace espdiff_test;
 

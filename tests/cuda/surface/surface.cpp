@@ -7,6 +7,8 @@
 #include "base/error.h"
 #include "cuda/certificate/mesh_checks.h"
 #include "cuda/surface/shapes.h"
+#include "engine/engine.h"
+#include "engine/surface_stage.h"
 
 using namespace espdiff_test;
 using espdiff::Grid;

@@ -4,6 +4,9 @@
 #include "base/error.h"
 #include "cuda/certificate/mesh_checks.h"
 #include "cuda/surface/oracles.h"
+#include "engine/deform_stage.h"
+#include "engine/engine.h"
+#include "engine/surface_stage.h"
 
 using namespace espdiff_test;
 

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "cuda/certificate/carry.h"
+#include "cuda/surface/carry.h"
 #include "cuda/surface/point_sums.h"
 
 namespace espdiff::ESPDIFF_BACKEND {

@@ -3,10 +3,11 @@
 
 #include <cmath>
 
-#include "../support/test_data.h"
 #include "base/error.h"
 #include "cuda/certificate/mesh_checks.h"
 #include "cuda/surface/shapes.h"
+#include "engine/engine.h"
+#include "support/test_data.h"
 
 using namespace espdiff_test;
 using espdiff::RigidTransform;

@@ -1,5 +1,5 @@
 // carry.cu: finds each point's nearest at on a surface and takes the same at of its image.
-#include "cuda/certificate/carry.h"
+#include "cuda/surface/carry.h"
 
 #include <cmath>
 
@@ -65,7 +65,7 @@ std::shared_ptr<SurfaceMesh> carry(const SurfaceMesh& points, const SurfaceMesh&
     for (std::size_t v = run * kRun; v < (run + 1) * kRun && v < n; ++v) {
       const Vec3f p = from[v].xyz();
       const NearestTriangle nearest = nearest_triangle(tree, p, guess);
-      guess = nearest.at;
+      guess = nearest.place;
       const Barycentric at = nearest_point(p, tree.triangles[guess]);
       const Corners c = corners[tree.order[guess]];
       const Vec3f there = at.a * to[c.v[0]].xyz() + at.b * to[c.v[1]].xyz() + at.c * to[c.v[2]].xyz();

@@ -1,6 +1,6 @@
-// compare_options.cpp: the words for a comparison's choices, and the thesis' options.
+// options.cpp: the words for a comparison's choices, and the thesis' options.
+#include "compare/options.h"
 #include "base/error.h"
-#include "compare/compare.h"
 
 namespace espdiff {
 
