@@ -96,7 +96,7 @@ std::string draw(const ScratchFolder& scratch, const std::string& vtp, Scene sce
 
 }  // namespace
 
-TEST_CASE("pictures are as they were when they were found good") {
+TEST_CASE("pictures equal their accepted baselines") {
   if (!espdiff_test::can_draw()) return;
   const ScratchFolder scratch;
   const std::string vtp = espdiff_test::compare_made_pair(scratch);
@@ -121,7 +121,7 @@ TEST_CASE("pictures are as they were when they were found good") {
   compare("sign", draw(scratch, vtp, sign));
 }
 
-TEST_CASE("a picture that lacks something, or has another colour, is far from its baseline") {
+TEST_CASE("a picture with a missing part or a wrong colour is far from its baseline") {
   if (!espdiff_test::can_draw()) return;
   const ScratchFolder scratch;
   const std::string vtp = espdiff_test::compare_made_pair(scratch);

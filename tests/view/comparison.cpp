@@ -77,7 +77,7 @@ std::set<std::string> texts_of(vtkRenderWindow* window) {
 
 }  // namespace
 
-TEST_CASE("a record names inputs, superposition and trust, also after the folder has moved") {
+TEST_CASE("a record gives inputs, superposition and verdict, also after the folder has moved") {
   const ScratchFolder moved;
   const RunRecord record = read_run_record(copied(moved));
   REQUIRE(record.found);
@@ -90,7 +90,7 @@ TEST_CASE("a record names inputs, superposition and trust, also after the folder
   CHECK(norm(image) == doctest::Approx(2));
 }
 
-TEST_CASE("a record that is none is refused") {
+TEST_CASE("a file that is not a record is refused") {
   const ScratchFolder scratch;
   const std::string vtp = copied(scratch);
   scratch.write("pair.json", "{\"inputs\": []}");
@@ -99,7 +99,7 @@ TEST_CASE("a record that is none is refused") {
   CHECK_THROWS_AS(read_comparison(vtp, {}), FormatError);
 }
 
-TEST_CASE("maps are taken only when they are those of the comparison") {
+TEST_CASE("maps are used only if they are those of the comparison") {
   const ScratchFolder scratch;
   const std::string vtp = copied(scratch);
   CHECK(read_comparison(vtp, {}).maps.complete());
@@ -114,7 +114,7 @@ TEST_CASE("maps are taken only when they are those of the comparison") {
   CHECK(contains(read_comparison(vtp, {}).maps.why_not, "pair.json is missing, which names the maps"));
 }
 
-TEST_CASE("potentials computed in process have no maps to look up, and a note says so") {
+TEST_CASE("potentials computed in process have no map files, and a note says so") {
   if (!can_draw()) return;
   const ScratchFolder scratch;
   const std::string atoms = espdiff_test::bent_row(0), bent = espdiff_test::bent_row(0.6);
@@ -130,7 +130,7 @@ TEST_CASE("potentials computed in process have no maps to look up, and a note sa
   CHECK(contains(espdiff_test::read_file(scratch.file("pme.png")), "potentials between the vertices' values"));
 }
 
-TEST_CASE("a picture carries inputs, fingerprints and its scene") {
+TEST_CASE("a picture contains its inputs, their SHA-256 and its scene") {
   if (!can_draw()) return;
   const ScratchFolder scratch;
   Scene scene = small(Layout::kLinked);
@@ -145,7 +145,7 @@ TEST_CASE("a picture carries inputs, fingerprints and its scene") {
   CHECK(contains(png, "potentials of the maps at every pixel"));
 }
 
-TEST_CASE("what a scene needs and a file lacks is named") {
+TEST_CASE("data that a scene needs and a file lacks are named") {
   const ScratchFolder scratch;
   const std::string vtp = copied(scratch);
   const auto message = [&](const Scene& scene) { return message_of([&] { read_comparison(vtp, scene); }); };
@@ -167,7 +167,7 @@ TEST_CASE("what a scene needs and a file lacks is named") {
   CHECK(contains(message(cartoon), "it names the structures"));
 }
 
-TEST_CASE("the model that was compared is drawn; where the record does not say which, another one is refused") {
+TEST_CASE("the compared model is drawn; without a recorded model, another one is refused") {
   const ScratchFolder scratch;
   // The first model lies 100 A away.
   std::string models = "MODEL        1\n";
@@ -199,7 +199,7 @@ TEST_CASE("the model that was compared is drawn; where the record does not say w
                  "source.pqr: its model is not the one that was compared"));
 }
 
-TEST_CASE("each layout, style and drawing of maps makes a picture of its own") {
+TEST_CASE("each layout, style and drawing of maps makes a different picture") {
   if (!can_draw()) return;
   const ScratchFolder scratch;
   std::vector<std::string> pictures;
@@ -240,7 +240,7 @@ TEST_CASE("each layout, style and drawing of maps makes a picture of its own") {
   draw("zoomed", [](Scene& s) { s.zoom = 2; });
 }
 
-TEST_CASE("a picked point has the values that the engine found there") {
+TEST_CASE("a picked point has the engine's values") {
   const ComparisonFiles files = read_comparison(made().file("pair.vtp"), {});
   const SurfaceFile& surface = files.surface;
   const StartSurface start = superposed_start(surface, files.record);
@@ -283,7 +283,7 @@ TEST_CASE("the superposed source is lit by its own surface's normals, by its tri
   CHECK(mean_cosine < 1 - 1e-6);
 }
 
-TEST_CASE("what is known of a picked point is said in words") {
+TEST_CASE("a picked point is described in text") {
   Scene scene;
   scene.n_labels = 1;
   const ComparisonFiles files = read_comparison(made().file("pair.vtp"), scene);
@@ -309,7 +309,7 @@ TEST_CASE("what is known of a picked point is said in words") {
   CHECK(contains(text(), "target            no value"));
 }
 
-TEST_CASE("the command line says what is wrong, and leaves nothing") {
+TEST_CASE("the command line reports errors and leaves no file") {
   using espdiff_test::run_espdiff;
   const ScratchFolder scratch;
   const std::string vtp = made().file("pair.vtp"), png = " -o " + scratch.file("out.png");
@@ -333,7 +333,7 @@ TEST_CASE("the command line says what is wrong, and leaves nothing") {
   CHECK(scratch.n_files() == 0);
 }
 
-TEST_CASE("a scene that is saved draws the same picture again, and options change it") {
+TEST_CASE("a saved scene draws the same picture again, and options change it") {
   if (!can_draw()) return;
   using espdiff_test::run_espdiff;
   const ScratchFolder scratch;

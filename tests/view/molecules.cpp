@@ -56,7 +56,7 @@ double share(const Molecule& molecule, const std::vector<Fold>& folds, const std
 
 }  // namespace
 
-TEST_CASE("bonds are found by distance, and hydrogens have one each") {
+TEST_CASE("bonds are found by distance, and each hydrogen has one") {
   const Molecule water = atoms({{"O", {0, 0, 0}}, {"H", {0.96, 0, 0}}, {"H", {-0.24, 0.93, 0}}});
   CHECK(find_bonds(water).size() == 2);
   // Ethane's carbons, and a third out of reach.
@@ -67,7 +67,7 @@ TEST_CASE("bonds are found by distance, and hydrogens have one each") {
   CHECK(shared[0][0] == 2);
 }
 
-TEST_CASE("helices and strands of triosephosphate isomerase are those of its file") {
+TEST_CASE("helices and strands of triosephosphate isomerase agree with its file") {
   const auto path = espdiff_test::real_input("tim/7tim.pdb");
   if (!path) return;
   const Molecule molecule = read_structure(*path);
@@ -104,7 +104,7 @@ TEST_CASE("ribbons are closed and have unit normals") {
   }
 }
 
-TEST_CASE("what stands around a protein is told from it") {
+TEST_CASE("ligands, ions and water are distinguished from the protein") {
   const auto path = espdiff_test::real_input("tim/7tim.pdb");
   if (!path) return;
   StructureOptions with_water;
@@ -131,7 +131,7 @@ TEST_CASE("what stands around a protein is told from it") {
   CHECK(make_molecule_actor(Molecule{}, MoleculeStyle::kSticks, 1) == nullptr);
 }
 
-TEST_CASE("the residues that differ most come first, and apart") {
+TEST_CASE("the residues that differ most come first, at a distance from each other") {
   SurfaceFile surface;
   for (int residue = 0; residue < 4; ++residue) {
     for (int i = 0; i < 25; ++i) {

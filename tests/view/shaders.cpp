@@ -125,7 +125,7 @@ double worst_share(const std::string& vtp, bool fetches) {
 
 }  // namespace
 
-TEST_CASE("each shader compiles here, and a wrong one is told with the driver's words") {
+TEST_CASE("each shader compiles here, and an error gives the driver's message") {
   if (!can_draw()) return;
   const auto window = make_hidden_window();
   window->SetSize(16, 16);
@@ -149,14 +149,14 @@ TEST_CASE("each shader compiles here, and a wrong one is told with the driver's 
   CHECK(problem.find("nothing") != std::string::npos);
 }
 
-TEST_CASE("every file in shaders/ says in its first line what it is for, and includes what there is") {
+TEST_CASE("every file in shaders/ states its purpose in its first line, and includes existing files") {
   CHECK(embedded_shaders().size() == 5);
   for (const auto& [name, text] : embedded_shaders()) CHECK(text.find("// " + name + ": ") == 0);
   CHECK(shader_text("surface.frag").find("#include") == std::string::npos);
   CHECK_THROWS_AS(shader_text("absent.glsl"), Error);
 }
 
-TEST_CASE("potentials looked up by the shader are the engine's, on skewed lattices") {
+TEST_CASE("potentials looked up by the shader equal the engine's, on skewed lattices") {
   if (!can_draw()) return;
   const ScratchFolder scratch;
   const std::string vtp = espdiff_test::compare_made_pair(scratch);
@@ -164,7 +164,7 @@ TEST_CASE("potentials looked up by the shader are the engine's, on skewed lattic
   CHECK(worst_share(vtp, true) < 1e-5);
 }
 
-TEST_CASE("potentials looked up by the shader are the engine's, on TIM") {
+TEST_CASE("potentials looked up by the shader equal the engine's, on TIM") {
   if (!can_draw()) return;
   const auto folder = espdiff_test::real_input("pair_tim_maps");
   if (!folder) return;
@@ -179,7 +179,7 @@ TEST_CASE("potentials looked up by the shader are the engine's, on TIM") {
   CHECK(worst < 1e-3);
 }
 
-TEST_CASE("the shader's colours are the legend's") {
+TEST_CASE("the shader's colours equal the legend's") {
   if (!can_draw()) return;
   constexpr vtkIdType kSteps = 1025;
   vtkNew<vtkPolyData> ramp;
@@ -248,7 +248,7 @@ TEST_CASE("the shader's colours are the legend's") {
                 [](std::size_t i) { return static_cast<float>(i) - 1; });
 }
 
-TEST_CASE("the host samples maps in between grid points, and nothing outside") {
+TEST_CASE("the host samples maps between grid points, and gives NaN outside") {
   const ScratchFolder scratch;
   const Grid map = espdiff_test::map_of({{{2, 3, 1}, 1}});
   const LatticeIndex index(map.lattice, map.name);
