@@ -1,4 +1,4 @@
-// colour_scale.cpp: ranges, round numbers, opacity, and the names that users type.
+// colour_scale.cpp: ranges, round numbers, opacity, and array names.
 #include "view/colour_scale.h"
 
 #include <doctest/doctest.h>

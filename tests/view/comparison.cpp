@@ -1,4 +1,4 @@
-// comparison.cpp: the files of a comparison as pictures take them, and how pictures do without some of them.
+// comparison.cpp: reading a comparison's files for pictures, also with some missing.
 #include "view/comparison_files.h"
 
 #include <doctest/doctest.h>
@@ -39,7 +39,7 @@ const ScratchFolder& made() {
   return scratch;
 }
 
-/// The same in a folder of its own, to be damaged.
+/// A copy in its own folder, to be damaged.
 std::string copied(const ScratchFolder& to) {
   for (const char* name : {"pair.vtp", "pair.json", "source.dx", "target.dx", "source.pqr", "target.pqr"}) {
     std::filesystem::copy_file(made().file(name), to.file(name));
@@ -60,7 +60,7 @@ Scene small(Layout layout = Layout::kTurned) {
   return scene;
 }
 
-/// All that is written in a window.
+/// All text in a window.
 std::set<std::string> texts_of(vtkRenderWindow* window) {
   std::set<std::string> texts;
   vtkRendererCollection* renderers = window->GetRenderers();
@@ -125,9 +125,9 @@ TEST_CASE("potentials computed in process have no map files, and a note says so"
   const auto notes = render_surface(scratch.file("pme.vtp"), scratch.file("pme.png"), small());
   REQUIRE(notes.size() >= 1);
   CHECK(contains(notes[0],
-                 "potentials are drawn between the vertices' values, not from the maps: the potentials were "
+                 "potentials are interpolated between vertices, not looked up in the maps: the potentials were "
                  "computed in process"));
-  CHECK(contains(espdiff_test::read_file(scratch.file("pme.png")), "potentials between the vertices' values"));
+  CHECK(contains(espdiff_test::read_file(scratch.file("pme.png")), "potentials interpolated between vertices"));
 }
 
 TEST_CASE("a picture contains its inputs, their SHA-256 and its scene") {
@@ -190,7 +190,7 @@ TEST_CASE("the compared model is drawn; without a recorded model, another one is
   const ComparisonFiles files = read_comparison(scratch.file("pair.vtp"), scene);
   REQUIRE(files.source_molecule);
   CHECK(files.source_molecule->positions[0].x < 50);
-  // As an earlier version wrote it.
+  // As written by an earlier version.
   std::string json = espdiff_test::read_file(scratch.file("pair.json"));
   const std::size_t at = json.find("\"model\": 2");
   REQUIRE(at != std::string::npos);
@@ -209,7 +209,7 @@ TEST_CASE("each layout, style and drawing of maps makes a different picture") {
     change(scene);
     render_surface(made().file("pair.vtp"), scratch.file("one.png"), scene);
     const std::string png = espdiff_test::read_file(scratch.file("one.png"));
-    // The scene in its text differs anyway; the pixels must, too.
+    // The scene in the PNG's text differs anyway; the pixels must differ too.
     const std::string pixels = png.substr(png.find("IDAT"));
     INFO(what);
     CHECK(std::find(pictures.begin(), pictures.end(), pixels) == pictures.end());
@@ -248,7 +248,7 @@ TEST_CASE("a picked point has the engine's values") {
   std::size_t n_picked = 0;
   for (std::size_t v = 0; v < surface.positions.size(); v += 37) {
     const Vec3d p = surface.positions[v], n = static_cast<Vec3d>(surface.normals[v]);
-    // From just outside to just inside, so that nothing else is in the way.
+    // From just outside to just inside, so that nothing is in between.
     const auto picked = picker.pick(p + 0.2 * n, p - 0.2 * n, 1);
     if (!picked) continue;
     ++n_picked;
@@ -256,7 +256,7 @@ TEST_CASE("a picked point has the engine's values") {
     CHECK(picked->weights[0] + picked->weights[1] + picked->weights[2] == doctest::Approx(1));
     CHECK(picked->target - picked->source == doctest::Approx(surface.potential_difference[v]).epsilon(0.02));
     CHECK(picked->displacement_A == doctest::Approx(surface.displacement[v]).epsilon(0.05));
-    // Its counterpart on the superposed source.
+    // The same point on the superposed source.
     const Vec3d there = static_cast<Vec3d>(start.positions[v]);
     CHECK(norm(picker.place(*picked, 0) - there) < 0.03);
   }
@@ -361,7 +361,7 @@ TEST_CASE("the length bar follows the camera, and axes show the target's x, y an
   drawn.add_to(window, 1);
   const auto length_of_bar = [&] {
     for (const std::string& text : texts_of(window)) {
-      // The opacity's key has lengths as well, of 0.5 and 3 A.
+      // The opacity key also has lengths, of 0.5 and 3 A.
       if (contains(text, " \xC3\x85") && text != "0.5 \xC3\x85" && text != "3 \xC3\x85") return std::stod(text);
     }
     return 0.0;

@@ -1,4 +1,4 @@
-// map_drawings.cpp: what is drawn of maps lies where the maps say.
+// map_drawings.cpp: drawings of maps lie at the right positions.
 #include "view/map_drawings.h"
 
 #include <doctest/doctest.h>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kSine = 0.6, kCosine = 0.8;
 
-/// A quarter turn's fifth about z, and a shift.
+/// A rotation by 18 degrees about z, and a translation.
 PlacedMap placed(const Grid& map) {
   PlacedMap result{&map, {}};
   const double turned[9] = {kCosine, -kSine, 0, kSine, kCosine, 0, 0, 0, 1};
@@ -86,7 +86,7 @@ TEST_CASE("field lines of a charge run straight away from it, down the potential
     CHECK(norm(to) > 8);
     CHECK(dot(from, to) / (norm(from) * norm(to)) > 0.97);
     CHECK(potential(line.front()) > potential(line.back()));
-    // One step farther there is no field any more.
+    // One step farther there is no field.
     const Vec3d last = line.back() - line[line.size() - 2];
     CHECK(std::isnan(potential(line.back() + (0.8 / norm(last)) * last)));
   }

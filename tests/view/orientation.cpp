@@ -1,4 +1,4 @@
-// orientation.cpp: which way a surface is turned before it is drawn.
+// orientation.cpp: the automatic viewing direction.
 #include "view/orientation.h"
 
 #include <doctest/doctest.h>

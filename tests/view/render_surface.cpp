@@ -1,4 +1,4 @@
-// render_surface.cpp: pictures of a sphere of known colours, and every way in which drawing is refused.
+// render_surface.cpp: pictures of a sphere with known colours, and every refusal to draw.
 #include "view/render_surface.h"
 
 #include <doctest/doctest.h>
@@ -36,7 +36,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// What is written on the sphere at a unit vector.
+/// The sphere's values at a unit vector.
 struct Paint {
   std::function<double(Vec3d)> difference = [](Vec3d n) { return 4 * n.x; };
   std::function<double(Vec3d)> displacement = [](Vec3d) { return 0.1; };

@@ -1,4 +1,4 @@
-// scene.cpp: scene files: what is written is read again, and what cannot be is refused in words.
+// scene.cpp: scene files: writing and reading, and refusals with their messages.
 #include "view/scene.h"
 
 #include <doctest/doctest.h>
