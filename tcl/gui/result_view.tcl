@@ -1,8 +1,8 @@
-# result_view.tcl: what came out of a comparison: the numbers, whether they can be trusted, table and export.
+# result_view.tcl: the result of a comparison: numbers, verdict, table and export.
 
 namespace eval ::espdiff::gui {
-    variable shown ""  ;# handle whose numbers are on display
-    variable chosen_result ""  ;# the same as the list of results says it
+    variable shown ""  ;# handle of the numbers shown
+    variable chosen_result ""  ;# its entry in the list of results
 
     # Key of `espdiff result`, name, unit (potential: that of the result), help. Left column, then right column.
     variable potential_numbers {
@@ -16,13 +16,13 @@ namespace eval ::espdiff::gui {
     }
     variable shape_numbers {
         rmsd_A RMSD length "Of the superposed atom pairs"
-        mean_displacement_A "Mean displacement" length "How far points of the source's surface travel to the\
-            target's: the more, the less certain"
-        mean_path_length_A "Mean path length" length "Length of their ways: the more it exceeds the displacement, the\
-            less certain"
+        mean_displacement_A "Mean displacement" length "Mean displacement of the surface's points: the larger,\
+            the less certain the correspondence"
+        mean_path_length_A "Mean path length" length "Mean length of their paths: the more it exceeds the\
+            displacement, the less certain"
         {area_A2 source} "Area, source" area "Surface area of the source"
         {area_A2 target} "Area, target" area "Surface area of the target"
-        {area_A2 valid} "Area compared" area "Area of the mapped surface on which the numbers rest"
+        {area_A2 valid} "Area compared" area "Area of the mapped surface that the numbers cover"
     }
 
     proc build_results {path} {
@@ -33,7 +33,7 @@ namespace eval ::espdiff::gui {
         ttk::frame $path.top
         ttk::combobox $path.top.list -textvariable ::espdiff::gui::chosen_result -state readonly -width 24 \
             -postcommand {::espdiff::gui::guard ::espdiff::gui::list_results}
-        tip $path.top.list "Results that exist, those of scripts as well"
+        tip $path.top.list "All results, including those of scripts"
         bind $path.top.list <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::choose_result}
         button $path.top.table Table... ::espdiff::gui::show_table 0
         button $path.top.view Viewer ::espdiff::gui::view_result 0
@@ -57,7 +57,7 @@ namespace eval ::espdiff::gui {
         foreach name {list view table export delete} { set widget(result,$name) $path.top.$name }
     }
 
-    # A coloured band: one line in bold, and reasons if there are any.
+    # A coloured band: one bold line, and reasons if there are any.
     proc build_verdict {path} {
         variable widget
         frame $path -padx 8 -pady 4
@@ -81,7 +81,7 @@ namespace eval ::espdiff::gui {
         if {[llength $reasons] > 0} { pack $widget(reasons) -fill x } else { pack forget $widget(reasons) }
     }
 
-    # `width` in letters has room for any value: the window does not change its size with the numbers.
+    # `width` in letters fits any value, so that the window does not change size with the numbers.
     proc build_numbers {parent column width numbers} {
         variable widget
         set row 0
@@ -96,7 +96,7 @@ namespace eval ::espdiff::gui {
         }
     }
 
-    # The comparisons that are done, newest first: "comparison2: wild -> adk #97", the latter being a frame.
+    # The finished comparisons, newest first: "comparison2: wild -> adk #97", where #97 is a frame.
     proc result_names {} {
         set names {}
         foreach handle [lsort -dictionary -decreasing [espdiff handles]] {
@@ -111,7 +111,7 @@ namespace eval ::espdiff::gui {
         foreach input [espdiff result $handle inputs] {
             if {[dict get $input role] ne $side} continue
             set name [dict get $input path]
-            # VMD's molecules are told as: mol 0 "ubq.psf" frame 5 sel "not water"
+            # Format of VMD's molecules: mol 0 "ubq.psf" frame 5 sel "not water"
             set frame 0
             regexp {^mol \d+ "(.*)" frame (\d+)} $name -> name frame
             return "[file rootname [file tail $name]][expr {$frame == 0 ? "" : " #$frame"}]"
@@ -131,7 +131,7 @@ namespace eval ::espdiff::gui {
         show_results [lindex [split $chosen_result :] 0]
     }
 
-    # Shows a result: the one named, else the one shown already, else the newest; none if there is none.
+    # Shows a result: the given one, otherwise the one shown already, otherwise the newest; none if there is none.
     proc show_results {{handle ""}} {
         variable shown
         variable chosen_result
@@ -197,7 +197,7 @@ namespace eval ::espdiff::gui {
     proc view_result {} {
         variable shown
         espdiff view $shown
-        show_message "The viewer is starting; h there shows its keys."
+        show_message "The viewer is starting; press h there for its keys."
     }
 
     proc export {} {
