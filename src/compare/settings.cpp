@@ -2,6 +2,7 @@
 #include "compare/settings.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <locale>
@@ -14,7 +15,7 @@ namespace espdiff {
 namespace {
 
 [[noreturn]] void refuse(const std::string& name, const std::string& text, const std::string& accepted) {
-  throw InputError(name + ": '" + text + "' is not " + accepted);
+  throw InputError(option(name) + ": '" + text + "' is not " + accepted);
 }
 
 /// A number in the C locale, whatever the program that hosts us has set.
@@ -25,13 +26,12 @@ bool parse(const std::string& text, Number& value) {
   return static_cast<bool>(in >> value) && (in >> std::ws).eof();
 }
 
-template <typename Number>
-std::string written(Number value) {
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out << value;
-  return out.str();
+/// The shortest text that reads back as the same value.
+std::string written(double value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::general).ptr};
 }
+std::string written(int value) { return std::to_string(value); }
 
 /// Which numbers a setting accepts.
 struct Range {
@@ -106,11 +106,17 @@ Setting of_surface(Setting s) {
   return s;
 }
 
+Setting in_unit(const char* unit, Setting s) {
+  s.unit = unit;
+  return s;
+}
+
 void add_surface_settings(std::vector<Setting>& all) {
   const std::string group = "Surface";
-  all.push_back(of_surface(number(
-      "grid-spacing", group, kPositive, [](auto& o) -> auto& { return o.surface.grid_spacing_A; },
-      "Lattice spacing of the density, Angstrom")));
+  all.push_back(
+      in_unit("A", of_surface(number(
+                       "grid-spacing", group, kPositive, [](auto& o) -> auto& { return o.surface.grid_spacing_A; },
+                       "Lattice spacing of the density, Angstrom"))));
   all.push_back(of_surface(number(
       "radius-scale", group, kPositive, [](auto& o) -> auto& { return o.surface.radius_scale; },
       "Width of each atom's Gaussian in units of its radius")));
@@ -146,9 +152,10 @@ void add_iteration_settings(std::vector<Setting>& all, const std::string& prefix
 }
 
 void add_morph_settings(std::vector<Setting>& all) {
-  all.push_back(number(
-      "max-step", kMorphGroup, kPositive, [](auto& o) -> auto& { return o.morph.max_step_A; },
-      "Farthest that an atom moves in one step, Angstrom"));
+  all.push_back(
+      in_unit("A", number(
+                       "max-step", kMorphGroup, kPositive, [](auto& o) -> auto& { return o.morph.max_step_A; },
+                       "Farthest that an atom moves in one step, Angstrom")));
   all.push_back(number(
       "max-edge", kMorphGroup, kPositive, [](auto& o) -> auto& { return o.morph_max_edge; },
       "Edges longer than so many grid spacings are halved"));
@@ -175,12 +182,14 @@ void add_mapping_settings(std::vector<Setting>& all) {
       [](const CompareOptions& o) { return to_string(o.field); },
       "What draws the surface: density, the distance where it is far, or gradient vector flow from the target (gvf) or "
       "from both surfaces (gvf2)"));
-  all.push_back(number(
-      "distance-threshold", kDeformGroup, kNotNegative, [](auto& o) -> auto& { return o.distance_threshold_A; },
-      "Distance beyond which the distance field draws, Angstrom"));
-  all.push_back(number(
-      "gvf-weight", kDeformGroup, kPositive, [](auto& o) -> auto& { return o.flow.weight_A2; },
-      "Smoothness of the gradient vector flow against the normals at the surface (mu), Angstrom^2"));
+  all.push_back(in_unit("A", number(
+                                 "distance-threshold", kDeformGroup, kNotNegative,
+                                 [](auto& o) -> auto& { return o.distance_threshold_A; },
+                                 "Distance beyond which the distance field draws, Angstrom")));
+  all.push_back(
+      in_unit("A2", number(
+                        "gvf-weight", kDeformGroup, kPositive, [](auto& o) -> auto& { return o.flow.weight_A2; },
+                        "Smoothness of the gradient vector flow against the normals at the surface (mu), Angstrom^2")));
   all.push_back(number(
       "gvf-tolerance", kDeformGroup, kPositive, [](auto& o) -> auto& { return o.flow.tolerance; },
       "The flow is converged when a sweep would move none of its vectors by more; they are 1 long at the surface"));
@@ -247,9 +256,10 @@ std::vector<Setting> make_settings() {
   };
   domains.get = [](const CompareOptions& o) { return o.domains; };
   all.push_back(domains);
-  all.push_back(number(
-      "temperature", "Potentials", kPositive, [](auto& o) -> auto& { return o.temperature_K; },
-      "Temperature for converting between kT/e and other units, K"));
+  all.push_back(
+      in_unit("K", number(
+                       "temperature", "Potentials", kPositive, [](auto& o) -> auto& { return o.temperature_K; },
+                       "Temperature for converting between kT/e and other units, K")));
   add_surface_settings(all);
   add_mapping_settings(all);
   const std::size_t first = all.size();
@@ -262,9 +272,21 @@ std::vector<Setting> make_settings() {
 
 }  // namespace
 
+std::string Setting::key() const {
+  std::string key = unit.empty() ? name : name + "_" + unit;
+  std::replace(key.begin(), key.end(), '-', '_');
+  return key;
+}
+
 const std::vector<Setting>& settings() {
   static const std::vector<Setting> all = make_settings();
   return all;
+}
+
+std::vector<std::pair<std::string, std::string>> setting_texts(const CompareOptions& options) {
+  std::vector<std::pair<std::string, std::string>> texts;
+  for (const Setting& setting : settings()) texts.emplace_back(setting.name, setting.get(options));
+  return texts;
 }
 
 const Setting& find_setting(const std::string& name) {
@@ -272,8 +294,7 @@ const Setting& find_setting(const std::string& name) {
     if (setting.name == name) return setting;
   }
   for (const RenamedSetting& renamed : renamed_settings()) {
-    if (renamed.old_name == name)
-      throw InputError(name + ": the setting is called " + renamed.name + " now; give " + renamed.name);
+    if (renamed.old_name == name) throw InputError(option(name) + " is called " + option(renamed.name) + " now");
   }
   throw InputError("there is no setting '" + name + "'");
 }
@@ -291,9 +312,10 @@ void refuse_of_other_method(const std::vector<std::pair<std::string, std::string
   for (const auto& [name, text] : given) {
     const Setting& setting = find_setting(name);
     if (setting.group != other || (name == kThesisSetting && text == "0")) continue;
-    throw InputError(name + " is a setting of the method " + (method == Method::kMorph ? "deform" : "morph") +
-                     ", and the method is " + to_string(method) + "; give method " +
-                     (method == Method::kMorph ? "deform" : "morph") + " as well, or leave " + name + " out");
+    const std::string its_method = method == Method::kMorph ? "deform" : "morph";
+    throw InputError(option(name) + " is a setting of the method " + its_method + ", and the method is " +
+                     to_string(method) + "; give " + option("method", its_method) + " as well, or leave " +
+                     option(name) + " out");
   }
 }
 

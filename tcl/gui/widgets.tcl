@@ -7,7 +7,7 @@ namespace eval ::espdiff::gui {
 
     # Evaluates a command, and shows its error in the window: no dialog with a traceback ever.
     proc guard {args} {
-        if {[catch { uplevel #0 $args } message]} { show_message $message error }
+        if {[catch_labelled { uplevel #0 $args } message options]} { show_message $message error }
     }
 
     # A button whose command is guarded. An underlined letter is also a key with Alt.
@@ -186,6 +186,6 @@ namespace eval ::espdiff::gui {
 
     # As guard, for what happens in a tab.
     proc guard_in {tab args} {
-        if {[catch { uplevel #0 $args } message]} { tell_in $tab $message error }
+        if {[catch_labelled { uplevel #0 $args } message options]} { tell_in $tab $message error }
     }
 }

@@ -10,7 +10,7 @@ namespace {
 /// False where there is no GPU, after a line that says so.
 bool can_run() {
   const espdiff::BackEndStatus cuda = espdiff::cuda_status();
-  if (!cuda.available) MESSAGE("SKIPPED: cuda: ", cuda.description);
+  if (!cuda.available) MESSAGE("SKIPPED: cuda: ", cuda.description.plain());
   return cuda.available;
 }
 
