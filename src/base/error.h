@@ -1,4 +1,4 @@
-// error.h: the one error family; thrown at the check, converted once at each boundary (exit status, Tcl, molfile).
+// error.h: the error classes; thrown where a check fails, converted once per boundary (exit status, Tcl, molfile).
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace espdiff {
 
-/// What kind of failure an Error is; the names are the CLASS of a Tcl errorcode.
+/// Kind of failure; the names are the CLASS of a Tcl errorcode.
 enum class ErrorClass { kInput, kFormat, kIo, kGeometry, kConvergence, kDevice, kMemory, kCancelled, kInternal };
 
 /// The upper-case name of a class, such as "INPUT".
@@ -25,7 +25,7 @@ class Error : public std::runtime_error {
   ErrorClass error_class() const { return error_class_; }
   const Message& message() const { return *message_; }
 
-  /// Exit status of the command line: 2 for wrong usage or input, 1 for what could not be computed.
+  /// Exit status of the command line: 2 for wrong usage or input, 1 if the computation failed.
   int exit_status() const;
 
  private:
@@ -33,12 +33,12 @@ class Error : public std::runtime_error {
   std::shared_ptr<const Message> message_;  ///< shared, so that copying an error cannot fail
 };
 
-/// The user asked for something that cannot be: a wrong option value, an atom selection that is empty, a missing map.
+/// Invalid request: a wrong option value, an empty atom selection, a missing map.
 struct InputError : Error {
   explicit InputError(const Message& message) : Error(ErrorClass::kInput, message) {}
 };
 
-/// A file's content is wrong. `line` counts from 1; 0 where the format has no lines.
+/// A file's content is wrong. `line` counts from 1; 0 for formats without lines.
 struct FormatError : Error {
   FormatError(const std::string& path, long line, const Message& message);
 };
@@ -48,7 +48,7 @@ struct IoError : Error {
   IoError(const std::string& path, const Message& message);
 };
 
-/// The shapes cannot be handled: no surface at this isovalue, too few paired atoms.
+/// The shapes cannot be processed: no surface at this isovalue, too few paired atoms.
 struct GeometryError : Error {
   explicit GeometryError(const Message& message) : Error(ErrorClass::kGeometry, message) {}
 };

@@ -1,4 +1,4 @@
-// scene.cpp: scenes as JSON, and what they may hold.
+// scene.cpp: scenes as JSON, and checks of their values.
 #include "view/scene.h"
 
 #include <array>
@@ -189,14 +189,15 @@ Scene read_scene(const std::string& path, const Scene& defaults) {
       key = name;
       if (!set(scene, key, value)) {
         throw FormatError(
-            path, 0, "no setting '" + key + "' in scenes; " + option("save-scene", "FILE") + " writes all there are");
+            path, 0, "a scene has no setting '" + key + "'; " + option("save-scene", "FILE") + " writes all settings");
       }
     }
   } catch (const nlohmann::json::parse_error& error) {
     throw FormatError(path, 0, std::string("not JSON: ") + error.what());
   } catch (const nlohmann::json::exception&) {
     throw FormatError(
-        path, 0, "the value of '" + key + "' is of the wrong kind; " + option("save-scene", "FILE") + " shows which");
+        path, 0,
+        "the value of '" + key + "' has the wrong type; " + option("save-scene", "FILE") + " shows the right one");
   } catch (const InputError& error) {
     throw FormatError(path, 0, error.message());
   }
