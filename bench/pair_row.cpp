@@ -7,7 +7,7 @@
 #include <limits>
 #include <sstream>
 
-#include "report/write_compare.h"
+#include "report/metrics.h"
 
 namespace espdiff_bench {
 namespace {
@@ -94,7 +94,7 @@ PairRow make_row(const std::string& name, const espdiff::CompareResult& result) 
     row.round_trip_p95_A = c.round_trip->p95_A;
   }
   row.steps = result.morph_report.steps;
-  const espdiff::CountedSurface counted = espdiff::counted_surface(result);
+  const espdiff::Metrics counted = espdiff::counted_metrics(result);
   row.mean_displacement_A = counted.mean_displacement_A;
   row.mean_path_length_A = counted.mean_path_length_A;
   row.area_mapped_A2 = result.area_mapped_A2;

@@ -358,7 +358,7 @@ void add_peaks(nlohmann::ordered_json& context) {
 #if defined(ESPDIFF_HAVE_CUDA)
     if (device.n_threads == 0) {
       add_peak(context, device.name, espdiff_bench::cuda_peak());
-      context["gpu"] = espdiff::cuda_status().description;
+      context["gpu"] = espdiff::cuda_status().description.plain();
     }
 #endif
   }

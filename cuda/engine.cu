@@ -485,7 +485,7 @@ Lattice host_lattice(const CubicLattice& lattice) {
 
 std::unique_ptr<Engine> make_engine(int device) { return std::make_unique<BackEndEngine>(device); }
 
-std::vector<CudaDeviceStatus> probe_devices(std::string* why_none) {
+std::vector<CudaDeviceStatus> probe_devices(Message* why_none) {
   int n = 0;
   const cudaError_t status = cudaGetDeviceCount(&n);
   cudaGetLastError();
@@ -494,7 +494,7 @@ std::vector<CudaDeviceStatus> probe_devices(std::string* why_none) {
     if (status != cudaSuccess) throw_cuda_error(status, "looking for GPUs", facts);
     if (n == 0) throw_cuda_error(cudaErrorNoDevice, "looking for GPUs", facts);
   } catch (const Error& error) {
-    *why_none = error.what();
+    *why_none = error.message();
     return {};
   }
   std::vector<CudaDeviceStatus> devices;
@@ -505,12 +505,12 @@ std::vector<CudaDeviceStatus> probe_devices(std::string* why_none) {
     CudaDeviceStatus found{true, describe_device(device)};
     if (!has_code_for(facts.architectures, 10 * major + minor)) {
       CudaFacts of_it = facts;
-      of_it.device = found.description;
+      of_it.device = found.description.plain();
       of_it.capability = 10 * major + minor;
       try {
         throw_cuda_error(cudaErrorNoKernelImageForDevice, "looking for GPUs", of_it);
       } catch (const Error& error) {
-        found = {false, error.what()};
+        found = {false, error.message()};
       }
     }
     devices.push_back(found);

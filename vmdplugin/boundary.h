@@ -13,7 +13,7 @@ namespace espdiff {
 /// What the other side of a boundary learns of an exception.
 struct Failure {
   const char* error_class;  ///< "INPUT", "MEMORY", ...: the CLASS of a Tcl errorcode
-  std::string message;      ///< one line
+  Message message;          ///< one line
 };
 
 /// Returns body(), or on_failure(Failure) when body throws anything at all; both return the same type. Tcl and VMD are
@@ -23,7 +23,7 @@ auto boundary(Body&& body, OnFailure&& on_failure) noexcept -> decltype(body()) 
   try {
     return std::forward<Body>(body)();
   } catch (const Error& error) {
-    return on_failure(Failure{error_class_name(error.error_class()), error.what()});
+    return on_failure(Failure{error_class_name(error.error_class()), error.message()});
   } catch (const std::bad_alloc&) {
     return on_failure(Failure{error_class_name(ErrorClass::kMemory),
                               "not enough memory; take a coarser grid, or close what else uses memory"});

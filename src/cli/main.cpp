@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/version.h"
+#include "cli/spelling.h"
 #include "cli/terminal_progress.h"
 #include "cli/verbs.h"
 
@@ -44,7 +45,7 @@ int run_verb(const espdiff::cli::Verb& verb, const std::string& command_line) {
     context.progress = &terminal.progress();
     return verb.run(context);
   } catch (const espdiff::Error& error) {
-    return fail(error.what(), error.exit_status());
+    return fail(espdiff::cli::spelled(error.message()).c_str(), error.exit_status());
   } catch (const std::bad_alloc&) {
     return fail("not enough memory; use a larger --grid-spacing or fewer atoms", 1);
   } catch (const std::exception& error) {

@@ -191,7 +191,7 @@ const std::vector<float>& SurfaceFile::values(RenderArray array) const {
   };
   if (pick().empty() && array != RenderArray::kPlain) {
     throw InputError(path + ": no point array '" + array_name(array) + "' (there are: " + array_names +
-                     "); colour by another, or compare with --source-map and --target-map");
+                     "); colour by another, or compare with " + option("source-map") + " and " + option("target-map"));
   }
   return pick();
 }

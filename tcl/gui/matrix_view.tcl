@@ -119,7 +119,7 @@ namespace eval ::espdiff::gui {
         if {$handle ne $matrix_running} return
         set matrix_running ""
         show_matrix_running
-        if {[catch { espdiff wait $handle } message]} {
+        if {[catch_labelled { espdiff wait $handle } message options]} {
             espdiff delete $handle
             tell_in matrix $message error
             return

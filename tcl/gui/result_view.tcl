@@ -4,31 +4,17 @@ namespace eval ::espdiff::gui {
     variable shown ""  ;# handle of the numbers shown
     variable chosen_result ""  ;# its entry in the list of results
 
-    # Key of `espdiff result`, name, unit (potential: that of the result), help. Left column, then right column.
-    variable potential_numbers {
-        mean_abs_difference "Mean abs. difference" potential "Mean absolute difference of the potentials at\
-            corresponding points, weighted by area"
-        rms_difference "RMS difference" potential "Root of the mean squared difference"
-        mean_signed_difference "Mean difference" potential "Mean of target - source, with its sign"
-        sign_change_area_fraction "Sign changes on" percent "Share of the surface's area where the potential has\
-            another sign on the target"
-        hodgkin_index "Hodgkin index" "" "Similarity of the potentials: 1 same, 0 unrelated, -1 opposite"
-    }
-    variable shape_numbers {
-        rmsd_A RMSD length "Of the superposed atom pairs"
-        mean_displacement_A "Mean displacement" length "Mean displacement of the surface's points: the larger,\
-            the less certain the correspondence"
-        mean_path_length_A "Mean path length" length "Mean length of their paths: the more it exceeds the\
-            displacement, the less certain"
-        {area_A2 source} "Area, source" area "Surface area of the source"
-        {area_A2 target} "Area, target" area "Surface area of the target"
-        {area_A2 valid} "Area compared" area "Area of the mapped surface that the numbers cover"
+    # Rows of the core's table of metrics that are shown, potentials in the left column and shapes in the right one.
+    proc shown_metrics {sections} {
+        set rows {}
+        foreach metric [::espdiff::core::metrics] {
+            if {[dict get $metric section] in $sections && [dict get $metric keys] ne ""} { lappend rows $metric }
+        }
+        return $rows
     }
 
     proc build_results {path} {
         variable widget
-        variable potential_numbers
-        variable shape_numbers
         ttk::labelframe $path -text Result -padding 6
         ttk::frame $path.top
         ttk::combobox $path.top.list -textvariable ::espdiff::gui::chosen_result -state readonly -width 24 \
@@ -49,8 +35,8 @@ namespace eval ::espdiff::gui {
         grid columnconfigure $path.top 0 -weight 1
         build_verdict $path.verdict
         ttk::frame $path.numbers
-        build_numbers $path.numbers 0 15 $potential_numbers
-        build_numbers $path.numbers 3 10 $shape_numbers
+        build_numbers $path.numbers 0 13 [shown_metrics potential]
+        build_numbers $path.numbers 3 10 [shown_metrics {superposition shape surface}]
         grid columnconfigure $path.numbers {1 4} -weight 1
         grid columnconfigure $path.numbers 2 -minsize 16
         pack $path.top $path.verdict $path.numbers -fill x -pady {0 4}
@@ -85,13 +71,13 @@ namespace eval ::espdiff::gui {
     proc build_numbers {parent column width numbers} {
         variable widget
         set row 0
-        foreach {key name unit help} $numbers {
-            set label [ttk::label $parent.name$column$row -text $name]
+        foreach metric $numbers {
+            set label [ttk::label $parent.name$column$row -text [dict get $metric title]]
             set value [ttk::label $parent.value$column$row -anchor e -width $width -text "\u2013"]
             grid $label -row $row -column $column -sticky w
             grid $value -row $row -column [expr {$column + 1}] -sticky e -padx {6 0}
-            tip $label $help
-            set widget([concat number $key]) $value
+            tip $label [dict get $metric help]
+            set widget([concat number [dict get $metric keys]]) $value
             incr row
         }
     }
@@ -155,7 +141,7 @@ namespace eval ::espdiff::gui {
             say_verdict "No comparison yet" {"Choose source and target, and press Compare."} gray90 gray30
             return
         }
-        set certificate [espdiff result $shown certificate]
+        set certificate [labelled { espdiff result $shown certificate }]
         if {[dict get $certificate trustworthy]} {
             say_verdict Trustworthy {"The mapping is within every limit that was checked."} #d3efd8 #0b4a1c
             return
@@ -168,17 +154,17 @@ namespace eval ::espdiff::gui {
     proc show_numbers {} {
         variable shown
         variable widget
-        variable potential_numbers
-        variable shape_numbers
-        foreach {key name unit help} [concat $potential_numbers $shape_numbers] {
-            set value [expr {$shown eq "" ? "" : [espdiff result $shown {*}$key]}]
+        foreach metric [shown_metrics {superposition potential shape surface}] {
+            set keys [dict get $metric keys]
+            set value [expr {$shown eq "" ? "" : [espdiff result $shown {*}$keys]}]
+            if {$value ne ""} { set value [expr {[dict get $metric factor] * $value}] }
+            set unit [dict get $metric unit]
             switch $unit {
-                potential { if {$value ne ""} { set unit [potential_unit] } }
-                length { set unit "\u00c5" }
-                area { set unit "\u00c5\u00b2" }
-                percent { set unit "% of area"; if {$value ne ""} { set value [expr {100 * $value}] } }
+                potential { set unit [expr {$value eq "" ? "" : [potential_unit]}] }
+                % { set unit "% of area" }
+                default { set unit [string map [list A \u00c5 ^2 \u00b2] $unit] }
             }
-            $widget([concat number $key]) configure -text [with_unit $value $unit]
+            $widget([concat number $keys]) configure -text [with_unit $value $unit]
         }
     }
 

@@ -131,7 +131,7 @@ namespace eval ::espdiff::gui {
         variable running
         if {$handle ne $running} return
         end_run
-        if {[catch { espdiff wait $handle } message options]} {
+        if {[catch_labelled { espdiff wait $handle } message options]} {
             espdiff delete $handle
             forget $handle
             if {[lindex [dict get $options -errorcode] 1] eq "CANCELLED"} {

@@ -89,10 +89,45 @@ namespace eval ::espdiff::gui {
             boolean { ttk::checkbutton $path -variable $variable }
             default { ttk::entry $path -textvariable $variable -width 10 }
         }
-        regsub {^regularize-} $name "" label
         set widget(setting,$name) $path
-        set label [string totitle [string map {- " "} $label] 0 0]
-        form_row $page $grid_row $label $path "$help (default $default)" $column
+        form_row $page $grid_row [setting_label $name] $path "$help (default $default)" $column
+    }
+
+    # What a setting's field is called; those of the regularization stand on a page of that name.
+    proc setting_label {name} {
+        regsub {^regularize-} $name "" label
+        return [string totitle [string map {- " "} $label] 0 0]
+    }
+
+    # An option as the window's messages name it: by the label of its field, with the value that is advised.
+    proc option_label {name value switch} {
+        set labels {source-map "the source's Potential" target-map "the target's Potential"
+            source-map-unit "the source's Unit" target-map-unit "the target's Unit"}
+        if {[dict exists $labels $name]} { return [dict get $labels $name] }
+        set label -$name
+        foreach row [all_settings] {
+            if {[dict get $row name] ne $name} continue
+            set label [setting_label $name]
+            if {[string match regularize-* $name]} { set label "Regularization: $label" }
+        }
+        if {$value eq "" && $switch && [string match -* $label]} { set value 1 }
+        return [expr {$value eq "" ? $label : "$label $value"}]
+    }
+
+    # Evaluates a script whose errors name the window's fields. Returns catch's code, and result and options.
+    proc catch_labelled {script result_name options_name} {
+        upvar 1 $result_name result $options_name options
+        set before $::espdiff::option_spelling
+        set ::espdiff::option_spelling ::espdiff::gui::option_label
+        set code [catch { uplevel 1 $script } result options]
+        set ::espdiff::option_spelling $before
+        return $code
+    }
+
+    # The script's result, with options in it named so too.
+    proc labelled {script} {
+        set code [catch_labelled { uplevel 1 $script } result options]
+        return -options [dict incr options -level] $result
     }
 
     proc toggle_settings {} {

@@ -7,11 +7,6 @@ namespace eval ::espdiff::gui {
     variable form
     array set form {trajectory,metric ""}
 
-    # Columns that can be plotted; those without values are not offered.
-    variable trajectory_metrics {mean_abs_difference rms_difference mean_signed_difference sign_change_area_fraction
-        hodgkin_index rmsd_A mean_displacement_A area_mapped_A2 corrupt_area_fraction no_counterpart_source
-        no_counterpart_target target_to_mapped_max_A}
-
     proc build_trajectory_bar {path} {
         build_tab_bar trajectory $path run Run ::espdiff::gui::run_trajectory ::espdiff::gui::cancel_trajectory \
             "Compare each frame with the reference (Return)" \
@@ -131,7 +126,7 @@ namespace eval ::espdiff::gui {
         variable trajectory_rows
         if {$handle ne $trajectory_running} return
         set trajectory_running ""
-        if {[catch { espdiff result $handle } result options]} {
+        if {[catch_labelled { espdiff result $handle } result options]} {
             set cancelled [expr {[lindex [dict get $options -errorcode] 1] eq "CANCELLED"}]
             if {$cancelled} {
                 set result "Stopped: the file has [llength $trajectory_rows] rows. With\
@@ -217,21 +212,21 @@ namespace eval ::espdiff::gui {
         tell_in trajectory "Written: $path"
     }
 
-    # Column, title, unit and factor of the chosen metric; without a choice, the first with values.
+    # Column, title, unit, factor of what is chosen, the usual metric where nothing is. Metrics without any value are
+    # not offered.
     proc chosen_trajectory_metric {} {
         variable form
         variable widget
         variable trajectory_rows
-        variable trajectory_metrics
         set unit ""
         foreach row $trajectory_rows {
             if {[dict get $row potential_unit] ne ""} { set unit [dict get $row potential_unit] }
         }
         set offered {}
-        foreach column $trajectory_metrics {
+        foreach column [::espdiff::metric_names series] {
             foreach row $trajectory_rows {
-                if {[::espdiff::is_number [dict get $row $column]]} {
-                    lappend offered [concat $column [::espdiff::plot_quantity $column $unit]]
+                if {[::espdiff::is_number [::espdiff::value_or $row $column ""]]} {
+                    lappend offered [concat $column [::espdiff::shown_metric $column $unit]]
                     break
                 }
             }
@@ -240,7 +235,10 @@ namespace eval ::espdiff::gui {
         foreach metric $offered { lappend titles [lindex $metric 1] }
         $widget(trajectory,metric) configure -values $titles
         if {$titles eq ""} { return {} }
-        if {$form(trajectory,metric) ni $titles} { set form(trajectory,metric) [lindex $titles 0] }
+        if {$form(trajectory,metric) ni $titles} {
+            set usual [lindex [::espdiff::shown_metric [::espdiff::usual_metric [expr {$unit ne ""}]] $unit] 0]
+            set form(trajectory,metric) [expr {$usual in $titles ? $usual : [lindex $titles 0]}]
+        }
         return [lindex $offered [lsearch -exact $titles $form(trajectory,metric)]]
     }
 

@@ -7,7 +7,7 @@ namespace eval ::espdiff::gui {
 
     # Evaluates a command and shows its error in the window instead of a traceback dialog.
     proc guard {args} {
-        if {[catch { uplevel #0 $args } message]} { show_message $message error }
+        if {[catch_labelled { uplevel #0 $args } message options]} { show_message $message error }
     }
 
     # A button with a guarded command. An underlined letter is also its Alt key.
@@ -186,6 +186,6 @@ namespace eval ::espdiff::gui {
 
     # Like guard, for actions in a tab.
     proc guard_in {tab args} {
-        if {[catch { uplevel #0 $args } message]} { tell_in $tab $message error }
+        if {[catch_labelled { uplevel #0 $args } message options]} { tell_in $tab $message error }
     }
 }

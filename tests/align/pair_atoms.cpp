@@ -190,7 +190,7 @@ TEST_CASE("molecules with nothing in common are refused, with counts, examples a
   const std::string message = message_of([&] { pair_atoms(protein.molecule, ligand.molecule); });
   for (const char* part :
        {"only 0 atoms", "source prot.pqr: 165 atoms in 33 residues (such as MET 7 of chain A, LYS 8",
-        "target lig.pqr: 4 atoms in 1 residues (such as DMS 108)", "no residues pair", "--align none"}) {
+        "target lig.pqr: 4 atoms in 1 residues (such as DMS 108)", "no residues pair", "align none"}) {
     CHECK_MESSAGE(message.find(part) != std::string::npos, part, " not in: ", message);
   }
   CHECK(message.find('\n') == std::string::npos);
@@ -232,9 +232,9 @@ TEST_CASE("the choice of atoms to align") {
   const AtomPairing own = pair_atoms(rna.molecule, rna.molecule);
   CHECK(select_pairs(own, rna.molecule, AlignAtoms::kBackbone).size() == 6);
   CHECK(message_of([&] { select_pairs(own, rna.molecule, AlignAtoms::kCAlpha); }) ==
-        "--align ca selects 0 of 7 paired atoms, at least 3 are needed; use --align all (7 pairs), --align backbone (6 "
+        "align ca selects 0 of 7 paired atoms, at least 3 are needed; use align all (7 pairs), align backbone (6 "
         "pairs), "
-        "or --align none");
+        "or align none");
 }
 
 TEST_CASE("the choice of atoms survives writing and reading") {

@@ -132,7 +132,7 @@ TEST_CASE("points that determine no rotation are refused with a remedy") {
     CHECK_THROWS_AS(superpose(*degenerate, shape, one_to_one(4)), GeometryError);
     const std::string message = message_of([&] { superpose(shape, *degenerate, one_to_one(4)); });
     CHECK(message.find("lie on a line or in a point") != std::string::npos);
-    CHECK(message.find("--align none") != std::string::npos);
+    CHECK(message.find("align none") != std::string::npos);
   }
   const std::string too_few = message_of([&] { superpose(shape, shape, one_to_one(2)); });
   CHECK(too_few.find("at least 3 pairs of atoms, 2 were given") != std::string::npos);

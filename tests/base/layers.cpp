@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <set>
 #include <string>
 
@@ -108,6 +109,25 @@ TEST_CASE("every source file states its purpose in its first line") {
       CHECK(line.find("// " + entry.path().filename().string() + ": ") == 0);
     }
   }
+}
+
+TEST_CASE("only the command line writes options with dashes; other messages name them") {
+  const std::regex spelled("\"[^\"]*--[a-z]");
+  int n_lines = 0;
+  for (const char* folder : {"src", "cuda", "vmdplugin"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(ESPDIFF_SOURCE_DIR) / folder)) {
+      const std::string extension = entry.path().extension().string();
+      if (entry.path().parent_path().filename() == "cli") continue;
+      if (extension != ".h" && extension != ".cpp" && extension != ".cu") continue;
+      std::ifstream in(entry.path());
+      for (std::string line; std::getline(in, line); ++n_lines) {
+        if (line.find("--") != std::string::npos)
+          CHECK_MESSAGE(!std::regex_search(line, spelled), entry.path().string(), ": ", line,
+                        "; name it by option() of base/message.h");
+      }
+    }
+  }
+  CHECK(n_lines > 10000);
 }
 
 TEST_SUITE_END();

@@ -38,7 +38,7 @@ CompareResult mapped_or_reported(const char* name, const Molecule& source, const
       name, c.trustworthy ? "trustworthy" : "NOT trustworthy", 100 * c.unmatched_source, 100 * c.unmatched_target,
       c.target_to_mapped.max, 100 * c.same_residue_area_fraction, r.morph_report.n_vertices_added,
       r.morph_report.n_vertices_unmatched);
-  for (const std::string& reason : c.reasons) std::printf("    %s\n", reason.c_str());
+  for (const espdiff::Message& reason : c.reasons) std::printf("    %s\n", reason.plain().c_str());
   CHECK(c.trustworthy == c.reasons.empty());
   CHECK(c.self_intersecting_pairs == 0);
   CHECK(c.flipped_area_fraction == 0);

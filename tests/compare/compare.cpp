@@ -192,14 +192,14 @@ TEST_CASE("compare refuses invalid input with a remedy") {
     return message_of([&] { compare(*engine, source, target, options, {}); });
   };
   CHECK(message(a.input(), b.shape()) ==
-        "a potential map was given for the source only; give one for the target too (--target-map; `map` in Tcl), or "
+        "a potential map was given for the source only; give one for the target too (target-map), or "
         "none to compare shapes alone");
   CHECK(message(a.shape(), b.input()).find("a potential map was given for the target only") == 0);
   Side unknown = b;
   unknown.map.unit = PotentialUnit::kUnknown;
   CHECK(message(a.input(), unknown.input()) ==
         "the maps are in two units: kT/e (map.dx) and unknown (map.dx); name the unknown "
-        "one's unit (--target-map-unit; `unit` in Tcl)");
+        "one's unit (target-map-unit)");
   Side elsewhere = b;
   elsewhere.map.lattice.origin += Vec3d{500, 0, 0};
   CHECK(message(a.input(), elsewhere.input()) ==

@@ -10,6 +10,7 @@
 #include "compare/built_molecule.h"
 #include "compare/compare.h"
 #include "compare/made_side.h"
+#include "report/metrics.h"
 #include "report/write_compare.h"
 
 using namespace espdiff_test;
@@ -59,7 +60,7 @@ TEST_CASE("a domain that swings as a rigid body has no displacement, by both met
       const CompareResult r = compare(*engine, {&source, nullptr}, {&target, nullptr}, options, {});
       CHECK(r.certificate.converged);
       if (method == Method::kMorph) CHECK(r.certificate.self_intersecting_pairs == 0);
-      return std::pair(espdiff::counted_surface(r).mean_displacement_A, r);
+      return std::pair(espdiff::counted_metrics(r).mean_displacement_A, r);
     };
     const auto [as_a_whole, whole] = displacement_with("none");
     const auto [by_domains, chains] = displacement_with("chains");
@@ -104,7 +105,7 @@ TEST_CASE("a result names its domains") {
   CompareOptions options;
   options.domains = "A:1-3/B:1-2";
   const CompareResult r = compare(*engine, {&source, nullptr}, {&target, nullptr}, options, {});
-  const auto json = nlohmann::json::parse(espdiff::compare_json(source, target, r, options, {}));
+  const auto json = espdiff::compare_json(source, target, r, options, {});
   const auto& domains = json["superposition"]["domains"];
   REQUIRE(domains.size() == 2);
   CHECK(domains[1]["residues"] == "B:1-2");
@@ -112,7 +113,7 @@ TEST_CASE("a result names its domains") {
   CHECK(domains[1]["rmsd_A"].get<double>() < 1e-9);
   CHECK(json["options"]["domains"] == "A:1-3/B:1-2");
   std::ostringstream table;
-  espdiff::print_table(table, source, target, r);
+  espdiff::print_table(table, source, target, r, [](const espdiff::NamedOption& o) { return o.name; });
   CHECK(table.str().find("rigid piece               ") != std::string::npos);
   CHECK(table.str().find("A, B:1-2\n") != std::string::npos);
 }

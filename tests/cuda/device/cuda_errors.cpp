@@ -42,16 +42,16 @@ TEST_CASE("a missing driver and one that is too old give different messages, wit
   CHECK(words_for(cudaErrorInsufficientDriver, ErrorClass::kDevice, facts) ==
         "no NVIDIA driver is installed, or it cannot be loaded; install one that supports CUDA 13.0 (580 or newer), or "
         "use "
-        "--device cpu");
+        "device cpu");
   facts.driver_version = 12040;
   CHECK(words_for(cudaErrorInsufficientDriver, ErrorClass::kDevice, facts) ==
         "the NVIDIA driver supports CUDA 12.4, this build needs CUDA 13.0 (580 or newer); update the driver, build "
         "with an "
-        "older CUDA toolkit, or use --device cpu");
+        "older CUDA toolkit, or use device cpu");
 }
 
 TEST_CASE("no GPU") {
-  CHECK(words_for(cudaErrorNoDevice, ErrorClass::kDevice, {}) == "no NVIDIA GPU was found; use --device cpu");
+  CHECK(words_for(cudaErrorNoDevice, ErrorClass::kDevice, {}) == "no NVIDIA GPU was found; use device cpu");
 }
 
 TEST_CASE("running out of memory is a memory error that says how much was requested, what is free, and the remedy") {
@@ -62,7 +62,7 @@ TEST_CASE("running out of memory is a memory error that says how much was reques
   CHECK(words_for(cudaErrorMemoryAllocation, ErrorClass::kMemory, facts) ==
         "cuda:1 (NVIDIA Test) has no room for another 1.50 GiB (computing): 1.00 GiB of its 8.00 GiB are free; use a "
         "larger "
-        "grid spacing or fewer atoms, another GPU (--device cuda:N), or --device cpu");
+        "grid spacing or fewer atoms, another GPU (device cuda:N), or device cpu");
   facts.asked_bytes = std::size_t{300} << 20;
   facts.free_bytes = 1 << 19;
   const std::string little = words_for(cudaErrorMemoryAllocation, ErrorClass::kMemory, facts);
@@ -75,10 +75,10 @@ TEST_CASE("a GPU without code in this build: the message says which code there i
     CHECK(words_for(status, ErrorClass::kDevice, facts_of("80-real;90-real", 89)) ==
           "this build has code for compute capability 8.0 and 9.0, none for cuda:1 (NVIDIA Test) of compute capability "
           "8.9; "
-          "configure with -DCMAKE_CUDA_ARCHITECTURES=89 and build again, or use --device cpu");
+          "configure with -DCMAKE_CUDA_ARCHITECTURES=89 and build again, or use device cpu");
   }
   const std::string too_old = words_for(cudaErrorNoKernelImageForDevice, ErrorClass::kDevice, facts_of("90", 61));
-  CHECK_MESSAGE(too_old.find("of compute capability 6.1; CUDA 13.0 supports no GPU below 7.5: use --device cpu") !=
+  CHECK_MESSAGE(too_old.find("of compute capability 6.1; CUDA 13.0 supports no GPU below 7.5: use device cpu") !=
                     std::string::npos,
                 too_old);
 }
@@ -89,7 +89,7 @@ TEST_CASE("a lost device: the message says what was being done, what failed, and
     const std::string text = words_for(status, ErrorClass::kDevice, facts_of("90", 90));
     CHECK_MESSAGE(
         text.find("cuda:1 (NVIDIA Test) failed while computing (" + std::string(cudaGetErrorName(status))) == 0, text);
-    CHECK_MESSAGE(text.find("start again, with --device cpu if it recurs") != std::string::npos, text);
+    CHECK_MESSAGE(text.find("start again, with device cpu if it recurs") != std::string::npos, text);
   }
 }
 
@@ -100,7 +100,7 @@ TEST_CASE("a device in use by others, a runtime that does not start, and other e
   CHECK(words_for(cudaErrorSystemDriverMismatch, ErrorClass::kDevice, facts).find("nvidia-smi") != std::string::npos);
   const std::string other = words_for(cudaErrorInvalidValue, ErrorClass::kDevice, facts);
   CHECK(other.find("cudaErrorInvalidValue") != std::string::npos);
-  CHECK(other.find("try --device cpu") != std::string::npos);
+  CHECK(other.find("try device cpu") != std::string::npos);
 }
 
 TEST_CASE("every message is one line with a remedy") {
@@ -110,7 +110,7 @@ TEST_CASE("every message is one line with a remedy") {
     } catch (const espdiff::Error& error) {
       const std::string text = error.what();
       CHECK_MESSAGE(text.find('\n') == std::string::npos, text);
-      CHECK_MESSAGE(text.find("--device cpu") != std::string::npos, text);
+      CHECK_MESSAGE(text.find("device cpu") != std::string::npos, text);
     }
   }
 }

@@ -9,7 +9,7 @@ namespace {
 /// False without a GPU, after printing a line that says so.
 bool can_run() {
   const espdiff::BackEndStatus cuda = espdiff::cuda_status();
-  if (!cuda.available) MESSAGE("SKIPPED: cuda: ", cuda.description);
+  if (!cuda.available) MESSAGE("SKIPPED: cuda: ", cuda.description.plain());
   return cuda.available;
 }
 

@@ -36,7 +36,7 @@ inline std::vector<std::unique_ptr<Engine>> back_ends(int n_threads = 0) {
     engines.push_back(espdiff::select_engine(espdiff::DeviceChoice::kCuda, 0));
   } else if (!announced) {
     announced = true;
-    MESSAGE("SKIPPED: cuda: ", cuda.description);
+    MESSAGE("SKIPPED: cuda: ", cuda.description.plain());
   }
   return engines;
 }
