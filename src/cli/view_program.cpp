@@ -1,4 +1,4 @@
-// view_program.cpp: `espdiff-view OUT.vtp`: the same as `espdiff view OUT.vtp`, for file managers and menus.
+// view_program.cpp: `espdiff-view OUT.vtp`: runs `espdiff view OUT.vtp`, for file managers and menus.
 #include <unistd.h>
 
 #include <cerrno>
@@ -11,7 +11,7 @@
 int main(int argc, char** argv) {
   std::error_code error;
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
-  // Installed and built, the two stand side by side; elsewhere the one on PATH is taken.
+  // Normally the two programs are in one folder; otherwise the one on PATH is used.
   const std::filesystem::path beside = self.parent_path() / "espdiff";
   const std::string program = !error && std::filesystem::exists(beside, error) ? beside.string() : "espdiff";
   std::string espdiff = "espdiff", view = "view";
