@@ -16,7 +16,8 @@ namespace eval ::espdiff {
 
     command compare [dict create arguments {source target} options $computing settings all run ::espdiff::compare \
         summary {Maps the surface of the source onto that of the target, compares the potentials at corresponding
-            points, and certifies the mapping. Source and target are endpoints. Without maps only the shapes are compared.} \
+            points, and certifies the mapping. Source and target are endpoints. Without maps only the shapes are
+            compared.} \
         returns {a handle, such as comparison1. With -command at once, otherwise when the comparison is done} \
         example {espdiff compare {file wild.pqr map wild.dx} {file mutant.pqr map mutant.dx} -grid-spacing 0.8}]
 
@@ -168,8 +169,9 @@ namespace eval ::espdiff {
                 mean_displacement_A"}
         } $computing] \
         summary {Compares many variants, each with each, in both directions. A variant is an endpoint that may have a
-            `label` and a `group`; {mol ID frames BEGIN:STEP:END ...} stands for one variant per frame, {file PATH ...} without
-            `model` for one per model. Each source's surface is regularized, and its potential computed, once.} \
+            `label` and a `group`; {mol ID frames BEGIN:STEP:END ...} stands for one variant per frame,
+            {file PATH ...} without `model` for one per model. Each source's surface is regularized, and its
+            potential computed, once.} \
         returns {a handle, such as matrix1; `espdiff result` has the content of OUT.json, and pairs, resumed, seconds,
             files} \
         example {espdiff matrix {{mol 0 frames 0:10: map pme} {file open.pqr map pme group open}} -output adk}]
