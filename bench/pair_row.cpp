@@ -1,4 +1,4 @@
-// pair_row.cpp: fills, sums up and writes the rows of pairs.
+// pair_row.cpp: fills, summarizes and writes the rows of pairs.
 #include "pair_row.h"
 
 #include <algorithm>
@@ -12,10 +12,10 @@
 namespace espdiff_bench {
 namespace {
 
-/// Half of the last digit that the prototype's figures were written with.
+/// Rounding of the prototype's figures: half of their last digit.
 constexpr double kCorruptRounding = 0.005, kCoverageRounding = 0.05;
 
-/// Members that are summed up and written, in the order of the CSV file's columns.
+/// Members that are summarized and written, in the order of the CSV file's columns.
 struct Column {
   const char* name;
   double PairRow::*value;

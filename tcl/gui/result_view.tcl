@@ -1,8 +1,8 @@
-# result_view.tcl: what came out of a comparison: the numbers, whether they can be trusted, table and export.
+# result_view.tcl: the result of a comparison: numbers, verdict, table and export.
 
 namespace eval ::espdiff::gui {
-    variable shown ""  ;# handle whose numbers are on display
-    variable chosen_result ""  ;# the same as the list of results says it
+    variable shown ""  ;# handle of the numbers shown
+    variable chosen_result ""  ;# its entry in the list of results
 
     # Rows of the core's table of metrics that are shown, potentials in the left column and shapes in the right one.
     proc shown_metrics {sections} {
@@ -19,7 +19,7 @@ namespace eval ::espdiff::gui {
         ttk::frame $path.top
         ttk::combobox $path.top.list -textvariable ::espdiff::gui::chosen_result -state readonly -width 24 \
             -postcommand {::espdiff::gui::guard ::espdiff::gui::list_results}
-        tip $path.top.list "Results that exist, those of scripts as well"
+        tip $path.top.list "All results, including those of scripts"
         bind $path.top.list <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::choose_result}
         button $path.top.table Table... ::espdiff::gui::show_table 0
         button $path.top.view Viewer ::espdiff::gui::view_result 0
@@ -43,7 +43,7 @@ namespace eval ::espdiff::gui {
         foreach name {list view table export delete} { set widget(result,$name) $path.top.$name }
     }
 
-    # A coloured band: one line in bold, and reasons if there are any.
+    # A coloured band: one bold line, and reasons if there are any.
     proc build_verdict {path} {
         variable widget
         frame $path -padx 8 -pady 4
@@ -67,7 +67,7 @@ namespace eval ::espdiff::gui {
         if {[llength $reasons] > 0} { pack $widget(reasons) -fill x } else { pack forget $widget(reasons) }
     }
 
-    # `width` in letters has room for any value: the window does not change its size with the numbers.
+    # `width` in letters fits any value, so that the window does not change size with the numbers.
     proc build_numbers {parent column width numbers} {
         variable widget
         set row 0
@@ -82,7 +82,7 @@ namespace eval ::espdiff::gui {
         }
     }
 
-    # The comparisons that are done, newest first: "comparison2: wild -> adk #97", the latter being a frame.
+    # The finished comparisons, newest first: "comparison2: wild -> adk #97", where #97 is a frame.
     proc result_names {} {
         set names {}
         foreach handle [lsort -dictionary -decreasing [espdiff handles]] {
@@ -97,7 +97,7 @@ namespace eval ::espdiff::gui {
         foreach input [espdiff result $handle inputs] {
             if {[dict get $input role] ne $side} continue
             set name [dict get $input path]
-            # VMD's molecules are told as: mol 0 "ubq.psf" frame 5 sel "not water"
+            # Format of VMD's molecules: mol 0 "ubq.psf" frame 5 sel "not water"
             set frame 0
             regexp {^mol \d+ "(.*)" frame (\d+)} $name -> name frame
             return "[file rootname [file tail $name]][expr {$frame == 0 ? "" : " #$frame"}]"
@@ -117,7 +117,7 @@ namespace eval ::espdiff::gui {
         show_results [lindex [split $chosen_result :] 0]
     }
 
-    # Shows a result: the one named, else the one shown already, else the newest; none if there is none.
+    # Shows a result: the given one, otherwise the one shown already, otherwise the newest; none if there is none.
     proc show_results {{handle ""}} {
         variable shown
         variable chosen_result
@@ -183,7 +183,7 @@ namespace eval ::espdiff::gui {
     proc view_result {} {
         variable shown
         espdiff view $shown
-        show_message "The viewer is starting; h there shows its keys."
+        show_message "The viewer is starting; press h there for its keys."
     }
 
     proc export {} {

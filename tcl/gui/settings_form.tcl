@@ -1,4 +1,4 @@
-# settings_form.tcl: all settings of a comparison, behind a button, as the core's table has them.
+# settings_form.tcl: all settings of a comparison, behind a button, from the core's table.
 
 namespace eval ::espdiff::gui {
     variable setting   ;# values by name
@@ -6,7 +6,7 @@ namespace eval ::espdiff::gui {
     array set setting {}
     array set standard {}
 
-    # Groups of the table that are small share a page.
+    # Small groups of the table share a page.
     variable setting_pages {General {Molecules Potentials Computing} Surface Surface
         Mapping {Mapping {Mapping by morph}} Deform {{Mapping by deform}} Regularization Regularization}
 
@@ -14,13 +14,13 @@ namespace eval ::espdiff::gui {
     proc all_settings {} {
         set rows [::espdiff::core::settings]
         lappend rows [dict create name device group Computing kind choice choices [device_choices] default auto \
-            help "Where to compute: auto takes a GPU if one answers"]
+            help "Where to compute: auto takes a GPU if one works"]
         lappend rows {name threads group Computing kind integer choices {} default 0
-            help "CPU threads; 0 takes OMP_NUM_THREADS, else all. The result is the same for any number"}
+            help "CPU threads; 0 takes OMP_NUM_THREADS, otherwise all. The result does not depend on it"}
         return $rows
     }
 
-    # With several GPUs, each by its name. They are looked for once.
+    # Lists several GPUs by name. They are detected once.
     proc device_choices {} {
         variable known_devices
         if {[info exists known_devices]} { return $known_devices }
@@ -64,7 +64,7 @@ namespace eval ::espdiff::gui {
         return $path
     }
 
-    # Two columns of rows, with room between them.
+    # Two columns of rows with space between them.
     proc build_setting_page {page groups} {
         set rows {}
         foreach row [all_settings] { if {[dict get $row group] in $groups} { lappend rows $row } }
@@ -148,7 +148,7 @@ namespace eval ::espdiff::gui {
         foreach name [array names standard] { set setting($name) $standard($name) }
     }
 
-    # The settings that are not at their defaults, as options of `espdiff compare`.
+    # The settings that differ from their defaults, as options of `espdiff compare`.
     proc setting_options {} {
         variable setting
         variable standard
@@ -161,7 +161,7 @@ namespace eval ::espdiff::gui {
         return $options
     }
 
-    # The button's title says whether something was changed while the settings are out of sight.
+    # The button's title reports changes while the settings are hidden.
     proc count_changes {args} {
         variable widget
         set n [expr {[llength [setting_options]] / 2}]

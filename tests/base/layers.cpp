@@ -1,4 +1,4 @@
-// layers.cpp: no room includes what it may not know: reads every include of src/, cuda/ and vmdplugin/.
+// layers.cpp: no room includes a room above it: reads every include of src/, cuda/ and vmdplugin/.
 #include <doctest/doctest.h>
 
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 using Rooms = std::map<std::string, std::set<std::string>>;
 
-/// What each room may include besides itself. Nobody looks up.
+/// What each room may include besides itself; only rooms below it.
 const Rooms kAllowed = {
     {"base", {}},
     {"io", {"base"}},
@@ -89,7 +89,7 @@ TEST_CASE("rooms include only rooms below them") {
   CHECK(n_includes > 40);
 }
 
-TEST_CASE("every folder of src has its rule") {
+TEST_CASE("every folder of src has a rule") {
   for (const auto& entry : fs::directory_iterator(fs::path(ESPDIFF_SOURCE_DIR) / "src")) {
     if (!entry.is_directory()) continue;
     INFO(entry.path().string());
@@ -97,7 +97,7 @@ TEST_CASE("every folder of src has its rule") {
   }
 }
 
-TEST_CASE("every source file says in its first line what it is for") {
+TEST_CASE("every source file states its purpose in its first line") {
   for (const char* folder : {"src", "cuda", "vmdplugin"}) {
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(ESPDIFF_SOURCE_DIR) / folder)) {
       const std::string extension = entry.path().extension().string();

@@ -1,4 +1,4 @@
-// rigid_domains.cpp: molecules whose parts move far are compared part by part, by both methods.
+// rigid_domains.cpp: molecules whose domains move far are compared domain by domain, by both methods.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ Molecule dumbbell() {
   return b.molecule;
 }
 
-/// Chain B swung about the middle of the bridge.
+/// Chain B rotated about the middle of the bridge.
 Molecule swung(const Molecule& m, double angle) {
   espdiff::Screw screw;
   screw.axis = {0, 0.6, 0.8};
@@ -49,7 +49,7 @@ Molecule swung(const Molecule& m, double angle) {
 
 TEST_SUITE_BEGIN("rigid_domains");
 
-TEST_CASE("what swings as a rigid body is displaced by nothing, by both methods") {
+TEST_CASE("a domain that swings as a rigid body has no displacement, by both methods") {
   const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
   const Molecule source = dumbbell(), target = swung(source, 1.0);
   for (const Method method : {Method::kMorph, Method::kDeform}) {
@@ -74,7 +74,7 @@ TEST_CASE("what swings as a rigid body is displaced by nothing, by both methods"
   }
 }
 
-TEST_CASE("there and back goes by the pieces' motions and their inverses") {
+TEST_CASE("the round trip uses the domains' motions and their inverses") {
   const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
   const Molecule source = dumbbell(), target = swung(source, 1.2);
   CompareOptions options;
@@ -86,7 +86,7 @@ TEST_CASE("there and back goes by the pieces' motions and their inverses") {
   CHECK(r.certificate.trustworthy);
 }
 
-TEST_CASE("one piece that is all of the molecule changes nothing but rounding") {
+TEST_CASE("one domain of the whole molecule changes only rounding") {
   const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
   const Side a = make_side(1, 0), b = make_side(2, 0.3);
   CompareOptions options = quick_options();
@@ -99,7 +99,7 @@ TEST_CASE("one piece that is all of the molecule changes nothing but rounding") 
   CHECK(domain.metrics.mean_displacement_A == doctest::Approx(whole.metrics.mean_displacement_A).epsilon(1e-3));
 }
 
-TEST_CASE("a result names its pieces") {
+TEST_CASE("a result names its domains") {
   const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
   const Molecule source = dumbbell(), target = swung(source, 0.5);
   CompareOptions options;
@@ -118,7 +118,7 @@ TEST_CASE("a result names its pieces") {
   CHECK(table.str().find("A, B:1-2\n") != std::string::npos);
 }
 
-TEST_CASE("pieces of molecules in which nothing pairs are refused") {
+TEST_CASE("domains of molecules without pairs are refused") {
   const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
   const Molecule source = dumbbell();
   Molecule other;

@@ -1,4 +1,4 @@
-// cuda_errors.cpp: what an error of the CUDA runtime becomes, by handing each to the translation; needs no GPU.
+// cuda_errors.cpp: messages for errors of the CUDA runtime, passed in directly; needs no GPU.
 #include <doctest/doctest.h>
 
 #include "base/error.h"
@@ -22,7 +22,7 @@ CudaFacts facts_of(const char* architectures, int capability) {
   return facts;
 }
 
-/// The message, after a check that the error has that class.
+/// The message, after checking the error's class.
 std::string words_for(cudaError_t status, ErrorClass expected, const CudaFacts& facts) {
   try {
     throw_cuda_error(status, "computing", facts);
@@ -36,7 +36,7 @@ std::string words_for(cudaError_t status, ErrorClass expected, const CudaFacts& 
 
 TEST_SUITE_BEGIN("cuda errors");
 
-TEST_CASE("no driver and one that is too old are told apart, with the version that is needed") {
+TEST_CASE("a missing driver and one that is too old give different messages, with the version needed") {
   CudaFacts facts = facts_of("75-real;120", 0);
   facts.driver_version = 0;
   CHECK(words_for(cudaErrorInsufficientDriver, ErrorClass::kDevice, facts) ==
@@ -54,7 +54,7 @@ TEST_CASE("no GPU") {
   CHECK(words_for(cudaErrorNoDevice, ErrorClass::kDevice, {}) == "no NVIDIA GPU was found; use device cpu");
 }
 
-TEST_CASE("memory that runs out is an error of memory: how much was asked for, what is free, and what would help") {
+TEST_CASE("running out of memory is a memory error that says how much was requested, what is free, and the remedy") {
   CudaFacts facts = facts_of("90", 90);
   facts.asked_bytes = std::size_t{3} << 29;
   facts.free_bytes = std::size_t{1} << 30;
@@ -69,7 +69,7 @@ TEST_CASE("memory that runs out is an error of memory: how much was asked for, w
   CHECK(little.find("another 300.0 MiB (computing): 0.5 MiB of its 8.00 GiB") != std::string::npos);
 }
 
-TEST_CASE("a GPU that the build has no code for: which it has, and how to get it") {
+TEST_CASE("a GPU without code in this build: the message says which code there is, and how to add it") {
   for (const cudaError_t status : {cudaErrorNoKernelImageForDevice, cudaErrorInvalidDeviceFunction,
                                    cudaErrorUnsupportedPtxVersion, cudaErrorJitCompilerNotFound}) {
     CHECK(words_for(status, ErrorClass::kDevice, facts_of("80-real;90-real", 89)) ==
@@ -83,7 +83,7 @@ TEST_CASE("a GPU that the build has no code for: which it has, and how to get it
                 too_old);
 }
 
-TEST_CASE("a device that is lost: what was done, what failed, and that the process has to start again") {
+TEST_CASE("a lost device: the message says what was being done, what failed, and that the process must restart") {
   for (const cudaError_t status :
        {cudaErrorIllegalAddress, cudaErrorLaunchFailure, cudaErrorECCUncorrectable, cudaErrorLaunchTimeout}) {
     const std::string text = words_for(status, ErrorClass::kDevice, facts_of("90", 90));
@@ -93,7 +93,7 @@ TEST_CASE("a device that is lost: what was done, what failed, and that the proce
   }
 }
 
-TEST_CASE("a device that others hold, a runtime that does not start, and anything else") {
+TEST_CASE("a device in use by others, a runtime that does not start, and other errors") {
   const CudaFacts facts = facts_of("90", 90);
   CHECK(words_for(cudaErrorDevicesUnavailable, ErrorClass::kDevice, facts).find("is in use by another process") !=
         std::string::npos);
@@ -117,7 +117,7 @@ TEST_CASE("every message is one line with a remedy") {
 
 TEST_CASE("a call that succeeded throws nothing") { CHECK_NOTHROW(check_cuda(cudaSuccess, "computing")); }
 
-TEST_CASE("which GPUs a build runs on") {
+TEST_CASE("the GPUs that a build runs on") {
   const std::string release = "75-real;80-real;86-real;89-real;90-real;100-real;120";
   for (const int capability : {75, 80, 86, 87, 89, 90, 100, 103, 120, 121, 130}) {
     CAPTURE(capability);
