@@ -26,7 +26,7 @@ std::string joined(int argc, char** argv) {
 /// again. Who sets either variable keeps his choice.
 void start_again_without_spinning(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
-  setenv("OMP_WAIT_POLICY", "passive", 1);
+  setenv("OMP_WAIT_POLICY", "passive", 1);  // NOLINT(concurrency-mt-unsafe): there is no other thread yet
   execv("/proc/self/exe", argv);  // returns only where there is no /proc: then it spins
 }
 

@@ -36,6 +36,7 @@ bool has_osmesa() {
 vtkSmartPointer<vtkRenderWindow> without_display() {
 #if defined(ESPDIFF_VTK_CHOOSES)
   // Its first choice would be X, with warnings. Where EGL does not work it takes OSMesa.
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): drawing is done by the one thread of the program
   setenv("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow", 0);
   const VtkMessages messages;
   vtkSmartPointer<vtkRenderWindow> window = vtkSmartPointer<vtkOpenGLRenderWindow>::New();
