@@ -26,7 +26,7 @@ std::string joined(int argc, char** argv) {
 /// before the start; on a busy machine that makes a run up to ten times as long. A user's own setting is kept.
 void start_again_without_spinning(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
-  setenv("OMP_WAIT_POLICY", "passive", 1);
+  setenv("OMP_WAIT_POLICY", "passive", 1);  // NOLINT(concurrency-mt-unsafe): no other thread exists yet
   execv("/proc/self/exe", argv);  // returns only without /proc; threads then spin
 }
 
