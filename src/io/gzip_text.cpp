@@ -161,6 +161,8 @@ std::string read_text_file(const std::string& path) {
   return text;
 }
 
+std::string read_binary_file(const std::string& path) { return read_up_to(path, kWholeFile); }
+
 std::string peek_text_file(const std::string& path, std::size_t n_bytes) { return read_up_to(path, n_bytes); }
 
 bool is_gzip_file(const std::string& path) { return starts_as_gzip(read_bytes(open_file(path).get(), path, 2)); }

@@ -12,6 +12,10 @@ namespace espdiff {
 ///         InputError (empty), MemoryError (does not fit)
 std::string read_text_file(const std::string& path);
 
+/// The bytes of a file, as read_text_file() without a look at line ends.
+/// @throws as read_text_file()
+std::string read_binary_file(const std::string& path);
+
 /// The first `n_bytes` of what read_text_file() would return (fewer when the file is shorter).
 /// @throws as read_text_file(), but damage behind these bytes is not seen
 std::string peek_text_file(const std::string& path, std::size_t n_bytes);

@@ -6,9 +6,7 @@
 #include "io/gzip_text.h"
 #include "io/read_cube.h"
 #include "io/read_dx.h"
-#ifdef ESPDIFF_HAVE_VTK
 #include "io/read_vti.h"
-#endif
 
 namespace espdiff {
 namespace {
@@ -38,14 +36,7 @@ Grid read_vti_or_refuse(const std::string& path, const GridOptions& options) {
   if (is_gzip_file(path)) {
     throw InputError(path + ": a VTI file packed by gzip; unpack it (gunzip), VTI compresses its values itself");
   }
-#ifdef ESPDIFF_HAVE_VTK
   return read_vti(path, options);
-#else
-  static_cast<void>(options);
-  throw InputError(path +
-                   ": this is a VTI map, and this build lacks the VTI reader; build espdiff with VTK 9 (Debian: "
-                   "libvtk9-dev), or give an OpenDX or cube file");
-#endif
 }
 
 }  // namespace

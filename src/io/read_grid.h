@@ -11,7 +11,7 @@ struct GridOptions {
   std::string array;  ///< VTI point array to take; empty takes the active scalars, or the only array
 };
 
-/// Reads a grid: OpenDX as APBS, PMEPot and VMD write it (any axes; gzip too), VTI by VTK (ascii, binary, appended; any
+/// Reads a grid: OpenDX as APBS, PMEPot and VMD write it (any axes; gzip too), VTI (ascii, binary, appended; any
 /// number type), Gaussian cube (Bohr or, with negative counts, Angstrom; converted to Angstrom; first volume of
 /// several). The format is found from the content. Values are re-ordered to x fastest. The unit is taken from the file
 /// where it says one ("POTENTIAL (kT/e)"), else unknown. A header that promises more than the file can hold is refused

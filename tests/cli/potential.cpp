@@ -56,10 +56,8 @@ TEST_CASE("potential: a map as DX and as VTI, the same values, mean zero") {
   }
   CHECK(most > 1);
   CHECK(std::fabs(sum) < 1e-5 * most * static_cast<double>(map.values.size()));
-#ifdef ESPDIFF_HAVE_VTK
   CHECK(run_espdiff("potential " + molecule + " --device cpu -q -o " + folder.file("a.vti")).status == 0);
   CHECK(read_grid(folder.file("a.vti")).values == map.values);
-#endif
   // Any number of threads, the same file.
   CHECK(run_espdiff("potential " + molecule + " --device cpu --threads 4 -q -o " + folder.file("b.dx")).status == 0);
   CHECK(read_file(folder.file("a.dx")) == read_file(folder.file("b.dx")));
