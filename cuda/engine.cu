@@ -27,6 +27,7 @@
 #include "cuda/surface/density.h"
 #include "cuda/surface/density_at_points.h"
 #include "cuda/surface/isosurface.h"
+#include "cuda/device/unwrap.h"
 #include "cuda/surface/level_set_normals.h"
 #include "cuda/surface/project.h"
 #include "cuda/surface/sample.h"
@@ -50,14 +51,6 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
-
-template <typename Derived, typename Base>
-const Derived& unwrap(const std::shared_ptr<Base>& handle) {
-  const auto* derived = dynamic_cast<const Derived*>(handle.get());
-  if (derived == nullptr)
-    throw Error(ErrorClass::kInternal, "a handle of another engine, or of another kind, was passed to a stage");
-  return *derived;
-}
 
 /// Calls a stage; what the back end throws becomes an espdiff error.
 template <typename Stage>

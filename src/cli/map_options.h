@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cli/options.h"
-#include "io/read_unit_cells.h"
+#include "io/read_structure.h"
 #include "potential/computed_map.h"
 #include "report/write_compare.h"
 
@@ -41,7 +41,7 @@ ComputedMap computed_map(const ComputedMapArguments& arguments, Molecule charges
                          double temperature_K);
 
 /// The same for one model of a file, whose atoms with a surface are `molecule`.
-ComputedMap computed_map_of_file(const ComputedMapArguments& arguments, const std::string& path, int model,
+ComputedMap computed_map_of_file(const ComputedMapArguments& arguments, const StructureFile& file, int model,
                                  const Molecule& molecule, double temperature_K);
 /// "pme, cell box, grid 1, Ewald factor 0.25"
 std::string map_in_words(const ComputedMapArguments& arguments);

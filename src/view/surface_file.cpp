@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "io/file_kind.h"
-#include "io/gzip_text.h"
+#include "io/read_input.h"
 #include "io/read_vtp.h"
 
 namespace espdiff {
@@ -139,11 +139,11 @@ const std::vector<float>& SurfaceFile::values(RenderArray array) const {
 
 SurfaceFile read_surface_file(const std::string& path) {
   check_exists(path);
-  const std::string head = peek_text_file(path, kRecogniseBytes);
-  if (head.find("<VTKFile") == std::string::npos || head.find("PolyData") == std::string::npos) {
-    throw FormatError(path, 0, "not a VTK PolyData file (.vtp); `espdiff compare SOURCE TARGET -o OUT` writes OUT.vtp");
-  }
-  VtpContent surface = read_vtp(path);
+  VtpContent surface = read_vtp(read_input(path, [&](std::string_view head) {
+    if (head.find("<VTKFile") == std::string::npos || head.find("PolyData") == std::string::npos)
+      throw FormatError(path, 0,
+                        "not a VTK PolyData file (.vtp); `espdiff compare SOURCE TARGET -o OUT` writes OUT.vtp");
+  }));
   if (surface.triangles.empty()) throw FormatError(path, 0, "the surface has no triangles; nothing to draw");
   SurfaceFile file;
   file.path = path;

@@ -137,7 +137,7 @@ TEST_CASE("potential: wrong input gives one line and leaves nothing") {
                         {molecule + " --grid 0", "not above 0"},
                         {molecule + " --grid '8 8'", "has 2 numbers"},
                         {molecule + " --grid '4 8 8'", "each edge needs 6"},
-                        {molecule + " --grid 4096 --precision double", "more than memory holds"},
+                        {molecule + " --grid 4096 --precision double", "would fit"},
                         {molecule + " --order 12", "spline order 12 is not among 4 to 8"},
                         {molecule + " --compatible --order 6", "PMEPot's is 4"},
                         {molecule + " --compatible --align ca", "`compatible` with superposition"},

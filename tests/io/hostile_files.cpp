@@ -5,7 +5,6 @@
 #include "base/error.h"
 #include "io/read_grid.h"
 #include "io/read_structure.h"
-#include "io/read_unit_cells.h"
 #include "io/read_vtp.h"
 #include "io/write_vtp.h"
 #include "support/test_data.h"
