@@ -52,7 +52,7 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// Calls a stage; what the back end throws becomes an espdiff error.
+/// Calls a stage and translates the back end's exceptions into espdiff errors.
 template <typename Stage>
 auto guarded(Stage stage) -> decltype(stage()) {
   try {
@@ -69,7 +69,7 @@ auto guarded(Stage stage) -> decltype(stage()) {
   }
 }
 
-/// Every directed edge must have exactly one opposite, else the one-rings are not rings.
+/// Every directed edge must have exactly one opposite; otherwise the one-rings are not rings.
 void check_closed(const Mesh& mesh) {
   std::vector<std::uint64_t> edges;
   edges.reserve(3 * mesh.triangles.size());
@@ -102,7 +102,7 @@ class BackEndEngine : public Engine {
       const CudaContext::Use use(context_);
       pme_ = {};  // its plans belong to the device
     } catch (const Error&) {
-      // A device that is lost has nothing to give back.
+      // A lost device has nothing to release.
     }
   }
 
@@ -440,7 +440,7 @@ class BackEndEngine : public Engine {
   }
 
 #if defined(ESPDIFF_BACKEND_CUDA)
-  /// Runs a stage on this engine's device, and waits for it, so that what fails there is told here.
+  /// Runs a stage on this engine's device and waits for it, so that its errors are reported by this call.
   template <typename Stage>
   auto run(Stage stage) const -> decltype(stage()) {
     const CudaContext::Use use(context_);
@@ -453,7 +453,7 @@ class BackEndEngine : public Engine {
 
   std::shared_ptr<CudaContext> context_;
 #else
-  /// Sets the number of threads for this call (another engine may have set its own) and guards the stage.
+  /// Sets the number of threads for this call, since another engine may have changed it, and translates exceptions.
   template <typename Stage>
   auto run(Stage stage) const -> decltype(stage()) {
     omp_set_num_threads(n_threads_);
@@ -478,7 +478,7 @@ Lattice host_lattice(const CubicLattice& lattice) {
 
 std::unique_ptr<Engine> make_engine(int device) { return std::make_unique<BackEndEngine>(device); }
 
-std::vector<CudaDeviceStatus> probe_devices(std::string* why_none) {
+std::vector<CudaDeviceStatus> probe_devices(Message* why_none) {
   int n = 0;
   const cudaError_t status = cudaGetDeviceCount(&n);
   cudaGetLastError();
@@ -487,7 +487,7 @@ std::vector<CudaDeviceStatus> probe_devices(std::string* why_none) {
     if (status != cudaSuccess) throw_cuda_error(status, "looking for GPUs", facts);
     if (n == 0) throw_cuda_error(cudaErrorNoDevice, "looking for GPUs", facts);
   } catch (const Error& error) {
-    *why_none = error.what();
+    *why_none = error.message();
     return {};
   }
   std::vector<CudaDeviceStatus> devices;
@@ -498,12 +498,12 @@ std::vector<CudaDeviceStatus> probe_devices(std::string* why_none) {
     CudaDeviceStatus found{true, describe_device(device)};
     if (!has_code_for(facts.architectures, 10 * major + minor)) {
       CudaFacts of_it = facts;
-      of_it.device = found.description;
+      of_it.device = found.description.plain();
       of_it.capability = 10 * major + minor;
       try {
         throw_cuda_error(cudaErrorNoKernelImageForDevice, "looking for GPUs", of_it);
       } catch (const Error& error) {
-        found = {false, error.what()};
+        found = {false, error.message()};
       }
     }
     devices.push_back(found);

@@ -5,8 +5,7 @@ namespace eval ::espdiff {
         require_core_handle $handle
         set quantity [dict get $options quantity]
         if {$quantity eq "auto"} {
-            set quantity [expr {[core::result $handle] ne "" && [dict get [core::result $handle] potential_unit] ne ""
-                ? "mean_abs_difference" : "mean_displacement_A"}]
+            set quantity [usual_metric [expr {[dict get [core::result $handle] potential_unit] ne ""}]]
         }
         if {[dict get $options file] ne ""} { return [core::residue_pdb $handle $quantity [dict get $options file]] }
         require_vmd "espdiff atoms" "outside of it -file FILE writes a PDB file with the values as B factors"

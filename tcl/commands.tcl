@@ -34,9 +34,7 @@ namespace eval ::espdiff {
 
     command residues [dict create arguments {handle} options {} settings none run ::espdiff::residues \
         summary {The comparison by residue of the source, over the mapped surface.} \
-        returns {a list of dictionaries: index chain number insertion name area_A2 mean_abs_difference
-            mean_signed_difference mean_source mean_target sign_change_area_fraction mean_displacement_A
-            mean_path_length_A} \
+        returns "a list of dictionaries: index chain number insertion name [metric_names residues]" \
         example {foreach residue [espdiff residues comparison1] { puts [dict get $residue mean_abs_difference] }}]
 
     command table [dict create arguments {handle} options {} settings none run ::espdiff::table_of \
@@ -61,17 +59,16 @@ namespace eval ::espdiff {
         returns {the number of the data set in the molecule, or the file} \
         example {espdiff map comparison1 -mol 1}]
 
-    command atoms [dict create arguments {handle} settings none run ::espdiff::atoms options {
-            {-quantity choice auto "What the atoms of a residue get; auto is mean_abs_difference, or without potentials\
-                mean_displacement_A" {auto mean_abs_difference mean_signed_difference mean_source mean_target
-                sign_change_area_fraction mean_displacement_A}}
+    command atoms [dict create arguments {handle} settings none run ::espdiff::atoms options [concat \
+        [list [list -quantity choice auto "What the atoms of a residue get; auto is mean_abs_difference, or without\
+            potentials mean_displacement_A" [concat auto [metric_names residues]]]] {
             {-mol text source "Molecule of VMD that gets the values: source, target, or an id"}
             {-field choice user "Where VMD keeps them: user to user4 are of one frame, the others of all frames" {user
                 user2 user3 user4 beta occupancy}}
             {-frame text now "Frame of a user field: a number, now, or all"}
             {-missing number 0 "Value of atoms whose residue has no surface that is counted"}
             {-file file {} "Instead of VMD: a PDB file of the source with the values as B factors"}
-        } \
+        }] \
         summary {Carries a quantity of the residues onto their atoms, so that any representation can be coloured by it
             (`Coloring Method` User or Beta), or any other program by the B factors of a file. Residues are found by
             chain, number and insertion code.} \

@@ -75,7 +75,7 @@ namespace eval ::espdiff {
         variable table
         set text ""
         dict for {name description} $table { append text [manual_of $name $description] }
-        return "$text[manual_of_settings]"
+        return "$text[manual_of_settings]\n[manual_of_metrics]"
     }
 
     proc manual_of {name description} {

@@ -26,6 +26,17 @@ namespace eval ::espdiff {
         return -options $options $result
     }
 
+    # A command prefix that spells the options in messages, called as PREFIX name value switch; as Tcl writes them where
+    # it is empty. Who shows errors in another form sets it for a while; the core reads it too.
+    variable option_spelling {}
+
+    # An option without its dash as messages name it.
+    proc spelled {name} {
+        variable option_spelling
+        if {$option_spelling eq ""} { return -$name }
+        return [{*}$option_spelling $name "" 0]
+    }
+
     # Adds a command to the table; commands.tcl says what the keys are.
     proc command {name description} {
         variable table
@@ -138,7 +149,7 @@ namespace eval ::espdiff {
             }
             default { set valid 1 }
         }
-        if {!$valid} { fail "$name: '$value' is not [accepted_values $option]" }
+        if {!$valid} { fail "[spelled [string range $name 1 end]]: '$value' is not [accepted_values $option]" }
         return $value
     }
 
@@ -200,6 +211,11 @@ namespace eval ::espdiff {
     proc refuse_word {name word known} {
         if {![string match -* $word]} { return -code error -errorcode {TCL WRONGARGS} \
             "wrong # args: should be \"[usage $name]\"" }
+        set renamed [core::renamed_settings]
+        set old [string range $word 1 end]
+        if {[dict exists $renamed $old] && "-[dict get $renamed $old]" in $known} {
+            fail "espdiff $name: $word is called -[dict get $renamed $old] now"
+        }
         fail "espdiff $name: [unknown_word option $word $known]"
     }
 

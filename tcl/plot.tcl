@@ -103,25 +103,10 @@ namespace eval ::espdiff {
             columns [dict keys [dict get $matrix metrics]]]
     }
 
-    # Title, unit and factor of a column.
-    proc plot_quantity {column unit} {
-        foreach metric [core::metrics] {
-            if {[dict get $metric name] ne $column} continue
-            switch [dict get $metric kind] {
-                potential { return [list [dict get $metric title] $unit 1] }
-                fraction { return [list [dict get $metric title] % 100] }
-                length { return [list [dict get $metric title] A 1] }
-                area { return [list [dict get $metric title] A^2 1] }
-            }
-            return [list [dict get $metric title] "" 1]
-        }
-        return [list $column "" 1]
-    }
-
     proc plot_metrics {table options} {
         set metrics [dict get $options metrics]
         if {$metrics ne "auto"} { return $metrics }
-        expr {[dict get $table unit] eq "" ? "mean_displacement_A" : "mean_abs_difference"}
+        usual_metric [expr {[dict get $table unit] ne ""}]
     }
 
     # A dict for each metric: title, unit, x, y; points without a value are left out.
@@ -131,7 +116,7 @@ namespace eval ::espdiff {
             if {$column ni [dict get $table columns]} {
                 fail "-metrics: [unknown_word metric $column [dict get $table columns]]"
             }
-            lassign [plot_quantity $column [dict get $table unit]] title unit factor
+            lassign [shown_metric $column [dict get $table unit]] title unit factor
             set x {}
             set y {}
             foreach at [dict get $table x] row [dict get $table rows] {

@@ -22,7 +22,7 @@ namespace eval ::espdiff {
 
     # The core's series of a column; units as they are printed.
     proc plot_line {table column} {
-        lassign [plot_quantity $column [dict get $table unit]] title unit factor
+        lassign [shown_metric $column [dict get $table unit]] title unit factor
         set values {}
         foreach row [dict get $table rows] {
             set value [dict get $row $column]

@@ -13,7 +13,7 @@ namespace espdiff {
 /// What the other side of a boundary learns of an exception.
 struct Failure {
   const char* error_class;  ///< "INPUT", "MEMORY", ...: the CLASS of a Tcl errorcode
-  std::string message;      ///< one line
+  Message message;          ///< one line
 };
 
 /// Returns body(), or on_failure(Failure) when body throws anything at all; both return the same type. Tcl and VMD are
@@ -24,7 +24,7 @@ auto boundary(Body&& body, OnFailure&& on_failure) noexcept -> decltype(body()) 
     return std::forward<Body>(body)();
   } catch (const std::exception& error) {
     const Error ours = translated(error);
-    return on_failure(Failure{error_class_name(ours.error_class()), ours.what()});
+    return on_failure(Failure{error_class_name(ours.error_class()), ours.message()});
   } catch (...) {
     return on_failure(Failure{error_class_name(ErrorClass::kInternal), "internal error: an exception of unknown type; please report it with the command"});
   }

@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "cli/map_options.h"
+#include "cli/spelling.h"
 #include "cli/verbs.h"
 #include "compare/compare.h"
 #include "compare/result.h"
@@ -114,7 +115,7 @@ int run(const Arguments& a, const Context& context) {
     write_residue_pdb(a.residue_pdb, source.molecule, result, a.residue_quantity.empty() ? usual : a.residue_quantity);
   }
   context.progress->report("write", 1.0);
-  if (!a.quiet) print_table(std::cout, source.molecule, target.molecule, result);
+  if (!a.quiet) print_table(std::cout, source.molecule, target.molecule, result, spelled_option);
   return 0;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/version.h"
+#include "cli/spelling.h"
 #include "cli/verbs.h"
 #include "engine/select_engine.h"
 #if defined(ESPDIFF_HAVE_VTK)
@@ -18,8 +19,8 @@
 namespace espdiff::cli {
 namespace {
 
-void line(const char* what, bool good, const std::string& text) {
-  std::printf("%-14s %-4s %s\n", what, good ? "ok" : "--", text.c_str());
+void line(const char* what, bool good, const Message& text) {
+  std::printf("%-14s %-4s %s\n", what, good ? "ok" : "--", spelled(text).c_str());
 }
 
 /// The module in the tree that this program was built in; empty when there is none.

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/translate.h"
 #include "base/version.h"
+#include "cli/spelling.h"
 #include "cli/terminal_progress.h"
 #include "cli/verbs.h"
 
@@ -45,7 +46,7 @@ int run_verb(const espdiff::cli::Verb& verb, const std::string& command_line) {
     return verb.run(context);
   } catch (const std::exception& error) {
     const espdiff::Error ours = espdiff::translated(error);
-    return fail(ours.what(), ours.exit_status());
+    return fail(espdiff::cli::spelled(ours.message()).c_str(), ours.exit_status());
   } catch (...) {
     return fail("internal error: an exception of unknown type; please report it with the command", 1);
   }

@@ -3,6 +3,7 @@
 #include "engine/engine.h"
 
 #include "base/error.h"
+#include "cli/spelling.h"
 #include "engine/select_engine.h"
 #include "io/read_grid.h"
 #include "io/write_csv.h"
@@ -23,7 +24,7 @@ void add_device_options(CLI::App& parser, DeviceArguments& arguments) {
     try {
       parse_device(text);
     } catch (const InputError& error) {
-      return std::string(error.what());
+      return spelled(error.message());
     }
     return std::string();
   };
@@ -89,7 +90,7 @@ void add_settings(CLI::App& parser, GivenSettings& given, bool of_surface_only) 
       try {
         setting.set(scratch, text);
       } catch (const InputError& error) {
-        return std::string(error.what()).substr(setting.name.size() + 2);  // without "NAME: ": CLI11 names the option
+        return spelled(error.message()).substr(setting.name.size() + 4);  // without "--NAME: ": CLI11 says it
       }
       return std::string();
     };

@@ -6,10 +6,10 @@
 #include "cli/verbs.h"
 #include "io/read_csv.h"
 #include "io/text_cursor.h"
-#include "matrix/matrix.h"
 #include "matrix/read_matrix.h"
 #include "plot/heat_map.h"
 #include "plot/line_plot.h"
+#include "report/metrics.h"
 
 namespace espdiff::cli {
 namespace {
@@ -30,19 +30,17 @@ struct Quantity {
 };
 
 Quantity quantity_of(const std::string& name, const std::string& potential_unit) {
-  for (const MatrixMetric& metric : matrix_metrics()) {
-    if (metric.name != name) continue;
-    if (metric.unit == MetricUnit::kFraction) return {metric.title, "%", 100};
-    if (metric.unit == MetricUnit::kAngstrom) return {metric.title, kAngstrom, 1};
-    if (metric.unit == MetricUnit::kSquareAngstrom) return {metric.title, std::string(kAngstrom) + "\u00B2", 1};
-    return {metric.title, unit_of(metric, potential_unit), 1};
-  }
-  return {name, "", 1};
+  const Metric* const metric = find_metric_or_null(name);
+  if (metric == nullptr) return {name, "", 1};
+  const ShownUnit shown = shown_unit(*metric, potential_unit);
+  if (metric->unit == MetricUnit::kAngstrom) return {metric->label, kAngstrom, 1};
+  if (metric->unit == MetricUnit::kSquareAngstrom) return {metric->label, std::string(kAngstrom) + "\u00B2", 1};
+  return {metric->label, shown.unit, shown.factor};
 }
 
 bool is_antisymmetric(const std::string& name) {
-  return std::any_of(matrix_metrics().begin(), matrix_metrics().end(),
-                     [&](const MatrixMetric& metric) { return metric.name == name && metric.antisymmetric; });
+  const Metric* const metric = find_metric_or_null(name);
+  return metric != nullptr && (metric->flags & kAntisymmetric) != 0;
 }
 
 std::string only_metric(const Arguments& a, const std::string& otherwise) {

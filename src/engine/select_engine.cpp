@@ -1,4 +1,4 @@
-// select_engine.cpp: probes the back ends and makes the engine that was asked for.
+// select_engine.cpp: probes the back ends and makes the requested engine.
 #include "engine/select_engine.h"
 #include "engine/engine.h"
 
@@ -12,10 +12,10 @@
 namespace espdiff {
 namespace {
 
-/// The GPUs, or why there are none.
+/// The GPUs, or the reason for none.
 struct CudaDevices {
   std::vector<BackEndStatus> all;
-  std::string why_none;
+  Message why_none;
 };
 
 CudaDevices find_cuda_devices() {
@@ -25,27 +25,28 @@ CudaDevices find_cuda_devices() {
     found.all.push_back({"cuda:" + std::to_string(found.all.size()), device.usable, device.description});
 #else
   found.why_none =
-      "this build has no CUDA back end; configure with -DESPDIFF_CUDA=ON where nvcc is installed, or use --device cpu";
+      "this build has no CUDA back end; configure with -DESPDIFF_CUDA=ON where nvcc is installed, or use " +
+      option("device", "cpu");
 #endif
   return found;
 }
 
-/// What `--device` was given, for messages.
-std::string option_of(const DeviceRequest& device) {
-  return "--device cuda" + (device.index > 0 ? ":" + std::to_string(device.index) : std::string());
+/// The argument of the option `device`, for messages.
+Message option_of(const DeviceRequest& device) {
+  return option("device", "cuda" + (device.index > 0 ? ":" + std::to_string(device.index) : std::string()));
 }
 
 void check_cuda_device(const DeviceRequest& device, const CudaDevices& found) {
-  const std::string option = option_of(device);
-  if (found.all.empty()) throw DeviceError(option + ": " + found.why_none);
+  const Message given = option_of(device);
+  if (found.all.empty()) throw DeviceError(given + ": " + found.why_none);
   const std::size_t n = found.all.size(), index = static_cast<std::size_t>(device.index);
   if (index >= n) {
     throw DeviceError(
-        option + ": there " +
+        given + ": there " +
         (n == 1 ? "is 1 GPU, cuda:0" : "are " + std::to_string(n) + " GPUs, cuda:0 to cuda:" + std::to_string(n - 1)) +
-        "; take one of them, or use --device cpu");
+        "; take one of them, or use " + option("device", "cpu"));
   }
-  if (!found.all[index].available) throw DeviceError(option + ": " + found.all[index].description);
+  if (!found.all[index].available) throw DeviceError(given + ": " + found.all[index].description);
 }
 
 }  // namespace
@@ -62,8 +63,8 @@ DeviceRequest parse_device(const std::string& text) {
 }
 
 int available_threads() {
-  // As OpenMP reads it: of a list the first, for the outermost team. Read here, since the engine sets the number
-  // itself.
+  // Like OpenMP: the first number of a list, for the outermost team. Read here because the engine sets the number of
+  // threads itself.
   constexpr long kMost = 4096;
   const char* const text = std::getenv("OMP_NUM_THREADS");
   const long wanted = text != nullptr ? std::strtol(text, nullptr, 10) : 0;
@@ -110,7 +111,7 @@ BackEndStatus cuda_fourier_status() {
 
 std::unique_ptr<Engine> select_engine(const DeviceRequest& device, int n_threads) {
   if (n_threads < 0)
-    throw InputError("the number of threads, " + std::to_string(n_threads) + ", is negative; 0 takes all");
+    throw InputError("the number of threads, " + std::to_string(n_threads) + ", is negative; 0 uses all");
 #if defined(ESPDIFF_HAVE_CUDA)
   if (device_status(device).name != "cpu") return cuda_backend::make_engine(device.index);
 #else

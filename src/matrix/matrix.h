@@ -8,31 +8,16 @@
 
 #include "engine/handles.h"
 #include "matrix/variants.h"
+#include "report/metrics.h"
 
 namespace espdiff {
 
 struct CompareOptions;
-struct CompareResult;
 
-/// What the numbers of a metric are in.
-enum class MetricUnit { kPotential, kAngstrom, kSquareAngstrom, kFraction, kIndex, kCount };
-
-/// A number that a comparison gives.
-struct MatrixMetric {
-  const char* name;   ///< as in OUT.json of compare and in the CSV files: "mean_abs_difference"
-  const char* title;  ///< for axes and tables: "Mean absolute difference"
-  MetricUnit unit;
-  bool of_potential;   ///< it has values with potentials only
-  bool antisymmetric;  ///< the other direction's value is its negative; else it should be the same
-  double (*of)(const CompareResult&);
-};
-
-/// All of them, in the order of files.
-const std::vector<MatrixMetric>& matrix_metrics();
+/// The metrics that a matrix holds, in the order of files.
+const std::vector<Metric>& matrix_metrics();
 /// The position of a metric. @throws InputError that lists them
 std::size_t find_metric(const std::string& name);
-/// "kT/e", "A", "A^2", or empty for what is a mere number.
-std::string unit_of(const MatrixMetric& metric, const std::string& potential_unit);
 
 /// One ordered pair: the source's surface mapped onto the target's.
 struct MatrixCell {

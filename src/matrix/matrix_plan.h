@@ -2,6 +2,7 @@
 // under.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,8 +30,8 @@ struct MatrixPlan {
 MatrixPlan make_plan(const Engine& engine, const std::vector<Variant>& variants, const CompareOptions& options,
                      const std::string& potential);
 
-/// On one line, and back. @throws nlohmann::json::exception when the text is something else
-std::string plan_json(const MatrixPlan& plan);
+nlohmann::ordered_json plan_json(const MatrixPlan& plan);
+/// @throws nlohmann::json::exception when the text is something else
 MatrixPlan parse_plan(const std::string& json);
 
 /// What first makes the values of two plans differ, in words ("the setting grid-spacing is 0.8 there and 1 here");

@@ -49,7 +49,7 @@ MatrixCell parse_cell(const std::string& text, std::size_t n_variants) {
   json.at("target").get_to(cell.target);
   if (cell.source >= n_variants || cell.target >= n_variants || cell.source == cell.target)
     throw std::out_of_range("pair");
-  for (const MatrixMetric& metric : matrix_metrics()) {
+  for (const Metric& metric : matrix_metrics()) {
     const Json& value = json.at("values").at(metric.name);
     cell.values.push_back(value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>());
   }
@@ -79,10 +79,9 @@ class LineReader {
     return true;
   }
   [[noreturn]] void damaged() const {
-    throw FormatError(
-        path_, line_,
-        "the state file is damaged from this line on; delete it and run anew (--overwrite), or remove this "
-        "line and all after it and resume");
+    throw FormatError(path_, line_,
+                      "the state file is damaged from this line on; delete it and run anew (" +
+                          switched_on("overwrite") + "), or remove this line and all after it and resume");
   }
   void skip_tag() {
     at_ = std::strlen(kTag);
@@ -121,7 +120,8 @@ MatrixStateContent read_matrix_state(const std::string& path) {
   MatrixStateContent content;
   std::string json;
   if (!reader.next(json))
-    throw FormatError(path, 2, "the state file is cut off before its first row; run anew (--overwrite)");
+    throw FormatError(path, 2,
+                      "the state file is cut off before its first row; run anew (" + switched_on("overwrite") + ")");
   try {
     content.plan = parse_plan(json);
     while (reader.next(json)) content.cells.push_back(parse_cell(json, content.plan.variants.size()));
@@ -154,7 +154,9 @@ MatrixState::~MatrixState() {
 }
 
 MatrixState MatrixState::begin(const std::string& path, const MatrixPlan& plan) {
-  const std::string json = plan_json(plan), sum = sum_of("", json);
+  // A path need not be UTF-8, JSON must be.
+  const std::string json = plan_json(plan).dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string sum = sum_of("", json);
   if (std::ifstream(path)) MatrixState(path, "");  // refused while another process writes it
   AtomicFile file(path);
   file.stream() << kTag << line_of(sum, json);
@@ -169,7 +171,7 @@ MatrixState MatrixState::go_on(const std::string& path, const MatrixPlan& plan, 
   const std::string difference = plan_difference(content.plan, plan);
   if (!difference.empty())
     throw InputError(path + ": this state file is of another run: " + difference +
-                     "; run with the same input and settings to go on, or anew (--overwrite)");
+                     "; run with the same input and settings to go on, or anew (" + switched_on("overwrite") + ")");
   if (content.cut_off && ::truncate(path.c_str(), static_cast<off_t>(content.n_good_bytes)) != 0)
     throw IoError(path, std::string("the incomplete last row cannot be taken away: ") + std::strerror(errno));
   state.sum_ = last_sum(read_all(path), content.n_good_bytes);
@@ -185,7 +187,7 @@ void MatrixState::add(const MatrixCell& cell) {
     if (n < 0 && errno == EINTR) continue;
     if (n < 0)
       throw IoError(path_, std::string("a row cannot be written: ") + std::strerror(errno) +
-                               "; what is done is kept, and --resume goes on");
+                               "; what is done is kept, and " + switched_on("resume") + " goes on");
     written += static_cast<std::size_t>(n);
   }
 }

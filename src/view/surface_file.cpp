@@ -73,7 +73,7 @@ std::string text_of(const VtpContent& surface, const char* name) {
   return {};
 }
 
-/// Empty where there is none with three components.
+/// Empty if there is none with three components.
 template <typename Vector>
 std::vector<Vector> vectors_of(const VtpContent& surface, const char* name) {
   const VtpNumbers* const array = find_array(surface.point_arrays, name);
@@ -132,7 +132,7 @@ const std::vector<float>& SurfaceFile::values(RenderArray array) const {
   };
   if (pick().empty() && array != RenderArray::kPlain) {
     throw InputError(path + ": no point array '" + array_name(array) + "' (there are: " + array_names +
-                     "); colour by another, or compare with --source-map and --target-map");
+                     "); colour by another, or compare with " + option("source-map") + " and " + option("target-map"));
   }
   return pick();
 }

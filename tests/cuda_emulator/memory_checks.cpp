@@ -13,7 +13,7 @@
 #include "kernel.h"
 #include "settings.h"
 
-namespace ptx {
+namespace cuda_emulator {
 
 bool checking = false;
 
@@ -45,7 +45,7 @@ struct Findings {
   ~Findings() {
     if (counts.empty()) return;
     std::fflush(nullptr);
-    for (const auto& [text, n] : counts) std::fprintf(stderr, "ptx: %zu x %s\n", n, text.c_str());
+    for (const auto& [text, n] : counts) std::fprintf(stderr, "cuda_emulator: %zu x %s\n", n, text.c_str());
     std::_Exit(3);
   }
 };
@@ -54,7 +54,7 @@ void find(const char* what) {
   static Findings findings;
   const Kernel* const kernel = running_kernel();
   const std::string text = std::string(what) + (kernel != nullptr ? " in kernel " + kernel->name : " by the host");
-  if (findings.counts[text]++ == 0) std::fprintf(stderr, "ptx: %s, thread %u\n", text.c_str(), thread - 1);
+  if (findings.counts[text]++ == 0) std::fprintf(stderr, "cuda_emulator: %s, thread %u\n", text.c_str(), thread - 1);
 }
 
 bool aligned(const char* place, std::size_t n_bytes) { return reinterpret_cast<std::uintptr_t>(place) % n_bytes == 0; }
@@ -136,4 +136,4 @@ void mark_copied(const void* to, const void* from, std::size_t n_bytes) {
   }
 }
 
-}  // namespace ptx
+}  // namespace cuda_emulator

@@ -6,7 +6,7 @@
 #include "device_memory.h"
 #include "settings.h"
 
-namespace ptx {
+namespace cuda_emulator {
 namespace {
 
 std::set<Stream*>& all_streams() {
@@ -45,10 +45,10 @@ Stream& stream_of(void* handle) {
   return handle == nullptr ? default_stream : *static_cast<Stream*>(handle);
 }
 
-}  // namespace ptx
+}  // namespace cuda_emulator
 
-void ptx_put(void* stream, void (*work)(void*), void* data) {
-  ptx::stream_of(stream).put([work, data] { work(data); });
+void cuda_emulator_put(void* stream, void (*work)(void*), void* data) {
+  cuda_emulator::stream_of(stream).put([work, data] { work(data); });
 }
-void* ptx_view(void* place) { return ptx::view(static_cast<char*>(place)); }
-void ptx_mark_written(void* place, unsigned long n_bytes) { ptx::mark_written(place, n_bytes); }
+void* cuda_emulator_view(void* place) { return cuda_emulator::view(static_cast<char*>(place)); }
+void cuda_emulator_mark_written(void* place, unsigned long n_bytes) { cuda_emulator::mark_written(place, n_bytes); }

@@ -11,7 +11,7 @@
 #include "memory_checks.h"
 #include "settings.h"
 
-namespace ptx {
+namespace cuda_emulator {
 
 char* device_begin = nullptr;
 std::size_t device_size = 0;
@@ -39,7 +39,7 @@ struct Device {
   std::size_t n_bytes = 0;
 
   Device() {
-    const int file = memfd_create("ptx device memory", 0);
+    const int file = memfd_create("emulated device memory", 0);
     device_size = settings().memory;
     if (file < 0 || ftruncate(file, static_cast<off_t>(device_size)) != 0) fail("no memory of %zu bytes", device_size);
     void* const pointers = mmap(nullptr, device_size, PROT_NONE, MAP_SHARED | MAP_NORESERVE, file, 0);
@@ -115,4 +115,4 @@ bool allocated(const void* start, std::size_t n_bytes) {
 
 std::size_t allocated_bytes() { return device().n_bytes; }
 
-}  // namespace ptx
+}  // namespace cuda_emulator

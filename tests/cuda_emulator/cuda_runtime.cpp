@@ -21,7 +21,7 @@
 #include "settings.h"
 #include "streams.h"
 
-namespace ptx {
+namespace cuda_emulator {
 namespace {
 
 constexpr int kArchitecture = 90;
@@ -43,7 +43,7 @@ struct Count {
   std::size_t launches = 0, graphs = 0, allocations = 0, waits = 0;
   ~Count() {
     if (!settings().count) return;
-    std::fprintf(stderr, "ptx: %zu kernels and %zu graphs launched, %zu allocations, %zu times waited for a stream\n",
+    std::fprintf(stderr, "cuda_emulator: %zu kernels and %zu graphs launched, %zu allocations, %zu times waited for a stream\n",
                  launches, graphs, allocations, waits);
   }
 };
@@ -183,9 +183,9 @@ int attribute_of(cudaDeviceAttr attribute) {
 using Lock = std::lock_guard<std::recursive_mutex>;
 
 }  // namespace
-}  // namespace ptx
+}  // namespace cuda_emulator
 
-using namespace ptx;
+using namespace cuda_emulator;
 
 // NOLINTBEGIN(readability-identifier-naming): the names are NVIDIA's
 extern "C" {

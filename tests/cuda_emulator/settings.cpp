@@ -1,4 +1,4 @@
-// settings.cpp: reads ESPDIFF_PTX; ends the program where something is wrong.
+// settings.cpp: reads ESPDIFF_CUDA_EMULATOR; ends the program where something is wrong.
 #include "settings.h"
 
 #include <cstdarg>
@@ -9,12 +9,12 @@
 
 #include "kernel.h"
 
-namespace ptx {
+namespace cuda_emulator {
 namespace {
 
 Settings read_settings() {
   Settings settings;
-  const char* const text = std::getenv("ESPDIFF_PTX");
+  const char* const text = std::getenv("ESPDIFF_CUDA_EMULATOR");
   std::istringstream words(text != nullptr ? text : "");
   for (std::string word; std::getline(words, word, ',');) {
     const std::size_t equals = word.find('=');
@@ -37,7 +37,7 @@ Settings read_settings() {
     else if (name == "memory")
       settings.memory = static_cast<std::size_t>(value) << 20;
     else
-      fail("ESPDIFF_PTX: '%s' is none of check, reverse, eager, no-pools, count, devices=N, fill=BYTE, memory=MIB",
+      fail("ESPDIFF_CUDA_EMULATOR: '%s' is none of check, reverse, eager, no-pools, count, devices=N, fill=BYTE, memory=MIB",
            word.c_str());
   }
   return settings;
@@ -51,7 +51,7 @@ const Settings& settings() {
 }
 
 void fail(const char* format, ...) {
-  std::fputs("ptx: ", stderr);
+  std::fputs("cuda_emulator: ", stderr);
   va_list values;
   va_start(values, format);
   std::vfprintf(stderr, format, values);
@@ -62,4 +62,4 @@ void fail(const char* format, ...) {
   std::_Exit(3);
 }
 
-}  // namespace ptx
+}  // namespace cuda_emulator

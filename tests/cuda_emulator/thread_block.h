@@ -5,7 +5,7 @@
 
 #include "kernel.h"
 
-namespace ptx {
+namespace cuda_emulator {
 
 /// Waits for all threads of the block that have not ended. id: one of 16 barriers.
 void barrier(Thread* thread, std::uint32_t id);
@@ -35,4 +35,4 @@ Shuffled shuffle(Thread* thread, Shuffle mode, std::uint32_t value, std::uint32_
 /// For a thread that waits for another one's store.
 void let_others_run(Thread* thread);
 
-}  // namespace ptx
+}  // namespace cuda_emulator

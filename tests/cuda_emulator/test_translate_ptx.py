@@ -23,19 +23,24 @@ ret;
 """
 
 
-def translate(text, name="small.cu.o"):
+def run_translator(folder, text):
+    """(exit status, what was said, path of the C++ text)"""
+    path, made = os.path.join(folder, "small.cu.o"), os.path.join(folder, "made", "small.ptx.cpp")
+    with open(path, "wb") as file:
+        file.write(b"\x7fELF\0\0" + text.encode() + b"\0rest")
+    done = subprocess.run([sys.executable, os.path.join(FOLDER, "translate_ptx.py"), made, path], capture_output=True,
+                          text=True, check=False)
+    return done.returncode, done.stderr, made
+
+
+def translate(text):
     """(exit status, what was said, the C++ text or None)"""
     with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, name)
-        with open(path, "wb") as file:
-            file.write(b"\x7fELF\0\0" + text.encode() + b"\0rest")
-        done = subprocess.run([sys.executable, os.path.join(FOLDER, "translate_ptx.py"), folder, path], capture_output=True,
-                              text=True, check=False)
-        made = os.path.join(folder, "small.ptx.cpp")
+        status, said, made = run_translator(folder, text)
         if not os.path.exists(made):
-            return done.returncode, done.stderr, None
+            return status, said, None
         with open(made, encoding="ascii") as file:
-            return done.returncode, done.stderr, file.read()
+            return status, said, file.read()
 
 
 class Translation(unittest.TestCase):
@@ -73,6 +78,16 @@ class Translation(unittest.TestCase):
         status, said, _ = translate("nothing")
         self.assertEqual(status, 1)
         self.assertIn("no PTX text; compile with --no-compress", said)
+
+    def test_an_output_whose_text_stays_the_same_keeps_its_time(self):
+        kernel = HEADER + KERNEL.replace("INSTRUCTION", "add.s64 %rd2, %rd2, %rd3;")
+        with tempfile.TemporaryDirectory() as folder:
+            _, _, made = run_translator(folder, kernel)
+            os.utime(made, (1, 1))
+            run_translator(folder, "// compiled again\n" + kernel)
+            self.assertEqual(os.stat(made).st_mtime, 1)
+            run_translator(folder, kernel.replace("add.s64", "sub.s64"))
+            self.assertGreater(os.stat(made).st_mtime, 1)
 
 
 if __name__ == "__main__":

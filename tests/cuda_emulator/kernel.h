@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace ptx {
+namespace cuda_emulator {
 
 struct Index3 {
   std::uint32_t x = 1, y = 1, z = 1;
@@ -44,4 +44,4 @@ void run_grid(const Kernel& kernel, Index3 grid, Index3 block, std::uint32_t dyn
 /// The kernel that runs now, or null.
 const Kernel* running_kernel();
 
-}  // namespace ptx
+}  // namespace cuda_emulator

@@ -17,11 +17,11 @@
 #endif
 
 // Keeps what a function must keep on the stack, and goes on where another fiber did the same.
-extern "C" void ptx_switch(void** stack_before, void* stack);
+extern "C" void cuda_emulator_switch(void** stack_before, void* stack);
 asm(R"(
 .text
-.type ptx_switch, @function
-ptx_switch:
+.type cuda_emulator_switch, @function
+cuda_emulator_switch:
   pushq %rbp
   pushq %rbx
   pushq %r12
@@ -37,10 +37,10 @@ ptx_switch:
   popq %rbx
   popq %rbp
   ret
-.size ptx_switch, .-ptx_switch
+.size cuda_emulator_switch, .-cuda_emulator_switch
 )");
 
-namespace ptx {
+namespace cuda_emulator {
 namespace {
 
 constexpr std::size_t kStackBytes = 64 << 10;
@@ -77,7 +77,7 @@ void* reserve_stack() {
   return stack;
 }
 
-void leave() { ptx_switch(&current->stack_pointer, scheduler_stack); }
+void leave() { cuda_emulator_switch(&current->stack_pointer, scheduler_stack); }
 
 void run_current() {
   running->run(&current->thread, nullptr, kernel_parameters);
@@ -90,7 +90,7 @@ void start(Fiber& fiber, char* stack) {
   void** top = reinterpret_cast<void**>(stack + kStackBytes - 64);
   *--top = nullptr;  // where run_current would return to
   *--top = reinterpret_cast<void*>(run_current);
-  for (int i = 0; i < 6; ++i) *--top = nullptr;  // the registers that ptx_switch takes
+  for (int i = 0; i < 6; ++i) *--top = nullptr;  // the registers that cuda_emulator_switch takes
   fiber.stack_pointer = top;
   fiber.state = State::kReady;
 }
@@ -209,7 +209,7 @@ bool run_warp(Fiber* warp, unsigned n) {
       Fiber& fiber = warp[settings().reverse ? n - 1 - k : k];
       if (fiber.state != State::kReady) continue;
       current = &fiber;
-      ptx_switch(&scheduler_stack, fiber.stack_pointer);
+      cuda_emulator_switch(&scheduler_stack, fiber.stack_pointer);
       ran = true;
     }
   } while (end_warp_operations(warp, n));
@@ -321,4 +321,4 @@ void let_others_run(Thread*) {
   leave();
 }
 
-}  // namespace ptx
+}  // namespace cuda_emulator

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace ptx {
+namespace cuda_emulator {
 
 constexpr std::size_t kRedZone = 512;  ///< bytes around an allocation that nobody may write
 
@@ -46,4 +46,4 @@ void mark_written(const void* start, std::size_t n_bytes);
 /// From one place to another; either may be the host's, whose bytes count as written.
 void mark_copied(const void* to, const void* from, std::size_t n_bytes);
 
-}  // namespace ptx
+}  // namespace cuda_emulator

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-using namespace ptx;
+using namespace cuda_emulator;
 
 TEST_SUITE_BEGIN("ptx_instructions");
 

@@ -1,9 +1,9 @@
-// settings.h: how the machine behaves, from the environment variable ESPDIFF_PTX, words with commas between them.
+// settings.h: how the machine behaves, from the environment variable ESPDIFF_CUDA_EMULATOR, words with commas between them.
 #pragma once
 
 #include <cstddef>
 
-namespace ptx {
+namespace cuda_emulator {
 
 struct Settings {
   bool check = false;    ///< "check": each access to memory is examined (memory_checks.h)
@@ -22,4 +22,4 @@ const Settings& settings();
 /// Prints what is wrong, and the kernel that runs, and ends the program.
 [[noreturn]] void fail(const char* format, ...) __attribute__((format(printf, 1, 2)));
 
-}  // namespace ptx
+}  // namespace cuda_emulator

@@ -1,4 +1,4 @@
-// cufft.cpp: cuFFT's functions that espdiff calls, by FFTW, on the memory of ptx/device_memory.h. Made into a library
+// cufft.cpp: cuFFT's functions that espdiff calls, by FFTW, on the memory of cuda_emulator/device_memory.h. Made into a library
 // of cuFFT's name, which the engine opens as it would open NVIDIA's.
 #include <cufft.h>
 #include <fftw3.h>
@@ -6,9 +6,9 @@
 #include <map>
 
 // streams.h has these; the program that opens this library exports them.
-extern "C" void ptx_put(void* stream, void (*work)(void*), void* data);
-extern "C" void* ptx_view(void* place);
-extern "C" void ptx_mark_written(void* place, unsigned long n_bytes);
+extern "C" void cuda_emulator_put(void* stream, void (*work)(void*), void* data);
+extern "C" void* cuda_emulator_view(void* place);
+extern "C" void cuda_emulator_mark_written(void* place, unsigned long n_bytes);
 
 namespace {
 
@@ -32,14 +32,14 @@ template <typename Real, typename Complex, typename MakeForward, typename MakeBa
 void transform(const Transform& it, bool forward, MakeForward make_forward, MakeBack make_back, Execute execute,
                Destroy destroy) {
   const auto [x, y, z] = it.plan.size;
-  void *const in = ptx_view(it.in), *const out = ptx_view(it.out);
+  void *const in = cuda_emulator_view(it.in), *const out = cuda_emulator_view(it.out);
   const auto plan = forward ? make_forward(x, y, z, static_cast<Real*>(in), static_cast<Complex*>(out), FFTW_ESTIMATE)
                             : make_back(x, y, z, static_cast<Complex*>(in), static_cast<Real*>(out), FFTW_ESTIMATE);
   execute(plan);
   destroy(plan);
   const unsigned long rows = static_cast<unsigned long>(x) * static_cast<unsigned long>(y),
                       columns = static_cast<unsigned long>(z);
-  ptx_mark_written(it.out, rows * (forward ? (columns / 2 + 1) * sizeof(Complex) : columns * sizeof(Real)));
+  cuda_emulator_mark_written(it.out, rows * (forward ? (columns / 2 + 1) * sizeof(Complex) : columns * sizeof(Real)));
 }
 
 void run(void* data) {
@@ -59,7 +59,7 @@ cufftResult put(cufftHandle handle, cufftType type, void* in, void* out) {
   const auto plan = plans().find(handle);
   if (plan == plans().end()) return CUFFT_INVALID_PLAN;
   if (plan->second.type != type) return CUFFT_INVALID_TYPE;
-  ptx_put(plan->second.stream, run, new Transform{plan->second, in, out});
+  cuda_emulator_put(plan->second.stream, run, new Transform{plan->second, in, out});
   return CUFFT_SUCCESS;
 }
 

@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-namespace ptx {
+namespace cuda_emulator {
 
 using Work = std::function<void()>;
 
@@ -35,11 +35,11 @@ struct Graph {
 /// The stream of the runtime's handle; null is the default stream.
 Stream& stream_of(void* handle);
 
-}  // namespace ptx
+}  // namespace cuda_emulator
 
 // For a library that puts work of its own into a stream.
 #pragma GCC visibility push(default)
-extern "C" void ptx_put(void* stream, void (*work)(void*), void* data);
-extern "C" void* ptx_view(void* place);
-extern "C" void ptx_mark_written(void* place, unsigned long n_bytes);
+extern "C" void cuda_emulator_put(void* stream, void (*work)(void*), void* data);
+extern "C" void* cuda_emulator_view(void* place);
+extern "C" void cuda_emulator_mark_written(void* place, unsigned long n_bytes);
 #pragma GCC visibility pop

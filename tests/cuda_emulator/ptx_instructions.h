@@ -19,7 +19,7 @@
 #include "settings.h"
 #include "thread_block.h"
 
-namespace ptx {
+namespace cuda_emulator {
 
 __extension__ using Int128 = __int128;
 __extension__ using UInt128 = unsigned __int128;
@@ -391,4 +391,4 @@ inline void function_vprintf(Thread*, void* result, void** arguments) {
 }
 
 }  // namespace external
-}  // namespace ptx
+}  // namespace cuda_emulator

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""translate_ptx.py: makes C++ of the PTX in object files, so that kernels can be tested where there is no GPU.
+"""translate_ptx.py: makes C++ of the PTX in an object file, so that kernels can be tested where there is no GPU.
 
-Usage: translate_ptx.py OUTPUT_FOLDER OBJECT...
+Usage: translate_ptx.py OUTPUT OBJECT
 
-An object must hold its PTX uncompressed (nvcc --no-compress, a virtual architecture). For NAME.cu.o, OUTPUT_FOLDER gets
-NAME.ptx.cpp: a function for each kernel, which runs one thread, and an entry in the table of kernel.h. Registers
-become variables, branches become goto, and an instruction becomes a call of what ptx_instructions.h says that it does.
-A kernel that was seen in an earlier object (an instance of a template) is not written again.
+The object must hold its PTX uncompressed (nvcc --no-compress, a virtual architecture). OUTPUT gets a function for each
+kernel, which runs one thread, and an entry in the table of kernel.h. Registers become variables, branches become goto,
+and an instruction becomes a call of what ptx_instructions.h says that it does. A kernel that several objects have (an
+instance of a template) is in the table once. An OUTPUT whose text stays the same is not written.
 
 An instruction that is not known ends the translation with the names of the instruction and of the kernel: what is not
 translated is not tested. The reference is NVIDIA's "Parallel Thread Execution ISA".
@@ -22,8 +22,7 @@ from ptx_text import C_TYPES, Unknown, c_name, parse_variable, size_of, split_op
 class Module:
     """The PTX of one object file."""
 
-    def __init__(self, name, text):
-        self.name = name
+    def __init__(self, text):
         self.variables = {}  # of global and constant memory: name -> C++ name
         self.shared = {}  # name -> alignment, bytes
         self.functions = {}
@@ -103,9 +102,9 @@ class Module:
             self.meets_others(self.functions[name], seen + (name,))
             for name in function.calls if name in self.functions and name not in seen)
 
-    def translate(self, known):
-        """The C++ text; known: kernels that other objects have, to which this one's are added."""
-        lines = ["// Made by translate_ptx.py.", '#include "ptx_instructions.h"', "", "namespace ptx {", "namespace {", ""]
+    def translate(self):
+        """The C++ text."""
+        lines = ["// Made by translate_ptx.py.", '#include "ptx_instructions.h"', "", "namespace cuda_emulator {", "namespace {", ""]
         lines += self.definitions
         bodies = {name: function.translate() for name, function in self.functions.items()}
         table = []
@@ -115,9 +114,6 @@ class Module:
             if not function.is_kernel:
                 lines.append(f"void {c_name('function_', name)}(Thread*, void*, void**);")
         for name, function in self.functions.items():
-            if function.is_kernel and name in known:
-                continue
-            known.add(name)
             lines += [f"void {c_name('function_', name)}([[maybe_unused]] Thread* t, [[maybe_unused]] void* result,",
                       "    [[maybe_unused]] void** parameters) {",
                       "  [[maybe_unused]] uint32_t carry = 0;", bodies[name], "}"]
@@ -126,7 +122,7 @@ class Module:
                 table.append(f'const Registered kernel_{len(table)}({{"{name}", {c_name("function_", name)}, '
                              f"{str(self.meets_others(function)).lower()}, {function.shared_bytes}, {function.max_threads}, "
                              f"{{{sizes}}}}});")
-        return "\n".join(lines + table + ["", "}  // namespace", "}  // namespace ptx", ""])
+        return "\n".join(lines + table + ["", "}  // namespace", "}  // namespace cuda_emulator", ""])
 
 
 def ptx_of(path):
@@ -140,20 +136,26 @@ def ptx_of(path):
     return data[start:data.index(b"\0", start)].decode()
 
 
+def write_if_changed(path, text):
+    """Leaves a file of the same text alone, with its time: nothing that is made of it is made again."""
+    if os.path.exists(path):
+        with open(path, encoding="ascii") as file:
+            if file.read() == text:
+                return
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    with open(path, "w", encoding="ascii") as file:
+        file.write(text)
+
+
 def main(arguments):
-    if len(arguments) < 2:
+    if len(arguments) != 2:
         raise SystemExit(__doc__)
-    folder, objects = arguments[0], arguments[1:]
-    os.makedirs(folder, exist_ok=True)
-    known = set()
-    for path in objects:
-        name = re.sub(r"\.cu\.o$", "", os.path.basename(path))
-        try:
-            text = Module(name, ptx_of(path)).translate(known)
-        except Unknown as error:
-            raise SystemExit(f"translate_ptx.py: {path}: not known: {error}") from error
-        with open(os.path.join(folder, name + ".ptx.cpp"), "w", encoding="ascii") as file:
-            file.write(text)
+    output, path = arguments
+    try:
+        text = Module(ptx_of(path)).translate()
+    except Unknown as error:
+        raise SystemExit(f"translate_ptx.py: {path}: not known: {error}") from error
+    write_if_changed(output, text)
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace ptx {
+namespace cuda_emulator {
 
 extern bool checking;  ///< settings().check, once the device has memory
 
@@ -23,4 +23,4 @@ void begin_thread(std::uint64_t number);
 void mark_allocated(const char* start, std::size_t n_bytes);
 void mark_released(const char* start, std::size_t n_bytes);
 
-}  // namespace ptx
+}  // namespace cuda_emulator
