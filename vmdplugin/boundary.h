@@ -26,7 +26,9 @@ auto boundary(Body&& body, OnFailure&& on_failure) noexcept -> decltype(body()) 
     const Error ours = translated(error);
     return on_failure(Failure{error_class_name(ours.error_class()), ours.message()});
   } catch (...) {
-    return on_failure(Failure{error_class_name(ErrorClass::kInternal), "internal error: an exception of unknown type; please report it with the command"});
+    return on_failure(
+        Failure{error_class_name(ErrorClass::kInternal),
+                Message("internal error: an exception of unknown type; please report it with the command")});
   }
 }
 

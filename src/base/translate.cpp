@@ -17,7 +17,8 @@ Error translated(const std::exception& error) {
   }
   // Lengths beyond what a container can have are asked for where sizes are nonsense or memory would not do anyway.
   if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr || dynamic_cast<const std::length_error*>(&error) != nullptr)
-    return MemoryError("not enough memory; take a larger grid spacing or fewer atoms, or close what else uses memory");
+    return MemoryError("not enough memory; use a larger " + option("grid-spacing") +
+                       ", select fewer atoms, or close other programs");
   if (const auto* system = dynamic_cast<const std::system_error*>(&error))
     return DeviceError("the system refused: " + system->code().message() +
                        "; close other programs, or give a smaller number of threads");

@@ -44,7 +44,7 @@ TEST_CASE("lack of memory is told with a remedy, also where a container says it"
            [] { throw std::bad_alloc(); }, [] { std::string().reserve(std::string().max_size() + 1); }}) {
     const Error error = translation_of(call);
     CHECK(error.error_class() == ErrorClass::kMemory);
-    CHECK(std::string(error.what()).find("not enough memory; take a larger grid spacing") == 0);
+    CHECK(std::string(error.what()).find("not enough memory; use a larger grid-spacing, select fewer atoms") == 0);
     CHECK(error.exit_status() == 1);
   }
 }

@@ -37,7 +37,7 @@ TEST_CASE("boundary: the class of each exception") {
   CHECK(outcome([] { throw espdiff::FormatError("a.dx", 3, "no counts"); }) == "FORMAT: a.dx:3: no counts");
   CHECK(outcome([] { throw espdiff::Cancelled(); }) == "CANCELLED: cancelled; nothing was written");
   CHECK(outcome([] { throw std::bad_alloc(); }) ==
-        "MEMORY: not enough memory; take a larger grid spacing or fewer atoms, or close what else uses memory");
+        "MEMORY: not enough memory; use a larger grid-spacing, select fewer atoms, or close other programs");
   CHECK(outcome([] { throw std::out_of_range("index 7"); }) ==
         "INTERNAL: internal error: index 7; please report it with the command and, if you can, the input");
   CHECK(outcome([] { throw "text"; }) ==
