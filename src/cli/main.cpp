@@ -4,11 +4,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <new>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "base/translate.h"
 #include "base/version.h"
 #include "cli/spelling.h"
 #include "cli/terminal_progress.h"
@@ -43,13 +43,11 @@ int run_verb(const espdiff::cli::Verb& verb, const std::string& command_line) {
     context.command_line = command_line;
     context.progress = &terminal.progress();
     return verb.run(context);
-  } catch (const espdiff::Error& error) {
-    return fail(espdiff::cli::spelled(error.message()).c_str(), error.exit_status());
-  } catch (const std::bad_alloc&) {
-    return fail("not enough memory; use a larger --grid-spacing or fewer atoms", 1);
   } catch (const std::exception& error) {
-    return fail((std::string("internal error: ") + error.what() + "; please report it with the command line").c_str(),
-                1);
+    const espdiff::Error ours = espdiff::translated(error);
+    return fail(espdiff::cli::spelled(ours.message()).c_str(), ours.exit_status());
+  } catch (...) {
+    return fail("internal error: an exception of unknown type; please report it with the command", 1);
   }
 }
 
