@@ -63,7 +63,7 @@ namespace eval ::espdiff {
             lappend items [list "maps through memory" missing "VMD took none of the plugin interfaces\
                 [join [dict get $abi offered] {, }]; maps go through DX files, which is slower and keeps 6 digits"]
         }
-        if {[dict get $abi vti]} { lappend items {"mol new FILE.vti" ok "reads VTI files"} }
+        lappend items {"mol new FILE.vti" ok "reads VTI files"}
         return $items
     }
 

@@ -8,7 +8,6 @@
 #include "compare/result.h"
 #include "engine/engine.h"
 #include "io/atomic_file.h"
-#include "io/sha256.h"
 #include "report/residue_values.h"
 #include "report/write_compare.h"
 
@@ -53,6 +52,7 @@ void add_input_options(CLI::App& p, Arguments& a) {
 /// One of the two states.
 struct Side {
   std::string role, path;
+  std::unique_ptr<StructureFile> file;  // until all is read of it
   Molecule molecule;
   std::optional<Grid> map;
   std::optional<ComputedMap> computed;
@@ -67,9 +67,11 @@ StructureOptions structure_options(const Arguments& a, const std::string& role) 
 }
 
 Side read_side(const Arguments& a, const std::string& role) {
-  Side side{role, role == "source" ? a.source : a.target, {}, {}, {}};
-  const StructureFile file(side.path);
-  side.molecule = file.read(structure_options(a, role));
+  Side side;
+  side.role = role;
+  side.path = role == "source" ? a.source : a.target;
+  side.file = std::make_unique<StructureFile>(side.path);
+  side.molecule = side.file->read(structure_options(a, role));
   return side;
 }
 
@@ -77,7 +79,7 @@ void add_map(const Arguments& a, Side& side, double temperature_K, std::vector<I
   side.map = given_map(a.maps, side.role, inputs);
   if (!is_computed(a.maps)) return;
   const int model = side.role == "source" ? a.source_model : a.target_model;
-  side.computed = computed_map_of_file(a.maps, side.path, model, side.molecule, temperature_K);
+  side.computed = computed_map_of_file(a.maps, *side.file, model, side.molecule, temperature_K);
   inputs.push_back(computed_input(side.role + "_map", *side.computed));
 }
 
@@ -96,8 +98,11 @@ int run(const Arguments& a, const Context& context) {
   provenance.command_line = context.command_line;
   for (const Side* side : {&source, &target})
     provenance.inputs.push_back(
-        {side->role, side->path, sha256_of_file(side->path), std::nullopt, structure_options(a, side->role)});
-  for (Side* side : {&source, &target}) add_map(a, *side, options.temperature_K, provenance.inputs);
+        {side->role, side->path, side->file->sha256(), std::nullopt, structure_options(a, side->role)});
+  for (Side* side : {&source, &target}) {
+    add_map(a, *side, options.temperature_K, provenance.inputs);
+    side->file = nullptr;
+  }
   const std::unique_ptr<Engine> engine = make_engine(a.device);
   provenance.device = engine->back_end();
   provenance.device_description = engine->description();

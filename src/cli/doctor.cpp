@@ -59,8 +59,8 @@ int run() {
 #else
   line("structures", false, "PQR only: gemmi was not found when this was built (Debian: gemmi-dev)");
 #endif
-#if defined(ESPDIFF_HAVE_VTK)
   line("maps", true, "DX, cube, VTI");
+#if defined(ESPDIFF_HAVE_VTK)
   const std::string problem = drawing_problem();
   const char* display = std::getenv("DISPLAY");
   const bool has_display = display != nullptr && *display != '\0';
@@ -69,7 +69,6 @@ int run() {
        : has_display    ? std::string("display ") + display
                         : "without a display, by EGL or OSMesa");
 #else
-  line("maps", false, "DX and cube; no VTI: VTK 9 was not found when this was built (Debian: libvtk9-dev)");
   line("render", false, "VTK 9 was not found when this was built (Debian: libvtk9-dev)");
 #endif
   const std::string gnuplot = on_path("gnuplot");

@@ -3,8 +3,6 @@
 
 #include <utility>
 
-#include "io/read_structure.h"
-#include "io/sha256.h"
 #include "io/write_csv.h"
 
 namespace espdiff::cli {
@@ -57,9 +55,9 @@ std::optional<Grid> given_map(const MapArguments& a, const std::string& role, st
   const bool is_source = role == "source";
   const std::string& path = is_source ? a.source_map : a.target_map;
   if (path.empty()) return std::nullopt;
-  Grid map = read_map(path, a.map_array, is_source ? a.source_map_unit : a.target_map_unit);
-  inputs.push_back({role + "_map", path, sha256_of_file(path)});
-  return map;
+  GridFile map = read_map(path, a.map_array, is_source ? a.source_map_unit : a.target_map_unit);
+  inputs.push_back({role + "_map", path, map.sha256});
+  return std::move(map.grid);
 }
 
 ComputedMap computed_map(const ComputedMapArguments& a, Molecule charges, const std::optional<UnitCell>& cell,
@@ -76,11 +74,11 @@ ComputedMap computed_map(const ComputedMapArguments& a, Molecule charges, const 
   return {std::move(charges), cell, options};
 }
 
-ComputedMap computed_map_of_file(const ComputedMapArguments& a, const std::string& path, int model,
+ComputedMap computed_map_of_file(const ComputedMapArguments& a, const StructureFile& file, int model,
                                  const Molecule& molecule, double temperature_K) {
   if (!takes_own_cell(a)) return computed_map(a, molecule, std::nullopt, temperature_K);
-  const auto cell = read_unit_cells(path).at(static_cast<std::size_t>(model - 1));
-  return computed_map(a, read_structure(path, {model, true, true}), cell, temperature_K);
+  const auto cell = file.unit_cells().at(static_cast<std::size_t>(model - 1));
+  return computed_map(a, file.read({model, true, true}), cell, temperature_K);
 }
 
 std::string map_in_words(const ComputedMapArguments& a) {

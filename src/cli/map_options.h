@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cli/options.h"
-#include "io/read_unit_cells.h"
+#include "io/read_structure.h"
 #include "potential/computed_map.h"
 #include "report/write_compare.h"
 
@@ -40,8 +40,8 @@ std::optional<Grid> given_map(const MapArguments& arguments, const std::string& 
 ComputedMap computed_map(const ComputedMapArguments& arguments, Molecule charges, const std::optional<UnitCell>& cell,
                          double temperature_K);
 
-/// The same for one model of a file; `molecule` has its surface atoms.
-ComputedMap computed_map_of_file(const ComputedMapArguments& arguments, const std::string& path, int model,
+/// The same for one model of a file, `molecule` has its surface atoms.
+ComputedMap computed_map_of_file(const ComputedMapArguments& arguments, const StructureFile& file, int model,
                                  const Molecule& molecule, double temperature_K);
 /// "pme, cell box, grid 1, Ewald factor 0.25"
 std::string map_in_words(const ComputedMapArguments& arguments);

@@ -42,13 +42,19 @@ std::vector<VariantFiles> chosen_variants(const Arguments& a) {
 std::vector<Variant> read_variants(const Arguments& a, const std::vector<VariantFiles>& files, double temperature_K,
                                    const Progress& progress) {
   std::vector<Variant> variants;
+  std::unique_ptr<StructureFile> structure;  // several models of one follow each other
+  std::string open_path;
   for (const VariantFiles& file : files) {
     const double fraction = static_cast<double>(variants.size()) / static_cast<double>(files.size());
     progress.report("read " + file.label, fraction);
-    variants.push_back(read_variant(file, a.structure, a.map_array));
+    if (structure == nullptr || open_path != file.structure) {
+      structure = std::make_unique<StructureFile>(file.structure);
+      open_path = file.structure;
+    }
+    variants.push_back(read_variant(file, *structure, a.structure, a.map_array));
     if (is_computed(a.potential))
       variants.back().make_map =
-          computed_map_of_file(a.potential, file.structure, file.model, variants.back().molecule, temperature_K)
+          computed_map_of_file(a.potential, *structure, file.model, variants.back().molecule, temperature_K)
               .maker();
   }
   unite_map_units(variants, temperature_K);

@@ -105,11 +105,11 @@ void add_settings(CLI::App& parser, GivenSettings& given, bool of_surface_only) 
   }
 }
 
-Grid read_map(const std::string& path, const std::string& array, const std::string& unit) {
+GridFile read_map(const std::string& path, const std::string& array, const std::string& unit) {
   GridOptions options;
   options.array = array;
-  Grid map = read_grid(path, options);
-  if (!unit.empty()) map.unit = parse_potential_unit(unit);
+  GridFile map = read_grid_file(path, options);
+  if (!unit.empty()) map.grid.unit = parse_potential_unit(unit);
   return map;
 }
 

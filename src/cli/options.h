@@ -9,6 +9,7 @@
 
 #include "compare/settings.h"
 #include "engine/handles.h"
+#include "io/read_grid.h"
 #include "io/read_structure.h"
 #include "potential/potential.h"
 
@@ -29,6 +30,6 @@ using GivenSettings = std::vector<std::pair<std::string, std::string>>;
 void add_settings(CLI::App& parser, GivenSettings& given, bool of_surface_only);
 
 /// Reads a potential map and, unless `unit` is empty, declares its unit.
-Grid read_map(const std::string& path, const std::string& array, const std::string& unit);
+GridFile read_map(const std::string& path, const std::string& array, const std::string& unit);
 
 }  // namespace espdiff::cli

@@ -8,6 +8,7 @@
 #include "cli/options.h"
 #include "cli/verbs.h"
 #include "engine/engine.h"
+#include "io/read_structure.h"
 #include "io/read_unit_cells.h"
 #include "io/write_grid.h"
 #include "potential/potential.h"
@@ -182,8 +183,9 @@ int run(const Arguments& a, const Context& context) {
   const PotentialOptions options = options_from(a);
   const auto start = std::chrono::steady_clock::now();
   context.progress->report("read", 0.0);
-  const std::vector<int> frames = parse_frames(a.frames, count_models(a.molecule));
-  const std::vector<std::optional<UnitCell>> cells = read_unit_cells(a.molecule);
+  const StructureFile file(a.molecule);
+  const std::vector<int> frames = parse_frames(a.frames, file.n_models());
+  const std::vector<std::optional<UnitCell>> cells = file.unit_cells();
   if (frames.size() < 2 && !(a.variance.empty() && a.standard_error.empty()))
     throw InputError("--variance and --standard-error need at least 2 frames; there is " +
                      std::to_string(frames.size()));
@@ -194,7 +196,7 @@ int run(const Arguments& a, const Context& context) {
   for (std::size_t i = 0; i < frames.size(); ++i) {
     StructureOptions structure = a.structure;
     structure.model = frames[i] + 1;
-    molecule = read_structure(a.molecule, structure);
+    molecule = file.read(structure);
     require_charges(molecule);
     if (!outputs) outputs = std::make_unique<Outputs>(a, frames);
     const auto& cell = cells[static_cast<std::size_t>(frames[i])];

@@ -3,26 +3,21 @@
 
 #include "base/error.h"
 #include "io/atomic_file.h"
+#include "io/text_cursor.h"
 
 namespace espdiff::cli {
 namespace {
 
 /// "5" is symmetric, "-8:2" gives both ends.
 void set_range(Scene& scene, const std::string& text) {
-  const std::size_t colon = text.find(':', 1);
-  try {
-    std::size_t used = 0;
-    scene.range.given_ends = colon != std::string::npos;
-    if (!scene.range.given_ends) {
-      scene.range.limit = std::stod(text, &used);
-      if (used != text.size()) throw std::invalid_argument(text);
-      return;
-    }
-    scene.range.low = std::stod(text.substr(0, colon));
-    scene.range.high = std::stod(text.substr(colon + 1));
-  } catch (const std::logic_error&) {
-    throw InputError("--range " + text + ": give one number, such as 5 for -5 to 5, or two, such as -8:2");
-  }
+  const std::size_t colon = text.find(':');
+  scene.range.given_ends = colon != std::string::npos;
+  const std::string_view words = text;
+  const bool are_numbers = scene.range.given_ends
+                               ? parse_number(words.substr(0, colon), scene.range.low) &&
+                                     parse_number(words.substr(colon + 1), scene.range.high)
+                               : parse_number(words, scene.range.limit);
+  if (!are_numbers) throw InputError("--range " + text + ": give one number, as 5 for -5 to 5, or two, as -8:2");
 }
 
 /// Adds an option whose value changes the scene.

@@ -42,7 +42,7 @@ int run(const Arguments& a, const Context& context) {
   CompareInput input{&molecule, nullptr};
   Grid map;
   if (!a.map.empty()) {
-    map = read_map(a.map, a.map_array, a.map_unit);
+    map = read_map(a.map, a.map_array, a.map_unit).grid;
     input.map = &map;
   }
   const std::unique_ptr<Engine> engine = make_engine(a.device);

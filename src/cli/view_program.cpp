@@ -3,10 +3,11 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "base/system_message.h"
 
 int main(int argc, char** argv) {
   std::error_code error;
@@ -19,6 +20,6 @@ int main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) arguments.push_back(argv[i]);
   arguments.push_back(nullptr);
   execvp(program.c_str(), arguments.data());
-  std::fprintf(stderr, "espdiff-view: cannot start %s: %s\n", program.c_str(), std::strerror(errno));
+  std::fprintf(stderr, "espdiff-view: cannot start %s: %s\n", program.c_str(), espdiff::system_message(errno).c_str());
   return 1;
 }

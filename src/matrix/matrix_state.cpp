@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/system_message.h"
 #include "io/atomic_file.h"
 #include "io/sha256.h"
 
@@ -137,7 +138,7 @@ MatrixStateContent read_matrix_state(const std::string& path) {
 
 MatrixState::MatrixState(std::string path, std::string sum) : path_(std::move(path)), sum_(std::move(sum)) {
   descriptor_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
-  if (descriptor_ < 0) throw IoError(path_, std::string("the state file cannot be written: ") + std::strerror(errno));
+  if (descriptor_ < 0) throw IoError(path_, std::string("the state file cannot be written: ") + system_message(errno));
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     ::close(descriptor_);
     throw IoError(path_, "another process is writing this state file; wait for it, or name another output");
@@ -173,7 +174,7 @@ MatrixState MatrixState::go_on(const std::string& path, const MatrixPlan& plan, 
     throw InputError(path + ": this state file is of another run: " + difference +
                      "; run with the same input and settings to go on, or anew (" + switched_on("overwrite") + ")");
   if (content.cut_off && ::truncate(path.c_str(), static_cast<off_t>(content.n_good_bytes)) != 0)
-    throw IoError(path, std::string("the incomplete last row cannot be taken away: ") + std::strerror(errno));
+    throw IoError(path, std::string("the incomplete last row cannot be taken away: ") + system_message(errno));
   state.sum_ = last_sum(read_all(path), content.n_good_bytes);
   return state;
 }
@@ -186,7 +187,7 @@ void MatrixState::add(const MatrixCell& cell) {
     const ssize_t n = ::write(descriptor_, line.data() + written, line.size() - written);
     if (n < 0 && errno == EINTR) continue;
     if (n < 0)
-      throw IoError(path_, std::string("a row cannot be written: ") + std::strerror(errno) +
+      throw IoError(path_, std::string("a row cannot be written: ") + system_message(errno) +
                                "; what is done is kept, and " + switched_on("resume") + " goes on");
     written += static_cast<std::size_t>(n);
   }

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "io/gzip_text.h"
+#include "io/read_input.h"
 
 namespace espdiff {
 namespace {

@@ -9,7 +9,6 @@
 #include "base/error.h"
 #include "io/read_csv.h"
 #include "io/read_grid.h"
-#include "io/sha256.h"
 #include "io/text_cursor.h"
 
 namespace espdiff {
@@ -143,21 +142,23 @@ void check_labels(const std::vector<std::string>& labels) {
   }
 }
 
-Variant read_variant(const VariantFiles& files, const StructureOptions& structure, const std::string& map_array) {
+Variant read_variant(const VariantFiles& files, const StructureFile& file, const StructureOptions& structure,
+                     const std::string& map_array) {
   Variant variant;
   variant.label = files.label;
   variant.group = files.group;
   StructureOptions options = structure;
   options.model = files.model;
-  variant.molecule = read_structure(files.structure, options);
+  variant.molecule = file.read(options);
   const std::string model = files.model > 1 ? ", model " + std::to_string(files.model) : "";
-  variant.inputs.push_back({"structure", files.structure + model, sha256_of_file(files.structure)});
+  variant.inputs.push_back({"structure", files.structure + model, file.sha256()});
   if (files.map.empty()) return variant;
   GridOptions grid;
   grid.array = map_array;
-  variant.map = read_grid(files.map, grid);
+  GridFile map = read_grid_file(files.map, grid);
+  variant.map = std::move(map.grid);
   if (!files.map_unit.empty()) variant.map->unit = parse_potential_unit(files.map_unit);
-  variant.inputs.push_back({"map", files.map, sha256_of_file(files.map)});
+  variant.inputs.push_back({"map", files.map, std::move(map.sha256)});
   return variant;
 }
 

@@ -51,9 +51,11 @@ void read_groups(const std::string& path, std::vector<VariantFiles>& variants);
 void check_labels(const std::vector<std::string>& labels);
 
 /// Reads structure and map.
+/// @param file the structure's, opened before: variants may be models of one
 /// @param structure its model is the variant's
 /// @throws as read_structure(), read_grid()
-Variant read_variant(const VariantFiles& files, const StructureOptions& structure, const std::string& map_array);
+Variant read_variant(const VariantFiles& files, const StructureFile& file, const StructureOptions& structure,
+                     const std::string& map_array);
 
 /// Brings all maps to the unit of the first one.
 /// @throws InputError when some variants have maps and some none, or a unit is unknown and others are not
