@@ -79,7 +79,7 @@ namespace eval ::espdiff {
     }
 
     proc manual_of {name description} {
-        set text "### $name\n\n    [usage $name]\n\n[wrapped [dict get $description summary] {} 120]\n\n"
+        set text "### $name\n\n    [usage $name]\n\n[wrapped [dict get $description summary] {} 100]\n\n"
         append text "[wrapped "Returns [dict get $description returns]." {} 100]\n\n"
         set rows {}
         foreach option [options_of $name] {
