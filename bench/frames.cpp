@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/progress.h"
+#include "compare/input.h"
 #include "compare/options.h"
 #include "compare/result.h"
 #include "compare/series.h"
