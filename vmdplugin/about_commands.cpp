@@ -161,8 +161,7 @@ Tcl_Obj* abi(const Call&) {
                   {"abi", accepted != 0 ? to_obj(accepted) : Tcl_NewObj()},
                   {"offered", to_list(offered)},
                   {"volume_writer", to_obj(kVolumeWriter)},
-                  {"volume_reader", to_obj(kVolumeReader)},
-                  {"vti", to_obj(has_vti_reader())}});
+                  {"volume_reader", to_obj(kVolumeReader)}});
 }
 
 Tcl_Obj* models(const Call& call) { return to_obj(count_models(call.text(0))); }

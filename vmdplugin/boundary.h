@@ -2,11 +2,11 @@
 #pragma once
 
 #include <exception>
-#include <new>
 #include <string>
 #include <utility>
 
 #include "base/error.h"
+#include "base/translate.h"
 
 namespace espdiff {
 
@@ -22,15 +22,13 @@ template <typename Body, typename OnFailure>
 auto boundary(Body&& body, OnFailure&& on_failure) noexcept -> decltype(body()) {
   try {
     return std::forward<Body>(body)();
-  } catch (const Error& error) {
-    return on_failure(Failure{error_class_name(error.error_class()), error.message()});
-  } catch (const std::bad_alloc&) {
-    return on_failure(Failure{error_class_name(ErrorClass::kMemory),
-                              "not enough memory; take a coarser grid, or close what else uses memory"});
   } catch (const std::exception& error) {
-    return on_failure(Failure{error_class_name(ErrorClass::kInternal), error.what()});
+    const Error ours = translated(error);
+    return on_failure(Failure{error_class_name(ours.error_class()), ours.message()});
   } catch (...) {
-    return on_failure(Failure{error_class_name(ErrorClass::kInternal), "an exception of unknown type"});
+    return on_failure(
+        Failure{error_class_name(ErrorClass::kInternal),
+                Message("internal error: an exception of unknown type; please report it with the command")});
   }
 }
 

@@ -38,12 +38,13 @@ struct Range {
   double low;
   bool low_included;
   const char* words;
+  double high = HUGE_VAL;  ///< included
 };
 constexpr Range kPositive{0, false, "a positive number"}, kNotNegative{0, true, "a number of 0 or more"},
-    kAnyNumber{-HUGE_VAL, false, "a number"}, kCount{0, true, "a whole number of 0 or more"};
+    kShare{0, true, "a number from 0 to 1", 1}, kCount{0, true, "a whole number of 0 or more"};
 
 bool within(const Range& range, double value) {
-  return std::isfinite(value) && (range.low_included ? value >= range.low : value > range.low);
+  return std::isfinite(value) && (range.low_included ? value >= range.low : value > range.low) && value <= range.high;
 }
 
 /// Headings of settings that only one method reads.
@@ -134,8 +135,8 @@ void add_iteration_settings(std::vector<Setting>& all, const std::string& prefix
         prefix + name, group, range, [ iteration, member ](auto& o) -> auto& { return iteration(o).*member; }, help));
   };
   add("sigma", kPositive, &DeformOptions::sigma, "Step scale");
-  add("mu", kAnyNumber, &DeformOptions::mu, "Weight of the external force against the internal one, 0 to 1");
-  add("rho", kAnyNumber, &DeformOptions::rho, "Weight of rigidity against tension, 0 to 1");
+  add("mu", kShare, &DeformOptions::mu, "Weight of the external force against the internal one, 0 to 1");
+  add("rho", kShare, &DeformOptions::rho, "Weight of rigidity against tension, 0 to 1");
   add("tangential-gain", kNotNegative, &DeformOptions::tangential_gain,
       "Multiplies the internal force, which moves vertices along the surface");
   all.push_back(count(

@@ -31,8 +31,10 @@ TEST_CASE("each setting accepts its own default and each choice") {
       CHECK(setting.get(options) == choice);
     }
     if (setting.kind == SettingKind::kNumber || setting.kind == SettingKind::kInteger) {
-      setting.set(options, "7");
-      CHECK(setting.get(options) == "7");
+      const bool is_share = setting.help.find("0 to 1") != std::string::npos;
+      const std::string value = is_share ? "0.7" : "7";
+      setting.set(options, value);
+      CHECK(setting.get(options) == value);
     }
   }
   CHECK(names.size() > 20);
@@ -86,6 +88,10 @@ TEST_CASE("a refused value is named with the accepted ones") {
   CHECK(message("subdivide", "yes") == "subdivide: 'yes' is not 0 or 1");
   CHECK(message("method", "morf") == "method: 'morf' is not morph or deform");
   CHECK(message("max-stretch", "1") == "max-stretch: '1' is not a number above 1");
+  for (const char* share : {"mu", "rho", "regularize-mu", "regularize-rho"}) {
+    CHECK(message(share, "1.5") == std::string(share) + ": '1.5' is not a number from 0 to 1");
+    CHECK(message(share, "-0.1") == std::string(share) + ": '-0.1' is not a number from 0 to 1");
+  }
   CHECK(message("sigmas", "1") == "there is no setting 'sigmas'");
 }
 

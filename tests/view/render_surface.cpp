@@ -230,7 +230,7 @@ TEST_CASE("invalid surfaces are refused with the reason") {
   CHECK(contains(message(scratch.write("text.vtp", "hello\n"), png, {}), "not a VTK PolyData file"));
   const std::string whole = espdiff_test::read_file(vtp);
   CHECK(contains(message(scratch.write("half.vtp", whole.substr(0, whole.size() / 2)), png, {}),
-                 "half.vtp: damaged .vtp file"));
+                 "half.vtp: the VTP file is cut short"));
   Scene source;
   source.array = RenderArray::kSource;
   CHECK(contains(message(vtp, png, source),

@@ -127,7 +127,7 @@ TEST_CASE("wrong input is refused with its name, the value, the limit and a reme
              {[](PmeOptions& o) {
                 o.size = {4096, 4096, 4096};
               },
-              "more than memory holds"},
+              "would fit"},
              {[](PmeOptions& o) { o.order = 3; }, "spline order 3 is not among 4 to 8"},
              {[](PmeOptions& o) { o.order = 9; }, "spline order 9"},
              {[](PmeOptions& o) { o.ewald_factor = 0; }, "Ewald factor 0.000000 1/A is not a positive number"},
