@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "align/pair_atoms.h"
+#include "base/pairing.h"
 #include "compare/domain_motions.h"
 #include "engine/morph_stage.h"
 

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "align/pair_atoms.h"
 #include "align/superpose.h"
 #include "base/error.h"
 #include "compare/options.h"

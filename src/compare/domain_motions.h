@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "align/rigid_domains.h"
+#include "base/pairing.h"
+#include "base/rigid_domain.h"
 #include "compare/build_surface.h"
 
 namespace espdiff {

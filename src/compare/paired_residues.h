@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "align/pair_atoms.h"
+#include "base/pairing.h"
 
 namespace espdiff {
 
