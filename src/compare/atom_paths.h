@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/pairing.h"
+#include "base/types.h"
 #include "compare/domain_motions.h"
 #include "engine/morph_stage.h"
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/pairing.h"
+#include "base/types.h"
 
 namespace espdiff {
 

@@ -10,6 +10,7 @@
 #include "base/handles.h"
 #include "base/pairing.h"
 #include "base/progress.h"
+#include "base/types.h"
 #include "base/unit_cell.h"
 #include "engine/potential_stage.h"
 #include "potential/running_map.h"

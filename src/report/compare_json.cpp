@@ -6,7 +6,6 @@
 #include "compare/options.h"
 #include "compare/result.h"
 #include "compare/settings.h"
-#include "potential/potential.h"
 #include "report/metrics.h"
 #include "report/write_compare.h"
 

@@ -6,7 +6,6 @@
 
 #include "cli/run_espdiff.h"
 #include "io/read_grid.h"
-#include "potential/potential.h"
 
 using namespace espdiff_test;  // NOLINT: a test
 using espdiff::read_grid;

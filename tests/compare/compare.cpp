@@ -14,7 +14,6 @@
 #include "compare/result.h"
 #include "engine/engine.h"
 #include "io/read_structure.h"
-#include "potential/potential.h"
 
 using namespace espdiff_test;
 using espdiff::compare;

@@ -11,7 +11,6 @@
 #include "compare/made_side.h"
 #include "compare/options.h"
 #include "io/sha256.h"
-#include "potential/potential.h"
 #include "support/test_data.h"
 #include "trajectory/series_file.h"
 

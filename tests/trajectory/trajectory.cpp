@@ -7,7 +7,6 @@
 #include "base/error.h"
 #include "compare/compare.h"
 #include "compare/made_side.h"
-#include "potential/potential.h"
 #include "support/test_data.h"
 #include "trajectory/frame_files.h"
 
