@@ -320,10 +320,10 @@ class BackEndEngine : public Engine {
     });
   }
 
-  MeshPtr carry_rigidly(const MeshPtr& mesh, const AtomsPtr& atoms, const std::vector<std::int32_t>& pieces,
+  MeshPtr carry_rigidly(const MeshPtr& mesh, const AtomsPtr& atoms, const std::vector<std::int32_t>& domains,
                         const std::vector<RigidTransform>& motions) override {
     return run([&]() -> MeshPtr {
-      return ESPDIFF_BACKEND::carry_rigidly(unwrap<SurfaceMesh>(mesh), unwrap<AtomCells>(atoms), pieces, motions);
+      return ESPDIFF_BACKEND::carry_rigidly(unwrap<SurfaceMesh>(mesh), unwrap<AtomCells>(atoms), domains, motions);
     });
   }
 

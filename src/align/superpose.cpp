@@ -123,7 +123,8 @@ Screw screw_of(const RigidTransform& transform) {
   Screw screw;
   screw.shift = transform.translation;
   if (turn.angle() < kNoRotation) return screw;
-  const Eigen::Vector3d axis = turn.axis(), translation = to_eigen(transform.translation);
+  const Eigen::Vector3d& axis = turn.axis();
+  const Eigen::Vector3d translation = to_eigen(transform.translation);
   const Eigen::Vector3d along = axis.dot(translation) * axis, across = translation - along;
   screw.axis = from_eigen(axis);
   screw.angle = turn.angle();

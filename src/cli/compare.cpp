@@ -88,11 +88,11 @@ void add_map(const Arguments& a, Side& side, double temperature_K, std::vector<I
 int run(const Arguments& a, const Context& context) {
   check_map_options(a.maps);
   const CompareOptions options = make_options(a.settings);
-  // An output that cannot be written is better found before the work than after it.
+  // An unwritable output is found before the work.
   for (const char* suffix : {".json", ".vtp", ".residues.csv"}) AtomicFile probe(a.output + suffix);
   if (!a.residue_pdb.empty()) AtomicFile probe(a.residue_pdb);
   if (a.residue_pdb.empty() && !a.residue_quantity.empty())
-    throw InputError("--residue-quantity is of --residue-pdb FILE, which is missing");
+    throw InputError("--residue-quantity needs --residue-pdb FILE");
 
   context.progress->report("read", 0.0);
   Side source = read_side(a, "source"), target = read_side(a, "target");
@@ -128,14 +128,14 @@ Verb add_compare(CLI::App& app) {
   CLI::App* parser =
       app.add_subcommand("compare", "Compare the electrostatic surface potentials of two states of a molecule");
   parser->footer(
-      "Each point of the source's surface is mapped to its counterpart on the target's, the potentials there are "
-      "compared, and the\n"
-      "result says how far it can be trusted. Without maps the shapes alone are compared.\n\n"
+      "Maps each point of the source's surface to the corresponding point of the target's, compares the potentials "
+      "there, and\n"
+      "certifies the mapping. Without maps only the shapes are compared.\n\n"
       "Example:\n"
       "  espdiff compare wild.pqr mutant.pqr --source-map wild.dx --target-map mutant.dx -o result\n\n"
       "Writes result.json (numbers, certificate, provenance), result.vtp (mapped surface, for ParaView) and "
       "result.residues.csv.\n"
-      "Exit status: 0 done, 1 could not be computed, 2 wrong usage or input.");
+      "Exit status: 0 done, 1 could not compute, 2 wrong usage or input.");
   add_input_options(*parser, *arguments);
   add_structure_options(*parser, arguments->structure);
   add_settings(*parser, arguments->settings, false);

@@ -1,4 +1,4 @@
-// map_options.cpp: options of maps, and what they ask for.
+// map_options.cpp: options of maps, given or computed.
 #include "cli/map_options.h"
 
 #include <utility>
@@ -16,12 +16,12 @@ constexpr const char* kGroup = "Potentials";
 
 void add_computed_map_options(CLI::App& p, ComputedMapArguments& a) {
   p.add_option("--potential", a.potential,
-               "Compute the potentials instead of reading maps: pme, from the charges of the atoms that are read")
+               "Compute the potentials instead of reading maps: pme, from the charges of the atoms")
       ->check(CLI::IsMember({"pme"}))
       ->group(kGroup);
   p.add_option("--pme-cell", a.cell,
-               "Cell of a computed potential. box: 10 A wider than the atoms on each side, whatever cell the file has. "
-               "own: the file's (CRYST1 of each model), where the charges of water and ions count too")
+               "Cell of a computed potential. box: 10 A wider than the atoms on each side, ignoring the file's cell. "
+               "own: the file's (CRYST1 of each model), including the charges of water and ions")
       ->check(CLI::IsMember({"box", "own"}))
       ->capture_default_str()
       ->group(kGroup);
@@ -40,11 +40,11 @@ void add_map_options(CLI::App& p, MapArguments& a) {
       ->group(kGroup);
   p.add_option("--target-map", a.target_map, "Potential around the target")->group(kGroup);
   p.add_option("--source-map-unit", a.source_map_unit,
-               "Unit of the source map if the file does not say: kT/e, mV, V, kcal/mol/e, hartree/e")
+               "Unit of the source map if the file does not give it: kT/e, mV, V, kcal/mol/e, hartree/e")
       ->group(kGroup);
-  p.add_option("--target-map-unit", a.target_map_unit, "Unit of the target map if the file does not say")
+  p.add_option("--target-map-unit", a.target_map_unit, "Unit of the target map if the file does not give it")
       ->group(kGroup);
-  p.add_option("--map-array", a.map_array, "Array to take from VTI maps that hold several")->group(kGroup);
+  p.add_option("--map-array", a.map_array, "Array of VTI maps with several")->group(kGroup);
   add_computed_map_options(p, a);
 }
 

@@ -1,4 +1,4 @@
-// options.cpp: options that several verbs share.
+// options.cpp: options that several commands share.
 #include "cli/options.h"
 #include "engine/engine.h"
 
@@ -31,14 +31,14 @@ void add_device_options(CLI::App& parser, DeviceArguments& arguments) {
   };
   parser
       .add_option("--device", arguments.device,
-                  "Where to compute: auto takes a GPU if one answers; doctor lists those there are")
+                  "Where to compute: auto takes a GPU if one works; doctor lists the GPUs")
       ->check(CLI::Validator(check, ""))
       ->type_name("auto|cpu|cuda|cuda:N")
       ->capture_default_str()
       ->group("Computation");
   parser
       .add_option("--threads", arguments.threads,
-                  "CPU threads; 0 takes OMP_NUM_THREADS, else all. The result is the same for any number")
+                  "CPU threads; 0 takes OMP_NUM_THREADS, otherwise all. The result does not depend on it")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str()
       ->group("Computation");
@@ -49,18 +49,17 @@ std::unique_ptr<Engine> make_engine(const DeviceArguments& arguments) {
 }
 
 void add_structure_options(CLI::App& parser, StructureOptions& options) {
-  parser.add_flag("!--no-hetero", options.include_hetero, "Leave out HETATM records (ligands, ions)")
-      ->group("Molecules");
-  parser.add_flag("--water", options.include_water, "Keep water molecules, which are left out else")
+  parser.add_flag("!--no-hetero", options.include_hetero, "Ignore HETATM records (ligands, ions)")->group("Molecules");
+  parser.add_flag("--water", options.include_water, "Keep water molecules, which are removed by default")
       ->group("Molecules");
 }
 
 namespace {
 
-/// An earlier name is refused with the present one. Help does not list it.
+/// Refuses an old name with the new one. Help does not list it.
 void refuse_earlier_names(CLI::App& parser) {
   for (const RenamedSetting& renamed : renamed_settings()) {
-    const std::string message = "--" + renamed.old_name + " is called --" + renamed.name + " now";
+    const std::string message = "--" + renamed.old_name + " is now called --" + renamed.name;
     parser
         .add_option_function<std::string>(
             "--" + renamed.old_name, [message](const std::string&) { throw CLI::ValidationError(message); }, "")
@@ -85,7 +84,7 @@ void add_settings(CLI::App& parser, GivenSettings& given, bool of_surface_only) 
           ->group(setting.group);
       continue;
     }
-    // Checked while the line is parsed, so that the message names the option.
+    // Checked during parsing, so that the message names the option.
     const auto check = [&setting](const std::string& text) {
       CompareOptions scratch;
       try {

@@ -9,7 +9,7 @@ namespace espdiff::cli {
 
 /// "--align none"; a switch as "--overwrite".
 std::string spelled_option(const NamedOption& option);
-/// The message as the user of the command line reads it.
+/// The message as shown on the command line.
 inline std::string spelled(const Message& message) { return message.spelled(spelled_option); }
 
 }  // namespace espdiff::cli

@@ -1,4 +1,4 @@
-// matrix.cpp: the order of the pairs, and a series for each source.
+// matrix.cpp: the order of the pairs, and one series per source.
 #include "matrix/matrix.h"
 
 #include <cmath>
@@ -95,7 +95,7 @@ void compute_pairs(Engine& engine, const std::vector<Variant>& variants, const C
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const Variant &source = variants.at(pairs[p].first), &target = variants.at(pairs[p].second);
     const std::string name = source.label + " to " + target.label;
-    // A pair's stages each begin at 0 again: the whole run's bar moves on with pairs only.
+    // Each pair's stages start at 0 again; the whole run's bar advances by pairs only.
     const Progress stages([&](const std::string& stage, double) {
       progress.report(name + ": " + stage, static_cast<double>(p) / static_cast<double>(pairs.size()));
     });

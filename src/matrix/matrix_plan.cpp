@@ -20,7 +20,7 @@ std::string differ(const std::string& what, const std::string& there, const std:
   return what + " is " + shown(there) + " there and " + shown(here) + " here";
 }
 
-/// The first entry of a list that is not empty.
+/// The first nonempty entry of a list.
 std::string first_of(std::initializer_list<std::string> differences) {
   for (const std::string& difference : differences) {
     if (!difference.empty()) return difference;

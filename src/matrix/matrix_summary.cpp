@@ -1,4 +1,4 @@
-// matrix_summary.cpp: assembles a matrix and sums it up.
+// matrix_summary.cpp: assembles and summarizes a matrix.
 #include "matrix/matrix_summary.h"
 
 #include <algorithm>

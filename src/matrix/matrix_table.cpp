@@ -1,4 +1,4 @@
-// matrix_table.cpp: a matrix summed up for a terminal.
+// matrix_table.cpp: prints the summary of a matrix.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -48,7 +48,7 @@ Range range_of(const Matrix& matrix, std::size_t metric) {
   return range;
 }
 
-/// What is rounding of the last digits is nothing.
+/// Treats rounding noise as zero.
 std::string percent(double fraction) {
   return std::isnan(fraction) ? "-" : significant(fraction < 1e-9 ? 0 : 100 * fraction) + " %";
 }
@@ -83,7 +83,7 @@ void print_groups(std::ostream& out, const Matrix& matrix, std::size_t metric) {
   out << '\n';
 }
 
-/// What makes cells not trustworthy, without the numbers in the words, and how often.
+/// Prints the reasons why cells are not trustworthy, without their numbers, and how often each occurs.
 void print_trust(std::ostream& out, const Matrix& matrix) {
   std::size_t n_trustworthy = 0, n_failed = 0;
   for (const MatrixCell& cell : matrix.cells) {

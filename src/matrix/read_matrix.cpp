@@ -1,4 +1,4 @@
-// read_matrix.cpp: OUT.json of a matrix, checked as it is read.
+// read_matrix.cpp: reads and checks a matrix's OUT.json.
 #include "matrix/read_matrix.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The entries of [source][target], row after row.
+/// The entries of [source][target], row by row.
 template <typename Value>
 std::vector<Value> table(const Json& rows, std::size_t n, Value otherwise) {
   std::vector<Value> values;

@@ -1,4 +1,4 @@
-// variants.cpp: labels, lists and groups of a matrix' molecules.
+// variants.cpp: labels, lists and groups of a matrix's molecules.
 #include "matrix/variants.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A variant for each model; `path` is how messages and labels name the file.
+/// One variant per model; messages and labels use `path` for the file.
 std::vector<VariantFiles> models_of(const VariantFiles& file, int n_models) {
   std::vector<VariantFiles> models;
   for (int model = 1; model <= n_models; ++model) {
@@ -34,7 +34,7 @@ std::string file_name(const std::string& path) {
   return name.stem().string();
 }
 
-/// Labels those that have none.
+/// Labels the variants without a label.
 void label(std::vector<VariantFiles>& variants) {
   std::map<std::string, std::set<std::string>> files_named;
   std::map<std::string, int> n_models;
@@ -50,7 +50,7 @@ void label(std::vector<VariantFiles>& variants) {
   }
 }
 
-/// A path of the list as the working folder sees it.
+/// A path in the list, relative to the working folder.
 std::string beside(const std::string& list, const std::string& path) {
   if (path.empty() || fs::path(path).is_absolute()) return path;
   return (fs::path(list).parent_path() / path).lexically_normal().string();

@@ -1,4 +1,4 @@
-// variants.h: the molecules of a matrix: which they are, by name, group and fingerprint, read from files and lists.
+// variants.h: the molecules of a matrix by name, group and SHA-256, from files and lists.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ class StructureFile;
 struct Variant {
   std::string label;              ///< unique
   std::string group;              ///< empty for none
-  std::vector<InputFile> inputs;  ///< what it was made of; roles "structure" and "map"
+  std::vector<InputFile> inputs;  ///< its inputs; roles "structure" and "map"
   Molecule molecule;
   std::optional<Grid> map;
   MapMaker make_map = nullptr;  ///< instead of `map`; in kT/e

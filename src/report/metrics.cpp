@@ -191,7 +191,7 @@ std::vector<Metric> make_metrics() {
       {"irregularity_A", "Irregularity", S::kCertificate, U::kAngstrom, kNowhere,
        "Mean length of the umbrella Laplacian of the mapped mesh", of_certificate<&C::irregularity_A>,
        "/certificate/irregularity_A"},
-      {"iterations", "Iterations or steps", S::kMapping, U::kCount, kInMatrix,
+      {"iterations", "Iterations or steps", S::kMapping, U::kCount, kBoth,
        "Iterations of the deformation, or steps of the morph", iterations},
   };
 }

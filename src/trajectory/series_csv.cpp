@@ -26,25 +26,22 @@ struct Column {
   std::string name, pointer;
 };
 
-/// The metrics of a series stand between what names the row and how it came about; the potential's unit before the
-/// first metric of potentials.
+/// The metrics of a series stand between what names the row and how it came about, those of the mapping after them;
+/// the potential's unit before the first metric of potentials.
 std::vector<Column> make_columns() {
-  std::vector<Column> all = {{"frame", ""}, {"reference_frame", ""}};
+  std::vector<Column> all = {{"frame", ""}, {"reference_frame", ""}}, of_mapping;
   bool has_unit = false;
   for (const Metric& metric : metrics()) {
     if ((metric.flags & kInSeries) == 0) continue;
-    if (metric.section == MetricSection::kPotential && !has_unit) all.push_back({"potential_unit", "/potential_unit"});
-    has_unit = has_unit || metric.section == MetricSection::kPotential;
-    all.push_back({metric.name, metric.json_pointer()});
+    const bool is_of_potential = metric.section == MetricSection::kPotential;
+    if (is_of_potential && !has_unit) all.push_back({"potential_unit", "/potential_unit"});
+    has_unit = has_unit || is_of_potential;
+    (metric.section == MetricSection::kMapping ? of_mapping : all).push_back({metric.name, metric.json_pointer()});
   }
-  const std::vector<Column> rest = {{"converged", "/certificate/converged"},
-                                    {"trustworthy", "/certificate/trustworthy"},
-                                    {"start", "/start"},
-                                    {"iterations", "/iterations"},
-                                    {"time_ms", "/time_ms/total"},
-                                    {"reasons", "/certificate/reasons"},
-                                    {"error", ""}};
-  all.insert(all.end(), rest.begin(), rest.end());
+  const auto add = [&all](const std::vector<Column>& more) { all.insert(all.end(), more.begin(), more.end()); };
+  add({{"converged", "/certificate/converged"}, {"trustworthy", "/certificate/trustworthy"}, {"start", "/start"}});
+  add(of_mapping);
+  add({{"time_ms", "/time_ms/total"}, {"reasons", "/certificate/reasons"}, {"error", ""}});
   return all;
 }
 

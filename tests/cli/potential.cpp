@@ -143,7 +143,7 @@ TEST_CASE("potential: wrong input gives one line and leaves nothing") {
                         {molecule + " --compatible --align ca", "`compatible` with superposition"},
                         {molecule + " --cell '0 0 0 9 0 0 0 9 0 0 0 9' --pad 3", "a cell and a padding"},
                         {molecule + " --method coulomb --dielectric 0", "dielectric constant 0.000000"},
-                        {molecule + " --variance " + folder.file("v.dx") + " --frames 0", "need 2 frames at least"},
+                        {molecule + " --variance " + folder.file("v.dx") + " --frames 0", "need at least 2 frames"},
                         {folder.file("absent.pqr"), "absent.pqr"}}) {
     const Outcome outcome = run_espdiff("potential " + c.arguments + " --device cpu -o " + folder.file("m.dx"));
     CAPTURE(c.arguments);

@@ -23,6 +23,7 @@ namespace {
 CompareResult full_result() {
   CompareResult result;
   result.has_potential = true;
+  result.pairing.pairs = {{0, 0}, {1, 1}, {2, 2}};
   result.unit = PotentialUnit::kKtPerE;
   result.certificate.round_trip = RoundTrip{0.1, 0.2, 0.3, 0.04};
   result.residues = {{0, 6, 1, -1, 2, 1, 0.5, 1, 2}, {1, 4, 2, 2, 0, 2, 0, 1.5, 3}};

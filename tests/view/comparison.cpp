@@ -326,7 +326,7 @@ TEST_CASE("the command line reports errors and leaves no file") {
   refused("render " + vtp + png, 1, "DISPLAY is not set", "env -u DISPLAY");
   refused("render " + scratch.file("absent.vtp") + png, 2, "absent.vtp: no such file");
   refused("render " + vtp + png + " --scene " + scratch.file("no.json"), 2, "no.json: no such scene file");
-  refused("render " + vtp + png + " --range wide", 2, "--range wide: give one number, as 5 for -5 to 5, or two");
+  refused("render " + vtp + png + " --range wide", 2, "--range wide: give one number, such as 5 for -5 to 5, or two");
   refused("render " + vtp + png + " --range 3:x", 2, "give one number");
   refused("render " + vtp + png + " --range 1x:2", 2, "--range 1x:2: give one number");
   refused("render " + vtp + png + " --range 1:2x", 2, "give one number");
