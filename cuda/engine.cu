@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "base/error.h"
+#include "base/handles.h"
 #include "cuda/certificate/certificate.h"
 #include "cuda/certificate/distortion.h"
 #include "cuda/certificate/intersections.h"
@@ -18,6 +19,7 @@
 #include "cuda/deform/fields.h"
 #include "cuda/deform/vector_flow.h"
 #include "cuda/device/spatial_order.h"
+#include "cuda/device/unwrap.h"
 #include "cuda/morph/morph.h"
 #include "cuda/potential/coulomb.h"
 #include "cuda/potential/pme.h"
@@ -27,7 +29,6 @@
 #include "cuda/surface/density.h"
 #include "cuda/surface/density_at_points.h"
 #include "cuda/surface/isosurface.h"
-#include "cuda/device/unwrap.h"
 #include "cuda/surface/level_set_normals.h"
 #include "cuda/surface/project.h"
 #include "cuda/surface/sample.h"
@@ -36,7 +37,6 @@
 #include "engine/certificate_stage.h"
 #include "engine/deform_stage.h"
 #include "engine/engine.h"
-#include "engine/handles.h"
 #include "engine/make_engine.h"
 #include "engine/morph_stage.h"
 #include "engine/potential_stage.h"
@@ -433,9 +433,7 @@ class BackEndEngine : public Engine {
   }
 
   std::vector<Vec3f> download_gradient(const FieldPtr& field) override {
-    return run([&] {
-      return host_vectors(unwrap<SurfaceField>(field).values);
-    });
+    return run([&] { return host_vectors(unwrap<SurfaceField>(field).values); });
   }
 
   std::vector<float> density_at(const AtomsPtr& atoms, const std::vector<Vec3f>& points) override {

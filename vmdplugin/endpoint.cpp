@@ -8,7 +8,9 @@
 #include "fingerprint.h"
 #include "io/molecule_builder.h"
 #include "io/read_grid.h"
+#include "io/read_structure.h"
 #include "molfile_bridge.h"
+#include "potential/potential.h"
 #include "tcl_values.h"
 
 namespace espdiff::vmdplugin {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "base/structure_options.h"
 #include "base/types.h"
 #include "compare/input.h"
-#include "io/read_structure.h"
 #include "potential/potential.h"
 #include "report/write_compare.h"
 #include "tcl_values.h"

@@ -2,11 +2,13 @@
 // and their average.
 #include <algorithm>
 
+#include "align/pair_atoms.h"
 #include "base/error.h"
 #include "commands.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"
 #include "io/write_grid.h"
+#include "potential/potential.h"
 #include "tcl_values.h"
 #include "volume_store.h"
 

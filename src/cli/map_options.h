@@ -5,10 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "base/structure_options.h"
 #include "cli/options.h"
-#include "io/read_structure.h"
 #include "potential/computed_map.h"
 #include "report/write_compare.h"
+
+namespace espdiff {
+class StructureFile;
+}
 
 namespace espdiff::cli {
 

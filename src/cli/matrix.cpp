@@ -6,7 +6,9 @@
 #include "cli/map_options.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
+#include "compare/options.h"
 #include "engine/engine.h"
+#include "io/read_structure.h"
 #include "matrix/matrix_run.h"
 #include "matrix/write_matrix.h"
 
@@ -54,8 +56,7 @@ std::vector<Variant> read_variants(const Arguments& a, const std::vector<Variant
     variants.push_back(read_variant(file, *structure, a.structure, a.map_array));
     if (is_computed(a.potential))
       variants.back().make_map =
-          computed_map_of_file(a.potential, *structure, file.model, variants.back().molecule, temperature_K)
-              .maker();
+          computed_map_of_file(a.potential, *structure, file.model, variants.back().molecule, temperature_K).maker();
   }
   unite_map_units(variants, temperature_K);
   return variants;

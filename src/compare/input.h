@@ -3,9 +3,9 @@
 
 #include <functional>
 
+#include "base/handles.h"
 #include "base/progress.h"
 #include "base/types.h"
-#include "engine/handles.h"
 
 namespace espdiff {
 

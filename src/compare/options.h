@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "align/pair_atoms.h"
+#include "base/pairing.h"
 #include "engine/deform_stage.h"
 #include "engine/morph_stage.h"
 

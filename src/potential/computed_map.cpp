@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "engine/engine.h"
 #include "io/sha256.h"
+#include "potential/potential.h"
 
 namespace espdiff {
 namespace {

@@ -5,11 +5,14 @@
 #include <optional>
 #include <string>
 
+#include "base/types.h"
+#include "base/unit_cell.h"
 #include "compare/input.h"
 #include "engine/potential_stage.h"
-#include "potential/potential.h"
 
 namespace espdiff {
+
+struct PotentialOptions;
 
 /// The grid of a computed map where none is asked for. Maps are sampled by their splines, which err no more between the
 /// points of 1 A than on them; PMEPot's values (`compatible`) are interpolated linearly, which wants more points.

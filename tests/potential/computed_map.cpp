@@ -11,6 +11,7 @@
 #include "compare/made_side.h"
 #include "compare/series.h"
 #include "cuda/potential/ewald_oracle.h"
+#include "potential/potential.h"
 #include "report/write_compare.h"
 
 using namespace espdiff_test;
