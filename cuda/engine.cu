@@ -19,6 +19,7 @@
 #include "cuda/deform/vector_flow.h"
 #include "cuda/device/spatial_order.h"
 #include "cuda/morph/morph.h"
+#include "cuda/potential/bulk_zero.h"
 #include "cuda/potential/coulomb.h"
 #include "cuda/potential/pme.h"
 #include "cuda/surface/adjacency.h"
@@ -276,6 +277,16 @@ class BackEndEngine : public Engine {
     });
   }
 
+  GridPtr zero_in_bulk(const GridPtr& map, const std::vector<Vec3d>& solute, double distance_A,
+                       BulkZero* report) override {
+    return run([&] { return ESPDIFF_BACKEND::zero_in_bulk(unwrap<MapGrid>(map), solute, distance_A, report); });
+  }
+
+  GridPtr isolated_charges(const std::vector<Vec3d>& positions, const std::vector<float>& charges,
+                           const CoulombOptions& options, const RigidTransform& to_map) override {
+    return run([&] { return ESPDIFF_BACKEND::isolated_charges(positions, charges, options, to_map); });
+  }
+
   GridPtr coulomb_potential(const std::vector<Vec3d>& positions, const std::vector<float>& charges,
                             const Lattice& lattice, const CoulombOptions& options, const Progress& progress) override {
     return run([&] { return ESPDIFF_BACKEND::coulomb_potential(positions, charges, lattice, options, progress); });
@@ -397,6 +408,8 @@ class BackEndEngine : public Engine {
     return run([&] {
       Grid result;
       if (const auto* map = dynamic_cast<const MapGrid*>(grid.get())) {
+        if (map->lattice.n_points() == 0)
+          throw InputError("isolated charges have no lattice of their own; resample them on one");
         result.lattice = map->lattice;
         result.values = point_values(*map);
         result.unit = map->unit;

@@ -10,7 +10,7 @@
 #include "compare/settings.h"
 #include "engine/handles.h"
 #include "io/read_structure.h"
-#include "potential/potential.h"
+#include "potential/potential_settings.h"
 
 namespace espdiff::cli {
 
@@ -27,6 +27,10 @@ using GivenSettings = std::vector<std::pair<std::string, std::string>>;
 /// Adds every setting as an option `--name`; a boolean one as a flag, `--no-name` where it is on by default.
 /// @param of_surface_only leaves out what only a mapping depends on
 void add_settings(CLI::App& parser, GivenSettings& given, bool of_surface_only);
+
+/// Adds every option of computed potentials; make_potential_options() takes what was given.
+/// @param pmepot_names of the options of pme: `--grid` as PMEPot has them, not `--pme-grid`
+void add_potential_settings(CLI::App& parser, GivenPotentialSettings& given, bool pmepot_names);
 
 /// Reads a potential map and, where `unit` is not empty, declares its unit.
 Grid read_map(const std::string& path, const std::string& array, const std::string& unit);

@@ -84,7 +84,7 @@ struct Series::Steps {
   MeshPtr regularized{};
   DeformReport regularize_report{};
   PotentialUnit unit = PotentialUnit::kUnknown;  ///< of the source's map
-  GridPtr source_map{};                          ///< made by the first step
+  MadeMap source_map{};                          ///< made by the first step
   std::optional<LastStep> last{};                ///< nothing where the next step starts from the source
   std::optional<SeriesState> restored{};
 
@@ -169,22 +169,30 @@ struct Series::Steps {
   }
 
   /// The target's map, null where there is none; the source's too, unless it is there already.
-  GridPtr make_maps(const CompareInput& target, const CommonFrame& frame, const Progress& progress) {
+  GridPtr make_maps(const CompareInput& target, const CommonFrame& frame, CompareResult& result,
+                    const Progress& progress) {
     if (!has_map(target)) return nullptr;
     const PotentialUnit wanted = common_unit(source, target);
     const double temperature_K = options.temperature_K;
-    if (source_map == nullptr || wanted != unit) {
-      source_map = device_map(engine, source, inverse(frame.from_source), wanted, temperature_K, progress);
+    if (source_map.map == nullptr || wanted != unit) {
+      source_map = device_map(engine, source, inverse(frame.from_source), nullptr, wanted, temperature_K, progress);
       unit = wanted;
     }
-    return device_map(engine, target, inverse(frame.from_target), wanted, temperature_K, progress);
+    if (source.make_map) result.source_recipe = source_map.recipe;
+    // An iteration may start from the source's potential, whatever steps were made before: the bits of a step do not
+    // depend on them.
+    const GridPtr before = source.make_map ? source_map.map : nullptr;
+    MadeMap made =
+        device_map(engine, target, inverse(frame.from_target), before, wanted, temperature_K, progress);
+    if (target.make_map) result.target_recipe = std::move(made.recipe);
+    return made.map;
   }
 
   /// Potentials at counterparts, and the metrics of their differences.
   void compare_potentials(const CompareInput& target, const GridPtr& target_map, const Mapping& mapping,
                           const MeshPtr& moved, CompareResult& result) {
     MappedSurface& s = result.surface;
-    const ScalarsPtr at_source = engine.sample(source_map, mapping.source),
+    const ScalarsPtr at_source = engine.sample(source_map.map, mapping.source),
                      at_target = engine.sample(target_map, mapping.mapped);
     result.unit = unit;
     s.potential_source = engine.download(at_source);
@@ -255,7 +263,7 @@ struct Series::Steps {
     progress.report("align", 0.0);
     const CommonFrame frame = align(*source.molecule, *target.molecule, options, result);
     clock.lap("align");
-    const GridPtr target_map = make_maps(target, frame, progress);
+    const GridPtr target_map = make_maps(target, frame, result, progress);
     if (target_map != nullptr) clock.lap("potential");
 
     prepare(frame.from_source, progress, clock);

@@ -10,6 +10,7 @@
 #include "align/pair_atoms.h"
 #include "align/rigid_domains.h"
 #include "base/types.h"
+#include "compare/map_recipe.h"
 #include "engine/certificate_stage.h"
 #include "engine/deform_stage.h"
 #include "engine/morph_stage.h"
@@ -101,7 +102,9 @@ struct CompareResult {
   RigidTransform source_to_target;   ///< the superposition
   std::vector<RigidDomain> domains;  ///< aligned by themselves; displacements are from where their motions end
   bool has_potential = false;
+  std::string shapes_because;  ///< why there is none, where nobody asked for shapes alone
   PotentialUnit unit = PotentialUnit::kUnknown;
+  std::optional<MapRecipe> source_recipe, target_recipe;  ///< of potentials that were computed
   Metrics metrics;                                                 ///< over valid triangles
   Metrics metrics_all;                                             ///< over all triangles with samples
   std::size_t n_outside_source_map = 0, n_outside_target_map = 0;  ///< vertices

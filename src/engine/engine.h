@@ -24,6 +24,7 @@
 namespace espdiff {
 
 struct ComponentSummary;
+struct BulkZero;
 struct CoulombOptions;
 struct DeformOptions;
 struct DeformReport;
@@ -181,6 +182,11 @@ class Engine {
   /// The map is periodic; its points are lattice_over(cell, size). The same bits for any order of the atoms and any
   /// number of threads. Time grows with atoms * order^3 + K^3 log K.
   ///
+  /// With PmePart::kFull samples have the direct part too, C sum q erfc(beta r) / r over all images within 3.5 / beta
+  /// (the rest is below 1e-6 of a charge's own potential), less its mean C pi Q / (beta^2 V): the potential of point
+  /// charges in a uniform background, whose mean over the cell is zero and which does not depend on beta. Distances
+  /// below 0.5 A count as 0.5 A.
+  ///
   /// @param positions [atom] Angstrom, the map's frame  @param charges [atom] elementary charges
   /// @param to_map    common frame -> the frame of `positions` and of the map
   /// @throws InputError (cell without volume, values that are not finite, no charges, sizes, order, Ewald factor),
@@ -188,6 +194,22 @@ class Engine {
   virtual GridPtr pme_potential(const std::vector<Vec3d>& positions, const std::vector<float>& charges,
                                 const PmeCell& cell, const PmeOptions& options, const RigidTransform& to_map,
                                 const Progress& progress) = 0;
+
+  /// The same map with its zero in the bulk: the mean over its points that lie farther than a distance from all images
+  /// of the solute's atoms. Where there are none, the zero stays. The mean is that of the smooth part, from which the
+  /// full potential's differs by what the direct part leaves at the border of that region.
+  /// @param map    periodic  @param solute [atom] Angstrom, the map's own frame
+  /// @param report may be null
+  /// @throws InputError (a map that is not periodic, values that are not finite)
+  virtual GridPtr zero_in_bulk(const GridPtr& map, const std::vector<Vec3d>& solute, double distance_A,
+                               BulkZero* report) = 0;
+
+  /// Isolated charges as a map: Coulomb's law as in coulomb_potential(), summed where it is sampled, in double
+  /// precision. It has no points of its own. Time of a sample grows with the number of atoms.
+  /// @param positions [atom] Angstrom  @param to_map common frame -> the frame of `positions`
+  /// @throws InputError (dielectric, values that are not finite, no charges)
+  virtual GridPtr isolated_charges(const std::vector<Vec3d>& positions, const std::vector<float>& charges,
+                                   const CoulombOptions& options, const RigidTransform& to_map) = 0;
 
   /// Coulomb's law summed directly, without a cutoff and without periodic images, at the points of a lattice:
   /// phi(x) = C sum_i q_i / (epsilon |x - x_i|) [kT/e], C as in pme_potential(). Distances below 0.5 A count as 0.5 A.

@@ -7,6 +7,7 @@
 #include "compare/result.h"
 #include "engine/certificate_stage.h"
 #include "engine/deform_stage.h"
+#include "report/potential_json.h"
 #include "report/write_compare.h"
 
 namespace espdiff {
@@ -154,31 +155,13 @@ Json echo(const CompareOptions& o) {
   return json;
 }
 
-Json vector(const Vec3d& v) { return {number(v.x), number(v.y), number(v.z)}; }
-
-Json recipe(const MapRecipe& r) {
-  const auto& edges = r.cell.edges;
-  return {{"method", "pme"},
-          {"charges_from", r.charges_from},
-          {"n_charges", r.n_charges},
-          {"net_charge", number(r.net_charge)},
-          {"cell_from", r.cell_from},
-          {"cell_centre_A", vector(r.cell.centre)},
-          {"cell_edges_A", {vector(edges[0]), vector(edges[1]), vector(edges[2])}},
-          {"grid", r.pme.size},
-          {"spline_order", r.pme.order},
-          {"ewald_factor", number(r.pme.ewald_factor)},
-          {"compatible", r.pme.compatible},
-          {"precision", r.pme.precision == Precision::kDouble ? "double" : "single"},
-          {"sampling", r.pme.smooth_samples ? "spline" : "trilinear"},
-          {"temperature_K", number(r.pme.temperature_K)}};
-}
-
-Json input_files(const Provenance& provenance) {
+/// What a computed map came out like is in the result.
+Json input_files(const Provenance& provenance, const CompareResult& result) {
   Json json = Json::array();
   for (const InputFile& input : provenance.inputs) {
     json.push_back({{"role", input.role}, {"path", input.path}, {"sha256", input.sha256}});
-    if (input.computed) json.back()["computed"] = recipe(*input.computed);
+    const auto& made = input.role == "source_map" ? result.source_recipe : result.target_recipe;
+    if (input.computed) json.back()["computed"] = recipe_json(made ? *made : *input.computed);
     if (!input.read_with) continue;
     json.back()["model"] = input.read_with->model;
     json.back()["hetero"] = input.read_with->include_hetero;
@@ -192,6 +175,7 @@ void add_results(Json& json, const Molecule& source, const CompareResult& result
   json["rmsd_A"] = number(result.rmsd_A);
   json["n_paired_atoms"] = result.pairing.pairs.size();
   json["potential_unit"] = result.has_potential ? Json(to_string(result.unit)) : Json(nullptr);
+  json["potential"] = potential_json(result);
   add_metrics(json, result.has_potential, result.metrics);
   json["area_A2"] = {{"source", number(result.source_surface.area_A2)},
                      {"target", number(result.target_surface.area_A2)},
@@ -234,7 +218,7 @@ std::string compare_json(const Molecule& source, const Molecule& target, const C
   json["threads"] = provenance.threads;
   json["radii_origin"] = {{"source", name_of(source.radii_origin)}, {"target", name_of(target.radii_origin)}};
   json["options"] = echo(options);
-  json["inputs"] = input_files(provenance);
+  json["inputs"] = input_files(provenance, result);
   json["command_line"] = provenance.command_line;
   json["version"] = provenance.version;
   // A path need not be UTF-8, JSON must be.

@@ -6,6 +6,7 @@
 #include "align/rigid_domains.h"
 #include "compare/result.h"
 #include "engine/certificate_stage.h"
+#include "report/potential_json.h"
 #include "report/write_compare.h"
 
 namespace espdiff {
@@ -76,12 +77,36 @@ void print_superposition(std::ostream& out, const Molecule& source, const Compar
     line(out, "rigid piece", significant(piece.rmsd_A) + " A, " + residue_ranges(source, piece.residues));
 }
 
+/// Which potential it is that differs, and what to know of it.
+void print_kind_of_potential(std::ostream& out, const CompareResult& result) {
+  const std::string label = potential_label(result);
+  if (label.empty()) return;
+  const auto &source = result.source_recipe, &target = result.target_recipe;
+  const std::string because = source ? source->because : target->because;
+  out << "\nPotential computed\n";
+  line(out, "kind", label + (because.empty() ? "" : " (" + because + ")"));
+  for (const auto& [side, recipe] : {std::pair("source", &source), std::pair("target", &target)}) {
+    if (!*recipe) continue;
+    const MapRecipe& r = **recipe;
+    std::string text = formatted("%.4g", r.net_charge) + " e in " + counted(r.n_charges, "charge") + "; zero " +
+                       to_string(r.zero);
+    if (r.method == PotentialMethod::kPoissonBoltzmann)
+      text += "; residual " + formatted("%.1e", r.pb_report.relative_residual) + " after " +
+              counted(static_cast<std::size_t>(std::max(r.pb_report.cycles, 0)), "cycle");
+    line(out, side, text);
+  }
+  for (const std::string& note :
+       potential_notes(source ? &*source : nullptr, target ? &*target : nullptr))
+    line(out, "note", note);
+}
+
 void print_metrics(std::ostream& out, const CompareResult& result) {
   const Metrics &valid = result.metrics, &all = result.metrics_all;
   const std::string unit = to_string(result.unit);
   const auto both = [&](double Metrics::*member) {
     return std::vector<std::string>{significant(valid.*member), significant(all.*member)};
   };
+  print_kind_of_potential(out, result);
   heading(out, "Potential (target - source)", {"valid area", "all area"});
   row(out, "mean absolute difference", unit, both(&Metrics::mean_abs_difference));
   row(out, "RMS difference", unit, both(&Metrics::rms_difference));
@@ -180,7 +205,8 @@ void print_table(std::ostream& out, const Molecule& source, const Molecule& targ
     print_metrics(out, result);
   } else {
     const CountedSurface shape = counted_surface(result);
-    heading(out, "Shape (no potentials given)", {"valid area"});
+    heading(out, "Shape", {"valid area"});
+    if (!result.shapes_because.empty()) line(out, "no potential", result.shapes_because);
     row(out, "mean displacement", "A", {significant(shape.mean_displacement_A)});
     row(out, "mean path length", "A", {significant(shape.mean_path_length_A)});
     row(out, "area", "A^2", {formatted("%.1f", shape.area_A2)});

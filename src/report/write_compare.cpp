@@ -15,6 +15,7 @@
 #include "io/write_grid.h"
 #include "io/write_pqr.h"
 #include "io/write_vtp.h"
+#include "report/potential_json.h"
 
 namespace espdiff {
 namespace {
@@ -67,6 +68,8 @@ void write_surface_file(std::ostream& out, const Molecule& source, const Compare
     file.point_arrays.emplace_back("sign_change", derived.sign_change);
     file.active_scalars = "potential_difference";
     file.texts.emplace_back("potential_unit", to_string(result.unit));
+    const std::string label = potential_label(result);
+    if (!label.empty()) file.texts.emplace_back("potential", label);
   }
   const std::vector<std::uint8_t> everywhere(s.triangles.size(), 0);
   file.cell_arrays = {{"corrupt", s.corrupt}, {"no_counterpart", s.unmatched.empty() ? everywhere : s.unmatched}};
@@ -109,7 +112,7 @@ void write_residue_file(std::ostream& out, const Molecule& source, const Compare
 }  // namespace
 
 InputFile computed_input(const std::string& role, const ComputedMap& map) {
-  return {role, "pme of " + map.recipe().charges_from, map.fingerprint(), map.recipe()};
+  return {role, to_string(map.recipe().method) + " of " + map.recipe().charges_from, map.fingerprint(), map.recipe()};
 }
 
 CountedSurface counted_surface(const CompareResult& result) {
