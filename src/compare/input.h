@@ -23,12 +23,12 @@ struct MadeMap {
 using MapMaker = std::function<MadeMap(Engine& engine, const RigidTransform& to_map, const GridPtr& before,
                                        const Progress& progress)>;
 
-/// One side of a comparison, with a map that is given, or one that is computed, or none. Maps may be absent on both
-/// sides: then shapes are compared only.
+/// One side of a comparison: a molecule with a given map, a computed map, or none. Without maps on both sides only
+/// shapes are compared.
 struct CompareInput {
   const Molecule* molecule = nullptr;
   const Grid* map = nullptr;
-  MapMaker make_map = nullptr;  ///< instead of `map`
+  MapMaker make_map = nullptr;  ///< used instead of `map`
 };
 
 }  // namespace espdiff
