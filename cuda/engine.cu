@@ -28,6 +28,7 @@
 #include "metrics.h"
 #include "morph.h"
 #include "pme.h"
+#include "potential/poisson_boltzmann.h"
 #include "project.h"
 #include "sample.h"
 #include "spatial_order.h"
@@ -273,6 +274,16 @@ class BackEndEngine : public Engine {
   GridPtr coulomb_potential(const std::vector<Vec3d>& positions, const std::vector<float>& charges,
                             const Lattice& lattice, const CoulombOptions& options, const Progress& progress) override {
     return run([&] { return ESPDIFF_BACKEND::coulomb_potential(positions, charges, lattice, options, progress); });
+  }
+
+  GridPtr poisson_boltzmann(const std::vector<Vec3d>& positions, const std::vector<float>& radii,
+                            const std::vector<float>& charges, const Lattice& lattice,
+                            const PoissonBoltzmannOptions& options, const RigidTransform& to_map, const GridPtr& start,
+                            const Progress& progress, PoissonBoltzmannReport* report) override {
+    return run([&] {
+      return ESPDIFF_BACKEND::poisson_boltzmann(positions, radii, charges, lattice, options, to_map,
+                                                start ? &unwrap<MapGrid>(start) : nullptr, progress, report);
+    });
   }
 
   Metrics compare(const MeshPtr& source, const MeshPtr& mapped, const ScalarsPtr& source_potential,

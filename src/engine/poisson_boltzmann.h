@@ -1,0 +1,62 @@
+// poisson_boltzmann.h: what a Poisson-Boltzmann potential is asked for with, and what is told of it.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "base/types.h"
+
+namespace espdiff {
+
+/// Where the solute's dielectric ends and the solvent's begins.
+enum class DielectricBoundary {
+  kMolecular,    ///< the solvent-excluded surface of the probe; smoothed over a cell, as APBS' `smol`
+  kVanDerWaals,  ///< the atoms' spheres; smoothed the same way
+  kGaussian      ///< none: a smooth dielectric (Li et al., J. Chem. Theory Comput. 9, 2126 (2013))
+};
+
+/// What holds on the grid's border.
+enum class FarBoundary {
+  kDebyeHueckel,  ///< the sum of all charges' Debye-Hueckel potentials in solvent (APBS' `mdh`)
+  kFocus          ///< the potential on a grid of twice the extent and twice the spacing, with that sum on its border
+};
+
+/// Parameters of Engine::poisson_boltzmann(). The defaults are those of APBS' examples, but for the temperature.
+struct PoissonBoltzmannOptions {
+  double solute_dielectric = 2;
+  double solvent_dielectric = 78.54;
+  double ionic_strength_M = 0.15;  ///< mol/l of a 1:1 salt
+  double ion_radius_A = 2;         ///< no ions nearer to an atom than its radius and this (Stern layer)
+  double probe_radius_A = 1.4;     ///< of DielectricBoundary::kMolecular
+  double gaussian_sigma = 0.93;    ///< of DielectricBoundary::kGaussian: an atom's Gaussian over its radius
+  double temperature_K = 300;
+  DielectricBoundary dielectric_boundary = DielectricBoundary::kMolecular;
+  FarBoundary far_boundary = FarBoundary::kDebyeHueckel;
+  bool nonlinear = false;       ///< sinh(phi) instead of phi for the ions
+  double tolerance = 1e-6;      ///< of the residual's norm, relative to the right-hand side's
+  int max_cycles = 100;         ///< of multigrid-preconditioned conjugate gradients; for each Newton step
+  int max_newton_steps = 50;    ///< of the nonlinear equation
+};
+
+/// How a potential was come by.
+struct PoissonBoltzmannReport {
+  double relative_residual = 0;  ///< |b - A phi| / |b|, computed anew at the end
+  int cycles = 0;                ///< of conjugate gradients, all steps together
+  int newton_steps = 0;          ///< 0 for the linearized equation
+  int levels = 0;                ///< of the multigrid
+  double bytes_per_point = 0;    ///< of device memory, at the peak
+  double net_charge = 0;         ///< elementary charges
+  std::size_t n_charges = 0;     ///< that are not zero
+  double debye_length_A = 0;     ///< infinite without salt
+};
+
+/// A cubic lattice for Engine::poisson_boltzmann() along the axes of the atoms' frame: it reaches `padding_A` beyond
+/// every atom's sphere and is centred on their box. Numbers of points are one more than multiples of eight, so that
+/// the multigrid halves them; the steps are `spacing_A` exactly.
+/// @param radii [atom] Angstrom
+/// @throws InputError (spacing or padding, no atoms, positions that are not finite, more than 2e9 points)
+Lattice poisson_boltzmann_lattice(const std::vector<Vec3d>& positions, const std::vector<float>& radii,
+                                  double spacing_A, double padding_A);
+
+}  // namespace espdiff
