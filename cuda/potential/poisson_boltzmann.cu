@@ -119,6 +119,7 @@ std::shared_ptr<MapGrid> poisson_boltzmann(const std::vector<Vec3d>& positions, 
 
   map->lattice = on_lattice;
   map->unit = PotentialUnit::kKtPerE;
+  map->cubic = getenv("PB_LINEAR") == nullptr;
   set_index_transform(map->lattice, to_map, "the potential", map->to_index);
   if (report != nullptr) {
     report->relative_residual = solved.relative_residual;
