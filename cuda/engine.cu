@@ -22,6 +22,7 @@
 #include "cuda/potential/bulk_zero.h"
 #include "cuda/potential/coulomb.h"
 #include "cuda/potential/pme.h"
+#include "cuda/potential/poisson_boltzmann.h"
 #include "cuda/surface/adjacency.h"
 #include "cuda/surface/carry.h"
 #include "cuda/surface/components.h"
@@ -290,6 +291,16 @@ class BackEndEngine : public Engine {
   GridPtr coulomb_potential(const std::vector<Vec3d>& positions, const std::vector<float>& charges,
                             const Lattice& lattice, const CoulombOptions& options, const Progress& progress) override {
     return run([&] { return ESPDIFF_BACKEND::coulomb_potential(positions, charges, lattice, options, progress); });
+  }
+
+  GridPtr poisson_boltzmann(const std::vector<Vec3d>& positions, const std::vector<float>& radii,
+                            const std::vector<float>& charges, const Lattice& lattice,
+                            const PoissonBoltzmannOptions& options, const RigidTransform& to_map, const GridPtr& start,
+                            const Progress& progress, PoissonBoltzmannReport* report) override {
+    return run([&] {
+      return ESPDIFF_BACKEND::poisson_boltzmann(positions, radii, charges, lattice, options, to_map,
+                                                start ? &unwrap<MapGrid>(start) : nullptr, progress, report);
+    });
   }
 
   Metrics compare(const MeshPtr& source, const MeshPtr& mapped, const ScalarsPtr& source_potential,

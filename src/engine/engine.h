@@ -36,6 +36,8 @@ struct MorphResult;
 struct MovingAtom;
 struct PmeCell;
 struct PmeOptions;
+struct PoissonBoltzmannOptions;
+struct PoissonBoltzmannReport;
 struct SubdivisionResult;
 struct VectorFlowOptions;
 struct VectorFlowReport;
@@ -215,6 +217,30 @@ class Engine {
   virtual GridPtr coulomb_potential(const std::vector<Vec3d>& positions, const std::vector<float>& charges,
                                     const Lattice& lattice, const CoulombOptions& options,
                                     const Progress& progress) = 0;
+
+  /// The potential of charges in a solute of low dielectric, in a solvent with ions, by finite differences; kT/e:
+  ///
+  ///     -div(eps grad phi) + kappa_bar^2 lambda phi = 4 pi C rho,   kappa_bar^2 = 8 pi C c,   C as in pme_potential()
+  ///
+  /// rho in e/A^3, by cubic B-splines; c the number of ions of a kind in a cubic Angstrom of solvent; lambda 1 where
+  /// ions may be, else 0. With `nonlinear` sinh(phi) stands for phi in the ions' term. docs/potentials.md has the
+  /// definitions. The map is not periodic; zero is the potential far away. The same bits for any order of the atoms and
+  /// any number of threads. Time grows with the number of grid points.
+  ///
+  /// @param positions [atom] Angstrom, the map's frame  @param radii [atom] Angstrom; 0 takes no room
+  /// @param charges   [atom] elementary charges
+  /// @param lattice   cubic, along the axes; see poisson_boltzmann_lattice()
+  /// @param to_map    common frame -> the frame of `positions` and of the map
+  /// @param start     where the iteration starts: a potential of this engine in the same frame, such as that of a
+  /// trajectory's frame before, on any lattice; null starts from zero
+  /// @param report    receives how it was come by; may be null
+  /// @throws InputError (parameters, lattice, no charges, charges without radius outside all atoms), MemoryError,
+  ///         ConvergenceError (with the residual), Cancelled
+  virtual GridPtr poisson_boltzmann(const std::vector<Vec3d>& positions, const std::vector<float>& radii,
+                                    const std::vector<float>& charges, const Lattice& lattice,
+                                    const PoissonBoltzmannOptions& options, const RigidTransform& to_map,
+                                    const GridPtr& start, const Progress& progress,
+                                    PoissonBoltzmannReport* report) = 0;
 
   /// Compares potentials at corresponding vertices.
   /// @param source, mapped  meshes of one topology: each vertex on the source and on the target

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "compare/map_recipe.h"
 #include "io/text_cursor.h"
 
 namespace espdiff {
