@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/progress.h"
 #include "engine/poisson_boltzmann.h"
 #include "cuda/surface/sample.h"
 

@@ -146,6 +146,7 @@ Json echo(const CompareOptions& o) {
   json["distance_threshold_A"] = o.distance_threshold_A;
   json["gvf"] = {{"weight_A2", o.flow.weight_A2}, {"tolerance", o.flow.tolerance}, {"max_sweeps", o.flow.max_sweeps}};
   json["subdivide"] = o.subdivide;
+  json["offsets_A"] = o.offsets_A;
   json["temperature_K"] = o.temperature_K;
   json["regularize"] = iteration_options(o.regularize, o.regularize_min_displacement * o.surface.grid_spacing_A);
   json["deform"] = iteration_options(o.deform, o.deform_min_displacement * o.surface.grid_spacing_A);
@@ -174,9 +175,19 @@ void add_results(Json& json, const Molecule& source, const CompareResult& result
   const CountedSurface counted = counted_surface(result);
   json["rmsd_A"] = number(result.rmsd_A);
   json["n_paired_atoms"] = result.pairing.pairs.size();
-  json["potential_unit"] = result.has_potential ? Json(to_string(result.unit)) : Json(nullptr);
+  json["potential_unit"] = result.has_potential ? Json(potential_unit_text(result)) : Json(nullptr);
   json["potential"] = potential_json(result);
   add_metrics(json, result.has_potential, result.metrics);
+  json["by_offset"] = Json::array();
+  for (const OffsetMetrics& at : result.by_offset) {
+    Json entry;
+    entry["offset_A"] = number(at.offset_A);
+    entry["area_A2"] = number(at.metrics.area_A2);
+    add_metrics(entry, true, at.metrics);
+    entry["n_vertices_inside"] = {{"source", at.n_inside_source}, {"target", at.n_inside_target}};
+    entry["n_vertices_outside_map"] = {{"source", at.n_outside_source_map}, {"target", at.n_outside_target_map}};
+    json["by_offset"].push_back(std::move(entry));
+  }
   json["area_A2"] = {{"source", number(result.source_surface.area_A2)},
                      {"target", number(result.target_surface.area_A2)},
                      {"mapped", number(result.area_mapped_A2)},

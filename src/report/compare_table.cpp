@@ -102,7 +102,7 @@ void print_kind_of_potential(std::ostream& out, const CompareResult& result) {
 
 void print_metrics(std::ostream& out, const CompareResult& result) {
   const Metrics &valid = result.metrics, &all = result.metrics_all;
-  const std::string unit = to_string(result.unit);
+  const std::string unit = potential_unit_text(result);
   const auto both = [&](double Metrics::*member) {
     return std::vector<std::string>{significant(valid.*member), significant(all.*member)};
   };
@@ -118,6 +118,31 @@ void print_metrics(std::ostream& out, const CompareResult& result) {
   row(out, "mean displacement", "A", both(&Metrics::mean_displacement_A));
   row(out, "mean path length", "A", both(&Metrics::mean_path_length_A));
   row(out, "area", "A^2", {formatted("%.1f", valid.area_A2), formatted("%.1f", all.area_A2)});
+}
+
+/// The metrics by distance from the surfaces, where it is not 0 alone.
+void print_offsets(std::ostream& out, const CompareResult& result) {
+  if (result.by_offset.empty() || (result.by_offset.size() == 1 && result.by_offset.front().offset_A == 0)) return;
+  std::vector<std::string> columns, mean, rms, signed_mean, hodgkin, area, inside, outside;
+  for (const OffsetMetrics& at : result.by_offset) {
+    columns.push_back(formatted("%.3g", at.offset_A) + " A");
+    mean.push_back(significant(at.metrics.mean_abs_difference));
+    rms.push_back(significant(at.metrics.rms_difference));
+    signed_mean.push_back(significant(at.metrics.mean_signed_difference));
+    hodgkin.push_back(significant(at.metrics.hodgkin_index));
+    area.push_back(formatted("%.1f", at.metrics.area_A2));
+    inside.push_back(std::to_string(at.n_inside_source + at.n_inside_target));
+    outside.push_back(std::to_string(at.n_outside_source_map + at.n_outside_target_map));
+  }
+  const std::string unit = potential_unit_text(result);
+  heading(out, "Read outside the surfaces by", columns);
+  row(out, "mean absolute difference", unit, mean);
+  row(out, "RMS difference", unit, rms);
+  row(out, "mean signed difference", unit, signed_mean);
+  row(out, "Hodgkin index", "", hodgkin);
+  row(out, "area", "A^2", area);
+  row(out, "vertices inside", "left out", inside);
+  row(out, "vertices outside the maps", "left out", outside);
 }
 
 void print_surfaces(std::ostream& out, const CompareResult& result) {
@@ -203,6 +228,7 @@ void print_table(std::ostream& out, const Molecule& source, const Molecule& targ
   print_superposition(out, source, result);
   if (result.has_potential) {
     print_metrics(out, result);
+    print_offsets(out, result);
   } else {
     const CountedSurface shape = counted_surface(result);
     heading(out, "Shape", {"valid area"});

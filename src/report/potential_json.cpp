@@ -99,6 +99,11 @@ std::string potential_label(const CompareResult& result) {
   return source == target ? source : source + " and " + target;
 }
 
+std::string potential_unit_text(const CompareResult& result) {
+  const auto &a = result.source_recipe, &b = result.target_recipe;
+  return to_string(result.unit) + ((a && is_vacuum(*a)) || (b && is_vacuum(*b)) ? kInVacuum : "");
+}
+
 Json potential_json(const CompareResult& result) {
   const auto &a = result.source_recipe, &b = result.target_recipe;
   if (!a && !b) return nullptr;

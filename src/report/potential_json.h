@@ -17,6 +17,10 @@ nlohmann::ordered_json recipe_json(const MapRecipe& recipe);
 /// or there are none.
 nlohmann::ordered_json potential_json(const CompareResult& result);
 
+/// The unit of a result's potentials as files, tables and legends name it: "kT/e", of computed ones without a solvent
+/// "kT/e in vacuum".
+std::string potential_unit_text(const CompareResult& result);
+
 /// "Poisson-Boltzmann, 0.15 mol/l"; of two kinds both; empty where both maps were given or there are none.
 std::string potential_label(const CompareResult& result);
 

@@ -6,6 +6,7 @@
 #include "compare/result.h"
 #include "io/atomic_file.h"
 #include "io/write_pdb.h"
+#include "report/potential_json.h"
 
 namespace espdiff {
 namespace {
@@ -56,7 +57,7 @@ std::vector<double> residue_values(const CompareResult& result, const std::strin
 
 std::string residue_unit(const CompareResult& result, const std::string& quantity) {
   if (quantity == "mean_displacement_A") return "A";
-  return quantity == "sign_change_area_fraction" ? "" : to_string(result.unit);
+  return quantity == "sign_change_area_fraction" ? "" : potential_unit_text(result);
 }
 
 void write_residue_pdb(const std::string& path, const Molecule& source, const CompareResult& result,

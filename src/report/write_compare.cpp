@@ -67,7 +67,7 @@ void write_surface_file(std::ostream& out, const Molecule& source, const Compare
     file.point_arrays.emplace_back("potential_difference", derived.difference);
     file.point_arrays.emplace_back("sign_change", derived.sign_change);
     file.active_scalars = "potential_difference";
-    file.texts.emplace_back("potential_unit", to_string(result.unit));
+    file.texts.emplace_back("potential_unit", potential_unit_text(result));
     const std::string label = potential_label(result);
     if (!label.empty()) file.texts.emplace_back("potential", label);
   }
@@ -78,8 +78,8 @@ void write_surface_file(std::ostream& out, const Molecule& source, const Compare
   write_vtp(out, file);
 }
 
-std::vector<std::string> residue_columns(PotentialUnit unit) {
-  const std::string potential = " [" + to_string(unit) + "]";
+std::vector<std::string> residue_columns(const std::string& unit) {
+  const std::string potential = " [" + unit + "]";
   return {"chain",
           "residue_number",
           "insertion_code",
@@ -95,7 +95,7 @@ std::vector<std::string> residue_columns(PotentialUnit unit) {
 }
 
 void write_residue_file(std::ostream& out, const Molecule& source, const CompareResult& result) {
-  write_csv_row(out, residue_columns(result.unit));
+  write_csv_row(out, residue_columns(potential_unit_text(result)));
   // Without potentials their columns have no values.
   const auto potential = [&](double value) { return result.has_potential ? csv_number(value) : std::string(); };
   for (const ResidueRow& row : result.residues) {

@@ -63,6 +63,9 @@ RunRecord read_run_record(const std::string& vtp_path) {
     const Json& options = json.at("options");
     record.temperature_K = options.at("temperature_K");
     record.method = options.at("method");
+    if (options.contains("offsets_A") && !options.at("offsets_A").empty()) record.offset_A = options.at("offsets_A").at(0);
+    if (json.contains("potential") && json.at("potential").is_object())
+      record.potential = json.at("potential").at("label");
     record.trustworthy = json.at("certificate").at("trustworthy");
     json.at("certificate").at("reasons").get_to(record.reasons);
   } catch (const Json::exception& error) {
