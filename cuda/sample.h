@@ -19,8 +19,6 @@ struct MapGrid : DeviceGrid {
   /// 0: the values are the map's at the points, linear between them. Else they are coefficients of centred B-splines of
   /// this order; only of periodic maps.
   int spline_order = 0;
-  /// Of maps that are not periodic: Catmull-Rom splines between the points instead of lines, but in the outermost cells.
-  bool cubic = false;
 };
 
 /// The way into a lattice from the common frame, row-major 3 x 4.
