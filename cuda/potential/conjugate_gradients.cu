@@ -25,20 +25,6 @@ void turn(float beta, const Buffer<float>& z, Buffer<float>& p) {
   for_each_index(p.size(), [=] ESPDIFF_HD(std::size_t i) { to[i] = from[i] + beta * to[i]; });
 }
 
-/// What the rounding of x alone makes of |b - A x|: each point's, by its own coefficient.
-double rounding_residual(const GridOperator& a, const Buffer<float>& x) {
-  constexpr double kHalfUnit = 5.9604645e-8;  // 2^-24
-  const float* const diagonal = raw(a.diagonal);
-  const float* const value = raw(x);
-  return kHalfUnit * std::sqrt(sum_over<double>(x.size(), [=] ESPDIFF_HD(std::size_t i) {
-           const double term = static_cast<double>(diagonal[i]) * static_cast<double>(value[i]);
-           return term * term;
-         }));
-}
-
-/// Rounding of the sum over the neighbours, besides that of x.
-constexpr double kRoundings = 3;
-
 /// Conjugate gradients from the residual in work.r, until the residual that they carry along is small enough, which is
 /// returned.
 double iterate(const GridOperator& a, Multigrid& preconditioner, const SolverOptions& options, SolverReport& report,
@@ -65,6 +51,16 @@ double iterate(const GridOperator& a, Multigrid& preconditioner, const SolverOpt
 }
 
 }  // namespace
+
+double rounding_residual(const GridOperator& a, const Buffer<float>& x) {
+  constexpr double kHalfUnit = 5.9604645e-8;  // 2^-24
+  const float* const diagonal = raw(a.diagonal);
+  const float* const value = raw(x);
+  return kHalfUnit * std::sqrt(sum_over<double>(x.size(), [=] ESPDIFF_HD(std::size_t i) {
+           const double term = static_cast<double>(diagonal[i]) * static_cast<double>(value[i]);
+           return term * term;
+         }));
+}
 
 SolverReport conjugate_gradients(const GridOperator& a, Multigrid& preconditioner, const Buffer<float>& b,
                                  const SolverOptions& options, SolverWork& work, Buffer<float>& x,

@@ -26,6 +26,11 @@ struct SolverWork {
   Buffer<float> r, p, z, scratch;
 };
 
+/// |A| |x| in units of single precision's rounding: what storing x alone makes of |b - A x|.
+double rounding_residual(const GridOperator& a, const Buffer<float>& x);
+/// How many of them a residual may have: rounding of the sum over the neighbours comes on top.
+constexpr double kRoundings = 3;
+
 /// Single precision arrays, sums in double. The residual that the recursion carries drifts from the true one, which is
 /// computed when the former says that it is done; where it is not small enough, the iteration starts again from there
 /// (Qi and Luo, J. Chem. Inf. Model. 59, 409 (2019), found that hybrid robust in single precision where multigrid alone

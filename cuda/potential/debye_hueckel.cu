@@ -10,7 +10,7 @@ namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
 /// Distance of the points on which the sum is evaluated: far from atoms it varies over many Angstrom.
-constexpr double kBorderSpacing_A = 2.0;
+constexpr double kBorderSpacing_A = 2.5;
 
 /// Charges for the sum: strength = scale q exp(kappa a) / (1 + kappa a).
 struct BorderCharges {
@@ -155,7 +155,7 @@ void set_debye_hueckel_border(const std::vector<PbAtom>& atoms, const CubicLatti
   const Buffer<float> on_x = to_device(x), on_y = to_device(y), on_z = to_device(z), on_strength = to_device(strength);
   const BorderCharges charges{raw(on_x),        raw(on_y),       raw(on_z),
                               raw(on_strength), strength.size(), static_cast<float>(law.kappa_1A)};
-  const int stride = std::max(1, static_cast<int>(kBorderSpacing_A / static_cast<double>(lattice.spacing)));
+  const int stride = std::max(1, static_cast<int>(std::lround(kBorderSpacing_A / static_cast<double>(lattice.spacing))));
   for (int axis = 0; axis < 3; ++axis) {
     for (const bool upper : {false, true}) set_face(face_of(lattice, axis, upper, stride), charges, stride, phi);
   }

@@ -1,6 +1,7 @@
 // dielectric_map.cu: the faces' dielectrics by the solute's shape or by Gaussians, and the ions' exclusion.
 #include "cuda/potential/dielectric_map.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace espdiff::ESPDIFF_BACKEND {
@@ -17,18 +18,15 @@ struct SmoothDielectric {
   float of[10];
 };
 
-/// Faces along one axis from the states of all three kinds.
-struct SmoothFaces {
-  static constexpr bool kColoured = false;
-  int colour;
-  const std::uint8_t* own;
-  const std::uint8_t* side;
-  const std::uint8_t* other;
+/// Faces along one axis from the depths of all three kinds' middles.
+struct NinePoint {
+  const float* own;
+  const float* side;
+  const float* other;
   std::size_t along, across, up;  ///< to the next point along the own axis, along the side's, along the other's
   SmoothDielectric dielectric;
-  float* out;
 
-  ESPDIFF_INLINE static int in_solute(std::uint8_t state) { return state != kSolvent ? 1 : 0; }
+  ESPDIFF_INLINE static int in_solute(float depth) { return depth > 0.0F ? 1 : 0; }
   ESPDIFF_INLINE float value(std::size_t p) const {
     const std::size_t q = p + along;
     const int n = in_solute(own[p]) +
@@ -38,18 +36,72 @@ struct SmoothFaces {
   }
 };
 
-void smooth_faces(const GridSize& size, const Buffer<std::uint8_t> (&states)[3], int axis,
-                  const SmoothDielectric& dielectric, Buffer<float>& out) {
+void smooth_faces(const GridSize& size, const Buffer<float> (&depths)[3], int axis, const SmoothDielectric& dielectric,
+                  Buffer<float>& out) {
   const std::size_t steps[3] = {1, size.row(), size.plane()};
   const int side = (axis + 1) % 3, other = (axis + 2) % 3;
-  const SmoothFaces faces{0,           raw(states[axis]), raw(states[side]), raw(states[other]), steps[axis],
-                          steps[side], steps[other],      dielectric,        raw(out)};
+  const NinePoint faces{raw(depths[axis]), raw(depths[side]), raw(depths[other]), steps[axis],
+                        steps[side],       steps[other],      dielectric};
   const std::size_t n = size.points(), reach = steps[0] + steps[1] + steps[2];
   float* const values = raw(out);
   // Faces on the grid's border are far from atoms.
   for_each_index(n, [=] ESPDIFF_HD(std::size_t p) {
     values[p] = p >= reach && p + reach < n ? faces.value(p) : dielectric.of[0];
   });
+}
+
+void fill_by_nine_points(const SoluteShape& shape, const CubicLattice& lattice, const PoissonBoltzmannOptions& options,
+                         GridOperator& on_grid) {
+  Buffer<float> depths[3];
+  for (int axis = 0; axis < 3; ++axis) shape.depths(faces_along(lattice, axis), depths[axis]);
+  SmoothDielectric dielectric{};
+  for (int n = 0; n < 10; ++n)
+    dielectric.of[n] = static_cast<float>(9 / (n / options.solute_dielectric + (9 - n) / options.solvent_dielectric));
+  smooth_faces(on_grid.size, depths, 0, dielectric, on_grid.ex);
+  smooth_faces(on_grid.size, depths, 1, dielectric, on_grid.ey);
+  smooth_faces(on_grid.size, depths, 2, dielectric, on_grid.ez);
+}
+
+/// The dielectric between two points: in series, with the boundary where the depth is zero between them.
+struct EdgeDielectric {
+  float inverse_solute, inverse_solvent;
+
+  ESPDIFF_INLINE float between(float a, float b) const {
+    const float high = larger(a, b), low = smaller(a, b);
+    const float cut = high / larger(high - low, 1e-6F);
+    const float part = low > 0.0F ? 1.0F : high > 0.0F ? cut : 0.0F;
+    return 1.0F / (part * inverse_solute + (1.0F - part) * inverse_solvent);
+  }
+};
+
+ESPDIFF_MULTIVERSION void set_edges(const EdgeDielectric& dielectric, const float* depths, std::size_t step,
+                                    std::size_t first, std::size_t last, float* out) {
+  for (std::size_t p = first; p < last; ++p) out[p] = dielectric.between(depths[p], depths[p + step]);
+}
+
+void fill_by_edges(const SoluteShape& shape, const CubicLattice& lattice, const PoissonBoltzmannOptions& options,
+                   GridOperator& on_grid) {
+  Buffer<float> depths;
+  shape.depths(lattice, depths);
+  const EdgeDielectric dielectric{static_cast<float>(1 / options.solute_dielectric),
+                                  static_cast<float>(1 / options.solvent_dielectric)};
+  Buffer<float>* const faces[3] = {&on_grid.ex, &on_grid.ey, &on_grid.ez};
+  const std::size_t steps[3] = {1, on_grid.size.row(), on_grid.size.plane()}, n = on_grid.size.points();
+  const float* const from = raw(depths);
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::size_t step = steps[axis];
+    float* const out = raw(*faces[axis]);
+#if defined(__CUDACC__)
+    for_each_index(n, [=] ESPDIFF_HD(std::size_t p) { out[p] = dielectric.between(from[p], from[p + step < n ? p + step : p]); });
+#else
+    const std::size_t plane = on_grid.size.plane();
+    for_each_index(static_cast<std::size_t>(on_grid.size.nz), [=](std::size_t k) {
+      const std::size_t first = k * plane, end = first + plane, last = std::min(end, n - step);
+      set_edges(dielectric, from, step, first, last, out);
+      for (std::size_t p = std::max(first, last); p < end; ++p) out[p] = dielectric.between(from[p], from[p]);
+    });
+#endif
+  }
 }
 
 /// Li et al. 2013: 1 - prod_i (1 - exp(-r^2 / (sigma a_i)^2)) of the solute's dielectric and the rest of the solvent's.
@@ -99,14 +151,11 @@ void fill_faces(const std::vector<PbAtom>& atoms, const CubicLattice& lattice, c
                 GridOperator& on_grid) {
   const bool molecular = options.dielectric_boundary == DielectricBoundary::kMolecular;
   const SoluteShape shape(atoms, molecular ? static_cast<float>(options.probe_radius_A) : 0.0F);
-  Buffer<std::uint8_t> states[3];
-  for (int axis = 0; axis < 3; ++axis) shape.states(faces_along(lattice, axis), states[axis]);
-  SmoothDielectric dielectric{};
-  for (int n = 0; n < 10; ++n)
-    dielectric.of[n] = static_cast<float>(9 / (n / options.solute_dielectric + (9 - n) / options.solvent_dielectric));
-  smooth_faces(on_grid.size, states, 0, dielectric, on_grid.ex);
-  smooth_faces(on_grid.size, states, 1, dielectric, on_grid.ey);
-  smooth_faces(on_grid.size, states, 2, dielectric, on_grid.ez);
+  if (options.smoothing == DielectricSmoothing::kNinePoint) {
+    fill_by_nine_points(shape, lattice, options, on_grid);
+  } else {
+    fill_by_edges(shape, lattice, options, on_grid);
+  }
 }
 
 }  // namespace
@@ -125,14 +174,13 @@ void fill_operator(const std::vector<PbAtom>& atoms, const CubicLattice& lattice
   if (stern_k > 0) {
     std::vector<PbAtom> enlarged = atoms;
     for (PbAtom& atom : enlarged) atom.radius += static_cast<float>(options.ion_radius_A);
-    Buffer<std::uint8_t> states;
-    SoluteShape(enlarged, 0.0F).states(lattice, states);
-    const std::uint8_t* const state = raw(states);
-    for_each_index(n, [=] ESPDIFF_HD(std::size_t p) { k[p] = state[p] == kSolvent ? stern_k : 0.0F; });
+    Buffer<float> depths;
+    SoluteShape(enlarged, 0.0F).depths(lattice, depths);
+    const float* const depth = raw(depths);
+    for_each_index(n, [=] ESPDIFF_HD(std::size_t p) { k[p] = depth[p] > 0.0F ? 0.0F : stern_k; });
   } else {
     for_each_index(n, [=] ESPDIFF_HD(std::size_t p) { k[p] = 0.0F; });
   }
-  add_faces_to_diagonal(on_grid);
 }
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -106,7 +106,7 @@ CubicLattice checked_pb_lattice(const Lattice& lattice, const std::vector<Vec3d>
                          " A of its border; use a larger padding");
     }
   }
-  const double limit = std::min(available_bytes() / (options.nonlinear ? kPbBytesPerPoint + 8 : kPbBytesPerPoint), 2.0e9);
+  const double limit = std::min(available_bytes() / pb_bytes_per_point(options), 2.0e9);
   if (n_points > limit)
     throw MemoryError("a grid of " + size + " points is more than memory holds (" + text_of(limit) +
                       " points); a spacing of " + text_of(h * std::cbrt(n_points / limit)) + " A would fit");

@@ -8,8 +8,12 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
-/// Device memory for each grid point: four coefficients, six vectors of the solver, and the coarse grids.
-constexpr double kPbBytesPerPoint = 4 * 4 + 6 * 4 + 4;
+/// Device memory for each grid point: four coefficients, six vectors of the solver, and the coarse grids (28 bytes for
+/// each of their points, of which there are a seventh as many); for the nonlinear equation three vectors more; for
+/// focusing, and for a start, a map more.
+inline double pb_bytes_per_point(const PoissonBoltzmannOptions& options) {
+  return 4 * 4 + 6 * 4 + 4 + (options.nonlinear ? 3 * 4 : 0) + 4;
+}
 
 /// @throws InputError (numbers of values, values that are not finite, no charges, a negative radius, a charge without
 /// radius outside all atoms)

@@ -12,49 +12,52 @@ struct ShapeView {
   ProbeAtomsView atoms;
   AtomCellsView probes;
   float probe;
+  float reach;   ///< of the probe and a step of the lattice: what decides about points next to the surface
+  float margin;  ///< beyond the enlarged spheres where depths are still told
   bool has_probe, has_arcs;
-
-  ESPDIFF_INLINE float atom_radius(std::uint32_t a) const { return atoms.radius[a] - probe; }
 };
 
 ESPDIFF_INLINE float square_of(float dx, float dy, float dz) { return dx * dx + dy * dy + dz * dz; }
 
-/// Whether the probe may stand where p, inside the enlarged sphere of atom a, is projected to.
-ESPDIFF_INLINE bool is_reached_on(const ShapeView& shape, std::uint32_t a, Vec3f p, float square) {
+/// Deeper in the solute than this nothing is looked for.
+constexpr float kDeepest_A = 1000;
+
+/// Whether the probe may stand where p, at distance d of atom a, is projected to on the enlarged sphere.
+ESPDIFF_INLINE bool is_reached_on(const ShapeView& shape, std::uint32_t a, Vec3f p, float d) {
   const Vec3f centre = shape.atoms.centre(a);
-  const float scale = shape.atoms.radius[a] / sqrtf(square);
+  const float scale = shape.atoms.radius[a] / d;
   return !shape.atoms.is_buried(a, centre + scale * (p - centre));
 }
 
-ESPDIFF_INLINE std::uint8_t state_of(const ShapeView& shape, Vec3f p) {
-  std::uint8_t state = kSolvent;
-  visit_atom_runs(shape.atoms.cells, p, shape.atoms.cells.max_reach, [&](std::uint32_t begin, std::uint32_t end) {
+ESPDIFF_INLINE float depth_at(const ShapeView& shape, Vec3f p) {
+  const AtomCellsView& cells = shape.atoms.cells;
+  float inside = -kDeepest_A;
+  visit_atom_runs(cells, p, cells.max_reach + shape.margin, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t a = begin; a < end; ++a) {
-      const float square = square_of(p.x - shape.atoms.cells.x[a], p.y - shape.atoms.cells.y[a], p.z - shape.atoms.cells.z[a]);
-      const float inner = shape.atom_radius(a), outer = shape.atoms.radius[a];
-      if (square < inner * inner) {
-        state = kSolute;
-      } else if (square < outer * outer && state == kSolvent) {
-        state = kWithinProbe;
-      }
+      const float d = sqrtf(square_of(p.x - cells.x[a], p.y - cells.y[a], p.z - cells.z[a]));
+      inside = larger(inside, shape.atoms.radius[a] - d);
     }
   });
-  if (state != kWithinProbe || !shape.has_probe) return state;
-  visit_atom_runs(shape.atoms.cells, p, shape.atoms.cells.max_reach, [&](std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t a = begin; a < end && state == kWithinProbe; ++a) {
+  // Beyond the margin from the spheres the depth is all the same.
+  if (inside <= 0.0F || !shape.has_probe) return inside < -shape.margin ? -kDeepest_A : inside - shape.probe;
+  float depth = kDeepest_A;
+  visit_atom_runs(cells, p, cells.max_reach, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t a = begin; a < end; ++a) {
       if (shape.atoms.exposed[a] == 0) continue;
-      const float square = square_of(p.x - shape.atoms.cells.x[a], p.y - shape.atoms.cells.y[a], p.z - shape.atoms.cells.z[a]);
-      if (square < shape.atoms.radius[a] * shape.atoms.radius[a] && is_reached_on(shape, a, p, square)) state = kSolvent;
+      const float d = sqrtf(square_of(p.x - cells.x[a], p.y - cells.y[a], p.z - cells.z[a]));
+      const float by_atom = shape.atoms.radius[a] - d;
+      if (!(by_atom > 0.0F && by_atom < shape.reach)) continue;
+      if (by_atom - shape.probe < depth && is_reached_on(shape, a, p, d)) depth = by_atom - shape.probe;
     }
   });
-  if (state != kWithinProbe || !shape.has_arcs) return state;
-  visit_atom_runs(shape.probes, p, shape.probe, [&](std::uint32_t begin, std::uint32_t end) {
+  if (!shape.has_arcs) return depth;
+  visit_atom_runs(shape.probes, p, shape.reach, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t c = begin; c < end; ++c) {
-      if (square_of(p.x - shape.probes.x[c], p.y - shape.probes.y[c], p.z - shape.probes.z[c]) < shape.probe * shape.probe)
-        state = kSolvent;
+      const float d = sqrtf(square_of(p.x - shape.probes.x[c], p.y - shape.probes.y[c], p.z - shape.probes.z[c]));
+      if (d < shape.reach) depth = smaller(depth, d - shape.probe);
     }
   });
-  return state;
+  return depth;
 }
 
 #if !defined(ESPDIFF_BACKEND_CUDA)
@@ -84,71 +87,72 @@ struct PlaneFill {
   std::size_t n_atoms;
   const std::uint32_t* first_probe;  ///< [plane + 1] of `probes` that reach it
   const std::uint32_t* probes;
-  std::uint8_t* states;
+  float* depths;
 };
 
-/// Marks what lies in atoms and in their enlarged spheres.
+/// How deep points lie in the enlarged spheres.
 ESPDIFF_INLINE void mark_spheres(const PlaneFill& in, int k) {
   const AtomCellsView& cells = in.shape.atoms.cells;
   const float z = in.lattice.coordinate(2, k);
   for (std::uint32_t a = 0; a < in.n_atoms; ++a) {
-    const float outer = in.shape.atoms.radius[a], inner = in.shape.atom_radius(a);
-    if (fabsf(cells.z[a] - z) >= outer) continue;
-    const float outer2 = outer * outer, inner2 = inner * inner, x = cells.x[a];
-    visit_disc(in.lattice, k, in.shape.atoms.centre(a), outer,
+    const float radius = in.shape.atoms.radius[a], reach = radius + in.shape.margin, x = cells.x[a];
+    if (fabsf(cells.z[a] - z) >= reach) continue;
+    visit_disc(in.lattice, k, in.shape.atoms.centre(a), reach,
                [&](int j, int i0, int i1, float dy, float dz) ESPDIFF_INLINE_LAMBDA {
-                 std::uint8_t* const row = in.states + in.lattice.index(0, j, k);
-                 for (int i = i0; i < i1; ++i) {
-                   const float square = square_of(in.lattice.coordinate(0, i) - x, dy, dz);
-                   const std::uint8_t state = square < inner2 ? kSolute : square < outer2 ? kWithinProbe : kSolvent;
-                   row[i] = row[i] > state ? row[i] : state;
-                 }
+                 float* const row = in.depths + in.lattice.index(0, j, k);
+                 for (int i = i0; i < i1; ++i)
+                   row[i] = larger(row[i], radius - sqrtf(square_of(in.lattice.coordinate(0, i) - x, dy, dz)));
                });
   }
 }
 
-/// Gives back to the solvent what a probe reaches that touches one atom.
+/// What a probe reaches that touches one atom.
 ESPDIFF_INLINE void reach_faces(const PlaneFill& in, int k) {
   const AtomCellsView& cells = in.shape.atoms.cells;
-  const float z = in.lattice.coordinate(2, k);
+  const float z = in.lattice.coordinate(2, k), probe = in.shape.probe;
   for (std::uint32_t a = 0; a < in.n_atoms; ++a) {
-    const float outer = in.shape.atoms.radius[a], outer2 = outer * outer, x = cells.x[a];
-    if (in.shape.atoms.exposed[a] == 0 || fabsf(cells.z[a] - z) >= outer) continue;
-    visit_disc(in.lattice, k, in.shape.atoms.centre(a), outer, [&](int j, int i0, int i1, float dy, float dz) {
-      std::uint8_t* const row = in.states + in.lattice.index(0, j, k);
+    const float radius = in.shape.atoms.radius[a], x = cells.x[a];
+    if (in.shape.atoms.exposed[a] == 0 || fabsf(cells.z[a] - z) >= radius) continue;
+    visit_disc(in.lattice, k, in.shape.atoms.centre(a), radius, [&](int j, int i0, int i1, float dy, float dz) {
+      float* const row = in.depths + in.lattice.index(0, j, k);
       for (int i = i0; i < i1; ++i) {
-        if (row[i] != kWithinProbe) continue;
         const Vec3f p = in.lattice.point(i, j, k);
-        const float square = square_of(p.x - x, dy, dz);
-        if (square < outer2 && is_reached_on(in.shape, a, p, square)) row[i] = kSolvent;
+        const float d = sqrtf(square_of(p.x - x, dy, dz)), by_atom = radius - d;
+        if (!(by_atom > 0.0F && by_atom < in.shape.reach)) continue;
+        if (by_atom - probe < row[i] && is_reached_on(in.shape, a, p, d)) row[i] = by_atom - probe;
       }
     });
   }
 }
 
-/// Gives back what a probe reaches that touches two or more.
+/// What a probe reaches that touches two or more.
 ESPDIFF_INLINE void reach_arcs(const PlaneFill& in, int k) {
-  const float probe2 = in.shape.probe * in.shape.probe;
+  const float probe = in.shape.probe, reach = in.shape.reach;
   for (std::uint32_t n = in.first_probe[k]; n < in.first_probe[k + 1]; ++n) {
     const std::uint32_t c = in.probes[n];
     const Vec3f centre{in.shape.probes.x[c], in.shape.probes.y[c], in.shape.probes.z[c]};
-    visit_disc(in.lattice, k, centre, in.shape.probe,
-               [&](int j, int i0, int i1, float dy, float dz) ESPDIFF_INLINE_LAMBDA {
-                 std::uint8_t* const row = in.states + in.lattice.index(0, j, k);
-                 for (int i = i0; i < i1; ++i) {
-                   const bool reached = square_of(in.lattice.coordinate(0, i) - centre.x, dy, dz) < probe2;
-                   row[i] = reached && row[i] == kWithinProbe ? kSolvent : row[i];
-                 }
-               });
+    visit_disc(in.lattice, k, centre, reach, [&](int j, int i0, int i1, float dy, float dz) ESPDIFF_INLINE_LAMBDA {
+      float* const row = in.depths + in.lattice.index(0, j, k);
+      for (int i = i0; i < i1; ++i) {
+        const float d = sqrtf(square_of(in.lattice.coordinate(0, i) - centre.x, dy, dz));
+        row[i] = d < reach && row[i] > -probe ? smaller(row[i], d - probe) : row[i];
+      }
+    });
   }
 }
 
 ESPDIFF_MULTIVERSION void fill_plane(const PlaneFill& in, int k) {
   const std::size_t plane = in.lattice.index(0, 0, 1);
-  std::uint8_t* const states = in.states + plane * static_cast<std::size_t>(k);
-  for (std::size_t i = 0; i < plane; ++i) states[i] = kSolvent;
+  float* const depths = in.depths + plane * static_cast<std::size_t>(k);
+  for (std::size_t i = 0; i < plane; ++i) depths[i] = -kDeepest_A;
   mark_spheres(in, k);
-  if (!in.shape.has_probe) return;
+  const bool has_probe = in.shape.has_probe;
+  const float margin = -in.shape.margin, probe = in.shape.probe;
+  for (std::size_t i = 0; i < plane; ++i) {
+    const float outside = depths[i] < margin ? -kDeepest_A : depths[i] - probe;
+    depths[i] = depths[i] > 0.0F && has_probe ? kDeepest_A : outside;
+  }
+  if (!has_probe) return;
   reach_faces(in, k);
   reach_arcs(in, k);
 }
@@ -168,41 +172,46 @@ SoluteShape::SoluteShape(const std::vector<PbAtom>& atoms, float probe_radius) :
                             std::vector<std::int32_t>(positions.size(), 0));
 }
 
-void SoluteShape::states(const CubicLattice& lattice, Buffer<std::uint8_t>& states) const {
+void SoluteShape::depths(const CubicLattice& lattice, Buffer<float>& depths) const {
 #if defined(ESPDIFF_BACKEND_CUDA)
-  states_by_points(lattice, states);
+  depths_by_points(lattice, depths);
 #else
-  states_by_planes(lattice, states);
+  depths_by_planes(lattice, depths);
 #endif
 }
 
-void SoluteShape::states_by_points(const CubicLattice& lattice, Buffer<std::uint8_t>& states) const {
-  const ShapeView shape{view_of(atoms_), probes_ ? probes_->view() : AtomCellsView{}, probe_, probe_ > 0, probes_ != nullptr};
-  states.resize(lattice.n_points());
-  std::uint8_t* const out = raw(states);
+namespace {
+
+ShapeView view_of(const ProbeAtoms& atoms, const std::shared_ptr<AtomCells>& probes, float probe, float spacing) {
+  return {view_of(atoms),   probes ? probes->view() : AtomCellsView{}, probe,
+          probe + spacing, probe < spacing ? spacing - probe : 0.0F, probe > 0, probes != nullptr};
+}
+
+}  // namespace
+
+void SoluteShape::depths_by_points(const CubicLattice& lattice, Buffer<float>& depths) const {
+  const ShapeView shape = view_of(atoms_, probes_, probe_, lattice.spacing);
+  depths.resize(lattice.n_points());
+  float* const out = raw(depths);
   const std::size_t nx = static_cast<std::size_t>(lattice.size[0]), ny = static_cast<std::size_t>(lattice.size[1]);
-  for_each_index(states.size(), [=] ESPDIFF_HD(std::size_t p) {
-    out[p] = state_of(shape, lattice.point(static_cast<int>(p % nx), static_cast<int>(p / nx % ny),
+  for_each_index(depths.size(), [=] ESPDIFF_HD(std::size_t p) {
+    out[p] = depth_at(shape, lattice.point(static_cast<int>(p % nx), static_cast<int>(p / nx % ny),
                                            static_cast<int>(p / (nx * ny))));
   });
 }
 
 #if !defined(ESPDIFF_BACKEND_CUDA)
-void SoluteShape::states_by_planes(const CubicLattice& lattice, Buffer<std::uint8_t>& states) const {
-  states.resize(lattice.n_points());
-  PlaneFill fill{{view_of(atoms_), probes_ ? probes_->view() : AtomCellsView{}, probe_, probe_ > 0, probes_ != nullptr},
-                 lattice,
-                 atoms_.radius.size(),
-                 nullptr,
-                 nullptr,
-                 raw(states)};
+void SoluteShape::depths_by_planes(const CubicLattice& lattice, Buffer<float>& depths) const {
+  depths.resize(lattice.n_points());
+  PlaneFill fill{view_of(atoms_, probes_, probe_, lattice.spacing), lattice, atoms_.radius.size(), nullptr, nullptr,
+                 raw(depths)};
   // Probes by the planes that they reach.
   std::vector<std::uint32_t> first(static_cast<std::size_t>(lattice.size[2]) + 1, 0), probes;
   const std::size_t n_probes = probes_ ? probes_->x.size() : 0;
   const auto planes_of = [&](std::size_t c) {
     const float z = raw(probes_->z)[c] - lattice.origin.z;
-    const int low = static_cast<int>(std::ceil((z - probe_) / lattice.spacing)),
-              high = static_cast<int>(std::floor((z + probe_) / lattice.spacing));
+    const int low = static_cast<int>(std::ceil((z - fill.shape.reach) / lattice.spacing)),
+              high = static_cast<int>(std::floor((z + fill.shape.reach) / lattice.spacing));
     return std::array<int, 2>{std::max(0, low), std::min(lattice.size[2] - 1, high)};
   };
   for (std::size_t c = 0; c < n_probes; ++c) {

@@ -46,7 +46,7 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 struct MapView {
   const float* values;
   long size[3];
-  bool periodic, cubic;
+  bool periodic;
   int spline_order;
   double zero;
   ChargeSumsView sums;
@@ -59,7 +59,7 @@ struct MapView {
 };
 
 MapView view_of(const MapGrid& map) {
-  MapView view{raw(map.values), {}, map.periodic, map.cubic, map.spline_order, map.zero, {}, {}};
+  MapView view{raw(map.values), {}, map.periodic, map.spline_order, map.zero, {}, {}};
   if (map.charge_sums != nullptr) view.sums = map.charge_sums->view();
   for (std::size_t axis = 0; axis < 3; ++axis) view.size[axis] = map.lattice.size[axis];
   for (int i = 0; i < 12; ++i) view.to_index[i] = map.to_index[i];
@@ -141,26 +141,6 @@ ESPDIFF_INLINE float sample_spline(const MapView& map, const double (&c)[3]) {
   return static_cast<float>(sum);
 }
 
-/// By Catmull-Rom splines; by lines in the outermost cells.
-ESPDIFF_INLINE float sample_cubic(const MapView& map, const double (&c)[3]) {
-  long base[3];
-  float weight[3][4];
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!(c[axis] >= 1 && c[axis] < static_cast<double>(map.size[axis] - 2))) return sample_linear(map, c);
-    base[axis] = static_cast<long>(c[axis]) - 1;
-    catmull_rom(static_cast<float>(c[axis] - static_cast<double>(base[axis] + 1)), weight[axis]);
-  }
-  double sum = 0;
-  for (int k = 0; k < 4; ++k) {
-    for (int j = 0; j < 4; ++j) {
-      const float* const row = map.values + base[0] + map.size[0] * (base[1] + j + map.size[1] * (base[2] + k));
-      const float along = weight[0][0] * row[0] + weight[0][1] * row[1] + weight[0][2] * row[2] + weight[0][3] * row[3];
-      sum += static_cast<double>(weight[2][k] * weight[1][j]) * static_cast<double>(along);
-    }
-  }
-  return static_cast<float>(sum);
-}
-
 ESPDIFF_INLINE float sample_at(const MapView& map, const double (&c)[3]) {
   switch (map.spline_order) {
     case 4: return sample_spline<4>(map, c);
@@ -168,7 +148,7 @@ ESPDIFF_INLINE float sample_at(const MapView& map, const double (&c)[3]) {
     case 6: return sample_spline<6>(map, c);
     case 7: return sample_spline<7>(map, c);
     case 8: return sample_spline<8>(map, c);
-    default: return map.cubic ? sample_cubic(map, c) : sample_linear(map, c);
+    default: return sample_linear(map, c);
   }
 }
 

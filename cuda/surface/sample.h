@@ -24,8 +24,6 @@ struct MapGrid : DeviceGrid {
   /// periodic; else isolated charges, whose map has no points (size 0) and is nothing but their sum.
   std::shared_ptr<const ChargeSums> charge_sums;
   double zero = 0;  ///< subtracted from every sample, in the map's unit
-  /// Of maps that are not periodic: Catmull-Rom splines between the points instead of lines, but in the outermost cells.
-  bool cubic = false;
 };
 
 /// The transform from the common frame to lattice indices, row-major 3 x 4.

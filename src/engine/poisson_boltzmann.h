@@ -11,9 +11,15 @@ namespace espdiff {
 
 /// Where the solute's dielectric ends and the solvent's begins.
 enum class DielectricBoundary {
-  kMolecular,    ///< the solvent-excluded surface of the probe; smoothed over a cell, as APBS' `smol`
-  kVanDerWaals,  ///< the atoms' spheres; smoothed the same way
+  kMolecular,    ///< the solvent-excluded surface of the probe
+  kVanDerWaals,  ///< the atoms' spheres
   kGaussian      ///< none: a smooth dielectric (Li et al., J. Chem. Theory Comput. 9, 2126 (2013))
+};
+
+/// How a sharp boundary is laid on a grid.
+enum class DielectricSmoothing {
+  kEdges,     ///< harmonic mean along the way between two grid points, by where the boundary cuts it
+  kNinePoint  ///< harmonic mean of nine samples around its middle, as APBS' `smol`; errs three times as much
 };
 
 /// What holds on the grid's border.
@@ -32,6 +38,7 @@ struct PoissonBoltzmannOptions {
   double gaussian_sigma = 0.93;    ///< of DielectricBoundary::kGaussian: an atom's Gaussian over its radius
   double temperature_K = 300;
   DielectricBoundary dielectric_boundary = DielectricBoundary::kMolecular;
+  DielectricSmoothing smoothing = DielectricSmoothing::kEdges;
   FarBoundary far_boundary = FarBoundary::kDebyeHueckel;
   bool nonlinear = false;       ///< sinh(phi) instead of phi for the ions
   double tolerance = 1e-6;      ///< of the residual's norm, relative to the right-hand side's
@@ -42,9 +49,10 @@ struct PoissonBoltzmannOptions {
 /// How a potential was come by.
 struct PoissonBoltzmannReport {
   double relative_residual = 0;  ///< |b - A phi| / |b|, computed anew at the end
+  double rounding_residual = 0;  ///< what single precision leaves of it; 0 where that was not what ended the iteration
   int cycles = 0;                ///< of conjugate gradients, all steps together
   int newton_steps = 0;          ///< 0 for the linearized equation
-  int levels = 0;                ///< of the multigrid
+  int levels = 0;                ///< of the multigrid; 0 for the nonlinear equation, which makes it anew each step
   double bytes_per_point = 0;    ///< of device memory, at the peak
   double net_charge = 0;         ///< elementary charges
   std::size_t n_charges = 0;     ///< that are not zero

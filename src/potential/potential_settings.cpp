@@ -122,6 +122,15 @@ void add_pb_settings(std::vector<PotentialSetting>& all) {
   all.push_back(number(
       "probe_radius", "probe-radius", kPb, true, [](auto& o) -> auto& { return o.pb.probe_radius_A; },
       "Radius of the probe of the molecular boundary, Angstrom"));
+  all.push_back(choice<DielectricSmoothing>(
+      "smoothing", "dielectric-smoothing", kPb,
+      {{"edges", DielectricSmoothing::kEdges}, {"nine-point", DielectricSmoothing::kNinePoint}},
+      [](auto& o) -> auto& { return o.pb.smoothing; },
+      "How the boundary is laid on the grid: by where it cuts the edges, or as APBS' smol by nine samples, which errs "
+      "three times as much"));
+  all.push_back(number(
+      "gaussian_sigma", "gaussian-sigma", kPb, false, [](auto& o) -> auto& { return o.pb.gaussian_sigma; },
+      "Width of an atom's Gaussian over its radius, for the gaussian boundary"));
   all.push_back(choice<FarBoundary>(
       "far_boundary", "far-boundary", kPb,
       {{"debye-hueckel", FarBoundary::kDebyeHueckel}, {"focus", FarBoundary::kFocus}},

@@ -49,6 +49,7 @@ void add_pb(Json& json, const MapRecipe& r) {
   json["ionic_strength_M"] = number(o.ionic_strength_M);
   json["ion_radius_A"] = number(o.ion_radius_A);
   json["dielectric_boundary"] = name_of(o.dielectric_boundary);
+  json["dielectric_smoothing"] = o.smoothing == DielectricSmoothing::kEdges ? "edges" : "nine-point";
   json["probe_radius_A"] = number(o.probe_radius_A);
   json["gaussian_sigma"] = number(o.gaussian_sigma);
   json["far_boundary"] = o.far_boundary == FarBoundary::kFocus ? "focus" : "debye-hueckel";
