@@ -1,10 +1,8 @@
-// map_options.cpp: options of maps, and what they ask for.
+// map_options.cpp: options of maps, given or computed.
 #include "cli/map_options.h"
 
 #include <utility>
 
-#include "io/read_structure.h"
-#include "io/sha256.h"
 
 namespace espdiff::cli {
 namespace {
@@ -37,11 +35,11 @@ void add_map_options(CLI::App& p, MapArguments& a) {
       ->group(kGroup);
   p.add_option("--target-map", a.target_map, "Potential around the target")->group(kGroup);
   p.add_option("--source-map-unit", a.source_map_unit,
-               "Unit of the source map if the file does not say: kT/e, mV, V, kcal/mol/e, hartree/e")
+               "Unit of the source map if the file does not give it: kT/e, mV, V, kcal/mol/e, hartree/e")
       ->group(kGroup);
-  p.add_option("--target-map-unit", a.target_map_unit, "Unit of the target map if the file does not say")
+  p.add_option("--target-map-unit", a.target_map_unit, "Unit of the target map if the file does not give it")
       ->group(kGroup);
-  p.add_option("--map-array", a.map_array, "Array to take from VTI maps that hold several")->group(kGroup);
+  p.add_option("--map-array", a.map_array, "Array of VTI maps with several")->group(kGroup);
   add_computed_map_options(p, a);
 }
 
@@ -58,13 +56,13 @@ std::optional<Grid> given_map(const MapArguments& a, const std::string& role, st
   const bool is_source = role == "source";
   const std::string& path = is_source ? a.source_map : a.target_map;
   if (path.empty()) return std::nullopt;
-  Grid map = read_map(path, a.map_array, is_source ? a.source_map_unit : a.target_map_unit);
-  inputs.push_back({role + "_map", path, sha256_of_file(path)});
-  return map;
+  GridFile map = read_map(path, a.map_array, is_source ? a.source_map_unit : a.target_map_unit);
+  inputs.push_back({role + "_map", path, map.sha256});
+  return std::move(map.grid);
 }
 
-ChargedFile read_charged(const std::string& path, int model) {
-  return {read_structure(path, {model, true, true}), read_unit_cells(path).at(static_cast<std::size_t>(model - 1))};
+ChargedFile read_charged(const StructureFile& file, int model) {
+  return {file.read({model, true, true}), file.unit_cells().at(static_cast<std::size_t>(model - 1))};
 }
 
 PotentialPlan::PotentialPlan(const ComputedMapArguments& a, const std::vector<PotentialFacts>& facts,
@@ -74,7 +72,7 @@ PotentialPlan::PotentialPlan(const ComputedMapArguments& a, const std::vector<Po
   own_cell_ = choice.method == PotentialMethod::kPme && choice.own_cell;
   if (!choice.method) {
     if (!a.given.empty())
-      throw InputError("--" + a.given.front().first + " is of computed potentials, and none is computed" +
+      throw InputError(option(a.given.front().first) + " is of computed potentials, and none is computed" +
                        (because_.empty() ? "" : ": " + because_));
     return;
   }

@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "cli/options.h"
-#include "io/read_unit_cells.h"
+#include "io/read_structure.h"
 #include "potential/choose_potential.h"
 #include "potential/computed_map.h"
 #include "report/write_compare.h"
 
 namespace espdiff::cli {
 
-/// Potentials that are computed instead of read.
+/// Options of potentials computed instead of read.
 struct ComputedMapArguments {
   std::string potential = "auto", cell = "auto";
   GivenPotentialSettings given;
@@ -37,8 +37,8 @@ struct ChargedFile {
   Molecule everything;
   std::optional<UnitCell> cell;
 };
-/// @throws as read_structure(), read_unit_cells()
-ChargedFile read_charged(const std::string& path, int model);
+/// @throws as StructureFile::read(), unit_cells()
+ChargedFile read_charged(const StructureFile& file, int model);
 
 /// How the potentials of all sides are computed; nothing where none are.
 class PotentialPlan {

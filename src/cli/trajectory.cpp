@@ -10,7 +10,6 @@
 
 #include "cli/map_options.h"
 #include "cli/verbs.h"
-#include "io/sha256.h"
 #include "trajectory/frame_files.h"
 #include "trajectory/frame_range.h"
 
@@ -103,11 +102,11 @@ class Sides {
   Sides(const Arguments& a, double temperature_K) : a_(a), frames_(a.targets) {
     const StructureFile file(a.source);
     source_ = file.read(with_model(a.structure));
-    inputs_ = {{"source", a.source, sha256_of_file(a.source)}};
+    inputs_ = {{"source", a.source, file.sha256()}};
     source_map_ = given_map(a.maps, "source", inputs_);
     target_map_ = given_map(a.maps, "target", inputs_);
     if (has_given_maps(a.maps) || a.maps.potential == "none") return;
-    charges_ = read_charged(a.source, a.source_model);
+    charges_ = read_charged(file, a.source_model);
     plan_ = PotentialPlan(a.maps, {potential_facts(charges_.everything, charges_.cell)}, temperature_K);
     if (!plan_.computes()) return;
     computed_ = plan_.map_of(source_, charges_);

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "io/molecule_builder.h"
+#include "base/water.h"
 
 namespace espdiff {
 

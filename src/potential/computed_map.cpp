@@ -7,8 +7,8 @@
 
 #include "align/superpose.h"
 #include "base/error.h"
+#include "base/water.h"
 #include "engine/engine.h"
-#include "io/molecule_builder.h"
 #include "io/sha256.h"
 
 namespace espdiff {

@@ -8,9 +8,9 @@
 #include "align/superpose.h"
 #include "align/unwrap.h"
 #include "base/error.h"
+#include "base/water.h"
 #include "compare/map_recipe.h"
 #include "engine/engine.h"
-#include "io/molecule_builder.h"
 
 namespace espdiff {
 namespace {

@@ -17,7 +17,7 @@ const Methods kPb{PotentialMethod::kPoissonBoltzmann}, kPme{PotentialMethod::kPm
     kCoulomb{PotentialMethod::kCoulomb};
 
 [[noreturn]] void refuse(const std::string& name, const std::string& text, const std::string& accepted) {
-  throw InputError(name + ": '" + text + "' is not " + accepted);
+  throw InputError(option(name) + ": '" + text + "' is not " + accepted);
 }
 
 std::string written(double value) {
@@ -29,13 +29,13 @@ std::string written(double value) {
 
 /// A setting that is a number above 0, or with `zero` also 0; `at` finds it in the options.
 template <typename At>
-PotentialSetting number(const std::string& key, const std::string& option, const Methods& of, bool zero, At at,
+PotentialSetting number(const std::string& key, const std::string& name, const Methods& of, bool zero, At at,
                         const std::string& help) {
-  PotentialSetting s{key, option, of, SettingKind::kNumber, {}, help, nullptr, nullptr};
-  s.set = [option, zero, at](PotentialOptions& o, const std::string& text) {
+  PotentialSetting s{key, name, of, SettingKind::kNumber, {}, help, nullptr, nullptr};
+  s.set = [name, zero, at](PotentialOptions& o, const std::string& text) {
     double value = 0;
     if (!parse_number(text, value) || !std::isfinite(value) || (zero ? value < 0 : value <= 0))
-      refuse(option, text, zero ? "a number of 0 or more" : "a positive number");
+      refuse(name, text, zero ? "a number of 0 or more" : "a positive number");
     at(o) = value;
   };
   s.get = [at](const PotentialOptions& o) { return written(at(o)); };
@@ -43,11 +43,11 @@ PotentialSetting number(const std::string& key, const std::string& option, const
 }
 
 template <typename At>
-PotentialSetting boolean(const std::string& key, const std::string& option, const Methods& of, At at,
+PotentialSetting boolean(const std::string& key, const std::string& name, const Methods& of, At at,
                          const std::string& help) {
-  PotentialSetting s{key, option, of, SettingKind::kBoolean, {}, help, nullptr, nullptr};
-  s.set = [option, at](PotentialOptions& o, const std::string& text) {
-    if (text != "0" && text != "1") refuse(option, text, "0 or 1");
+  PotentialSetting s{key, name, of, SettingKind::kBoolean, {}, help, nullptr, nullptr};
+  s.set = [name, at](PotentialOptions& o, const std::string& text) {
+    if (text != "0" && text != "1") refuse(name, text, "0 or 1");
     at(o) = text == "1";
   };
   s.get = [at](const PotentialOptions& o) { return at(o) ? "1" : "0"; };
@@ -56,9 +56,9 @@ PotentialSetting boolean(const std::string& key, const std::string& option, cons
 
 /// A setting with named values, in the order of the choices.
 template <typename Value, typename At>
-PotentialSetting choice(const std::string& key, const std::string& option, const Methods& of,
+PotentialSetting choice(const std::string& key, const std::string& name, const Methods& of,
                         const std::vector<std::pair<std::string, Value>>& values, At at, const std::string& help) {
-  PotentialSetting s{key, option, of, SettingKind::kChoice, {}, help, nullptr, nullptr};
+  PotentialSetting s{key, name, of, SettingKind::kChoice, {}, help, nullptr, nullptr};
   std::string list;
   for (std::size_t i = 0; i < values.size(); ++i) {
     s.choices.push_back(values[i].first);
@@ -70,7 +70,7 @@ PotentialSetting choice(const std::string& key, const std::string& option, const
       at(o) = value;
       return;
     }
-    refuse(option, text, list);
+    refuse(name, text, list);
   };
   s.get = [=](const PotentialOptions& o) {
     for (const auto& [word, value] : values) {
@@ -82,13 +82,13 @@ PotentialSetting choice(const std::string& key, const std::string& option, const
 }
 
 template <typename At>
-PotentialSetting count(const std::string& key, const std::string& option, const Methods& of, At at,
+PotentialSetting count(const std::string& key, const std::string& name, const Methods& of, At at,
                        const std::string& help) {
-  PotentialSetting s{key, option, of, SettingKind::kInteger, {}, help, nullptr, nullptr};
-  s.set = [option, at](PotentialOptions& o, const std::string& text) {
+  PotentialSetting s{key, name, of, SettingKind::kInteger, {}, help, nullptr, nullptr};
+  s.set = [name, at](PotentialOptions& o, const std::string& text) {
     long long value = 0;
     constexpr long long kMost = 1000000;
-    if (!parse_integer(text, value) || value < 1 || value > kMost) refuse(option, text, "a whole number of 1 or more");
+    if (!parse_integer(text, value) || value < 1 || value > kMost) refuse(name, text, "a whole number of 1 or more");
     at(o) = static_cast<int>(value);
   };
   s.get = [at](const PotentialOptions& o) { return std::to_string(at(o)); };
@@ -237,7 +237,7 @@ PotentialOptions make_potential_options(PotentialMethod method, const GivenPoten
     const bool is_lattice = setting.key == "grid" || setting.key == "pad";
     const bool read_here = on_lattice && is_lattice && method == PotentialMethod::kCoulomb;
     if (!reads(setting, method) && !read_here)
-      throw InputError(name + " is an option of the potential " + to_string(setting.of.front()) +
+      throw InputError(option(setting.option) + " is an option of the potential " + to_string(setting.of.front()) +
                        ", and the potential is " + to_string(method) + "; leave it out, or take the potential " +
                        to_string(setting.of.front()));
     setting.set(o, text);

@@ -12,6 +12,7 @@
 #include "io/atomic_file.h"
 #include "io/sha256.h"
 #include "io/write_csv.h"
+#include "report/metrics.h"
 #include "report/write_compare.h"
 
 namespace espdiff {
@@ -19,37 +20,34 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A column, and where its value stands in OUT.json.
+/// A column, and where its value stands in OUT.json; "" where it is in none.
 struct Column {
-  const char* name;
-  const char* pointer;
+  std::string name, pointer;
 };
 
-constexpr Column kColumns[] = {
-    {"frame", ""},
-    {"reference_frame", ""},
-    {"rmsd_A", "/rmsd_A"},
-    {"potential_unit", "/potential_unit"},
-    {"mean_abs_difference", "/mean_abs_difference"},
-    {"rms_difference", "/rms_difference"},
-    {"mean_signed_difference", "/mean_signed_difference"},
-    {"sign_change_area_fraction", "/sign_change_area_fraction"},
-    {"hodgkin_index", "/hodgkin_index"},
-    {"mean_displacement_A", "/mean_displacement_A"},
-    {"area_mapped_A2", "/area_A2/mapped"},
-    {"corrupt_area_fraction", "/certificate/corrupt_area_fraction"},
-    {"flipped_area_fraction", "/certificate/flipped_area_fraction"},
-    {"no_counterpart_source", "/certificate/no_counterpart_area_fraction/source"},
-    {"no_counterpart_target", "/certificate/no_counterpart_area_fraction/target"},
-    {"target_to_mapped_max_A", "/certificate/target_to_mapped_A/max"},
-    {"converged", "/certificate/converged"},
-    {"trustworthy", "/certificate/trustworthy"},
-    {"start", "/start"},
-    {"iterations", "/iterations"},
-    {"time_ms", "/time_ms/total"},
-    {"reasons", "/certificate/reasons"},
-    {"error", ""},
-};
+/// The metrics of a series stand between what names the row and how it came about, those of the mapping after them;
+/// the potential's unit before the first metric of potentials.
+std::vector<Column> make_columns() {
+  std::vector<Column> all = {{"frame", ""}, {"reference_frame", ""}}, of_mapping;
+  bool has_unit = false;
+  for (const Metric& metric : metrics()) {
+    if ((metric.flags & kInSeries) == 0) continue;
+    const bool is_of_potential = metric.section == MetricSection::kPotential;
+    if (is_of_potential && !has_unit) all.push_back({"potential_unit", "/potential_unit"});
+    has_unit = has_unit || is_of_potential;
+    (metric.section == MetricSection::kMapping ? of_mapping : all).push_back({metric.name, metric.json_pointer()});
+  }
+  const auto add = [&all](const std::vector<Column>& more) { all.insert(all.end(), more.begin(), more.end()); };
+  add({{"converged", "/certificate/converged"}, {"trustworthy", "/certificate/trustworthy"}, {"start", "/start"}});
+  add(of_mapping);
+  add({{"time_ms", "/time_ms/total"}, {"reasons", "/certificate/reasons"}, {"error", ""}});
+  return all;
+}
+
+const std::vector<Column>& columns() {
+  static const std::vector<Column> all = make_columns();
+  return all;
+}
 
 /// A row is a line: what is not complete can be told by its end.
 std::string one_line(std::string text) {
@@ -111,7 +109,7 @@ bool has_content(const std::string& path) {
 const std::vector<std::string>& series_columns() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
-    for (const Column& column : kColumns) all.emplace_back(column.name);
+    for (const Column& column : columns()) all.push_back(column.name);
     return all;
   }();
   return names;
@@ -119,9 +117,9 @@ const std::vector<std::string>& series_columns() {
 
 SeriesRow::SeriesRow(int frame, const std::string& reference, const Molecule& source, const Molecule& target,
                      const CompareResult& result, const CompareOptions& options) {
-  const Json json = Json::parse(compare_json(source, target, result, options, {}));
-  for (const Column& column : kColumns)
-    cells_.push_back(*column.pointer != '\0' ? cell_of(json.at(Json::json_pointer(column.pointer))) : std::string());
+  const Json json = compare_json(source, target, result, options, {});
+  for (const Column& column : columns())
+    cells_.push_back(column.pointer.empty() ? std::string() : cell_of(json.at(Json::json_pointer(column.pointer))));
   at("frame") = std::to_string(frame);
   at("reference_frame") = one_line(reference);
 }
@@ -145,15 +143,16 @@ SeriesCsv::SeriesCsv(std::string path, SeriesHead head, ExistingFile existing)
     return;
   }
   if (existing == ExistingFile::kRefuse)
-    throw IoError(path_, "the file exists; --resume goes on with it, --overwrite replaces it");
+    throw IoError(path_, "the file exists; " + switched_on("resume") + " goes on with it, " + switched_on("overwrite") +
+                             " replaces it");
   read_rows();
 }
 
 void SeriesCsv::check_head(const std::string& name, const std::string& text) const {
   const auto found = std::find_if(head_.begin(), head_.end(), [&](const auto& entry) { return entry.first == name; });
   if (found == head_.end() || found->second == text) return;
-  throw InputError(path_ + ": was made with " + name + " '" + text + "', not with '" + found->second +
-                   "'; --overwrite begins anew");
+  throw InputError(path_ + ": was made with " + name + " '" + text + "', not with '" + found->second + "'; " +
+                   switched_on("overwrite") + " begins anew");
 }
 
 void SeriesCsv::read_rows() {
@@ -200,7 +199,9 @@ void SeriesCsv::append(const std::string& text) const {
   std::ofstream out(path_, std::ios::binary | std::ios::app);
   out << text;
   out.close();
-  if (!out) throw IoError(path_, "cannot be written; is the disk full? --resume goes on after the last complete row");
+  if (!out)
+    throw IoError(path_, "cannot be written; is the disk full? " + switched_on("resume") +
+                             " goes on after the last complete row");
 }
 
 void SeriesCsv::add(const SeriesRow& row) {

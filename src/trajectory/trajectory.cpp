@@ -29,7 +29,7 @@ class Run {
 
   TrajectorySummary go(const std::function<void(const std::string&)>& warn) {
     if (run_.options.offsets_A.size() > 1)
-      throw InputError("offset: a list of distances was given, and a trajectory has one row for a frame; give one");
+      throw InputError(option("offset") + ": a list of distances was given, and a trajectory has one row for a frame; give one");
     summary_.n_frames = run_.frames.size();
     summary_.n_resumed = file_.rows().size();
     check_earlier_rows();
@@ -54,8 +54,8 @@ class Run {
       const bool is_beyond = i >= run_.frames.size();
       if (!is_beyond && rows[i]["frame"] == std::to_string(run_.frames[i])) continue;
       throw InputError(file_.path() + ": row " + std::to_string(i + 1) + " is of frame " + rows[i]["frame"] + ", " +
-                       (is_beyond ? std::string("beyond the run") : "not of " + std::to_string(run_.frames[i])) +
-                       "; --overwrite begins anew");
+                       (is_beyond ? std::string("beyond the run") : "not of " + std::to_string(run_.frames[i])) + "; " +
+                       switched_on("overwrite") + " begins anew");
     }
   }
 
@@ -89,8 +89,8 @@ class Run {
       end_step(compare_frame(frame));
     } catch (const Cancelled&) {
       throw Error(ErrorClass::kCancelled, "cancelled after " + std::to_string(file_.rows().size()) + " of " +
-                                              std::to_string(run_.frames.size()) + " rows; --resume goes on with " +
-                                              file_.path());
+                                              std::to_string(run_.frames.size()) + " rows; " + switched_on("resume") +
+                                              " goes on with " + file_.path());
     }
   }
 
@@ -115,7 +115,8 @@ class Run {
     } catch (const Cancelled&) {
       throw;
     } catch (const Error& error) {
-      if (!run_.skip_errors) throw Error(error.error_class(), "frame " + std::to_string(frame) + ": " + error.what());
+      if (!run_.skip_errors)
+        throw Error(error.error_class(), "frame " + std::to_string(frame) + ": " + error.message());
       ++summary_.n_skipped;
       return {frame, run_.reference, error.what()};
     }
@@ -135,7 +136,8 @@ class Run {
     for (const char* column : {"rmsd_A", "mean_displacement_A", "mean_abs_difference"}) {
       if (same_cell(earlier[column], row[column])) continue;
       throw InputError("frame " + row["frame"] + " now has " + column + " '" + row[column] + "' instead of '" +
-                       earlier[column] + "' in " + file_.path() + ": its input has changed; --overwrite begins anew");
+                       earlier[column] + "' in " + file_.path() + ": its input has changed; " +
+                       switched_on("overwrite") + " begins anew");
     }
   }
 

@@ -63,7 +63,8 @@ RunRecord read_run_record(const std::string& vtp_path) {
     const Json& options = json.at("options");
     record.temperature_K = options.at("temperature_K");
     record.method = options.at("method");
-    if (options.contains("offsets_A") && !options.at("offsets_A").empty()) record.offset_A = options.at("offsets_A").at(0);
+    if (json.contains("by_offset") && !json.at("by_offset").empty())
+      record.offset_A = json.at("by_offset").at(0).at("offset_A");
     if (json.contains("potential") && json.at("potential").is_object())
       record.potential = json.at("potential").at("label");
     record.trustworthy = json.at("certificate").at("trustworthy");

@@ -73,8 +73,7 @@ struct Runner {
       if (stage.rfind(std::to_string(last) + ":", 0) == 0) asked->request_cancel();
     });
     asked = &progress;
-    const std::string expected =
-        "cancelled after " + std::to_string(last) + " of 5 rows; --resume goes on with " + path;
+    const std::string expected = "cancelled after " + std::to_string(last) + " of 5 rows; resume goes on with " + path;
     CHECK(message_of([&] { (*this)(run, path, ExistingFile::kRefuse, progress); }) == expected);
   }
 };
@@ -228,10 +227,10 @@ TEST_CASE("another file, or another run's, is refused and left as it is") {
   runner(run, path);
   const std::string good = read_file(path);
   CHECK(message_of([&] { SeriesCsv(path, kHead, ExistingFile::kRefuse); }) ==
-        path + ": the file exists; --resume goes on with it, --overwrite replaces it");
+        path + ": the file exists; resume goes on with it, overwrite replaces it");
   CHECK(message_of([&] {
           SeriesCsv(path, {{"settings", "mu 0.5"}}, ExistingFile::kResume);
-        }) == path + ": was made with settings '', not with 'mu 0.5'; --overwrite begins anew");
+        }) == path + ": was made with settings '', not with 'mu 0.5'; overwrite begins anew");
   run.frames = {1, 2};
   CHECK(message_of([&] { runner(run, path, ExistingFile::kResume); }).find("row 1 is of frame 0, not of 1") !=
         std::string::npos);
