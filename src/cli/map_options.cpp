@@ -46,9 +46,10 @@ void add_map_options(CLI::App& p, MapArguments& a) {
 void check_map_options(const MapArguments& a) {
   if (!has_given_maps(a)) return;
   if (a.potential != "auto")
-    throw InputError("--potential computes both maps; leave out --source-map and --target-map, or --potential");
+    throw InputError(option("potential") + " computes both maps; leave out " + option("source-map") + " and " +
+                     option("target-map") + ", or " + option("potential"));
   if (!a.given.empty())
-    throw InputError("--" + a.given.front().first +
+    throw InputError(option(a.given.front().first) +
                      " is of computed potentials, and maps were given; leave out one of them");
 }
 
