@@ -64,9 +64,11 @@ struct BorderSums {
   }
 };
 
+#if !defined(__CUDACC__)
 ESPDIFF_MULTIVERSION void sum_points(const BorderSums& sums, std::size_t first, std::size_t last) {
   for (std::size_t i = first; i < last; ++i) sums.at(i);
 }
+#endif
 
 /// Lagrange's cubic weights of four points in a row, t from 0 to 1 between the middle two; beyond them also good.
 ESPDIFF_INLINE void cubic_weights(float t, float (&w)[4]) {

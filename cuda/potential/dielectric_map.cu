@@ -74,10 +74,12 @@ struct EdgeDielectric {
   }
 };
 
+#if !defined(__CUDACC__)
 ESPDIFF_MULTIVERSION void set_edges(const EdgeDielectric& dielectric, const float* depths, std::size_t step,
                                     std::size_t first, std::size_t last, float* out) {
   for (std::size_t p = first; p < last; ++p) out[p] = dielectric.between(depths[p], depths[p + step]);
 }
+#endif
 
 void fill_by_edges(const SoluteShape& shape, const CubicLattice& lattice, const PoissonBoltzmannOptions& options,
                    GridOperator& on_grid) {

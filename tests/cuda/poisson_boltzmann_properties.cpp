@@ -169,7 +169,7 @@ TEST_CASE("what is refused, and how") {
         "solvent; give it a radius");
   CHECK(refusal(*engine, molecule_of({{0, 0, 0}}, {-1.0F}, {1.0F}), lattice, options) ==
         "atom 1 has a radius of -1 A, which is not a number from 0 on");
-  CHECK(refusal(*engine, molecule_of({{0, 0, 9}}, {2.0F}, {1.0F}), lattice, options) ==
+  CHECK(refusal(*engine, molecule_of({{0, 0, 9.5}}, {2.0F}, {1.0F}), lattice, options) ==
         "atom 1 lies outside the grid, or within 3 A of its border; use a larger padding");
   options.solute_dielectric = 0;
   CHECK(refusal(*engine, ion, lattice, options) == "solute dielectric 0 is not a positive number; 2 is usual");
