@@ -69,8 +69,8 @@ class Kirkwood {
     const double between_slope = -(l + 1) * std::pow(b, -l - 2) + t * l * std::pow(b, l - 1);
     // Inside: S r^-(l+1) + B r^l; potential and displacement are continuous at b.
     const double source = kCoulomb / eps_in * std::pow(e_, l);
-    const double g = (2 * l + 1) * source * std::pow(b, -l - 2) * eps_in /
-                     (between(b) / b * l * eps_in - eps_out * between_slope);
+    const double g =
+        (2 * l + 1) * source * std::pow(b, -l - 2) * eps_in / (between(b) / b * l * eps_in - eps_out * between_slope);
     return r < a ? g * between(r) : g * between(a) * decaying(l, r) / edge;
   }
 
@@ -211,8 +211,8 @@ TEST_CASE("focusing gives the potential of a larger grid") {
     PoissonBoltzmannOptions options;
     const Molecule m = molecule_of({{0, 0, 0}, {0, 0, 3}}, {3.0F, 2.0F}, {1.0F, -0.5F});
     const Lattice small = pb_lattice(m, 0.5, 5);
-    const Grid large = engine->download(
-        engine->resample(pb_on_device(*engine, m, pb_lattice(m, 0.5, 16), options), small));
+    const Grid large =
+        engine->download(engine->resample(pb_on_device(*engine, m, pb_lattice(m, 0.5, 16), options), small));
     const double by_sum = deviation(pb_map(*engine, m, small, options).values, large.values).of_rms;
     options.far_boundary = espdiff::FarBoundary::kFocus;
     const double by_focus = deviation(pb_map(*engine, m, small, options).values, large.values).of_rms;

@@ -1,5 +1,5 @@
-// poisson_boltzmann_properties.cpp: what holds for any Poisson-Boltzmann potential: the same bits, invariance, warm starts,
-// the nonlinear equation's limits; and what is refused, in which words.
+// poisson_boltzmann_properties.cpp: what holds for any Poisson-Boltzmann potential: the same bits, invariance, warm
+// starts, the nonlinear equation's limits; and what is refused, in which words.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -198,8 +198,9 @@ TEST_CASE("what is refused, and how") {
   CHECK(too_many.find("a grid of 2001 x 2001 x 2001 points is more than memory holds (") == 0);
   CHECK(too_many.find(" A would fit") != std::string::npos);
   options.max_cycles = 2;
-  CHECK(refusal(*engine, ion, lattice, options).find("the Poisson-Boltzmann equation did not converge: the relative "
-                                                     "residual is ") == 0);
+  CHECK(refusal(*engine, ion, lattice, options)
+            .find("the Poisson-Boltzmann equation did not converge: the relative "
+                  "residual is ") == 0);
   options = {};
   options.nonlinear = true;
   options.max_newton_steps = 1;
@@ -215,10 +216,12 @@ TEST_CASE("the grid around atoms: what it reaches, and what it refuses") {
     CHECK(lattice.origin[static_cast<int>(axis)] <= -12 + 1e-9);
   }
   CHECK(point_of(lattice, lattice.n_points() - 1).x >= 21 - 1e-9);
-  CHECK(message_of([] { espdiff::poisson_boltzmann_lattice({{0, 0, 0}}, {1.0F}, 0, 10); }) ==
-        "grid spacing 0.000000 A is not a positive number; 0.5 is usual");
-  CHECK(message_of([] { espdiff::poisson_boltzmann_lattice({{0, 0, 0}}, {1.0F}, 0.001, 10); }).find("2e9 points") !=
-        std::string::npos);
+  CHECK(message_of([] {
+          espdiff::poisson_boltzmann_lattice({{0, 0, 0}}, {1.0F}, 0, 10);
+        }) == "grid spacing 0.000000 A is not a positive number; 0.5 is usual");
+  CHECK(message_of([] {
+          espdiff::poisson_boltzmann_lattice({{0, 0, 0}}, {1.0F}, 0.001, 10);
+        }).find("2e9 points") != std::string::npos);
   CHECK(message_of([] { espdiff::poisson_boltzmann_lattice({}, {}, 0.5, 10); }) == "no atoms to lay a grid around");
 }
 
