@@ -98,6 +98,27 @@ TEST_CASE("turning a molecule on the grid changes its surface's potentials by le
   }
 }
 
+TEST_CASE("turning both molecules of a pair on the grid changes their mean absolute difference by less than 1 %") {
+  const auto other_path = real_input("pqr_pdb2pqr/1AJJ_pH2_AMBER.pqr");
+  if (!other_path) return;
+  const Molecule m = small_protein(), other = espdiff::read_structure(*other_path);
+  const espdiff::RigidTransform motion = some_motion();
+  for (const auto& engine : back_ends()) {
+    const auto surface = comparison_surface(*engine, m);
+    const auto difference = [&](const espdiff::RigidTransform& by) {
+      const Lattice lattice = pb_lattice(moved(m, by), espdiff::kUsualPbSpacing_A, espdiff::kUsualPbPadding_A);
+      const auto on_surface = [&](const Molecule& of) {
+        return engine->download(
+            engine->sample(pb_on_device(*engine, moved(of, by), lattice, {}, nullptr, nullptr, by), surface));
+      };
+      return deviation(on_surface(other), on_surface(m)).mean_absolute;
+    };
+    const double straight = difference({}), turned = difference(motion);
+    MESSAGE("mean absolute difference of pH 2 and 7: ", straight, ", turned ", turned);
+    CHECK(turned == doctest::Approx(straight).epsilon(0.01));
+  }
+}
+
 TEST_CASE("a start from the potential of the frame before needs fewer cycles, and gives the same potential") {
   const Molecule m = small_protein();
   Molecule next = m;
