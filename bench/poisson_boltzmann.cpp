@@ -1,5 +1,5 @@
-// poisson_boltzmann.cpp: times the Poisson-Boltzmann potential, beside APBS where it is installed, and says how values at a
-// surface depend on the spacing, as CSV.
+// poisson_boltzmann.cpp: times the Poisson-Boltzmann potential, beside APBS where it is installed, and says how values
+// at a surface depend on the spacing, as CSV.
 #include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
@@ -49,7 +49,9 @@ struct Seconds {
 double cpu_seconds(int who) {
   rusage usage{};
   getrusage(who, &usage);
-  const auto of = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  const auto of = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
   return of(usage.ru_utime) + of(usage.ru_stime);
 }
 
@@ -214,7 +216,8 @@ int main(int argc, char** argv) {
     measure_frames(frames);
     if (no_study) return 0;
     const std::string data = data_folder();
-    study_spacing("1ajj_ph7_ph2", data + "/pqr_pdb2pqr/1AJJ_pH7_AMBER.pqr", data + "/pqr_pdb2pqr/1AJJ_pH2_AMBER.pqr", finest);
+    study_spacing("1ajj_ph7_ph2", data + "/pqr_pdb2pqr/1AJJ_pH7_AMBER.pqr", data + "/pqr_pdb2pqr/1AJJ_pH2_AMBER.pqr",
+                  finest);
     study_spacing("t4l", data + "/pair_t4l_maps/3lzm.pqr", data + "/pair_t4l_maps/181l_fit.pqr", finest);
     study_spacing("tim", data + "/pair_tim_maps/scTIM_chainA.pqr", data + "/pair_tim_maps/dTIM_chainA.pqr", finest);
     return 0;

@@ -40,9 +40,9 @@ ESPDIFF_INLINE float border_sum(const BorderCharges& c, float px, float py, floa
 
 /// A face of the border: where its points lie in the grid.
 struct Face {
-  std::size_t first, step[2];  ///< of indices, along its two axes
-  int n[2];                    ///< points
-  int coarse[2];               ///< points of the coarse lattice
+  std::size_t first, step[2];              ///< of indices, along its two axes
+  int n[2];                                ///< points
+  int coarse[2];                           ///< points of the coarse lattice
   float first_coordinate[3], along[2][3];  ///< Angstrom, a step along each axis
 };
 
@@ -64,9 +64,11 @@ struct BorderSums {
   }
 };
 
+#if !defined(__CUDACC__)
 ESPDIFF_MULTIVERSION void sum_points(const BorderSums& sums, std::size_t first, std::size_t last) {
   for (std::size_t i = first; i < last; ++i) sums.at(i);
 }
+#endif
 
 /// Lagrange's cubic weights of four points in a row, t from 0 to 1 between the middle two; beyond them also good.
 ESPDIFF_INLINE void cubic_weights(float t, float (&w)[4]) {
@@ -97,25 +99,24 @@ void set_face(const Face& face, const BorderCharges& charges, int stride, Buffer
   for_each_index(n_coarse, [=] ESPDIFF_HD(std::size_t i) { sums.at(i); });
 #else
   constexpr std::size_t kRun = 16;
-  for_each_index((n_coarse + kRun - 1) / kRun, [=](std::size_t run) {
-    sum_points(sums, run * kRun, std::min(n_coarse, (run + 1) * kRun));
-  });
+  for_each_index((n_coarse + kRun - 1) / kRun,
+                 [=](std::size_t run) { sum_points(sums, run * kRun, std::min(n_coarse, (run + 1) * kRun)); });
 #endif
   const float* const from = raw(coarse);
   float* const to = raw(phi);
-  for_each_index(static_cast<std::size_t>(face.n[0]) * static_cast<std::size_t>(face.n[1]),
-                 [=] ESPDIFF_HD(std::size_t index) {
-    const int a = static_cast<int>(index % static_cast<std::size_t>(face.n[0])),
-              b = static_cast<int>(index / static_cast<std::size_t>(face.n[0]));
-    const CubicPlace u = cubic_place(a, stride, face.coarse[0]), v = cubic_place(b, stride, face.coarse[1]);
-    float sum = 0;
-    for (int row = 0; row < 4; ++row) {
-      const float* const line = from + u.first + face.coarse[0] * (v.first + row);
-      sum += v.weight[row] *
-             ((u.weight[0] * line[0] + u.weight[1] * line[1]) + (u.weight[2] * line[2] + u.weight[3] * line[3]));
-    }
-    to[face.first + static_cast<std::size_t>(a) * face.step[0] + static_cast<std::size_t>(b) * face.step[1]] = sum;
-  });
+  for_each_index(
+      static_cast<std::size_t>(face.n[0]) * static_cast<std::size_t>(face.n[1]), [=] ESPDIFF_HD(std::size_t index) {
+        const int a = static_cast<int>(index % static_cast<std::size_t>(face.n[0])),
+                  b = static_cast<int>(index / static_cast<std::size_t>(face.n[0]));
+        const CubicPlace u = cubic_place(a, stride, face.coarse[0]), v = cubic_place(b, stride, face.coarse[1]);
+        float sum = 0;
+        for (int row = 0; row < 4; ++row) {
+          const float* const line = from + u.first + face.coarse[0] * (v.first + row);
+          sum += v.weight[row] *
+                 ((u.weight[0] * line[0] + u.weight[1] * line[1]) + (u.weight[2] * line[2] + u.weight[3] * line[3]));
+        }
+        to[face.first + static_cast<std::size_t>(a) * face.step[0] + static_cast<std::size_t>(b) * face.step[1]] = sum;
+      });
 }
 
 Face face_of(const CubicLattice& lattice, int axis, bool upper, int stride) {
@@ -155,7 +156,8 @@ void set_debye_hueckel_border(const std::vector<PbAtom>& atoms, const CubicLatti
   const Buffer<float> on_x = to_device(x), on_y = to_device(y), on_z = to_device(z), on_strength = to_device(strength);
   const BorderCharges charges{raw(on_x),        raw(on_y),       raw(on_z),
                               raw(on_strength), strength.size(), static_cast<float>(law.kappa_1A)};
-  const int stride = std::max(1, static_cast<int>(std::lround(kBorderSpacing_A / static_cast<double>(lattice.spacing))));
+  const int stride =
+      std::max(1, static_cast<int>(std::lround(kBorderSpacing_A / static_cast<double>(lattice.spacing))));
   for (int axis = 0; axis < 3; ++axis) {
     for (const bool upper : {false, true}) set_face(face_of(lattice, axis, upper, stride), charges, stride, phi);
   }

@@ -29,9 +29,10 @@ struct NinePoint {
   ESPDIFF_INLINE static int in_solute(float depth) { return depth > 0.0F ? 1 : 0; }
   ESPDIFF_INLINE float value(std::size_t p) const {
     const std::size_t q = p + along;
-    const int n = in_solute(own[p]) +
-                  (in_solute(side[p]) + in_solute(side[p - across]) + in_solute(side[q]) + in_solute(side[q - across])) +
-                  (in_solute(other[p]) + in_solute(other[p - up]) + in_solute(other[q]) + in_solute(other[q - up]));
+    const int n =
+        in_solute(own[p]) +
+        (in_solute(side[p]) + in_solute(side[p - across]) + in_solute(side[q]) + in_solute(side[q - across])) +
+        (in_solute(other[p]) + in_solute(other[p - up]) + in_solute(other[q]) + in_solute(other[q - up]));
     return dielectric.of[n];
   }
 };
@@ -74,10 +75,12 @@ struct EdgeDielectric {
   }
 };
 
+#if !defined(__CUDACC__)
 ESPDIFF_MULTIVERSION void set_edges(const EdgeDielectric& dielectric, const float* depths, std::size_t step,
                                     std::size_t first, std::size_t last, float* out) {
   for (std::size_t p = first; p < last; ++p) out[p] = dielectric.between(depths[p], depths[p + step]);
 }
+#endif
 
 void fill_by_edges(const SoluteShape& shape, const CubicLattice& lattice, const PoissonBoltzmannOptions& options,
                    GridOperator& on_grid) {
@@ -92,7 +95,8 @@ void fill_by_edges(const SoluteShape& shape, const CubicLattice& lattice, const 
     const std::size_t step = steps[axis];
     float* const out = raw(*faces[axis]);
 #if defined(__CUDACC__)
-    for_each_index(n, [=] ESPDIFF_HD(std::size_t p) { out[p] = dielectric.between(from[p], from[p + step < n ? p + step : p]); });
+    for_each_index(
+        n, [=] ESPDIFF_HD(std::size_t p) { out[p] = dielectric.between(from[p], from[p + step < n ? p + step : p]); });
 #else
     const std::size_t plane = on_grid.size.plane();
     for_each_index(static_cast<std::size_t>(on_grid.size.nz), [=](std::size_t k) {
@@ -115,7 +119,8 @@ struct GaussianDielectric {
       for (std::uint32_t a = begin; a < end; ++a) {
         const float dx = p.x - atoms.x[a], dy = p.y - atoms.y[a], dz = p.z - atoms.z[a];
         const float square = dx * dx + dy * dy + dz * dz;
-        if (square < atoms.reach[a] * atoms.reach[a]) empty *= 1.0F - exp_of_negative(larger(atoms.exponent[a] * square, -80.0F));
+        if (square < atoms.reach[a] * atoms.reach[a])
+          empty *= 1.0F - exp_of_negative(larger(atoms.exponent[a] * square, -80.0F));
       }
     });
     return (1.0F - empty) * solute + empty * solvent;

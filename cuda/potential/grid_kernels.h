@@ -44,9 +44,9 @@ ESPDIFF_INLINE void run_rows(const Kernel& given, const GridSize& size, int k0, 
 }
 
 /// Compiles a kernel's rows for several instruction sets; a template cannot be.
-#define ESPDIFF_GRID_KERNEL(Kernel)                                                                           \
-  ESPDIFF_MULTIVERSION void run_kernel_rows(const Kernel& kernel, const GridSize& size, int k0, int k1) {     \
-    run_rows(kernel, size, k0, k1);                                                                           \
+#define ESPDIFF_GRID_KERNEL(Kernel)                                                                       \
+  ESPDIFF_MULTIVERSION void run_kernel_rows(const Kernel& kernel, const GridSize& size, int k0, int k1) { \
+    run_rows(kernel, size, k0, k1);                                                                       \
   }
 
 /// Calls kernel.at() for every inner point.

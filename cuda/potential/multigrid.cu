@@ -34,8 +34,7 @@ struct AddFaces {
   float* diagonal;
 
   ESPDIFF_INLINE void at(std::size_t p, int) const {
-    const float faces =
-        (a.ex[p] + a.ex[p - 1]) + (a.ey[p] + a.ey[p - a.row]) + (a.ez[p] + a.ez[p - a.plane]);
+    const float faces = (a.ex[p] + a.ex[p - 1]) + (a.ey[p] + a.ey[p - a.row]) + (a.ez[p] + a.ez[p - a.plane]);
     diagonal[p] = diagonal[p] + faces;
   }
 };
@@ -60,9 +59,7 @@ struct Residual {
   const float* b;
   float* r;
 
-  ESPDIFF_INLINE void at(std::size_t p, int) const {
-    r[p] = (b[p] - a.diagonal[p] * x[p]) + a.neighbours(x, p);
-  }
+  ESPDIFF_INLINE void at(std::size_t p, int) const { r[p] = (b[p] - a.diagonal[p] * x[p]) + a.neighbours(x, p); }
 };
 ESPDIFF_GRID_KERNEL(Residual)
 
@@ -135,19 +132,19 @@ void add_interpolated(const GridSize& coarse, const Buffer<float>& correction, c
   float* const to = raw(x);
   for_each_index(static_cast<std::size_t>(fine.ny - 2) * static_cast<std::size_t>(fine.nz - 2),
                  [=] ESPDIFF_HD(std::size_t index) {
-    const int j = static_cast<int>(index % static_cast<std::size_t>(fine.ny - 2)) + 1,
-              k = static_cast<int>(index / static_cast<std::size_t>(fine.ny - 2)) + 1;
-    const int j0 = j / 2, j1 = (j + 1) / 2, k0 = k / 2, k1 = (k + 1) / 2;
-    const float* const a = from + coarse.index(0, j0, k0);
-    const float* const b = from + coarse.index(0, j1, k0);
-    const float* const c = from + coarse.index(0, j0, k1);
-    const float* const d = from + coarse.index(0, j1, k1);
-    float* const row = to + fine.index(0, j, k);
-    for (int i = 1; i < fine.nx - 1; ++i) {
-      const int i0 = i / 2, i1 = (i + 1) / 2;
-      row[i] += 0.125F * (((a[i0] + a[i1]) + (b[i0] + b[i1])) + ((c[i0] + c[i1]) + (d[i0] + d[i1])));
-    }
-  });
+                   const int j = static_cast<int>(index % static_cast<std::size_t>(fine.ny - 2)) + 1,
+                             k = static_cast<int>(index / static_cast<std::size_t>(fine.ny - 2)) + 1;
+                   const int j0 = j / 2, j1 = (j + 1) / 2, k0 = k / 2, k1 = (k + 1) / 2;
+                   const float* const a = from + coarse.index(0, j0, k0);
+                   const float* const b = from + coarse.index(0, j1, k0);
+                   const float* const c = from + coarse.index(0, j0, k1);
+                   const float* const d = from + coarse.index(0, j1, k1);
+                   float* const row = to + fine.index(0, j, k);
+                   for (int i = 1; i < fine.nx - 1; ++i) {
+                     const int i0 = i / 2, i1 = (i + 1) / 2;
+                     row[i] += 0.125F * (((a[i0] + a[i1]) + (b[i0] + b[i1])) + ((c[i0] + c[i1]) + (d[i0] + d[i1])));
+                   }
+                 });
 }
 
 /// Two faces in series.
@@ -200,8 +197,8 @@ void coarsen(const GridOperator& fine, GridOperator& coarse) {
     const bool is_inner = i > 0 && j > 0 && k > 0 && 2 * i < f.nx - 1 && 2 * j < f.ny - 1 && 2 * k < f.nz - 1;
     if (is_inner) {
       const std::size_t q = f.index(2 * i, 2 * j, 2 * k);
-      const float faces = (from.ex[q] + from.ex[q - 1]) + (from.ey[q] + from.ey[q - from.row]) +
-                          (from.ez[q] + from.ez[q - from.plane]);
+      const float faces =
+          (from.ex[q] + from.ex[q - 1]) + (from.ey[q] + from.ey[q - from.row]) + (from.ez[q] + from.ez[q - from.plane]);
       ions = 4.0F * larger(from.diagonal[q] - faces, 0.0F);
     }
     diagonal[p] = ions;
@@ -215,23 +212,24 @@ double dot_product(const Buffer<float>& a, const Buffer<float>& b) {
   const float* const x = raw(a);
   const float* const y = raw(b);
   const std::size_t n = a.size(), lanes = LaneSums::kLanes;
-  return sum_over<LaneSums>((n + lanes - 1) / lanes, [=] ESPDIFF_HD(std::size_t block) {
-           LaneSums term;
-           const std::size_t first = block * lanes;
-           if (first + lanes <= n) {
-             for (std::size_t lane = 0; lane < lanes; ++lane)
-               term.sum[lane] = static_cast<double>(x[first + lane]) * static_cast<double>(y[first + lane]);
-           } else {
-             for (std::size_t lane = 0; first + lane < n; ++lane)
-               term.sum[lane] = static_cast<double>(x[first + lane]) * static_cast<double>(y[first + lane]);
-           }
-           return term;
-         }).total();
+  return sum_over<LaneSums>(
+             (n + lanes - 1) / lanes,
+             [=] ESPDIFF_HD(std::size_t block) {
+               LaneSums term;
+               const std::size_t first = block * lanes;
+               if (first + lanes <= n) {
+                 for (std::size_t lane = 0; lane < lanes; ++lane)
+                   term.sum[lane] = static_cast<double>(x[first + lane]) * static_cast<double>(y[first + lane]);
+               } else {
+                 for (std::size_t lane = 0; first + lane < n; ++lane)
+                   term.sum[lane] = static_cast<double>(x[first + lane]) * static_cast<double>(y[first + lane]);
+               }
+               return term;
+             })
+      .total();
 }
 
-void add_faces_to_diagonal(GridOperator& a) {
-  run_on_grid(a.size, AddFaces{0, view_of(a), raw(a.diagonal)});
-}
+void add_faces_to_diagonal(GridOperator& a) { run_on_grid(a.size, AddFaces{0, view_of(a), raw(a.diagonal)}); }
 void apply_operator(const GridOperator& a, const Buffer<float>& x, Buffer<float>& y) {
   run_on_grid(a.size, Apply{0, view_of(a), raw(x), raw(y)});
 }

@@ -1,4 +1,5 @@
-// multigrid.h: the discrete operator -div(eps grad) + kappa^2 on a grid, and a multigrid V-cycle that nearly inverts it.
+// multigrid.h: the discrete operator -div(eps grad) + kappa^2 on a grid, and a multigrid V-cycle that nearly inverts
+// it.
 //
 // Finite volumes around the points of a cubic lattice, Dirichlet values on its border (Nicholls and Honig, J. Comput.
 // Chem. 12, 435 (1991), among many):

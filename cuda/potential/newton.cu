@@ -35,10 +35,10 @@ double nonlinear_residual(const GridOperator& on_grid, const Buffer<float>& k, c
   float* const residual = raw(r);
   for_each_index(r.size(), [=] ESPDIFF_HD(std::size_t p) {
     if (!(ions[p] > 0.0F)) return;
-    const int i = static_cast<int>(p % size.row()), j = static_cast<int>(p / size.row() % static_cast<std::size_t>(size.ny)),
+    const int i = static_cast<int>(p % size.row()),
+              j = static_cast<int>(p / size.row() % static_cast<std::size_t>(size.ny)),
               plane = static_cast<int>(p / size.plane());
-    const bool is_inner =
-        i > 0 && j > 0 && plane > 0 && i < size.nx - 1 && j < size.ny - 1 && plane < size.nz - 1;
+    const bool is_inner = i > 0 && j > 0 && plane > 0 && i < size.nx - 1 && j < size.ny - 1 && plane < size.nz - 1;
     // The operator took k cosh(at) x for the ions' term.
     if (is_inner) residual[p] += ions[p] * (coshf(cut(at[p])) * value[p] - sinhf(cut(value[p])));
   });

@@ -13,8 +13,8 @@ struct NewtonReport {
 };
 
 /// Solves sum_f eps_f (x_p - x_q) + k_p sinh(x_p) = b_p. Each step solves the linearized equation to a tenth of the
-/// residual (inexact), and goes as far along its solution as the residual's norm falls, halving the way otherwise (Holst
-/// and Saied, J. Comput. Chem. 16, 337 (1995)). sinh's argument is cut at 50.
+/// residual (inexact), and goes as far along its solution as the residual's norm falls, halving the way otherwise
+/// (Holst and Saied, J. Comput. Chem. 16, 337 (1995)). sinh's argument is cut at 50.
 /// @param on_grid  its diagonal is set anew for each step
 /// @param k        [point] as GridOperator has it
 /// @param options  max_cycles counts for each step

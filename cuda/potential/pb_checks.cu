@@ -59,7 +59,8 @@ void check_pb_atoms(const std::vector<Vec3d>& positions, const std::vector<float
 }
 
 void check_pb_options(const PoissonBoltzmannOptions& o) {
-  require(o.solute_dielectric > 0, "solute dielectric", o.solute_dielectric, "", "is not a positive number; 2 is usual");
+  require(o.solute_dielectric > 0, "solute dielectric", o.solute_dielectric, "",
+          "is not a positive number; 2 is usual");
   require(o.solvent_dielectric > 0, "solvent dielectric", o.solvent_dielectric, "",
           "is not a positive number; 78.54 is water's");
   require(o.ionic_strength_M >= 0, "ionic strength", o.ionic_strength_M, " mol/l",

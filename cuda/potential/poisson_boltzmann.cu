@@ -150,8 +150,8 @@ void solve(const Problem& problem, const CubicLattice& lattice, Buffer<float>& p
   const PoissonBoltzmannOptions& options = problem.options;
   const double h = static_cast<double>(lattice.spacing);
   GridOperator on_grid;
-  fill_operator(with_radius(problem.atoms), lattice, options,
-                static_cast<float>(h * h * problem.constants.kappa_bar_2), on_grid);
+  fill_operator(with_radius(problem.atoms), lattice, options, static_cast<float>(h * h * problem.constants.kappa_bar_2),
+                on_grid);
   problem.progress.report("potential", 0.2);
   const Buffer<float> b = right_hand_side(problem.atoms, lattice, problem.constants.coulomb);
   SolverWork work(lattice.n_points());

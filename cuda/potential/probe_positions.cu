@@ -17,7 +17,7 @@ void find_neighbours(ProbeAtoms& atoms, float max_radius) {
   const std::size_t n = atoms.radius.size();
   atoms.first.resize(n + 1, 0);
   std::uint32_t* const first = raw(atoms.first);
-  const auto visit_neighbours = [=] ESPDIFF_HD(std::uint32_t a, std::uint32_t* out) {
+  const auto visit_neighbours = [=] ESPDIFF_HD(std::uint32_t a, std::uint32_t * out) {
     const Vec3f p{cells.x[a], cells.y[a], cells.z[a]};
     std::uint32_t found = 0;
     visit_atom_runs(cells, p, radius[a] + max_radius, [&](std::uint32_t begin, std::uint32_t end) {
@@ -42,15 +42,13 @@ void find_neighbours(ProbeAtoms& atoms, float max_radius) {
     });
     return found;
   };
-  for_each_index(n, [=] ESPDIFF_HD(std::size_t a) {
-    first[a] = visit_neighbours(static_cast<std::uint32_t>(a), nullptr);
-  });
+  for_each_index(
+      n, [=] ESPDIFF_HD(std::size_t a) { first[a] = visit_neighbours(static_cast<std::uint32_t>(a), nullptr); });
   const std::uint32_t total = exclusive_scan_in_place(atoms.first);
   atoms.neighbour.resize(total);
   std::uint32_t* const neighbour = raw(atoms.neighbour);
-  for_each_index(n, [=] ESPDIFF_HD(std::size_t a) {
-    visit_neighbours(static_cast<std::uint32_t>(a), neighbour + first[a]);
-  });
+  for_each_index(
+      n, [=] ESPDIFF_HD(std::size_t a) { visit_neighbours(static_cast<std::uint32_t>(a), neighbour + first[a]); });
 }
 
 /// The circle in which the spheres of two atoms meet.
@@ -115,8 +113,7 @@ struct Arcs {
 ESPDIFF_INLINE bool cut_by(const ProbeAtomsView& atoms, std::uint32_t c, const Circle& circle, Arcs& arcs) {
   const Vec3f way = atoms.centre(c) - circle.centre;
   const float height = dot(way, circle.axis), x = dot(way, circle.u), y = dot(way, circle.v);
-  const float square =
-      atoms.radius[c] * atoms.radius[c] * kNotQuite - height * height - circle.radius * circle.radius;
+  const float square = atoms.radius[c] * atoms.radius[c] * kNotQuite - height * height - circle.radius * circle.radius;
   const float aside = sqrtf(x * x + y * y);
   // |point - c|^2 < R^2 where 2 rho aside cos(angle - direction) > rho^2 + aside^2 + height^2 - R^2.
   const float least = aside * aside - square, most = 2.0F * circle.radius * aside;
@@ -248,8 +245,8 @@ Buffer<Vec4f> find_probe_positions(ProbeAtoms& atoms) {
       const std::uint32_t n = points_of(angle, circle.radius);
       for (std::uint32_t step = 0; step < n; ++step) {
         const float at_angle = arcs.begin[i] + angle * (static_cast<float>(step) / static_cast<float>(n - 1));
-        const Vec3f p = circle.centre + (circle.radius * cosf(at_angle)) * circle.u +
-                        (circle.radius * sinf(at_angle)) * circle.v;
+        const Vec3f p =
+            circle.centre + (circle.radius * cosf(at_angle)) * circle.u + (circle.radius * sinf(at_angle)) * circle.v;
         points[at++] = make_vec4(p, 0.0F);
       }
     }

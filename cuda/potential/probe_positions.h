@@ -16,8 +16,8 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
-/// A point counts as inside a sphere when its squared distance is below this part of the squared radius: two atoms in one
-/// place must not cover each other by rounding.
+/// A point counts as inside a sphere when its squared distance is below this part of the squared radius: two atoms in
+/// one place must not cover each other by rounding.
 constexpr float kNotQuite = 1.0F - 1e-5F;
 
 /// Atoms enlarged by the probe, and for each those whose spheres cut its own.

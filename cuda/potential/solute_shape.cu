@@ -184,7 +184,8 @@ namespace {
 
 ShapeView view_of(const ProbeAtoms& atoms, const std::shared_ptr<AtomCells>& probes, float probe, float spacing) {
   return {view_of(atoms),   probes ? probes->view() : AtomCellsView{}, probe,
-          probe + spacing, probe < spacing ? spacing - probe : 0.0F, probe > 0, probes != nullptr};
+          probe + spacing,  probe < spacing ? spacing - probe : 0.0F,  probe > 0,
+          probes != nullptr};
 }
 
 }  // namespace
@@ -195,16 +196,16 @@ void SoluteShape::depths_by_points(const CubicLattice& lattice, Buffer<float>& d
   float* const out = raw(depths);
   const std::size_t nx = static_cast<std::size_t>(lattice.size[0]), ny = static_cast<std::size_t>(lattice.size[1]);
   for_each_index(depths.size(), [=] ESPDIFF_HD(std::size_t p) {
-    out[p] = depth_at(shape, lattice.point(static_cast<int>(p % nx), static_cast<int>(p / nx % ny),
-                                           static_cast<int>(p / (nx * ny))));
+    out[p] = depth_at(
+        shape, lattice.point(static_cast<int>(p % nx), static_cast<int>(p / nx % ny), static_cast<int>(p / (nx * ny))));
   });
 }
 
 #if !defined(ESPDIFF_BACKEND_CUDA)
 void SoluteShape::depths_by_planes(const CubicLattice& lattice, Buffer<float>& depths) const {
   depths.resize(lattice.n_points());
-  PlaneFill fill{view_of(atoms_, probes_, probe_, lattice.spacing), lattice, atoms_.radius.size(), nullptr, nullptr,
-                 raw(depths)};
+  PlaneFill fill{
+      view_of(atoms_, probes_, probe_, lattice.spacing), lattice, atoms_.radius.size(), nullptr, nullptr, raw(depths)};
   // Probes by the planes that they reach.
   std::vector<std::uint32_t> first(static_cast<std::size_t>(lattice.size[2]) + 1, 0), probes;
   const std::size_t n_probes = probes_ ? probes_->x.size() : 0;
@@ -223,11 +224,13 @@ void SoluteShape::depths_by_planes(const CubicLattice& lattice, Buffer<float>& d
   std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
   for (std::size_t c = 0; c < n_probes; ++c) {
     const std::array<int, 2> planes = planes_of(c);
-    for (int k = planes[0]; k <= planes[1]; ++k) probes[next[static_cast<std::size_t>(k)]++] = static_cast<std::uint32_t>(c);
+    for (int k = planes[0]; k <= planes[1]; ++k)
+      probes[next[static_cast<std::size_t>(k)]++] = static_cast<std::uint32_t>(c);
   }
   fill.first_probe = first.data();
   fill.probes = probes.data();
-  for_each_index(static_cast<std::size_t>(lattice.size[2]), [=](std::size_t k) { fill_plane(fill, static_cast<int>(k)); });
+  for_each_index(static_cast<std::size_t>(lattice.size[2]),
+                 [=](std::size_t k) { fill_plane(fill, static_cast<int>(k)); });
 }
 #endif
 

@@ -239,8 +239,7 @@ class Engine {
   virtual GridPtr poisson_boltzmann(const std::vector<Vec3d>& positions, const std::vector<float>& radii,
                                     const std::vector<float>& charges, const Lattice& lattice,
                                     const PoissonBoltzmannOptions& options, const RigidTransform& to_map,
-                                    const GridPtr& start, const Progress& progress,
-                                    PoissonBoltzmannReport* report) = 0;
+                                    const GridPtr& start, const Progress& progress, PoissonBoltzmannReport* report) = 0;
 
   /// Compares potentials at corresponding vertices.
   /// @param source, mapped  meshes of one topology: each vertex on the source and on the target

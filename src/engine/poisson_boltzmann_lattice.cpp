@@ -47,8 +47,9 @@ Lattice poisson_boltzmann_lattice(const std::vector<Vec3d>& positions, const std
     const double n_steps = std::max(1.0, std::ceil(extent / spacing_A / kMultiple)) * kMultiple;
     n_points *= n_steps + 1;
     if (n_points > 2.0e9)
-      throw MemoryError("a grid of spacing " + std::to_string(spacing_A) + " A around these atoms has more than 2e9 points; "
-                       "use a larger spacing");
+      throw MemoryError("a grid of spacing " + std::to_string(spacing_A) +
+                        " A around these atoms has more than 2e9 points; "
+                        "use a larger spacing");
     lattice.size[axis] = static_cast<int>(n_steps) + 1;
     lattice.origin[a] = 0.5 * (box.low[a] + box.high[a]) - 0.5 * n_steps * spacing_A;
     lattice.step[axis][a] = spacing_A;

@@ -36,9 +36,6 @@ int usual_order(bool compatible);
 /// @throws InputError
 PmeCell parse_cell(const std::string& text);
 
-/// Of a Poisson-Boltzmann grid where none is asked for; docs/potentials.md has the study that chose them.
-constexpr double kPbSpacing_A = 0.5, kPbPadding_A = 10;
-
 /// How potentials are computed.
 struct PotentialOptions {
   PotentialMethod method = PotentialMethod::kPme;
@@ -50,8 +47,8 @@ struct PotentialOptions {
   PmeOptions pme;  ///< but the grid's size
   CoulombOptions coulomb;
   PoissonBoltzmannOptions pb;
-  double pb_spacing_A = kPbSpacing_A;
-  double pb_padding_A = kPbPadding_A;  ///< of the grid beyond every atom's sphere
+  double pb_spacing_A = kUsualPbSpacing_A;
+  double pb_padding_A = kUsualPbPadding_A;  ///< of the grid beyond every atom's sphere
   /// Superposes each frame on the first by these atoms (water left out), and samples all maps on the first one's
   /// lattice: the average then stays with the molecule. In a periodic cell these atoms are put together first where its
   /// border has cut the molecule (unwrapped()). kNone: frames stay where they are.

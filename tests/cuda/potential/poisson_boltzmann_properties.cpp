@@ -1,11 +1,11 @@
-// poisson_boltzmann_properties.cpp: what holds for any Poisson-Boltzmann potential: the same bits, invariance, warm starts,
-// the nonlinear equation's limits; and what is refused, in which words.
+// poisson_boltzmann_properties.cpp: what holds for any Poisson-Boltzmann potential: the same bits, invariance, warm
+// starts, the nonlinear equation's limits; and what is refused, in which words.
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cstring>
 
-#include "cuda/poisson_boltzmann_inputs.h"
+#include "cuda/potential/poisson_boltzmann_inputs.h"
 
 using namespace espdiff_test;
 
@@ -98,6 +98,27 @@ TEST_CASE("turning a molecule on the grid changes its surface's potentials by le
   }
 }
 
+TEST_CASE("turning both molecules of a pair on the grid changes their mean absolute difference by less than 1 %") {
+  const auto other_path = real_input("pqr_pdb2pqr/1AJJ_pH2_AMBER.pqr");
+  if (!other_path) return;
+  const Molecule m = small_protein(), other = espdiff::read_structure(*other_path);
+  const espdiff::RigidTransform motion = some_motion();
+  for (const auto& engine : back_ends()) {
+    const auto surface = comparison_surface(*engine, m);
+    const auto difference = [&](const espdiff::RigidTransform& by) {
+      const Lattice lattice = pb_lattice(moved(m, by), espdiff::kUsualPbSpacing_A, espdiff::kUsualPbPadding_A);
+      const auto on_surface = [&](const Molecule& of) {
+        return engine->download(
+            engine->sample(pb_on_device(*engine, moved(of, by), lattice, {}, nullptr, nullptr, by), surface));
+      };
+      return deviation(on_surface(other), on_surface(m)).mean_absolute;
+    };
+    const double straight = difference({}), turned = difference(motion);
+    MESSAGE("mean absolute difference of pH 2 and 7: ", straight, ", turned ", turned);
+    CHECK(turned == doctest::Approx(straight).epsilon(0.01));
+  }
+}
+
 TEST_CASE("a start from the potential of the frame before needs fewer cycles, and gives the same potential") {
   const Molecule m = small_protein();
   Molecule next = m;
@@ -169,7 +190,7 @@ TEST_CASE("what is refused, and how") {
         "solvent; give it a radius");
   CHECK(refusal(*engine, molecule_of({{0, 0, 0}}, {-1.0F}, {1.0F}), lattice, options) ==
         "atom 1 has a radius of -1 A, which is not a number from 0 on");
-  CHECK(refusal(*engine, molecule_of({{0, 0, 9}}, {2.0F}, {1.0F}), lattice, options) ==
+  CHECK(refusal(*engine, molecule_of({{0, 0, 9.5}}, {2.0F}, {1.0F}), lattice, options) ==
         "atom 1 lies outside the grid, or within 3 A of its border; use a larger padding");
   options.solute_dielectric = 0;
   CHECK(refusal(*engine, ion, lattice, options) == "solute dielectric 0 is not a positive number; 2 is usual");
@@ -198,8 +219,9 @@ TEST_CASE("what is refused, and how") {
   CHECK(too_many.find("a grid of 2001 x 2001 x 2001 points is more than memory holds (") == 0);
   CHECK(too_many.find(" A would fit") != std::string::npos);
   options.max_cycles = 2;
-  CHECK(refusal(*engine, ion, lattice, options).find("the Poisson-Boltzmann equation did not converge: the relative "
-                                                     "residual is ") == 0);
+  CHECK(refusal(*engine, ion, lattice, options)
+            .find("the Poisson-Boltzmann equation did not converge: the relative "
+                  "residual is ") == 0);
   options = {};
   options.nonlinear = true;
   options.max_newton_steps = 1;
@@ -215,10 +237,12 @@ TEST_CASE("the grid around atoms: what it reaches, and what it refuses") {
     CHECK(lattice.origin[static_cast<int>(axis)] <= -12 + 1e-9);
   }
   CHECK(point_of(lattice, lattice.n_points() - 1).x >= 21 - 1e-9);
-  CHECK(message_of([] { espdiff::poisson_boltzmann_lattice({{0, 0, 0}}, {1.0F}, 0, 10); }) ==
-        "grid spacing 0.000000 A is not a positive number; 0.5 is usual");
-  CHECK(message_of([] { espdiff::poisson_boltzmann_lattice({{0, 0, 0}}, {1.0F}, 0.001, 10); }).find("2e9 points") !=
-        std::string::npos);
+  CHECK(message_of([] {
+          espdiff::poisson_boltzmann_lattice({{0, 0, 0}}, {1.0F}, 0, 10);
+        }) == "grid spacing 0.000000 A is not a positive number; 0.5 is usual");
+  CHECK(message_of([] {
+          espdiff::poisson_boltzmann_lattice({{0, 0, 0}}, {1.0F}, 0.001, 10);
+        }).find("2e9 points") != std::string::npos);
   CHECK(message_of([] { espdiff::poisson_boltzmann_lattice({}, {}, 0.5, 10); }) == "no atoms to lay a grid around");
 }
 

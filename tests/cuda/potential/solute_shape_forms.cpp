@@ -4,8 +4,8 @@
 
 #include <cstring>
 
-#include "cuda/shapes.h"
-#include "potential/dielectric_map.h"
+#include "cuda/surface/shapes.h"
+#include "cuda/potential/dielectric_map.h"
 
 using namespace espdiff_test;
 using espdiff::cpu_backend::Buffer;
@@ -50,7 +50,7 @@ TEST_CASE("by planes and by points: the same bits") {
 TEST_CASE("depths are distances to where a probe may be, less its radius") {
   const auto atoms = random_cluster(14, 3.0, 4);
   constexpr float kProbe = 1.4F;
-  // Where a probe's centre may be, on a fine lattice: distances to it err by less than its diagonal's half.
+  // Where a probe's centre may be, on a fine lattice: distances to it err by a lattice step.
   constexpr double kFine = 0.12;
   std::vector<Vec3d> free;
   for (double x = -7; x <= 7; x += kFine) {
@@ -84,13 +84,15 @@ TEST_CASE("depths are distances to where a probe may be, less its radius") {
     if (wanted > 0.3) {
       CHECK(depths[p] > 0);
     } else {
-      worst = std::max(worst, std::fabs(static_cast<double>(depths[p]) - wanted));
+      // The lattice can only miss the nearest place.
+      CHECK(static_cast<double>(depths[p]) < wanted + 0.005);
+      worst = std::max(worst, wanted - static_cast<double>(depths[p]));
       ++n;
     }
   }
   CAPTURE(n);
   CHECK(n > 300);
-  CHECK(worst < 0.12);
+  CHECK(worst < 0.15);
 }
 
 TEST_SUITE_END();

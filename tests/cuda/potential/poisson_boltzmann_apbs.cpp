@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "cuda/apbs_oracle.h"
-#include "cuda/poisson_boltzmann_inputs.h"
+#include "cuda/potential/apbs_oracle.h"
+#include "cuda/potential/poisson_boltzmann_inputs.h"
 
 using namespace espdiff_test;
 using espdiff::DielectricSmoothing;
@@ -65,8 +65,8 @@ std::vector<bool> shell(const Molecule& m, const Lattice& lattice, double from, 
     for (int k = low[2]; k <= high[2]; ++k) {
       for (int j = low[1]; j <= high[1]; ++j) {
         for (int i = low[0]; i <= high[0]; ++i) {
-          const std::size_t p = static_cast<std::size_t>(
-              i + lattice.size[0] * (j + static_cast<long>(lattice.size[1]) * k));
+          const std::size_t p =
+              static_cast<std::size_t>(i + lattice.size[0] * (j + static_cast<long>(lattice.size[1]) * k));
           gap[p] = std::min(gap[p], static_cast<float>(norm(point_of(lattice, p) - m.positions[a])) - m.radii[a]);
         }
       }
@@ -126,7 +126,8 @@ TEST_CASE("FKBP: within 1 % of APBS' potential outside, and on the surface") {
 }
 
 TEST_CASE("1AJJ: on the surface within 5 % at 0.5 A, and nearer at 0.25 A; the difference between two pH within 2 %") {
-  const auto m = real_molecule("pqr_pdb2pqr/1AJJ_pH7_AMBER.pqr"), other = real_molecule("pqr_pdb2pqr/1AJJ_pH2_AMBER.pqr");
+  const auto m = real_molecule("pqr_pdb2pqr/1AJJ_pH7_AMBER.pqr"),
+             other = real_molecule("pqr_pdb2pqr/1AJJ_pH2_AMBER.pqr");
   if (!m || !other) return;
   for (const auto& engine : back_ends()) {
     const auto surface = comparison_surface(*engine, *m);

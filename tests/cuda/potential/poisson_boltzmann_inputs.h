@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cuda/shapes.h"
+#include "cuda/surface/shapes.h"
 #include "engine/engine.h"
 
 namespace espdiff_test {
