@@ -18,6 +18,7 @@
 #include "cuda/deform/fields.h"
 #include "cuda/deform/vector_flow.h"
 #include "cuda/device/spatial_order.h"
+#include "cuda/device/unwrap.h"
 #include "cuda/morph/morph.h"
 #include "cuda/potential/bulk_zero.h"
 #include "cuda/potential/coulomb.h"
@@ -29,7 +30,6 @@
 #include "cuda/surface/density.h"
 #include "cuda/surface/density_at_points.h"
 #include "cuda/surface/isosurface.h"
-#include "cuda/device/unwrap.h"
 #include "cuda/surface/level_set_normals.h"
 #include "cuda/surface/project.h"
 #include "cuda/surface/sample.h"
@@ -457,9 +457,7 @@ class BackEndEngine : public Engine {
   }
 
   std::vector<Vec3f> download_gradient(const FieldPtr& field) override {
-    return run([&] {
-      return host_vectors(unwrap<SurfaceField>(field).values);
-    });
+    return run([&] { return host_vectors(unwrap<SurfaceField>(field).values); });
   }
 
   std::vector<float> density_at(const AtomsPtr& atoms, const std::vector<Vec3f>& points) override {

@@ -48,17 +48,21 @@ namespace eval ::espdiff {
         }
         set frame [value_or $endpoint frame now]
         dict set map charges [vmd_charges $mol [value_or $keys sel all] $frame $what]
-        dict set map radii [vmd_radii $mol [dict get $map charges]]
+        dict set map radii [vmd_radii $mol [value_or $keys sel all] $frame $what]
         dict set map water [vmd_has_water $mol [dict get $map charges]]
         return $map
     }
 
-    # The radii of all atoms, 0 for those whose charge does not count: a continuum takes their room.
-    proc vmd_radii {mol charges} {
+    # The radii of all atoms, 0 for those that are not selected: a continuum takes their room.
+    proc vmd_radii {mol text frame what} {
         set all [atomselect $mol all]
         finally { set radii [$all get radius] } { $all delete }
-        set chosen {}
-        foreach radius $radii charge $charges { lappend chosen [expr {$charge == 0 ? 0.0 : $radius}] }
+        if {$text eq "all"} { return $radii }
+        set selection [atomselect $mol $text frame [vmd_frame $mol $frame $what]]
+        finally {
+            set chosen [lrepeat [llength $radii] 0.0]
+            foreach index [$selection list] { lset chosen $index [lindex $radii $index] }
+        } { $selection delete }
         return $chosen
     }
 
@@ -142,6 +146,10 @@ namespace eval ::espdiff {
             set begun [clock milliseconds]
             set done 0
             set charges [vmd_charges $mol [dict get $options sel] [lindex $frames 0] -sel]
+            if {[dict get $options method] eq "pb" && [vmd_has_water $mol $charges]} {
+                fail "espdiff potential: water is selected, and Poisson-Boltzmann has a continuum in its place; give\
+                    -sel {not water}, or -method pme"
+            }
             set maps [dict create mol {} volumes {} files {}]
             foreach frame $frames {
                 if {[dict get $options updatesel]} {
@@ -207,7 +215,8 @@ namespace eval ::espdiff {
     proc potential_frame {mol frame charges options} {
         set name "[molinfo $mol get name], frame $frame"
         set result [dict create name $name coordinates [gettimestep $mol $frame] \
-            charges $charges radii [vmd_radii $mol $charges] \
+            charges $charges \
+            radii [vmd_radii $mol [dict get $options sel] $frame -sel] \
             cell [molinfo $mol get {a b c alpha beta gamma} frame $frame]]
         if {[dict get $options align] eq "none"} { return $result }
         set all [atomselect $mol all]

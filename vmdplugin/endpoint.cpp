@@ -9,8 +9,8 @@
 #include "io/molecule_builder.h"
 #include "io/read_grid.h"
 #include "io/read_structure.h"
-#include "potential/choose_potential.h"
 #include "molfile_bridge.h"
+#include "potential/choose_potential.h"
 #include "tcl_values.h"
 
 namespace espdiff::vmdplugin {

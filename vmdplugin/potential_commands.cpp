@@ -46,8 +46,7 @@ Tcl_Obj* potential(const Call& call) {
   parse_device(object->computation.device);  // a wrong one is told at once
   object->computation.threads = reader.integer("threads", 0);
   const PotentialMethod method = parse_potential_method(reader.text("method", "pme"));
-  object->potential =
-      make_potential_options(method, take_potential_settings(reader), PmeOptions().temperature_K, true);
+  object->potential = make_potential_options(method, take_potential_settings(reader), PmeOptions().temperature_K, true);
   if (Tcl_Obj* const box = reader.find("box")) object->potential.cell = parse_cell(to_string(box));
   object->potential.align = parse_align_atoms(reader.text("align", "none"));
   object->potential.frames_per_block = static_cast<std::size_t>(std::max(1, reader.integer("block", 1)));

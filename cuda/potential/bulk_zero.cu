@@ -50,10 +50,11 @@ Buffer<std::uint32_t> far_points(const Lattice& lattice, const std::vector<Vec3d
           if (dot(to, to) > square) continue;
           const int x = static_cast<int>(wrapped(i, nx)), y = static_cast<int>(wrapped(j, ny)),
                     z = static_cast<int>(wrapped(k, nz));
-          atomic_minimum(out + (static_cast<std::size_t>(x) +
-                                static_cast<std::size_t>(nx) * (static_cast<std::size_t>(y) +
-                                                                static_cast<std::size_t>(ny) * static_cast<std::size_t>(z))),
-                         0U);
+          atomic_minimum(
+              out + (static_cast<std::size_t>(x) +
+                     static_cast<std::size_t>(nx) *
+                         (static_cast<std::size_t>(y) + static_cast<std::size_t>(ny) * static_cast<std::size_t>(z))),
+              0U);
         }
       }
     }

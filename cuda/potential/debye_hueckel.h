@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "cuda/surface/grid.h"
 #include "cuda/potential/pb_atoms.h"
+#include "cuda/surface/grid.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

@@ -9,11 +9,11 @@
 
 #include <vector>
 
-#include "engine/poisson_boltzmann.h"
-#include "cuda/surface/grid.h"
 #include "cuda/potential/multigrid.h"
 #include "cuda/potential/pb_atoms.h"
 #include "cuda/potential/probe_positions.h"
+#include "cuda/surface/grid.h"
+#include "engine/poisson_boltzmann.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

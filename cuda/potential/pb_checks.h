@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "engine/poisson_boltzmann.h"
 #include "cuda/surface/grid.h"
+#include "engine/poisson_boltzmann.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

@@ -145,8 +145,9 @@ void add_direct_part(const std::vector<Vec3d>& positions, const std::vector<floa
     if (charges[i] == 0) continue;
     const Vec3d from_origin = positions[i] - map.lattice.origin;
     const double q = static_cast<double>(charges[i]);
-    parts.push_back({{dot(from_origin, reciprocal[0]), dot(from_origin, reciprocal[1]), dot(from_origin, reciprocal[2])},
-                     coulomb * q});
+    parts.push_back(
+        {{dot(from_origin, reciprocal[0]), dot(from_origin, reciprocal[1]), dot(from_origin, reciprocal[2])},
+         coulomb * q});
     net += q;
   }
   map.charge_sums = std::make_shared<ChargeSums>(std::move(parts), cell.edges, beta);

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "base/error.h"
-#include "cuda/potential/coulomb.h"
 #include "cuda/potential/conjugate_gradients.h"
+#include "cuda/potential/coulomb.h"
 #include "cuda/potential/debye_hueckel.h"
 #include "cuda/potential/dielectric_map.h"
 #include "cuda/potential/newton.h"

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/progress.h"
-#include "engine/poisson_boltzmann.h"
 #include "cuda/surface/sample.h"
+#include "engine/poisson_boltzmann.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

@@ -11,8 +11,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "cuda/surface/atom_cells.h"
 #include "cuda/potential/pb_atoms.h"
+#include "cuda/surface/atom_cells.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

@@ -1,5 +1,5 @@
-// charge_sums.h: point charges whose potential is summed where it is sampled: isolated ones by Coulomb's law, those of a
-// periodic cell by the direct part of Ewald's sum.
+// charge_sums.h: point charges whose potential is summed where it is sampled: isolated ones by Coulomb's law, those of
+// a periodic cell by the direct part of Ewald's sum.
 #pragma once
 
 #include <array>
@@ -40,14 +40,14 @@ struct PointCharge {
 
 /// What kernels see of the charges.
 struct ChargeSumsView {
-  const PointCharge* charges;   ///< null where there are none to sum
-  const std::uint32_t* first;   ///< [bin + 1] of a cell; null for isolated charges
+  const PointCharge* charges;  ///< null where there are none to sum
+  const std::uint32_t* first;  ///< [bin + 1] of a cell; null for isolated charges
   std::size_t n;
-  bool by_distance;             ///< isolated: the dielectric grows with the distance
-  int bins[3], reach[3];        ///< bins along each edge; how many of them the range covers
-  Vec3d edges[3];               ///< Angstrom
-  double range_square;          ///< Angstrom^2
-  float beta;                   ///< 1/Angstrom
+  bool by_distance;       ///< isolated: the dielectric grows with the distance
+  int bins[3], reach[3];  ///< bins along each edge; how many of them the range covers
+  Vec3d edges[3];         ///< Angstrom
+  double range_square;    ///< Angstrom^2
+  float beta;             ///< 1/Angstrom
 
   /// Isolated charges, at a point in their frame.
   ESPDIFF_INLINE double isolated(Vec3d p) const {

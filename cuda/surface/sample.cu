@@ -225,13 +225,13 @@ Buffer<float> at_own_points(const MapGrid& map, SampleAt sample_there) {
 Buffer<float> lattice_values(const MapGrid& map) {
   if (map.spline_order == 0) return map.values;
   const MapView view = view_of(map);
-  return at_own_points(map, [=] ESPDIFF_HD(const double (&c)[3]) { return sample_at(view, c); });
+  return at_own_points(map, [=] ESPDIFF_HD(const double(&c)[3]) { return sample_at(view, c); });
 }
 
 std::vector<float> point_values(const MapGrid& map) {
   if (map.charge_sums == nullptr && map.zero == 0) return to_host(lattice_values(map));
   const MapView view = view_of(map);
-  return to_host(at_own_points(map, [=] ESPDIFF_HD(const double (&c)[3]) { return potential_at(view, c); }));
+  return to_host(at_own_points(map, [=] ESPDIFF_HD(const double(&c)[3]) { return potential_at(view, c); }));
 }
 
 }  // namespace espdiff::ESPDIFF_BACKEND

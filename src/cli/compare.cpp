@@ -85,9 +85,8 @@ std::string add_maps(const Arguments& a, Side& source, Side& target, double temp
   std::vector<ChargedFile> files;
   std::vector<PotentialFacts> facts;
   for (const Side* side : {&source, &target}) {
-    files.push_back(a.maps.potential == "none"
-                        ? ChargedFile()
-                        : read_charged(*side->file, structure_options(a, side->role).model));
+    files.push_back(a.maps.potential == "none" ? ChargedFile()
+                                               : read_charged(*side->file, structure_options(a, side->role).model));
     facts.push_back(potential_facts(files.back().everything, files.back().cell));
   }
   const PotentialPlan plan(a.maps, facts, temperature_K);

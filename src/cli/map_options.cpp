@@ -3,7 +3,6 @@
 
 #include <utility>
 
-
 namespace espdiff::cli {
 namespace {
 
@@ -20,9 +19,10 @@ void add_computed_map_options(CLI::App& p, ComputedMapArguments& a) {
       ->check(CLI::IsMember({"auto", "pb", "pme", "coulomb", "none"}))
       ->capture_default_str()
       ->group(kGroup);
-  p.add_option("--pme-cell", a.cell,
-               "Cell of pme. own: the file's (CRYST1 of each model), where the charges of water and ions count too. "
-               "box: around the atoms, along their principal axes, without water. auto: own where there is water in one")
+  p.add_option(
+       "--pme-cell", a.cell,
+       "Cell of pme. own: the file's (CRYST1 of each model), where the charges of water and ions count too. "
+       "box: around the atoms, along their principal axes, without water. auto: own where there is water in one")
       ->check(CLI::IsMember({"auto", "own", "box"}))
       ->capture_default_str()
       ->group(kGroup);

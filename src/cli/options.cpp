@@ -113,13 +113,16 @@ void add_potential_settings(CLI::App& parser, GivenPotentialSettings& given, boo
     const bool is_pb = setting.of.front() == PotentialMethod::kPoissonBoltzmann;
     std::string name = pmepot_names && !is_pb ? setting.key : setting.option;
     std::replace(name.begin(), name.end(), '_', '-');
-    const std::string group = is_pb ? "Poisson-Boltzmann (pb)"
+    const std::string group = is_pb                                         ? "Poisson-Boltzmann (pb)"
                               : setting.of.front() == PotentialMethod::kPme ? "Particle-mesh Ewald (pme)"
                                                                             : "Coulomb's law (coulomb)";
     const std::string words = pmepot_names && setting.key == "spline" ? "--spline,--order" : "--" + name;
     const std::string key = setting.option;
     if (setting.kind == SettingKind::kBoolean) {
-      parser.add_flag_callback(words, [&given, key] { given.emplace_back(key, "1"); }, setting.help)->group(group);
+      parser
+          .add_flag_callback(
+              words, [&given, key] { given.emplace_back(key, "1"); }, setting.help)
+          ->group(group);
       continue;
     }
     const auto check = [&setting](const std::string& text) {

@@ -77,21 +77,21 @@ StartFrom start_of(const Arguments& a, Method method) {
 /// @param potential the computed potential in words; empty for none
 SeriesHead head_of(const Arguments& a, StartFrom start, const std::string& potential,
                    const std::vector<InputFile>& inputs) {
-  const std::string map =
-      potential.empty() ? map_words(a.maps, a.maps.target_map, a.maps.target_map_unit) : potential;
+  const std::string map = potential.empty() ? map_words(a.maps, a.maps.target_map, a.maps.target_map_unit) : potential;
   std::string settings;
   for (const auto& [name, value] : a.settings) settings += (settings.empty() ? "" : " ") + name + " " + value;
-  SeriesHead head = {{"espdiff", kVersion},
-                     {"file", described(a.targets)},
-                     {"source_model", std::to_string(a.source_model)},
-                     {"frames", a.frames},
-                     {"reference", "file " + a.source},
-                     {"map", map.empty() ? "none" : map},
-                     {"reference-map", potential.empty() ? map_words(a.maps, a.maps.source_map, a.maps.source_map_unit) : potential},
-                     {"atoms", std::string(a.structure.include_hetero ? "hetero" : "no hetero") +
-                                   (a.structure.include_water ? ", water" : ", no water")},
-                     {"start", start == StartFrom::kPrevious ? "previous" : "source"},
-                     {"settings", settings}};
+  SeriesHead head = {
+      {"espdiff", kVersion},
+      {"file", described(a.targets)},
+      {"source_model", std::to_string(a.source_model)},
+      {"frames", a.frames},
+      {"reference", "file " + a.source},
+      {"map", map.empty() ? "none" : map},
+      {"reference-map", potential.empty() ? map_words(a.maps, a.maps.source_map, a.maps.source_map_unit) : potential},
+      {"atoms", std::string(a.structure.include_hetero ? "hetero" : "no hetero") +
+                    (a.structure.include_water ? ", water" : ", no water")},
+      {"start", start == StartFrom::kPrevious ? "previous" : "source"},
+      {"settings", settings}};
   for (const InputFile& input : inputs) head.emplace_back(input.role + "_sha256", input.sha256);
   return head;
 }
@@ -124,8 +124,7 @@ class Sides {
     FrameInput input{read(number, a_.structure, source_), target_map_ ? &*target_map_ : nullptr, nullptr};
     if (!plan_.computes()) return input;
     ChargedFile all;
-    if (plan_.takes_everything())
-      all = {read(number, {1, true, true}, charges_.everything), frames_.cell(number)};
+    if (plan_.takes_everything()) all = {read(number, {1, true, true}, charges_.everything), frames_.cell(number)};
     input.make_map = plan_.map_of(input.molecule, all).maker();
     return input;
   }

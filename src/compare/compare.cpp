@@ -183,8 +183,7 @@ struct Series::Steps {
     // An iteration may start from the source's potential, whatever steps were made before: the bits of a step do not
     // depend on them.
     const GridPtr before = source.make_map ? source_map.map : nullptr;
-    MadeMap made =
-        device_map(engine, target, inverse(frame.from_target), before, wanted, temperature_K, progress);
+    MadeMap made = device_map(engine, target, inverse(frame.from_target), before, wanted, temperature_K, progress);
     if (target.make_map) result.target_recipe = std::move(made.recipe);
     return made.map;
   }
@@ -195,8 +194,8 @@ struct Series::Steps {
                                                                 const std::vector<bool>& kept,
                                                                 OffsetMetrics& counted) const {
     const float isovalue = static_cast<float>(options.surface.isovalue);
-    OutsideSamples at_source =
-                       sample_outside(engine, source_map.map, mapping.source, surface.atoms, isovalue, counted.offset_A),
+    OutsideSamples at_source = sample_outside(engine, source_map.map, mapping.source, surface.atoms, isovalue,
+                                              counted.offset_A),
                    at_target =
                        sample_outside(engine, target_map, mapping.mapped, target_atoms, isovalue, counted.offset_A);
     counted.n_outside_source_map = count_outside(source, at_source.values, kept);
@@ -218,7 +217,8 @@ struct Series::Steps {
     std::vector<float> excluded(s.corrupt.begin(), s.corrupt.end());
     for (std::size_t t = 0; t < mapping.unmatched.size(); ++t)
       excluded[t] = std::max(excluded[t], mapping.unmatched[t]);
-    const ScalarsPtr left_out = engine.upload_scalars(excluded), path_length = engine.upload_scalars(mapping.path_length);
+    const ScalarsPtr left_out = engine.upload_scalars(excluded),
+                     path_length = engine.upload_scalars(mapping.path_length);
     result.unit = unit;
     result.has_potential = true;
     for (const double offset_A : options.offsets_A) {

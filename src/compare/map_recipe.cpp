@@ -31,9 +31,10 @@ void note_fraction(const char* side, const MapRecipe& r, std::vector<std::string
 void note_charges(const MapRecipe& source, const MapRecipe& target, std::vector<std::string>& notes) {
   if (std::fabs(source.net_charge - target.net_charge) <= kWhole) return;
   notes.push_back("the net charges differ, " + written("%.3g", source.net_charge) + " and " +
-                  written("%.3g", target.net_charge) + " e: each periodic cell is neutralized by a uniform background "
-                  "of its own, which changes the difference; zero is the " + to_string(source.zero) +
-                  (source.zero == target.zero ? "" : " and the " + to_string(target.zero)));
+                  written("%.3g", target.net_charge) +
+                  " e: each periodic cell is neutralized by a uniform background "
+                  "of its own, which changes the difference; zero is the " +
+                  to_string(source.zero) + (source.zero == target.zero ? "" : " and the " + to_string(target.zero)));
 }
 
 void note_cells(const MapRecipe& source, const MapRecipe& target, std::vector<std::string>& notes) {

@@ -112,10 +112,10 @@ struct CompareResult {
   bool has_potential = false;
   std::string shapes_because;  ///< why there is none, where nobody asked for shapes alone
   PotentialUnit unit = PotentialUnit::kUnknown;
-  std::vector<OffsetMetrics> by_offset;  ///< [offset of the options]; empty without potentials
+  std::vector<OffsetMetrics> by_offset;                   ///< [offset of the options]; empty without potentials
   std::optional<MapRecipe> source_recipe, target_recipe;  ///< of potentials that were computed
-  Metrics metrics;                                                 ///< over valid triangles
-  Metrics metrics_all;                                             ///< over all triangles with samples
+  Metrics metrics;                                        ///< over valid triangles
+  Metrics metrics_all;                                    ///< over all triangles with samples
   std::size_t n_outside_source_map = 0, n_outside_target_map = 0;  ///< vertices
   SurfaceSummary source_surface, target_surface;
   double area_mapped_A2 = 0;

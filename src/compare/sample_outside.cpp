@@ -17,8 +17,7 @@ OutsideSamples sample_outside(Engine& engine, const GridPtr& map, const MeshPtr&
   const std::vector<Vec3f> normals = engine.level_set_normals(mesh, atoms, isovalue);
   for (std::size_t v = 0; v < points.size(); ++v) points[v] = points[v] + static_cast<float>(offset_A) * normals[v];
   samples.values = engine.download(engine.sample(map, engine.with_positions(mesh, points)));
-  for (const float density : engine.density_at(atoms, points))
-    samples.inside.push_back(density > isovalue ? 1 : 0);
+  for (const float density : engine.density_at(atoms, points)) samples.inside.push_back(density > isovalue ? 1 : 0);
   return samples;
 }
 

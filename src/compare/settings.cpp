@@ -241,15 +241,16 @@ std::vector<double> parse_offsets(const std::string& name, const std::string& te
 }
 
 Setting offset_setting() {
-  Setting offset{"offset",
-                 "Potentials",
-                 SettingKind::kText,
-                 {},
-                 "Distance outside both surfaces, along their normals, at which the potentials are read, Angstrom; a list "
-                 "such as 0,1.4,3 gives the metrics at each, and vertices and residues have the first",
-                 false,
-                 nullptr,
-                 nullptr};
+  Setting offset{
+      "offset",
+      "Potentials",
+      SettingKind::kText,
+      {},
+      "Distance outside both surfaces, along their normals, at which the potentials are read, Angstrom; a list "
+      "such as 0,1.4,3 gives the metrics at each, and vertices and residues have the first",
+      false,
+      nullptr,
+      nullptr};
   offset.set = [](CompareOptions& o, const std::string& text) { o.offsets_A = parse_offsets("offset", text); };
   offset.get = [](const CompareOptions& o) {
     std::string text;

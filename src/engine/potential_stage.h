@@ -34,7 +34,8 @@ inline Lattice lattice_over(const PmeCell& cell, const std::array<int, 3>& size)
 enum class Precision { kSingle, kDouble };
 
 /// Which part of Ewald's sum. kSmooth: the reciprocal part, charges smeared into Gaussians, as PMEPot gives it. kFull:
-/// with the direct part, sum q erfc(beta r) / r, which is added where the map is sampled: the potential of point charges.
+/// with the direct part, sum q erfc(beta r) / r, which is added where the map is sampled: the potential of point
+/// charges.
 enum class PmePart { kSmooth, kFull };
 
 /// Parameters of pme_potential().

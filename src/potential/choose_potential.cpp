@@ -34,8 +34,8 @@ PotentialChoice choose_potential(const std::string& asked, const std::string& ce
     choice.method = parse_potential_method(asked);
     return choice;
   }
-  const auto without = std::find_if(molecules.begin(), molecules.end(),
-                                    [](const PotentialFacts& m) { return !m.has_charges; });
+  const auto without =
+      std::find_if(molecules.begin(), molecules.end(), [](const PotentialFacts& m) { return !m.has_charges; });
   if (without != molecules.end()) {
     choice.because = without->name + " has no charges";
     return choice;

@@ -29,8 +29,8 @@ struct PotentialChoice {
 
 /// The potential for molecules that are compared with each other.
 ///
-/// What is asked for is taken. `auto` takes pme where every molecule has charged water in a periodic cell, else pb where
-/// every molecule has charges, else none: a potential in vacuum is nobody's default.
+/// What is asked for is taken. `auto` takes pme where every molecule has charged water in a periodic cell, else pb
+/// where every molecule has charges, else none: a potential in vacuum is nobody's default.
 /// @param asked auto, none, pme, coulomb or pb
 /// @param cell  of pme: own, box, or auto, which takes the molecules' own cells where all have water in one
 /// @throws InputError for other words; when a potential was asked for and a molecule has no charges

@@ -68,8 +68,8 @@ MadeMap ComputedMap::Charges::pme(Engine& engine, const RigidTransform& to_map, 
   const std::vector<Vec3d> positions = is_padded ? moved(molecule.positions, to_common) : molecule.positions;
   if (is_padded) r.cell = choose_cell(options, positions, std::nullopt);
   r.pme.size = choose_grid_size(r.cell, options.grid, r.pme.compatible);
-  made.map = engine.pme_potential(positions, molecule.charges, r.cell, r.pme, is_padded ? RigidTransform() : to_map,
-                                  progress);
+  made.map =
+      engine.pme_potential(positions, molecule.charges, r.cell, r.pme, is_padded ? RigidTransform() : to_map, progress);
   r.zero = ZeroPlace::kCellMean;
   if (r.has_water && !r.pme.compatible && !solute.empty()) {
     BulkZero bulk;
@@ -94,8 +94,8 @@ MadeMap ComputedMap::Charges::poisson_boltzmann(Engine& engine, const RigidTrans
   MadeMap made{nullptr, recipe};
   MapRecipe& r = made.recipe;
   const std::vector<Vec3d> positions = moved(molecule.positions, inverse(to_map));
-  r.pb_lattice = on_multiples(
-      poisson_boltzmann_lattice(positions, molecule.radii, options.pb_spacing_A, options.pb_padding_A));
+  r.pb_lattice =
+      on_multiples(poisson_boltzmann_lattice(positions, molecule.radii, options.pb_spacing_A, options.pb_padding_A));
   made.map = engine.poisson_boltzmann(positions, molecule.radii, molecule.charges, r.pb_lattice, r.pb, {}, before,
                                       progress, &r.pb_report);
   return made;
@@ -164,11 +164,12 @@ std::string ComputedMap::fingerprint() const {
   } else {
     const PoissonBoltzmannOptions& o = r.pb;
     add(hash, charges_->molecule.radii);
-    numbers.insert(numbers.end(),
-                   {o.solute_dielectric, o.solvent_dielectric, o.ionic_strength_M, o.ion_radius_A, o.probe_radius_A,
-                    o.gaussian_sigma, o.temperature_K, static_cast<double>(o.dielectric_boundary),
-                    static_cast<double>(o.far_boundary), static_cast<double>(o.smoothing), o.nonlinear ? 1.0 : 0.0, o.tolerance,
-                    static_cast<double>(o.max_cycles), charges_->options.pb_spacing_A, charges_->options.pb_padding_A});
+    numbers.insert(
+        numbers.end(),
+        {o.solute_dielectric, o.solvent_dielectric, o.ionic_strength_M, o.ion_radius_A, o.probe_radius_A,
+         o.gaussian_sigma, o.temperature_K, static_cast<double>(o.dielectric_boundary),
+         static_cast<double>(o.far_boundary), static_cast<double>(o.smoothing), o.nonlinear ? 1.0 : 0.0, o.tolerance,
+         static_cast<double>(o.max_cycles), charges_->options.pb_spacing_A, charges_->options.pb_padding_A});
   }
   hash.update(numbers.data(), numbers.size() * sizeof(double));
   return hash.finish();

@@ -95,8 +95,7 @@ Grid PotentialSeries::compute(const std::vector<Vec3d>& positions, const Molecul
     if (frame.radii.size() != positions.size())
       throw InputError(frame.name + ": Poisson-Boltzmann needs the atoms' radii; give a PQR file");
     if (is_first)
-      first_->lattice =
-          poisson_boltzmann_lattice(positions, frame.radii, options_.pb_spacing_A, options_.pb_padding_A);
+      first_->lattice = poisson_boltzmann_lattice(positions, frame.radii, options_.pb_spacing_A, options_.pb_padding_A);
     first_->last = engine_.poisson_boltzmann(positions, frame.radii, frame.charges, first_->lattice, options_.pb, {},
                                              first_->last, progress, nullptr);
     return engine_.download(first_->last);

@@ -13,8 +13,7 @@ namespace espdiff {
 namespace {
 
 using Methods = std::vector<PotentialMethod>;
-const Methods kPb{PotentialMethod::kPoissonBoltzmann}, kPme{PotentialMethod::kPme},
-    kCoulomb{PotentialMethod::kCoulomb};
+const Methods kPb{PotentialMethod::kPoissonBoltzmann}, kPme{PotentialMethod::kPme}, kCoulomb{PotentialMethod::kCoulomb};
 
 [[noreturn]] void refuse(const std::string& name, const std::string& text, const std::string& accepted) {
   throw InputError(option(name) + ": '" + text + "' is not " + accepted);
@@ -117,7 +116,8 @@ void add_pb_settings(std::vector<PotentialSetting>& all) {
        {"vdw", DielectricBoundary::kVanDerWaals},
        {"gaussian", DielectricBoundary::kGaussian}},
       [](auto& o) -> auto& { return o.pb.dielectric_boundary; },
-      "Where the molecule's dielectric ends: at the surface that a probe cannot cross (molecular), at the atoms' spheres "
+      "Where the molecule's dielectric ends: at the surface that a probe cannot cross (molecular), at the atoms' "
+      "spheres "
       "(vdw), or nowhere: it changes smoothly with a Gaussian density (gaussian)"));
   all.push_back(number(
       "probe_radius", "probe-radius", kPb, true, [](auto& o) -> auto& { return o.pb.probe_radius_A; },
@@ -177,7 +177,8 @@ void add_pme_settings(std::vector<PotentialSetting>& all) {
       "compatible", "pme-compatible", kPme, [](auto& o) -> auto& { return o.pme.compatible; },
       "PMEPot's numbers: its grid sizes, squared spline factor, whole-number volume, smooth part, linear samples"));
   PotentialSetting pad{"pad", "pme-pad", kPme, SettingKind::kText, {}, "", nullptr, nullptr};
-  pad.help = "A box around the atoms instead of a cell, wider by so much on each side, Angstrom; 10 where no cell is known";
+  pad.help =
+      "A box around the atoms instead of a cell, wider by so much on each side, Angstrom; 10 where no cell is known";
   pad.set = [](PotentialOptions& o, const std::string& text) {
     double value = 0;
     if (!parse_number(text, value) || !(value >= 0) || !std::isfinite(value))
@@ -230,7 +231,8 @@ PotentialOptions make_potential_options(PotentialMethod method, const GivenPoten
   o.method = method;
   o.pme.part = on_lattice ? PmePart::kSmooth : PmePart::kFull;
   const auto is_given = [&](const std::string& key) {
-    return std::any_of(given.begin(), given.end(), [&](const auto& g) { return &find_potential_setting(g.first) == &find_potential_setting(key); });
+    return std::any_of(given.begin(), given.end(),
+                       [&](const auto& g) { return &find_potential_setting(g.first) == &find_potential_setting(key); });
   };
   for (const auto& [name, text] : given) {
     const PotentialSetting& setting = find_potential_setting(name);

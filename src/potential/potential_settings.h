@@ -41,8 +41,8 @@ using GivenPotentialSettings = std::vector<std::pair<std::string, std::string>>;
 
 /// Options of one potential; what is not given keeps its default. Ewald's sum is in full unless `compatible`, since the
 /// map is for surfaces.
-/// @param on_lattice for a map in a file: coulomb then has a grid and a box, and pme its smooth part, since a grid cannot
-/// hold what is near the charges
+/// @param on_lattice for a map in a file: coulomb then has a grid and a box, and pme its smooth part, since a grid
+/// cannot hold what is near the charges
 /// @throws InputError as PotentialSetting::set; for what the potential does not read, which would be ignored in silence
 PotentialOptions make_potential_options(PotentialMethod method, const GivenPotentialSettings& given,
                                         double temperature_K, bool on_lattice = false);

@@ -126,8 +126,8 @@ void print_kind_of_potential(std::ostream& out, const CompareResult& result) {
   for (const auto& [side, recipe] : {std::pair("Of the source", &source), std::pair("Of the target", &target)}) {
     if (!*recipe) continue;
     const MapRecipe& r = **recipe;
-    std::string text = number("%.4g", r.net_charge) + " e in " + counted(r.n_charges, "charge") + "; zero " +
-                       to_string(r.zero);
+    std::string text =
+        number("%.4g", r.net_charge) + " e in " + counted(r.n_charges, "charge") + "; zero " + to_string(r.zero);
     if (r.method == PotentialMethod::kPoissonBoltzmann)
       text += "; residual " + number("%.1e", r.pb_report.relative_residual) + " after " +
               counted(static_cast<std::size_t>(std::max(r.pb_report.cycles, 0)), "cycle");

@@ -199,8 +199,7 @@ TEST_CASE("without maps and with charges Poisson-Boltzmann is computed, and the 
   const std::string start = "compare " + molecule + " " + other + " -o " + folder.file("out") + " --device cpu ";
   const Outcome usual = run_espdiff(start + "--pb-spacing 1");
   REQUIRE_MESSAGE(usual.status == 0, usual.err);
-  CHECK(contains(usual.out,
-                 "Poisson-Boltzmann, 0.15 mol/l (charges without explicit water in a periodic cell)"));
+  CHECK(contains(usual.out, "Poisson-Boltzmann, 0.15 mol/l (charges without explicit water in a periodic cell)"));
   CHECK(contains(usual.out, "mean absolute difference  kT/e "));
   const std::string json = read_file(folder.file("out.json"));
   for (const char* part :

@@ -92,8 +92,9 @@ TEST_CASE("a list gives the metrics of each distance; the first one is the resul
 TEST_CASE("a distance beyond the map is refused") {
   const Side source = make_side(1, 0);
   const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
-  CHECK(message_of([&] { compare(*engine, source.input(), source.input(), read_at({20}), {}); })
-            .find("no vertex of the surface lies in it") != std::string::npos);
+  CHECK(message_of([&] {
+          compare(*engine, source.input(), source.input(), read_at({20}), {});
+        }).find("no vertex of the surface lies in it") != std::string::npos);
 }
 
 TEST_CASE("what is no list of distances is refused") {

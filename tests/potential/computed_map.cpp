@@ -39,9 +39,7 @@ PotentialOptions grid_of(double resolution_A) {
   return options;
 }
 
-ComputedMap map_of(const Molecule& molecule, double resolution_A = 1) {
-  return {molecule, {}, grid_of(resolution_A)};
-}
+ComputedMap map_of(const Molecule& molecule, double resolution_A = 1) { return {molecule, {}, grid_of(resolution_A)}; }
 
 CompareInput computed(const Side& side) { return {&side.molecule, nullptr, map_of(side.molecule).maker()}; }
 
@@ -84,8 +82,8 @@ TEST_CASE("splines on 1 A are nearer to the direct Ewald sum at the surface than
     REQUIRE(hash_of(linear) != hash_of(spline));
     std::vector<Vec3d> points = is_source ? s.source_positions : s.positions;
     points.resize(100);
-    const std::vector<double> exact =
-        direct_ewald({molecule.positions, molecule.charges}, espdiff::padded_cell(molecule.positions, 10), 0.25, points);
+    const std::vector<double> exact = direct_ewald({molecule.positions, molecule.charges},
+                                                   espdiff::padded_cell(molecule.positions, 10), 0.25, points);
     const auto& l = linear.surface;
     const double of_spline = rms_error(is_source ? s.potential_source : s.potential_target, exact),
                  of_linear = rms_error(is_source ? l.potential_source : l.potential_target, exact);
@@ -102,7 +100,7 @@ TEST_CASE("a series makes the source's map once, and gives the same bits as comp
   int n_made = 0;
   CompareInput counted = computed(source);
   counted.make_map = [&n_made, make = counted.make_map](Engine& e, const auto& to_map, const auto& before,
-                                                         const auto& progress) {
+                                                        const auto& progress) {
     ++n_made;
     return make(e, to_map, before, progress);
   };
@@ -177,8 +175,7 @@ TEST_CASE("a result tells of a computed map what is needed to compute it again")
   CHECK(input["computed"]["ewald_factor"] == 0.3);
   CHECK(input["computed"]["sampling"] == "spline");
   // All that the map depends on changes the fingerprint.
-  CHECK(map.fingerprint() ==
-        ComputedMap(side.molecule, in_cell, options).fingerprint());
+  CHECK(map.fingerprint() == ComputedMap(side.molecule, in_cell, options).fingerprint());
   CHECK(map.fingerprint() != map_of(side.molecule).fingerprint());
   Molecule changed = side.molecule;
   changed.charges[0] += 0.1F;
@@ -191,15 +188,15 @@ TEST_CASE("what cannot be computed is refused before the surface is made") {
   PotentialOptions options;
   options.cell = espdiff::PmeCell{{}, {Vec3d{50, 0, 0}, Vec3d{0, 50, 0}, Vec3d{0, 0, 50}}};
   options.pad_A = 5;
-  CHECK(message_of([&] { ComputedMap(molecule, {}, options); }) ==
-        "a cell and a padding were given; leave one out");
+  CHECK(message_of([&] { ComputedMap(molecule, {}, options); }) == "a cell and a padding were given; leave one out");
   options = {};
   options.method = espdiff::PotentialMethod::kPoissonBoltzmann;
   Molecule wet = molecule;
   wet.residues[0].name = "HOH";
-  CHECK(message_of([&] { ComputedMap(wet, {}, options); }) ==
-        "molecule.pqr: water is among the atoms, and Poisson-Boltzmann has a continuum in its place; leave water out, or "
-        "take the potential pme");
+  CHECK(
+      message_of([&] { ComputedMap(wet, {}, options); }) ==
+      "molecule.pqr: water is among the atoms, and Poisson-Boltzmann has a continuum in its place; leave water out, or "
+      "take the potential pme");
   wet = molecule;
   wet.radii.clear();
   CHECK(message_of([&] { ComputedMap(wet, {}, options); }) ==
@@ -266,10 +263,10 @@ TEST_CASE("options of a potential: each refused with its name, and those that it
   const PotentialMethod pb = PotentialMethod::kPoissonBoltzmann, pme = PotentialMethod::kPme;
   CHECK(refused(pb, "ionic-strength", "-0.1") == "ionic-strength: '-0.1' is not a number of 0 or more");
   CHECK(refused(pb, "solute_dielectric", "0") == "solute-dielectric: '0' is not a positive number");
-  CHECK(refused(pb, "dielectric-boundary", "smol") ==
-        "dielectric-boundary: 'smol' is not molecular, vdw or gaussian");
+  CHECK(refused(pb, "dielectric-boundary", "smol") == "dielectric-boundary: 'smol' is not molecular, vdw or gaussian");
   CHECK(refused(pme, "ionic-strength", "0.1") ==
-        "ionic-strength is an option of the potential pb, and the potential is pme; leave it out, or take the potential pb");
+        "ionic-strength is an option of the potential pb, and the potential is pme; leave it out, or take the "
+        "potential pb");
   CHECK(refused(pme, "part", "some") == "pme-part: 'some' is not full or smooth");
   CHECK(refused(pb, "salt", "0.1").find("a potential has no option 'salt'; there are equation, ionic_strength") == 0);
   for (const espdiff::PotentialSetting& setting : espdiff::potential_settings()) {

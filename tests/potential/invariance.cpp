@@ -9,8 +9,8 @@
 
 #include "base/error.h"
 #include "compare/compare.h"
-#include "compare/options.h"
 #include "compare/map_recipe.h"
+#include "compare/options.h"
 #include "compare/result.h"
 #include "cuda/surface/shapes.h"
 #include "engine/select_engine.h"
@@ -19,10 +19,10 @@
 #include "support/test_data.h"
 
 using namespace espdiff_test;
-using espdiff::ComputedMap;
 using espdiff::CompareInput;
 using espdiff::CompareOptions;
 using espdiff::CompareResult;
+using espdiff::ComputedMap;
 using espdiff::Molecule;
 using espdiff::PotentialMethod;
 using espdiff::PotentialOptions;
@@ -32,8 +32,8 @@ namespace {
 /// Small and larger proteins with charges of -3 to +8 e.
 const char* const kMolecules[] = {"pqr_pdb2pqr/1AJJ_pH7_AMBER.pqr", "ubq/ubq.pqr", "series19_ubq_2k39/m07.pqr",
                                   "pair_t4l_maps/3lzm.pqr", "pair_tim_maps/dTIM_chainA.pqr"};
-const std::pair<const char*, const char*> kPairs[] = {
-    {"series19_ubq_2k39/m00.pqr", "series19_ubq_2k39/m07.pqr"}, {"pair_t4l_maps/3lzm.pqr", "pair_t4l_maps/181l_fit.pqr"}};
+const std::pair<const char*, const char*> kPairs[] = {{"series19_ubq_2k39/m00.pqr", "series19_ubq_2k39/m07.pqr"},
+                                                      {"pair_t4l_maps/3lzm.pqr", "pair_t4l_maps/181l_fit.pqr"}};
 const PotentialMethod kMethods[] = {PotentialMethod::kPme, PotentialMethod::kCoulomb,
                                     PotentialMethod::kPoissonBoltzmann};
 
@@ -96,7 +96,8 @@ TEST_CASE("turning source or target in its file changes no metric by more than 1
   for (const auto& [first, second] : kPairs) {
     const auto source_path = real_input(first), target_path = real_input(second);
     if (!source_path || !target_path) return;
-    const Molecule source = espdiff::read_structure(*source_path, {}), target = espdiff::read_structure(*target_path, {});
+    const Molecule source = espdiff::read_structure(*source_path, {}),
+                   target = espdiff::read_structure(*target_path, {});
     for (const PotentialMethod method : kMethods) {
       const PotentialOptions options = options_of(method);
       const espdiff::Metrics plain = compared(*engine, source, target, options).metrics;

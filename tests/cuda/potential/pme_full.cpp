@@ -81,14 +81,14 @@ PmeOptions full(PmeOptions options) {
 
 TEST_SUITE_BEGIN("pme_full");
 
-TEST_CASE("the full sum is the direct Ewald sum with its real-space part, in cells of three shapes, with a net charge") {
+TEST_CASE(
+    "the full sum is the direct Ewald sum with its real-space part, in cells of three shapes, with a net charge") {
   for (const auto& engine : engines_with_fourier()) {
     for (const NamedCell& named : cells()) {
       const Charges atoms = random_charges(named.cell, 60, 41);
       const std::vector<Vec3d> points = points_outside(atoms, named.cell, 40);
       const PmeOptions options = full(options_for(named.cell, 1.0));
-      const GridPtr map =
-          engine->pme_potential(atoms.positions, atoms.charges, named.cell, options, {}, {});
+      const GridPtr map = engine->pme_potential(atoms.positions, atoms.charges, named.cell, options, {}, {});
       std::vector<double> exact = direct_ewald(atoms, named.cell, options.ewald_factor, points);
       for (std::size_t i = 0; i < points.size(); ++i)
         exact[i] += direct_part(atoms, named.cell, options.ewald_factor, points[i]);
@@ -129,8 +129,8 @@ TEST_CASE("the full sum has the same bits for 1, 2 and 4 threads and for any ord
     for (const auto& engine : engines_with_fourier(n_threads)) {
       if (engine->back_end() != "cpu") continue;
       for (const Charges* input : {&atoms, static_cast<const Charges*>(&turned)}) {
-        const GridPtr map = engine->pme_potential(input->positions, input->charges, cell,
-                                                  full(options_for(cell, 1.0)), {}, {});
+        const GridPtr map =
+            engine->pme_potential(input->positions, input->charges, cell, full(options_for(cell, 1.0)), {}, {});
         const std::vector<float> values = engine->download(engine->resample(map, lattice)).values;
         if (first.empty()) first = values;
         CHECK(std::memcmp(values.data(), first.data(), first.size() * sizeof(float)) == 0);

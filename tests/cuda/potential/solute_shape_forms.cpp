@@ -4,8 +4,8 @@
 
 #include <cstring>
 
-#include "cuda/surface/shapes.h"
 #include "cuda/potential/dielectric_map.h"
+#include "cuda/surface/shapes.h"
 
 using namespace espdiff_test;
 using espdiff::cpu_backend::Buffer;
