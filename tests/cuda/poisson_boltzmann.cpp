@@ -16,7 +16,7 @@ constexpr double kIonsPerA3 = 6.02214076e-4;
 
 /// 1/A, in the solvent.
 double kappa_of(const PoissonBoltzmannOptions& o) {
-  return std::sqrt(8 * kPi * kCoulomb * kIonsPerA3 * o.ionic_strength_M / o.solvent_dielectric);
+  return std::sqrt(8 * kPi * kCoulomb * kIonsPerA3 * o.ionic_strength / o.solvent_dielectric);
 }
 
 /// A charge at distance e from the centre of a sphere of low dielectric, ions kept out of a larger one: Kirkwood, J.
@@ -125,7 +125,7 @@ TEST_CASE("a Born ion, with and without salt, converges to the analytic potentia
   for (const auto& engine : fast_back_ends()) {
     for (const double salt : {0.0, 0.15}) {
       PoissonBoltzmannOptions options;
-      options.ionic_strength_M = salt;
+      options.ionic_strength = salt;
       // The border's sum knows nothing of the room that ions leave free; from a wider grid that does not matter.
       options.far_boundary = espdiff::FarBoundary::kFocus;
       check_orders("Born ion, " + std::to_string(salt) + " mol/l", 1.0,
@@ -177,7 +177,7 @@ TEST_CASE("without a dielectric boundary or room for atoms: Debye and Hueckel's 
 
 TEST_CASE("a Gaussian dielectric around one charge: the integral of the field") {
   PoissonBoltzmannOptions options;
-  options.ionic_strength_M = 0;
+  options.ionic_strength = 0;
   options.dielectric_boundary = DielectricBoundary::kGaussian;
   constexpr double kRadius = 2;
   const Molecule m = molecule_of({{0.1, -0.2, 0.05}}, {static_cast<float>(kRadius)}, {1.0F});

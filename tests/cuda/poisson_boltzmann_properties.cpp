@@ -206,7 +206,7 @@ TEST_CASE("what is refused, and how") {
   options.solvent_dielectric = -78;
   CHECK(refusal(*engine, ion, lattice, options) == "solvent dielectric -78 is not a positive number; 78.54 is water's");
   options = {};
-  options.ionic_strength_M = -0.1;
+  options.ionic_strength = -0.1;
   CHECK(refusal(*engine, ion, lattice, options) ==
         "ionic strength -0.1 mol/l is not a number from 0 on; 0.15 is usual");
   options = {};
