@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/handles.h"
 #include "base/progress.h"
 #include "compare/input.h"
 #include "compare/options.h"
@@ -18,7 +19,6 @@
 #include "compare/series.h"
 #include "dcd_frames.h"
 #include "engine/engine.h"
-#include "engine/handles.h"
 #include "engine/select_engine.h"
 #include "pair_row.h"
 

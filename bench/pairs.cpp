@@ -14,6 +14,7 @@
 #include "base/progress.h"
 #include "compare/compare.h"
 #include "compare/input.h"
+#include "compare/options.h"
 #include "compare/settings.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"

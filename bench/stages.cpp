@@ -10,6 +10,7 @@
 #include "base/progress.h"
 #include "compare/compare.h"
 #include "compare/input.h"
+#include "compare/options.h"
 #include "compare/result.h"
 #include "engine/certificate_stage.h"
 #include "engine/deform_stage.h"

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "compare/options.h"
 #include "io/atomic_file.h"
 #include "matrix/matrix_state.h"
 #include "matrix/write_matrix.h"
@@ -79,6 +80,9 @@ std::string state_path(const std::string& output_prefix, const Shard& shard) {
 MatrixReport run_matrix(Engine& engine, const std::vector<Variant>& variants, const CompareOptions& options,
                         const MatrixRun& run, const Progress& progress) {
   check_outputs(run);
+  if (options.offsets_A.size() > 1)
+    throw InputError(option("offset") +
+                     ": a list of distances was given, and a matrix has one value of a metric for a pair; give one");
   const MatrixPlan plan = make_plan(engine, variants, options, run.potential);
   const std::string path = state_path(run.output, run.shard);
   MatrixStateContent earlier;

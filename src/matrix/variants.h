@@ -5,11 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "base/structure_options.h"
 #include "base/types.h"
-#include "io/read_structure.h"
 #include "report/write_compare.h"
 
 namespace espdiff {
+
+class StructureFile;
 
 /// One molecule of a matrix and its potential.
 struct Variant {

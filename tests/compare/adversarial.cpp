@@ -11,6 +11,7 @@
 #include "compare/built_molecule.h"
 #include "compare/compare.h"
 #include "compare/made_side.h"
+#include "compare/options.h"
 
 using namespace espdiff_test;
 using espdiff::compare;
