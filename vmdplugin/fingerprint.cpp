@@ -13,7 +13,8 @@ void add(Sha256& hash, const std::vector<T>& values) {
 }
 
 void add(Sha256& hash, const Vec3d& v) {
-  for (const double coordinate : {v.x, v.y, v.z}) hash.update(&coordinate, sizeof coordinate);
+  const double members[] = {v.x, v.y, v.z};
+  hash.update(members, sizeof members);
 }
 
 }  // namespace

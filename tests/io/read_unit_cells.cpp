@@ -23,8 +23,8 @@ TEST_CASE("unit cells: each model has the last CRYST1 before it; none and dummie
   const std::string first = cryst1("   42.439   42.500   43.125 109.47  90.00  80.50"),
                     second = cryst1("   50.000   51.000   52.000  90.00  90.00  90.00"),
                     dummy = cryst1("    1.000    1.000    1.000  90.00  90.00  90.00");
-  const auto cells = cells_of(
-      scratch.write("a.pqr", first + kAtom + "END\n" + second + kAtom + "END\n" + dummy + kAtom + "END\n"));
+  const auto cells =
+      cells_of(scratch.write("a.pqr", first + kAtom + "END\n" + second + kAtom + "END\n" + dummy + kAtom + "END\n"));
   REQUIRE(cells.size() == 3);
   REQUIRE(cells[0].has_value());
   CHECK(cells[0]->lengths == Vec3d{42.439, 42.5, 43.125});
