@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"
+#include "io/read_unit_cells.h"
 #include "io/write_grid.h"
 #include "tcl_values.h"
 #include "volume_store.h"

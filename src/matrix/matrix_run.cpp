@@ -9,6 +9,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "compare/options.h"
 #include "io/atomic_file.h"
 #include "matrix/matrix_state.h"
 #include "matrix/write_matrix.h"
