@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "base/error.h"
+#include "base/handles.h"
 #include "cuda/certificate/certificate.h"
 #include "cuda/certificate/distortion.h"
 #include "cuda/certificate/intersections.h"
@@ -38,7 +39,6 @@
 #include "engine/certificate_stage.h"
 #include "engine/deform_stage.h"
 #include "engine/engine.h"
-#include "engine/handles.h"
 #include "engine/make_engine.h"
 #include "engine/morph_stage.h"
 #include "engine/potential_stage.h"

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/version.h"
 #include "commands.h"
+#include "compare/options.h"
 #include "compare/settings.h"
 #include "engine/select_engine.h"
 #include "io/read_dx.h"

@@ -11,6 +11,7 @@
 #include "io/read_structure.h"
 #include "molfile_bridge.h"
 #include "potential/choose_potential.h"
+#include "potential/potential.h"
 #include "tcl_values.h"
 
 namespace espdiff::vmdplugin {

@@ -2,12 +2,14 @@
 // and their average.
 #include <algorithm>
 
+#include "align/pair_atoms.h"
 #include "base/error.h"
 #include "commands.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"
 #include "io/read_unit_cells.h"
 #include "io/write_grid.h"
+#include "potential/potential.h"
 #include "tcl_values.h"
 #include "volume_store.h"
 

@@ -143,7 +143,7 @@ void set_debye_hueckel_border(const std::vector<PbAtom>& atoms, const CubicLatti
   std::vector<float> x, y, z, strength;
   for (const PbAtom& atom : atoms) {
     if (atom.charge == 0) continue;
-    const double a = law.kappa_1A * static_cast<double>(atom.radius);
+    const double a = law.kappa * static_cast<double>(atom.radius);
     x.push_back(static_cast<float>(atom.position.x));
     y.push_back(static_cast<float>(atom.position.y));
     z.push_back(static_cast<float>(atom.position.z));
@@ -155,7 +155,7 @@ void set_debye_hueckel_border(const std::vector<PbAtom>& atoms, const CubicLatti
   }
   const Buffer<float> on_x = to_device(x), on_y = to_device(y), on_z = to_device(z), on_strength = to_device(strength);
   const BorderCharges charges{raw(on_x),        raw(on_y),       raw(on_z),
-                              raw(on_strength), strength.size(), static_cast<float>(law.kappa_1A)};
+                              raw(on_strength), strength.size(), static_cast<float>(law.kappa)};
   const int stride =
       std::max(1, static_cast<int>(std::lround(kBorderSpacing_A / static_cast<double>(lattice.spacing))));
   for (int axis = 0; axis < 3; ++axis) {

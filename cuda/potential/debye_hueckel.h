@@ -10,8 +10,8 @@ namespace espdiff::ESPDIFF_BACKEND {
 
 /// What the border's potential depends on.
 struct DebyeHueckel {
-  double scale = 0;     ///< C / eps_solvent, kT A / e^2
-  double kappa_1A = 0;  ///< inverse Debye length
+  double scale = 0;  ///< C / eps_solvent, kT A / e^2
+  double kappa = 0;  ///< inverse Debye length
 };
 
 /// Sets the border of `phi` [point] to

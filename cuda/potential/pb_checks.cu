@@ -63,7 +63,7 @@ void check_pb_options(const PoissonBoltzmannOptions& o) {
           "is not a positive number; 2 is usual");
   require(o.solvent_dielectric > 0, "solvent dielectric", o.solvent_dielectric, "",
           "is not a positive number; 78.54 is water's");
-  require(o.ionic_strength_M >= 0, "ionic strength", o.ionic_strength_M, " mol/l",
+  require(o.ionic_strength >= 0, "ionic strength", o.ionic_strength, " mol/l",
           "is not a number from 0 on; 0.15 is usual");
   require(o.ion_radius_A >= 0, "ion radius", o.ion_radius_A, " A", "is not a number from 0 on; 2 is usual");
   require(o.probe_radius_A >= 0, "probe radius", o.probe_radius_A, " A", "is not a number from 0 on; 1.4 is water's");

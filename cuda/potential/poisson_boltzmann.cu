@@ -31,7 +31,7 @@ struct Constants {
 Constants constants_of(const PoissonBoltzmannOptions& o) {
   Constants c{};
   c.coulomb = coulomb_in_kt(o.temperature_K);
-  c.kappa_bar_2 = 8 * kPi * c.coulomb * kIonsPerA3 * o.ionic_strength_M;
+  c.kappa_bar_2 = 8 * kPi * c.coulomb * kIonsPerA3 * o.ionic_strength;
   c.kappa = std::sqrt(c.kappa_bar_2 / o.solvent_dielectric);
   return c;
 }
@@ -164,7 +164,7 @@ void solve(const Problem& problem, const CubicLattice& lattice, Buffer<float>& p
     problem.progress.report("potential", 0.2 + 0.8 * std::min(1.0, std::max(0.0, part)));
   };
   SolverReport solved;
-  if (options.nonlinear && options.ionic_strength_M > 0) {
+  if (options.nonlinear && options.ionic_strength > 0) {
     const Buffer<float> k = on_grid.diagonal;
     const NewtonReport newton_report = newton(on_grid, k, b, solver, options.max_newton_steps, work, phi, step);
     solved = newton_report.solver;

@@ -5,9 +5,11 @@
 #include "cli/spelling.h"
 #include "cli/verbs.h"
 #include "compare/compare.h"
+#include "compare/options.h"
 #include "compare/result.h"
 #include "engine/engine.h"
 #include "io/atomic_file.h"
+#include "io/read_structure.h"
 #include "report/residue_values.h"
 #include "report/write_compare.h"
 

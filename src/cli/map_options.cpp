@@ -3,6 +3,10 @@
 
 #include <utility>
 
+#include "io/read_structure.h"
+#include "io/write_csv.h"
+#include "potential/potential.h"
+
 namespace espdiff::cli {
 namespace {
 

@@ -5,11 +5,16 @@
 #include <string>
 #include <vector>
 
+#include "base/structure_options.h"
 #include "cli/options.h"
 #include "io/read_structure.h"
 #include "potential/choose_potential.h"
 #include "potential/computed_map.h"
 #include "report/write_compare.h"
+
+namespace espdiff {
+class StructureFile;
+}
 
 namespace espdiff::cli {
 

@@ -7,7 +7,9 @@
 #include "cli/map_options.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
+#include "compare/options.h"
 #include "engine/engine.h"
+#include "io/read_structure.h"
 #include "matrix/matrix_run.h"
 #include "matrix/write_matrix.h"
 

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "cli/spelling.h"
+#include "compare/options.h"
 #include "engine/select_engine.h"
 #include "io/read_grid.h"
 #include "io/write_csv.h"

@@ -7,10 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "base/handles.h"
+#include "base/structure_options.h"
 #include "compare/settings.h"
-#include "engine/handles.h"
 #include "io/read_grid.h"
 #include "io/read_structure.h"
+#include "potential/potential.h"
 #include "potential/potential_settings.h"
 
 namespace espdiff::cli {

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "align/pair_atoms.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
 #include "engine/engine.h"

@@ -10,6 +10,9 @@
 
 #include "cli/map_options.h"
 #include "cli/verbs.h"
+#include "compare/options.h"
+#include "io/read_structure.h"
+#include "io/write_csv.h"
 #include "trajectory/frame_files.h"
 #include "trajectory/frame_range.h"
 

@@ -7,6 +7,7 @@
 
 #include "align/superpose.h"
 #include "base/error.h"
+#include "base/handles.h"
 #include "compare/atom_paths.h"
 #include "compare/build_surface.h"
 #include "compare/certificate.h"
@@ -28,7 +29,6 @@
 #include "engine/certificate_stage.h"
 #include "engine/deform_stage.h"
 #include "engine/engine.h"
-#include "engine/handles.h"
 #include "engine/morph_stage.h"
 
 namespace espdiff {

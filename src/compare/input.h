@@ -3,10 +3,10 @@
 
 #include <functional>
 
+#include "base/handles.h"
 #include "base/progress.h"
 #include "base/types.h"
 #include "compare/map_recipe.h"
-#include "engine/handles.h"
 
 namespace espdiff {
 

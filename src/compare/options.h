@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "align/pair_atoms.h"
+#include "base/pairing.h"
 #include "engine/deform_stage.h"
 #include "engine/morph_stage.h"
 

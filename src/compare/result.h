@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "align/pair_atoms.h"
-#include "align/rigid_domains.h"
 #include "base/message.h"
+#include "base/pairing.h"
+#include "base/rigid_domain.h"
 #include "base/types.h"
 #include "compare/map_recipe.h"
 #include "engine/certificate_stage.h"

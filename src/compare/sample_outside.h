@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/types.h"
-#include "engine/handles.h"
+#include "base/handles.h"
 
 namespace espdiff {
 

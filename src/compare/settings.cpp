@@ -8,8 +8,10 @@
 #include <locale>
 #include <sstream>
 
+#include "align/pair_atoms.h"
 #include "align/rigid_domains.h"
 #include "base/error.h"
+#include "compare/options.h"
 
 namespace espdiff {
 namespace {

@@ -1,8 +1,8 @@
 // side_maps.h: both sides' potentials on the device, given or computed, in one unit.
 #pragma once
 
+#include "base/handles.h"
 #include "compare/input.h"
-#include "engine/handles.h"
 
 namespace espdiff {
 

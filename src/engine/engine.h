@@ -15,9 +15,9 @@
 #include <string>
 #include <vector>
 
+#include "base/handles.h"
 #include "base/progress.h"
 #include "base/types.h"
-#include "engine/handles.h"
 
 namespace espdiff {
 

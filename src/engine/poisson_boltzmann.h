@@ -32,10 +32,10 @@ enum class FarBoundary {
 struct PoissonBoltzmannOptions {
   double solute_dielectric = 2;
   double solvent_dielectric = 78.54;
-  double ionic_strength_M = 0.15;  ///< mol/l of a 1:1 salt
-  double ion_radius_A = 2;         ///< no ions nearer to an atom than its radius and this (Stern layer)
-  double probe_radius_A = 1.4;     ///< of DielectricBoundary::kMolecular
-  double gaussian_sigma = 0.93;    ///< of DielectricBoundary::kGaussian: an atom's Gaussian over its radius
+  double ionic_strength = 0.15;  ///< mol/l of a 1:1 salt
+  double ion_radius_A = 2;       ///< no ions nearer to an atom than its radius and this (Stern layer)
+  double probe_radius_A = 1.4;   ///< of DielectricBoundary::kMolecular
+  double gaussian_sigma = 0.93;  ///< of DielectricBoundary::kGaussian: an atom's Gaussian over its radius
   double temperature_K = 300;
   DielectricBoundary dielectric_boundary = DielectricBoundary::kMolecular;
   DielectricSmoothing smoothing = DielectricSmoothing::kEdges;

@@ -10,6 +10,7 @@
 #include "base/water.h"
 #include "engine/engine.h"
 #include "io/sha256.h"
+#include "potential/potential.h"
 
 namespace espdiff {
 namespace {

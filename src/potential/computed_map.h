@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/types.h"
+#include "base/unit_cell.h"
 #include "compare/input.h"
 #include "potential/potential.h"
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "align/pair_atoms.h"
 #include "align/superpose.h"
 #include "align/unwrap.h"
 #include "base/error.h"

@@ -7,10 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "align/pair_atoms.h"
+#include "base/handles.h"
+#include "base/pairing.h"
 #include "base/progress.h"
+#include "base/types.h"
 #include "base/unit_cell.h"
-#include "engine/handles.h"
 #include "engine/poisson_boltzmann.h"
 #include "engine/potential_stage.h"
 #include "potential/running_map.h"

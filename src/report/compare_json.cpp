@@ -113,7 +113,7 @@ Json surface(const SurfaceSummary& s) {
 /// A setting's value, of the type that its kind says.
 Json typed_value(const Setting& setting, const std::string& text) {
   switch (setting.kind) {
-    case SettingKind::kNumber:
+    case SettingKind::kNumber: return Json::parse(text).get<double>();
     case SettingKind::kInteger: return Json::parse(text);
     case SettingKind::kBoolean: return text == "1";
     case SettingKind::kChoice:

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "compare/options.h"
 #include "compare/result.h"
 #include "io/atomic_file.h"
 #include "io/sha256.h"

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "base/structure_options.h"
 #include "base/vector.h"
-#include "io/read_structure.h"
 
 namespace espdiff {
 

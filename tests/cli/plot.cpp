@@ -47,6 +47,16 @@ TEST_CASE("a matrix as heat map, and one of its variants against all") {
     CHECK_MESSAGE(contains(text, word), std::string(word), text);
 }
 
+TEST_CASE("a plot needs no folder for temporary files") {
+  if (!has_gnuplot()) return;
+  const ScratchFolder folder;
+  const std::string table = folder.write("t.csv", "frame,a\n0,1\n10,2\n");
+  // As VMD sets it on Debian: to a folder that does not exist.
+  const Outcome outcome = run_espdiff("plot " + table + " --metric a -o " + folder.file("t.svg"), "TMPDIR=/usr/tmp/no");
+  CHECK_MESSAGE(outcome.status == 0, outcome.err);
+  CHECK(contains(read_file(folder.file("t.svg")), "Frame"));
+}
+
 TEST_CASE("columns of a table along its frames, with error bars where a column has them") {
   if (!has_gnuplot()) return;
   const ScratchFolder folder;

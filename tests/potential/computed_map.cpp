@@ -12,6 +12,7 @@
 #include "compare/series.h"
 #include "cuda/potential/ewald_oracle.h"
 #include "potential/choose_potential.h"
+#include "potential/potential.h"
 #include "potential/potential_settings.h"
 #include "report/write_compare.h"
 

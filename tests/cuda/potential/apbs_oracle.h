@@ -57,9 +57,9 @@ inline std::string apbs_elec(const Lattice& lattice, const PoissonBoltzmannOptio
     return std::string(text);
   };
   char ions[200] = "";
-  if (o.ionic_strength_M > 0)
+  if (o.ionic_strength > 0)
     std::snprintf(ions, sizeof ions, "ion charge 1 conc %g radius %g\nion charge -1 conc %g radius %g\n",
-                  o.ionic_strength_M, o.ion_radius_A, o.ionic_strength_M, o.ion_radius_A);
+                  o.ionic_strength, o.ion_radius_A, o.ionic_strength, o.ion_radius_A);
   char rest[400];
   const bool molecular = o.dielectric_boundary == DielectricBoundary::kMolecular;
   std::snprintf(rest, sizeof rest,

@@ -116,7 +116,7 @@ TEST_SUITE_BEGIN("poisson_boltzmann_apbs");
 TEST_CASE("FKBP: within 1 % of APBS' potential outside, and on the surface") {
   const auto m = example("FKBP/1d7h-min.pqr");
   if (!m) return;
-  for (const auto& engine : back_ends()) {
+  for (const auto& engine : fast_back_ends()) {
     const Agreement found =
         agreement(*engine, *m, lattice_of(*m, 97, 0.7), apbs_options(), comparison_surface(*engine, *m));
     CHECK(found.outside.of_rms < 0.01);
@@ -129,7 +129,7 @@ TEST_CASE("1AJJ: on the surface within 5 % at 0.5 A, and nearer at 0.25 A; the d
   const auto m = real_molecule("pqr_pdb2pqr/1AJJ_pH7_AMBER.pqr"),
              other = real_molecule("pqr_pdb2pqr/1AJJ_pH2_AMBER.pqr");
   if (!m || !other) return;
-  for (const auto& engine : back_ends()) {
+  for (const auto& engine : fast_back_ends()) {
     const auto surface = comparison_surface(*engine, *m);
     const Lattice lattice = lattice_of(*m, 97, 0.5);
     const Agreement coarse = agreement(*engine, *m, lattice, apbs_options(), surface);
@@ -163,7 +163,7 @@ TEST_CASE("ASP66 charged or not in lysozyme: the mean absolute difference within
 TEST_CASE("the nonlinear equation on DNA: within 1 % of APBS' npbe outside") {
   const auto m = example("bem-binding-energy/test_proteins/1d30.pqr");
   if (!m) return;
-  for (const auto& engine : back_ends()) {
+  for (const auto& engine : fast_back_ends()) {
     PoissonBoltzmannOptions options = apbs_options();
     options.nonlinear = true;
     const auto surface = comparison_surface(*engine, *m);
