@@ -27,7 +27,7 @@ std::string joined(int argc, char** argv) {
 void start_again_without_spinning(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
   setenv("OMP_WAIT_POLICY", "passive", 1);  // NOLINT(concurrency-mt-unsafe): no other thread exists yet
-  execv("/proc/self/exe", argv);  // returns only without /proc; threads then spin
+  execv("/proc/self/exe", argv);            // returns only without /proc; threads then spin
 }
 
 /// Runs the chosen command; errors become one line on standard error.
@@ -51,10 +51,7 @@ int run_verb(const espdiff::cli::Verb& verb, const std::string& command_line) {
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  start_again_without_spinning(argv);
+int run(int argc, char** argv) {
   CLI::App app(
       "espdiff shows where and by how much the electrostatic surface potential differs between two states of a "
       "molecule, and how "
@@ -82,4 +79,18 @@ int main(int argc, char** argv) {
       "view or doctor\nTry 'espdiff --help'.\n",
       stderr);
   return 2;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  start_again_without_spinning(argv);
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "espdiff: internal error: %s; please report it with the command\n", error.what());
+  } catch (...) {
+    std::fputs("espdiff: internal error: an exception of unknown type; please report it with the command\n", stderr);
+  }
+  return 1;
 }
