@@ -11,12 +11,14 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/handles.h"
+#include "base/progress.h"
+#include "compare/input.h"
 #include "compare/options.h"
 #include "compare/result.h"
 #include "compare/series.h"
 #include "dcd_frames.h"
 #include "engine/engine.h"
-#include "engine/handles.h"
 #include "engine/select_engine.h"
 #include "pair_row.h"
 

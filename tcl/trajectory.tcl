@@ -58,6 +58,7 @@ namespace eval ::espdiff {
             fail "espdiff trajectory: give one of -mol ID and -file FILE"
         }
         prepare_frames run $options
+        usual_run_maps run options
         check_frame_maps run
         set run(core_options) [core_options $options]
         if {$run(start) eq "auto"} { set run(start) [usual_start $run(core_options)] }

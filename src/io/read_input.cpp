@@ -243,6 +243,13 @@ FileContent read_input(const std::string& path, const HeadCheck& check_head) {
   }
 }
 
+void require_regular_file(const std::string& path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0) cannot_read(path, "check the path");
+  if (S_ISDIR(status.st_mode)) throw IoError(path, "is a directory; give a file in it");
+  if (!S_ISREG(status.st_mode)) throw IoError(path, "is a pipe or a device; save its content as a file and give that");
+}
+
 void unify_line_ends(std::string& text) {
   const bool old_mac = text.find('\r') != std::string::npos && text.find('\n') == std::string::npos;
   if (old_mac) std::replace(text.begin(), text.end(), '\r', '\n');

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "compare/options.h"
 #include "io/atomic_file.h"
 #include "io/sha256.h"
 #include "io/write_csv.h"

@@ -28,6 +28,9 @@ class Run {
       : run_(run), file_(file), outer_(progress), series_(engine, run.source, run.options) {}
 
   TrajectorySummary go(const std::function<void(const std::string&)>& warn) {
+    if (run_.options.offsets_A.size() > 1)
+      throw InputError(option("offset") +
+                       ": a list of distances was given, and a trajectory has one row for a frame; give one");
     summary_.n_frames = run_.frames.size();
     summary_.n_resumed = file_.rows().size();
     check_earlier_rows();

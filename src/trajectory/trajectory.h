@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "base/handles.h"
 #include "compare/input.h"
 #include "compare/options.h"
 #include "compare/result.h"
-#include "engine/handles.h"
 #include "trajectory/series_csv.h"
 
 namespace espdiff {
