@@ -163,7 +163,7 @@ int main(int argc, char** argv) {
   app.add_option("--every", a.every, "Only every frame (1), or every eighth (8)")
       ->check(CLI::IsMember(std::vector<std::size_t>{1, 8}));
   app.add_option("--domains", a.pieces, "Rigid domains, as espdiff compare has them")->capture_default_str();
-  app.add_option("--threads", a.threads, "CPU threads; 0 takes all")->capture_default_str();
+  app.add_option("--threads", a.threads, "CPU threads; 0 uses all")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {
     return run(a);

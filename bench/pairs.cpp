@@ -37,7 +37,7 @@ void define_options(CLI::App& app, Settings& s) {
         ->default_str(setting.get(espdiff::CompareOptions{}))
         ->group(setting.group);
   }
-  app.add_option("--threads", s.threads, "CPU threads; 0 takes all")->capture_default_str();
+  app.add_option("--threads", s.threads, "CPU threads; 0 uses all")->capture_default_str();
   app.add_option("--repeats", s.repeats, "Times are medians of so many runs")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);

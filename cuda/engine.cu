@@ -59,7 +59,7 @@ const Derived& unwrap(const std::shared_ptr<Base>& handle) {
   return *derived;
 }
 
-/// Calls a stage; what the back end throws becomes an espdiff error.
+/// Calls a stage and translates the back end's exceptions into espdiff errors.
 template <typename Stage>
 auto guarded(Stage stage) -> decltype(stage()) {
   try {
@@ -76,7 +76,7 @@ auto guarded(Stage stage) -> decltype(stage()) {
   }
 }
 
-/// Every directed edge must have exactly one opposite, else the one-rings are not rings.
+/// Every directed edge must have exactly one opposite; otherwise the one-rings are not rings.
 void check_closed(const Mesh& mesh) {
   std::vector<std::uint64_t> edges;
   edges.reserve(3 * mesh.triangles.size());
@@ -109,7 +109,7 @@ class BackEndEngine : public Engine {
       const CudaContext::Use use(context_);
       pme_ = {};  // its plans belong to the device
     } catch (const Error&) {
-      // A device that is lost has nothing to give back.
+      // A lost device has nothing to release.
     }
   }
 
@@ -447,7 +447,7 @@ class BackEndEngine : public Engine {
   }
 
 #if defined(ESPDIFF_BACKEND_CUDA)
-  /// Runs a stage on this engine's device, and waits for it, so that what fails there is told here.
+  /// Runs a stage on this engine's device and waits for it, so that its errors are reported by this call.
   template <typename Stage>
   auto run(Stage stage) const -> decltype(stage()) {
     const CudaContext::Use use(context_);
@@ -460,7 +460,7 @@ class BackEndEngine : public Engine {
 
   std::shared_ptr<CudaContext> context_;
 #else
-  /// Sets the number of threads for this call (another engine may have set its own) and guards the stage.
+  /// Sets the number of threads for this call, since another engine may have changed it, and translates exceptions.
   template <typename Stage>
   auto run(Stage stage) const -> decltype(stage()) {
     omp_set_num_threads(n_threads_);

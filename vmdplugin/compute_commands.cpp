@@ -17,7 +17,7 @@ Computation parse_computation(DictReader& reader, bool* regularize) {
   parse_device(computation.device);  // a wrong one is told at once
   computation.threads = reader.integer("threads", 0);
   if (computation.threads < 0)
-    throw InputError("threads: " + std::to_string(computation.threads) + " is negative; 0 takes all");
+    throw InputError("threads: " + std::to_string(computation.threads) + " is negative; 0 uses all");
   computation.command_line = reader.text("command_line");
   if (regularize != nullptr) *regularize = reader.boolean("regularize", false);
   computation.options = make_options(reader.rest());

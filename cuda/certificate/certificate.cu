@@ -1,4 +1,4 @@
-// certificate.cu: measures of a mapped mesh against the target's density and surface.
+// certificate.cu: measures a mapped mesh against the target's density and surface.
 #include "cuda/certificate/certificate.h"
 
 #include <algorithm>
@@ -14,8 +14,8 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// Vertices handled one after the other: neighbours in the list are neighbours in space, so the last one's triangle is
-/// a good guess.
+/// Vertices processed consecutively: neighbours in the list are neighbours in space, so the previous vertex's triangle
+/// is a good guess.
 constexpr std::size_t kRun = 32;
 
 struct FitSums {
@@ -62,7 +62,7 @@ FitReport fit_to_density(const SurfaceMesh& mapped, const AtomCells& target, flo
   for_each_index(n, [=] ESPDIFF_HD(std::size_t t) {
     const Corners& c = corners[t];
     corrupt[t] = fabsf(density[t].value - isovalue) > kCorruptDensity ? 1.0F : 0.0F;
-    // The density falls outward: a normal along the gradient points the wrong way.
+    // The density falls outward, so a normal along the gradient is flipped.
     flipped[t] = dot(twice_area_vector(x, c), density[t].gradient) > 0 ? 1.0F : 0.0F;
   });
   const FitSums sums = sum_over<FitSums>(n, [=] ESPDIFF_HD(std::size_t t) {

@@ -1,4 +1,4 @@
-// certificate.h: how well a mapped mesh fits its target: corrupt and flipped triangles, distances both ways,
+// certificate.h: how well a mapped mesh fits its target: corrupt and flipped triangles, distances in both directions,
 // irregularity.
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
-/// A triangle is corrupt where the density at its centroid is off the isovalue by more than this (thesis
-/// section 3.5.6).
+/// A triangle is corrupt if the density at its centroid differs from the isovalue by more than this (thesis section
+/// 3.5.6).
 constexpr float kCorruptDensity = 0.1F;
 
 FitReport fit_to_density(const SurfaceMesh& mapped, const AtomCells& target, float isovalue);

@@ -1,4 +1,4 @@
-// distortion.cu: area ratios, symmetric Dirichlet energy, and where the area around has grown beyond a limit.
+// distortion.cu: area ratios, symmetric Dirichlet energy, and the vertices whose area has grown beyond a limit.
 #include "cuda/certificate/distortion.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// A triangle's share in the sums.
+/// A triangle's terms of the sums.
 struct TriangleChange {
   float source_area, ratio, energy;
 };
@@ -28,8 +28,8 @@ ESPDIFF_INLINE Metric metric_of(const Vec4f* x, const Corners& c) {
   return {dot(a, a), dot(a, b), dot(b, b)};
 }
 
-/// With G and M the triangle's metrics before and after, |J|^2 = tr(G^-1 M) and |J^-1|^2 = tr(M^-1 G), which have one
-/// numerator.
+/// With G and M the triangle's metrics before and after, |J|^2 = tr(G^-1 M) and |J^-1|^2 = tr(M^-1 G); both have the
+/// same numerator.
 ESPDIFF_INLINE TriangleChange change_of(const Vec4f* from, const Vec4f* to, const Corners& c) {
   const Metric g = metric_of(from, c), m = metric_of(to, c);
   const float det_g = g.first * g.second - g.mixed * g.mixed, det_m = m.first * m.second - m.mixed * m.mixed;
@@ -39,7 +39,7 @@ ESPDIFF_INLINE TriangleChange change_of(const Vec4f* from, const Vec4f* to, cons
   return {area_g, area_g > 0 ? area_m / area_g : INFINITY, energy};
 }
 
-/// The value below which this share of the weight lies; `values` are sorted by value.
+/// Weighted quantile: the value below which this share of the weight lies; `values` are sorted by value.
 double quantile(const std::vector<std::pair<float, float>>& values, double total, double share) {
   double below = 0;
   for (const auto& [value, weight] : values) {
@@ -53,7 +53,7 @@ double quantile(const std::vector<std::pair<float, float>>& values, double total
 
 DistortionReport distortion(const SurfaceMesh& source, const SurfaceMesh& mapped, double limit) {
   if (source.n_vertices() != mapped.n_vertices() || source.n_triangles() != mapped.n_triangles())
-    throw GeometryError("distortion: the meshes are not of one topology");
+    throw GeometryError("distortion: the meshes differ in topology");
   const std::size_t n = source.n_triangles();
   const TopologyView topology = source.view();
   const Vec4f *const from = raw(source.positions), *const to = raw(mapped.positions);

@@ -1,4 +1,4 @@
-// distortion.h: how a mapping stretches and crushes the surface.
+// distortion.h: how much a mapping stretches and compresses the surface.
 #pragma once
 
 #include "cuda/surface/mesh.h"

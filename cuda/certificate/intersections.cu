@@ -1,5 +1,5 @@
-// intersections.cu: finds the pairs of triangles whose boxes overlap, leaf by leaf of the tree, and counts those that
-// meet.
+// intersections.cu: finds pairs of triangles with overlapping boxes, leaf by leaf of the tree, and counts those that
+// intersect.
 #include "cuda/certificate/intersections.h"
 
 #include "cuda/certificate/triangle_pairs.h"
@@ -9,7 +9,7 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// smaller() and larger() would be calls on the host.
+/// Inline, because smaller() and larger() would be calls on the host.
 ESPDIFF_INLINE float least(float a, float b, float c) { return a < b ? (a < c ? a : c) : (b < c ? b : c); }
 ESPDIFF_INLINE float largest(float a, float b, float c) { return a > b ? (a > c ? a : c) : (b > c ? b : c); }
 
@@ -18,8 +18,7 @@ ESPDIFF_INLINE Box box_around(const PlacedTriangle& t) {
           {largest(t.a.x, t.b.x, t.c.x), largest(t.a.y, t.b.y, t.c.y), largest(t.a.z, t.b.z, t.c.z)}};
 }
 
-/// Whether two boxes have a point in common. All six comparisons, since a branch at each would be mispredicted too
-/// often.
+/// Whether two boxes overlap. Always makes all six comparisons, since branches would be mispredicted too often.
 ESPDIFF_INLINE bool overlap(const Box& p, const Box& q) {
   const int x = static_cast<int>(p.lower.x <= q.upper.x) & static_cast<int>(q.lower.x <= p.upper.x);
   const int y = static_cast<int>(p.lower.y <= q.upper.y) & static_cast<int>(q.lower.y <= p.upper.y);
@@ -27,16 +26,16 @@ ESPDIFF_INLINE bool overlap(const Box& p, const Box& q) {
   return (x & y & z) != 0;
 }
 
-/// What the search reads and writes.
+/// Input and output of the search.
 struct Search {
   TriangleTreeView tree;
   const Corners* vertices;         ///< [place]
   const Box* boxes;                ///< [place]
   const std::uint8_t* degenerate;  ///< [place]
-  std::uint32_t* n_met;            ///< [place] pairs in which the triangle takes part
+  std::uint32_t* n_met;            ///< [place] number of intersecting pairs with this triangle
 };
 
-/// Compares the triangles of a leaf with those of another, or, where both are one, with those behind them.
+/// Compares the triangles of a leaf with those of another; within one leaf, each pair once.
 ESPDIFF_HD inline std::uint32_t meetings_of_leaves(const Search& in, std::uint32_t leaf, std::uint32_t other) {
   const std::uint32_t n = in.tree.n_triangles;
   const std::uint32_t end = (leaf + 1) * kTrianglesPerLeaf < n ? (leaf + 1) * kTrianglesPerLeaf : n;
@@ -60,10 +59,10 @@ ESPDIFF_HD inline std::uint32_t meetings_of_leaves(const Search& in, std::uint32
   return found;
 }
 
-/// Pairs of a triangle in this leaf with another in it or in a leaf behind it: those that meet.
+/// Number of intersecting pairs of a triangle in this leaf with another in it or in a later leaf.
 ESPDIFF_HD inline std::uint32_t meetings_from_leaf(const Search& in, std::uint32_t leaf) {
   struct Pending {
-    std::uint32_t node, last_leaf, width;  ///< `width` leaves lie below the node, the last of them `last_leaf`
+    std::uint32_t node, last_leaf, width;  ///< `width` leaves lie below the node; the last is `last_leaf`
   };
   const std::uint32_t n_leaves = in.tree.n_leaves;
   const Box box = in.tree.boxes[n_leaves - 1 + leaf];
@@ -110,17 +109,16 @@ IntersectionReport self_intersections(const SurfaceMesh& mesh) {
     vertex[place] = corners[view.order[place]];
     box[place] = box_around(view.triangles[place]);
     no_area[place] = has_no_area(view.triangles[place]) ? 1 : 0;
-    met[place] = no_area[place];  // a pair with itself
+    met[place] = no_area[place];  // counts as a pair with itself
   });
   const Search search{view, vertex, box, no_area, met};
   IntersectionReport report;
   report.n_degenerate =
       sum_over<std::size_t>(n, [=] ESPDIFF_HD(std::size_t place) { return std::size_t{no_area[place]}; });
-  // Leaf by leaf into an array first: a chunk of sum_over() is too large a share for one thread.
+  // Per leaf into an array first, because a chunk of sum_over() is too much work for one thread.
   Buffer<std::uint32_t> found(view.n_leaves);
   std::uint32_t* const n_found = raw(found);
-  // The first leaves have the most behind them: each goes with its counterpart from the end, so that threads share
-  // alike.
+  // Early leaves have the most leaves after them. Each thread takes one from either end, which balances the load.
   for_each_index((view.n_leaves + 1) / 2, [=] ESPDIFF_HD(std::size_t i) {
     const std::uint32_t leaf = static_cast<std::uint32_t>(i), mirrored = search.tree.n_leaves - 1 - leaf;
     n_found[leaf] = meetings_from_leaf(search, leaf);

@@ -1,4 +1,4 @@
-// intersections.h: the pairs of triangles of a closed mesh that intersect.
+// intersections.h: counts the pairs of triangles of a closed mesh that intersect.
 #pragma once
 
 #include "cuda/surface/mesh.h"
@@ -7,9 +7,9 @@
 namespace espdiff::ESPDIFF_BACKEND {
 
 /// See Engine::self_intersections(). Candidates come from the triangle tree: each leaf is compared with itself and with
-/// the leaves behind it whose boxes overlap its own, and each pair of triangles whose boxes overlap is decided exactly
-/// (triangle_pairs.h). On a protein's surface these are eight pairs a triangle, most of which share a vertex and are
-/// ruled out by two signs. Counts only, in integers: the same result for any number of threads.
+/// the later leaves whose boxes overlap its own. Each pair of triangles with overlapping boxes is decided exactly
+/// (triangle_pairs.h). A protein's surface has about eight such pairs per triangle; most share a vertex and are ruled
+/// out by two signs. Integer counts only, so the result is the same for any number of threads.
 IntersectionReport self_intersections(const SurfaceMesh& mesh);
 
 }  // namespace espdiff::ESPDIFF_BACKEND

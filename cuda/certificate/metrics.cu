@@ -1,4 +1,4 @@
-// metrics.cu: area-weighted sums over the mapped mesh, and the residue under each vertex.
+// metrics.cu: area-weighted sums over the mapped mesh, and the residue at each vertex.
 #include "cuda/certificate/metrics.h"
 
 #include <cmath>
@@ -34,7 +34,7 @@ struct Sums {
 Metrics finish(const Sums& sums) {
   Metrics m;
   m.area_A2 = sums.area;
-  m.mean_abs_difference = sums.abs_difference / sums.area;  // 0/0 is NaN: no area was counted
+  m.mean_abs_difference = sums.abs_difference / sums.area;  // 0/0 is NaN: no valid area
   m.rms_difference = std::sqrt(sums.squared_difference / sums.area);
   m.mean_signed_difference = sums.difference / sums.area;
   m.sign_change_area_fraction = sums.sign_change / sums.area;
@@ -47,7 +47,7 @@ Metrics finish(const Sums& sums) {
 
 void check_sizes(std::size_t n, const Scalars& a, const Scalars& b) {
   if (a.values.size() != n || b.values.size() != n)
-    throw InputError("compare: one potential per vertex of the mapped mesh is needed");
+    throw InputError("compare: needs one potential per vertex of the mapped mesh");
 }
 
 }  // namespace
@@ -55,32 +55,32 @@ void check_sizes(std::size_t n, const Scalars& a, const Scalars& b) {
 Metrics compare_potentials(const SurfaceMesh& source, const SurfaceMesh& mapped, const Scalars& source_potential,
                            const Scalars& target_potential, const Scalars* excluded, const Scalars* path_length) {
   check_sizes(mapped.n_vertices(), source_potential, target_potential);
-  if (source.topology != mapped.topology) throw InputError("compare: source and mapped mesh must share their topology");
+  if (source.topology != mapped.topology) throw InputError("compare: source and mapped mesh differ in topology");
   const TopologyView topology = mapped.view();
   const Vec4f* const from = raw(source.positions);
   const Vec4f* const to = raw(mapped.positions);
   const float* const a = raw(source_potential.values);
   const float* const b = raw(target_potential.values);
   if (excluded != nullptr && excluded->values.size() != mapped.n_triangles()) {
-    throw InputError("compare: one entry per triangle is needed for what is excluded");
+    throw InputError("compare: the exclusion needs one entry per triangle");
   }
   if (path_length != nullptr && path_length->values.size() != mapped.n_vertices())
-    throw InputError("compare: one path length per vertex of the mapped mesh is needed");
-  const float* const way = path_length != nullptr ? raw(path_length->values) : nullptr;
-  const float* const leave_out = excluded != nullptr ? raw(excluded->values) : nullptr;
+    throw InputError("compare: needs one path length per vertex of the mapped mesh");
+  const float* const lengths = path_length != nullptr ? raw(path_length->values) : nullptr;
+  const float* const is_excluded = excluded != nullptr ? raw(excluded->values) : nullptr;
 
-  Buffer<std::uint8_t> counted_triangles(topology.n_triangles);
-  std::uint8_t* const counted = raw(counted_triangles);
+  Buffer<std::uint8_t> included_triangles(topology.n_triangles);
+  std::uint8_t* const included = raw(included_triangles);
   for_each_index(topology.n_triangles, [=] ESPDIFF_HD(std::size_t t) {
-    bool counts = leave_out == nullptr || leave_out[t] == 0.0F;
+    bool counts = is_excluded == nullptr || is_excluded[t] == 0.0F;
     for (int c = 0; c < 3; ++c) {
       const std::uint32_t v = topology.triangles[t].v[c];
       counts = counts && is_finite(a[v]) && is_finite(b[v]);
     }
-    counted[t] = counts ? 1 : 0;
+    included[t] = counts ? 1 : 0;
   });
   const Buffer<float> areas = triangle_areas(mapped);
-  const Buffer<float> weights = vertex_areas(mapped, areas, counted);
+  const Buffer<float> weights = vertex_areas(mapped, areas, included);
   const float* const weight = raw(weights);
   Metrics metrics = finish(sum_over<Sums>(mapped.n_vertices(), [=] ESPDIFF_HD(std::size_t v) {
     Sums s;
@@ -95,16 +95,16 @@ Metrics compare_potentials(const SurfaceMesh& source, const SurfaceMesh& mapped,
     s.source_source = w * pa * pa;
     s.target_target = w * pb * pb;
     s.source_target = w * pa * pb;
-    s.path_length = way != nullptr ? w * static_cast<double>(way[v]) : 0.0;
+    s.path_length = lengths != nullptr ? w * static_cast<double>(lengths[v]) : 0.0;
     s.displacement = w * static_cast<double>(norm(to[v].xyz() - from[v].xyz()));
     return s;
   }));
-  if (way == nullptr) metrics.mean_path_length_A = std::numeric_limits<double>::quiet_NaN();
+  if (lengths == nullptr) metrics.mean_path_length_A = std::numeric_limits<double>::quiet_NaN();
   return metrics;
 }
 
 std::shared_ptr<Scalars> displacement(const SurfaceMesh& a, const SurfaceMesh& b) {
-  if (a.n_vertices() != b.n_vertices()) throw InputError("displacement: meshes of one topology are needed");
+  if (a.n_vertices() != b.n_vertices()) throw InputError("displacement: the meshes differ in topology");
   auto result = std::make_shared<Scalars>();
   result->values.resize(a.n_vertices());
   const Vec4f* const from = raw(a.positions);
@@ -116,8 +116,8 @@ std::shared_ptr<Scalars> displacement(const SurfaceMesh& a, const SurfaceMesh& b
 
 namespace {
 
-/// Densities by residue at one point. If more residues than the table holds reach the point, the weakest gives way: it
-/// is one of many at the end of their atoms' reach.
+/// Densities by residue at one point. If more residues reach the point than the table holds, the weakest is dropped; it
+/// is near the end of its atoms' reach.
 struct ResidueTally {
   static constexpr int kCapacity = 64;
   std::int32_t residue[kCapacity];

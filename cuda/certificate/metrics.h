@@ -1,4 +1,4 @@
-// metrics.h: area-weighted differences of two potentials, and what is counted by vertex.
+// metrics.h: area-weighted differences of two potentials, and counts by vertex.
 #pragma once
 
 #include "cuda/surface/atom_cells.h"
@@ -14,7 +14,7 @@ Metrics compare_potentials(const SurfaceMesh& source, const SurfaceMesh& mapped,
 /// [vertex] |a - b|, Angstrom.
 std::shared_ptr<Scalars> displacement(const SurfaceMesh& a, const SurfaceMesh& b);
 
-/// [vertex] residue with the largest density there, the smallest index on ties; -1 where no atom reaches.
+/// [vertex] residue with the largest density, the smallest index on ties; -1 where no atom reaches.
 Buffer<std::int32_t> vertex_residues(const SurfaceMesh& mesh, const AtomCells& atoms);
 
 double surface_area(const SurfaceMesh& mesh);

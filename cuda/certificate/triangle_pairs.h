@@ -1,8 +1,8 @@
-// triangle_pairs.h: whether two triangles of a mesh meet, exactly.
+// triangle_pairs.h: exact test whether two triangles of a mesh intersect.
 //
-// Triangles are closed, so that touching is meeting; where two share a vertex or an edge, only what lies beyond it
-// counts. All three questions come down to the signs of orientation.h, and none of them rounds. Triangles without area
-// (has_no_area) are for the caller to leave out.
+// Triangles are closed sets, so touching is intersecting. Triangles that share a vertex or an edge intersect only if
+// they meet elsewhere too. All tests use the exact signs of orientation.h. The caller must exclude triangles without
+// area (has_no_area).
 #pragma once
 
 #include "cuda/device/orientation.h"
@@ -13,19 +13,19 @@ namespace espdiff::ESPDIFF_BACKEND {
 
 ESPDIFF_INLINE Vec3f corner(const PlacedTriangle& t, int i) { return i == 0 ? t.a : i == 1 ? t.b : t.c; }
 
-/// Drops a coordinate.
+/// Projects along a coordinate axis.
 ESPDIFF_INLINE Vec2f seen_along(int axis, Vec3f p) {
   return axis == 0 ? Vec2f{p.y, p.z} : axis == 1 ? Vec2f{p.z, p.x} : Vec2f{p.x, p.y};
 }
 
-/// The first axis along which the triangle is seen as more than a line; 3 when there is none.
+/// The first axis along which the triangle does not project to a line; 3 if there is none.
 ESPDIFF_HD inline int axis_that_shows(const PlacedTriangle& t) {
   int axis = 0;
   while (axis < 3 && turn(seen_along(axis, t.a), seen_along(axis, t.b), seen_along(axis, t.c)) == 0) ++axis;
   return axis;
 }
 
-/// Its corners lie on a line, or are not all finite.
+/// Whether its corners are collinear or not all finite.
 ESPDIFF_HD inline bool has_no_area(const PlacedTriangle& t) {
   for (int i = 0; i < 3; ++i) {
     const Vec3f p = corner(t, i);
@@ -34,14 +34,14 @@ ESPDIFF_HD inline bool has_no_area(const PlacedTriangle& t) {
   return axis_that_shows(t) == 3;
 }
 
-/// Whether p lies in the triangle; all in a plane.
+/// Whether p lies in the triangle, in the plane.
 ESPDIFF_HD inline bool covers(const Vec2f* triangle, Vec2f p) {
   const int first = turn(triangle[0], triangle[1], p), second = turn(triangle[1], triangle[2], p),
             third = turn(triangle[2], triangle[0], p);
   return (first >= 0 && second >= 0 && third >= 0) || (first <= 0 && second <= 0 && third <= 0);
 }
 
-/// Whether two segments cross so that each has its ends strictly on both sides of the other.
+/// Whether two segments cross with the ends of each strictly on either side of the other.
 ESPDIFF_HD inline bool cross_inside(Vec2f a, Vec2f b, Vec2f c, Vec2f d) {
   return turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0;
 }
@@ -53,8 +53,8 @@ ESPDIFF_HD inline bool lies_on(Vec2f p, Vec2f a, Vec2f b) {
   return between_x && between_y && turn(a, b, p) == 0;
 }
 
-/// Whether the segment st meets the triangle, in whose plane it lies. Where neither an end of the segment lies in the
-/// triangle nor a corner of the triangle on the segment, the segment can only cross an edge.
+/// Whether segment st meets the triangle in whose plane it lies. If neither an end of the segment lies in the triangle
+/// nor a corner of the triangle on the segment, the segment can only cross an edge.
 ESPDIFF_HD ESPDIFF_NOINLINE inline bool meets_in_plane(Vec3f s, Vec3f t, const PlacedTriangle& triangle) {
   const int axis = axis_that_shows(triangle);
   const Vec2f corners[3] = {seen_along(axis, triangle.a), seen_along(axis, triangle.b), seen_along(axis, triangle.c)};
@@ -67,12 +67,12 @@ ESPDIFF_HD ESPDIFF_NOINLINE inline bool meets_in_plane(Vec3f s, Vec3f t, const P
 }
 
 /// Whether the segment st meets the triangle.
-/// @param side_s, side_t  of the triangle's plane
+/// @param side_s, side_t  sides of the triangle's plane
 ESPDIFF_HD ESPDIFF_NOINLINE inline bool segment_meets(Vec3f s, int side_s, Vec3f t, int side_t,
                                                       const PlacedTriangle& triangle) {
   if (side_s * side_t > 0) return false;
   if (side_s == 0 && side_t == 0) return meets_in_plane(s, t, triangle);
-  // The line passes through the plane in one point: inside when it passes all edges on the same side.
+  // The line meets the plane in one point, which is inside if it passes all edges on the same side.
   const int first = orientation(s, t, triangle.a, triangle.b);
   const int second = orientation(s, t, triangle.b, triangle.c);
   if (first * second < 0) return false;
@@ -95,8 +95,8 @@ ESPDIFF_HD inline bool apart_meet(const PlacedTriangle& p, const Plane& plane_p,
   return false;
 }
 
-/// Two triangles whose corners number i of p and j of q are one vertex. From there each reaches out to its opposite
-/// edge: if they have more than the vertex in common, one of these edges meets the other triangle.
+/// Two triangles of which corner i of p and corner j of q are one vertex. If they share more than that vertex, the
+/// opposite edge of one of them meets the other triangle.
 ESPDIFF_HD inline bool vertex_sharers_meet(const PlacedTriangle& p, const Plane& plane_p, int i,
                                            const PlacedTriangle& q, int j) {
   const Vec3f q1 = corner(q, (j + 1) % 3), q2 = corner(q, (j + 2) % 3);
@@ -109,8 +109,8 @@ ESPDIFF_HD inline bool vertex_sharers_meet(const PlacedTriangle& p, const Plane&
   return segment_meets(q1, side_q1, q2, side_q2, p) || segment_meets(p1, side_p1, p2, side_p2, q);
 }
 
-/// Two triangles with an edge in common: they meet beyond it when folded flat onto each other.
-/// @param i  the corner of p that is not on the edge  @param apex  the corner of the other
+/// Two triangles with a common edge: they meet elsewhere only if folded flat onto each other.
+/// @param i  the corner of p that is not on the edge  @param apex  the corresponding corner of the other
 ESPDIFF_HD inline bool edge_sharers_meet(const PlacedTriangle& p, const Plane& plane_p, int i, Vec3f apex) {
   if (side_of(plane_p, apex) != 0) return false;
   const int axis = axis_that_shows(p);
@@ -118,8 +118,8 @@ ESPDIFF_HD inline bool edge_sharers_meet(const PlacedTriangle& p, const Plane& p
   return turn(a, b, seen_along(axis, corner(p, i))) == turn(a, b, seen_along(axis, apex));
 }
 
-/// Two triangles with area, by what their vertices' indices say they share.
-/// @param plane_p  of p, whose triangle is compared with several
+/// Two triangles with area, by the vertex indices that they share.
+/// @param plane_p  the plane of p, which is compared with several triangles
 ESPDIFF_HD inline bool triangles_meet(const PlacedTriangle& p, const Plane& plane_p, const Corners& vertices_p,
                                       const PlacedTriangle& q, const Corners& vertices_q) {
   int n_shared = 0, shared_p = 0, shared_q = 0, sum_p = 0, sum_q = 0;
@@ -136,7 +136,7 @@ ESPDIFF_HD inline bool triangles_meet(const PlacedTriangle& p, const Plane& plan
   if (n_shared == 0) return apart_meet(p, plane_p, q);
   if (n_shared == 1) return vertex_sharers_meet(p, plane_p, shared_p, q, shared_q);
   if (n_shared == 2) return edge_sharers_meet(p, plane_p, 3 - sum_p, corner(q, 3 - sum_q));
-  return true;  // one triangle, twice
+  return true;  // the same triangle twice
 }
 
 }  // namespace espdiff::ESPDIFF_BACKEND

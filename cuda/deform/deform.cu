@@ -1,4 +1,4 @@
-// deform.cu: the force iteration, in two passes: umbrella Laplacians, then forces and the move.
+// deform.cu: the force iteration in two passes: umbrella Laplacians, then forces and the move.
 #include "cuda/deform/deform.h"
 
 #include <utility>
@@ -10,8 +10,8 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// Eigenvalues of the umbrella operator lie in [-2, 0], so that an explicit step along (1 - rho) L - rho L^2 is stable
-/// for every rho while it is below 2 / 4.
+/// The eigenvalues of the umbrella operator lie in [-2, 0], so an explicit step along (1 - rho) L - rho L^2 is stable
+/// for every rho if it is below 2 / 4.
 constexpr double kLargestInternalStep = 0.5;
 
 double internal_step(const DeformOptions& o) { return o.sigma * (1 - o.mu) * o.tangential_gain; }
@@ -76,13 +76,13 @@ std::shared_ptr<SurfaceMesh> deform(const SurfaceMesh& mesh, const SurfaceMesh& 
   state.positions = mesh.positions;
   state.moved.resize(n);
   Buffer<Vec4f> laplacians(n), rest_laplacians(n);
-  Buffer<float> strengths(n), ways(n, 0.0F);
+  Buffer<float> strengths(n), path_lengths(n, 0.0F);
   Iteration& it = state.iteration;
   it.topology = mesh.view();
   it.lattice = field.lattice;
   it.field = raw(field.values);
   it.strength = raw(strengths);
-  it.way = raw(ways);
+  it.path_length = raw(path_lengths);
   it.laplacian = raw(laplacians);
   it.rest = raw(rest_laplacians);
   it.tricubic = options.interpolation == Interpolation::kTricubic;
@@ -106,7 +106,7 @@ std::shared_ptr<SurfaceMesh> deform(const SurfaceMesh& mesh, const SurfaceMesh& 
   progress.report(stage, 1.0);
   if (report != nullptr) {
     auto path_length = std::make_shared<Scalars>();
-    path_length->values = std::move(ways);
+    path_length->values = std::move(path_lengths);
     result.path_length = path_length;
     *report = result;
   }

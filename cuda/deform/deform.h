@@ -8,8 +8,8 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
-/// See Engine::deform(). Each iteration reads the positions of the one before, so that the result does not depend on
-/// threads.
+/// See Engine::deform(). Each iteration reads the previous iteration's positions, so the result does not depend on the
+/// number of threads.
 /// @throws InputError (parameters out of range), GeometryError (rest shape of another topology), Cancelled
 std::shared_ptr<SurfaceMesh> deform(const SurfaceMesh& mesh, const SurfaceMesh& rest_mesh, const SurfaceField& field,
                                     const DeformOptions& options, const std::string& stage, const Progress& progress,

@@ -1,5 +1,5 @@
-// deform_graph.cu: deform()'s iterations as a CUDA graph: recorded once, launched until the device says that it is
-// done.
+// deform_graph.cu: deform()'s iterations as a CUDA graph, recorded once and launched until the device reports
+// convergence.
 #include <utility>
 
 #include "cuda/deform/deform_iteration.h"
@@ -7,18 +7,18 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// Rounds of kCheckInterval iterations in a graph. Even, so that a whole graph ends in the buffer that it began with.
+/// Rounds of kCheckInterval iterations in a graph. Even, so that a graph ends in the buffer it began with.
 constexpr int kRounds = 4;
 static_assert(kRounds * kCheckInterval % 2 == 0);
 
-/// What the device knows of the iteration.
+/// State of the iteration on the device.
 struct Course {
   double mean_displacement_A;
-  int iterations;  // stops where it converged
+  int iterations;  // number at convergence
   int converged;
 };
 
-// Each kernel returns at once when the course has converged: the positions of that iteration then stay where they are.
+// Each kernel returns at once after convergence, so the positions of that iteration are kept.
 
 __global__ void __launch_bounds__(kThreadsPerBlock) laplacian_kernel(Iteration it, const Course* course) {
   const std::size_t v = static_cast<std::size_t>(blockIdx.x) * kThreadsPerBlock + threadIdx.x;
@@ -30,13 +30,13 @@ __global__ void __launch_bounds__(kThreadsPerBlock) move_kernel(Iteration it, co
   if (v < it.topology.n_vertices && course->converged == 0) move_vertex(it, v);
 }
 
-/// How far a vertex moved in the last iteration.
+/// Distance that a vertex moved in the last iteration.
 struct Displacement {
   const Vec4f* x;
   __device__ double operator()(std::size_t v) const { return static_cast<double>(x[v].w); }
 };
 
-/// The end of a round: what sum_over() does, in its order, then the decision.
+/// The end of a round: the sum in sum_over()'s order, then the convergence test.
 __global__ void __launch_bounds__(kReductionThreads)
     decide_kernel(std::size_t n_chunks, const double* partial, std::size_t n_vertices, double least, Course* course) {
   __shared__ double total;
@@ -47,14 +47,14 @@ __global__ void __launch_bounds__(kReductionThreads)
   course->converged = course->mean_displacement_A < least ? 1 : 0;
 }
 
-/// Code is loaded when it is first used, which a recording may not be interrupted for.
+/// Loads a kernel's code, which would otherwise happen at first use and interrupt the recording.
 template <typename Kernel>
 void load(Kernel kernel) {
   cudaFuncAttributes attributes{};
   check_cuda(cudaFuncGetAttributes(&attributes, kernel), "loading code");
 }
 
-/// A stream that only records. The engine's own must not: another thread may release memory on it meanwhile.
+/// A stream only for recording. The engine's own stream cannot record, because another thread may release memory on it.
 class RecordingStream {
  public:
   RecordingStream() { check_cuda(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking), "making a stream"); }
@@ -78,7 +78,7 @@ class RecordingStream {
 /// A recorded sequence of kernels, ready to be launched.
 class Graph {
  public:
-  /// Records what `launch` launches on the stream that it is given.
+  /// Records the kernels that `launch` launches on the stream it is given.
   template <typename Launch>
   explicit Graph(Launch launch) {
     const RecordingStream stream;

@@ -1,5 +1,5 @@
-// deform_iteration.h: one iteration of deform() for one vertex, and the two ways of running many: one by one, and on a
-// GPU as a graph of many that is launched again and again.
+// deform_iteration.h: one iteration of deform() for one vertex, and the two ways to run many: one by one, or on a GPU
+// as a graph that is launched repeatedly.
 #pragma once
 
 #include "cuda/deform/deform.h"
@@ -9,20 +9,20 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
-/// Iterations between checks for convergence: a check sums over all vertices.
+/// Iterations between convergence checks; a check sums over all vertices.
 constexpr int kCheckInterval = 5;
 
-/// What one iteration reads and writes.
+/// Input and output of one iteration.
 struct Iteration {
   TopologyView topology;
   CubicLattice lattice;
   const Vec4f* field;
-  const Vec4f* from;  // [vertex]
-  const Vec4f* rest;  // [vertex] L of the rest shape
-  Vec4f* laplacian;   // [vertex] L of `from`, less that of the rest shape
-  Vec4f* to;          // [vertex] w: how far the vertex moved
-  float* way;         // [vertex] how far it has moved in all iterations
-  float* strength;    // [vertex] s: positive while outside, negative while inside, halved at each crossing
+  const Vec4f* from;   // [vertex]
+  const Vec4f* rest;   // [vertex] L of the rest shape
+  Vec4f* laplacian;    // [vertex] L of `from` minus L of the rest shape
+  Vec4f* to;           // [vertex] w: distance moved
+  float* path_length;  // [vertex] path length over all iterations
+  float* strength;     // [vertex] s: positive while outside, negative while inside, halved at each crossing
   float step_external, step_tension, step_rigidity;  // sigma mu, g sigma (1 - mu)(1 - rho), g sigma (1 - mu) rho
   bool tricubic;
 };
@@ -51,7 +51,7 @@ ESPDIFF_INLINE void move_vertex(const Iteration& it, std::size_t v) {
     moved = internal + (it.step_external * s - dot(internal, n)) * n;
   }
   const float distance = norm(moved);
-  it.way[v] += distance;
+  it.path_length[v] += distance;
   it.to[v] = make_vec4(x.xyz() + moved, distance);
 }
 
@@ -62,21 +62,20 @@ ESPDIFF_INLINE void take_laplacian(const Iteration& it, std::size_t v) {
 /// Sets the steps of the iteration's forces.
 void set_steps(Iteration& it, const DeformOptions& options);
 
-/// What is iterated: positions, and room for the next ones.
+/// State of the iteration: positions, and a buffer for the next ones.
 struct DeformState {
   Iteration iteration{};  ///< all but `from` and `to`
   Buffer<Vec4f> positions, moved;
 };
 
-/// Iterates until the mean displacement falls below the smallest or the iterations are used up; positions end in
-/// `positions`. Reports progress, and may throw Cancelled, at checks.
+/// Iterates until the mean displacement falls below the limit or the maximum number of iterations is reached. The
+/// result is in `positions`. Reports progress, and may throw Cancelled, at checks.
 void iterate_one_by_one(DeformState& state, const DeformOptions& options, const std::string& stage,
                         const Progress& progress, DeformReport& report);
 
 #if defined(ESPDIFF_BACKEND_CUDA)
-/// The same bits: some rounds of kCheckInterval iterations and a check are recorded once as a CUDA graph. The check
-/// decides on the device, and what follows it in the graph does nothing once it has converged, so that the host waits
-/// once for all rounds.
+/// The same bits: rounds of kCheckInterval iterations, each with a check, are recorded once as a CUDA graph. The check
+/// decides on the device; kernels after convergence do nothing, so the host waits only once per graph.
 void iterate_in_graphs(DeformState& state, const DeformOptions& options, const std::string& stage,
                        const Progress& progress, DeformReport& report);
 #endif

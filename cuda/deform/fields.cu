@@ -37,15 +37,15 @@ std::size_t n_rows(const CubicLattice& lattice) {
   return static_cast<std::size_t>(lattice.size[1]) * static_cast<std::size_t>(lattice.size[2]);
 }
 
-// Nearest vertices by propagation: a lattice point takes over the nearest vertex of a neighbour where that is nearer
-// than its own. Rows along each axis are swept in both directions, each row by one thread, so that nothing depends on
-// their order. After Danielsson's vector distance transform, Comput. Graph. Image Process. 14, 227 (1980).
+// Nearest vertices by propagation: a lattice point takes over a neighbour's nearest vertex if that is nearer than its
+// own. Rows along each axis are swept in both directions, one thread per row, so the result does not depend on their
+// order. After Danielsson's vector distance transform, Comput. Graph. Image Process. 14, 227 (1980).
 
 constexpr std::uint64_t kNoVertex = ~0ULL;
 constexpr int kRounds = 2;
 
 /// Squared distance in the high half (positive floats order like integers), vertex in the low half: the smaller key is
-/// nearer, and of two at one distance the one of smaller index.
+/// nearer; ties go to the smaller index.
 ESPDIFF_INLINE std::uint64_t vertex_key(float squared_distance, std::uint32_t vertex) {
   std::uint32_t bits;
   std::memcpy(&bits, &squared_distance, sizeof bits);
@@ -55,7 +55,7 @@ ESPDIFF_INLINE std::uint32_t vertex_of(std::uint64_t key) { return static_cast<s
 
 ESPDIFF_INLINE float squared_distance(Vec3f a, Vec3f b) { return dot(a - b, a - b); }
 
-/// Tells the eight lattice points around a vertex about it.
+/// Offers a vertex to the eight lattice points around it.
 ESPDIFF_INLINE void seed_corners(const CubicLattice& lattice, Vec3f p, std::uint32_t vertex, std::uint64_t* keys) {
   const CellPosition at = locate(lattice, p, 0);
   for (int corner = 0; corner < 8; ++corner) {
@@ -64,7 +64,7 @@ ESPDIFF_INLINE void seed_corners(const CubicLattice& lattice, Vec3f p, std::uint
   }
 }
 
-/// Sweeps the row of points (start + n * direction) forth and back.
+/// Sweeps the row of points (start + n * direction) forward and backward.
 ESPDIFF_INLINE void sweep_row(const CubicLattice& lattice, const Vec4f* vertices, int axis, int u, int v,
                               std::uint64_t* keys) {
   const int n = lattice.size[axis];
@@ -175,7 +175,7 @@ std::shared_ptr<SurfaceField> distance_field(const DensityGrid& density, float i
     const LatticeRow at = lattice_row(lattice, row);
     for (int i = 0; i < lattice.size[0]; ++i) {
       const std::size_t point = lattice.index(i, at.j, at.k);
-      // Both parts as lengths: interpolation across the threshold would overshoot a jump between them.
+      // Both parts are lengths; otherwise interpolation across the threshold would overshoot.
       out[point] = fabsf(distance[point]) > threshold_A
                        ? make_vec4(lattice_gradient(lattice, distance, i, at.j, at.k), distance[point])
                        : per_slope * out[point];

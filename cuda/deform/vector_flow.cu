@@ -1,4 +1,4 @@
-// vector_flow.cu: what holds the flow at the surfaces, and the sweeps that spread it.
+// vector_flow.cu: the boundary terms of the flow at the surfaces, and the sweeps that spread it.
 #include "cuda/deform/vector_flow.h"
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 constexpr const char* kStage = "gradient vector flow";
 /// Sweeps between checks for convergence and cancellation.
 constexpr int kCheckInterval = 10;
-/// Normals are held where the density is off the isovalue by less than this part of it.
+/// Normals are imposed where the density differs from the isovalue by less than this fraction of it.
 constexpr float kHeldShare = 0.5F;
 
 void check_options(const VectorFlowOptions& o) {
@@ -27,10 +27,10 @@ void check_options(const VectorFlowOptions& o) {
     throw InputError("the tolerance of the gradient vector flow, " + std::to_string(o.tolerance) +
                      ", is not positive; 0.001 is usual");
   if (o.max_sweeps < 1)
-    throw InputError("the gradient vector flow needs a sweep at least, not " + std::to_string(o.max_sweeps));
+    throw InputError("the gradient vector flow needs at least 1 sweep, not " + std::to_string(o.max_sweeps));
 }
 
-/// Calls body(i, j, k) for each point of a lattice, a row by one thread where threads are few.
+/// Calls body(i, j, k) for each lattice point; with few threads, one thread takes a row.
 template <typename Body>
 void for_each_point(const CubicLattice& lattice, Body body) {
 #if defined(ESPDIFF_BACKEND_CUDA)
@@ -48,7 +48,7 @@ void for_each_point(const CubicLattice& lattice, Body body) {
 #endif
 }
 
-/// What a surface's normal holds a point with: 1 on the surface, 0 from kHeldShare of the isovalue on.
+/// Weight with which a surface's normal holds a point: 1 on the surface, 0 from kHeldShare of the isovalue on.
 ESPDIFF_INLINE float hold(float excess, float isovalue) {
   const float off = excess / (kHeldShare * isovalue), rest = 1.0F - off * off;
   return rest > 0 ? rest * rest : 0.0F;
@@ -84,12 +84,12 @@ Buffer<Vec4f> pulls(const SurfaceField& target, const SurfaceField* source, floa
   return result;
 }
 
-/// One sweep: from `from` and, for the acceleration, from what `to` still holds of the sweep before.
+/// One sweep: reads `from` and, for the acceleration, the sweep before it, which `to` still holds.
 struct Sweep {
   CubicLattice lattice;
   const Vec4f* pull;
   const Vec4f* from;
-  Vec4f* to;       // w: how far Jacobi's iteration would move the point
+  Vec4f* to;       // w: distance that a plain Jacobi iteration would move the point
   float coupling;  // mu / spacing^2
   float omega;
 };
@@ -144,7 +144,7 @@ std::shared_ptr<SurfaceField> vector_flow(const DensityGrid& target, const Densi
   sweep.lattice = lattice;
   sweep.pull = raw(held);
   sweep.coupling = static_cast<float>(options.weight_A2) / (lattice.spacing * lattice.spacing);
-  // The slowest mode of a lattice of this many points; one slower than that only takes longer.
+  // Bounds the slowest mode of a lattice of this many points; a slower one only takes longer.
   const int longest = lattice.size[0] > lattice.size[1] ? lattice.size[0] : lattice.size[1];
   const double radius = std::cos(3.14159265358979 / (longest > lattice.size[2] ? longest : lattice.size[2]));
   double omega = 1;

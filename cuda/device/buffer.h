@@ -19,9 +19,8 @@ struct FillWith {
   ESPDIFF_HD void operator()(std::size_t i) const { to[i] = value; }
 };
 
-/// An array on the device: a vector whose new elements are uninitialized unless a value is given, since a stage writes
-/// them anyway. Its pointers are for kernels; the host reads by [], back() and to_host(), which wait for what was
-/// asked for before.
+/// A vector on the device. New elements are uninitialized unless a value is given, because stages overwrite them. Raw
+/// pointers are for kernels; the host reads with [], back() and to_host(), which wait for pending work.
 template <typename T>
 class Buffer {
   static_assert(std::is_trivially_copyable_v<T>, "elements are copied as bytes");
@@ -30,7 +29,7 @@ class Buffer {
   Buffer() = default;
   explicit Buffer(std::size_t n) { resize(n); }
   Buffer(std::size_t n, const T& value) { assign(n, value); }
-  /// A copy of what the host has from `first` to before `last`.
+  /// Copies the host's elements [first, last).
   Buffer(const T* first, const T* last) {
     resize(static_cast<std::size_t>(last - first));
     copy_to_device(data(), first, size_ * sizeof(T));
@@ -63,7 +62,7 @@ class Buffer {
   const T* begin() const { return data(); }
   const T* end() const { return data() + size_; }
 
-  /// Keeps the elements that there are.
+  /// Keeps the existing elements.
   void resize(std::size_t n) {
     if (n > capacity_) {
       MemoryBlock larger(n * sizeof(T));
@@ -83,7 +82,7 @@ class Buffer {
     fill(0, value);
   }
 
-  /// On the host: waits.
+  /// For the host; waits for pending work.
   T operator[](std::size_t i) const {
     T value;
     copy_to_host(&value, data() + i, sizeof(T));

@@ -1,4 +1,4 @@
-// cuda_context.cu: an engine's stream, pool and staging area, and the memory blocks that come from there.
+// cuda_context.cu: an engine's stream, memory pool and staging area, and the memory blocks allocated from the pool.
 #include "cuda/device/cuda_context.h"
 
 #include <cstdint>
@@ -16,8 +16,8 @@ constexpr std::size_t kStagingAlignment = 64;
 
 thread_local const std::shared_ptr<CudaContext>* current_context = nullptr;
 
-/// Makes a device the runtime's current one, and the one before at the end. Says nothing of errors: it is used by
-/// destructors, and whoever needs the device finds out.
+/// Makes a device the runtime's current one and restores the previous one at the end. Ignores errors, since destructors
+/// use it; the next call that needs the device reports them.
 class DeviceGuard {
  public:
   explicit DeviceGuard(int device) {
@@ -48,10 +48,10 @@ class Event {
   cudaEvent_t event_ = nullptr;
 };
 
-/// Loaded to find out whether this build has code for the device.
+/// Loading it tells whether this build has code for the device.
 __global__ void any_kernel() {}
 
-/// A pool of the engine's own, which keeps what is released; null where the device has none.
+/// The engine's own pool, which keeps released memory; null where the device has none.
 cudaMemPool_t make_pool(int device) {
   int supported = 0;
   check_cuda(cudaDeviceGetAttribute(&supported, cudaDevAttrMemoryPoolsSupported, device), "asking for memory pools");
@@ -78,7 +78,7 @@ CudaContext::CudaContext(int device) : device_(device) {
   cudaFuncAttributes attributes{};
   check_cuda(cudaFuncGetAttributes(&attributes, any_kernel), "loading code");
   pool_ = make_pool(device);
-  // From here on nothing throws, so that nothing is left behind.
+  // Nothing below throws, so no resource leaks.
   cudaError_t status = cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking);
   if (status != cudaSuccess && pool_ != nullptr) cudaMemPoolDestroy(pool_);
   check_cuda(status, "making a stream");
@@ -125,7 +125,7 @@ void* CudaContext::allocate(std::size_t n_bytes) {
   void* start = nullptr;
   cudaError_t status = try_allocate(&start, n_bytes);
   if (status == cudaErrorMemoryAllocation && pool_ != nullptr) {
-    // The pool may hold pieces that are too small.
+    // The pool may hold blocks that are too small.
     synchronize();
     check_cuda(cudaMemPoolTrimTo(pool_, 0), "giving memory back");
     status = try_allocate(&start, n_bytes);
@@ -160,7 +160,7 @@ void CudaContext::upload(void* to, const void* from, std::size_t n_bytes) {
   if (staged != nullptr) std::memcpy(staged, from, n_bytes);
   check_cuda(cudaMemcpyAsync(to, staged != nullptr ? staged : from, n_bytes, cudaMemcpyHostToDevice, stream_),
              "copying to it");
-  // Memory that is not staged may change or go when we return.
+  // Unstaged memory may change or be freed after we return.
   if (staged == nullptr) synchronize();
 }
 

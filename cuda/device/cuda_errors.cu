@@ -1,4 +1,4 @@
-// cuda_errors.cu: chooses the words for an error of the CUDA runtime. Host code only; tested by handing it errors.
+// cuda_errors.cu: turns errors of the CUDA runtime into messages. Host code only; tests pass it errors directly.
 #include "cuda/device/cuda_errors.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// The oldest GPUs that this toolkit makes code for.
+/// The oldest compute capability that this toolkit supports.
 constexpr int kOldestCapability = CUDART_VERSION >= 13000 ? 75 : 50;
 
 std::string dotted(int capability) { return std::to_string(capability / 10) + "." + std::to_string(capability % 10); }
@@ -29,7 +29,7 @@ std::string memory_text(std::size_t bytes) {
 
 /// One entry of CMAKE_CUDA_ARCHITECTURES.
 struct Architecture {
-  int capability = 0;                             ///< 0 for what is no number
+  int capability = 0;                             ///< 0 if not a number
   bool machine_code = true, intermediate = true;  ///< the latter is PTX
 };
 
@@ -89,8 +89,8 @@ bool lacks_code(cudaError_t status) {
   }
 }
 
-/// After these nothing can be done on the device in this process any more.
-bool is_unmatched(cudaError_t status) {
+/// After these errors the process can no longer use the device.
+bool is_unrecoverable(cudaError_t status) {
   switch (status) {
     case cudaErrorIllegalAddress:
     case cudaErrorLaunchFailure:
@@ -155,7 +155,7 @@ void throw_cuda_error(cudaError_t status, const std::string& doing, const CudaFa
     throw DeviceError(
         "CUDA could not be started (" + words +
         "); check the driver with nvidia-smi, restart the machine after an update of it, or use --device cpu");
-  if (is_unmatched(status))
+  if (is_unrecoverable(status))
     throw DeviceError(device + " failed while " + doing + " (" + words +
                       ") and cannot be used by this process any more; start again, with --device cpu if it recurs, and "
                       "report it with the command line");

@@ -1,4 +1,4 @@
-// device.h: the back end's namespace, its buffers, and the few parallel forms that the stages are written in.
+// device.h: the back end's namespace, its buffers, and the parallel primitives that all stages use.
 //
 // Every .cu is compiled twice: with ESPDIFF_BACKEND=cpu_backend by g++ (Thrust's OpenMP device system) and with
 // ESPDIFF_BACKEND=cuda_backend by nvcc. The namespace keeps the two sets of inline functions apart.
@@ -15,8 +15,8 @@
 #include "cuda/device/buffer.h"
 #include "cuda/device/launch.h"
 
-// Compiles a hot host function for several instruction sets and picks one at load time. Without contraction all give
-// the same bits, so the choice changes speed alone.
+// Compiles a hot host function for several instruction sets and picks one at load time. Without contraction all
+// versions give the same bits.
 #if defined(__GNUC__) && !defined(__CUDACC__) && defined(__x86_64__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__)
 #define ESPDIFF_MULTIVERSION __attribute__((target_clones("default", "arch=haswell", "arch=skylake-avx512")))
@@ -39,11 +39,11 @@ constexpr std::size_t kReductionChunk = 2048;
 
 constexpr unsigned kReductionThreads = 128;
 
-/// Adds term(i) over [begin, end) in a block of kReductionThreads threads, in an order that depends on the range alone:
-/// each thread its share in strides, then the threads' sums by halves. Thread 0 writes the sum.
+/// Sums term(i) over [begin, end) in a block of kReductionThreads threads. The order depends on the range only: each
+/// thread adds a strided share, then the threads' sums are halved pairwise. Thread 0 writes the sum.
 template <typename T, typename Term>
 __device__ void block_sum(std::size_t begin, std::size_t end, const Term& term, T* out) {
-  // Raw memory, since a T may have a constructor.
+  // Raw memory, because T may have a constructor.
   __shared__ __align__(16) unsigned char shared[kReductionThreads * sizeof(T)];
   T* const sums = reinterpret_cast<T*>(shared);
   T sum{};
@@ -62,7 +62,7 @@ __global__ void __launch_bounds__(kReductionThreads) sum_chunks_kernel(std::size
   block_sum<T>(begin, begin + kReductionChunk < n ? begin + kReductionChunk : n, term, partial + blockIdx.x);
 }
 
-/// The elements of an array, as a term.
+/// Reads an array's elements as terms.
 template <typename T>
 struct ElementOf {
   const T* values;
@@ -74,7 +74,7 @@ __global__ void __launch_bounds__(kReductionThreads) sum_partial_kernel(std::siz
   block_sum<T>(0, n, ElementOf<T>{partial}, total);
 }
 
-/// Sum of term(i) over [0, n) as a T (with operator+=, value-initialized to zero), the same bits each time: chunks of
+/// Sum of term(i) over [0, n) as a T (with operator+=, value-initialized to zero). Bitwise reproducible: sums chunks of
 /// fixed size, then the chunks.
 template <typename T, typename Term>
 T sum_over(std::size_t n, Term term) {
@@ -90,8 +90,8 @@ T sum_over(std::size_t n, Term term) {
 
 #else
 
-/// Sum of term(i) over [0, n) as a T (with operator+=, value-initialized to zero): chunks of fixed size in order, then
-/// the chunks in order, so that the result does not depend on the number of threads.
+/// Sum of term(i) over [0, n) as a T (with operator+=, value-initialized to zero). Adds chunks of fixed size in order,
+/// then the chunks in order, so the result does not depend on the number of threads.
 template <typename T, typename Term>
 T sum_over(std::size_t n, Term term) {
   const std::size_t n_chunks = (n + kReductionChunk - 1) / kReductionChunk;
@@ -110,13 +110,13 @@ T sum_over(std::size_t n, Term term) {
 
 #endif
 
-/// Replaces counts by their running sum before each.
+/// Exclusive prefix sum, in place.
 template <typename T>
 void running_sum_in_place(Buffer<T>& counts) {
   if (!counts.empty()) thrust::exclusive_scan(on_device(), counts.begin(), counts.end(), counts.begin());
 }
 
-/// The same; returns the total, for which the host waits.
+/// Exclusive prefix sum, in place; waits for the total and returns it.
 template <typename T>
 T exclusive_scan_in_place(Buffer<T>& counts) {
   if (counts.empty()) return T{};
@@ -125,16 +125,16 @@ T exclusive_scan_in_place(Buffer<T>& counts) {
   return static_cast<T>(counts.back() + last);
 }
 
-/// The larger, the smaller of two: fmaxf and fminf are calls into a library on the host. Where the first is NaN, the
-/// second.
+/// The larger and the smaller of two floats, faster on the host than the library calls fmaxf and fminf. They return the
+/// second argument if the first is NaN.
 ESPDIFF_INLINE float larger(float a, float b) { return a > b ? a : b; }
 ESPDIFF_INLINE float smaller(float a, float b) { return a < b ? a : b; }
 
-/// False for NaN and infinities; std::isfinite is not for device code.
+/// False for NaN and infinities. (std::isfinite is not available in device code.)
 ESPDIFF_INLINE bool is_finite(float x) { return x - x == 0.0F; }
 
-/// Adds to a counter that other threads add to as well; returns its value before. Integers only: their sum has no
-/// order.
+/// Atomically adds 1 to a counter and returns its previous value. Integers only, because their sum does not depend on
+/// the order.
 ESPDIFF_INLINE std::uint32_t atomic_increment(std::uint32_t* counter) {
 #if defined(__CUDA_ARCH__)
   return atomicAdd(counter, 1U);
@@ -143,7 +143,7 @@ ESPDIFF_INLINE std::uint32_t atomic_increment(std::uint32_t* counter) {
 #endif
 }
 
-/// Lowers *value to candidate if that is smaller; returns whether it did. T is a 32- or 64-bit unsigned integer.
+/// Atomic minimum; returns whether *value was lowered. T is a 32- or 64-bit unsigned integer.
 template <typename T>
 ESPDIFF_INLINE bool atomic_minimum(T* value, T candidate) {
 #if defined(__CUDA_ARCH__)

@@ -1,4 +1,4 @@
-// launch.h: how a stage's work is started on the device: a body for each index, and the policy for Thrust's algorithms.
+// launch.h: launches a stage's work on the device: a loop body per index, and the policy for Thrust's algorithms.
 #pragma once
 
 #include <cstddef>
@@ -17,12 +17,12 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
-// Each target wraps its Thrust in a namespace of its own (THRUST_CUB_WRAPPED_NAMESPACE).
+// Each target wraps Thrust in its own namespace (THRUST_CUB_WRAPPED_NAMESPACE).
 namespace thrust = THRUST_NS_QUALIFIER;
 
 #if defined(ESPDIFF_BACKEND_CUDA)
 
-/// Few threads to a block: a surface's 40,000 vertices then make blocks for every multiprocessor of a large GPU.
+/// Small blocks, so that a surface's 40,000 vertices occupy every multiprocessor of a large GPU.
 constexpr unsigned kThreadsPerBlock = 128;
 
 template <typename Body>
@@ -31,8 +31,8 @@ __global__ void __launch_bounds__(kThreadsPerBlock) for_each_kernel(std::size_t 
   if (i < n) body(i);
 }
 
-/// Calls body(i) for each i in [0, n) in parallel, after all that was asked for before; returns before it is done.
-/// Deterministic when no call writes what another reads or writes.
+/// Calls body(i) for each i in [0, n) in parallel, after all work enqueued before. Returns before it is done.
+/// Deterministic if no call writes what another reads or writes.
 template <typename Body>
 void for_each_index(std::size_t n, Body body) {
   if (n == 0) return;
@@ -41,7 +41,7 @@ void for_each_index(std::size_t n, Body body) {
   check_cuda(cudaGetLastError(), "starting a kernel");
 }
 
-/// Gives Thrust's algorithms their temporary memory from the engine's pool.
+/// Allocates the temporary memory of Thrust's algorithms from the engine's pool.
 struct ScratchAllocator {
   using value_type = char;
   char* allocate(std::ptrdiff_t n) {
@@ -50,7 +50,8 @@ struct ScratchAllocator {
   void deallocate(char* start, std::size_t) { CudaContext::current()->release(start); }
 };
 
-/// What Thrust's algorithms are called with: the engine's stream and pool. They may return before they are done.
+/// Execution policy for Thrust's algorithms: the engine's stream and pool. The algorithms may return before they are
+/// done.
 inline auto on_device() {
   static ScratchAllocator scratch;  // has no state
   return thrust::cuda::par_nosync(scratch).on(CudaContext::current()->stream());
@@ -58,14 +59,14 @@ inline auto on_device() {
 
 #else
 
-/// Calls body(i) for each i in [0, n) in parallel. Deterministic when no call writes what another reads or writes.
+/// Calls body(i) for each i in [0, n) in parallel. Deterministic if no call writes what another reads or writes.
 template <typename Body>
 void for_each_index(std::size_t n, Body body) {
   if (n == 0) return;
   thrust::for_each_n(thrust::device, thrust::counting_iterator<std::size_t>(0), n, body);
 }
 
-/// What Thrust's algorithms are called with.
+/// Execution policy for Thrust's algorithms.
 inline auto on_device() { return thrust::device; }
 
 #endif

@@ -1,4 +1,4 @@
-// memory.h: memory of a back end's device: the block that owns a piece of it, and the ways in and out.
+// memory.h: device memory of a back end: owned blocks, copies to and from the host, and the memory available.
 #pragma once
 
 #include <cstddef>
@@ -14,9 +14,9 @@ namespace espdiff::ESPDIFF_BACKEND {
 class CudaContext;
 #endif
 
-/// Owns a piece of the device's memory, uninitialized. On the CPU it comes from the heap, at a cache line's start. On a
-/// GPU it comes from the pool of the engine whose call runs on this thread, goes back to it in the order of that
-/// engine's stream, and may outlive the engine.
+/// Owns a block of uninitialized device memory. On the CPU it is heap memory aligned to a cache line. On a GPU it comes
+/// from the pool of the engine whose call runs on this thread, is released in that engine's stream order, and may
+/// outlive the engine.
 class MemoryBlock {
  public:
   MemoryBlock() = default;
@@ -46,13 +46,14 @@ class MemoryBlock {
 #endif
 };
 
-/// From the host; `from` may change as soon as the call returns.
+/// Copies from the host; `from` may change as soon as the call returns.
 void copy_to_device(void* to, const void* from, std::size_t n_bytes);
-/// To the host, once all that was asked for before is done.
+/// Copies to the host after all work enqueued before.
 void copy_to_host(void* to, const void* from, std::size_t n_bytes);
 void copy_on_device(void* to, const void* from, std::size_t n_bytes);
 
-/// What a run may take: of the machine's memory 80 %; of a GPU's 90 % of what is free or waits in the engine's pool.
+/// Bytes that a run may use: 80 % of the machine's memory, or 90 % of a GPU's memory that is free or unused in the
+/// engine's pool.
 double available_bytes();
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -15,7 +15,8 @@ constexpr std::align_val_t kCacheLine{64};
 
 MemoryBlock::MemoryBlock(std::size_t n_bytes) : start_(n_bytes > 0 ? ::operator new(n_bytes, kCacheLine) : nullptr) {
 #if defined(ESPDIFF_POISON_MEMORY)
-  // Not a number in every precision, and an index out of every range: a stage that reads what it did not write fails.
+  // All ones is NaN in every precision and an index out of every range, so a stage that reads uninitialized memory
+  // fails.
   if (n_bytes > 0) std::memset(start_, 0xFF, n_bytes);
 #endif
 }

@@ -1,9 +1,9 @@
-// orientation.h: on which side of a plane, or of a line, a point lies: the exact sign, for every float.
+// orientation.h: exact orientation predicates: the side of a plane, or of a line, on which a point lies.
 //
-// A filter in double precision decides nearly every case: the determinant, and a bound of its rounding errors. What it
-// leaves open is decided exactly, by adding the determinant's terms without rounding (expansions of Shewchuk, Discrete
-// Comput. Geom. 18, 305 (1997), section 2: sums of doubles whose bits do not overlap). Floats make that simple: the
-// product of two is exact in a double, that of three is two doubles, and none of them can overflow or vanish.
+// A filter in double precision decides nearly every case: the determinant and a bound on its rounding error. The
+// remaining cases add the determinant's terms exactly, as expansions (Shewchuk, Discrete Comput. Geom. 18, 305 (1997),
+// section 2: sums of doubles whose bits do not overlap). This is simple for floats: the product of two is exact in a
+// double, the product of three is two doubles, and neither overflows nor underflows.
 #pragma once
 
 #include <cmath>
@@ -14,16 +14,16 @@ namespace espdiff::ESPDIFF_BACKEND {
 
 #define ESPDIFF_NOINLINE __attribute__((noinline))
 
-/// Half a unit in the last place of 1: the largest relative error of one operation in double precision.
+/// Half a unit in the last place of 1: the largest relative error of one double operation.
 constexpr double kRounding = 1.0 / 9007199254740992.0;
 
 ESPDIFF_INLINE int sign_of(double x) { return (x > 0 ? 1 : 0) - (x < 0 ? 1 : 0); }
 
-/// A sum of doubles that is not rounded: nonoverlapping terms in order of size, none of them zero.
+/// An exact sum of doubles: nonoverlapping nonzero terms in order of size.
 class ExactSum {
  public:
-  /// Adds a term: from the smallest up, each sum goes on to the next and its rounding error stays behind (Shewchuk,
-  /// theorem 10).
+  /// Adds a term, starting with the smallest: each partial sum carries on to the next term and leaves its rounding
+  /// error behind (Shewchuk, theorem 10).
   ESPDIFF_HD void add(double term) {
     int kept = 0;
     for (int i = 0; i < n_terms_; ++i) {
@@ -35,7 +35,7 @@ class ExactSum {
     if (term != 0) terms_[kept++] = term;
     n_terms_ = kept;
   }
-  /// The last term outweighs the others together.
+  /// The last term is larger than all others together.
   ESPDIFF_HD int sign() const { return n_terms_ == 0 ? 0 : sign_of(terms_[n_terms_ - 1]); }
 
  private:
@@ -51,7 +51,7 @@ ESPDIFF_HD inline void add_product(ExactSum& sum, double a, double b, double c) 
   sum.add(abc);
 }
 
-/// Adds factor * det(p, q, r), factor 1 or -1.
+/// Adds factor * det(p, q, r), with factor 1 or -1.
 ESPDIFF_HD inline void add_determinant(ExactSum& sum, double factor, Vec3d p, Vec3d q, Vec3d r) {
   add_product(sum, factor * p.x, q.y, r.z);
   add_product(sum, -factor * p.x, q.z, r.y);
@@ -61,12 +61,11 @@ ESPDIFF_HD inline void add_determinant(ExactSum& sum, double factor, Vec3d p, Ve
   add_product(sum, -factor * p.z, q.y, r.x);
 }
 
-/// The sign of det(b - a, c - a, d - a), without a rounding anywhere. Seldom needed: kept out of line, so that it takes
-/// no registers from what is always needed.
+/// The exact sign of det(b - a, c - a, d - a). Rarely needed, so kept out of line to save registers in the common path.
 ESPDIFF_HD ESPDIFF_NOINLINE inline int exact_orientation(Vec3f a, Vec3f b, Vec3f c, Vec3f d) {
   const Vec3d p = static_cast<Vec3d>(a), q = static_cast<Vec3d>(b), r = static_cast<Vec3d>(c),
               s = static_cast<Vec3d>(d);
-  ExactSum sum;  // the determinant of the four with a column of ones, along that column
+  ExactSum sum;  // the 4 x 4 determinant with a column of ones, expanded along that column
   add_determinant(sum, 1, q, r, s);
   add_determinant(sum, -1, p, r, s);
   add_determinant(sum, 1, p, q, s);
@@ -74,11 +73,11 @@ ESPDIFF_HD ESPDIFF_NOINLINE inline int exact_orientation(Vec3f a, Vec3f b, Vec3f
   return sum.sign();
 }
 
-/// The plane through three points, prepared for many questions.
+/// The plane through three points, precomputed for many queries.
 struct Plane {
   Vec3f a, b, c;
   Vec3d normal;  ///< (b - a) x (c - a), rounded
-  Vec3d size;    ///< the same with every term positive: what the rounding errors of `normal` are relative to
+  Vec3d size;    ///< the same with every term positive: scales the rounding error of `normal`
 };
 
 ESPDIFF_INLINE Plane make_plane(Vec3f a, Vec3f b, Vec3f c) {
@@ -91,11 +90,11 @@ ESPDIFF_INLINE Plane make_plane(Vec3f a, Vec3f b, Vec3f c) {
           {fabs(first.x) + fabs(second.x), fabs(first.y) + fabs(second.y), fabs(first.z) + fabs(second.z)}};
 }
 
-/// The sign of det(b - a, c - a, d - a): 1 on the side to which the normal points, from where a, b, c are seen
-/// counter-clockwise; -1 on the other; 0 exactly in the plane.
+/// The sign of det(b - a, c - a, d - a): 1 on the side that the normal points to (from there a, b, c are
+/// counter-clockwise), -1 on the other side, 0 exactly in the plane.
 ESPDIFF_INLINE int side_of(const Plane& plane, Vec3f d) {
-  // Each of the six products goes through eight roundings: three differences, two products, three sums. Two more
-  // cover the rounding of the bound.
+  // Each of the six products passes eight roundings: three differences, two products, three sums. Two more cover the
+  // rounding of the bound itself.
   const Vec3d w = static_cast<Vec3d>(d) - static_cast<Vec3d>(plane.a);
   const double determinant = dot(plane.normal, w);
   const double bound =
@@ -112,7 +111,7 @@ struct Vec2f {
   float x, y;
 };
 
-/// turn() without a rounding: products of two floats are exact.
+/// turn() evaluated exactly: products of two floats are exact in double.
 ESPDIFF_HD ESPDIFF_NOINLINE inline int exact_turn(double ax, double ay, double bx, double by, double cx, double cy) {
   ExactSum sum;
   sum.add(ax * by);
@@ -124,12 +123,12 @@ ESPDIFF_HD ESPDIFF_NOINLINE inline int exact_turn(double ax, double ay, double b
   return sum.sign();
 }
 
-/// 1 where a, b, c turn left, -1 where they turn right, 0 exactly on a line.
+/// 1 for a left turn a, b, c; -1 for a right turn; 0 exactly on a line.
 ESPDIFF_HD inline int turn(Vec2f a, Vec2f b, Vec2f c) {
   const double ax = static_cast<double>(a.x), ay = static_cast<double>(a.y), bx = static_cast<double>(b.x),
                by = static_cast<double>(b.y), cx = static_cast<double>(c.x), cy = static_cast<double>(c.y);
   const double left = (bx - ax) * (cy - ay), right = (by - ay) * (cx - ax);
-  const double bound = 6 * kRounding * (fabs(left) + fabs(right));  // four roundings, and two for the bound
+  const double bound = 6 * kRounding * (fabs(left) + fabs(right));  // four roundings, plus two for the bound
   if (left - right > bound) return 1;
   if (right - left > bound) return -1;
   return exact_turn(ax, ay, bx, by, cx, cy);

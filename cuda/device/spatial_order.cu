@@ -9,7 +9,7 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// Joins boxes where sum_over() adds.
+/// Bounding box that sum_over() can add (union).
 struct Extent {
   Vec3f lower{FLT_MAX, FLT_MAX, FLT_MAX}, upper{-FLT_MAX, -FLT_MAX, -FLT_MAX};
   ESPDIFF_HD Extent& operator+=(const Extent& o) {
@@ -28,7 +28,7 @@ Buffer<std::uint32_t> spatial_order(const Buffer<Vec4f>& points) {
   const Vec3f size = box.upper - box.lower;
   const float scale = 1023.0F / larger(larger(size.x, size.y), larger(size.z, 1e-6F));
   const Vec3f lower = box.lower;
-  Buffer<std::uint64_t> codes(n);  // the index in the low bits makes every key different
+  Buffer<std::uint64_t> codes(n);  // the index in the low bits makes every key unique
   std::uint64_t* const code = raw(codes);
   for_each_index(n, [=] ESPDIFF_HD(std::size_t i) {
     code[i] = static_cast<std::uint64_t>(morton_code(scale * (x[i].xyz() - lower))) << 32 | i;

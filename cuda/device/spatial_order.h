@@ -1,4 +1,4 @@
-// spatial_order.h: an order of points in which neighbours in the list are neighbours in space.
+// spatial_order.h: orders points so that neighbours in the list are neighbours in space.
 #pragma once
 
 #include "cuda/device/device.h"
@@ -13,17 +13,17 @@ ESPDIFF_INLINE std::uint32_t spread_bits(std::uint32_t v) {
   return (v | v << 2) & 0x09249249U;
 }
 
-/// Place along the Morton curve of a point with coordinates from 0 to 1023.
+/// Morton code of a point with coordinates from 0 to 1023.
 ESPDIFF_INLINE std::uint32_t morton_code(Vec3f p) {
   return spread_bits(static_cast<std::uint32_t>(p.x)) | spread_bits(static_cast<std::uint32_t>(p.y)) << 1 |
          spread_bits(static_cast<std::uint32_t>(p.z)) << 2;
 }
 
-/// [point] the points' indices along the Morton curve of their box; equal codes in the order of the indices.
+/// [point] indices sorted along the Morton curve of the bounding box; ties are broken by index.
 Buffer<std::uint32_t> spatial_order(const Buffer<Vec4f>& points);
 
-/// Drops the points whose entry in `done` is nonzero from the first n of a list; the rest keeps its order.
-/// @returns how many are left
+/// Removes the points with nonzero `done` from the first n entries of a list and keeps the order of the rest.
+/// @returns the number left
 std::size_t drop_done(Buffer<std::uint32_t>& list, std::size_t n, const Buffer<std::uint8_t>& done);
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -1,4 +1,4 @@
-// follow_level_set.cu: along the atoms' velocity, and back onto the level set by Newton's method.
+// follow_level_set.cu: moves vertices with the atoms' velocity, then back onto the level set by Newton's method.
 #include "cuda/device/spatial_order.h"
 #include "cuda/morph/moving_surface.h"
 
@@ -6,18 +6,18 @@ namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
 constexpr int kMaxNewtonSteps = 4;
-/// Off the isovalue by less than this, the next Newton step is the last.
+/// With a smaller density error than this, the next Newton step is the last.
 constexpr float kLastStepExcess = 0.03F;
-/// Off by more than this after the last one, a vertex is lost.
+/// A vertex with a larger density error than this after the last step is unmatched.
 constexpr float kUnmatchedExcess = 0.1F;
-/// A vertex that Newton's method takes farther than this at one time has left its sheet of the surface.
+/// A vertex that Newton's method moves farther than this in one time step has left its sheet of the surface.
 constexpr float kMaxShift_A = 0.6F;
-/// The predicted change of the level set counts only this far in one step: where the slope is small it is a guess.
+/// Limit of the predicted shift of the level set per step: where the slope is small, the prediction is a guess.
 constexpr float kMaxPrediction_A = 0.5F;
 
 }  // namespace
 
-// Second order in time for the atoms' part (Adams and Bashforth): one evaluation a step.
+// Second order in time for the atoms' part (Adams-Bashforth): one evaluation a step.
 void advance(MovingSurface& surface, float dt) {
   const MovingSurfaceView s = view_of(surface);
   for_each_index(surface.x.size(), [=] ESPDIFF_HD(std::size_t v) {
@@ -34,7 +34,7 @@ void advance(MovingSurface& surface, float dt) {
   });
 }
 
-// Vertices that have arrived drop out of the list, so that all but the first pass are short.
+// Converged vertices leave the list, so all passes but the first are short.
 void return_to_level_set(MovingSurface& surface, const MovingAtoms& atoms, float isovalue) {
   const MovingSurfaceView s = view_of(surface);
   const std::size_t n = surface.x.size();

@@ -1,4 +1,4 @@
-// morph.cu: the order of the morph's steps: flow with the atoms, back onto the level set, cut out, even out, divide.
+// morph.cu: the steps of the morph: advect with the atoms, return to the level set, remove, smooth, split.
 #include "cuda/morph/morph.h"
 
 #include <algorithm>
@@ -15,13 +15,13 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// Atoms that fade, and widths that change, move the surface as well: it then takes this many steps at least.
+/// Minimum number of steps if atoms fade or widths change, which moves the surface too.
 constexpr int kStepsOfFading = 24;
-/// The least: flow and level set are followed to second order only.
+/// Minimum number of steps: flow and level set are followed to second order only.
 constexpr int kLeastSteps = 8;
-/// Rounds of evening out at the end, where nothing moves any more.
+/// Rounds of smoothing at the end, after the atoms have stopped.
 constexpr int kLastRounds = 4;
-/// How far the last projections may move a vertex: the steps leave it nearer than that.
+/// Largest shift of the final projections; the steps end closer to the surface than this.
 constexpr float kLastShift_A = 0.3F;
 
 void check_options(const MorphOptions& o) {
@@ -38,7 +38,7 @@ int steps_for(const std::vector<MovingAtom>& atoms, const MorphOptions& options)
   double farthest = 0;
   bool fades = false;
   for (const MovingAtom& a : atoms) {
-    // On a screw the speed is the same everywhere but for the atom's own way.
+    // On a screw the speed is constant except for the atom's own path.
     farthest = std::max({farthest, norm(a.velocity_at(0)), norm(a.velocity_at(1))});
     fades = fades || !a.at_start || !a.at_end || std::abs(a.start_width - a.end_width) > 1e-3;
   }
@@ -54,49 +54,49 @@ std::shared_ptr<Scalars> as_scalars(const Buffer<std::uint8_t>& flags) {
   return scalars;
 }
 
-/// With the last projection.
-std::shared_ptr<Scalars> path_lengths(const MovingSurface& surface, const SurfaceMesh& arrived) {
+/// Path lengths including the final projection.
+std::shared_ptr<Scalars> path_lengths(const MovingSurface& surface, const SurfaceMesh& projected) {
   auto lengths = std::make_shared<Scalars>();
   lengths->values.resize(surface.n_vertices());
   const Vec4f* const before = raw(surface.x);
-  const Vec4f* const after = raw(arrived.positions);
+  const Vec4f* const after = raw(projected.positions);
   float* const length = raw(lengths->values);
   for_each_index(surface.n_vertices(),
                  [=] ESPDIFF_HD(std::size_t v) { length[v] = before[v].w + norm(after[v].xyz() - before[v].xyz()); });
   return lengths;
 }
 
-/// A surface that an earlier morph has brought so far. Its vertices that are lost are those that have no triangle left.
-MovingSurface take_up(const MorphResult& so_far) {
+/// The surface at the end of an earlier morph. Its unmatched vertices are those without any remaining triangle.
+MovingSurface resume_surface(const MorphResult& so_far) {
   const auto& source = dynamic_cast<const SurfaceMesh&>(*so_far.source);
   const auto& mapped = dynamic_cast<const SurfaceMesh&>(*so_far.mapped);
-  const auto& cut = dynamic_cast<const Scalars&>(*so_far.unmatched);
+  const auto& removed = dynamic_cast<const Scalars&>(*so_far.unmatched);
   const auto& path_length = dynamic_cast<const Scalars&>(*so_far.path_length);
   if (mapped.n_vertices() != source.n_vertices() || mapped.n_triangles() != source.n_triangles() ||
-      cut.values.size() != source.n_triangles() || path_length.values.size() != source.n_vertices())
+      removed.values.size() != source.n_triangles() || path_length.values.size() != source.n_vertices())
     throw GeometryError("a morph of " + std::to_string(source.n_vertices()) +
-                        " vertices cannot go on: its meshes, what it lost and its path lengths differ in size");
-  MovingSurface surface = set_out(source);
+                        " vertices cannot continue: its meshes, removed triangles and path lengths differ in size");
+  MovingSurface surface = start_surface(source);
   surface.x = mapped.positions;
   const MovingSurfaceView s = view_of(surface);
   const float* const length = raw(path_length.values);
-  const float* const unmatched = raw(cut.values);
-  for_each_index(s.topology.n_triangles, [=] ESPDIFF_HD(std::size_t t) { s.cut[t] = unmatched[t] != 0 ? 1 : 0; });
+  const float* const unmatched = raw(removed.values);
+  for_each_index(s.topology.n_triangles, [=] ESPDIFF_HD(std::size_t t) { s.removed[t] = unmatched[t] != 0 ? 1 : 0; });
   for_each_index(s.topology.n_vertices, [=] ESPDIFF_HD(std::size_t v) {
     s.x[v].w = length[v];
     bool any = false;
     for (std::uint32_t n = s.topology.first[v]; n < s.topology.first[v + 1]; ++n)
-      any = any || s.cut[s.topology.incident[n]] == 0;
+      any = any || s.removed[s.topology.incident[n]] == 0;
     s.unmatched[v] = any ? 0 : 1;
   });
   surface.order = spatial_order(surface.x);
   return surface;
 }
 
-/// Both ends on their isosurfaces. Vertices of the given mesh keep the places that they came with; those added lie in
-/// the middles of edges, beside the surface.
-MorphResult arrive(const MovingSurface& surface, const SurfaceMesh& mesh, const AtomCells& source_atoms,
-                   const AtomCells& target_atoms, float isovalue) {
+/// Projects both ends onto their isosurfaces. Vertices of the given mesh keep their positions; added vertices are
+/// midpoints of edges and lie beside the surface.
+MorphResult project_ends(const MovingSurface& surface, const SurfaceMesh& mesh, const AtomCells& source_atoms,
+                         const AtomCells& target_atoms, float isovalue) {
   SurfaceMesh source, mapped;
   source.topology = mapped.topology = surface.topology;
   source.positions = surface.source;
@@ -107,7 +107,7 @@ MorphResult arrive(const MovingSurface& surface, const SurfaceMesh& mesh, const 
   result.source = on_source;
   const auto on_target = project(mapped, target_atoms, isovalue, kLastShift_A);
   result.mapped = on_target;
-  result.unmatched = as_scalars(surface.cut);
+  result.unmatched = as_scalars(surface.removed);
   result.path_length = path_lengths(surface, *on_target);
   const std::uint8_t* const unmatched = raw(surface.unmatched);
   result.report.n_vertices_unmatched =
@@ -115,10 +115,10 @@ MorphResult arrive(const MovingSurface& surface, const SurfaceMesh& mesh, const 
   return result;
 }
 
-/// All the way of the atoms. `mesh` is where the surface comes from.
-MorphResult travel(MovingSurface surface, const SurfaceMesh& mesh, const std::vector<MovingAtom>& atoms,
-                   const AtomCells& source_atoms, const AtomCells& target_atoms, const MorphOptions& options,
-                   const std::string& stage, const Progress& progress) {
+/// Runs all steps. `mesh` is the initial surface on the source.
+MorphResult run_steps(MovingSurface surface, const SurfaceMesh& mesh, const std::vector<MovingAtom>& atoms,
+                      const AtomCells& source_atoms, const AtomCells& target_atoms, const MorphOptions& options,
+                      const std::string& stage, const Progress& progress) {
   check_options(options);
   const float isovalue = static_cast<float>(options.isovalue);
   const float max_edge = static_cast<float>(options.max_edge_A), max_stretch = static_cast<float>(options.max_stretch);
@@ -134,15 +134,15 @@ MorphResult travel(MovingSurface surface, const SurfaceMesh& mesh, const std::ve
     smooth_tangentially(surface);
     n_added += split_long_edges(surface, max_edge, max_stretch);
   }
-  // What the last step added or evened out lies beside the level set.
-  const MovingAtoms arrived = atoms_at(atoms, 1.0);
+  // The vertices added or moved in the last step lie beside the level set.
+  const MovingAtoms final_atoms = atoms_at(atoms, 1.0);
   for (int round = 0; round < kLastRounds; ++round) {
-    return_to_level_set(surface, arrived, isovalue);
+    return_to_level_set(surface, final_atoms, isovalue);
     remove_torn_triangles(surface);
     if (round + 1 < kLastRounds) smooth_tangentially(surface);
   }
   progress.report(stage, 1.0);
-  MorphResult result = arrive(surface, mesh, source_atoms, target_atoms, isovalue);
+  MorphResult result = project_ends(surface, mesh, source_atoms, target_atoms, isovalue);
   result.report.steps = n_steps;
   result.report.n_vertices_added = n_added;
   return result;
@@ -150,7 +150,7 @@ MorphResult travel(MovingSurface surface, const SurfaceMesh& mesh, const std::ve
 
 }  // namespace
 
-MovingSurface set_out(const SurfaceMesh& mesh) {
+MovingSurface start_surface(const SurfaceMesh& mesh) {
   MovingSurface surface;
   surface.topology = mesh.topology;
   surface.source = mesh.positions;
@@ -161,7 +161,7 @@ MovingSurface set_out(const SurfaceMesh& mesh) {
   surface.previous.assign(mesh.n_vertices(), Vec4f{});
   surface.gradient.assign(mesh.n_vertices(), Vec4f{});
   surface.unmatched.assign(mesh.n_vertices(), 0);
-  surface.cut.assign(mesh.n_triangles(), 0);
+  surface.removed.assign(mesh.n_triangles(), 0);
   surface.order = spatial_order(surface.x);
   return surface;
 }
@@ -169,14 +169,14 @@ MovingSurface set_out(const SurfaceMesh& mesh) {
 MorphResult morph(const SurfaceMesh& mesh, const std::vector<MovingAtom>& atoms, const AtomCells& source_atoms,
                   const AtomCells& target_atoms, const MorphOptions& options, const std::string& stage,
                   const Progress& progress) {
-  return travel(set_out(mesh), mesh, atoms, source_atoms, target_atoms, options, stage, progress);
+  return run_steps(start_surface(mesh), mesh, atoms, source_atoms, target_atoms, options, stage, progress);
 }
 
 MorphResult continue_morph(const MorphResult& so_far, const std::vector<MovingAtom>& atoms,
                            const AtomCells& source_atoms, const AtomCells& target_atoms, const MorphOptions& options,
                            const std::string& stage, const Progress& progress) {
-  return travel(take_up(so_far), dynamic_cast<const SurfaceMesh&>(*so_far.source), atoms, source_atoms, target_atoms,
-                options, stage, progress);
+  return run_steps(resume_surface(so_far), dynamic_cast<const SurfaceMesh&>(*so_far.source), atoms, source_atoms,
+                   target_atoms, options, stage, progress);
 }
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -1,4 +1,4 @@
-// moving_atoms.cu: places atoms at a time and sorts them into cells; sums over them at points.
+// moving_atoms.cu: positions of the atoms at one time, sorted into cells, and sums over them at points.
 #include "cuda/morph/moving_atoms.h"
 
 #include "cuda/surface/point_sums.h"
@@ -7,7 +7,7 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// Sums over atoms, before the velocity is divided by `blend`. Number is float, or several lanes of it.
+/// Sums over atoms, before the velocity is divided by `blend`. Number is float or a vector of lanes.
 template <typename Number>
 struct FlowSums {
   Number density{}, gx{}, gy{}, gz{}, blend{}, vx{}, vy{}, vz{}, rate{};
@@ -20,7 +20,8 @@ ESPDIFF_INLINE void square_root(const Lanes& x, Lanes& result) {
 }
 #endif
 
-/// Adds an atom: `d*` from it to the point, `square` their squares' sum, `gaussian` its Gaussian there, 0 beyond reach.
+/// Adds an atom: (dx, dy, dz) from it to the point, `square` its squared length, `gaussian` its Gaussian there, 0
+/// beyond reach.
 template <typename Number>
 ESPDIFF_INLINE void add_atom(FlowSums<Number>& sum, const AtomChange& change, float exponent, const Number& dx,
                              const Number& dy, const Number& dz, const Number& square, const Number& gaussian) {

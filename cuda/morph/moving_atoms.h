@@ -1,5 +1,5 @@
-// moving_atoms.h: atoms on their way from source to target, at one time, and what a surface that follows them needs to
-// know at a point: density, gradient, the atoms' velocity, and the density's change in time.
+// moving_atoms.h: the atoms at one time between source and target, and what moves a surface at a point: density,
+// gradient, the atoms' velocity, and the density's rate of change.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
-/// How an atom is changing. Times run from 0 (source) to 1 (target).
+/// Rates of change of an atom. Times run from 0 (source) to 1 (target).
 struct AtomChange {
   Vec3f velocity;       ///< Angstrom / time
   Vec3f spin;           ///< angular velocity of its surroundings, radians / time
-  float weight;         ///< 0 to 1: atoms without a counterpart fade
+  float weight;         ///< 0 to 1: unpaired atoms fade
   float weight_rate;    ///< 1 / time
   float exponent_rate;  ///< of -1 / (2 s^2), 1 / (Angstrom^2 time)
 };
@@ -31,20 +31,20 @@ MovingAtoms atoms_at(const std::vector<MovingAtom>& atoms, double time);
 struct FlowSample {
   float density;
   Vec3f gradient;  ///< of rho, 1 / Angstrom
-  /// Of the atoms' surroundings at this point, velocity + spin x (x - x_i), Angstrom / time; zero where no atom
-  /// reaches. The surface lies beside the atoms: with their own velocities it would lag behind what turns. Weighted by
-  /// the square roots of the atoms' densities, Gaussians wider by a factor of sqrt(2): with the densities themselves
-  /// the flow shears so much between atoms that part that it tears the surface, and does not come back.
+  /// Velocity of the atoms' surroundings at this point, velocity + spin x (x - x_i), Angstrom / time; zero where no
+  /// atom reaches. The spin keeps the surface, which lies beside the atoms, from lagging behind rotations. The weights
+  /// are the square roots of the atoms' densities (Gaussians wider by sqrt(2)): with the densities themselves the flow
+  /// shears so strongly between separating atoms that it tears the surface irreversibly.
   Vec3f velocity;
   float rate;  ///< of rho at this point, 1 / time
 };
 
-/// Samples at the points that `list` names: samples[list[i]] for i < n. Atoms are added in the order of the cell list,
-/// whatever the form. The list should be in a spatial order: the CPU takes points by blocks that share their atoms.
+/// Samples the listed points: samples[list[i]] for i < n. Adds atoms in the order of the cell list in both forms. The
+/// list should be in spatial order: the CPU processes points in blocks that share their atoms.
 void flow_at_points(const MovingAtoms& atoms, const Buffer<Vec4f>& points, const Buffer<std::uint32_t>& list,
                     std::size_t n, Buffer<FlowSample>& samples);
 
-/// The general form, point by point: the same bits.
+/// The general form, point by point; gives the same bits.
 void flow_point_by_point(const MovingAtoms& atoms, const Buffer<Vec4f>& points, const Buffer<std::uint32_t>& list,
                          std::size_t n, Buffer<FlowSample>& samples);
 

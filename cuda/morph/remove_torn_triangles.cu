@@ -1,14 +1,14 @@
-// remove_torn_triangles.cu: finds where the surface was torn or crushed, by the side that its triangles turn to the
-// molecule.
+// remove_torn_triangles.cu: finds torn or crushed parts of the surface by comparing normals with the density's
+// gradient.
 #include "cuda/morph/moving_surface.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 
 void remove_torn_triangles(MovingSurface& surface) {
   const MovingSurfaceView s = view_of(surface);
-  Buffer<std::uint8_t> flipped_flags(surface.cut.size());
+  Buffer<std::uint8_t> flipped_flags(surface.removed.size());
   std::uint8_t* const flipped = raw(flipped_flags);
-  for_each_index(surface.cut.size(), [=] ESPDIFF_HD(std::size_t t) {
+  for_each_index(surface.removed.size(), [=] ESPDIFF_HD(std::size_t t) {
     const Corners c = s.topology.triangles[t];
     const Vec3f uphill = s.gradient[c.v[0]].xyz() + s.gradient[c.v[1]].xyz() + s.gradient[c.v[2]].xyz();
     flipped[t] = dot(twice_area_vector(s.x, c), uphill) >= 0 ? 1 : 0;
@@ -19,17 +19,17 @@ void remove_torn_triangles(MovingSurface& surface) {
     bool any = false;
     for (std::uint32_t n = s.topology.first[v]; n < s.topology.first[v + 1]; ++n) {
       const std::uint32_t t = s.topology.incident[n];
-      if (s.cut[t] != 0) continue;
+      if (s.removed[t] != 0) continue;
       any = true;
       normal += twice_area_vector(s.x, s.topology.triangles[t]);
     }
     if (!any || dot(normal, s.gradient[v].xyz()) > 0) s.unmatched[v] = 1;
   });
-  for_each_index(surface.cut.size(), [=] ESPDIFF_HD(std::size_t t) {
-    if (s.cut[t] != 0) return;
+  for_each_index(surface.removed.size(), [=] ESPDIFF_HD(std::size_t t) {
+    if (s.removed[t] != 0) return;
     const Corners c = s.topology.triangles[t];
     const bool unmatched = s.unmatched[c.v[0]] != 0 || s.unmatched[c.v[1]] != 0 || s.unmatched[c.v[2]] != 0;
-    if (unmatched || flipped[t] != 0) s.cut[t] = 1;
+    if (unmatched || flipped[t] != 0) s.removed[t] = 1;
   });
 }
 

@@ -1,14 +1,14 @@
-// smooth_tangentially.cu: keeps triangles in shape while the surface travels, and leaves alone those that are.
+// smooth_tangentially.cu: improves badly shaped triangles of the moving surface and leaves the others alone.
 #include "cuda/morph/moving_surface.h"
 #include "cuda/surface/adjacency.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// A vertex moves only where a triangle has less than this part of the quality that it had on the source: a surface
-/// that is carried rigidly is not touched.
+/// A vertex moves only where a triangle's quality is below this fraction of its quality on the source, so that rigid
+/// motion changes nothing.
 constexpr float kKeptQuality = 0.4F;
-/// Share of the way to the middle of the ring, at most.
+/// Largest fraction of the distance to the mean of the ring.
 constexpr float kPace = 0.5F;
 
 /// 1 for an equilateral triangle, 0 for one without area.
@@ -19,7 +19,7 @@ ESPDIFF_INLINE float shape_quality(const Vec4f* x, const Corners& c) {
   return squares > 0 ? 3.4641016F * norm(cross(ab, ca)) / squares : 0.0F;
 }
 
-/// Least altitude of a triangle.
+/// Smallest altitude of a triangle.
 ESPDIFF_INLINE float least_altitude(const Vec4f* x, const Corners& c) {
   const Vec3f ab = x[c.v[1]].xyz() - x[c.v[0]].xyz(), bc = x[c.v[2]].xyz() - x[c.v[1]].xyz(),
               ca = x[c.v[0]].xyz() - x[c.v[2]].xyz();
@@ -30,16 +30,16 @@ ESPDIFF_INLINE float least_altitude(const Vec4f* x, const Corners& c) {
 }  // namespace
 
 void smooth_tangentially(MovingSurface& surface) {
-  Buffer<Vec4f> evened(surface.n_vertices());
+  Buffer<Vec4f> smoothed(surface.n_vertices());
   const MovingSurfaceView s = view_of(surface);
-  Vec4f* const to = raw(evened);
+  Vec4f* const to = raw(smoothed);
   for_each_index(surface.x.size(), [=] ESPDIFF_HD(std::size_t v) {
     to[v] = s.x[v];
     if (s.unmatched[v] != 0) return;
     float now = 1.0F, before = 1.0F, altitude = 1e30F;
     for (std::uint32_t n = s.topology.first[v]; n < s.topology.first[v + 1]; ++n) {
       const std::uint32_t t = s.topology.incident[n];
-      if (s.cut[t] != 0) return;  // at a border
+      if (s.removed[t] != 0) return;  // at a border
       now = smaller(now, shape_quality(s.x, s.topology.triangles[t]));
       before = smaller(before, shape_quality(s.source, s.topology.triangles[t]));
       altitude = smaller(altitude, least_altitude(s.x, s.topology.triangles[t]));
@@ -53,7 +53,7 @@ void smooth_tangentially(MovingSurface& surface) {
     if (length > most) move = (most / length) * move;
     to[v] = make_vec4(s.x[v].xyz() + move, s.x[v].w + norm(move));
   });
-  surface.x.swap(evened);
+  surface.x.swap(smoothed);
 }
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -1,10 +1,10 @@
-// adjacency.cu: compressed rows of a mesh's one-rings, and the sums over them.
+// adjacency.cu: builds the compressed rows of a mesh's one-rings, and sums over them.
 #include "cuda/surface/adjacency.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// Orders a row by triangle, since the order in which threads filled it is chance.
+/// Sorts a row by triangle, because threads fill it in arbitrary order.
 ESPDIFF_INLINE void sort_row(std::uint32_t* incident, std::uint32_t* neighbour, std::uint32_t begin,
                              std::uint32_t end) {
   for (std::uint32_t i = begin + 1; i < end; ++i) {
@@ -77,7 +77,7 @@ Buffer<float> triangle_areas(const SurfaceMesh& mesh) {
   return areas;
 }
 
-Buffer<float> vertex_areas(const SurfaceMesh& mesh, const Buffer<float>& areas, const std::uint8_t* counted) {
+Buffer<float> vertex_areas(const SurfaceMesh& mesh, const Buffer<float>& areas, const std::uint8_t* included) {
   Buffer<float> result(mesh.n_vertices());
   const TopologyView topology = mesh.view();
   const float* const area = raw(areas);
@@ -86,7 +86,7 @@ Buffer<float> vertex_areas(const SurfaceMesh& mesh, const Buffer<float>& areas, 
     float sum = 0;
     for (std::uint32_t n = topology.first[v]; n < topology.first[v + 1]; ++n) {
       const std::uint32_t t = topology.incident[n];
-      if (counted == nullptr || counted[t] != 0) sum += area[t];
+      if (included == nullptr || included[t] != 0) sum += area[t];
     }
     vertex_area[v] = sum / 3.0F;
   });

@@ -1,4 +1,4 @@
-// atom_cells.cu: sorts atoms into cells, a counting sort on the host: atoms are few.
+// atom_cells.cu: sorts atoms into cells by a counting sort on the host, which is fast enough for their number.
 #include "cuda/surface/atom_cells.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace espdiff::ESPDIFF_BACKEND {
 
 namespace {
 
-/// Cells much smaller than an atom's reach let a query skip most of what is out of reach.
+/// Cells per reach: small cells let a query skip most atoms out of reach.
 constexpr float kCellsPerReach = 3.0F;
 constexpr double kMaxCells = 6.4e7;
 
@@ -51,7 +51,7 @@ void choose_cells(const HostAtoms& atoms, AtomCells& cells) {
   const auto n_cells = [&](double edge) {
     return (std::floor(extent.x / edge) + 1) * (std::floor(extent.y / edge) + 1) * (std::floor(extent.z / edge) + 1);
   };
-  while (n_cells(cells.cell) > kMaxCells) cells.cell *= 2;  // atoms far apart: fewer, larger cells
+  while (n_cells(cells.cell) > kMaxCells) cells.cell *= 2;  // distant atoms: use fewer, larger cells
   cells.origin = static_cast<Vec3f>(atoms.lower);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     cells.size[axis] = static_cast<int>(extent[static_cast<int>(axis)] / cells.cell) + 1;

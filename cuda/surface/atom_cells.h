@@ -1,4 +1,4 @@
-// atom_cells.h: atoms sorted into a cell list, and the visit of those near a point.
+// atom_cells.h: atoms in a cell list, and the visit of the atoms near a point.
 #pragma once
 
 #include <array>
@@ -9,8 +9,8 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
-/// What kernels see of the atoms. Cells are numbered x fastest, z slowest; the atoms of cell c are first[c] ..
-/// first[c+1]-1, in input order, so that a run of cells along x is one range of atoms.
+/// Kernel view of the atoms. Cells are numbered x fastest, z slowest. The atoms of cell c are first[c] .. first[c+1]-1,
+/// in input order, so a run of cells along x is one range of atoms.
 struct AtomCellsView {
   const float* x;  ///< [sorted atom] Angstrom
   const float* y;
@@ -44,13 +44,13 @@ struct AtomCells : DeviceAtoms {
   AtomCellsView view() const;
 };
 
-/// @param order where not null, becomes [sorted atom] the atom's index in the input
+/// @param order if not null, receives [sorted atom] the atom's index in the input
 /// @throws InputError if no atom has a positive width, or a coordinate is not finite
 std::shared_ptr<AtomCells> make_atom_cells(const std::vector<Vec3d>& positions, const std::vector<float>& widths,
                                            const std::vector<std::int32_t>& residues,
                                            std::vector<std::uint32_t>* order = nullptr);
 
-/// Calls visit(begin, end) for each run of atoms that may reach p, in ascending order.
+/// Calls visit(begin, end) for each range of atoms that may reach p, in ascending order.
 template <typename Visit>
 ESPDIFF_INLINE void visit_atom_runs(const AtomCellsView& atoms, Vec3f p, float reach, Visit visit) {
   const int x0 = atoms.clamped_cell(p.x - reach, 0), x1 = atoms.clamped_cell(p.x + reach, 0);

@@ -1,4 +1,4 @@
-// bspline.h: cardinal B-splines, which spread charges over a grid and interpolate between its points.
+// bspline.h: cardinal B-splines, which spread charges over a grid and interpolate between grid points.
 #pragma once
 
 #include "cuda/device/device.h"
@@ -7,19 +7,19 @@ namespace espdiff::ESPDIFF_BACKEND {
 
 constexpr int kLeastSplineOrder = 4, kMostSplineOrder = 8;
 
-/// How many weights are stored for each axis: a full vector, so that loops over them have a constant length.
+/// Number of weights stored per axis: a full vector, so that loops have constant length.
 template <int Order>
 constexpr int kStoredWeights = Order <= 4 ? 4 : 8;
 
-/// Where a spline of an order lies on a periodic axis: point u (in grid steps, 0 <= u < size) touches the points base,
-/// base + 1, ... base + order - 1 (modulo size).
+/// Position of a spline on a periodic axis. Point u (in grid steps, 0 <= u < size) touches the grid points base, base +
+/// 1, ... base + order - 1 (modulo size).
 struct SplinePlace {
   int base;
   double part;  ///< 0 to 1
 };
 
 ESPDIFF_INLINE SplinePlace spline_place(double u, int order, int size) {
-  // Moves the lowest point that is touched to the whole number below; the same for even and for odd orders.
+  // Shifts the lowest touched point to the whole number below; valid for even and odd orders.
   double shifted = u + 1.0 - 0.5 * static_cast<double>(order);
   if (shifted < 0) shifted += static_cast<double>(size);
   int base = static_cast<int>(shifted);
@@ -35,7 +35,7 @@ ESPDIFF_INLINE double wrapped(double u, int size) {
   return inside >= n || inside < 0 ? 0.0 : inside;
 }
 
-/// From order N - 1 to `Order`, in place; unrolled, since compilers do not.
+/// Raises the order from N - 1 to `Order`, in place; unrolled by templates because compilers do not.
 template <int N, int Order, typename T>
 ESPDIFF_INLINE void raise_order(T part, T* m) {
   if constexpr (N <= Order) {
@@ -50,11 +50,11 @@ ESPDIFF_INLINE void raise_order(T part, T* m) {
 }
 
 /// Weights of the points that a centred B-spline touches: weight[j] = M(part + order - 1 - j), with the recursion
-/// M_n(x) = (x M_{n-1}(x) + (n - x) M_{n-1}(x - 1)) / (n - 1) (Essmann et al., J. Chem. Phys. 103, 8577 (1995),
-/// eq. 4.1). They sum to 1; entries from `Order` on are zero.
+/// M_n(x) = (x M_{n-1}(x) + (n - x) M_{n-1}(x - 1)) / (n - 1) (Essmann et al., J. Chem. Phys. 103, 8577 (1995), eq.
+/// 4.1). They sum to 1. Entries from `Order` on are zero.
 template <int Order, typename T>
 ESPDIFF_INLINE void spline_weights(T part, T* weight) {
-  // Ascending in the argument while the order grows: m[k] = M_n(part + k).
+  // During the recursion, ascending in the argument: m[k] = M_n(part + k).
   T m[Order] = {};
   m[0] = part;
   m[1] = T(1) - part;

@@ -1,4 +1,4 @@
-// carry.cu: finds each point's nearest at on a surface and takes the same at of its image.
+// carry.cu: finds the nearest point on a surface for each point and maps it to the image by barycentric coordinates.
 #include "cuda/surface/carry.h"
 
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// Points handled one after the other: neighbours in the list are neighbours in space.
+/// Points processed consecutively: neighbours in the list are neighbours in space.
 constexpr std::size_t kRun = 32;
 
 /// Weights of a triangle's corners.
@@ -23,7 +23,7 @@ ESPDIFF_INLINE float along(Vec3f p, Vec3f from, Vec3f to) {
   return square > 0 ? smaller(larger(dot(p - from, edge) / square, 0.0F), 1.0F) : 0.0F;
 }
 
-/// The at of a triangle nearest to p: its foot where that lies in the face, else the nearest at on an edge.
+/// The point of a triangle nearest to p: the foot if it lies in the face, otherwise the nearest point on an edge.
 ESPDIFF_INLINE Barycentric nearest_point(Vec3f p, const PlacedTriangle& t) {
   const Vec3f n = cross(t.b - t.a, t.c - t.a);
   const float nn = dot(n, n);
@@ -50,7 +50,7 @@ ESPDIFF_INLINE Barycentric nearest_point(Vec3f p, const PlacedTriangle& t) {
 std::shared_ptr<SurfaceMesh> carry(const SurfaceMesh& points, const SurfaceMesh& surface, const SurfaceMesh& image,
                                    float max_distance_A) {
   if (surface.n_vertices() != image.n_vertices() || surface.n_triangles() != image.n_triangles())
-    throw GeometryError("carry: the surface and its image are not of one topology");
+    throw GeometryError("carry: the surface and its image differ in topology");
   const TriangleTree tree_of_surface = make_triangle_tree(surface);
   const TriangleTreeView tree = tree_of_surface.view();
   auto carried = std::make_shared<SurfaceMesh>();

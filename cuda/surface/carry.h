@@ -1,4 +1,4 @@
-// carry.h: points taken along, by a mapping that is known at a mesh's vertices, or by rigid motions of atoms.
+// carry.h: carries points by a mapping known at a mesh's vertices, or by rigid motions of atoms.
 #pragma once
 
 #include "cuda/surface/atom_cells.h"

@@ -1,4 +1,4 @@
-// carry_rigidly.cu: density-weighted means of where rigid motions take a vertex.
+// carry_rigidly.cu: moves each vertex by the density-weighted mean of the atoms' rigid motions.
 #include <string>
 
 #include "base/error.h"
@@ -8,7 +8,7 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// A rigid motion as a displacement that is linear in the position: x -> x + (matrix x + shift).
+/// A rigid motion as a displacement linear in the position: x -> x + (matrix x + shift).
 struct Displacement {
   Vec3f row[3];
   Vec3f shift;
@@ -38,7 +38,7 @@ std::shared_ptr<SurfaceMesh> carry_rigidly(const SurfaceMesh& mesh, const AtomCe
                                            const std::vector<RigidTransform>& motions) {
   for (const std::int32_t domain : domains) {
     if (domain >= static_cast<std::int32_t>(motions.size()))
-      throw GeometryError("a residue belongs to rigid piece " + std::to_string(domain) + " of " +
+      throw GeometryError("a residue belongs to rigid domain " + std::to_string(domain) + " of " +
                           std::to_string(motions.size()));
   }
   const Buffer<Displacement> moves = displacements(motions);

@@ -1,5 +1,5 @@
-// components.cu: labels by hooking and pointer jumping: each vertex ends with the smallest vertex index of its
-// component, whatever the order in which threads met.
+// components.cu: labels components by hooking and pointer jumping: each vertex gets the smallest vertex index of its
+// component, independent of thread order.
 #include "cuda/surface/components.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// Follows labels to one that labels itself.
+/// Follows labels up to a root, which labels itself.
 ESPDIFF_INLINE std::uint32_t root_of(const std::uint32_t* label, std::uint32_t v) {
   std::uint32_t parent = atomic_load(&label[v]);
   while (parent != v) {
@@ -51,14 +51,14 @@ Buffer<std::uint32_t> smallest_vertex_labels(const SurfaceMesh& mesh) {
 ComponentLabels label_components(const SurfaceMesh& mesh) {
   ComponentLabels result;
   result.label = smallest_vertex_labels(mesh);
-  // Roots are few; numbering them and summing areas in a fixed order is a host's work.
+  // There are few roots, so the host numbers them and sums areas in a fixed order.
   std::vector<std::uint32_t> label = to_host(result.label);
   for (std::size_t v = 0; v < label.size(); ++v) {
     if (label[v] == v) {
       label[v] = static_cast<std::uint32_t>(result.summaries.size());
       result.summaries.emplace_back();
     } else {
-      label[v] = label[label[v]];  // a smaller vertex: numbered already
+      label[v] = label[label[v]];  // a smaller vertex, hence already numbered
     }
     ++result.summaries[label[v]].n_vertices;
   }
@@ -77,9 +77,9 @@ ComponentLabels label_components(const SurfaceMesh& mesh) {
 
 std::shared_ptr<SurfaceMesh> keep_components(const SurfaceMesh& mesh, const ComponentLabels& labels,
                                              const std::vector<bool>& keep) {
-  if (keep.size() != labels.summaries.size()) throw InputError("keep_components: one entry per component is needed");
+  if (keep.size() != labels.summaries.size()) throw InputError("keep_components: needs one entry per component");
   if (std::find(keep.begin(), keep.end(), true) == keep.end())
-    throw GeometryError("no component of the surface is left");
+    throw GeometryError("no component of the surface remains");
   std::vector<std::uint8_t> flags(keep.begin(), keep.end());
   const Buffer<std::uint8_t> kept_components = to_device(flags);
   Buffer<std::uint8_t> kept_triangles(mesh.n_triangles());

@@ -9,13 +9,13 @@
 namespace espdiff::ESPDIFF_BACKEND {
 
 struct ComponentLabels {
-  Buffer<std::uint32_t> label;  ///< [vertex] component, numbered in the order of their first vertex
+  Buffer<std::uint32_t> label;  ///< [vertex] component, numbered in order of first vertex
   std::vector<ComponentSummary> summaries;
 };
 
 ComponentLabels label_components(const SurfaceMesh& mesh);
 
-/// The mesh of the components whose entry in `keep` is true; vertices and triangles keep their order.
+/// The mesh of the components with `keep` true; vertices and triangles keep their order.
 std::shared_ptr<SurfaceMesh> keep_components(const SurfaceMesh& mesh, const ComponentLabels& labels,
                                              const std::vector<bool>& keep);
 

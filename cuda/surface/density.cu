@@ -1,8 +1,8 @@
-// density.cu: the Gaussian density of the atoms on a lattice, as a gather by points and as a sweep by slabs.
+// density.cu: the Gaussian density of the atoms on a lattice, gathered by points or added by slabs.
 //
-// Both add the same terms in the same order, atoms ascending in the cell list, hence agree to the last bit. A term
-// counts where the point lies within the atom's reach along each axis and the Gaussian of its (y, z) distance is above
-// the cutoff.
+// Both forms add the same terms in the same order (atoms ascending in the cell list), so they agree to the last bit. A
+// term is included if the point lies within the atom's reach along each axis and the Gaussian of its (y, z) distance
+// exceeds the cutoff.
 #include "cuda/surface/density.h"
 
 #include <algorithm>
@@ -14,14 +14,14 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// Bytes a run needs per lattice point: density, inside flags, cases, vertex offsets, and the field with its gradient.
+/// Bytes needed per lattice point: density, inside flags, cases, vertex offsets, and the field with its gradient.
 constexpr double kBytesPerPoint = 4 + 1 + 1 + 4 + 16 + 8;
 
 ESPDIFF_INLINE float axis_gaussian(float exponent, float delta) {
   return exp_of_negative(larger(exponent * delta * delta, -80.0F));
 }
 
-/// Smallest product of the y and z Gaussians that still counts.
+/// Smallest product of the y and z Gaussians that is included.
 ESPDIFF_INLINE float row_floor() { return exp_of_negative(kCutoffExponent); }
 
 ESPDIFF_INLINE float density_gather(const AtomCellsView& atoms, Vec3f p) {
@@ -94,13 +94,14 @@ namespace {
 
 constexpr int kSlabLayers = 4;
 constexpr int kVector = 8;     // row weights are added in groups of this many points
-constexpr int kMaxAxis = 512;  // lattice points an atom may reach along an axis; beyond it the gather form takes over
+constexpr int kMaxAxis = 512;  // most lattice points that an atom reaches along an axis in slab form; otherwise the
+                               // gather form is used
 
 struct AxisRange {
   int begin, end;
 };
 
-/// Lattice points of [begin, end) within reach of the atom; the test is the gather form's, so that both agree at the
+/// Lattice points of [begin, end) within reach of the atom, by the gather form's test, so that both forms agree at the
 /// border.
 ESPDIFF_INLINE AxisRange points_in_reach(const CubicLattice& lattice, int axis, float centre, float reach, int begin,
                                          int end) {
@@ -145,8 +146,7 @@ ESPDIFF_INLINE void add_atom(const AtomCellsView& atoms, std::uint32_t a, const 
   const AxisRange ys = points_in_reach(lattice, 1, atoms.y[a], reach, 0, lattice.size[1]);
   AxisRange xs = points_in_reach(lattice, 0, atoms.x[a], reach, 0, lattice.size[0]);
   if (ys.begin >= ys.end || xs.begin >= xs.end) return;
-  // Whole groups only: a row never runs past its end, which belongs to another thread. The points added get a weight of
-  // 0.
+  // Whole groups only, so that a row never runs past its end into another thread's row. The padding has weight 0.
   const int groups = (xs.end - xs.begin + kVector - 1) / kVector;
   xs.begin = std::min(xs.begin, lattice.size[0] - groups * kVector);
   alignas(64) float gaussian_x[kMaxAxis], gaussian_y[kMaxAxis], gaussian_z[kMaxAxis];
@@ -176,7 +176,7 @@ ESPDIFF_MULTIVERSION void add_slab(const AtomCellsView& atoms, const CubicLattic
 
 std::shared_ptr<DensityGrid> density_by_slabs(const AtomCells& atoms, const CubicLattice& lattice) {
   const float widest_row = 2 * atoms.max_reach / lattice.spacing + 2 * kVector;
-  // A row padded to whole groups must fit into the lattice and into an atom's buffers.
+  // A padded row must fit into the lattice and into an atom's buffers.
   if (widest_row > static_cast<float>(kMaxAxis) || static_cast<float>(lattice.size[0]) < widest_row) {
     return density_by_points(atoms, lattice);
   }

@@ -8,16 +8,16 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
-/// A lattice that holds every atom's reach with a layer to spare, so that the density vanishes on its border.
+/// A lattice that holds every atom's reach plus one layer, so that the density vanishes on its border.
 /// @throws InputError (spacing not positive), MemoryError
 CubicLattice density_lattice(const AtomCells& atoms, double spacing_A);
 
-/// rho on the lattice, point by point: each gathers the atoms in reach. Runs on both back ends.
+/// The density on the lattice, gathered point by point over the atoms in reach. Runs on both back ends.
 std::shared_ptr<DensityGrid> density_by_points(const AtomCells& atoms, const CubicLattice& lattice);
 
 #if !defined(ESPDIFF_BACKEND_CUDA)
-/// The same bits, slab by slab: each atom adds its separable Gaussian to the rows of the slab. The form for a CPU's
-/// caches and vector units.
+/// The same bits, slab by slab: each atom adds its separable Gaussian to the rows of the slab. Suits a CPU's caches and
+/// vector units.
 std::shared_ptr<DensityGrid> density_by_slabs(const AtomCells& atoms, const CubicLattice& lattice);
 #endif
 

@@ -1,4 +1,4 @@
-// density_at_points.cu: sums of Gaussians and of their slopes.
+// density_at_points.cu: sums of Gaussians and of their gradients at points.
 #include "cuda/surface/density_at_points.h"
 
 #include "cuda/surface/point_sums.h"
@@ -6,7 +6,7 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// Number is float, or several lanes of it.
+/// `Number` is float, or a vector of lanes.
 template <typename Number>
 struct DensitySums {
   Number value{}, gx{}, gy{}, gz{};

@@ -1,4 +1,4 @@
-// density_at_points.h: the analytic density and its gradient anywhere in space.
+// density_at_points.h: the analytic density and its gradient at arbitrary points.
 #pragma once
 
 #include "cuda/surface/atom_cells.h"
@@ -11,12 +11,12 @@ struct DensitySample {
   Vec3f gradient;  ///< 1/Angstrom
 };
 
-/// Samples at the points that `list` names: samples[list[i]] for i < n. Atoms are added in the order of the cell list,
-/// whatever the form. The list should be in a spatial order: the CPU takes points by blocks that share their atoms.
+/// Samples the listed points: samples[list[i]] for i < n. Adds atoms in the order of the cell list in both forms. The
+/// list should be in spatial order: the CPU processes points in blocks that share their atoms.
 void density_at_points(const AtomCells& atoms, const Buffer<Vec4f>& points, const Buffer<std::uint32_t>& list,
                        std::size_t n, Buffer<DensitySample>& samples);
 
-/// The general form, point by point: the same bits.
+/// The general form, point by point; gives the same bits.
 void density_point_by_point(const AtomCells& atoms, const Buffer<Vec4f>& points, const Buffer<std::uint32_t>& list,
                             std::size_t n, Buffer<DensitySample>& samples);
 

@@ -1,4 +1,4 @@
-// gaussian.h: the exponential of a Gaussian, the same bits on every back end and fit for vector instructions.
+// gaussian.h: a vectorizable exponential for Gaussians with the same bits on every back end.
 #pragma once
 
 #include <cstdint>
@@ -8,17 +8,17 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
-/// Gaussians end at this many standard deviations. The sum over a protein's atoms (about 0.1 per A^3, s up to 2.3 A)
-/// then errs by less than 1e-3; see the test "density truncation".
+/// Gaussians are truncated at this many standard deviations. For a protein (about 0.1 atoms per A^3, s up to 2.3 A) the
+/// truncation error of the density is below 1e-3; see the test "density truncation".
 constexpr float kCutoffInWidths = 4.5F;
-/// The exponent there: -4.5^2 / 2.
+/// The exponent at the cutoff: -4.5^2 / 2.
 constexpr float kCutoffExponent = -0.5F * kCutoffInWidths * kCutoffInWidths;
 
-/// e^x for -80 <= x <= 0, relative error below 2e-7. No branches and no library call, so that loops over it vectorize.
-/// 2^f on [-1/2, 1/2] by the Taylor series of e^(f ln 2) to order 6 (remainder below 1.3e-7 relative).
+/// e^x for -80 <= x <= 0, relative error below 2e-7. No branches and no library call, so loops over it vectorize.
+/// Computes 2^f on [-1/2, 1/2] by the Taylor series of e^(f ln 2) to order 6 (remainder below 1.3e-7 relative).
 ESPDIFF_INLINE float exp_of_negative(float x) {
   const float t = x * 1.44269504F;
-  constexpr float kRound = 12582912.0F;  // 1.5 * 2^23: adding it leaves an integer in the low bits
+  constexpr float kRound = 12582912.0F;  // 1.5 * 2^23: adding it puts the rounded integer into the low bits
   const float rounded = t + kRound;
   const float f = t - (rounded - kRound);
   float p = 1.5403530e-4F;

@@ -1,4 +1,4 @@
-// grid.h: a cubic lattice and the scalars and fields on it, as kernels see them.
+// grid.h: a cubic lattice with scalars and fields on it, as kernels see them.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ struct CubicLattice {
   }
 };
 
-/// A lattice row (j, k) from its number.
+/// The lattice row (j, k) with a given number.
 struct LatticeRow {
   int j, k;
 };
@@ -45,7 +45,7 @@ struct DensityGrid : DeviceGrid {
   Buffer<float> values;  ///< [point]
 };
 
-/// What deform() follows: value (positive inside, zero on the surface) in w, its gradient in x, y, z.
+/// The field that deform() follows: the value (positive inside, zero on the surface) in w, its gradient in x, y, z.
 struct SurfaceField : DeviceField {
   CubicLattice lattice{};
   Buffer<Vec4f> values;  ///< [point] gradient in 1/Angstrom (density) or 1 (distance)

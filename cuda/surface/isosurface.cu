@@ -11,12 +11,12 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// How many vertices and triangles a row of cells holds, then where they start.
+/// Vertices and triangles in a row of cells; after the scan, their offsets.
 struct RowCounts {
   std::uint32_t vertices, triangles;
 };
 
-/// What the kernels of one extraction share.
+/// Shared state of one extraction's kernels.
 struct Extraction {
   CubicLattice lattice;
   const float* density;
@@ -24,7 +24,7 @@ struct Extraction {
   const CellCase* cell_cases;
   std::uint8_t* inside;         // [point]
   std::uint8_t* cases;          // [point] case of the cell whose corner 0 is the point
-  std::uint32_t* first_vertex;  // [point] index of the point's first vertex, where it has any
+  std::uint32_t* first_vertex;  // [point] index of the point's first vertex, if it has any
   Vec4f* positions;
   Corners* triangles;
 
@@ -96,17 +96,16 @@ ESPDIFF_INLINE std::uint32_t vertex_index(const Extraction& e, std::size_t point
   return e.first_vertex[low] + bit_count(before);
 }
 
-/// No surface: says whether the isovalue or the radii are to blame.
+/// No surface: reports whether the isovalue or the radii are the cause.
 [[noreturn]] void throw_no_surface(const DensityGrid& density, float isovalue) {
   const std::vector<float> values = to_host(density.values);
   const float highest = *std::max_element(values.begin(), values.end());
   char text[256];
   std::snprintf(text, sizeof text,
                 "no surface: the density reaches %.3g on a lattice of %.3g A and never exceeds the isovalue %.3g; "
-                "lower the isovalue or "
-                "the grid spacing, or raise the radius scale",
-                static_cast<double>(highest), static_cast<double>(density.lattice.spacing),
-                static_cast<double>(isovalue));
+                "lower the isovalue or the grid spacing, or raise the radius scale",
+                "the grid spacing, or raise the radius scale", static_cast<double>(highest),
+                static_cast<double>(density.lattice.spacing), static_cast<double>(isovalue));
   throw GeometryError(text);
 }
 
@@ -150,7 +149,7 @@ std::shared_ptr<SurfaceMesh> isosurface(const DensityGrid& density, float isoval
     row_counts[row] = counts;
   });
 
-  // The rows are few: their running sum is taken on the host, in 64 bits, so that an overflow is noticed.
+  // There are few rows: the host computes their prefix sum in 64 bits, which detects an overflow.
   std::vector<RowCounts> host_rows = to_host(rows);
   std::uint64_t n_vertices = 0, n_triangles = 0;
   for (RowCounts& row : host_rows) {

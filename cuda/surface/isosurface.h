@@ -7,11 +7,9 @@
 namespace espdiff::ESPDIFF_BACKEND {
 
 /// Inside means density > isovalue; normals point outward, to lower density. Vertices are interpolated linearly along
-/// lattice edges; none lies nearer to a lattice point than a thousandth of the edge, so that no triangle degenerates to
-/// a point.
-/// @throws InputError when the isovalue is not positive (the density is zero far out), GeometryError when no lattice
-/// point is inside,
-///         MemoryError beyond 2^32 vertices
+/// lattice edges and keep a thousandth of the edge from lattice points, so that no triangle degenerates to a point.
+/// @throws InputError if the isovalue is not positive (the density is zero far out), GeometryError if no lattice point
+/// is inside, MemoryError beyond 2^32 vertices
 std::shared_ptr<SurfaceMesh> isosurface(const DensityGrid& density, float isovalue);
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -1,4 +1,4 @@
-// level_set_normals.cu: the normals of the analytic isosurface at the vertices of a mesh that lies on it.
+// level_set_normals.cu: normals of the analytic isosurface at a mesh's vertices.
 #include "cuda/surface/level_set_normals.h"
 
 #include "cuda/device/spatial_order.h"

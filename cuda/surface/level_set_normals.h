@@ -1,4 +1,4 @@
-// level_set_normals.h: the normals of the analytic isosurface at the vertices of a mesh that lies on it.
+// level_set_normals.h: normals of the analytic isosurface at the vertices of a mesh on it.
 #pragma once
 
 #include "cuda/surface/atom_cells.h"
@@ -6,8 +6,9 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
-/// [vertex] unit, outward: where the density falls fastest. Of a vertex whose density is off the isovalue by more than
-/// a tenth of it, or whose direction opposes its triangles', the mean of the triangles' normals (vertex_normals()).
+/// [vertex] unit outward normal: the direction in which the density falls fastest. If the vertex's density differs from
+/// the isovalue by more than a tenth of it, or the direction opposes the triangles', the mean of the triangles' normals
+/// instead (vertex_normals()).
 Buffer<Vec4f> level_set_normals(const SurfaceMesh& mesh, const AtomCells& atoms, float isovalue);
 
 }  // namespace espdiff::ESPDIFF_BACKEND

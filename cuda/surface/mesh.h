@@ -15,7 +15,7 @@ struct Corners {
 };
 
 /// Triangles and one-rings. Row v of the compressed rows, first[v] .. first[v+1]-1, holds for each triangle at v the
-/// triangle and the vertex that follows v in it; in a closed, consistently oriented mesh these vertices are the
+/// triangle and the vertex that follows v in it. In a closed, consistently oriented mesh these vertices are the
 /// one-ring, each once.
 struct Topology {
   std::size_t n_vertices = 0;
@@ -38,7 +38,7 @@ std::shared_ptr<const Topology> make_topology(std::size_t n_vertices, Buffer<Cor
 
 struct SurfaceMesh : DeviceMesh {
   std::shared_ptr<const Topology> topology;
-  Buffer<Vec4f> positions;  ///< [vertex] Angstrom, common frame; w is free for a stage's own use
+  Buffer<Vec4f> positions;  ///< [vertex] Angstrom, common frame; w is free for a stage's use
 
   std::size_t n_vertices() const { return positions.size(); }
   std::size_t n_triangles() const { return topology->triangles.size(); }
@@ -52,7 +52,7 @@ struct Scalars : DeviceScalars {
   Buffer<float> values;
 };
 
-/// Twice the triangle's area vector: outward, its length twice the area.
+/// Twice the triangle's area vector; points outward, its length is twice the area.
 ESPDIFF_INLINE Vec3f twice_area_vector(const Vec4f* positions, const Corners& t) {
   const Vec3f a = positions[t.v[0]].xyz();
   return cross(positions[t.v[1]].xyz() - a, positions[t.v[2]].xyz() - a);

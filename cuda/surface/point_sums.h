@@ -1,5 +1,5 @@
-// point_sums.h: sums over atoms at points, in two forms with the same bits: point by point, and on the CPU for blocks
-// of neighbouring points that share their atoms.
+// point_sums.h: sums over atoms at points, in two forms with the same bits: point by point, and on the CPU in blocks of
+// neighbouring points that share their atoms.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
-/// The points that `list` names: points[list[i]] for i < n. A list in a spatial order makes good blocks.
+/// The listed points, points[list[i]] for i < n. A list in spatial order makes compact blocks.
 struct PointList {
   const Vec4f* points;
   const std::uint32_t* list;
@@ -16,7 +16,7 @@ struct PointList {
 };
 
 /// Calls add(atom, exponent, dx, dy, dz, square, gaussian) with floats for each atom that reaches p, in the order of
-/// the cell list; d* from the atom to the point, `square` their squares' sum.
+/// the cell list. (dx, dy, dz) points from the atom to the point; `square` is its squared length.
 template <typename Add>
 ESPDIFF_INLINE void sum_at_point(const AtomCellsView& cells, Vec3f p, Add add) {
   visit_atom_runs(cells, p, cells.max_reach, [&](std::uint32_t begin, std::uint32_t end) ESPDIFF_INLINE_LAMBDA {
@@ -31,13 +31,13 @@ ESPDIFF_INLINE void sum_at_point(const AtomCellsView& cells, Vec3f p, Add add) {
 
 #if !defined(__CUDACC__)
 
-/// Points of a block, one to a lane.
+/// Points per block, one per lane.
 constexpr std::size_t kBlock = 16;
 using Lanes = float __attribute__((vector_size(kBlock * sizeof(float))));
 using LaneMask = std::int32_t __attribute__((vector_size(kBlock * sizeof(float))));
 using LaneBits = std::uint32_t __attribute__((vector_size(kBlock * sizeof(float))));
 
-/// exp_of_negative(), lane by lane. Casts between vectors keep their bits.
+/// exp_of_negative() per lane. Casts between vectors keep their bits.
 ESPDIFF_INLINE void exp_of_negative_lanes(const Lanes& x, Lanes& result) {
   const Lanes t = x * 1.44269504F;
   constexpr float kRound = 12582912.0F;
@@ -81,8 +81,8 @@ ESPDIFF_INLINE void visit_atoms_near(const AtomCellsView& cells, const BlockBox&
   }
 }
 
-/// Calls add(atom, exponent, dx, dy, dz, square, gaussian) with a lane for each point of the block, for each atom that
-/// reaches one of them; the Gaussian is 0 where it does not reach.
+/// Calls add(atom, exponent, dx, dy, dz, square, gaussian) with one lane per point of the block, for each atom that
+/// reaches any of them. The Gaussian is 0 in lanes that it does not reach.
 template <typename Add>
 ESPDIFF_INLINE void sum_at_block(const AtomCellsView& cells, const PointList& in, std::size_t block, Add add) {
   const std::size_t begin = block * kBlock, end = std::min(begin + kBlock, in.n);
@@ -108,8 +108,8 @@ ESPDIFF_INLINE void sum_at_block(const AtomCellsView& cells, const PointList& in
   });
 }
 
-/// Calls blocks(first, last) for ranges of blocks that together hold n points, in parallel. `blocks` is a function
-/// compiled for several instruction sets: a call takes some blocks, so that the choice costs nothing.
+/// Calls blocks(first, last) in parallel for ranges of blocks that together hold n points. `blocks` is compiled for
+/// several instruction sets; each call takes several blocks, so the dispatch is cheap.
 template <typename Blocks>
 void for_all_blocks(std::size_t n, Blocks blocks) {
   constexpr std::size_t kBlocksPerCall = 4;

@@ -1,4 +1,4 @@
-// project.cu: Newton's method onto the analytic isosurface.
+// project.cu: projects vertices onto the analytic isosurface by Newton's method.
 #include "cuda/surface/project.h"
 
 #include "cuda/device/spatial_order.h"
@@ -8,15 +8,15 @@ namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
 constexpr int kMaxNewtonSteps = 6;
-/// Within this part of the isovalue one more step lands on it to 1e-4: Newton's error is the square of this times the
-/// curvature.
+/// Within this fraction of the isovalue, one more step reaches it to 1e-4: Newton's error is the square of this times
+/// the curvature.
 constexpr float kLastStepShare = 0.008F;
-/// A step may be no longer than this part of the whole shift allowed: the density is far from linear over longer ones.
+/// Longest step as a fraction of the largest shift: over longer distances the density is far from linear.
 constexpr float kStepShare = 0.5F;
 
 }  // namespace
 
-// Vertices that have arrived drop out of the list.
+// Converged vertices leave the list.
 std::shared_ptr<SurfaceMesh> project(const SurfaceMesh& mesh, const AtomCells& atoms, float isovalue,
                                      float max_shift_A) {
   const std::size_t n = mesh.n_vertices();

@@ -1,4 +1,4 @@
-// sample.cu: potential maps on the device, and their samples at a mesh's vertices or on another lattice.
+// sample.cu: potential maps on the device, sampled at a mesh's vertices or on another lattice.
 #include "cuda/surface/sample.h"
 
 #include <cmath>
@@ -14,7 +14,7 @@ void set_index_transform(const Lattice& lattice, const RigidTransform& to_map, c
   const auto& step = lattice.step;
   const double volume = dot(step[0], cross(step[1], step[2]));
   if (!(std::fabs(volume) > 0) || !std::isfinite(volume)) throw InputError(name + ": the map's axes do not span space");
-  // Rows of the inverse of the matrix whose columns are the steps.
+  // Rows of the inverse of the matrix with the steps as columns.
   const Vec3d inverse[3] = {(1.0 / volume) * cross(step[1], step[2]), (1.0 / volume) * cross(step[2], step[0]),
                             (1.0 / volume) * cross(step[0], step[1])};
   const double* const r = to_map.rotation;
@@ -42,7 +42,7 @@ namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-/// A map as kernels see it, passed by value.
+/// Kernel view of a map, passed by value.
 struct MapView {
   const float* values;
   long size[3];
@@ -63,7 +63,7 @@ MapView view_of(const MapGrid& map) {
   return view;
 }
 
-/// The two points around a coordinate of one axis, and the part of the way between them.
+/// The two points around a coordinate on one axis, and the fraction between them.
 struct Neighbours {
   long low, high;
   double part;
@@ -80,7 +80,7 @@ ESPDIFF_INLINE bool find_neighbours(const MapView& map, int axis, double c, Neig
     found.part = inside - static_cast<double>(found.low);
     return true;
   }
-  // A vertex on the border of a map counts as inside despite rounding.
+  // A vertex on a map's border is inside despite rounding.
   constexpr double kSlack = 1e-6;
   const double last = static_cast<double>(size - 1);
   if (!(c >= -kSlack && c <= last + kSlack) || size < 2) return false;
@@ -167,7 +167,7 @@ std::shared_ptr<Scalars> sample(const MapGrid& map, const SurfaceMesh& mesh) {
 
 std::shared_ptr<MapGrid> resample(const MapGrid& map, const Lattice& lattice) {
   for (const int n : lattice.size) {
-    if (n < 1) throw InputError("a lattice of " + std::to_string(n) + " points along an axis; at least 1 is needed");
+    if (n < 1) throw InputError("a lattice of " + std::to_string(n) + " points along an axis needs at least 1");
   }
   auto result = std::make_shared<MapGrid>();
   result->lattice = lattice;

@@ -9,29 +9,29 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
-/// A potential map with the way into it from the common frame.
+/// A potential map with the transform into it from the common frame.
 struct MapGrid : DeviceGrid {
   Lattice lattice;  ///< the map's own frame
   PotentialUnit unit = PotentialUnit::kUnknown;
   Buffer<float> values;      ///< [point] x fastest
   double to_index[12] = {};  ///< row-major 3 x 4: common frame -> lattice indices
-  bool periodic = false;     ///< repeats after its size
-  /// 0: the values are the map's at the points, linear between them. Else they are coefficients of centred B-splines of
-  /// this order; only of periodic maps.
+  bool periodic = false;     ///< repeats after `size` points
+  /// 0: the values are the map's at the points, interpolated linearly. Otherwise they are coefficients of centred
+  /// B-splines of this order; periodic maps only.
   int spline_order = 0;
 };
 
-/// The way into a lattice from the common frame, row-major 3 x 4.
-/// @throws InputError when the axes do not span space
+/// The transform from the common frame to lattice indices, row-major 3 x 4.
+/// @throws InputError if the axes do not span space
 void set_index_transform(const Lattice& lattice, const RigidTransform& to_map, const std::string& name,
                          double (&to_index)[12]);
 
-/// @throws InputError when the map's axes do not span space
+/// @throws InputError if the map's axes do not span space
 std::shared_ptr<MapGrid> make_map(const Grid& map, const RigidTransform& to_map);
 
-/// [vertex] samples, linear or by splines as the map says; NaN outside a map that is not periodic.
+/// [vertex] samples, by linear interpolation or splines as the map says; NaN outside a map that is not periodic.
 std::shared_ptr<Scalars> sample(const MapGrid& map, const SurfaceMesh& mesh);
-/// Samples on the points of a lattice in the common frame.
+/// Samples at the points of a lattice in the common frame.
 std::shared_ptr<MapGrid> resample(const MapGrid& map, const Lattice& lattice);
 /// The map's values at its own points.
 std::vector<float> point_values(const MapGrid& map);
@@ -41,7 +41,7 @@ struct CellPosition {
   float part[3];  ///< 0 to 1 within the cell
 };
 
-/// Where p lies in the lattice, clamped so that `margin` points exist below the base and `margin` + 1 above it.
+/// The position of p in the lattice, clamped so that `margin` points exist below the base and `margin` + 1 above it.
 ESPDIFF_INLINE CellPosition locate(const CubicLattice& lattice, Vec3f p, int margin) {
   CellPosition at;
   const float inverse_spacing = 1.0F / lattice.spacing;
@@ -69,7 +69,7 @@ ESPDIFF_INLINE Vec4f sample_trilinear(const CubicLattice& lattice, const Vec4f* 
   return mix(mix(near_low, near_high, at.part[1]), mix(far_low, far_high, at.part[1]), at.part[2]);
 }
 
-/// Weights of the four points around t in [0, 1] of the Catmull-Rom spline.
+/// Catmull-Rom weights of the four points around t in [0, 1].
 ESPDIFF_INLINE void catmull_rom(float t, float (&w)[4]) {
   const float t2 = t * t, t3 = t2 * t;
   w[0] = 0.5F * (-t3 + 2.0F * t2 - t);

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
-/// Place of the edge between two vertices in the row of the smaller one.
+/// Place of the edge between two vertices in the row of the smaller vertex.
 ESPDIFF_INLINE std::uint32_t edge_place(const TopologyView& topology, std::uint32_t a, std::uint32_t b) {
   const std::uint32_t low = a < b ? a : b, high = a < b ? b : a;
   for (std::uint32_t p = topology.first[low]; p < topology.first[low + 1]; ++p) {
@@ -17,7 +17,7 @@ ESPDIFF_INLINE std::uint32_t edge_place(const TopologyView& topology, std::uint3
   return kNone;
 }
 
-/// The new vertices on a triangle's edges, edge c from corner c to the next; kNone where an edge stays whole.
+/// The new vertices on a triangle's edges, edge c from corner c to the next; kNone for an edge that is not split.
 struct Halves {
   std::uint32_t middle[3];
   int n;
@@ -26,7 +26,7 @@ struct Halves {
 struct Division {
   TopologyView topology;
   const std::uint32_t* marked;
-  const std::uint32_t* number;  // [place] of the new vertex among the new, where marked
+  const std::uint32_t* number;  // [place] index among the new vertices, where marked
   std::uint32_t n_old;
 };
 
@@ -41,7 +41,7 @@ ESPDIFF_INLINE Halves halves_of(const Division& in, const Corners& corners) {
   return halves;
 }
 
-/// Writes a triangle's parts.
+/// Writes the parts of a triangle.
 ESPDIFF_INLINE void divide(const Corners& t, const Halves& halves, const Vec4f* x, Corners* out) {
   if (halves.n == 0) {
     out[0] = t;
@@ -55,7 +55,7 @@ ESPDIFF_INLINE void divide(const Corners& t, const Halves& halves, const Vec4f* 
     out[3] = {{m[0], m[1], m[2]}};
     return;
   }
-  // Turned so that edge 0 is halved, and with two halved ones edge 2 stays whole.
+  // Rotated so that edge 0 is split; if two edges are split, edge 2 is the whole one.
   int turn = 0;
   for (int c = 0; c < 3; ++c) {
     const bool whole_before = halves.middle[(c + 2) % 3] == kNone;
@@ -70,7 +70,7 @@ ESPDIFF_INLINE void divide(const Corners& t, const Halves& halves, const Vec4f* 
   }
   const std::uint32_t bc = halves.middle[(turn + 1) % 3];
   out[0] = {{ab, b, bc}};
-  // The quadrangle a, ab, bc, c. New vertices have no position yet: theirs is the middle.
+  // The quadrangle a, ab, bc, c. New vertices have no position yet; use the midpoints.
   const Vec3f middle_ab = 0.5F * (x[a].xyz() + x[b].xyz()), middle_bc = 0.5F * (x[b].xyz() + x[c].xyz());
   const Vec3f first = x[a].xyz() - middle_bc, second = middle_ab - x[c].xyz();
   if (dot(first, first) <= dot(second, second)) {

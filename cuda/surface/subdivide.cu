@@ -1,4 +1,4 @@
-// subdivide.cu: marks what has grown long, halves it, and places the new vertices in the middles.
+// subdivide.cu: marks long edges, splits them, and places the new vertices at the midpoints.
 #include "cuda/surface/subdivide.h"
 
 #include "base/error.h"
@@ -23,8 +23,7 @@ std::shared_ptr<SurfaceMesh> with_middles(const SurfaceMesh& mesh, const EdgeSpl
 }  // namespace
 
 SubdivisionResult subdivide(const SurfaceMesh& source, const SurfaceMesh& mapped, float max_edge_A) {
-  if (source.topology != mapped.topology)
-    throw GeometryError("subdivide: source and mapped mesh must share their topology");
+  if (source.topology != mapped.topology) throw GeometryError("subdivide: source and mapped mesh differ in topology");
   if (!(max_edge_A > 0)) throw InputError("the longest edge, " + std::to_string(max_edge_A) + " A, is not positive");
   Buffer<std::uint32_t> marks(3 * mapped.n_triangles());
   std::uint32_t* const mark = raw(marks);

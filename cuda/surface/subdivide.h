@@ -1,4 +1,4 @@
-// subdivide.h: halves the edges that a mapping has stretched, on both of its meshes.
+// subdivide.h: splits the edges that a mapping has stretched, on both of its meshes.
 #pragma once
 
 #include "cuda/surface/mesh.h"

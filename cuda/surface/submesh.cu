@@ -1,4 +1,4 @@
-// submesh.cu: numbers what is kept by prefix sums and copies it.
+// submesh.cu: numbers the kept triangles and vertices by prefix sums and copies them.
 #include "cuda/surface/submesh.h"
 
 #include <utility>
@@ -27,7 +27,7 @@ std::shared_ptr<SurfaceMesh> keep_triangles(const SurfaceMesh& mesh, const Buffe
   for_each_index(n_triangles, [=] ESPDIFF_HD(std::size_t t) { triangle[t] = kept[t] != 0 ? 1U : 0U; });
   const std::uint32_t n_kept_vertices = exclusive_scan_in_place(new_vertex);
   const std::uint32_t n_kept_triangles = exclusive_scan_in_place(new_triangle);
-  if (n_kept_triangles == 0) throw GeometryError("no triangle of the surface is left");
+  if (n_kept_triangles == 0) throw GeometryError("no triangle of the surface remains");
 
   auto result = std::make_shared<SurfaceMesh>();
   result->positions.resize(n_kept_vertices);

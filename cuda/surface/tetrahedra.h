@@ -1,10 +1,10 @@
-// tetrahedra.h: the Freudenthal division of a cell into tetrahedra, and the triangles of every case, computed at
-// compile time.
+// tetrahedra.h: the Freudenthal division of a cell into tetrahedra, and the triangles of each case, computed at compile
+// time.
 //
 // Corner c of a cell lies at (c & 1, c >> 1 & 1, c >> 2 & 1). The six tetrahedra are the monotone paths 0 -> 1 axis ->
-// 2 axes -> 7. Every edge therefore joins a corner `low` to a corner that is not smaller along any axis; it belongs to
-// the lattice point at `low` and its direction 1..7 is the difference: seven candidate vertices per lattice point, and
-// cells that share an edge name it alike.
+// 2 axes -> 7. So every edge joins a corner `low` to a corner that is not smaller along any axis. The edge belongs to
+// the lattice point at `low`; its direction 1..7 is the difference. This gives seven candidate vertices per lattice
+// point, and cells that share an edge use the same name for it.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace espdiff {
 
-/// A cell's edge that carries a vertex: the lattice point at corner `low`, direction 1..7.
+/// An edge of a cell that carries a vertex: the lattice point at corner `low`, direction 1..7.
 struct CellEdge {
   std::uint8_t low;
   std::uint8_t direction;
@@ -22,7 +22,7 @@ struct CellEdge {
 
 constexpr int kMaxCellTriangles = 12;  ///< two per tetrahedron
 
-/// The triangles of one case: bit c of the case is set where corner c is inside.
+/// The triangles of one case; bit c of the case is set if corner c is inside.
 struct CellCase {
   std::uint8_t n_triangles = 0;
   CellEdge edges[kMaxCellTriangles][3] = {};  ///< counter-clockwise seen from outside
@@ -32,7 +32,7 @@ struct CellCase {
 constexpr std::array<std::array<int, 4>, 6> kFreudenthalTetrahedra = {
     {{0, 1, 3, 7}, {0, 1, 5, 7}, {0, 2, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 4, 6, 7}}};
 
-/// Directions in which the edge from the cell's corner 0 crosses the surface: bit d-1 for direction d.
+/// Directions in which the edge from the cell's corner 0 crosses the surface; bit d-1 is direction d.
 ESPDIFF_HD constexpr std::uint8_t crossing_mask(std::uint8_t cell_case) {
   const unsigned others = static_cast<unsigned>(cell_case) >> 1;
   return static_cast<std::uint8_t>((cell_case & 1U) != 0 ? ~others & 0x7FU : others);
@@ -54,7 +54,7 @@ constexpr CellEdge make_edge(int a, int b) {
                : CellEdge{static_cast<std::uint8_t>(b), static_cast<std::uint8_t>(a - b)};
 }
 
-/// Sign of the triangle's normal along `outward`: positive when it is counter-clockwise seen from outside.
+/// Sign of the triangle's normal along `outward`: positive if counter-clockwise seen from outside.
 constexpr int orientation(CellEdge e0, CellEdge e1, CellEdge e2, IntVec outward) {
   const IntVec a = twice_midpoint(e0), b = twice_midpoint(e1), c = twice_midpoint(e2);
   const IntVec u{b.x - a.x, b.y - a.y, b.z - a.z}, v{c.x - a.x, c.y - a.y, c.z - a.z};
@@ -81,7 +81,7 @@ constexpr void add_tetrahedron(CellCase& cell, unsigned cell_case, const std::ar
     }
   }
   if (n_inside == 0 || n_outside == 0) return;
-  // From the inside corners' centroid to the outside corners', scaled to integers.
+  // From the centroid of the inside corners to that of the outside corners, scaled to integers.
   IntVec outward{0, 0, 0};
   for (int i = 0; i < n_outside; ++i) {
     const IntVec p = corner_position(outside[i]);

@@ -20,7 +20,7 @@ ESPDIFF_INLINE Box join(Box a, Box b) {
 
 ESPDIFF_INLINE Box box_of(const PlacedTriangle& t) { return join(join({t.a, t.a}, {t.b, t.b}), {t.c, t.c}); }
 
-/// Joins boxes where sum_over() adds.
+/// Bounding box that sum_over() can add (union).
 struct BoxSum {
   Box box = {{FLT_MAX, FLT_MAX, FLT_MAX}, {-FLT_MAX, -FLT_MAX, -FLT_MAX}};
   ESPDIFF_HD BoxSum& operator+=(const BoxSum& other) {
@@ -50,7 +50,7 @@ TriangleTree make_triangle_tree(const SurfaceMesh& mesh) {
   const Corners* const corners = raw(mesh.topology->triangles);
   const Vec4f* const x = raw(mesh.positions);
 
-  Buffer<std::uint64_t> codes(n);  // the triangle's index in the low bits makes every key different
+  Buffer<std::uint64_t> codes(n);  // the triangle's index in the low bits makes every key unique
   std::uint64_t* const code = raw(codes);
   for_each_index(n, [=] ESPDIFF_HD(std::size_t t) {
     const Vec3f sum = x[corners[t].v[0]].xyz() + x[corners[t].v[1]].xyz() + x[corners[t].v[2]].xyz();

@@ -1,9 +1,9 @@
-// triangle_tree.h: the triangle nearest to a point, by a bounding-volume tree.
+// triangle_tree.h: nearest triangle to a point, by a bounding-volume hierarchy.
 //
-// Triangles are ordered by the Morton code of their centroids and put by fours into the leaves of a complete binary
-// tree, whose boxes are built level by level. No pointers, no order of insertion: the tree is a function of the mesh
-// alone. After the linear BVH of Lauterbach et al., Comput. Graph. Forum 28, 375 (2009), with the hierarchy replaced by
-// the complete tree.
+// Triangles are ordered by the Morton code of their centroids and stored four to a leaf of a complete binary tree,
+// whose boxes are built level by level. Without pointers or insertion order, the tree is a function of the mesh alone.
+// After the linear BVH of Lauterbach et al., Comput. Graph. Forum 28, 375 (2009), with a complete tree as the
+// hierarchy.
 #pragma once
 
 #include "cuda/surface/mesh.h"
@@ -23,7 +23,7 @@ struct PlacedTriangle {
 struct TriangleTreeView {
   const Box* boxes;                 ///< [node] children of n are 2n+1 and 2n+2; leaves are the last n_leaves nodes
   const PlacedTriangle* triangles;  ///< [place] in leaf order
-  const Vec4f* spheres;             ///< [place] a sphere around the triangle: centroid, and radius in w
+  const Vec4f* spheres;             ///< [place] bounding sphere: centroid, and radius in w
   const std::uint32_t* order;       ///< [place] the triangle's index in the mesh
   std::uint32_t n_leaves;           ///< a power of two
   std::uint32_t n_triangles;
@@ -44,9 +44,8 @@ struct TriangleTree {
 
 TriangleTree make_triangle_tree(const SurfaceMesh& mesh);
 
-/// Squared distance of p to a triangle (degenerate ones count as segments or points). The nearest point lies inside the
-/// face, on an edge or at a corner: where the foot on the plane falls outside the face, the nearest of the three edges
-/// holds it.
+/// Squared distance of p to a triangle (degenerate ones count as segments or points). The nearest point lies in the
+/// face, on an edge or at a corner; if the foot on the plane falls outside the face, it lies on one of the three edges.
 ESPDIFF_INLINE float squared_distance_to_segment(Vec3f p, Vec3f a, Vec3f b) {
   const Vec3f ab = b - a, ap = p - a;
   const float length_squared = dot(ab, ab);
@@ -82,8 +81,8 @@ struct NearestTriangle {
   float squared_distance;
 };
 
-/// Nearest triangle of the tree. `guess` is the place of any triangle: the nearer it is, the less of the tree is
-/// visited; the distance does not depend on it.
+/// Nearest triangle of the tree. `guess` is the place of any triangle: a closer guess visits less of the tree and does
+/// not change the distance.
 ESPDIFF_INLINE NearestTriangle nearest_triangle(const TriangleTreeView& tree, Vec3f p, std::uint32_t guess) {
   struct Pending {
     std::uint32_t node;
@@ -111,7 +110,7 @@ ESPDIFF_INLINE NearestTriangle nearest_triangle(const TriangleTreeView& tree, Ve
       const std::uint32_t end =
           begin + kTrianglesPerLeaf < tree.n_triangles ? begin + kTrianglesPerLeaf : tree.n_triangles;
       for (std::uint32_t t = begin; t < end; ++t) {
-        // Most triangles of a leaf are ruled out by the sphere around them; the slack covers rounding.
+        // The bounding sphere rules out most triangles of a leaf; the slack covers rounding.
         const Vec4f sphere = tree.spheres[t];
         const float reach = 1.0001F * (nearest_distance + sphere.w);
         const Vec3f to_centre = p - sphere.xyz();

@@ -11,7 +11,7 @@ namespace {
 
 using LetterTable = std::unordered_map<std::string_view, char>;
 
-/// One line a letter: PDB's name, then protonation states of Amber, CHARMM and Gromacs, then modified forms.
+/// One line per letter: the PDB name, then protonation states of Amber, CHARMM and Gromacs, then modified residues.
 const LetterTable& letters() {
   static const LetterTable table = {
       {"ALA", 'A'},  {"ARG", 'R'},  {"ARN", 'R'},  {"AR0", 'R'},  {"ASN", 'N'},  {"ASP", 'D'},  {"ASH", 'D'},
@@ -101,7 +101,7 @@ std::string normalized_atom_name(const std::string& atom_name, char letter) {
   if (first_letter != name.begin() && first_letter != name.end()) {
     const std::string digits(name.begin(), first_letter);
     name.erase(name.begin(), first_letter);
-    // 1H5* and 2H5* are today's H5' and H5''.
+    // 1H5* and 2H5* are now H5' and H5''.
     if (name.back() == '\'' && (digits == "1" || digits == "2")) return digits == "1" ? name : name + '\'';
     name += digits;
   }

@@ -1,4 +1,4 @@
-// rigid_domains.cpp: residues by chain, by name, or by a greedy search for rigid blocks.
+// rigid_domains.cpp: rigid domains: chains, named residues, or a greedy search for rigid blocks.
 #include "align/rigid_domains.h"
 
 #include <algorithm>
@@ -17,14 +17,14 @@ namespace {
 
 using AtomPairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
-/// A residue belongs to a rigid motion that takes it to within this of its counterpart.
+/// A residue fits a rigid motion that moves it to within this distance of its partner.
 constexpr double kTolerance_A = 2.0;
-/// A smaller domain is no domain.
+/// Minimum size of a domain.
 constexpr std::size_t kLeastResidues = 20;
-/// Residues of a stretch that a search starts from, and the most stretches that are tried.
+/// Length of the stretches that seed the search, and the maximum number of seeds.
 constexpr std::size_t kSeed = 10, kMostSeeds = 400;
 constexpr int kRounds = 10;
-/// Shorter runs within another domain are chance.
+/// Shorter runs within another domain are treated as noise.
 constexpr std::size_t kLeastRun = 5;
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
@@ -51,7 +51,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-/// A whole number at *at, which then points behind it.
+/// Reads a whole number at *at and moves *at behind it.
 bool read_number(const char*& at, long& value) {
   char* end = nullptr;
   if (std::isdigit(static_cast<unsigned char>(*at)) == 0 && *at != '-') return false;
@@ -74,12 +74,12 @@ Range parse_range(const std::string& part, const std::string& text) {
   bool good = read_number(at, range.first);
   range.last = range.first;
   if (good && *at == '-') good = read_number(++at, range.last);
-  if (!good || *at != '\0') refuse(text, "has a range of residues that cannot be read, '" + part + "'");
-  if (range.last < range.first) refuse(text, "has a range whose end comes before its start, '" + part + "'");
+  if (!good || *at != '\0') refuse(text, "has an unreadable range of residues, '" + part + "'");
+  if (range.last < range.first) refuse(text, "has a range that ends before it starts, '" + part + "'");
   return range;
 }
 
-/// [domain][range]; nothing where the text is one of the words.
+/// [domain][range]; empty if the text is one of the keywords.
 std::vector<std::vector<Range>> parse(const std::string& text) {
   if (text == "none" || text == "chains" || text == "auto") return {};
   std::vector<std::vector<Range>> domains;
@@ -109,7 +109,7 @@ struct Search {
   const Molecule& target;
   std::vector<AtomPairs> pairs;  // [source residue]
 
-  /// One pair that stands for a residue: the first C-alpha or P, else its first.
+  /// The pair that represents a residue: its first C-alpha or P, otherwise its first pair.
   std::pair<std::size_t, std::size_t> representative(std::size_t residue) const {
     for (const auto& pair : pairs[residue]) {
       const std::string& name = source.atoms[pair.first].name;
@@ -129,7 +129,7 @@ struct Search {
     return norm(motion.apply(source.positions[s]) - target.positions[t]);
   }
 
-  /// What of the free residues goes with the stretch; empty where no motion can be told.
+  /// The free residues that move with the stretch; empty if its motion is undetermined.
   std::vector<std::size_t> grow(std::vector<std::size_t> block, const std::vector<std::size_t>& free) const {
     for (int round = 0; round < kRounds; ++round) {
       RigidTransform motion;
@@ -161,7 +161,7 @@ struct Search {
     return best;
   }
 
-  /// [source residue] its domain; kNone where nothing of it pairs.
+  /// [source residue] its domain; kNone if none of its atoms pair.
   std::vector<std::size_t> domains() const {
     std::vector<std::size_t> domain(source.residues.size(), kNone), free;
     for (std::size_t r = 0; r < pairs.size(); ++r) {
@@ -186,7 +186,7 @@ struct Search {
     return smoothed(domain);
   }
 
-  /// Without short runs that interrupt a domain.
+  /// Removes short runs that interrupt a domain.
   std::vector<std::size_t> smoothed(std::vector<std::size_t> domain) const {
     for (std::size_t begin = 0; begin < domain.size();) {
       std::size_t end = begin + 1;

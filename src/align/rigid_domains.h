@@ -10,27 +10,28 @@
 
 namespace espdiff {
 
-/// Residues of the source that go to the target by one rigid motion.
+/// Residues of the source that one rigid motion takes to the target.
 struct RigidDomain {
   std::vector<std::size_t> residues;  ///< source residues, ascending
   RigidTransform motion;              ///< source -> target, each in its own frame
-  std::size_t n_atoms = 0;            ///< pairs that the motion was fitted to
-  double rmsd_A = 0;                  ///< of these, after the motion
+  std::size_t n_atoms = 0;            ///< number of pairs used in the fit
+  double rmsd_A = 0;                  ///< RMSD of these pairs after the motion
 };
 
-/// @throws InputError unless the text is `none`, `chains`, `domains`, or ranges of residues: domains separated by `/`,
-/// each of ranges CHAIN:FIRST-LAST separated by commas, such as 1-29,68-117/30-67; a chain holds for the ranges after
-/// it and may be left out
+/// @throws InputError unless the text is `none`, `chains`, `auto`, or ranges of residues: domains separated by `/`,
+/// each of ranges CHAIN:FIRST-LAST separated by commas, such as 1-29,68-117/30-67. A chain applies to the ranges after
+/// it and may be omitted.
 void check_domains(const std::string& text);
 
-/// The domains of the source that `text` asks for, with their motions. A domain that fewer than three atoms pair in is
-/// left out where it is a chain, and an error where it was named.
+/// The domains of the source that `text` asks for, with their motions. A domain with fewer than three paired atoms is
+/// skipped if it is a chain, and an error if it was named.
 ///
-/// Domains: from short stretches of the sequence, each grown by whatever residue the same rigid motion takes to within
-/// 2 A of its counterpart, the largest is taken, and so on with what is left, down to 20 residues. What is in none then
-/// joins the domain whose motion suits it best, and runs shorter than 5 residues the domain on both sides of them.
-/// @param pairs   the atom pairs that motions are fitted to
-/// @throws InputError as check_domains(), and where a named range has no residue or a residue is named twice
+/// The search (`auto`) grows short stretches of the sequence by all residues that the same rigid motion takes to within
+/// 2 A of their partners, takes the largest domain, and repeats with the rest, down to 20 residues. Remaining residues
+/// then join the domain whose motion fits them best. Runs shorter than 5 residues join the domain on both sides of
+/// them.
+/// @param pairs   the atom pairs used to fit motions
+/// @throws InputError as check_domains(), and if a named range has no residue or a residue is named twice
 std::vector<RigidDomain> find_domains(const std::string& text, const Molecule& source, const Molecule& target,
                                       const std::vector<std::pair<std::size_t, std::size_t>>& pairs);
 

@@ -1,4 +1,4 @@
-// unwrap.cpp: pieces of a molecule, each whole by itself, and then brought together.
+// unwrap.cpp: makes parts of a molecule whole, then moves them together.
 #include "align/unwrap.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace espdiff {
 namespace {
 
-/// Farther than this from the atom before it an atom begins a piece of its own; C-alpha atoms are 3.8 A apart.
+/// An atom farther than this from the previous one starts a new part; consecutive C-alpha atoms are 3.8 A apart.
 constexpr double kLongestLink_A = 12;
 
 /// Atoms first to last - 1.
@@ -42,7 +42,7 @@ std::vector<Piece> join_neighbours(std::vector<Vec3d>& atoms, const std::array<V
   return pieces;
 }
 
-/// The way from the atoms into the reference, by the largest piece.
+/// The transform from the atoms to the reference, fitted to the largest part.
 RigidTransform into_reference(const std::vector<Vec3d>& atoms, const std::vector<Vec3d>& reference,
                               const Piece& piece) {
   if (piece.size() >= 3) {
@@ -78,9 +78,9 @@ Vec3d shortest_image(Vec3d v, const std::array<Vec3d, 3>& edges) {
 std::vector<Vec3d> unwrapped(const std::vector<Vec3d>& atoms, const std::array<Vec3d, 3>& edges,
                              const std::vector<Vec3d>& reference) {
   if (!(std::fabs(dot(edges[0], cross(edges[1], edges[2]))) > 0))
-    throw InputError("a molecule cannot be put together in a cell without volume; correct the cell");
+    throw InputError("a molecule cannot be unwrapped in a cell without volume; correct the cell");
   if (!reference.empty() && reference.size() != atoms.size())
-    throw InputError("a molecule of " + std::to_string(atoms.size()) + " atoms cannot be put together like one of " +
+    throw InputError("a molecule of " + std::to_string(atoms.size()) + " atoms cannot be unwrapped like one of " +
                      std::to_string(reference.size()));
   std::vector<Vec3d> result = atoms;
   if (atoms.empty()) return result;

@@ -1,4 +1,4 @@
-// error.h: the one error family; thrown at the check, converted once at each boundary (exit status, Tcl, molfile).
+// error.h: the error classes; thrown where a check fails, converted once per boundary (exit status, Tcl, molfile).
 #pragma once
 
 #include <stdexcept>
@@ -6,7 +6,7 @@
 
 namespace espdiff {
 
-/// What kind of failure an Error is; the names are the CLASS of a Tcl errorcode.
+/// Kind of failure; the names are the CLASS of a Tcl errorcode.
 enum class ErrorClass { kInput, kFormat, kIo, kGeometry, kConvergence, kDevice, kMemory, kCancelled, kInternal };
 
 /// The upper-case name of a class, such as "INPUT".
@@ -19,19 +19,19 @@ class Error : public std::runtime_error {
 
   ErrorClass error_class() const { return error_class_; }
 
-  /// Exit status of the command line: 2 for wrong usage or input, 1 for what could not be computed.
+  /// Exit status of the command line: 2 for wrong usage or input, 1 if the computation failed.
   int exit_status() const;
 
  private:
   ErrorClass error_class_;
 };
 
-/// The user asked for something that cannot be: a wrong option value, an atom selection that is empty, a missing map.
+/// Invalid request: a wrong option value, an empty atom selection, a missing map.
 struct InputError : Error {
   explicit InputError(const std::string& message) : Error(ErrorClass::kInput, message) {}
 };
 
-/// A file's content is wrong. `line` counts from 1; 0 where the format has no lines.
+/// A file's content is wrong. `line` counts from 1; 0 for formats without lines.
 struct FormatError : Error {
   FormatError(const std::string& path, long line, const std::string& message);
 };
@@ -41,7 +41,7 @@ struct IoError : Error {
   IoError(const std::string& path, const std::string& message);
 };
 
-/// The shapes cannot be handled: no surface at this isovalue, too few paired atoms.
+/// The shapes cannot be processed: no surface at this isovalue, too few paired atoms.
 struct GeometryError : Error {
   explicit GeometryError(const std::string& message) : Error(ErrorClass::kGeometry, message) {}
 };

@@ -1,4 +1,4 @@
-// atom_paths.cpp: pairs become ways, and what has no counterpart finds its anchor.
+// atom_paths.cpp: paths of paired atoms, and anchors for unpaired ones.
 #include "compare/atom_paths.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace espdiff {
 namespace {
 
-/// One of the two molecules, with which of its atoms are paired.
+/// One of the two molecules, and which of its atoms are paired.
 struct Side {
   const Molecule& molecule;
   std::vector<bool> paired;
@@ -43,16 +43,16 @@ struct Side {
   }
 };
 
-/// Atoms left over in paired residues, such as the side chains of a substitution, pair with what is nearest within
-/// this.
+/// Unpaired atoms of paired residues, such as the side chains of a substitution, pair with the nearest such atom within
+/// this distance.
 constexpr double kNearestPartner_A = 2.5;
 
-/// Atoms farther than this from their anchor do not sprout: a ligand that floats free has no counterpart.
+/// Atoms farther than this from their anchor do not grow out of it, such as a ligand that floats free.
 constexpr double kSproutReach_A = 8;
 
 bool is_hydrogen(const Atom& atom) { return atom.element == "H" || atom.element == "D"; }
 
-/// Pairs of atoms that `pairing` left over in paired residues: nearest first, hydrogens among themselves.
+/// Pairs unpaired atoms of paired residues: nearest first, hydrogens with hydrogens only.
 std::vector<std::pair<std::size_t, std::size_t>> pair_leftovers(const Side& from, const Side& to,
                                                                 const std::vector<std::int32_t>& target_residue,
                                                                 const RigidTransform& from_source,
@@ -89,11 +89,11 @@ std::vector<MovingAtom> atom_paths(const Molecule& source, const Molecule& targe
                                    const RigidTransform& from_source, const RigidTransform& from_target,
                                    const DomainMotions& domains, double radius_scale) {
   if (pairing.pairs.empty())
-    throw InputError("the morph follows paired atoms, and none pair; use --method deform, which needs none");
+    throw InputError("the morph needs paired atoms, and none pair; use --method deform, which needs none");
   Side from(source), to(target);
   std::vector<std::size_t> target_of(source.size()), source_of(target.size());
   std::vector<std::pair<std::size_t, std::size_t>> pairs = pairing.pairs;
-  const auto take_up = [&](const std::vector<std::pair<std::size_t, std::size_t>>& added) {
+  const auto add_pairs = [&](const std::vector<std::pair<std::size_t, std::size_t>>& added) {
     for (const auto& [s, t] : added) {
       from.add(s);
       to.add(t);
@@ -101,9 +101,9 @@ std::vector<MovingAtom> atom_paths(const Molecule& source, const Molecule& targe
       source_of[t] = s;
     }
   };
-  take_up(pairs);
+  add_pairs(pairs);
   const auto leftovers = pair_leftovers(from, to, paired_residues(source, target, pairing), from_source, from_target);
-  take_up(leftovers);
+  add_pairs(leftovers);
   pairs.insert(pairs.end(), leftovers.begin(), leftovers.end());
   const auto width = [&](float radius) { return radius_scale * static_cast<double>(radius); };
   const auto motion_of = [&](std::size_t source_atom) { return domains.of(source.atoms[source_atom].residue); };

@@ -30,7 +30,7 @@ AtomsPtr upload(Engine& engine, const Molecule& molecule, const RigidTransform& 
   return engine.upload_atoms(positions, widths, residues);
 }
 
-/// Leaves out closed cavities: components whose normals point into a void.
+/// Removes closed cavities: components whose normals point into a void.
 void drop_cavities(Engine& engine, Surface& surface) {
   std::vector<bool> keep;
   for (const ComponentSummary& component : surface.components) {
@@ -118,7 +118,7 @@ SurfaceResult make_surface(Engine& engine, const CompareInput& input, const Comp
 
 Grid make_density(Engine& engine, const Molecule& molecule, const SurfaceOptions& options) {
   check_options(options);
-  RigidTransform to_centre;  // only moved: single precision wants the origin near
+  RigidTransform to_centre;  // translation only: single precision needs an origin nearby
   for (const Vec3d& p : molecule.positions) to_centre.translation += (-1.0 / static_cast<double>(molecule.size())) * p;
   Grid density = engine.download(
       engine.density(upload(engine, molecule, to_centre, options.radius_scale), options.grid_spacing_A));

@@ -1,4 +1,4 @@
-// certificate.cpp: the limits of a trustworthy mapping, and the words for what exceeds them.
+// certificate.cpp: the limits of a trustworthy mapping, and the reasons given when they are exceeded.
 #include "compare/certificate.h"
 
 #include <algorithm>
@@ -10,14 +10,14 @@
 namespace espdiff {
 namespace {
 
-/// The limits within which a result counts as trustworthy.
+/// The limits of a trustworthy result.
 struct Limits {
   static constexpr double kCorruptArea = 1e-3;
   static constexpr double kFlippedArea = 0.0;
   static constexpr double kMeanDistance_A = 0.05;
   static constexpr double kRoundTrip_A = 0.1;
   static constexpr double kMaxUnmatchedSource = 0.05;
-  static constexpr double kMaxUnmatchedTarget = 0.1;  ///< surface that is new on the target is no flaw of the mapping
+  static constexpr double kMaxUnmatchedTarget = 0.1;  ///< new surface on the target is no fault of the mapping
   static constexpr std::size_t kSelfIntersectingPairs = 0;
 };
 
@@ -46,9 +46,9 @@ Certificate certify(Engine& engine, const Mapping& mapping, const MeshPtr& targe
   c.irregularity_A = mapping.fit.irregularity_A;
   c.mapped_to_target = mapping.to_target;
   c.distortion = mapping.distortion;
-  c.target_to_mapped = engine.distances(target, mapping.counted, kCounterpartLimit_A);
+  c.target_to_mapped = engine.distances(target, mapping.matched, kMatchLimit_A);
   c.self_intersecting_pairs = mapping.intersections.n_pairs;
-  const double kept = engine.area(mapping.counted_source) / engine.area(mapping.source);
+  const double kept = engine.area(mapping.matched_source) / engine.area(mapping.source);
   c.unmatched_source = 1 - kept * (1 - c.mapped_to_target.area_fraction_beyond_limit);
   c.unmatched_target = c.target_to_mapped.area_fraction_beyond_limit;
   return c;

@@ -1,4 +1,4 @@
-// common_frame.cpp: superposition of the whole, then of domains.
+// common_frame.cpp: superposes the whole molecules, then their domains.
 #include "compare/common_frame.h"
 
 #include <limits>
@@ -14,7 +14,7 @@ CommonFrame superposed(const Molecule& source, const Molecule& target, AlignAtom
   CommonFrame frame;
   frame.from_source = principal_frame(source.positions);
   if (atoms == AlignAtoms::kNone) {
-    // As given: RMSD over what pairs, if anything does.
+    // As given: the RMSD over the pairs, if any.
     try {
       result.pairing = pair_atoms(source, target);
       result.rmsd_A = rmsd(source.positions, target.positions, result.pairing.pairs);
@@ -43,7 +43,7 @@ CommonFrame align(const Molecule& source, const Molecule& target, const CompareO
   if (options.domains == "none") return frame;
   const auto pairs =
       options.align == AlignAtoms::kNone ? result.pairing.pairs : select_pairs(result.pairing, source, options.align);
-  if (pairs.empty()) throw InputError("domains are moved by their paired atoms, and none pair; give domains none");
+  if (pairs.empty()) throw InputError("domains need paired atoms, and none pair; give domains none");
   result.domains = find_domains(options.domains, source, target, pairs);
   frame.domains = domain_motions(result.domains, source, frame.from_source, frame.from_target);
   return frame;

@@ -1,20 +1,20 @@
-// common_frame.h: where both molecules of a comparison meet.
+// common_frame.h: the common frame of a comparison's two molecules.
 #pragma once
 
 #include "compare/domain_motions.h"
 
 namespace espdiff {
 
-/// Where both molecules meet: the source's principal frame, into which the target is superposed. Grids are thus laid
-/// along axes of the shape itself, and a rigid motion of either input changes nothing but rounding.
+/// The common frame of both molecules: the source's principal frame, into which the target is superposed. Grids follow
+/// the axes of the shape itself, so a rigid motion of either input changes only rounding.
 struct CommonFrame {
   RigidTransform from_source, from_target;  // own frame -> common frame
   DomainMotions domains{};
 };
 
-/// Pairs atoms, superposes the target, and finds the rigid domains that are aligned by themselves, as the options say.
-/// @param result gets the pairing, the superposition and its RMSD, and the domains
-/// @throws InputError (nothing pairs where that is needed, domains), GeometryError (too few pairs)
+/// Pairs atoms, superposes the target, and finds the rigid domains, as the options say.
+/// @param result receives the pairing, the superposition and its RMSD, and the domains
+/// @throws InputError (no pairs where they are needed, domains), GeometryError (too few pairs)
 CommonFrame align(const Molecule& source, const Molecule& target, const CompareOptions& options, CompareResult& result);
 
 }  // namespace espdiff

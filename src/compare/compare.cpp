@@ -1,4 +1,4 @@
-// compare.cpp: the order of the stages for one pair.
+// compare.cpp: the stages of a comparison, in order.
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +34,7 @@ namespace espdiff {
 
 namespace {
 
-/// [vertex] whether it lies in a triangle with a counterpart.
+/// [vertex] whether it lies in a matched triangle.
 std::vector<bool> is_matched(const MappedSurface& s) {
   if (s.unmatched.empty()) return std::vector<bool>(s.positions.size(), true);
   std::vector<bool> has(s.positions.size(), false);
@@ -45,8 +45,8 @@ std::vector<bool> is_matched(const MappedSurface& s) {
   return has;
 }
 
-/// What a vertex without a counterpart has there is no number.
-void forget_unmatched(const std::vector<bool>& kept, std::vector<float>& values) {
+/// Sets unmatched vertices to NaN.
+void set_unmatched_to_nan(const std::vector<bool>& kept, std::vector<float>& values) {
   for (std::size_t v = 0; v < values.size(); ++v) {
     if (!kept[v]) values[v] = std::numeric_limits<float>::quiet_NaN();
   }
@@ -57,7 +57,7 @@ std::vector<Vec3f> rotated(std::vector<Vec3f> normals, const RigidTransform& to_
   return normals;
 }
 
-/// @param moved the source, taken along by its rigid domains
+/// @param moved the source, moved by its rigid domains
 void download_surface(Engine& engine, const MeshPtr& source, const AtomsPtr& source_atoms, const MeshPtr& moved,
                       const MeshPtr& mapped, const AtomsPtr& target_atoms, float isovalue, const CommonFrame& frame,
                       MappedSurface& surface) {
@@ -74,7 +74,7 @@ void download_surface(Engine& engine, const MeshPtr& source, const AtomsPtr& sou
 
 }  // namespace
 
-/// The stages of a step, and what is kept from one to the next; all in the common frame, which is the source's own.
+/// The stages of a step, and the state kept between steps; all in the common frame, which is the source's.
 struct Series::Steps {
   Engine& engine;
   CompareInput source;
@@ -85,21 +85,21 @@ struct Series::Steps {
   DeformReport regularize_report{};
   PotentialUnit unit = PotentialUnit::kUnknown;  ///< of the source's map
   GridPtr source_map{};                          ///< made by the first step
-  std::optional<LastStep> last{};                ///< nothing where the next step starts from the source
+  std::optional<LastStep> last{};                ///< empty if the next step starts from the source
   std::optional<SeriesState> restored{};
 
   void prepare(const RigidTransform& to_common, const Progress& progress, StageClock& clock) {
     if (prepared) return;
     surface = build_surface(engine, *source.molecule, to_common, options.surface, progress, clock);
-    // The morph takes closed cavities along, since one may open.
+    // The morph keeps closed cavities, since one may open.
     const MeshPtr& mesh = options.method == Method::kMorph ? surface.whole : surface.mesh;
     regularized = regularize(engine, surface, mesh, options, progress, &regularize_report);
     clock.lap("regularize");
     prepared = true;
-    take_up_restored();
+    adopt_restored_state();
   }
 
-  void take_up_restored() {
+  void adopt_restored_state() {
     if (!restored) return;
     last = last_step_of(engine, *restored, regularized, options.method);
     restored.reset();
@@ -108,7 +108,7 @@ struct Series::Steps {
   /// The mapping from the target's surface to the source's, in the same common frame.
   Mapping map_back(const CompareInput& target, const Surface& target_surface, const CommonFrame& frame,
                    const AtomPairing& pairing, const Progress& progress) const {
-    std::vector<std::pair<std::string, double>> times;  // the caller's clock has one entry for all of it
+    std::vector<std::pair<std::string, double>> times;  // the caller's clock has one entry for the whole mapping
     StageClock clock(times);
     Steps back{engine, target, options, true, target_surface};
     const MeshPtr& mesh = options.method == Method::kMorph ? target_surface.whole : target_surface.mesh;
@@ -125,11 +125,11 @@ struct Series::Steps {
       mapping = back.deform(surface, reversed.domains.carry(engine, back.regularized, target_surface.atoms), reversed,
                             scratch, progress, clock);
     }
-    back.find_counterparts(mapping, surface);
+    back.find_matched(mapping, surface);
     return mapping;
   }
 
-  /// @param from where the surface goes on from; null for the source
+  /// @param from the step to continue from; null for the source
   MorphResult morph(const Molecule& target, const Surface& target_surface, const CommonFrame& frame,
                     const LastStep* from, CompareResult& result, const Progress& progress, StageClock& clock) const {
     MorphOptions morph = options.morph;
@@ -168,7 +168,7 @@ struct Series::Steps {
     return mapping;
   }
 
-  /// The target's map, null where there is none; the source's too, unless it is there already.
+  /// Makes the target's map, null if there is none, and the source's unless it exists already.
   GridPtr make_maps(const CompareInput& target, const CommonFrame& frame, const Progress& progress) {
     if (!has_map(target)) return nullptr;
     const PotentialUnit wanted = common_unit(source, target);
@@ -180,7 +180,7 @@ struct Series::Steps {
     return device_map(engine, target, inverse(frame.from_target), wanted, temperature_K, progress);
   }
 
-  /// Potentials at counterparts, and the metrics of their differences.
+  /// Samples both potentials and computes the metrics of their difference.
   void compare_potentials(const CompareInput& target, const GridPtr& target_map, const Mapping& mapping,
                           const MeshPtr& moved, CompareResult& result) {
     MappedSurface& s = result.surface;
@@ -192,7 +192,7 @@ struct Series::Steps {
     const std::vector<bool> kept = is_matched(s);
     result.n_outside_source_map = count_outside(source, s.potential_source, kept);
     result.n_outside_target_map = count_outside(target, s.potential_target, kept);
-    forget_unmatched(kept, s.potential_target);
+    set_unmatched_to_nan(kept, s.potential_target);
     result.has_potential = true;
     std::vector<float> excluded(s.corrupt.begin(), s.corrupt.end());
     for (std::size_t t = 0; t < mapping.unmatched.size(); ++t)
@@ -205,24 +205,25 @@ struct Series::Steps {
                        mapping.unmatched.empty() ? nullptr : engine.upload_scalars(mapping.unmatched), path_length);
   }
 
-  /// What of the mapping has a counterpart on the target's surface; closed cavities that found none are left out.
-  void find_counterparts(Mapping& mapping, const Surface& target_surface) const {
-    settle(engine, mapping, target_surface.atoms, target_surface.mesh, static_cast<float>(options.surface.isovalue));
+  /// Finds the part of the mapping that is matched on the target's surface; drops unmatched closed cavities.
+  void find_matched(Mapping& mapping, const Surface& target_surface) const {
+    find_matched_part(engine, mapping, target_surface.atoms, target_surface.mesh,
+                      static_cast<float>(options.surface.isovalue));
     if (options.method == Method::kMorph && !options.surface.cavities) drop_closed_cavities(engine, mapping);
   }
 
-  /// Finds what has a counterpart, and certifies it.
+  /// Finds the matched part and certifies it.
   void check(Mapping& mapping, const Surface& target_surface, CompareResult& result, const Progress& progress,
              StageClock& clock) const {
     progress.report("certificate", 0.0);
-    find_counterparts(mapping, target_surface);
+    find_matched(mapping, target_surface);
     result.area_mapped_A2 = mapping.fit.area_A2;
     result.certificate = certify(engine, mapping, target_surface.mesh);
     result.certificate.converged = options.method == Method::kMorph || result.deform_report.converged;
     clock.lap("certificate");
   }
 
-  /// Fills in what the mapping gave: per-vertex arrays, potentials, metrics, residues, and the verdict.
+  /// Fills in the results of the mapping: per-vertex arrays, potentials, metrics, residues, and the verdict.
   void evaluate(const CompareInput& target, const CommonFrame& frame, const Surface& target_surface,
                 const GridPtr& target_map, const Mapping& mapping, CompareResult& result, const Progress& progress,
                 StageClock& clock) {
@@ -232,11 +233,11 @@ struct Series::Steps {
     download_surface(engine, mapping.source, surface.atoms, moved, mapping.mapped, target_surface.atoms,
                      static_cast<float>(options.surface.isovalue), frame, s);
     s.unmatched.assign(mapping.unmatched.begin(), mapping.unmatched.end());
-    s.corrupt = spread(engine.download(mapping.fit.corrupt), mapping.unmatched);
+    s.corrupt = to_full_mesh(engine.download(mapping.fit.corrupt), mapping.unmatched);
     s.path_length = mapping.path_length;
     const std::vector<bool> kept = is_matched(s);
-    forget_unmatched(kept, s.displacement);
-    forget_unmatched(kept, s.path_length);
+    set_unmatched_to_nan(kept, s.displacement);
+    set_unmatched_to_nan(kept, s.path_length);
     s.residue = engine.vertex_residues(mapping.source, surface.atoms);
     result.certificate.same_residue_area_fraction =
         same_residue_share(s, s.residue, engine.vertex_residues(mapping.mapped, target_surface.atoms),
@@ -247,7 +248,7 @@ struct Series::Steps {
     clock.lap("metrics");
   }
 
-  /// The order of the stages; see Series::step().
+  /// Runs the stages in order; see Series::step().
   CompareResult step(const CompareInput& target, StartFrom start, const Progress& progress) {
     CompareResult result;
     StageClock clock(result.time_ms);
@@ -268,7 +269,7 @@ struct Series::Steps {
     std::vector<Vec3d> target_atoms =
         counterparts(*source.molecule, *target.molecule, result.pairing, frame.from_target);
     const std::optional<LastStep> from = std::exchange(last, std::nullopt);
-    if (start == StartFrom::kPrevious && from && goes_on(*from, *source.molecule, frame, target_atoms))
+    if (start == StartFrom::kPrevious && from && can_continue(*from, *source.molecule, frame, target_atoms))
       result.start = StartFrom::kPrevious;
     const LastStep* const before = result.start == StartFrom::kPrevious ? &*from : nullptr;
     Mapping mapping;
@@ -330,7 +331,7 @@ void Series::restore(SeriesState state) {
                      " atoms, this one has " + std::to_string(steps.source.molecule->size()) +
                      "; start the series anew");
   steps.restored = std::move(state);
-  if (steps.prepared) steps.take_up_restored();
+  if (steps.prepared) steps.adopt_restored_state();
 }
 
 CompareResult compare(Engine& engine, const CompareInput& source, const CompareInput& target,

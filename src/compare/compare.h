@@ -1,4 +1,4 @@
-// compare.h: one pair of molecules from atoms and maps to metrics and certificate.
+// compare.h: compares one pair of molecules: from atoms and maps to metrics and certificate.
 #pragma once
 
 #include "base/progress.h"
@@ -11,9 +11,8 @@ struct CompareInput;
 struct CompareOptions;
 
 /// Compares two molecules: a series of one.
-/// @throws InputError (no common atoms; a map on one side only; a map that misses the surface entirely; units that
-/// differ and one
-///         unknown), GeometryError, MemoryError, Cancelled
+/// @throws InputError (no common atoms; a map on one side only; a map that does not cover the surface; units that
+/// differ with one unknown), GeometryError, MemoryError, Cancelled
 CompareResult compare(Engine& engine, const CompareInput& source, const CompareInput& target,
                       const CompareOptions& options, const Progress& progress);
 

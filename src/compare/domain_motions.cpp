@@ -1,4 +1,4 @@
-// domain_motions.cpp: from each molecule's own frame into the common one, and back.
+// domain_motions.cpp: domain motions from the molecules' own frames to the common frame, and their inverses.
 #include "compare/domain_motions.h"
 
 #include "align/superpose.h"

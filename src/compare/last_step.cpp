@@ -1,4 +1,4 @@
-// last_step.cpp: from one target of a series to the next.
+// last_step.cpp: continues a series from one target to the next.
 #include "compare/last_step.h"
 
 #include <cmath>
@@ -14,14 +14,14 @@
 namespace espdiff {
 namespace {
 
-/// By the morph: going on keeps what was lost on the way, hence pays only along a motion, whose next frame lies much
-/// nearer than the source. Between models of an ensemble, all as far from one another, it lost several times as much.
+/// For the morph: continuing inherits the losses, so it pays off for small steps only. Between models of an ensemble,
+/// which are all equally far apart, it lost several times as much.
 constexpr double kSmallStep = 0.5;
-/// By the morph: with more of the source's area lost since it came from there, the next mapping is made anew, which may
-/// find some of it again.
+/// For the morph: if more of the source's area has been lost since the surface left the source, the next mapping starts
+/// from the source again, which may recover some of it.
 constexpr double kMaxUnmatchedOnPath = 0.005;
 
-/// Root mean square distance over the atoms that both have; NaN when there are none.
+/// RMSD over the atoms that both have; NaN if there are none.
 double rms_distance(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
   double sum = 0;
   std::size_t n = 0;
@@ -35,8 +35,7 @@ double rms_distance(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
   return n > 0 ? std::sqrt(sum / static_cast<double>(n)) : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// The same residues on the last target, with their motions to this one. One in which too few atoms pair to tell stays
-/// without motion.
+/// The same residues on the last target, with their motions to this one. Skips domains with too few paired atoms.
 std::vector<RigidDomain> domains_on(const Molecule& last, const Molecule& source, const Molecule& target,
                                     const std::vector<std::pair<std::size_t, std::size_t>>& pairs,
                                     const std::vector<RigidDomain>& domains) {
@@ -138,7 +137,8 @@ LastStep last_step_of(Engine& engine, const SeriesState& state, const MeshPtr& r
           state.morph->unmatched_share_at_start};
 }
 
-bool goes_on(const LastStep& last, const Molecule& source, const CommonFrame& frame, const std::vector<Vec3d>& target) {
+bool can_continue(const LastStep& last, const Molecule& source, const CommonFrame& frame,
+                  const std::vector<Vec3d>& target) {
   if (last.morphed && last.unmatched - last.unmatched_at_start > kMaxUnmatchedOnPath) return false;
   std::vector<Vec3d> moved;
   for (std::size_t i = 0; i < source.size(); ++i)

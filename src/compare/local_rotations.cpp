@@ -1,4 +1,4 @@
-// local_rotations.cpp: a weighted superposition of each atom's neighbourhood, found by cells.
+// local_rotations.cpp: fits a rotation to each atom's neighbourhood, found by cells.
 #include "compare/local_rotations.h"
 
 #include <Eigen/Geometry>
@@ -11,13 +11,13 @@
 namespace espdiff {
 namespace {
 
-/// Atoms farther away than this at either end are no neighbours.
+/// Atoms farther apart than this at either end are not neighbours.
 constexpr double kReach_A = 12;
-/// Added to the covariance, which turns less what little says that it turns: loops that swing by themselves, few atoms,
-/// atoms on a line. Inside a protein a neighbourhood has about 2600 along each axis, at its surface half of that.
-/// With less more of the surface stays on its residue, and more of it is torn where one neighbourhood parts from
-/// another; see bench/study_notes.md.
-constexpr double kNoTurn_A2 = 300;
+/// Added to the covariance. Damps rotations that few neighbours support: loops that move on their own, few atoms,
+/// collinear atoms. A neighbourhood inside a protein has about 2600 along each axis, at the surface about half. Less
+/// damping keeps more of the surface on its residue but tears more of it between neighbourhoods; see
+/// bench/study_notes.md.
+constexpr double kDamping_A2 = 300;
 
 using Cell = std::array<int, 3>;
 
@@ -33,11 +33,11 @@ Cell cell_of(const Eigen::Vector3d& p) {
           static_cast<int>(std::floor(p.z() / kReach_A))};
 }
 
-/// All ways' ends, without the motions of their domains.
+/// Both ends of all paths, without the motions of their domains.
 struct Neighbourhoods {
   const std::vector<MovingAtom>& paths;
   std::vector<Eigen::Vector3d> start{}, end{};
-  std::map<Cell, std::vector<std::size_t>> cells{};  ///< by the start; of atoms that are there at both ends
+  std::map<Cell, std::vector<std::size_t>> cells{};  ///< by the start; of atoms present at both ends
 
   explicit Neighbourhoods(const std::vector<MovingAtom>& all) : paths(all) {
     for (std::size_t i = 0; i < paths.size(); ++i) {
@@ -76,7 +76,7 @@ struct Neighbourhoods {
       covariance += weight * a * b.transpose();
     });
     if (all <= 0) return {};
-    covariance += kNoTurn_A2 * Eigen::Matrix3d::Identity() - sum_start * sum_end.transpose() / all;
+    covariance += kDamping_A2 * Eigen::Matrix3d::Identity() - sum_start * sum_end.transpose() / all;
     const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
     const double sign = svd.matrixV().determinant() * svd.matrixU().determinant() < 0 ? -1.0 : 1.0;
     const Eigen::Matrix3d rotation =

@@ -1,4 +1,4 @@
-// local_rotations.h: how far each atom's surroundings turn on their way, for the morph.
+// local_rotations.h: the rotation of each atom's surroundings, for the morph.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,9 @@
 
 namespace espdiff {
 
-/// Sets own_rotation of every way: the best rotation of the atoms that are near it at both ends and of its rigid
-/// domain, those nearest counting most. What turns as a whole beside its domain takes the surface with it; without this
-/// the surface, which lies beside the atoms, would be left behind and slide. The way back turns by the inverse.
+/// Sets own_rotation of every path: the best-fit rotation of the atoms near it at both ends and of its rigid domain,
+/// weighted towards the nearest. Groups that rotate relative to their domain thus rotate the surface too; otherwise the
+/// surface, which lies beside the atoms, would lag behind and slide. The reverse path rotates by the inverse.
 void set_local_rotations(std::vector<MovingAtom>& paths);
 
 }  // namespace espdiff

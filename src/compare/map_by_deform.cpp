@@ -1,4 +1,4 @@
-// map_by_deform.cpp: the rounds of the force iteration and what is carried from one to the next.
+// map_by_deform.cpp: rounds of the force iteration and of subdivision.
 #include "compare/map_by_deform.h"
 
 #include <algorithm>
@@ -11,12 +11,12 @@
 namespace espdiff {
 namespace {
 
-/// Longer edges are halved, in grid spacings.
+/// Longer edges are split, in grid spacings.
 constexpr double kLongestEdge = 1.4;
-/// A limit only: each round halves what the one before has stretched.
+/// A safety limit: each round splits the edges that the previous one stretched.
 constexpr int kMaxRounds = 8;
 
-/// The new vertices' places on the source: from the middles of edges onto its isosurface. The others stay.
+/// Positions of the new vertices on the source: midpoints of edges, projected onto its isosurface. The others stay.
 MeshPtr trace_back(Engine& engine, const MeshPtr& source, std::size_t n_old, const AtomsPtr& atoms,
                    const SurfaceOptions& options) {
   std::vector<Vec3f> positions = engine.download(source).positions;

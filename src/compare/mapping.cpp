@@ -1,4 +1,4 @@
-// mapping.cpp: the part of a mapping that has a counterpart.
+// mapping.cpp: the matched part of a mapping.
 #include "compare/mapping.h"
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 namespace espdiff {
 namespace {
 
-/// Marks as lost, in the whole, what is marked in the part that is left; returns whether anything was.
-bool lose(std::vector<float>& unmatched, const std::vector<float>& marked) {
+/// Copies the flags of the matched part to the full mesh; returns whether any was new.
+bool copy_flags(std::vector<float>& unmatched, const std::vector<float>& marked) {
   bool any = false;
   std::size_t k = 0;
   for (float& flag : unmatched) {
@@ -23,13 +23,13 @@ bool lose(std::vector<float>& unmatched, const std::vector<float>& marked) {
 }
 
 void measure(Engine& engine, Mapping& mapping, const AtomsPtr& target_atoms, const MeshPtr& target, float isovalue) {
-  mapping.fit = engine.fit(mapping.counted, target_atoms, isovalue);
-  mapping.to_target = engine.distances(mapping.counted, target, kCounterpartLimit_A);
-  mapping.distortion = engine.distortion(mapping.counted_source, mapping.counted, kAreaRatioLimit);
+  mapping.fit = engine.fit(mapping.matched, target_atoms, isovalue);
+  mapping.to_target = engine.distances(mapping.matched, target, kMatchLimit_A);
+  mapping.distortion = engine.distortion(mapping.matched_source, mapping.matched, kAreaRatioLimit);
 }
 
-/// [triangle of the part] nonzero where it is to be lost.
-std::vector<float> faults(Engine& engine, const Mapping& mapping) {
+/// [triangle of the matched part] nonzero if it must be removed.
+std::vector<float> invalid_triangles(Engine& engine, const Mapping& mapping) {
   std::vector<float> marked = engine.download(mapping.fit.corrupt);
   for (const ScalarsPtr& flags : {mapping.fit.flipped, mapping.intersections.intersecting, mapping.to_target.beyond,
                                   mapping.distortion.excessive}) {
@@ -41,29 +41,30 @@ std::vector<float> faults(Engine& engine, const Mapping& mapping) {
   return marked;
 }
 
-/// Takes the part of both meshes that is not lost.
-void leave_out_unmatched(Engine& engine, Mapping& mapping) {
+/// Extracts the matched part of both meshes.
+void extract_matched(Engine& engine, Mapping& mapping) {
   const ScalarsPtr unmatched = engine.upload_scalars(mapping.unmatched);
-  mapping.counted = engine.without(mapping.mapped, unmatched);
-  mapping.counted_source = engine.without(mapping.source, unmatched);
+  mapping.matched = engine.without(mapping.mapped, unmatched);
+  mapping.matched_source = engine.without(mapping.source, unmatched);
 }
 
 }  // namespace
 
-void settle(Engine& engine, Mapping& mapping, const AtomsPtr& target_atoms, const MeshPtr& target, float isovalue) {
-  const bool tells = !mapping.unmatched.empty();
-  if (tells) {
-    leave_out_unmatched(engine, mapping);
+void find_matched_part(Engine& engine, Mapping& mapping, const AtomsPtr& target_atoms, const MeshPtr& target,
+                       float isovalue) {
+  const bool has_flags = !mapping.unmatched.empty();
+  if (has_flags) {
+    extract_matched(engine, mapping);
   } else {
-    mapping.counted = mapping.mapped;
-    mapping.counted_source = mapping.source;
+    mapping.matched = mapping.mapped;
+    mapping.matched_source = mapping.source;
   }
   measure(engine, mapping, target_atoms, target, isovalue);
-  mapping.intersections = engine.self_intersections(mapping.counted);
-  while (tells && lose(mapping.unmatched, faults(engine, mapping))) {
-    leave_out_unmatched(engine, mapping);
-    // Without every triangle that was in a pair there is no pair left: only the area that has grown is to be seen
-    // again, since it is measured over what lies around.
+  mapping.intersections = engine.self_intersections(mapping.matched);
+  while (has_flags && copy_flags(mapping.unmatched, invalid_triangles(engine, mapping))) {
+    extract_matched(engine, mapping);
+    // No intersecting pair remains after removing its triangles. Only the area growth must be checked again, because it
+    // depends on the surroundings.
     mapping.intersections = {};
     measure(engine, mapping, target_atoms, target, isovalue);
   }
@@ -82,7 +83,7 @@ void drop_closed_cavities(Engine& engine, Mapping& mapping) {
   }
   const ScalarsPtr flags = engine.upload_scalars(dropped);
   mapping.source = engine.without(mapping.source, flags);
-  // One topology still: what is compared at counterparts shares it.
+  // Both meshes keep one topology, which comparisons of potentials rely on.
   mapping.mapped =
       engine.with_positions(mapping.source, engine.download(engine.without(mapping.mapped, flags)).positions);
   mapping.unmatched = std::move(unmatched);
@@ -98,12 +99,12 @@ void drop_closed_cavities(Engine& engine, Mapping& mapping) {
   mapping.path_length.resize(n);
 }
 
-std::vector<std::uint8_t> spread(const std::vector<float>& counted, const std::vector<float>& unmatched) {
-  if (unmatched.empty()) return std::vector<std::uint8_t>(counted.begin(), counted.end());
+std::vector<std::uint8_t> to_full_mesh(const std::vector<float>& matched, const std::vector<float>& unmatched) {
+  if (unmatched.empty()) return std::vector<std::uint8_t>(matched.begin(), matched.end());
   std::vector<std::uint8_t> whole(unmatched.size(), 0);
   std::size_t k = 0;
   for (std::size_t t = 0; t < unmatched.size(); ++t) {
-    if (unmatched[t] == 0) whole[t] = counted[k++] != 0 ? 1 : 0;
+    if (unmatched[t] == 0) whole[t] = matched[k++] != 0 ? 1 : 0;
   }
   return whole;
 }

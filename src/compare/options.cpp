@@ -1,4 +1,4 @@
-// options.cpp: the words for a comparison's choices, and the thesis' options.
+// options.cpp: names of a comparison's choices, and the thesis' options.
 #include "compare/options.h"
 #include "base/error.h"
 

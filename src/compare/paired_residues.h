@@ -1,4 +1,4 @@
-// paired_residues.h: which residue of the target is which of the source, as the paired atoms say.
+// paired_residues.h: the pairing of residues that follows from paired atoms.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace espdiff {
 
-/// [source residue] the target's residue that shares most atom pairs with it, the first of equals; -1 for none.
+/// [source residue] the target residue that shares most atom pairs with it, the first on ties; -1 for none.
 std::vector<std::int32_t> paired_residues(const Molecule& source, const Molecule& target, const AtomPairing& pairing);
 
 }  // namespace espdiff

@@ -11,7 +11,7 @@ bool signs_differ(double a, double b) { return (a < 0 && b > 0) || (a > 0 && b <
 
 }  // namespace
 
-/// Averages over the valid area of each residue, weighted like the metrics: a third of each counted triangle at each
+/// Averages over the valid area of each residue, weighted like the metrics: a third of each valid triangle at each
 /// vertex.
 std::vector<ResidueRow> residue_rows(const MappedSurface& s, std::size_t n_residues, bool has_potential) {
   std::vector<double> weight(s.positions.size(), 0.0);

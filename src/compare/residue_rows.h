@@ -10,7 +10,7 @@ namespace espdiff {
 
 struct MappedSurface;
 
-/// One row a source residue: averages over its valid area, weighted like the metrics.
+/// One row per source residue: averages over its valid area, weighted like the metrics.
 std::vector<ResidueRow> residue_rows(const MappedSurface& surface, std::size_t n_residues, bool has_potential);
 
 }  // namespace espdiff

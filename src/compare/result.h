@@ -1,4 +1,4 @@
-// result.h: what a comparison gives: metrics, certificate, residues and the mapped surface.
+// result.h: the result of a comparison: metrics, certificate, residues and the mapped surface.
 #pragma once
 
 #include <cstdint>
@@ -19,16 +19,16 @@ namespace espdiff {
 struct SurfaceSummary {
   std::size_t n_vertices = 0;
   std::size_t n_triangles = 0;
-  std::size_t n_components = 0;  ///< after leaving out cavities
+  std::size_t n_components = 0;  ///< after removing cavities
   std::size_t n_cavities_left_out = 0;
   double area_A2 = 0;
-  double cavity_area_A2 = 0;  ///< of the cavities left out
+  double cavity_area_A2 = 0;  ///< of the cavities removed
 };
 
-/// Per-residue averages over the mapped surface, source residues. Area-weighted; NaN where no valid area.
+/// Per-residue averages over the mapped surface, source residues. Area-weighted; NaN if a residue has no valid area.
 struct ResidueRow {
   std::size_t residue = 0;  ///< index into the source's residues
-  double area_A2 = 0;       ///< of mapped surface that is counted
+  double area_A2 = 0;       ///< of valid mapped surface
   double mean_abs_difference = 0;
   double mean_signed_difference = 0;  ///< target - source
   double mean_source = 0;
@@ -38,17 +38,16 @@ struct ResidueRow {
   double mean_path_length_A = 0;
 };
 
-/// How far from its start a vertex ends that is taken to the target and back by a second mapping, made from the target
-/// on its own. Angstrom, weighted by the source's area.
+/// Round-trip error: how far from its start a vertex ends after mapping to the target and back by a second mapping,
+/// made independently from the target. Angstrom, weighted by the source's area.
 struct RoundTrip {
   double mean_A = 0, p95_A = 0, max_A = 0;
   double unmatched_target_area_fraction = 0;  ///< of the target's surface, by the mapping back
 };
 
-/// How well the part of the mapping that has a counterpart fits the target. By the morph corrupt, flipped and
-/// intersecting triangles count as without one (see settle()), so that what says how well it went is
-/// unmatched_source. target_to_mapped is from all of the target's surface; its mean_within_limit leaves out what
-/// has none.
+/// How well the matched part of the mapping fits the target. With the morph, corrupt, flipped and intersecting
+/// triangles become unmatched (see find_matched_part()), so unmatched_source measures its quality. target_to_mapped
+/// covers all of the target's surface; its mean_within_limit excludes unmatched parts.
 struct Certificate {
   double corrupt_area_fraction = 0;
   double flipped_area_fraction = 0;
@@ -56,18 +55,18 @@ struct Certificate {
   std::size_t self_intersecting_pairs = 0;  ///< see Engine::self_intersections()
   DistanceSummary mapped_to_target;
   DistanceSummary target_to_mapped;
-  /// Share of the source's area that the mapping lost, or that it took farther than 1 A from the target.
+  /// Fraction of the source's area that the mapping lost or moved farther than 1 A from the target.
   double unmatched_source = 0;
-  double unmatched_target = 0;  ///< share of the target's area farther than 1 A from the mapped surface
+  double unmatched_target = 0;  ///< fraction of the target's area farther than 1 A from the mapped surface
   DistortionReport distortion;
   std::optional<RoundTrip> round_trip;
-  /// Share of the mapped area whose residue (of most density) on the target is the one paired with that on the source;
-  /// NaN where no residues pair.
+  /// Fraction of the mapped area whose residue on the target (of highest density) is paired with its residue on the
+  /// source; NaN if no residues pair.
   double same_residue_area_fraction = 0;
   bool converged = false;
   bool trustworthy = false;
-  std::vector<std::string> reasons;      ///< why not
-  std::vector<std::string> not_checked;  ///< what was not checked
+  std::vector<std::string> reasons;      ///< why not trustworthy
+  std::vector<std::string> not_checked;  ///< names of the checks that were not made
 };
 
 /// Per-vertex arrays of the mapped surface.
@@ -78,20 +77,19 @@ struct MappedSurface {
   std::vector<Vec3f> source_normals;    ///< [vertex] of the source's; source's frame
   std::vector<Triangle> triangles;
   std::vector<float> potential_source, potential_target;  ///< [vertex]; empty without maps; NaN outside a map
-  /// [vertex] from the source's place, superposed, or with rigid domains from where its domain takes it; NaN where
-  /// there is no counterpart
+  /// [vertex] from the superposed source, or with rigid domains from the position its domain moves it to; NaN if
+  /// unmatched
   std::vector<float> displacement;
-  /// [vertex] length of its way from where the mapping started, displacement at least; NaN as there
+  /// [vertex] path length from the start of the mapping, at least the displacement; NaN if unmatched
   std::vector<float> path_length;
   std::vector<std::int32_t> residue;  ///< [vertex] index of the source residue, -1 for none
   std::vector<std::uint8_t> corrupt;  ///< [triangle]
-  /// [triangle] nonzero where the mapping found no counterpart: the mapped positions there mean nothing; empty where it
-  /// found one everywhere.
+  /// [triangle] nonzero if unmatched: the mapped positions there are meaningless; empty if all are matched.
   std::vector<std::uint8_t> unmatched;
 };
 
-/// Where the mapping of a target starts: from the source's surface, or from that of the target before, which is nearer
-/// when targets are the frames of a trajectory.
+/// Start of a mapping: the source's surface, or the previous target's, which is closer if targets are the frames of a
+/// trajectory.
 enum class StartFrom { kSource, kPrevious };
 
 struct CompareResult {
@@ -99,7 +97,7 @@ struct CompareResult {
   AtomPairing pairing;
   std::size_t n_superposed_atoms = 0;
   RigidTransform source_to_target;   ///< the superposition
-  std::vector<RigidDomain> domains;  ///< aligned by themselves; displacements are from where their motions end
+  std::vector<RigidDomain> domains;  ///< superposed separately; displacements start where their motions end
   bool has_potential = false;
   PotentialUnit unit = PotentialUnit::kUnknown;
   Metrics metrics;                                                 ///< over valid triangles
@@ -115,7 +113,7 @@ struct CompareResult {
   MorphReport morph_report;
   std::vector<ResidueRow> residues;
   MappedSurface surface;
-  std::vector<std::pair<std::string, double>> time_ms;  ///< stage, in order, and last "total"
+  std::vector<std::pair<std::string, double>> time_ms;  ///< stage, in order; "total" last
 };
 
 }  // namespace espdiff

@@ -1,4 +1,4 @@
-// round_trip.cpp: composes two mappings and sums up the distances, weighted by the source's area.
+// round_trip.cpp: composes two mappings and sums the distances, weighted by the source's area.
 #include "compare/round_trip.h"
 
 #include <algorithm>
@@ -10,11 +10,11 @@
 namespace espdiff {
 
 RoundTrip measure_round_trip(Engine& engine, const Mapping& there, const Mapping& back) {
-  // What the way back has lost has no end.
+  // Points that the mapping back has lost have no end.
   constexpr double kOnSurface_A = 0.5;
-  const MeshPtr returned = engine.carry(there.counted, back.counted_source, back.counted, kOnSurface_A);
-  const std::vector<float> distances = engine.download(engine.displacement(there.counted_source, returned));
-  const Mesh source = engine.download(there.counted_source);
+  const MeshPtr returned = engine.carry(there.matched, back.matched_source, back.matched, kOnSurface_A);
+  const std::vector<float> distances = engine.download(engine.displacement(there.matched_source, returned));
+  const Mesh source = engine.download(there.matched_source);
   std::vector<double> weights(distances.size(), 0.0);
   for (const Triangle& t : source.triangles) {
     const Vec3d a = static_cast<Vec3d>(source.positions[t[0]]), b = static_cast<Vec3d>(source.positions[t[1]]),
@@ -29,7 +29,7 @@ RoundTrip measure_round_trip(Engine& engine, const Mapping& there, const Mapping
     area += weights[v];
     sum += weights[v] * static_cast<double>(distances[v]);
   }
-  if (by_distance.empty()) throw GeometryError("there and back: no place of the surface has a way back");
+  if (by_distance.empty()) throw GeometryError("round trip: no point of the surface can be mapped back");
   std::sort(by_distance.begin(), by_distance.end());
   RoundTrip trip;
   trip.mean_A = sum / area;
@@ -40,7 +40,7 @@ RoundTrip measure_round_trip(Engine& engine, const Mapping& there, const Mapping
     trip.p95_A = distance;
     if (below >= 0.95 * area) break;
   }
-  trip.unmatched_target_area_fraction = 1 - engine.area(back.counted_source) / engine.area(back.source);
+  trip.unmatched_target_area_fraction = 1 - engine.area(back.matched_source) / engine.area(back.source);
   return trip;
 }
 

@@ -1,4 +1,4 @@
-// round_trip.h: how near there and back comes to where it began.
+// round_trip.h: the round-trip error of a mapping.
 #pragma once
 
 #include "compare/mapping.h"
@@ -7,10 +7,10 @@
 
 namespace espdiff {
 
-/// Takes each vertex that has a counterpart there by `there` and back by `back`, a mapping from the target's surface to
-/// the source's that was made on its own, and measures how far from its start it ends. Where the way back has lost the
-/// surface nothing is measured.
-/// @throws GeometryError when that is everywhere
+/// Takes each matched vertex to the target by `there` and back by `back`, an independent mapping from the target's
+/// surface to the source's, and measures how far from its start it ends. Skips vertices where the mapping back has lost
+/// the surface.
+/// @throws GeometryError if no vertex is left
 RoundTrip measure_round_trip(Engine& engine, const Mapping& there, const Mapping& back);
 
 }  // namespace espdiff

@@ -17,7 +17,7 @@ namespace {
   throw InputError(name + ": '" + text + "' is not " + accepted);
 }
 
-/// A number in the C locale, whatever the program that hosts us has set.
+/// Reads a number in the C locale, whatever locale the host program has set.
 template <typename Number>
 bool parse(const std::string& text, Number& value) {
   std::istringstream in(text);
@@ -33,7 +33,7 @@ std::string written(Number value) {
   return out.str();
 }
 
-/// Which numbers a setting accepts.
+/// The range of numbers that a setting accepts.
 struct Range {
   double low;
   bool low_included;
@@ -46,11 +46,11 @@ bool within(const Range& range, double value) {
   return std::isfinite(value) && (range.low_included ? value >= range.low : value > range.low);
 }
 
-/// Headings of what only one of the methods reads.
+/// Headings of settings that only one method reads.
 constexpr const char* kMorphGroup = "Mapping by morph";
 constexpr const char* kDeformGroup = "Mapping by deform";
 
-/// A setting that is a number; `at` finds it in the options.
+/// A numeric setting; `at` finds it in the options.
 template <typename At>
 Setting number(const std::string& name, const std::string& group, Range range, At at, const std::string& help) {
   Setting s{name, group, SettingKind::kNumber, {}, help, false, nullptr, nullptr};
@@ -119,10 +119,10 @@ void add_surface_settings(std::vector<Setting>& all) {
       "Density at which the surface lies; higher is tighter")));
   all.push_back(of_surface(boolean(
       "cavities", group, [](auto& o) -> auto& { return o.surface.cavities; },
-      "Keep closed cavities; they are counted and left out else")));
+      "Keep closed cavities; they are removed and counted by default")));
   all.push_back(of_surface(boolean(
       "project", group, [](auto& o) -> auto& { return o.surface.project; },
-      "Vertices on the exact isosurface, instead of where the lattice puts them")));
+      "Project vertices onto the exact isosurface")));
 }
 
 /// `prefix` is "" for the mapping and "regularize-" for the regularization.
@@ -134,13 +134,13 @@ void add_iteration_settings(std::vector<Setting>& all, const std::string& prefix
         prefix + name, group, range, [ iteration, member ](auto& o) -> auto& { return iteration(o).*member; }, help));
   };
   add("sigma", kPositive, &DeformOptions::sigma, "Step scale");
-  add("mu", kAnyNumber, &DeformOptions::mu, "Weight of the external against the internal force, 0 to 1");
-  add("rho", kAnyNumber, &DeformOptions::rho, "Rigidity against tension, 0 to 1");
+  add("mu", kAnyNumber, &DeformOptions::mu, "Weight of the external force against the internal one, 0 to 1");
+  add("rho", kAnyNumber, &DeformOptions::rho, "Weight of rigidity against tension, 0 to 1");
   add("tangential-gain", kNotNegative, &DeformOptions::tangential_gain,
       "Multiplies the internal force, which moves vertices along the surface");
   all.push_back(count(
       prefix + "max-iterations", group, [iteration](auto& o) -> auto& { return iteration(o).max_iterations; },
-      "Iterations at most"));
+      "Maximum number of iterations"));
   all.push_back(number(prefix + "min-displacement", group, kNotNegative, min_displacement,
                        "Converged when the mean displacement of an iteration falls below this many grid spacings"));
 }
@@ -148,14 +148,13 @@ void add_iteration_settings(std::vector<Setting>& all, const std::string& prefix
 void add_morph_settings(std::vector<Setting>& all) {
   all.push_back(number(
       "max-step", kMorphGroup, kPositive, [](auto& o) -> auto& { return o.morph.max_step_A; },
-      "Farthest that an atom moves in one step, Angstrom"));
+      "Maximum movement of an atom per step, Angstrom"));
   all.push_back(number(
       "max-edge", kMorphGroup, kPositive, [](auto& o) -> auto& { return o.morph_max_edge; },
-      "Edges longer than so many grid spacings are halved"));
+      "Split edges longer than this many grid spacings"));
   all.push_back(number(
       "max-stretch", kMorphGroup, Range{1, false, "a number above 1"},
-      [](auto& o) -> auto& { return o.morph.max_stretch; },
-      "Where such an edge has grown so many times the surface counts as torn"));
+      [](auto& o) -> auto& { return o.morph.max_stretch; }, "Stretch of an edge at which the surface counts as torn"));
 }
 
 void add_mapping_settings(std::vector<Setting>& all) {
@@ -164,29 +163,30 @@ void add_mapping_settings(std::vector<Setting>& all) {
       "method", group, {"morph", "deform"},
       [](CompareOptions& o, const std::string& text) { o.method = parse_method(text); },
       [](const CompareOptions& o) { return to_string(o.method); },
-      "How the surface is mapped: carried by the moving atoms (morph), or drawn by a field (deform)"));
+      "Mapping method: follow the moving atoms (morph), or forces in a field (deform)"));
   all.push_back(boolean(
       "round-trip", group, [](auto& o) -> auto& { return o.round_trip; },
-      "Map back as well, which takes as long again, and report how far from the start that ends"));
+      "Also map back and report the round-trip error; doubles the time"));
   add_morph_settings(all);
   all.push_back(choice(
       "field", kDeformGroup, {"density", "distance", "gvf", "gvf2"},
       [](CompareOptions& o, const std::string& text) { o.field = parse_field_kind(text); },
       [](const CompareOptions& o) { return to_string(o.field); },
-      "What draws the surface: density, the distance where it is far, or gradient vector flow from the target (gvf) or "
-      "from both surfaces (gvf2)"));
+      "Field that moves the surface: density, distance (far from the target), or gradient vector flow of the target "
+      "(gvf) "
+      "or of both surfaces (gvf2)"));
   all.push_back(number(
       "distance-threshold", kDeformGroup, kNotNegative, [](auto& o) -> auto& { return o.distance_threshold_A; },
-      "Distance beyond which the distance field draws, Angstrom"));
+      "Distance beyond which the distance field is used, Angstrom"));
   all.push_back(number(
       "gvf-weight", kDeformGroup, kPositive, [](auto& o) -> auto& { return o.flow.weight_A2; },
-      "Smoothness of the gradient vector flow against the normals at the surface (mu), Angstrom^2"));
+      "Weight of smoothness in the gradient vector flow (mu), Angstrom^2"));
   all.push_back(number(
       "gvf-tolerance", kDeformGroup, kPositive, [](auto& o) -> auto& { return o.flow.tolerance; },
-      "The flow is converged when a sweep would move none of its vectors by more; they are 1 long at the surface"));
+      "Converged when a sweep changes no vector by more than this; vectors at the surface have length 1"));
   all.push_back(count(
       "gvf-max-sweeps", kDeformGroup, [](auto& o) -> auto& { return o.flow.max_sweeps; },
-      "Sweeps of the flow at most; 1 or more"));
+      "Maximum number of sweeps; 1 or more"));
   all.push_back(choice(
       "interpolation", kDeformGroup, {"trilinear", "tricubic"},
       [](CompareOptions& o, const std::string& text) {
@@ -195,28 +195,27 @@ void add_mapping_settings(std::vector<Setting>& all) {
       [](const CompareOptions& o) {
         return o.deform.interpolation == Interpolation::kTricubic ? "tricubic" : "trilinear";
       },
-      "Sampling of the field"));
+      "Interpolation of the field"));
   all.push_back(choice(
       "rest-shape", kDeformGroup, {"source", "none"},
       [](CompareOptions& o, const std::string& text) { o.deform.rest_shape = text == "source"; },
       [](const CompareOptions& o) { return o.deform.rest_shape ? "source" : "none"; },
-      "What the internal force restores: the source's shape, or none but equal edges"));
+      "Shape that the internal force restores: the source's, or none (equal edges)"));
   all.push_back(boolean(
       "subdivide", kDeformGroup, [](auto& o) -> auto& { return o.subdivide; },
-      "Halve edges that have been stretched and go on, so that crevices are reached"));
+      "Split stretched edges and iterate again, which reaches into crevices"));
   add_iteration_settings(
       all, "", kDeformGroup, [](auto& o) -> auto& { return o.deform; },
       [](auto& o) -> auto& { return o.deform_min_displacement; });
-  Setting thesis{
-      kThesisSetting,
-      kDeformGroup,
-      SettingKind::kBoolean,
-      {},
-      "The thesis' iteration as it stands: tangential gains 1, rest shape none, smallest displacements 0.001, "
-      "cavities, no projection. Settings given beside it still count",
-      true,
-      nullptr,
-      nullptr};
+  Setting thesis{kThesisSetting,
+                 kDeformGroup,
+                 SettingKind::kBoolean,
+                 {},
+                 "The thesis' original iteration: tangential gains 1, rest shape none, smallest displacements 0.001, "
+                 "cavities, no projection. Other settings given still apply",
+                 true,
+                 nullptr,
+                 nullptr};
   thesis.set = [](CompareOptions&, const std::string& text) {
     if (text != "0" && text != "1") refuse(kThesisSetting, text, "0 or 1");
   };
@@ -230,12 +229,12 @@ std::vector<Setting> make_settings() {
       "align", "Molecules", {"all", "backbone", "ca", "none"},
       [](CompareOptions& o, const std::string& text) { o.align = parse_align_atoms(text); },
       [](const CompareOptions& o) { return to_string(o.align); },
-      "Paired atoms that are superposed; none compares as given"));
+      "Paired atoms to superpose; none compares the molecules as given"));
   Setting domains{"domains",
                   "Molecules",
                   SettingKind::kText,
                   {},
-                  "Rigid domains that are superposed by themselves before the mapping: none, chains, auto (found by a "
+                  "Rigid domains to superpose separately before the mapping: none, chains, auto (found by a "
                   "search), or the "
                   "source's residues, such as A:1-29,68-117/A:30-67",
                   false,
@@ -273,7 +272,7 @@ const Setting& find_setting(const std::string& name) {
   }
   for (const RenamedSetting& renamed : renamed_settings()) {
     if (renamed.old_name == name)
-      throw InputError(name + ": the setting is called " + renamed.name + " now; give " + renamed.name);
+      throw InputError(name + ": the setting is now called " + renamed.name + "; give " + renamed.name);
   }
   throw InputError("there is no setting '" + name + "'");
 }
@@ -285,7 +284,7 @@ const std::vector<RenamedSetting>& renamed_settings() {
 
 namespace {
 
-/// A setting that the method does not read would be ignored in silence.
+/// Refuses settings that the chosen method would ignore.
 void refuse_of_other_method(const std::vector<std::pair<std::string, std::string>>& given, Method method) {
   const std::string other = method == Method::kMorph ? kDeformGroup : kMorphGroup;
   for (const auto& [name, text] : given) {

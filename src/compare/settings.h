@@ -19,31 +19,31 @@ struct Setting {
   SettingKind kind = SettingKind::kNumber;
   std::vector<std::string> choices;  ///< of a choice
   std::string help;
-  bool of_surface = false;  ///< one molecule's surface depends on it
-  /// Takes the value written in the text.
-  /// @throws InputError that names the setting, the text and what is accepted
+  bool of_surface = false;  ///< whether one molecule's surface depends on it
+  /// Sets the value from its text.
+  /// @throws InputError naming the setting, the text and the accepted values
   std::function<void(CompareOptions&, const std::string&)> set;
-  /// The value as text that set() takes.
+  /// The value as a text that set() accepts.
   std::function<std::string(const CompareOptions&)> get;
 };
 
-/// All settings, in the order in which manuals list them.
+/// All settings, in the order of the manuals.
 const std::vector<Setting>& settings();
 
-/// @throws InputError when there is none of that name; for an earlier name the message gives the present one
+/// @throws InputError if there is none of that name; for an old name the message gives the new one
 const Setting& find_setting(const std::string& name);
 
-/// A setting's earlier name, refused with the present one until 1.0.
+/// An old name of a setting, refused with the new one until 1.0.
 struct RenamedSetting {
   std::string old_name, name;
 };
 const std::vector<RenamedSetting>& renamed_settings();
 
-/// The setting that takes the thesis' iteration as it stands as the base of all others.
+/// The setting that makes the thesis' original iteration the default of all others.
 constexpr const char* kThesisSetting = "thesis";
 
-/// Options from the settings that were given; the others keep their defaults, or with `thesis` the thesis' values. The
-/// order does not matter.
+/// Options from the given settings; the others keep their defaults, or the thesis' values with `thesis`. The order does
+/// not matter.
 /// @throws InputError as Setting::set, find_setting
 CompareOptions make_options(const std::vector<std::pair<std::string, std::string>>& given);
 

@@ -1,4 +1,4 @@
-// side_maps.cpp: maps of both sides: checks, units, the way onto the device.
+// side_maps.cpp: maps of both sides: checks, units, upload to the device.
 #include "compare/side_maps.h"
 
 #include <cmath>

@@ -9,11 +9,11 @@
 
 namespace espdiff {
 
-/// Adds up the wall time of the stages.
+/// Adds up wall times by stage.
 class StageClock {
  public:
   explicit StageClock(std::vector<std::pair<std::string, double>>& times) : times_(times) {}
-  /// Ends the current stage under this name.
+  /// Ends the current stage and records it under this name.
   void lap(const std::string& stage) {
     const auto now = std::chrono::steady_clock::now();
     const double ms = std::chrono::duration<double, std::milli>(now - last_).count();

@@ -29,12 +29,12 @@ struct SurfaceResult {
   DeformReport regularize_report;
   std::vector<std::pair<std::string, double>> time_ms;
 };
-/// @param regularize evens out the triangles, as for the source of a comparison
+/// @param regularize regularizes the mesh, as for the source of a comparison
 SurfaceResult make_surface(Engine& engine, const CompareInput& input, const CompareOptions& options, bool regularize,
                            const Progress& progress);
 
-/// A molecule's density on a lattice along the coordinate axes of its own frame: VMD's interpolation (1.9.4) takes no
-/// other.
+/// A molecule's density on a lattice along the coordinate axes of its own frame, since VMD's interpolation (1.9.4)
+/// supports no other.
 Grid make_density(Engine& engine, const Molecule& molecule, const SurfaceOptions& options);
 
 }  // namespace espdiff

@@ -1,12 +1,10 @@
-// engine.h: what a back end offers: the numerical stages, on data that stays on its device.
+// engine.h: the interface of a back end: the numerical stages, on data that stays on its device.
 //
-// One source in cuda/ implements this interface twice, for OpenMP threads and for CUDA. The pipeline calls the stages
-// in order and passes opaque handles; nothing is copied to the host but what a download function or a returned struct
-// holds.
+// One source in cuda/ implements this interface twice, for OpenMP threads and for CUDA. Callers run the stages in order
+// and pass opaque handles. Only download functions and returned structs copy data to the host.
 //
-// Frame: every position is relative to the *common frame* that the pipeline chooses (source and target superposed,
-// origin near the molecules), so that single precision suffices. Maps keep their own frame; sample() gets the transform
-// into it.
+// Frame: every position is in the *common frame* that the caller chooses (source and target superposed, origin near the
+// molecules), so that single precision suffices. Maps keep their own frame; upload_map() takes the transform into it.
 //
 // Same input, same bits, at any number of threads. Density is high inside: *inside* means density > isovalue.
 #pragma once
@@ -48,107 +46,105 @@ class Engine {
 
   /// "cpu" or "cuda".
   virtual std::string back_end() const = 0;
-  /// The device in words, such as "16 OpenMP threads".
+  /// Description of the device, such as "16 OpenMP threads".
   virtual std::string description() const = 0;
   /// Threads used by the CPU back end; 0 on a device.
   virtual int n_threads() const = 0;
-  /// Milliseconds that calls of this engine take: between two events on a device's stream, by the clock on the CPU.
+  /// Milliseconds that calls of this engine take: between two events on a device's stream, or by the clock on the CPU.
   /// For benchmarks.
   virtual double elapsed_ms(const std::function<void()>& calls) = 0;
 
   /// Sorts atoms into a cell list.
   /// @param positions [atom] Angstrom, common frame
   /// @param widths    [atom] standard deviation s = radius scale * radius of each Gaussian, Angstrom; atoms of width 0
-  /// are left out
-  /// @param residues  [atom] residue index that vertex_residues() reports
+  /// are ignored
+  /// @param residues  [atom] residue index reported by vertex_residues()
   /// @throws InputError if no atom has a positive width, MemoryError
   virtual AtomsPtr upload_atoms(const std::vector<Vec3d>& positions, const std::vector<float>& widths,
                                 const std::vector<std::int32_t>& residues) = 0;
 
-  /// rho(x) = sum_i exp(-|x - x_i|^2 / (2 s_i^2)) (thesis eq. 3.1) on a cubic lattice of the given spacing that reaches
-  /// so far beyond the atoms that rho vanishes on its border. Terms beyond 4.5 s are dropped: the sum errs by less than
-  /// 1e-3.
-  /// @throws InputError (spacing), MemoryError (more lattice points than memory holds; says which spacing would fit)
+  /// rho(x) = sum_i exp(-|x - x_i|^2 / (2 s_i^2)) (thesis eq. 3.1) on a cubic lattice of the given spacing, large
+  /// enough that rho vanishes on its border. Terms beyond 4.5 s are dropped: the error of the sum is below 1e-3.
+  /// @throws InputError (spacing), MemoryError (too many lattice points for the memory; names a spacing that fits)
   virtual GridPtr density(const AtomsPtr& atoms, double spacing_A) = 0;
 
   /// Marching tetrahedra on the Freudenthal division: a closed, welded, consistently oriented mesh with its one-rings.
-  /// @throws GeometryError when no lattice point is inside
+  /// @throws GeometryError if no lattice point is inside
   virtual MeshPtr isosurface(const GridPtr& density, float isovalue) = 0;
 
-  /// Connected components in the order of their first vertex.
+  /// Connected components in order of their first vertex.
   virtual std::vector<ComponentSummary> components(const MeshPtr& mesh) = 0;
-  /// The mesh without the components whose entry is false. `keep` has one entry per component.
+  /// The mesh without the components for which `keep` is false. `keep` has one entry per component.
   virtual MeshPtr keep_components(const MeshPtr& mesh, const std::vector<bool>& keep) = 0;
 
-  /// The mesh without the triangles whose entry is nonzero, and without vertices in none; open where they were. What is
-  /// left keeps its order.
+  /// The mesh without the triangles with nonzero `excluded` and without isolated vertices; open where triangles were
+  /// removed. The rest keeps its order.
   /// @param excluded [triangle]
-  /// @throws GeometryError when nothing is left
+  /// @throws GeometryError if nothing remains
   virtual MeshPtr without(const MeshPtr& mesh, const ScalarsPtr& excluded) = 0;
 
-  /// Moves each vertex by Newton steps along the gradient onto the analytic isosurface; a vertex that would have to
-  /// move farther than `max_shift_A` stays where it is.
+  /// Moves each vertex by Newton steps along the gradient onto the analytic isosurface. A vertex that would move
+  /// farther than `max_shift_A` stays in place.
   virtual MeshPtr project(const MeshPtr& mesh, const AtomsPtr& atoms, float isovalue, double max_shift_A) = 0;
 
-  /// [vertex] unit, outward: the normal of the analytic isosurface, which the mesh's triangles only approximate. Where
-  /// the density is off the isovalue by more than a tenth of it, or falls against the triangles' side, the mean of the
-  /// triangles' normals, as download() gives it.
+  /// [vertex] unit, outward: the normal of the analytic isosurface, which the triangles only approximate. If the
+  /// density differs from the isovalue by more than a tenth of it, or its normal opposes the triangles', the mean of
+  /// the triangles' normals instead, as in download().
   virtual std::vector<Vec3f> level_set_normals(const MeshPtr& mesh, const AtomsPtr& atoms, float isovalue) = 0;
 
   /// Density and gradient for deform().
   virtual FieldPtr density_field(const GridPtr& density, float isovalue) = 0;
-  /// Signed distance to `surface` (positive inside) where it exceeds `threshold_A` in magnitude, the density elsewhere
-  /// (thesis section 3.5.3). The distance is that to the triangles around the nearest vertex.
+  /// Signed distance to `surface` (positive inside) where its magnitude exceeds `threshold_A`, the density elsewhere
+  /// (thesis section 3.5.3). The distance is to the triangles around the nearest vertex.
   virtual FieldPtr distance_field(const GridPtr& density, float isovalue, const MeshPtr& surface, double threshold_A,
                                   const Progress& progress) = 0;
 
-  /// Gradient vector flow: the direction of the target's inward normals, spread from its surface over the lattice by
-  /// diffusion, so that it leads into crevices (Xu and Prince, IEEE Trans. Image Process. 7, 359 (1998)); the scalar is
-  /// that of density_field(). See cuda/vector_flow.h for the equation and the method.
-  /// @param source_density  holds the source's normals too, where the target's do not (two-way); null for the target's
-  /// alone
+  /// Gradient vector flow: the target's inward normals, spread from its surface over the lattice by diffusion, which
+  /// leads into crevices (Xu and Prince, IEEE Trans. Image Process. 7, 359 (1998)). The scalar is that of
+  /// density_field(). See cuda/deform/vector_flow.h for the equation and the method.
+  /// @param source_density  imposes the source's normals too, where the target's are not (two-way); null for one-way
   /// @throws InputError (options), Cancelled
   virtual FieldPtr gvf_field(const GridPtr& target_density, const GridPtr& source_density, float isovalue,
                              const VectorFlowOptions& options, const Progress& progress, VectorFlowReport* report) = 0;
 
-  /// Iterates x += sigma (mu f_ext + (1 - mu) f_int) until converged (thesis section 3.5 with its errata): f_ext along
-  /// the unit gradient of the field toward its surface, halved and turned at each crossing; f_int the tangential part
-  /// of (1 - rho) L - rho L^2, L the uniform umbrella Laplacian. Topology is shared with `mesh`.
+  /// Iterates x += sigma (mu f_ext + (1 - mu) f_int) until converged (thesis section 3.5 with its errata). f_ext acts
+  /// along the unit gradient of the field toward its surface; each crossing halves and reverses it. f_int is the
+  /// tangential part of (1 - rho) L - rho L^2 with L the uniform umbrella Laplacian. The result shares the topology of
+  /// `mesh`.
   /// @param stage name for progress reports
-  /// @param rest  the shape that options.rest_shape measures from, of the same topology; null takes `mesh` itself
+  /// @param rest  the shape that options.rest_shape measures from, of the same topology; null for `mesh` itself
   /// @throws InputError (options), GeometryError (rest shape of another topology), Cancelled
   virtual MeshPtr deform(const MeshPtr& mesh, const FieldPtr& field, const DeformOptions& options,
                          const std::string& stage, const Progress& progress, DeformReport* report,
                          const MeshPtr& rest = nullptr) = 0;
 
-  /// Halves the edges of a mapped mesh that are longer than `max_edge_A` and longer than on the source, on both meshes;
-  /// new vertices lie in the middles of both edges.
-  /// @throws InputError (length), GeometryError when the topologies differ
+  /// Splits the edges of a mapped mesh that are longer than `max_edge_A` and longer than on the source, on both meshes;
+  /// new vertices are the midpoints of both edges.
+  /// @throws InputError (length), GeometryError if the topologies differ
   virtual SubdivisionResult subdivide(const MeshPtr& source, const MeshPtr& mapped, double max_edge_A) = 0;
 
   /// Carries a surface from source to target by the level sets of the density of moving atoms.
   ///
-  /// rho(x, t) = sum_i w_i exp(-|x - x_i|^2 / (2 s_i^2)), t from 0 to 1, positions as MovingAtom::position_at() says
-  /// (straight, but for rigid domains), widths linear in t, weights 1 but
-  /// for atoms without a counterpart. A vertex flows with the atoms under it, at
-  /// u = sum_i rho_i dx_i/dt / sum_i rho_i, plus what along the gradient keeps it on the level set (the change of rho
-  /// along u, predicted, then corrected by Newton's method). Edges that grow too long are halved; triangles whose
-  /// shape suffers are evened out along the surface. A vertex that can no longer be kept on the level set, and a
-  /// triangle whose side turns, have met a change of topology, such as a crevice that closes: they are cut out.
+  /// rho(x, t) = sum_i w_i exp(-|x - x_i|^2 / (2 s_i^2)), t from 0 to 1. Positions follow MovingAtom::position_at()
+  /// (straight, except in rigid domains), widths are linear in t, weights are 1 except for unpaired atoms. A vertex
+  /// flows with the atoms around it, at u = sum_i rho_i dx_i/dt / sum_i rho_i, plus a component along the gradient that
+  /// keeps it on the level set (the change of rho along u, predicted, then corrected by Newton's method). Edges that
+  /// grow too long are split; badly shaped triangles are smoothed tangentially. A vertex that cannot stay on the level
+  /// set, and a triangle that flips, indicate a change of topology, such as a closing crevice; they are removed.
   ///
   /// @param mesh   the source's surface, on its isosurface
   /// @param atoms  of both molecules; at time 0 those of the source, at time 1 those of the target
-  /// @param source_atoms, target_atoms  the same at the ends, onto whose isosurfaces vertices are moved at last
+  /// @param source_atoms, target_atoms  the same at the ends; vertices are finally projected onto their isosurfaces
   /// @throws InputError (options), Cancelled
   virtual MorphResult morph(const MeshPtr& mesh, const std::vector<MovingAtom>& atoms, const AtomsPtr& source_atoms,
                             const AtomsPtr& target_atoms, const MorphOptions& options, const std::string& stage,
                             const Progress& progress) = 0;
 
-  /// The same from where an earlier morph has brought the surface: a trajectory in small steps. What is lost stays
-  /// lost, edges that are halved stay so, and path lengths go on.
-  /// @param so_far  of this engine, or its four parts as they were downloaded; its report is not read
-  /// @param atoms   at time 0 those that so_far.mapped is the surface of
-  /// @param source_atoms  those that so_far.source is the surface of
+  /// Continues an earlier morph: a trajectory in small steps. Lost surface stays lost, split edges stay split, and path
+  /// lengths add up.
+  /// @param so_far  of this engine, or its four parts as downloaded; its report is not read
+  /// @param atoms   at time 0 the atoms of so_far.mapped
+  /// @param source_atoms  the atoms of so_far.source
   /// @throws GeometryError (the parts of `so_far` do not fit together), and as morph()
   virtual MorphResult continue_morph(const MorphResult& so_far, const std::vector<MovingAtom>& atoms,
                                      const AtomsPtr& source_atoms, const AtomsPtr& target_atoms,
@@ -158,8 +154,8 @@ class Engine {
   /// @param map         potential
   /// @param to_map      common frame -> the map's frame
   virtual GridPtr upload_map(const Grid& map, const RigidTransform& to_map) = 0;
-  /// [vertex] trilinear samples of a map, or by splines where it was made with smooth_samples; NaN where the vertex
-  /// lies outside the map. A periodic map has no outside.
+  /// [vertex] samples of a map, trilinear, or by splines if it was made with smooth_samples; NaN if the vertex lies
+  /// outside the map. A periodic map has no outside.
   virtual ScalarsPtr sample(const GridPtr& map, const MeshPtr& mesh) = 0;
   /// The map's samples on another lattice, given in the common frame; NaN outside the map.
   /// @throws InputError (axes that do not span space, no points)
@@ -171,9 +167,9 @@ class Engine {
   ///     phi(n) = C sum_{m != 0} exp(-pi^2 m^2 / beta^2) / (pi V m^2) B(m) Q(m) e^(2 pi i k.n/K)   [kT/e]
   ///
   /// Q is the transform of the charges spread by centred B-splines, B the inverse of the splines' own transform, and C
-  /// = 332.0636 / (T 0.001987191) (Essmann et al., J. Chem. Phys. 103, 8577 (1995)). Leaving out m = 0 makes the mean
-  /// zero and stands for a uniform background that neutralizes a net charge. Modes at half the grid's frequency are
-  /// left out too, since a real grid cannot hold their phase. Atoms outside the cell are wrapped into it.
+  /// = 332.0636 / (T 0.001987191) (Essmann et al., J. Chem. Phys. 103, 8577 (1995)). Omitting m = 0 makes the mean zero
+  /// and stands for a uniform background that neutralizes a net charge. Modes at half the grid's frequency are omitted
+  /// too, since a real grid cannot hold their phase. Atoms outside the cell are wrapped into it.
   ///
   /// With `compatible` the order is 4, B is squared, V truncated, and modes at half the frequency are kept; the values
   /// then are the splines' coefficients rather than the potential, as PMEPot writes them.
@@ -189,56 +185,55 @@ class Engine {
                                 const PmeCell& cell, const PmeOptions& options, const RigidTransform& to_map,
                                 const Progress& progress) = 0;
 
-  /// Coulomb's law summed directly, without a cutoff and without periodic images, at the points of a lattice:
-  /// phi(x) = C sum_i q_i / (epsilon |x - x_i|) [kT/e], C as in pme_potential(). Distances below 0.5 A count as 0.5 A.
-  /// A cross-check for small systems: time grows with atoms * points. In double precision; the same bits always.
+  /// Coulomb's law summed directly, without cutoff or periodic images, at the points of a lattice: phi(x) = C sum_i q_i
+  /// / (epsilon |x - x_i|) [kT/e], C as in pme_potential(). Distances below 0.5 A count as 0.5 A. A cross-check for
+  /// small systems: time grows with atoms * points. In double precision; bitwise reproducible.
   /// @param positions [atom] Angstrom, the lattice's frame
   /// @throws InputError (dielectric, values that are not finite, no charges, lattice), MemoryError, Cancelled
   virtual GridPtr coulomb_potential(const std::vector<Vec3d>& positions, const std::vector<float>& charges,
                                     const Lattice& lattice, const CoulombOptions& options,
                                     const Progress& progress) = 0;
 
-  /// Compares potentials at counterparts.
-  /// @param source, mapped  meshes of one topology: where each vertex comes from, and where it lies on the target
+  /// Compares potentials at corresponding vertices.
+  /// @param source, mapped  meshes of one topology: each vertex on the source and on the target
   /// @param source_potential, target_potential [vertex]
-  /// @param excluded [triangle] not counted where nonzero; null counts all. Triangles with a NaN sample are never
-  /// counted.
-  /// @param path_length [vertex] for the mean of it; null when there is none
+  /// @param excluded [triangle] nonzero to exclude; null includes all. Triangles with a NaN sample are always excluded.
+  /// @param path_length [vertex] for its mean; null for none
   virtual Metrics compare(const MeshPtr& source, const MeshPtr& mapped, const ScalarsPtr& source_potential,
                           const ScalarsPtr& target_potential, const ScalarsPtr& excluded,
                           const ScalarsPtr& path_length = nullptr) = 0;
 
   virtual FitReport fit(const MeshPtr& mapped, const AtomsPtr& target_atoms, float isovalue) = 0;
-  /// Distances from the vertices of `from` to the triangles of `to`, exact.
+  /// Exact distances from the vertices of `from` to the triangles of `to`.
   virtual DistanceSummary distances(const MeshPtr& from, const MeshPtr& to, double limit_A) = 0;
-  /// Pairs of triangles that intersect, as CGAL's Polygon_mesh_processing::self_intersections counts them:
-  /// - two triangles that share no vertex, when they have a point in common, touching included;
-  /// - two that share a vertex, when they have another point in common;
-  /// - two that share an edge, when they lie in one plane on the same side of it: folded flat onto each other;
-  /// - a triangle without area (corners on a line, or not finite) as a pair with itself, and in no other.
+  /// Pairs of intersecting triangles, as CGAL's Polygon_mesh_processing::self_intersections counts them:
+  /// - two triangles without a shared vertex that have a point in common, touching included;
+  /// - two that share a vertex and have another point in common;
+  /// - two that share an edge and are folded flat onto each other (in one plane, on the same side of the edge);
+  /// - a triangle without area (corners collinear or not finite) as a pair with itself, and in no other.
   ///
-  /// Exact for every position a float can hold: signs of determinants are computed without rounding where an error
-  /// bound in double precision leaves them open. Every pair is examined whose boxes overlap, found by a tree: time
-  /// grows as n log n with the number of triangles, and with the number of such pairs.
+  /// Exact for all float positions: where an error bound in double precision leaves a sign open, the determinant is
+  /// computed exactly. A tree finds every pair whose boxes overlap: time grows as n log n with the number of triangles,
+  /// and with the number of such pairs.
   virtual IntersectionReport self_intersections(const MeshPtr& mesh) = 0;
   virtual double area(const MeshPtr& mesh) = 0;
-  /// The vertices of `points` taken along by the mapping that takes `surface` to `image`: each goes from the place of
-  /// `surface` nearest to it to the same place of `image` (linear within a triangle); where
-  /// it lies farther than `max_distance_A` from `surface`, to NaN.
+  /// Maps the vertices of `points` by the mapping from `surface` to `image`: each goes from its nearest point on
+  /// `surface` to the corresponding point of `image` (linear within a triangle), or to NaN if it is farther than
+  /// `max_distance_A` from `surface`.
   /// @param surface, image meshes of one topology
   /// @returns a mesh of the topology of `points`
-  /// @throws GeometryError when the topologies differ in size
+  /// @throws GeometryError if the topologies differ in size
   virtual MeshPtr carry(const MeshPtr& points, const MeshPtr& surface, const MeshPtr& image, double max_distance_A) = 0;
-  /// A mesh taken along by rigid motions of the atoms: each vertex goes where the motions of the atoms around would
-  /// take it, weighted by their densities there.
+  /// Moves a mesh with rigid motions of the atoms: each vertex by the density-weighted mean of the surrounding atoms'
+  /// motions.
   /// @param domains [residue] index of its motion, -1 for none; residues as given to upload_atoms()
   /// @throws GeometryError (an index beyond the motions)
   virtual MeshPtr carry_rigidly(const MeshPtr& mesh, const AtomsPtr& atoms, const std::vector<std::int32_t>& domains,
                                 const std::vector<RigidTransform>& motions) = 0;
   /// Compares the triangles of two meshes of one topology (Smith and Schaefer, ACM Trans. Graph. 34, 70 (2015), for the
   /// energy).
-  /// @param limit of the ratio of areas, mapped to source, as measured over the rings of a triangle's three corners
-  /// @throws GeometryError when the topologies differ in size
+  /// @param limit of the ratio of areas, mapped to source, measured over the one-rings of a triangle's corners
+  /// @throws GeometryError if the topologies differ in size
   virtual DistortionReport distortion(const MeshPtr& source, const MeshPtr& mapped, double limit) = 0;
 
   /// [vertex] index of the residue with the largest density at the vertex; -1 where no atom reaches.
@@ -248,12 +243,12 @@ class Engine {
 
   virtual std::size_t n_vertices(const MeshPtr& mesh) const = 0;
   virtual std::size_t n_triangles(const MeshPtr& mesh) const = 0;
-  /// A mesh made elsewhere. Closed and consistently oriented, else:
+  /// Uploads a mesh, which must be closed and consistently oriented.
   /// @throws GeometryError naming the first edge that does not lie in exactly two triangles
   virtual MeshPtr upload_mesh(const Mesh& mesh) = 0;
-  /// A mesh that shares the topology of `mesh`, with its vertices elsewhere.
+  /// A mesh with the topology of `mesh` and other positions.
   /// @param positions [vertex]
-  /// @throws GeometryError when the numbers of vertices differ
+  /// @throws GeometryError if the numbers of vertices differ
   virtual MeshPtr with_positions(const MeshPtr& mesh, const std::vector<Vec3f>& positions) = 0;
   /// Positions, triangles, component labels and outward vertex normals (area-weighted mean of the triangles').
   virtual Mesh download(const MeshPtr& mesh) = 0;
@@ -262,9 +257,9 @@ class Engine {
   virtual Grid download(const GridPtr& grid) = 0;
   /// The field's scalar.
   virtual Grid download(const FieldPtr& field) = 0;
-  /// [point] the field's gradient, or the direction that stands for it.
+  /// [point] the field's gradient, or the direction used in its place.
   virtual std::vector<Vec3f> download_gradient(const FieldPtr& field) = 0;
-  /// Analytic density at points [point] of the common frame.
+  /// Analytic density [point] in the common frame.
   virtual std::vector<float> density_at(const AtomsPtr& atoms, const std::vector<Vec3f>& points) = 0;
 };
 

@@ -7,7 +7,7 @@ namespace espdiff {
 
 class Engine;
 
-/// Opaque device objects. Each belongs to the engine that made it and may not outlive it.
+/// Opaque device objects. Each belongs to the engine that made it and must not outlive it.
 /// Atoms sorted into a cell list.
 struct DeviceAtoms {
   virtual ~DeviceAtoms() = default;

@@ -13,8 +13,8 @@ struct PmeCell {
   std::array<Vec3d, 3> edges{};
 };
 
-/// The points of a grid over a cell, symmetric about its centre: (0, 0, 0) lies at centre - sum_i (K_i - 1) / (2 K_i)
-/// edge_i, steps are edge_i / K_i. As PMEPot lays them.
+/// Grid points over a cell, symmetric about its centre: (0, 0, 0) lies at centre - sum_i (K_i - 1) / (2 K_i) edge_i,
+/// and steps are edge_i / K_i. The same layout as PMEPot's.
 inline Lattice lattice_over(const PmeCell& cell, const std::array<int, 3>& size) {
   Lattice lattice;
   lattice.size = size;
@@ -35,10 +35,10 @@ struct PmeOptions {
   double ewald_factor = 0.25;        ///< beta, 1/A: charges are smeared into Gaussians of variance 1 / (2 beta^2)
   int order = 6;                     ///< of the B-splines, 4 to 8; 4 with `compatible`
   Precision precision = Precision::kSingle;
-  /// As VMD's PMEPot 1.0.4 computes it: the splines' factor squared, the volume truncated to whole A^3.
+  /// Reproduces VMD's PMEPot 1.0.4: the splines' factor squared, the volume truncated to whole A^3.
   bool compatible = false;
-  /// Later samples of the map use splines of `order` instead of trilinear interpolation, and err no more between the
-  /// grid's points than on them. Not with `compatible`.
+  /// Samples of the map use splines of `order` instead of trilinear interpolation, so they are as accurate between grid
+  /// points as on them. Not with `compatible`.
   bool smooth_samples = false;
   double temperature_K = 300;
 };

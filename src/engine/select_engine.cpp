@@ -1,4 +1,4 @@
-// select_engine.cpp: probes the back ends and makes the engine that was asked for.
+// select_engine.cpp: probes the back ends and makes the requested engine.
 #include "engine/select_engine.h"
 #include "engine/engine.h"
 
@@ -12,7 +12,7 @@
 namespace espdiff {
 namespace {
 
-/// The GPUs, or why there are none.
+/// The GPUs, or the reason for none.
 struct CudaDevices {
   std::vector<BackEndStatus> all;
   std::string why_none;
@@ -30,7 +30,7 @@ CudaDevices find_cuda_devices() {
   return found;
 }
 
-/// What `--device` was given, for messages.
+/// The `--device` argument, for messages.
 std::string option_of(const DeviceRequest& device) {
   return "--device cuda" + (device.index > 0 ? ":" + std::to_string(device.index) : std::string());
 }
@@ -62,8 +62,8 @@ DeviceRequest parse_device(const std::string& text) {
 }
 
 int available_threads() {
-  // As OpenMP reads it: of a list the first, for the outermost team. Read here, since the engine sets the number
-  // itself.
+  // Like OpenMP: the first number of a list, for the outermost team. Read here because the engine sets the number of
+  // threads itself.
   constexpr long kMost = 4096;
   const char* const text = std::getenv("OMP_NUM_THREADS");
   const long wanted = text != nullptr ? std::strtol(text, nullptr, 10) : 0;
@@ -110,7 +110,7 @@ BackEndStatus cuda_fourier_status() {
 
 std::unique_ptr<Engine> select_engine(const DeviceRequest& device, int n_threads) {
   if (n_threads < 0)
-    throw InputError("the number of threads, " + std::to_string(n_threads) + ", is negative; 0 takes all");
+    throw InputError("the number of threads, " + std::to_string(n_threads) + ", is negative; 0 uses all");
 #if defined(ESPDIFF_HAVE_CUDA)
   if (device_status(device).name != "cpu") return cuda_backend::make_engine(device.index);
 #else

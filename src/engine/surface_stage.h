@@ -1,4 +1,4 @@
-// surface_stage.h: what the stages that make and edit surfaces report.
+// surface_stage.h: results of the stages that make and edit surfaces.
 #pragma once
 
 #include <array>
@@ -17,10 +17,10 @@ struct ComponentSummary {
   double volume_A3 = 0;  ///< signed: negative for a cavity, whose normals point into the void
 };
 
-/// What subdivide() gives: both meshes with the same edges halved. Old vertices keep their numbers and places.
+/// Result of subdivide(): both meshes with the same edges split. Old vertices keep their numbers and positions.
 struct SubdivisionResult {
   MeshPtr source, mapped;
-  std::vector<std::array<std::uint32_t, 2>> ends;  ///< [new vertex] the vertices that it lies in the middle of
+  std::vector<std::array<std::uint32_t, 2>> ends;  ///< [new vertex] the ends of the edge whose midpoint it is
 };
 
 }  // namespace espdiff

@@ -1,4 +1,4 @@
-// colour_map.cpp: computes the maps from colour-space geometry rather than from tables.
+// colour_map.cpp: computes the maps from colour-space geometry instead of tables.
 #include "plot/colour_map.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ struct Lab {
   double lightness = 0, a = 0, b = 0;
 };
 
-/// Reference white D65, the one of sRGB.
+/// Reference white D65, as in sRGB.
 constexpr double kWhiteX = 0.95047, kWhiteY = 1.0, kWhiteZ = 1.08883;
 
 Lab to_lab(const Msh& msh) {
@@ -47,10 +47,10 @@ Rgb to_srgb(const Lab& lab) {
 
 constexpr double kMiddleMagnitude = 88;
 
-/// Hue that the unsaturated middle takes on the way to a saturated end (Moreland's adjusted hue).
+/// Hue of the unsaturated middle, on the path to a saturated end (Moreland's adjusted hue).
 double hue_at_middle(const Msh& end) {
-  // Turning the hue while the magnitude grows makes the path leave the end at the same rate of perceived change as the
-  // saturation's. It turns away from purple, so that the arms stay apart.
+  // Changing the hue as the magnitude grows makes the perceived change at the end match the saturation's. The hue turns
+  // away from purple, which keeps the arms apart.
   if (end.magnitude >= kMiddleMagnitude) return end.hue;
   const double growth = std::sqrt(kMiddleMagnitude * kMiddleMagnitude - end.magnitude * end.magnitude);
   const double spin = end.saturation * growth / (end.magnitude * std::sin(end.saturation));

@@ -1,4 +1,4 @@
-// gnuplot.cpp: a script in a temporary file, gnuplot as a child, its picture through a pipe.
+// gnuplot.cpp: runs gnuplot as a child process with a script in a temporary file; the picture comes through a pipe.
 #include "plot/gnuplot.h"
 
 #include <sys/wait.h>
@@ -20,13 +20,14 @@
 namespace espdiff {
 namespace {
 
-/// A file that is gone when it goes out of scope.
+/// A file that is removed when it goes out of scope.
 class TemporaryFile {
  public:
   TemporaryFile() {
     std::string pattern = (std::filesystem::temp_directory_path() / "espdiff-plot-XXXXXX").string();
     const int descriptor = ::mkstemp(pattern.data());
-    if (descriptor < 0) throw IoError(pattern, "a temporary file cannot be made; free some space there, or set TMPDIR");
+    if (descriptor < 0)
+      throw IoError(pattern, "a temporary file cannot be created; free some space there, or set TMPDIR");
     ::close(descriptor);
     path_ = pattern;
   }
@@ -46,7 +47,7 @@ class TemporaryFile {
   std::string path_;
 };
 
-/// The line of gnuplot's messages that says what is wrong; its other lines show where in the script.
+/// The line of gnuplot's messages that names the error; the other lines show its place in the script.
 std::string first_message(const std::string& text) {
   std::istringstream lines(text);
   std::string last;
@@ -56,7 +57,7 @@ std::string first_message(const std::string& text) {
   return last.empty() ? "it gave no reason" : last;
 }
 
-/// For the shell: temporary folders may have any name.
+/// Quotes for the shell, since temporary folders may have any name.
 std::string quoted(const std::string& path) {
   std::string text = "'";
   for (const char c : path) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -73,7 +74,7 @@ PictureFormat picture_format(const std::string& path) {
 }
 
 std::string picture_head(PictureFormat format, const PictureSize& size) {
-  // The bitmap's fonts come out at 96 dots an inch, the SVG's at 72.
+  // The bitmap's fonts are drawn at 96 dots per inch, the SVG's at 72.
   constexpr double kFontSize = 10, kPngFontScale = 0.75;
   const bool png = format == PictureFormat::kPng;
   const double scale = png ? size.pixels_per_point : 1;
@@ -125,7 +126,7 @@ std::string run_gnuplot(const std::string& script) {
 }
 
 void write_picture(const std::string& path, const std::string& script) {
-  AtomicFile file(path);  // before the drawing: an output that cannot be written is better found early
+  AtomicFile file(path);  // before drawing, to find an unwritable output early
   const std::string picture = run_gnuplot(script);
   file.stream().write(picture.data(), static_cast<std::streamsize>(picture.size()));
   file.commit();

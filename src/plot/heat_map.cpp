@@ -1,4 +1,4 @@
-// heat_map.cpp: cells as boxes, group frames and branches in one coordinate system: a cell is 1 by 1.
+// heat_map.cpp: cells as boxes, group frames and branches in one coordinate system, in which a cell is 1 by 1.
 #include "plot/heat_map.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kInk = "#202020";
 constexpr const char* kNoValue = "#ececec";
-constexpr double kTreeShare = 0.18;  // of the matrix' side, above it
+constexpr double kTreeShare = 0.18;  // height above the matrix, as a fraction of its side
 
 std::string hex(Rgb c) {
   char text[8];
@@ -47,7 +47,7 @@ struct Layout {
 std::size_t longest(const std::vector<std::string>& words) {
   std::size_t n = 1;
   for (const std::string& word : words) {
-    // Bytes that continue a character of UTF-8 take no room.
+    // Continuation bytes of UTF-8 take no room.
     n = std::max(n, static_cast<std::size_t>(
                         std::count_if(word.begin(), word.end(), [](char c) { return (c & 0xC0) != 0x80; })));
   }
@@ -91,7 +91,7 @@ void check(const HeatMap& map) {
                      gnuplot_number(map.high) + "; give the lower end first");
 }
 
-/// Runs of neighbours of one group: first and last place, and the name.
+/// Consecutive items of one group: first and last place, and the name.
 struct Run {
   std::size_t first, last;
   std::string group;
@@ -115,7 +115,7 @@ std::vector<Run> runs_of(const HeatMap& map, const std::vector<std::size_t>& ord
 std::string tics(const char* axis, const HeatMap& map, const std::vector<std::size_t>& order, const Layout& l) {
   std::ostringstream out;
   out << "set " << axis << "tics (";
-  // Labels that would overlap are left out evenly.
+  // Thins out labels that would overlap.
   const auto step = static_cast<std::size_t>(std::ceil(l.font / l.cell));
   for (std::size_t place = 0; place < order.size(); place += step)
     out << (place == 0 ? "" : ", ") << gnuplot_tic(map.labels[order[place]]) << ' ' << place;
@@ -150,7 +150,7 @@ std::string tree(const HeatMap& map, const std::vector<std::size_t>& order, doub
   return out.str();
 }
 
-/// Cells, and dots that stand out from the colour under them.
+/// Cells, and dots that contrast with the colour below.
 std::string cells(const HeatMap& map, const std::vector<std::size_t>& order, double low, double high) {
   const std::size_t n = order.size();
   std::ostringstream values, dots, strikes;
@@ -237,7 +237,7 @@ std::string heat_map_script(const HeatMap& map, PictureFormat format) {
     << "set xrange [-0.5:" << n - 0.5 << "]\nset yrange [" << n - 0.5 << ":" << -0.5 - above << "]\nset cbrange ["
     << gnuplot_number(low) << ':' << gnuplot_number(high) << "]\n";
   s << tics("x", map, order, l) << tics("y", map, order, l);
-  // Where gnuplot finds no room for an axis' title, it leaves it out.
+  // gnuplot omits an axis title if it finds no room for it.
   s << "set label " << gnuplot_string(map.column_title) << " at first " << 0.5 * (n - 1) << ", screen "
     << (foot_note(map).empty() ? 11 : 25) / l.size.height << " center\n";
   s << "set label " << gnuplot_string(map.row_title) << " at screen " << 10 / l.size.width << ", first "

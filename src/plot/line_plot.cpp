@@ -1,4 +1,4 @@
-// line_plot.cpp: panels above each other, one for each unit.
+// line_plot.cpp: panels above each other, one per unit.
 #include "plot/line_plot.h"
 
 #include <algorithm>
@@ -12,10 +12,10 @@ namespace espdiff {
 namespace {
 
 constexpr const char* kInk = "#202020";
-/// M. Okabe and K. Ito's colours, told apart by readers with any colour vision; the yellow one is too light for lines.
+/// M. Okabe and K. Ito's colours, distinguishable with any colour vision; without yellow, which is too light for lines.
 constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#000000"};
 constexpr std::size_t kColourCount = sizeof kColours / sizeof *kColours;
-/// Forms of points, filled and hollow: circle, square, triangle, diamond, triangle on its tip.
+/// Point shapes, filled and hollow: circle, square, triangle, diamond, inverted triangle.
 constexpr int kFilled[] = {7, 5, 9, 13, 11}, kHollow[] = {6, 4, 8, 12, 10};
 constexpr std::size_t kFormCount = sizeof kFilled / sizeof *kFilled;
 
@@ -42,7 +42,7 @@ void check(const LinePlot& plot) {
   if (n == 0 || plot.series.empty()) throw InputError("there is nothing to draw: no points, or no metric");
   for (const LineSeries& s : plot.series) {
     if (s.values.size() != n || (!s.errors.empty() && s.errors.size() != n))
-      throw InputError("'" + s.title + "' has another number of values than there are points");
+      throw InputError("'" + s.title + "' has a number of values that differs from the number of points");
     if (least(s) > greatest(s)) throw InputError("there is nothing to draw: '" + s.title + "' has no values");
   }
 }
@@ -64,7 +64,7 @@ std::string with_unit(const std::string& title, const std::string& unit) {
   return unit.empty() ? title : title + " (" + unit + ")";
 }
 
-/// "RMSD (0: 1.67 A, 1: 6.61 A)" where values are normalized.
+/// "RMSD (0: 1.67 A, 1: 6.61 A)" for normalized values.
 std::string key_title(const LinePlot& plot, const LineSeries& s) {
   if (!plot.normalized) return s.title;
   const std::string unit = s.unit.empty() ? "" : (s.unit == "%" ? " %" : " " + s.unit);
@@ -85,7 +85,7 @@ std::string data(const LinePlot& plot) {
         error = span > 0 ? error / span : 0;
       }
       const bool hollow = !plot.trustworthy.empty() && !plot.trustworthy[p];
-      // A bar of no length, but for rounding, would only cover its point.
+      // An error bar of zero length, apart from rounding, would be invisible under its point.
       const std::string bar = error > 1e-9 * std::fabs(value) ? gnuplot_number(error) : "NaN";
       out << (plot.labels.empty() ? gnuplot_number(plot.x[p]) : std::to_string(p)) << ' ' << gnuplot_number(value)
           << ' ' << bar << ' ' << (hollow ? 1 : 0) << '\n';
@@ -118,7 +118,7 @@ std::string x_tics(const LinePlot& plot, bool shown, double plot_width) {
   return out.str();
 }
 
-/// What the panel's values and bars take up, with room around; below 0 only where values are.
+/// The range of the panel's values and error bars, with a margin; below 0 only if there are negative values.
 std::string y_range(const LinePlot& plot, const Panel& panel) {
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (const std::size_t i : panel.series) {
@@ -136,7 +136,7 @@ std::string y_range(const LinePlot& plot, const Panel& panel) {
          gnuplot_number(high + room) + "]\n";
 }
 
-/// Lines that part groups.
+/// Lines between groups.
 std::string group_lines(const LinePlot& plot) {
   std::ostringstream out;
   for (std::size_t p = 1; p < plot.groups.size(); ++p) {
@@ -165,7 +165,7 @@ std::string curves(const LinePlot& plot, const Panel& panel) {
       text +=
           ", " + block + " using 1:2:3 with yerrorbars pointtype 7 pointsize 0.01 linewidth 1" + colour + " notitle";
     text += points(kFilled[i % kFormCount], 0) + points(kHollow[i % kFormCount], 1);
-    // What the key shows.
+    // The sample shown in the key.
     text += ", NaN with linespoints pointtype " + std::to_string(kFilled[i % kFormCount]) + " pointsize 0.7" + colour +
             title;
   }
@@ -183,14 +183,14 @@ std::string line_plot_script(const LinePlot& plot, PictureFormat format) {
   const bool any_hollow = std::count(plot.trustworthy.begin(), plot.trustworthy.end(), false) > 0;
   const double bottom = (plot.labels.empty() ? 34 : 24 + 5.6 * static_cast<double>(longest)) + (any_hollow ? 12 : 0);
   const double height_of_panel = panels.size() == 1 ? 1.6 * kPanel : kPanel;
-  // A title stands beside its panel where it is not longer than that.
+  // A title stands beside its panel if it is no longer than the panel.
   const auto title_beside = [&](const Panel& panel) {
     const LineSeries& first = plot.series[panel.series.front()];
     constexpr double kLetter = 5.4;
     return !plot.normalized && panel.series.size() == 1 &&
            kLetter * static_cast<double>(with_unit(first.title, panel.unit).size()) < height_of_panel;
   };
-  // Else a key stands above it, a line for each series.
+  // Otherwise a key stands above it, one line per series.
   const auto key_lines = [&](const Panel& panel) {
     return title_beside(panel) ? 0.0 : static_cast<double>(panel.series.size());
   };
@@ -212,7 +212,7 @@ std::string line_plot_script(const LinePlot& plot, PictureFormat format) {
   if (any_hollow)
     s << "set label 2 'hollow points: not trustworthy' at screen " << 1 - kRight / size.width << ", screen "
       << 9 / size.height << " right font ',8'\n";
-  // Where gnuplot finds no room for an axis' title, it leaves it out.
+  // gnuplot omits an axis title if it finds no room for it.
   s << "set label 3 " << gnuplot_string(plot.x_title) << " at screen "
     << 0.5 * (kLeft + size.width - kRight) / size.width << ", screen " << (any_hollow ? 21 : 9) / size.height
     << " center\n";

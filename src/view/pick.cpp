@@ -1,4 +1,4 @@
-// pick.cpp: intersects a line with the surface and interpolates what its corners and the maps know.
+// pick.cpp: intersects a line with the surface and interpolates the values of its corners and the maps.
 #include "view/pick.h"
 
 #include <vtkCellArray.h>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 
-/// Shares of the corners in a point of their triangle's plane.
+/// Barycentric weights of a point in a triangle's plane.
 std::array<double, 3> weights_at(Vec3d p, Vec3d a, Vec3d b, Vec3d c) {
   const Vec3d normal = cross(b - a, c - a);
   const double area = dot(normal, normal);

@@ -1,4 +1,4 @@
-// scene.cpp: scenes as JSON, and what they may hold.
+// scene.cpp: scenes as JSON, and checks of their values.
 #include "view/scene.h"
 
 #include <array>
@@ -58,7 +58,7 @@ void read_range(const Json& json, ScaleRange& range) {
   range.high = json.at(1);
 }
 
-/// Sets one entry of a scene. @returns false when there is none of this name
+/// Sets one entry of a scene. @returns false for an unknown key
 bool set(Scene& s, const std::string& key, const Json& value) {
   if (key == "colour_by")
     s.array = parse_render_array(value);
@@ -191,13 +191,14 @@ Scene read_scene(const std::string& path, const Scene& defaults) {
     for (const auto& [name, value] : json.items()) {
       key = name;
       if (!set(scene, key, value)) {
-        throw FormatError(path, 0, "no setting '" + key + "' in scenes; `--save-scene FILE` writes all there are");
+        throw FormatError(path, 0, "a scene has no setting '" + key + "'; `--save-scene FILE` writes all settings");
       }
     }
   } catch (const nlohmann::json::parse_error& error) {
     throw FormatError(path, 0, std::string("not JSON: ") + error.what());
   } catch (const nlohmann::json::exception&) {
-    throw FormatError(path, 0, "the value of '" + key + "' is of the wrong kind; `--save-scene FILE` shows which");
+    throw FormatError(path, 0,
+                      "the value of '" + key + "' has the wrong type; `--save-scene FILE` shows the right one");
   } catch (const InputError& error) {
     throw FormatError(path, 0, error.what());
   }

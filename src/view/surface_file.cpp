@@ -1,4 +1,4 @@
-// surface_file.cpp: takes a .vtp apart with VTK's reader and checks what it says.
+// surface_file.cpp: reads a .vtp with VTK's reader and checks it.
 #include "view/surface_file.h"
 
 #include <vtkCellArray.h>
@@ -99,7 +99,7 @@ void check_exists(const std::string& path) {
   if (std::filesystem::is_directory(status)) throw IoError(path, "is a directory; name the .vtp file in it");
 }
 
-/// [triangle] nonzero entries of a cell array; empty when the file has none of that name.
+/// [triangle] nonzero entries of a cell array; empty if the file has none of that name.
 std::vector<std::uint8_t> flags_of(vtkPolyData* surface, const char* name) {
   vtkDataArray* array = scalar_array(surface->GetCellData(), name);
   std::vector<std::uint8_t> flags;
@@ -108,7 +108,7 @@ std::vector<std::uint8_t> flags_of(vtkPolyData* surface, const char* name) {
   return flags;
 }
 
-/// [vertex] numbers of a point array; empty when the file has none of that name, or of another length.
+/// [vertex] numbers of a point array; empty if the file has none of that name, or one of another length.
 std::vector<float> numbers_of(vtkPolyData* surface, const char* name) {
   vtkDataArray* array = scalar_array(surface->GetPointData(), name);
   if (array == nullptr || array->GetNumberOfTuples() != surface->GetNumberOfPoints()) return {};
@@ -120,7 +120,7 @@ std::string text_of(vtkPolyData* surface, const char* name) {
   return texts != nullptr && texts->GetNumberOfValues() > 0 ? std::string(texts->GetValue(0)) : std::string();
 }
 
-/// Empty where there is none with three components.
+/// Empty if there is none with three components.
 template <typename Vector>
 std::vector<Vector> vectors_of(vtkPolyData* surface, const char* name) {
   vtkDataArray* array = surface->GetPointData()->GetArray(name);
@@ -164,7 +164,7 @@ void read_arrays(SurfaceFile& file, vtkPolyData* surface) {
   }
   file.residue_index = numbers_of(surface, "residue_index");
   file.residue_number = numbers_of(surface, "residue_number");
-  // Lines or points in the file would come before the polygons in cell data; espdiff writes none.
+  // Lines or points would precede the polygons in cell data; espdiff writes none.
   file.corrupt = flags_of(surface, "corrupt");
   file.unmatched = flags_of(surface, "no_counterpart");
   file.potential_unit = text_of(surface, "potential_unit");

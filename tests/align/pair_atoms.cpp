@@ -190,7 +190,7 @@ TEST_CASE("molecules with nothing in common are refused, with counts, examples a
   const std::string message = message_of([&] { pair_atoms(protein.molecule, ligand.molecule); });
   for (const char* part :
        {"only 0 atoms", "source prot.pqr: 165 atoms in 33 residues (such as MET 7 of chain A, LYS 8",
-        "target lig.pqr: 4 atoms in 1 residues (such as DMS 108)", "no residues correspond", "--align none"}) {
+        "target lig.pqr: 4 atoms in 1 residues (such as DMS 108)", "no residues pair", "--align none"}) {
     CHECK_MESSAGE(message.find(part) != std::string::npos, part, " not in: ", message);
   }
   CHECK(message.find('\n') == std::string::npos);
@@ -202,7 +202,7 @@ TEST_CASE("unrelated chains stay unpaired, though some alignment always exists")
   b.peptide("A", 1, "GGWPNDGHCGWPNDGHCPGWPNDCHGGWPNDGHC");
   // Five residues like this are found somewhere in many a chain.
   b.peptide("B", 1, "SHFSK");
-  CHECK(message_of([&] { pair_atoms(a.molecule, b.molecule); }).find("no residues correspond") != std::string::npos);
+  CHECK(message_of([&] { pair_atoms(a.molecule, b.molecule); }).find("no residues pair") != std::string::npos);
 }
 
 TEST_CASE("residues that correspond but share no atom names are named in the message") {
@@ -213,7 +213,7 @@ TEST_CASE("residues that correspond but share no atom names are named in the mes
   }
   const std::string message = message_of([&] { pair_atoms(a.molecule, b.molecule); });
   CHECK(message.find(
-            "10 residues correspond, but hardly any of their atom names (Q1 of TRP 1 of chain A against B1 of TRP 1") !=
+            "10 residues pair, but hardly any of their atom names (Q1 of TRP 1 of chain A against B1 of TRP 1") !=
         std::string::npos);
 }
 

@@ -162,11 +162,11 @@ TEST_CASE("what cannot be read, found or fitted is refused with the remedy") {
     return message_of([&] { find_domains(text, m, m, one_to_one(m)); });
   };
   const std::string remedy = "; give none, chains, auto, or residues such as A:1-29,68-117/A:30-67";
-  CHECK(refusal("") == "domains: '' has a range of residues that cannot be read, ''" + remedy);
-  CHECK(refusal("A:1-x") == "domains: 'A:1-x' has a range of residues that cannot be read, 'A:1-x'" + remedy);
-  CHECK(refusal("domain") == "domains: 'domain' has a range of residues that cannot be read, 'domain'" + remedy);
-  CHECK(refusal("1-3/") == "domains: '1-3/' has a range of residues that cannot be read, ''" + remedy);
-  CHECK(refusal("5-2") == "domains: '5-2' has a range whose end comes before its start, '5-2'" + remedy);
+  CHECK(refusal("") == "domains: '' has an unreadable range of residues, ''" + remedy);
+  CHECK(refusal("A:1-x") == "domains: 'A:1-x' has an unreadable range of residues, 'A:1-x'" + remedy);
+  CHECK(refusal("domain") == "domains: 'domain' has an unreadable range of residues, 'domain'" + remedy);
+  CHECK(refusal("1-3/") == "domains: '1-3/' has an unreadable range of residues, ''" + remedy);
+  CHECK(refusal("5-2") == "domains: '5-2' has a range that ends before it starts, '5-2'" + remedy);
   CHECK(refusal("B:1-3") == "domains: 'B:1-3' names residues B:1-3, and made.pdb has none of them" + remedy);
   CHECK(refusal("1-3/3-5") == "domains: '1-3/3-5' names residue A:3 of made.pdb in two domains" + remedy);
   CHECK(

@@ -170,7 +170,7 @@ TEST_CASE("one atom against two is refused: there is nothing to pair") {
   CompareOptions options;
   options.align = espdiff::AlignAtoms::kNone;
   CHECK_THROWS_WITH_AS(compare(*engine, {&one.molecule, nullptr}, {&two.molecule, nullptr}, options, {}),
-                       doctest::Contains("the morph follows paired atoms"), espdiff::InputError);
+                       doctest::Contains("the morph needs paired atoms"), espdiff::InputError);
 }
 
 TEST_SUITE_END();

@@ -134,7 +134,7 @@ TEST_CASE("pieces of molecules in which nothing pairs are refused") {
   options.domains = "chains";
   CHECK(message_of([&] {
           compare(*engine, {&source, nullptr}, {&other, nullptr}, options, {});
-        }) == "domains are moved by their paired atoms, and none pair; give domains none");
+        }) == "domains need paired atoms, and none pair; give domains none");
 }
 
 TEST_SUITE_END();

@@ -109,9 +109,9 @@ TEST_CASE("maps are taken only when they are those of the comparison") {
   CHECK(contains(maps.why_not, "source.dx has changed since the comparison"));
   std::filesystem::remove(scratch.file("source.dx"));
   maps = read_comparison(vtp, {}).maps;
-  CHECK(contains(maps.why_not, "source.dx is not there any more"));
+  CHECK(contains(maps.why_not, "source.dx no longer exists"));
   std::filesystem::remove(scratch.file("pair.json"));
-  CHECK(contains(read_comparison(vtp, {}).maps.why_not, "pair.json is not there to name the maps"));
+  CHECK(contains(read_comparison(vtp, {}).maps.why_not, "pair.json is missing, which names the maps"));
 }
 
 TEST_CASE("potentials computed in process have no maps to look up, and a note says so") {
@@ -157,7 +157,7 @@ TEST_CASE("what a scene needs and a file lacks is named") {
   scratch.write("target.pqr", espdiff_test::bent_row(2));
   CHECK(contains(message(cartoon), "target.pqr has changed since the comparison"));
   std::filesystem::remove(scratch.file("target.pqr"));
-  CHECK(contains(message(cartoon), "target.pqr is not there any more; compare again, or draw without the molecule"));
+  CHECK(contains(message(cartoon), "target.pqr no longer exists; compare again, or draw without the molecule"));
   std::filesystem::remove(scratch.file("target.dx"));
   CHECK(contains(message(sliced), "slices need the maps: "));
   CHECK_NOTHROW(read_comparison(vtp, linked));

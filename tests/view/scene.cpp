@@ -82,9 +82,9 @@ TEST_CASE("scene files that cannot be are refused with the reason") {
   CHECK(contains(message_of([&] { read_scene(scratch.file("absent.json"), {}); }), "absent.json: no such scene file"));
   CHECK(contains(message_for(scratch, "{\"zoom\": "), "scene.json: not JSON"));
   CHECK(contains(message_for(scratch, "[1]"), "a scene is a JSON object"));
-  CHECK(contains(message_for(scratch, R"({"colour": "sign"})"), "no setting 'colour' in scenes"));
-  CHECK(contains(message_for(scratch, R"({"zoom": "big"})"), "the value of 'zoom' is of the wrong kind"));
-  CHECK(contains(message_for(scratch, R"({"range": [1]})"), "the value of 'range' is of the wrong kind"));
+  CHECK(contains(message_for(scratch, R"({"colour": "sign"})"), "a scene has no setting 'colour'"));
+  CHECK(contains(message_for(scratch, R"({"zoom": "big"})"), "the value of 'zoom' has the wrong type"));
+  CHECK(contains(message_for(scratch, R"({"range": [1]})"), "the value of 'range' has the wrong type"));
   CHECK(contains(message_for(scratch, R"({"layout": "round"})"), "no layout 'round'; use turned, linked or split"));
   CHECK(contains(message_for(scratch, R"({"molecule": "balls"})"),
                  "no molecule style 'balls'; use none, cartoon, sticks or lines"));

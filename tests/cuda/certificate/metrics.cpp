@@ -238,9 +238,9 @@ TEST_CASE("compare refuses other topologies and other numbers of samples") {
     const auto samples = scalars(*engine, std::vector<float>(162, 1.0F)),
                few = scalars(*engine, std::vector<float>(42, 1.0F));
     CHECK(message_of([&] { engine->compare(a, a, samples, few, nullptr); }) ==
-          "compare: one potential per vertex of the mapped mesh is needed");
+          "compare: needs one potential per vertex of the mapped mesh");
     CHECK(message_of([&] { engine->compare(a, b, samples, samples, nullptr); }) ==
-          "compare: source and mapped mesh must share their topology");
+          "compare: source and mapped mesh differ in topology");
     CHECK_THROWS_AS(engine->compare(a, b, samples, samples, nullptr), espdiff::InputError);
   }
 }

@@ -87,7 +87,7 @@ TEST_CASE("a residue that belongs to a motion that is not there is refused") {
     const auto mesh = engine->isosurface(engine->density(uploaded, 1.0), 0.5F);
     CHECK(message_of([&] {
             engine->carry_rigidly(mesh, uploaded, {2}, {{}, {}});
-          }) == "a residue belongs to rigid piece 2 of 2");
+          }) == "a residue belongs to rigid domain 2 of 2");
   }
 }
 

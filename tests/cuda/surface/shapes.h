@@ -26,7 +26,7 @@ using espdiff::Vec3f;
 constexpr double kPi = 3.14159265358979323846;
 
 /// One engine for each back end that can run here; says once per program which one cannot, and why.
-/// @param n_threads of the CPU back end; 0 takes all
+/// @param n_threads of the CPU back end; 0 uses all
 inline std::vector<std::unique_ptr<Engine>> back_ends(int n_threads = 0) {
   std::vector<std::unique_ptr<Engine>> engines;
   engines.push_back(espdiff::select_engine(espdiff::DeviceChoice::kCpu, n_threads));

@@ -197,7 +197,7 @@ TEST_CASE("keep_components keeps vertices and triangles of the kept in order") {
 
     keep.pop_back();
     CHECK(message_of([&] { engine->keep_components(surface, keep); }) ==
-          "keep_components: one entry per component is needed");
+          "keep_components: needs one entry per component");
   }
 }
 
