@@ -138,7 +138,7 @@ namespace eval ::espdiff {
             {-mol molecule {} "Molecule of VMD whose frames are compared"}
             {-file file {} "Instead of -mol: structure file whose models are the frames, the first one is frame 0"}
             {-sel text "not water" "Atoms of the molecule; chosen once, in the reference frame"}
-            {-frames text 0:1: "begin:step:end, an open end is the last frame; or one frame; `now` and `last` count"}
+            {-frames text all "all, now, a frame, begin:end or begin:step:end, such as 0:10:end; see Frames"}
             {-reference text {frame 0} "What each frame is compared with: {frame N}, previous (the frame before it in\
                 the run), or an endpoint"}
             {-map text none "Potential of each frame; see Trajectories"}
@@ -157,7 +157,7 @@ namespace eval ::espdiff {
         summary {Compares each frame with the reference, or with the frame before, and writes a row for each as it is
             done. The reference's surface is computed once. An interrupted run can be resumed.} \
         returns {a dictionary: frames rows skipped resumed csv seconds; with -command a handle, such as trajectory1} \
-        example {espdiff trajectory -mol 0 -frames 0:10: -map {files frame%03d.dx} -csv out.csv}]
+        example {espdiff trajectory -mol 0 -frames 0:10:end -map {files frame%03d.dx} -csv out.csv}]
 
     command matrix [dict create arguments {variants} settings all run ::espdiff::matrix options [concat {
             {-output file required "Prefix of the results OUT.csv and OUT.json, and of the state file"}
@@ -171,11 +171,11 @@ namespace eval ::espdiff {
                 mean_displacement_A"}
         } $computing] \
         summary {Compares many variants, each with each, both ways. A variant is an endpoint that may have a `label` and
-            a `group`; {mol ID frames BEGIN:STEP:END ...} stands for one variant a frame, and {file PATH ...} without
+            a `group`; {mol ID frames FRAMES ...} stands for one variant a frame, and {file PATH ...} without
             `model` for one a model. Each source's surface is regularized, and its potential computed, once.} \
         returns {a handle, such as matrix1; `espdiff result` has what OUT.json has, and pairs, resumed, seconds,
             files} \
-        example {espdiff matrix {{mol 0 frames 0:10: map pme} {file open.pqr map pme group open}} -output adk}]
+        example {espdiff matrix {{mol 0 frames 0:10:end map pme} {file open.pqr map pme group open}} -output adk}]
 
     command plot [dict create arguments {input} settings none run ::espdiff::plot options {
             {-metrics text auto "Names of columns; auto is mean_abs_difference, or without potentials\
@@ -210,7 +210,7 @@ namespace eval ::espdiff {
             {-mol text top "Molecule of VMD"}
             {-sel text all "Atoms whose charges count"}
             {-updatesel boolean 0 "Select anew in each frame, instead of in the first one"}
-            {-frames text now "now, all, last, a frame, begin:end or begin:step:end"}
+            {-frames text now "now, all, a frame, begin:end or begin:step:end; see Frames"}
             {-method choice pme "pme: particle-mesh Ewald, the smooth part, as PMEPot computes it. coulomb: point\
                 charges, isolated, for small molecules" {pme coulomb}}
             {-cell text {} "Cell of all frames: {{ox oy oz} {ax ay az} {bx by bz} {cx cy cz}}, o its middle; without it\

@@ -35,7 +35,7 @@ namespace eval ::espdiff {
         } else {
             set result [file_endpoint $endpoint $role]
         }
-        if {[dict exists $endpoint map]} {
+        if {[value_or $endpoint map none] ni {none {}}} {
             dict set result map [make_map [dict get $endpoint map] $endpoint $role temporary]
         }
         return $result
@@ -96,7 +96,7 @@ namespace eval ::espdiff {
             return [dict create mol [dict get $endpoint mol] map $text]
         }
         if {[dict exists $endpoint mol]} {
-            fail "$role map: '$text' is not the number of a data set, {file PATH}, {mol ID map K} or pme"
+            fail "$role map: '$text' is not the number of a data set, {file PATH}, {mol ID map K}, pme or none"
         }
         return [dict create file $text]
     }

@@ -31,23 +31,19 @@ namespace eval ::espdiff {
         fail "$role: there is no molecule '$mol'; loaded are [join_words $loaded and]"
     }
 
-    # now, first, last or a number from 0, as the number of a frame that exists.
-    proc vmd_frame {mol frame role} {
+    # What is written of frames as a list of numbers; `what` is the option, for messages.
+    proc vmd_frames {mol text what} {
         set n [molinfo $mol get numframes]
         set name "molecule $mol ([molinfo $mol get name])"
-        if {$n == 0} { fail "$role: $name has no frames; `mol addfile FILE waitfor all $mol` adds coordinates" }
-        switch -- $frame {
-            now { return [molinfo $mol get frame] }
-            first { return 0 }
-            last { return [expr {$n - 1}] }
-        }
-        if {![string is integer -strict $frame]} {
-            fail "$role: frame '$frame' is not a number, now, first or last"
-        }
-        if {$frame < 0 || $frame >= $n} {
-            fail "$role: frame $frame is not among the frames 0 to [expr {$n - 1}] of $name"
-        }
-        return $frame
+        if {$n == 0} { fail "$what: $name has no frames; `mol addfile FILE waitfor all $mol` adds coordinates" }
+        return [core::frames $what $text $n [molinfo $mol get frame] $name]
+    }
+
+    # The same of one frame.
+    proc vmd_frame {mol frame role} {
+        set frames [vmd_frames $mol $frame "$role: frame"]
+        if {[llength $frames] != 1} { fail "$role: frame '$frame': one frame is needed, not [llength $frames]" }
+        return [lindex $frames 0]
     }
 
     # All of the core's endpoint but the coordinates, and under `mol`, `n_atoms` and `sel` where they are: one look at
@@ -80,6 +76,8 @@ namespace eval ::espdiff {
     proc vmd_with_frame {structure frame} {
         set mol [dict get $structure mol]
         set name [molinfo $mol get name]
+        set n [molinfo $mol get numframes]
+        if {$frame >= $n} { fail "molecule $mol ($name): frame $frame is not there any more; $n are left" }
         set coordinates [gettimestep $mol $frame]
         if {[string length $coordinates] != 12 * [dict get $structure n_atoms]} {
             fail "molecule $mol ($name): frame $frame has [expr {[string length $coordinates] / 12}] atoms instead of\

@@ -1,5 +1,5 @@
-// trajectory_commands.cpp: trajectory, trajectory_next, trajectory_step, ...: a run over frames, which Tcl drives frame by
-// frame; frames, read_csv, csv_text: ranges of frames and tables as text.
+// trajectory_commands.cpp: trajectory, trajectory_next, trajectory_step, ...: a run over frames, which Tcl drives frame
+// by frame; frames, read_csv, csv_text: ranges of frames and tables as text.
 #include <sstream>
 
 #include "base/error.h"
@@ -41,7 +41,8 @@ SeriesDescription parse_description(DictReader& reader) {
 }
 
 /// PLAN: csv FILE ?resume B? ?overwrite B? frames LIST reference TEXT ?row_reference TEXT? ?map TEXT?
-/// ?reference_map TEXT? ?one_map B? ?start S? ?on_error E? and file PATH or molecule {NAME TEXT ...}, lines of the head.
+/// ?reference_map TEXT? ?one_map B? ?start S? ?on_error E? and file PATH or molecule {NAME TEXT ...}, lines of the
+/// head.
 Tcl_Obj* trajectory(const Call& call) {
   auto object = std::make_shared<TrajectoryObject>();
   DictReader options(call.arguments[1], "options");
@@ -74,16 +75,21 @@ std::shared_ptr<TrajectoryObject> resting(const Call& call) {
   return object;
 }
 
-/// {frame N reference R previous P source B}: the step to do; P is a frame, or empty. B: its source has to be given.
-/// Empty when all is done.
+/// {frame N reference R previous P}: the step to do. P is the frame that it is compared with, of a run against the
+/// frame before. Empty when all is done.
 Tcl_Obj* trajectory_next(const Call& call) {
   const auto object = resting(call);
   if (object->run->is_done()) return Tcl_NewObj();
   const TrajectoryStep& step = object->run->next();
   return to_dict({{"frame", to_obj(step.frame)},
                   {"reference", to_obj(step.reference)},
-                  {"previous", step.previous ? to_obj(*step.previous) : Tcl_NewObj()},
-                  {"source", to_obj(object->against_previous || !object->has_source)}});
+                  {"previous", step.previous ? to_obj(*step.previous) : Tcl_NewObj()}});
+}
+
+/// The source of all frames.
+Tcl_Obj* trajectory_source(const Call& call) {
+  resting(call)->source = parse_endpoint(call.arguments[1], "source");
+  return nullptr;
 }
 
 /// Reads what is in files, frames of the run's file through its one open text.
@@ -99,6 +105,15 @@ void load_side(TrajectoryObject& object, Endpoint& side, std::optional<int> fram
   load(side, object.computation.options.temperature_K);
 }
 
+/// What all rows depend on: the source, and a map that serves all frames.
+std::vector<InputFile> common_inputs(const TrajectoryObject& object) {
+  std::vector<InputFile> inputs = object.source.inputs;
+  for (const InputFile& input : object.target.inputs) {
+    if (object.one_map && input.role == "target_map") inputs.push_back(input);
+  }
+  return inputs;
+}
+
 /// Runs on the worker's thread: what is read, compared and written of one frame.
 void run_step(TrajectoryObject& object, const Progress& progress) {
   object.row.reset();
@@ -110,19 +125,18 @@ void run_step(TrajectoryObject& object, const Progress& progress) {
     const TrajectoryStep& step = run.next();
     if (object.against_previous) load_side(object, object.source, step.previous);
     load_side(object, object.target, step.frame);
-    return StepInput{input_of(object.source), input_of(object.target)};
+    return StepInput{input_of(object.source), input_of(object.target), common_inputs(object)};
   };
-  if (!object.against_previous) run.note_inputs(object.source.inputs, object.one_map);
-  const SeriesRow* const row = run.step(*object.engine, read, progress);
-  if (row != nullptr) object.row = *row;
+  if (const SeriesRow* const row = run.step(*object.engine, read, progress)) object.row = *row;
 }
 
-/// The sides of a frame: TARGET, and SOURCE where trajectory_next asks for it.
+/// The sides of a frame: TARGET, and SOURCE of a run against the frame before.
 Tcl_Obj* trajectory_step(const Call& call) {
   const auto object = resting(call);
+  if (object->against_previous != (call.arguments.size() > 2))
+    throw InputError("a source is given for each frame of a run against the frame before, and no other");
   object->target = parse_endpoint(call.arguments[1], "target");
-  if (call.arguments.size() > 2) object->source = parse_endpoint(call.arguments[2], "source");
-  object->has_source = true;
+  if (object->against_previous) object->source = parse_endpoint(call.arguments[2], "source");
   object->job = Worker::instance().submit([keep = std::weak_ptr<TrajectoryObject>(object)](const Progress& progress) {
     if (const auto alive = keep.lock()) run_step(*alive, progress);
   });
@@ -133,8 +147,7 @@ Tcl_Obj* trajectory_step(const Call& call) {
 Tcl_Obj* trajectory_skip(const Call& call) {
   const auto object = resting(call);
   object->row.reset();
-  if (const SeriesRow* const row = object->run->skip(Error(parse_error_class(call.text(2)), call.text(1))))
-    object->row = *row;
+  if (const SeriesRow* const row = object->run->skip(error_of_class(call.text(2), call.text(1)))) object->row = *row;
   return nullptr;
 }
 
@@ -147,6 +160,8 @@ Tcl_Obj* trajectory_row(const Call& call) {
     Tcl_DictObjPut(nullptr, dict, to_obj(column), to_obj((*object->row)[column]));
   return dict;
 }
+
+Tcl_Obj* trajectory_columns(const Call&) { return to_list(series_columns()); }
 
 Tcl_Obj* trajectory_summary(const Call& call) {
   const auto object = resting(call);
@@ -203,10 +218,12 @@ Tcl_Obj* csv_text(const Call& call) {
 
 std::vector<Command> trajectory_commands() {
   return {{"trajectory", 2, 2, "plan options", trajectory},
+          {"trajectory_source", 2, 2, "handle source", trajectory_source},
           {"trajectory_next", 1, 1, "handle", trajectory_next},
           {"trajectory_step", 2, 3, "handle target ?source?", trajectory_step},
           {"trajectory_skip", 3, 3, "handle message class", trajectory_skip},
           {"trajectory_row", 1, 1, "handle", trajectory_row},
+          {"trajectory_columns", 0, 0, "", trajectory_columns},
           {"trajectory_summary", 1, 1, "handle", trajectory_summary},
           {"trajectory_warning", 1, 1, "handle", trajectory_warning},
           {"trajectory_cancelled", 1, 1, "handle", trajectory_cancelled},

@@ -31,8 +31,10 @@ struct Arguments {
 
 void add_run_options(CLI::App& p, Arguments& a) {
   const char* const group = "Frames";
-  p.add_option("--frames", a.frames, "Frames to compare, from 0: all, a frame, begin:end or begin:step:end, also several with commas; first, last (or "
-       "end) and -1 (the last) are frames too")
+  p.add_option("--frames", a.frames,
+               "Frames to compare, from 0: all, a frame, begin:end or begin:step:end, also several with commas; first, "
+               "last (or "
+               "end) and -1 (the last) are frames too")
       ->capture_default_str()
       ->group(group);
   p.add_option(
@@ -168,9 +170,14 @@ int run(const Arguments& a, const Context& context) {
   const std::unique_ptr<Engine> engine = make_engine(a.device);
   TrajectoryRun run(plan, SeriesCsv(a.output, head_of(a, plan), existing));
   if (!run.warning().empty()) std::fprintf(stderr, "espdiff: %s\n", run.warning().c_str());
-  run.note_inputs(sides.inputs(), true);
+  run.note_inputs(sides.inputs());
   while (!run.is_done())
-    run.step(*engine, [&] { return StepInput{sides.source(), sides.frame(run.next().frame)}; }, *context.progress);
+    run.step(
+        *engine,
+        [&] {
+          return StepInput{sides.source(), sides.frame(run.next().frame), {}};
+        },
+        *context.progress);
   const TrajectorySummary summary = run.summary();
   if (a.quiet) return 0;
   const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();

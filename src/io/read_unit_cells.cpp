@@ -55,11 +55,10 @@ std::vector<std::optional<UnitCell>> read_unit_cells(const std::string& path) {
   const std::string text = read_text_file(path);
   const std::vector<CellLine> lines = find_cell_lines(text, path);
   std::vector<std::optional<UnitCell>> cells;
+  std::optional<UnitCell> cell;
+  auto line = lines.begin();  // models and records are both in the file's order
   for (const AtomModel& model : split_models(text, path)) {
-    std::optional<UnitCell> cell;
-    for (const CellLine& line : lines) {
-      if (line.number < model.front().number) cell = line.cell;
-    }
+    for (; !model.empty() && line != lines.end() && line->number < model.front().number; ++line) cell = line->cell;
     cells.push_back(cell);
   }
   return cells;

@@ -119,7 +119,8 @@ void SeriesCsv::read_rows() {
   SeriesHead in_file;
   for (const std::string& comment : table.comments) {
     const std::size_t colon = std::min(comment.find(':'), comment.size());
-    const std::string name = comment.substr(0, colon), value = colon + 2 < comment.size() ? comment.substr(colon + 2) : "";
+    const std::string name = comment.substr(0, colon),
+                      value = colon + 2 < comment.size() ? comment.substr(colon + 2) : "";
     const auto wanted = find(head_, name);
     if (wanted != head_.end()) check_same(name, value, wanted->second);
     in_file.emplace_back(name, value);

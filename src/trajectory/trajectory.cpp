@@ -8,7 +8,6 @@
 
 #include "io/atomic_file.h"
 #include "io/text_cursor.h"
-#include "report/write_compare.h"
 #include "trajectory/series_file.h"
 
 namespace espdiff {
@@ -37,6 +36,19 @@ std::vector<TrajectoryStep> steps_of(const TrajectoryPlan& plan) {
     throw InputError(plan.against_previous ? "--reference previous needs two frames or more"
                                            : "there are no frames to compare");
   return steps;
+}
+
+/// What goes wrong with a frame, but for a cancellation.
+template <typename Work>
+std::optional<Error> error_of(Work work) {
+  try {
+    work();
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const Error& error) {
+    return error;
+  }
+  return std::nullopt;
 }
 
 std::string in_front(int frame) { return "frame " + std::to_string(frame) + ": "; }
@@ -114,12 +126,9 @@ void TrajectoryRun::restore_mapping() {
   }
 }
 
-void TrajectoryRun::note_inputs(const std::vector<InputFile>& inputs, bool one_map) {
+void TrajectoryRun::note_inputs(const std::vector<InputFile>& inputs) {
   if (plan_.against_previous) return;
-  for (const InputFile& input : inputs) {
-    if (input.role.rfind("source", 0) == 0 || (one_map && input.role == "target_map"))
-      file_.note(input.role + "_sha256", input.sha256);
-  }
+  for (const InputFile& input : inputs) file_.note(input.role + "_sha256", input.sha256);
 }
 
 Error TrajectoryRun::cancelled() const {
@@ -127,23 +136,26 @@ Error TrajectoryRun::cancelled() const {
                                       std::to_string(steps_.size()) + " rows; --resume goes on with " + file_.path()};
 }
 
-const SeriesRow* TrajectoryRun::step(Engine& engine, const std::function<StepInput()>& read,
-                                     const Progress& progress) {
+const SeriesRow* TrajectoryRun::step(Engine& engine, const std::function<StepInput()>& read, const Progress& progress) {
   // The share is the whole run's; each stage of a frame begins at 0 again.
   const Progress inner([&](const std::string& stage, double fraction) {
     share_ = std::max(share_, (static_cast<double>(position_) + fraction) / static_cast<double>(steps_.size()));
     progress.report(in_front(next().frame) + stage, share_);
   });
-  std::optional<SeriesRow> row;
   try {
-    inner.report("read", 0.0);
-    row = compare(engine, read(), inner);
+    StepInput input;
+    const auto unread = error_of([&] {
+      inner.report("read", 0.0);
+      input = read();
+    });
+    if (unread) return skip(*unread);
+    note_inputs(input.inputs);
+    std::optional<SeriesRow> row;
+    const auto failed = error_of([&] { row = compare(engine, input, inner); });
+    return failed ? skip(*failed) : end_step(*row);
   } catch (const Cancelled&) {
     throw cancelled();
-  } catch (const Error& error) {
-    return skip(error);
   }
-  return end_step(*row);
 }
 
 const SeriesRow* TrajectoryRun::skip(const Error& why) {

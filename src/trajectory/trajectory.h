@@ -13,17 +13,16 @@
 #include "compare/options.h"
 #include "compare/series.h"
 #include "engine/handles.h"
+#include "report/write_compare.h"
 #include "trajectory/series_csv.h"
 
 namespace espdiff {
 
-struct InputFile;
-
 /// Which frames a run compares with what.
 struct TrajectoryPlan {
-  std::vector<int> frames;       ///< in the order in which they are compared
-  std::string reference;         ///< the source of all frames, as the rows name it
-  bool against_previous = false; ///< instead: each frame of the run with the one before it
+  std::vector<int> frames;        ///< in the order in which they are compared
+  std::string reference;          ///< the source of all frames, as the rows name it
+  bool against_previous = false;  ///< instead: each frame of the run with the one before it
   CompareOptions options;
   StartFrom start = StartFrom::kPrevious;
   bool skip_errors = false;  ///< a frame that cannot be compared is a row that says why, and the run goes on
@@ -44,6 +43,7 @@ struct TrajectoryStep {
 /// The two sides of a step. What they point to stays until the step ends; the source of all frames until the run ends.
 struct StepInput {
   CompareInput source, target;
+  std::vector<InputFile> inputs{};  ///< whose contents all rows depend on; see TrajectoryRun::note_inputs()
 };
 
 struct TrajectorySummary {
@@ -72,12 +72,12 @@ class TrajectoryRun {
   const SeriesCsv& file() const { return file_; }
   TrajectorySummary summary() const;
 
-  /// The contents of the source, and of the target's map where `one_map` serves all frames: the rows depend on them.
+  /// Inputs that all rows depend on, by their SHA-256: of the source, and of a map that serves all frames.
   /// @throws InputError (the file was made with others)
-  void note_inputs(const std::vector<InputFile>& inputs, bool one_map);
+  void note_inputs(const std::vector<InputFile>& inputs);
 
   /// Compares the next frame and adds its row, or computes again a row that is there.
-  /// @param read gives the sides; an error of it counts as the frame's
+  /// @param read gives the sides; an error of it is the frame's
   /// @param progress its stage is "frame N: STAGE", its share that of the run
   /// @returns the row that was added; null where it was there
   /// @throws as Series::step() and `read`, with the frame's number in front; Error of class kCancelled (rows so far
