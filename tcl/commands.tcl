@@ -142,7 +142,8 @@ namespace eval ::espdiff {
             {-reference text {frame 0} "What each frame is compared with: {frame N}, previous (the frame before it in\
                 the run), or an endpoint"}
             {-map text none "Potential of each frame; see Trajectories"}
-            {-reference-map text {} "Potential of the reference; without it by the rule of -map for its frame"}
+            {-reference-map text {} "Potential of the reference; without it by the rule of -map for its frame, or\
+                computed as the frames' are"}
             {-unit text {} "Unit of the maps if they do not say: kT/e, mV, V, kcal/mol/e, kJ/mol/e, hartree/e"}
             {-radii choice vmd "Radii of the molecule: VMD's, or Bondi's by element" {vmd element}}
             {-start choice auto "Begin each frame's mapping at the source, or at the previous frame's where that is\

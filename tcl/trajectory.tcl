@@ -101,7 +101,10 @@ namespace eval ::espdiff {
         upvar 1 $run_name run
         set plan [dict create csv [file normalize [dict get $options csv]] frames $run(frames) on_error $run(on_error) \
             reference $run(reference) map [map_in_words $run(map) $run(unit)] \
-            reference_map [map_in_words $run(reference_map) $run(unit)] one_map [is_one_map $run(map) $run(mol)]]
+            one_map [is_one_map $run(map) $run(mol)]]
+        if {$run(reference_map) ne $run(map)} {
+            dict set plan reference_map [map_in_words $run(reference_map) $run(unit)]
+        }
         foreach key {resume overwrite start} { dict set plan $key [dict get $options $key] }
         if {[lindex $run(reference) 0] eq "frame"} { dict set plan row_reference [lindex $run(reference) 1] }
         if {$run(mol) eq ""} {
@@ -124,9 +127,9 @@ namespace eval ::espdiff {
                 set source [frame_endpoint run [lindex $run(reference) 1] reference temporary]
             } else {
                 set endpoint $run(reference)
-                if {![dict exists $endpoint map] && $run(reference_map) ne ""} {
-                    dict set endpoint map $run(reference_map)
-                }
+                set map $run(reference_map)
+                if {$map eq "" && [is_pme $run(map)]} { set map $run(map) }
+                if {![dict exists $endpoint map] && $map ne ""} { dict set endpoint map $map }
                 if {![dict exists $endpoint unit] && $run(unit) ne ""} { dict set endpoint unit $run(unit) }
                 set source [make_endpoint $endpoint reference temporary]
             }
