@@ -83,8 +83,7 @@ class FrameParser {
     if (!parse_integer(word, number)) refuse("'" + word + "' is no frame; " + kAccepted);
     const long long from_start = number < 0 ? number + frames_.n_frames : number;
     if (from_start < 0 || from_start >= frames_.n_frames)
-      refuse("frame " + word + " is not among the " + std::to_string(frames_.n_frames) + of() + ", 0 to " +
-             std::to_string(frames_.n_frames - 1));
+      refuse("frame " + word + " is not among the frames 0 to " + std::to_string(frames_.n_frames - 1) + of());
     return static_cast<int>(from_start);
   }
 
