@@ -74,6 +74,13 @@ proc write_exact_models {path n} {
     close $channel
 }
 
+# Beside a trajectory in memory VMD may be too large to be forked by `exec`.
+proc command_line {args} {
+    set process [::espdiff::core::start_program [list $::env(ESPDIFF) {*}$args] $::scratch/line.log]
+    while {[set status [::espdiff::core::program_state $process]] eq "running"} { after 20 }
+    check_equal "status of $args" $status 0
+}
+
 test "a file's models: the same bytes from the command line, from the file here, the same rows from its molecule" {
     set models $scratch/models.pdb
     write_exact_models $models 5
@@ -82,7 +89,7 @@ test "a file's models: the same bytes from the command line, from the file here,
         {-frames 0:2:end -start previous} {--frames 0:2:4 --start previous}
         {-frames now,2,-1 -method deform} {--frames 0,2,4 --method deform}
     } {
-        exec $env(ESPDIFF) trajectory $models $models --device cpu {*}$there -q -o $scratch/line.csv --overwrite
+        command_line trajectory $models $models --device cpu {*}$there -q -o $scratch/line.csv --overwrite
         set m [mol new $models type pdb waitfor all]
         animate goto 0
         espdiff trajectory -mol $m -radii element -reference [list file $models] {*}$arguments \
