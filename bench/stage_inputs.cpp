@@ -93,7 +93,7 @@ const StageInputs& stage_inputs(const Case& of, const BenchDevice& device) {
   static std::string last_key;
   const std::string key = of.name + "/" + device.name;
   if (key != last_key) {
-    last.reset();  // two of the largest would take twice the memory
+    last.reset();  // two of the largest would need twice the memory
     last = std::make_unique<StageInputs>(of, device);
     last_key = key;
   }

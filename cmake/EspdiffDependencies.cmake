@@ -89,7 +89,7 @@ if(NOT ESPDIFF_VTK STREQUAL "OFF")
   find_package(VTK QUIET COMPONENTS CommonCore CommonMath CommonMisc CommonDataModel CommonExecutionModel IOCore IOXML IOXMLParser IOImage FiltersCore RenderingCore RenderingOpenGL2
     RenderingFreeType RenderingUI FiltersSources DomainsChemistryOpenGL2)
 endif()
-espdiff_resolve(ESPDIFF_VTK "${VTK_FOUND}" "VTI reader and renderer" "VTK 9 was not found (Debian: libvtk9-dev)")
+espdiff_resolve(ESPDIFF_VTK "${VTK_FOUND}" "Renderer and viewer" "VTK 9 was not found (Debian: libvtk9-dev)")
 
 # Tcl through stubs, so that the module loads into VMD's own Tcl of any version from 8.5.
 if(NOT ESPDIFF_TCL STREQUAL "OFF")

@@ -1,4 +1,4 @@
-# doctor.tcl: what is there and what is missing, with the remedy.
+# doctor.tcl: lists what is available and what is missing, with the remedy.
 
 namespace eval ::espdiff {
     # Items {name ok|missing|note text}.
@@ -63,7 +63,7 @@ namespace eval ::espdiff {
             lappend items [list "maps through memory" missing "VMD took none of the plugin interfaces\
                 [join [dict get $abi offered] {, }]; maps go through DX files, which is slower and keeps 6 digits"]
         }
-        if {[dict get $abi vti]} { lappend items {"mol new FILE.vti" ok "reads VTI files"} }
+        lappend items {"mol new FILE.vti" ok "reads VTI files"}
         return $items
     }
 
@@ -104,7 +104,7 @@ namespace eval ::espdiff {
         return "$radii, charges on $charged atoms"
     }
 
-    # `espdiff device`: a device that is not there is told at once.
+    # `espdiff device`: an absent device is reported at once.
     proc device {options {name {}}} {
         variable default_device
         if {$name eq ""} { return $default_device }

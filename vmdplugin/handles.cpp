@@ -20,7 +20,7 @@ void stop(const Object& object) {
 
 }  // namespace
 
-Error error_of_class(const std::string& name, const std::string& message) {
+Error error_of_class(const std::string& name, const Message& message) {
   for (const ErrorClass error_class :
        {ErrorClass::kInput, ErrorClass::kFormat, ErrorClass::kIo, ErrorClass::kGeometry, ErrorClass::kConvergence,
         ErrorClass::kDevice, ErrorClass::kMemory, ErrorClass::kCancelled}) {

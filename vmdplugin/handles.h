@@ -109,7 +109,7 @@ class Handles {
 };
 
 /// An error by the name of its class, such as "INPUT"; of an unknown one an internal error.
-Error error_of_class(const std::string& name, const std::string& message);
+Error error_of_class(const std::string& name, const Message& message);
 
 /// @throws the failure of the object's job; InputError while it is not finished
 void require_done(const std::string& handle, const Object& object);

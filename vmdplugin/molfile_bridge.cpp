@@ -42,7 +42,7 @@ struct FileTypes {
 /// VMD has no other way to show why a file was refused.
 template <int Version>
 void say(const molfile::Plugin<Version>& plugin, const Failure& failure) {
-  const std::string line = "espdiff) " + failure.message + "\n";
+  const std::string line = "espdiff) " + failure.message.plain() + "\n";
   constexpr int kErrorLevel = 3;  // of VMD's console
   if (plugin.timesteps.print_to_console != nullptr) {
     plugin.timesteps.print_to_console(kErrorLevel, line.c_str());
@@ -172,13 +172,9 @@ std::unique_ptr<OpenVolumes<Version>> open_stored(const std::string& name) {
 template <int Version>
 std::unique_ptr<OpenVolumes<Version>> open_vti(const std::string& path) {
   auto opened = std::make_unique<OpenVolumes<Version>>();
-#ifdef ESPDIFF_HAVE_VTK
   for (StoredVolume& volume : read_vti_volumes(path)) {
     opened->add(std::make_shared<const StoredVolume>(std::move(volume)));
   }
-#else
-  throw InputError(path + ": this build reads no VTI files; build espdiff with VTK");
-#endif
   return opened;
 }
 
@@ -256,7 +252,7 @@ bool offer(void* registrar, molfile::RegisterCallback callback) {
   auto& types = FileTypes<Version>::instance();
   if (callback(registrar, &types.writer.head) != kSuccess) return false;
   callback(registrar, &types.map_reader.head);
-  if (has_vti_reader()) callback(registrar, &types.vti_reader.head);
+  callback(registrar, &types.vti_reader.head);
   accepted_version() = Version;
   return true;
 }
@@ -276,13 +272,5 @@ int register_plugins(void* registrar, molfile::RegisterCallback callback) noexce
 }
 
 int accepted_abi() { return accepted_version(); }
-
-bool has_vti_reader() {
-#ifdef ESPDIFF_HAVE_VTK
-  return true;
-#else
-  return false;
-#endif
-}
 
 }  // namespace espdiff

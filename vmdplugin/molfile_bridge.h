@@ -26,13 +26,8 @@ int register_plugins(void* registrar, molfile::RegisterCallback callback) noexce
 /// The version of VMD's plugin interface that was accepted; 0 before that, and outside of VMD.
 int accepted_abi();
 
-/// True in a build that reads VTI files.
-bool has_vti_reader();
-
-#ifdef ESPDIFF_HAVE_VTK
-/// All scalar point arrays of a VTI file, each with its array's name as dataname; the unit is unknown.
+/// All scalar point arrays of a VTI file, each with its array's name as dataname.
 /// @throws what read_vti() throws; InputError when there is none
 std::vector<StoredVolume> read_vti_volumes(const std::string& path);
-#endif
 
 }  // namespace espdiff

@@ -16,7 +16,8 @@ namespace {
 
 ExistingFile existing_file(DictReader& reader) {
   const bool resume = reader.boolean("resume", false), overwrite = reader.boolean("overwrite", false);
-  if (resume && overwrite) throw InputError("--resume and --overwrite exclude each other");
+  if (resume && overwrite)
+    throw InputError(switched_on("resume") + " and " + switched_on("overwrite") + " exclude each other");
   return resume ? ExistingFile::kResume : overwrite ? ExistingFile::kReplace : ExistingFile::kRefuse;
 }
 
@@ -182,7 +183,7 @@ Tcl_Obj* trajectory_cancelled(const Call& call) { throw resting(call)->run->canc
 /// OPTION TEXT N NOW OF: a list of frames; NOW is empty where there is no such frame.
 Tcl_Obj* frames(const Call& call) {
   FrameSet set;
-  set.option = call.text(0);
+  set.what = call.text(0);
   set.n_frames = to_int(call.arguments[2], "number of frames");
   if (!call.text(3).empty()) set.now = to_int(call.arguments[3], "now");
   set.of = call.text(4);

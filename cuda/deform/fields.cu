@@ -137,6 +137,7 @@ float surface_slope(const SurfaceField& density_field, float isovalue) {
 std::shared_ptr<SurfaceField> density_field(const DensityGrid& density, float isovalue) {
   auto field = std::make_shared<SurfaceField>();
   const CubicLattice lattice = field->lattice = density.lattice;
+  require_grid(static_cast<double>(lattice.n_points()), sizeof(Vec4f), "the density field");
   field->values.resize(lattice.n_points());
   const float* const values = raw(density.values);
   Vec4f* const out = raw(field->values);
@@ -152,6 +153,8 @@ std::shared_ptr<SurfaceField> density_field(const DensityGrid& density, float is
 
 std::shared_ptr<SurfaceField> distance_field(const DensityGrid& density, float isovalue, const SurfaceMesh& surface,
                                              float threshold_A, const Progress& progress) {
+  constexpr double kBytesPerPoint = sizeof(Vec4f) + sizeof(std::uint64_t) + sizeof(float);
+  require_grid(static_cast<double>(density.lattice.n_points()), kBytesPerPoint, "the distance field");
   std::shared_ptr<SurfaceField> field = density_field(density, isovalue);
   const CubicLattice lattice = field->lattice;
   const Buffer<std::uint64_t> nearest = nearest_vertices(lattice, surface, progress);

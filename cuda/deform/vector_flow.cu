@@ -132,6 +132,10 @@ std::shared_ptr<SurfaceField> vector_flow(const DensityGrid& target, const Densi
                                           const VectorFlowOptions& options, const Progress& progress,
                                           VectorFlowReport* report) {
   check_options(options);
+  // The field itself, what holds it, and two sweeps; on the source's own lattice its field.
+  const double n_points = static_cast<double>(target.lattice.n_points()),
+               n_source_points = source != nullptr ? static_cast<double>(source->lattice.n_points()) : 0;
+  require_grid(n_points, sizeof(Vec4f) * (4 + n_source_points / n_points), "gradient vector flow");
   const std::shared_ptr<SurfaceField> field = density_field(target, isovalue);
   const std::shared_ptr<SurfaceField> source_field =
       source != nullptr ? density_field(*source, isovalue) : std::shared_ptr<SurfaceField>();

@@ -53,27 +53,27 @@ std::vector<Architecture> parse(const std::string& architectures) {
   return all;
 }
 
-std::string of_the_driver(const CudaFacts& facts) {
+Message of_the_driver(const CudaFacts& facts) {
   const std::string needed =
       cuda_version(facts.runtime_version) + (facts.runtime_version / 1000 == 13   ? " (580 or newer)"
                                              : facts.runtime_version / 1000 == 12 ? " (525 or newer)"
                                                                                   : "");
   if (facts.driver_version == 0)
-    return "no NVIDIA driver is installed, or it cannot be loaded; install one that supports " + needed +
-           ", or use --device cpu";
+    return "no NVIDIA driver is installed, or it cannot be loaded; install one that supports " + needed + ", or use " +
+           option("device", "cpu");
   return "the NVIDIA driver supports " + cuda_version(facts.driver_version) + ", this build needs " + needed +
-         "; update the driver, build with an older CUDA toolkit, or use --device cpu";
+         "; update the driver, build with an older CUDA toolkit, or use " + option("device", "cpu");
 }
 
-std::string of_the_architecture(const std::string& device, const CudaFacts& facts) {
+Message of_the_architecture(const std::string& device, const CudaFacts& facts) {
   const std::string has = "this build has code for " + architectures_in_words(facts.architectures) + ", none for " +
                           device + (facts.capability > 0 ? " of compute capability " + dotted(facts.capability) : "");
   if (facts.capability > 0 && facts.capability < kOldestCapability)
     return has + "; " + cuda_version(facts.runtime_version) + " supports no GPU below " + dotted(kOldestCapability) +
-           ": use --device cpu";
+           ": use " + option("device", "cpu");
   return has + "; configure with -DCMAKE_CUDA_ARCHITECTURES=" +
          (facts.capability > 0 ? std::to_string(facts.capability) : std::string("native")) +
-         " and build again, or use --device cpu";
+         " and build again, or use " + option("device", "cpu");
 }
 
 bool lacks_code(cudaError_t status) {
@@ -137,29 +137,30 @@ void throw_cuda_error(cudaError_t status, const std::string& doing, const CudaFa
   const std::string device = facts.device.empty() ? "the GPU" : facts.device;
   const std::string words = std::string(cudaGetErrorName(status)) + ", " + cudaGetErrorString(status);
   if (status == cudaErrorMemoryAllocation) {
-    throw MemoryError(
-        device + " has no room for another " + memory_text(facts.asked_bytes) + " (" + doing +
-        "): " + memory_text(facts.free_bytes) + " of its " + memory_text(facts.total_bytes) +
-        " are free; use a larger grid spacing or fewer atoms, another GPU (--device cuda:N), or --device cpu");
+    throw MemoryError(device + " has no room for another " + memory_text(facts.asked_bytes) + " (" + doing +
+                      "): " + memory_text(facts.free_bytes) + " of its " + memory_text(facts.total_bytes) +
+                      " are free; use a larger grid spacing or fewer atoms, another GPU (" +
+                      option("device", "cuda:N") + "), or " + option("device", "cpu"));
   }
-  if (status == cudaErrorNoDevice) throw DeviceError("no NVIDIA GPU was found; use --device cpu");
+  if (status == cudaErrorNoDevice) throw DeviceError("no NVIDIA GPU was found; use " + option("device", "cpu"));
   if (status == cudaErrorInsufficientDriver || status == cudaErrorStubLibrary ||
       status == cudaErrorCallRequiresNewerDriver)
     throw DeviceError(of_the_driver(facts));
   if (lacks_code(status)) throw DeviceError(of_the_architecture(device, facts));
   if (status == cudaErrorDevicesUnavailable || status == cudaErrorDeviceAlreadyInUse)
     throw DeviceError(device + " is in use by another process, which does not share it (" + words +
-                      "); wait for it, take another (--device cuda:N), or use --device cpu");
+                      "); wait for it, take another (" + option("device", "cuda:N") + "), or use " +
+                      option("device", "cpu"));
   if (status == cudaErrorInitializationError || status == cudaErrorSystemNotReady ||
       status == cudaErrorSystemDriverMismatch || status == cudaErrorCompatNotSupportedOnDevice)
-    throw DeviceError(
-        "CUDA could not be started (" + words +
-        "); check the driver with nvidia-smi, restart the machine after an update of it, or use --device cpu");
+    throw DeviceError("CUDA could not be started (" + words +
+                      "); check the driver with nvidia-smi, restart the machine after an update of it, or use " +
+                      option("device", "cpu"));
   if (is_unrecoverable(status))
     throw DeviceError(device + " failed while " + doing + " (" + words +
-                      ") and cannot be used by this process any more; start again, with --device cpu if it recurs, and "
-                      "report it with the command line");
-  throw DeviceError(device + " failed while " + doing + " (" + words + "); try --device cpu");
+                      ") and cannot be used by this process any more; start again, with " + option("device", "cpu") +
+                      " if it recurs, and report it with the command line");
+  throw DeviceError(device + " failed while " + doing + " (" + words + "); try " + option("device", "cpu"));
 }
 
 void check_cuda(cudaError_t status, const char* doing) {

@@ -18,7 +18,7 @@
 // Compiles a hot host function for several instruction sets and picks one at load time. Without contraction all
 // versions give the same bits.
 #if defined(__GNUC__) && !defined(__CUDACC__) && defined(__x86_64__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__)
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define ESPDIFF_MULTIVERSION __attribute__((target_clones("default", "arch=haswell", "arch=skylake-avx512")))
 #else
 #define ESPDIFF_MULTIVERSION

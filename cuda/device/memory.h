@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <utility>
 
 #if defined(ESPDIFF_BACKEND_CUDA)
@@ -52,8 +53,22 @@ void copy_to_device(void* to, const void* from, std::size_t n_bytes);
 void copy_to_host(void* to, const void* from, std::size_t n_bytes);
 void copy_on_device(void* to, const void* from, std::size_t n_bytes);
 
-/// Bytes that a run may use: 80 % of the machine's memory, or 90 % of a GPU's memory that is free or unused in the
+/// Bytes that can still be taken: available_memory() on the CPU; 90 % of a GPU's memory that is free or unused in the
 /// engine's pool.
 double available_bytes();
+
+/// Stages say before they begin what they will hold, so that what does not fit is refused at once, in words, and what
+/// fits is not.
+/// @param bytes_per_point of all that the stage itself allocates and holds at one time; not what is there already
+/// @returns how many times as coarse (in spacing) the grid must be to fit; 1 where it fits as it is. A need below
+/// 64 MB is not looked at. Grids are limited to 2e9 points whatever memory there is, for their indices.
+double coarsening_to_fit(double n_points, double bytes_per_point);
+
+/// The same as a check. `what` begins the message: "gradient vector flow".
+/// @throws MemoryError with need, available memory and remedy
+void require_grid(double n_points, double bytes_per_point, const std::string& what);
+
+/// "needs 12.3 GB of memory, and 3.1 GB are available": the middle of such a message.
+std::string need_in_words(double n_points, double bytes_per_point);
 
 }  // namespace espdiff::ESPDIFF_BACKEND

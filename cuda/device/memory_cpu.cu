@@ -1,9 +1,8 @@
 // memory_cpu.cu: the CPU back end's memory is the heap.
-#include <unistd.h>
-
 #include <cstring>
 #include <new>
 
+#include "base/memory.h"
 #include "cuda/device/memory.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
@@ -29,9 +28,6 @@ void copy_to_device(void* to, const void* from, std::size_t n_bytes) {
 void copy_to_host(void* to, const void* from, std::size_t n_bytes) { copy_to_device(to, from, n_bytes); }
 void copy_on_device(void* to, const void* from, std::size_t n_bytes) { copy_to_device(to, from, n_bytes); }
 
-double available_bytes() {
-  const long pages = sysconf(_SC_PHYS_PAGES), page_size = sysconf(_SC_PAGE_SIZE);
-  return pages > 0 && page_size > 0 ? 0.8 * static_cast<double>(pages) * static_cast<double>(page_size) : 1e18;
-}
+double available_bytes() { return available_memory(); }
 
 }  // namespace espdiff::ESPDIFF_BACKEND

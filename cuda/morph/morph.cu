@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "base/error.h"
 #include "base/progress.h"
 #include "cuda/device/spatial_order.h"
+#include "cuda/device/unwrap.h"
 #include "cuda/morph/moving_surface.h"
 #include "cuda/surface/project.h"
 #include "engine/morph_stage.h"
@@ -34,6 +36,9 @@ void check_options(const MorphOptions& o) {
     throw InputError("the morph's largest stretch, " + std::to_string(o.max_stretch) + ", is not above 1; 20 is usual");
 }
 
+/// More would take days. An atom that far off is a mistake in the input.
+constexpr int kMostSteps = 100000;
+
 int steps_for(const std::vector<MovingAtom>& atoms, const MorphOptions& options) {
   double farthest = 0;
   bool fades = false;
@@ -42,7 +47,16 @@ int steps_for(const std::vector<MovingAtom>& atoms, const MorphOptions& options)
     farthest = std::max({farthest, norm(a.velocity_at(0)), norm(a.velocity_at(1))});
     fades = fades || !a.at_start || !a.at_end || std::abs(a.start_width - a.end_width) > 1e-3;
   }
-  return std::max(fades ? kStepsOfFading : kLeastSteps, static_cast<int>(std::ceil(farthest / options.max_step_A)));
+  const double n_steps = std::ceil(farthest / options.max_step_A);
+  if (!(n_steps <= kMostSteps)) {
+    char text[240];
+    std::snprintf(text, sizeof text,
+                  "an atom moves %.6g A from source to target, which takes %.6g steps of %.6g A; %d is the limit; check "
+                  "that both structures are of one molecule and no atom is far off, or allow larger steps",
+                  farthest, n_steps, options.max_step_A, kMostSteps);
+    throw InputError(text);
+  }
+  return std::max(fades ? kStepsOfFading : kLeastSteps, static_cast<int>(n_steps));
 }
 
 std::shared_ptr<Scalars> as_scalars(const Buffer<std::uint8_t>& flags) {
@@ -68,10 +82,10 @@ std::shared_ptr<Scalars> path_lengths(const MovingSurface& surface, const Surfac
 
 /// The surface at the end of an earlier morph. Its unmatched vertices are those without any remaining triangle.
 MovingSurface resume_surface(const MorphResult& so_far) {
-  const auto& source = dynamic_cast<const SurfaceMesh&>(*so_far.source);
-  const auto& mapped = dynamic_cast<const SurfaceMesh&>(*so_far.mapped);
-  const auto& removed = dynamic_cast<const Scalars&>(*so_far.unmatched);
-  const auto& path_length = dynamic_cast<const Scalars&>(*so_far.path_length);
+  const auto& source = unwrap<SurfaceMesh>(so_far.source);
+  const auto& mapped = unwrap<SurfaceMesh>(so_far.mapped);
+  const auto& removed = unwrap<Scalars>(so_far.unmatched);
+  const auto& path_length = unwrap<Scalars>(so_far.path_length);
   if (mapped.n_vertices() != source.n_vertices() || mapped.n_triangles() != source.n_triangles() ||
       removed.values.size() != source.n_triangles() || path_length.values.size() != source.n_vertices())
     throw GeometryError("a morph of " + std::to_string(source.n_vertices()) +
@@ -175,8 +189,8 @@ MorphResult morph(const SurfaceMesh& mesh, const std::vector<MovingAtom>& atoms,
 MorphResult continue_morph(const MorphResult& so_far, const std::vector<MovingAtom>& atoms,
                            const AtomCells& source_atoms, const AtomCells& target_atoms, const MorphOptions& options,
                            const std::string& stage, const Progress& progress) {
-  return run_steps(resume_surface(so_far), dynamic_cast<const SurfaceMesh&>(*so_far.source), atoms, source_atoms,
-                   target_atoms, options, stage, progress);
+  return run_steps(resume_surface(so_far), unwrap<SurfaceMesh>(so_far.source), atoms, source_atoms, target_atoms,
+                   options, stage, progress);
 }
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -30,8 +30,7 @@ void check(const Lattice& lattice, const CoulombOptions& options) {
     if (n < 1) throw InputError("a lattice of " + std::to_string(n) + " points along an axis; at least 1 is needed");
     n_points *= n;
   }
-  if (n_points > 2.0e9)
-    throw MemoryError("a lattice of " + std::to_string(n_points) + " points is above 2e9; use a coarser one");
+  require_grid(n_points, sizeof(float), "a Coulomb potential");
 }
 
 }  // namespace

@@ -42,7 +42,8 @@ class CufftLibrary {
     if (library == nullptr) {
       throw DeviceError(name +
                         " was not found, which the PME potential needs on a GPU; install cuFFT of the CUDA toolkit and "
-                        "add its folder to LD_LIBRARY_PATH, or use --device cpu");
+                        "add its folder to LD_LIBRARY_PATH, or use " +
+                        option("device", "cpu"));
     }
     load(library, "cufftPlan3d", plan_3d);
     load(library, "cufftSetStream", set_stream);
@@ -57,7 +58,7 @@ class CufftLibrary {
     function = reinterpret_cast<Function>(dlsym(library, name));
     if (function == nullptr)
       throw DeviceError(std::string("libcufft lacks ") + name + "; install cuFFT " + std::to_string(CUFFT_VER_MAJOR) +
-                        " of the CUDA toolkit, or use --device cpu");
+                        " of the CUDA toolkit, or use " + option("device", "cpu"));
   }
 };
 
@@ -65,7 +66,7 @@ void check(cufftResult status, const char* what) {
   if (status == CUFFT_SUCCESS) return;
   if (status == CUFFT_ALLOC_FAILED) throw std::bad_alloc();
   throw DeviceError(std::string("cuFFT failed to ") + what + " (code " + std::to_string(static_cast<int>(status)) +
-                    "); try --device cpu");
+                    "); try " + option("device", "cpu"));
 }
 
 /// cuFFT's names for one precision.
@@ -158,14 +159,14 @@ class CufftGrid : public FourierGrid<T> {
 
 }  // namespace
 
-std::string probe_fourier(bool* available) {
+Message probe_fourier(bool* available) {
   try {
     CufftLibrary::get();
     *available = true;
     return "cuFFT " + std::to_string(CUFFT_VER_MAJOR);
   } catch (const DeviceError& error) {
     *available = false;
-    return error.what();
+    return error.message();
   }
 }
 

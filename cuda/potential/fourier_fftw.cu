@@ -207,7 +207,7 @@ std::unique_ptr<FourierGrid<T>> make_fourier_grid(std::array<int, 3> size) {
   return std::make_unique<FftwGrid<T>>(size);
 }
 
-std::string probe_fourier(bool* available) {
+Message probe_fourier(bool* available) {
   *available = true;
   return fftwf_version;
 }
@@ -218,7 +218,7 @@ std::string probe_fourier(bool* available) {
 
 namespace espdiff::ESPDIFF_BACKEND {
 
-std::string probe_fourier(bool* available) {
+Message probe_fourier(bool* available) {
   *available = false;
   return "this build has no FFTW, which the PME potential needs on the CPU; install libfftw3-dev (Debian) and build "
          "again, or give potential maps as files";

@@ -67,12 +67,11 @@ void check_options(const PmeOptions& o) {
 void check_memory(const PmeOptions& o) {
   const double per_point = o.precision == Precision::kDouble ? 8 + 9 + 4 : 4 + 5 + 4;
   const double n_points = static_cast<double>(o.size[0]) * o.size[1] * o.size[2];
-  const double limit = std::min(available_bytes() / per_point, 2.0e9);
-  if (n_points <= limit) return;
+  const double coarser = coarsening_to_fit(n_points, per_point);
+  if (coarser <= 1) return;
   throw MemoryError("a grid of " + std::to_string(o.size[0]) + " x " + std::to_string(o.size[1]) + " x " +
-                    std::to_string(o.size[2]) + " points is more than memory holds (" + std::to_string(limit) +
-                    " points); a resolution " + std::to_string(std::cbrt(n_points / limit)) +
-                    " times as coarse would fit");
+                    std::to_string(o.size[2]) + " points " + need_in_words(n_points, per_point) + "; a resolution " +
+                    std::to_string(coarser) + " times as coarse would fit");
 }
 
 /// Rows of the matrix that takes positions to parts of the edges: the reciprocal edges, 1/A.

@@ -12,7 +12,7 @@ std::shared_ptr<SurfaceMesh> carry(const SurfaceMesh& points, const SurfaceMesh&
 
 /// See Engine::carry_rigidly() (carry_rigidly.cu).
 std::shared_ptr<SurfaceMesh> carry_rigidly(const SurfaceMesh& mesh, const AtomCells& atoms,
-                                           const std::vector<std::int32_t>& pieces,
+                                           const std::vector<std::int32_t>& domains,
                                            const std::vector<RigidTransform>& motions);
 
 }  // namespace espdiff::ESPDIFF_BACKEND

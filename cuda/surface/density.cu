@@ -14,8 +14,9 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// Bytes needed per lattice point: density, inside flags, cases, vertex offsets, and the field with its gradient.
-constexpr double kBytesPerPoint = 4 + 1 + 1 + 4 + 16 + 8;
+/// Bytes per lattice point of the density and of its isosurface: inside flags, cases, vertex offsets. Fields check their
+/// own memory.
+constexpr double kBytesPerPoint = 4 + 1 + 1 + 4;
 
 ESPDIFF_INLINE float axis_gaussian(float exponent, float delta) {
   return exp_of_negative(larger(exponent * delta * delta, -80.0F));
@@ -59,13 +60,13 @@ CubicLattice density_lattice(const AtomCells& atoms, double spacing_A) {
   for (int axis = 0; axis < 3; ++axis) {
     n_points *= std::ceil(extent[axis] / spacing_A) + 3;
   }
-  const double limit = std::min(available_bytes() / kBytesPerPoint, 2.0e9);
-  if (n_points > limit) {
-    const double fitting = spacing_A * std::cbrt(n_points / limit);
+  const double coarser = coarsening_to_fit(n_points, kBytesPerPoint);
+  if (coarser > 1) {
+    const double fitting = spacing_A * coarser;
     throw MemoryError("a grid of spacing " + std::to_string(spacing_A) + " A over " + std::to_string(extent.x) + " x " +
                       std::to_string(extent.y) + " x " + std::to_string(extent.z) + " A has " +
-                      std::to_string(n_points) + " points, more than memory holds (" + std::to_string(limit) +
-                      "); a spacing of " + std::to_string(fitting) + " A would fit, or select fewer atoms");
+                      std::to_string(n_points) + " points, which " + need_in_words(n_points, kBytesPerPoint) +
+                      "; a spacing of " + std::to_string(fitting) + " A would fit, or select fewer atoms");
   }
   for (int axis = 0; axis < 3; ++axis) lattice.size[axis] = static_cast<int>(std::ceil(extent[axis] / spacing_A) + 3);
   lattice.spacing = static_cast<float>(spacing_A);

@@ -104,8 +104,8 @@ ESPDIFF_INLINE std::uint32_t vertex_index(const Extraction& e, std::size_t point
   std::snprintf(text, sizeof text,
                 "no surface: the density reaches %.3g on a lattice of %.3g A and never exceeds the isovalue %.3g; "
                 "lower the isovalue or the grid spacing, or raise the radius scale",
-                "the grid spacing, or raise the radius scale", static_cast<double>(highest),
-                static_cast<double>(density.lattice.spacing), static_cast<double>(isovalue));
+                static_cast<double>(highest), static_cast<double>(density.lattice.spacing),
+                static_cast<double>(isovalue));
   throw GeometryError(text);
 }
 

@@ -169,6 +169,9 @@ std::shared_ptr<MapGrid> resample(const MapGrid& map, const Lattice& lattice) {
   for (const int n : lattice.size) {
     if (n < 1) throw InputError("a lattice of " + std::to_string(n) + " points along an axis needs at least 1");
   }
+  double n_points = 1;
+  for (const int n : lattice.size) n_points *= n;
+  require_grid(n_points, sizeof(float), "sampling a map");
   auto result = std::make_shared<MapGrid>();
   result->lattice = lattice;
   result->unit = map.unit;

@@ -154,7 +154,8 @@ std::string unpaired_examples(const ResidueView& source, const ResidueView& targ
     text += std::to_string(residues.size()) + " residues pair, but hardly any of their atom names (" +
             unpaired_examples(source, target, residues) + ")";
   }
-  throw InputError(text + "; give two states of one molecule, or compare them as given with --align none");
+  throw InputError(text + "; give two states of one molecule, or compare them as given with " +
+                   option("align", "none"));
 }
 
 bool is_backbone(const std::string& name, ResidueKind kind) {
@@ -218,14 +219,14 @@ IndexPairs select_pairs(const AtomPairing& pairing, const Molecule& source, Alig
   const ResidueView view(source);
   IndexPairs chosen = selected(pairing, view, atoms);
   if (chosen.size() >= kMinPairs) return chosen;
-  std::string remedies;
+  Message remedies;
   for (const AlignAtoms other : {AlignAtoms::kAll, AlignAtoms::kBackbone, AlignAtoms::kCAlpha}) {
     const std::size_t n = selected(pairing, view, other).size();
-    if (n >= kMinPairs) remedies += "--align " + to_string(other) + " (" + std::to_string(n) + " pairs), ";
+    if (n >= kMinPairs) remedies += option("align", to_string(other)) + " (" + std::to_string(n) + " pairs), ";
   }
-  throw InputError("--align " + to_string(atoms) + " selects " + std::to_string(chosen.size()) + " of " +
+  throw InputError(option("align", to_string(atoms)) + " selects " + std::to_string(chosen.size()) + " of " +
                    std::to_string(pairing.pairs.size()) + " paired atoms, at least 3 are needed; use " + remedies +
-                   "or --align none");
+                   "or " + option("align", "none"));
 }
 
 }  // namespace espdiff

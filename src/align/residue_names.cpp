@@ -6,6 +6,8 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "base/water.h"
+
 namespace espdiff {
 namespace {
 
@@ -42,17 +44,11 @@ std::string upper_case(std::string text) {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-bool is_water(const std::string& name) {
-  static const std::vector<std::string> names = {"HOH",  "WAT",  "H2O",  "DOD", "SOL", "TIP", "TP3",
-                                                 "TIP3", "TIP4", "TIP5", "T3P", "T4P", "SPC"};
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 ResidueKind kind_of(const std::string& residue_name, const std::vector<std::string>& atom_names) {
   const char letter = residue_letter(residue_name);
   if (letter >= 'A' && letter <= 'Z') return ResidueKind::kAminoAcid;
   if (letter >= 'a' && letter <= 'z') return ResidueKind::kNucleotide;
-  if (is_water(upper_case(residue_name))) return ResidueKind::kWater;
+  if (is_water_name(upper_case(residue_name))) return ResidueKind::kWater;
   const auto has = [&](const char* name) {
     return std::find(atom_names.begin(), atom_names.end(), name) != atom_names.end();
   };

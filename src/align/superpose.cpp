@@ -46,9 +46,9 @@ Eigen::Matrix3d best_rotation(const Eigen::Matrix3d& covariance) {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Vector3d& singular = svd.singularValues();
   if (!(singular(1) > kCollinear * singular(0))) {
-    throw GeometryError(
-        "the paired atoms lie on a line or in a point, so that no rotation superposes them best; pair more atoms "
-        "(--align all) or use --align none");
+    throw GeometryError(Message("the paired atoms lie on a line or in a point, so that no rotation superposes them "
+                                "best; pair more atoms (") +
+                        option("align", "all") + ") or use " + option("align", "none"));
   }
   const double sign = svd.matrixV().determinant() * svd.matrixU().determinant() < 0 ? -1.0 : 1.0;
   return svd.matrixV() * Eigen::Vector3d(1, 1, sign).asDiagonal() * svd.matrixU().transpose();
@@ -74,7 +74,8 @@ Eigen::Vector3d directed(const Eigen::Vector3d& axis, const std::vector<Eigen::V
 Superposition superpose(const std::vector<Vec3d>& moving, const std::vector<Vec3d>& fixed, const IndexPairs& pairs) {
   if (pairs.size() < 3) {
     throw GeometryError("a superposition needs at least 3 pairs of atoms, " + std::to_string(pairs.size()) +
-                        " were given; pair more atoms (--align all) or use --align none");
+                        " were given; pair more atoms (" + option("align", "all") + ") or use " +
+                        option("align", "none"));
   }
   Eigen::Vector3d moving_centre = Eigen::Vector3d::Zero(), fixed_centre = Eigen::Vector3d::Zero();
   for (const auto& [m, f] : pairs) {
@@ -122,7 +123,8 @@ Screw screw_of(const RigidTransform& transform) {
   Screw screw;
   screw.shift = transform.translation;
   if (turn.angle() < kNoRotation) return screw;
-  const Eigen::Vector3d axis = turn.axis(), translation = to_eigen(transform.translation);
+  const Eigen::Vector3d& axis = turn.axis();
+  const Eigen::Vector3d translation = to_eigen(transform.translation);
   const Eigen::Vector3d along = axis.dot(translation) * axis, across = translation - along;
   screw.axis = from_eigen(axis);
   screw.angle = turn.angle();

@@ -16,42 +16,41 @@ namespace {
 constexpr double kLongestLink_A = 12;
 
 /// Atoms first to last - 1.
-struct Piece {
+struct Part {
   std::size_t first, last;
 
   std::size_t size() const { return last - first; }
 };
 
-Vec3d centre_of(const std::vector<Vec3d>& atoms, const Piece& piece) {
+Vec3d centre_of(const std::vector<Vec3d>& atoms, const Part& part) {
   Vec3d sum{};
-  for (std::size_t i = piece.first; i < piece.last; ++i) sum += atoms[i];
-  return (1.0 / static_cast<double>(piece.size())) * sum;
+  for (std::size_t i = part.first; i < part.last; ++i) sum += atoms[i];
+  return (1.0 / static_cast<double>(part.size())) * sum;
 }
 
-std::vector<Piece> join_neighbours(std::vector<Vec3d>& atoms, const std::array<Vec3d, 3>& edges) {
-  std::vector<Piece> pieces = {{0, 1}};
+std::vector<Part> join_neighbours(std::vector<Vec3d>& atoms, const std::array<Vec3d, 3>& edges) {
+  std::vector<Part> parts = {{0, 1}};
   for (std::size_t i = 1; i < atoms.size(); ++i) {
     const Vec3d link = shortest_image(atoms[i] - atoms[i - 1], edges);
     if (dot(link, link) > kLongestLink_A * kLongestLink_A) {
-      pieces.push_back({i, i + 1});
+      parts.push_back({i, i + 1});
       continue;
     }
     atoms[i] = atoms[i - 1] + link;
-    pieces.back().last = i + 1;
+    parts.back().last = i + 1;
   }
-  return pieces;
+  return parts;
 }
 
 /// The transform from the atoms to the reference, fitted to the largest part.
-RigidTransform into_reference(const std::vector<Vec3d>& atoms, const std::vector<Vec3d>& reference,
-                              const Piece& piece) {
-  if (piece.size() >= 3) {
+RigidTransform into_reference(const std::vector<Vec3d>& atoms, const std::vector<Vec3d>& reference, const Part& part) {
+  if (part.size() >= 3) {
     std::vector<std::pair<std::size_t, std::size_t>> pairs;
-    for (std::size_t i = piece.first; i < piece.last; ++i) pairs.emplace_back(i, i);
+    for (std::size_t i = part.first; i < part.last; ++i) pairs.emplace_back(i, i);
     return superpose(atoms, reference, pairs).transform;
   }
   RigidTransform shift;
-  shift.translation = centre_of(reference, piece) - centre_of(atoms, piece);
+  shift.translation = centre_of(reference, part) - centre_of(atoms, part);
   return shift;
 }
 
@@ -84,22 +83,22 @@ std::vector<Vec3d> unwrapped(const std::vector<Vec3d>& atoms, const std::array<V
                      std::to_string(reference.size()));
   std::vector<Vec3d> result = atoms;
   if (atoms.empty()) return result;
-  std::vector<Piece> pieces = join_neighbours(result, edges);
-  std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.size() > b.size(); });
+  std::vector<Part> parts = join_neighbours(result, edges);
+  std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.size() > b.size(); });
   const RigidTransform to_reference =
-      reference.empty() ? RigidTransform() : into_reference(result, reference, pieces.front());
+      reference.empty() ? RigidTransform() : into_reference(result, reference, parts.front());
   const RigidTransform from_reference = inverse(to_reference);
-  Vec3d placed = static_cast<double>(pieces.front().size()) * centre_of(result, pieces.front());
-  std::size_t n_placed = pieces.front().size();
-  for (std::size_t p = 1; p < pieces.size(); ++p) {
-    const Piece& piece = pieces[p];
-    const Vec3d centre = centre_of(result, piece);
+  Vec3d placed = static_cast<double>(parts.front().size()) * centre_of(result, parts.front());
+  std::size_t n_placed = parts.front().size();
+  for (std::size_t p = 1; p < parts.size(); ++p) {
+    const Part& part = parts[p];
+    const Vec3d centre = centre_of(result, part);
     const Vec3d wanted = reference.empty() ? (1.0 / static_cast<double>(n_placed)) * placed
-                                           : from_reference.apply(centre_of(reference, piece));
+                                           : from_reference.apply(centre_of(reference, part));
     const Vec3d shift = wanted + shortest_image(centre - wanted, edges) - centre;
-    for (std::size_t i = piece.first; i < piece.last; ++i) result[i] += shift;
-    placed += static_cast<double>(piece.size()) * (centre + shift);
-    n_placed += piece.size();
+    for (std::size_t i = part.first; i < part.last; ++i) result[i] += shift;
+    placed += static_cast<double>(part.size()) * (centre + shift);
+    n_placed += part.size();
   }
   return result;
 }

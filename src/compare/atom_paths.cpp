@@ -101,7 +101,8 @@ std::vector<MovingAtom> atom_paths(const Molecule& source, const Molecule& targe
                                    const RigidTransform& from_source, const RigidTransform& from_target,
                                    const DomainMotions& domains, double radius_scale, const Progress& progress) {
   if (pairing.pairs.empty())
-    throw InputError("the morph needs paired atoms, and none pair; use --method deform, which needs none");
+    throw InputError("the morph needs paired atoms, and none pair; use " + option("method", "deform") +
+                     ", which needs none");
   Side from(source), to(target);
   std::vector<std::size_t> target_of(source.size()), source_of(target.size());
   std::vector<std::pair<std::size_t, std::size_t>> pairs = pairing.pairs;

@@ -71,10 +71,10 @@ double same_residue_share(const MappedSurface& s, const std::vector<std::int32_t
 }
 
 void judge(Certificate& c, const CompareResult& result) {
-  const auto refuse = [&](bool bad, const std::string& reason) {
+  const auto refuse = [&](bool bad, const Message& reason) {
     if (bad) c.reasons.push_back(reason);
   };
-  refuse(!c.converged, "the mapping did not converge; raise --max-iterations");
+  refuse(!c.converged, "the mapping did not converge; raise " + option("max-iterations"));
   refuse(c.corrupt_area_fraction > Limits::kCorruptArea, percent(c.corrupt_area_fraction) +
                                                              " of the mapped area is corrupt (limit " +
                                                              percent(Limits::kCorruptArea) + ")");

@@ -62,10 +62,10 @@ void download_surface(Engine& engine, const MeshPtr& source, const AtomsPtr& sou
                       const MeshPtr& mapped, const AtomsPtr& target_atoms, float isovalue, const CommonFrame& frame,
                       MappedSurface& surface) {
   const RigidTransform to_source = inverse(frame.from_source), to_target = inverse(frame.from_target);
-  const Mesh mapped_mesh = engine.download(mapped);
-  surface.triangles = mapped_mesh.triangles;
+  Mesh mapped_mesh = engine.download_shape(mapped);
+  surface.triangles = std::move(mapped_mesh.triangles);
   for (const Vec3f& p : mapped_mesh.positions) surface.positions.push_back(to_target.apply(static_cast<Vec3d>(p)));
-  for (const Vec3f& p : engine.download(source).positions)
+  for (const Vec3f& p : engine.download_positions(source))
     surface.source_positions.push_back(to_source.apply(static_cast<Vec3d>(p)));
   surface.normals = rotated(engine.level_set_normals(mapped, target_atoms, isovalue), to_target);
   surface.source_normals = rotated(engine.level_set_normals(source, source_atoms, isovalue), to_source);

@@ -83,7 +83,7 @@ std::vector<Vec3d> counterparts(const Molecule& source, const Molecule& target, 
 LastStep after_deform(Engine& engine, const MeshPtr& regularized, const MeshPtr& mapped, std::vector<Vec3d> target) {
   const std::size_t n = engine.n_vertices(regularized);
   if (engine.n_vertices(mapped) == n) return {mapped, std::move(target)};
-  std::vector<Vec3f> positions = engine.download(mapped).positions;
+  std::vector<Vec3f> positions = engine.download_positions(mapped);
   positions.resize(n);
   return {engine.with_positions(regularized, positions), std::move(target)};
 }
@@ -98,9 +98,9 @@ LastStep after_morph(const MorphResult& morphed, const Molecule& molecule, const
 }
 
 SeriesState state_of(Engine& engine, const LastStep& last) {
-  SeriesState state{engine.download(last.mapped).positions, last.target, std::nullopt};
+  SeriesState state{engine.download_positions(last.mapped), last.target, std::nullopt};
   if (last.morphed) {
-    Mesh source = engine.download(last.morphed->source);
+    Mesh source = engine.download_shape(last.morphed->source);
     state.morph = SeriesState::Morph{std::move(source.positions),
                                      std::move(source.triangles),
                                      engine.download(last.morphed->unmatched),

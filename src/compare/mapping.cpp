@@ -85,7 +85,7 @@ void drop_closed_cavities(Engine& engine, Mapping& mapping) {
   mapping.source = engine.without(mapping.source, flags);
   // Both meshes keep one topology, which comparisons of potentials rely on.
   mapping.mapped =
-      engine.with_positions(mapping.source, engine.download(engine.without(mapping.mapped, flags)).positions);
+      engine.with_positions(mapping.source, engine.download_positions(engine.without(mapping.mapped, flags)));
   mapping.unmatched = std::move(unmatched);
   std::vector<bool> left(source.positions.size(), false);
   for (std::size_t t = 0; t < dropped.size(); ++t) {

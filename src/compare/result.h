@@ -9,6 +9,7 @@
 
 #include "align/pair_atoms.h"
 #include "align/rigid_domains.h"
+#include "base/message.h"
 #include "base/types.h"
 #include "engine/certificate_stage.h"
 #include "engine/deform_stage.h"
@@ -65,7 +66,7 @@ struct Certificate {
   double same_residue_area_fraction = 0;
   bool converged = false;
   bool trustworthy = false;
-  std::vector<std::string> reasons;      ///< why not trustworthy
+  std::vector<Message> reasons;          ///< why not trustworthy
   std::vector<std::string> not_checked;  ///< names of the checks that were not made
 };
 

@@ -14,7 +14,7 @@ RoundTrip measure_round_trip(Engine& engine, const Mapping& there, const Mapping
   constexpr double kOnSurface_A = 0.5;
   const MeshPtr returned = engine.carry(there.matched, back.matched_source, back.matched, kOnSurface_A);
   const std::vector<float> distances = engine.download(engine.displacement(there.matched_source, returned));
-  const Mesh source = engine.download(there.matched_source);
+  const Mesh source = engine.download_shape(there.matched_source);
   std::vector<double> weights(distances.size(), 0.0);
   for (const Triangle& t : source.triangles) {
     const Vec3d a = static_cast<Vec3d>(source.positions[t[0]]), b = static_cast<Vec3d>(source.positions[t[1]]),

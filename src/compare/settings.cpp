@@ -2,6 +2,7 @@
 #include "compare/settings.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <locale>
@@ -14,7 +15,7 @@ namespace espdiff {
 namespace {
 
 [[noreturn]] void refuse(const std::string& name, const std::string& text, const std::string& accepted) {
-  throw InputError(name + ": '" + text + "' is not " + accepted);
+  throw InputError(option(name) + ": '" + text + "' is not " + accepted);
 }
 
 /// Reads a number in the C locale, whatever locale the host program has set.
@@ -25,25 +26,25 @@ bool parse(const std::string& text, Number& value) {
   return static_cast<bool>(in >> value) && (in >> std::ws).eof();
 }
 
-template <typename Number>
-std::string written(Number value) {
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out << value;
-  return out.str();
+/// The shortest text that reads back as the same value.
+std::string written(double value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::general).ptr};
 }
+std::string written(int value) { return std::to_string(value); }
 
 /// The range of numbers that a setting accepts.
 struct Range {
   double low;
   bool low_included;
   const char* words;
+  double high = HUGE_VAL;  ///< included
 };
 constexpr Range kPositive{0, false, "a positive number"}, kNotNegative{0, true, "a number of 0 or more"},
-    kAnyNumber{-HUGE_VAL, false, "a number"}, kCount{0, true, "a whole number of 0 or more"};
+    kShare{0, true, "a number from 0 to 1", 1}, kCount{0, true, "a whole number of 0 or more"};
 
 bool within(const Range& range, double value) {
-  return std::isfinite(value) && (range.low_included ? value >= range.low : value > range.low);
+  return std::isfinite(value) && (range.low_included ? value >= range.low : value > range.low) && value <= range.high;
 }
 
 /// Headings of settings that only one method reads.
@@ -134,8 +135,8 @@ void add_iteration_settings(std::vector<Setting>& all, const std::string& prefix
         prefix + name, group, range, [ iteration, member ](auto& o) -> auto& { return iteration(o).*member; }, help));
   };
   add("sigma", kPositive, &DeformOptions::sigma, "Step scale");
-  add("mu", kAnyNumber, &DeformOptions::mu, "Weight of the external force against the internal one, 0 to 1");
-  add("rho", kAnyNumber, &DeformOptions::rho, "Weight of rigidity against tension, 0 to 1");
+  add("mu", kShare, &DeformOptions::mu, "Weight of the external force against the internal one, 0 to 1");
+  add("rho", kShare, &DeformOptions::rho, "Weight of rigidity against tension, 0 to 1");
   add("tangential-gain", kNotNegative, &DeformOptions::tangential_gain,
       "Multiplies the internal force, which moves vertices along the surface");
   all.push_back(count(
@@ -223,6 +224,10 @@ void add_mapping_settings(std::vector<Setting>& all) {
   all.push_back(thesis);
 }
 
+/// The settings whose key in OUT.json ends with a unit.
+constexpr std::pair<const char*, const char*> kUnits[] = {
+    {"grid-spacing", "A"}, {"max-step", "A"}, {"distance-threshold", "A"}, {"gvf-weight", "A2"}, {"temperature", "K"}};
+
 std::vector<Setting> make_settings() {
   std::vector<Setting> all;
   all.push_back(choice(
@@ -256,14 +261,30 @@ std::vector<Setting> make_settings() {
       all, "regularize-", "Regularization", [](auto& o) -> auto& { return o.regularize; },
       [](auto& o) -> auto& { return o.regularize_min_displacement; });
   for (std::size_t i = first; i < all.size(); ++i) all[i].of_surface = true;
+  for (Setting& setting : all) {
+    for (const auto& [name, unit] : kUnits)
+      if (setting.name == name) setting.unit = unit;
+  }
   return all;
 }
 
 }  // namespace
 
+std::string Setting::key() const {
+  std::string key = unit.empty() ? name : name + "_" + unit;
+  std::replace(key.begin(), key.end(), '-', '_');
+  return key;
+}
+
 const std::vector<Setting>& settings() {
   static const std::vector<Setting> all = make_settings();
   return all;
+}
+
+std::vector<std::pair<std::string, std::string>> setting_texts(const CompareOptions& options) {
+  std::vector<std::pair<std::string, std::string>> texts;
+  for (const Setting& setting : settings()) texts.emplace_back(setting.name, setting.get(options));
+  return texts;
 }
 
 const Setting& find_setting(const std::string& name) {
@@ -271,8 +292,7 @@ const Setting& find_setting(const std::string& name) {
     if (setting.name == name) return setting;
   }
   for (const RenamedSetting& renamed : renamed_settings()) {
-    if (renamed.old_name == name)
-      throw InputError(name + ": the setting is now called " + renamed.name + "; give " + renamed.name);
+    if (renamed.old_name == name) throw InputError(option(name) + " is called " + option(renamed.name) + " now");
   }
   throw InputError("there is no setting '" + name + "'");
 }
@@ -290,9 +310,10 @@ void refuse_of_other_method(const std::vector<std::pair<std::string, std::string
   for (const auto& [name, text] : given) {
     const Setting& setting = find_setting(name);
     if (setting.group != other || (name == kThesisSetting && text == "0")) continue;
-    throw InputError(name + " is a setting of the method " + (method == Method::kMorph ? "deform" : "morph") +
-                     ", and the method is " + to_string(method) + "; give method " +
-                     (method == Method::kMorph ? "deform" : "morph") + " as well, or leave " + name + " out");
+    const std::string its_method = method == Method::kMorph ? "deform" : "morph";
+    throw InputError(option(name) + " is a setting of the method " + its_method + ", and the method is " +
+                     to_string(method) + "; give " + option("method", its_method) + " as well, or leave " +
+                     option(name) + " out");
   }
 }
 

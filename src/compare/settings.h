@@ -25,10 +25,17 @@ struct Setting {
   std::function<void(CompareOptions&, const std::string&)> set;
   /// The value as a text that set() accepts.
   std::function<std::string(const CompareOptions&)> get;
+  std::string unit = "";  ///< "A", "K", "A2": ends the name of its key in OUT.json
+
+  /// Its key in OUT.json: "grid_spacing_A".
+  std::string key() const;
 };
 
 /// All settings, in the order of the manuals.
 const std::vector<Setting>& settings();
+
+/// Every setting's value as text, by name.
+std::vector<std::pair<std::string, std::string>> setting_texts(const CompareOptions& options);
 
 /// @throws InputError if there is none of that name; for an old name the message gives the new one
 const Setting& find_setting(const std::string& name);

@@ -35,16 +35,15 @@ void check_maps(const CompareInput& source, const CompareInput& target) {
   if (has_map(source) != has_map(target)) {
     throw InputError(std::string("a potential map was given for the ") + (has_map(source) ? "source" : "target") +
                      " only; give one for the " +
-                     (has_map(source) ? "target too (--target-map" : "source too (--source-map") +
-                     "; `map` in Tcl), or none to compare shapes alone");
+                     (has_map(source) ? "target too (" + option("target-map") : "source too (" + option("source-map")) +
+                     "), or none to compare shapes alone");
   }
   const PotentialUnit source_unit = unit_of(source), target_unit = unit_of(target);
   if (source_unit == target_unit) return;
   if (source_unit == PotentialUnit::kUnknown || target_unit == PotentialUnit::kUnknown) {
     throw InputError("the maps are in two units: " + described(source) + " and " + described(target) +
                      "; name the unknown one's unit (" +
-                     (source_unit == PotentialUnit::kUnknown ? "--source-map-unit" : "--target-map-unit") +
-                     "; `unit` in Tcl)");
+                     option(source_unit == PotentialUnit::kUnknown ? "source-map-unit" : "target-map-unit") + ")");
   }
 }
 

@@ -250,7 +250,12 @@ class Engine {
   /// @param positions [vertex]
   /// @throws GeometryError if the numbers of vertices differ
   virtual MeshPtr with_positions(const MeshPtr& mesh, const std::vector<Vec3f>& positions) = 0;
-  /// Positions, triangles, component labels and outward vertex normals (area-weighted mean of the triangles').
+  /// [vertex]
+  virtual std::vector<Vec3f> download_positions(const MeshPtr& mesh) = 0;
+  /// Positions and triangles.
+  virtual Mesh download_shape(const MeshPtr& mesh) = 0;
+  /// Positions, triangles, component labels and outward vertex normals (area-weighted mean of the triangles'). Labels
+  /// and normals are computed by each call.
   virtual Mesh download(const MeshPtr& mesh) = 0;
   virtual std::vector<float> download(const ScalarsPtr& scalars) = 0;
   virtual ScalarsPtr upload_scalars(const std::vector<float>& values) = 0;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "engine/handles.h"
 
 namespace espdiff {
@@ -12,7 +13,7 @@ namespace espdiff {
 namespace cpu_backend {
 std::unique_ptr<Engine> make_engine(int n_threads);
 /// Whether potentials can be computed; returns the Fourier transform library, or why there is none and the remedy.
-std::string probe_fourier(bool* available);
+Message probe_fourier(bool* available);
 }  // namespace cpu_backend
 
 namespace cuda_backend {
@@ -22,12 +23,12 @@ std::unique_ptr<Engine> make_engine(int device);
 
 /// Facts about a GPU before it is used.
 struct CudaDeviceStatus {
-  bool usable;              ///< this build has code for it
-  std::string description;  ///< name, compute capability, memory; or why it cannot be used and the remedy
+  bool usable;          ///< this build has code for it
+  Message description;  ///< name, compute capability, memory; or why it cannot be used and the remedy
 };
 /// The GPUs that respond, by index; if there are none, the reason and the remedy. Starts no work on them.
-std::vector<CudaDeviceStatus> probe_devices(std::string* why_none);
-std::string probe_fourier(bool* available);
+std::vector<CudaDeviceStatus> probe_devices(Message* why_none);
+Message probe_fourier(bool* available);
 }  // namespace cuda_backend
 
 }  // namespace espdiff

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "engine/handles.h"
 
 namespace espdiff {
@@ -30,7 +31,7 @@ DeviceRequest parse_device(const std::string& text);
 struct BackEndStatus {
   std::string name;  ///< "cpu", "cuda", or "cuda:1"
   bool available = false;
-  std::string description;  ///< the device, or the reason for none and the remedy
+  Message description;  ///< the device, or the reason for none and the remedy
 };
 /// Default number of CPU threads: OMP_NUM_THREADS, which batch systems set, otherwise all cores available to the
 /// process.

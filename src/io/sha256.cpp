@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/system_message.h"
 
 namespace espdiff {
 namespace {
@@ -131,7 +132,7 @@ std::string sha256_of_file(const std::string& path) {
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   if (!in)
-    throw IoError(path, std::string("cannot read: ") + std::strerror(errno) + "; check the name and its permissions");
+    throw IoError(path, std::string("cannot read: ") + system_message(errno) + "; check the name and its permissions");
   Sha256 hash;
   std::vector<char> chunk(std::size_t{1} << 16);
   while (in.read(chunk.data(), static_cast<std::streamsize>(chunk.size())) || in.gcount() > 0) {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// Sum and number of the known distances between the variants of two clusters.
+/// Sum and number of the known distances between two clusters' variants.
 struct Link {
   double sum = 0;
   std::size_t n = 0;
@@ -20,9 +20,9 @@ struct Link {
 
 struct Cluster {
   std::size_t id = 0;     ///< as in ClusterMerge
-  std::size_t first = 0;  ///< its variant of the smallest number
+  std::size_t first = 0;  ///< its variant of smallest number
   std::size_t n_variants = 1;
-  std::vector<Link> links;  ///< [place] to the cluster in that place
+  std::vector<Link> links;  ///< [place] to the cluster at that place
 };
 
 /// The nearest pair of places; clusters stay in the order of their first variants.
@@ -41,7 +41,7 @@ std::pair<std::size_t, std::size_t> nearest(const std::vector<Cluster>& clusters
   return best;
 }
 
-/// The cluster in place b joins that in place a.
+/// Merges the cluster at place b into that at place a.
 void join(std::vector<Cluster>& clusters, std::size_t a, std::size_t b, std::size_t id) {
   for (std::size_t other = 0; other < clusters.size(); ++other) {
     const Link& from = clusters[b].links[other];
@@ -70,7 +70,7 @@ std::vector<double> ranks(const std::vector<double>& values) {
   return result;
 }
 
-/// Leaves out the places where one of both is not finite.
+/// Removes the places where either value is not finite.
 void keep_known(std::vector<double>& a, std::vector<double>& b) {
   std::size_t n = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {

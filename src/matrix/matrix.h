@@ -1,4 +1,4 @@
-// matrix.h: every variant compared with every other one, both ways.
+// matrix.h: every variant compared with every other one, in both directions.
 #pragma once
 
 #include <functional>
@@ -8,36 +8,21 @@
 
 #include "engine/handles.h"
 #include "matrix/variants.h"
+#include "report/metrics.h"
 
 namespace espdiff {
 
 struct CompareOptions;
-struct CompareResult;
 
-/// What the numbers of a metric are in.
-enum class MetricUnit { kPotential, kAngstrom, kSquareAngstrom, kFraction, kIndex, kCount };
-
-/// A number that a comparison gives.
-struct MatrixMetric {
-  const char* name;   ///< as in OUT.json of compare and in the CSV files: "mean_abs_difference"
-  const char* title;  ///< for axes and tables: "Mean absolute difference"
-  MetricUnit unit;
-  bool of_potential;   ///< it has values with potentials only
-  bool antisymmetric;  ///< the other direction's value is its negative; else it should be the same
-  double (*of)(const CompareResult&);
-};
-
-/// All of them, in the order of files.
-const std::vector<MatrixMetric>& matrix_metrics();
-/// The position of a metric. @throws InputError that lists them
+/// The metrics of a matrix, in the order of files.
+const std::vector<Metric>& matrix_metrics();
+/// The position of a metric. @throws InputError listing them
 std::size_t find_metric(const std::string& name);
-/// "kT/e", "A", "A^2", or empty for what is a mere number.
-std::string unit_of(const MatrixMetric& metric, const std::string& potential_unit);
 
 /// One ordered pair: the source's surface mapped onto the target's.
 struct MatrixCell {
-  std::size_t source = 0, target = 0;  ///< positions among the variants
-  std::vector<double> values;          ///< [metric]; NaN where there is none
+  std::size_t source = 0, target = 0;  ///< indices of variants
+  std::vector<double> values;          ///< [metric]; NaN if there is none
   bool converged = false, trustworthy = false;
   std::vector<std::string> reasons;  ///< why it is not trustworthy
   std::string error;                 ///< why there are no values
@@ -52,17 +37,17 @@ struct Shard {
 /// Reads "2/8". @throws InputError
 Shard parse_shard(const std::string& text);
 
-/// The ordered pairs of n variants without the diagonal, source by source; of a shard a contiguous part of them, so
-/// that a source is prepared in one process, or two at its border. The shards' parts differ in size by one at most.
+/// The ordered pairs of n variants without the diagonal, source by source. A shard is a contiguous part of them, so
+/// that one process, or two at a shard's border, prepares each source. Shards differ in size by at most one.
 std::vector<MatrixPair> matrix_pairs(std::size_t n_variants, const Shard& shard = {});
 
-/// Compares pairs in the order given. A source's surface is made and regularized once for all pairs that follow
-/// each other with it; a target's surface is made anew for each pair, along the axes of the source, as compare() does:
-/// a cell holds the same bits as compare() of its pair, in whatever order and part of the matrix it is computed.
-/// @param skip_errors a pair that cannot be compared becomes a cell with the error; else its error is thrown, with the
-///                    labels of the pair
-/// @param done        called with each cell as it is done
-/// @param progress    gets "LABEL to LABEL: stage" and the part of `pairs` done
+/// Compares pairs in the given order. A source's surface is made and regularized once for consecutive pairs. A target's
+/// surface is made again for each pair, along the axes of the source, as in compare(): a cell has the same bits as
+/// compare() of its pair, in any order and part of the matrix.
+/// @param skip_errors a pair that cannot be compared becomes a cell with the error; otherwise its error is thrown, with
+/// the labels of the pair
+/// @param done        called with each finished cell
+/// @param progress    gets "LABEL to LABEL: stage" and the fraction of `pairs` done
 /// @throws as compare()
 void compute_pairs(Engine& engine, const std::vector<Variant>& variants, const CompareOptions& options,
                    const std::vector<MatrixPair>& pairs, bool skip_errors,

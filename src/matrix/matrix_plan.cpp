@@ -19,7 +19,7 @@ std::string differ(const std::string& what, const std::string& there, const std:
   return what + " is " + shown(there) + " there and " + shown(here) + " here";
 }
 
-/// The first entry of a list that is not empty.
+/// The first nonempty entry of a list.
 std::string first_of(std::initializer_list<std::string> differences) {
   for (const std::string& difference : differences) {
     if (!difference.empty()) return difference;
@@ -45,7 +45,7 @@ MatrixPlan make_plan(const Engine& engine, const std::vector<Variant>& variants,
   MatrixPlan plan;
   plan.version = kVersion;
   plan.device = engine.back_end();
-  for (const Setting& setting : settings()) plan.settings.emplace_back(setting.name, setting.get(options));
+  plan.settings = setting_texts(options);
   if (variants.front().has_potential()) {
     plan.potential = potential;
     plan.potential_unit = to_string(variants.front().map ? variants.front().map->unit : PotentialUnit::kKtPerE);
@@ -59,7 +59,7 @@ MatrixPlan make_plan(const Engine& engine, const std::vector<Variant>& variants,
   return plan;
 }
 
-std::string plan_json(const MatrixPlan& plan) {
+Json plan_json(const MatrixPlan& plan) {
   Json json;
   json["version"] = plan.version;
   json["device"] = plan.device;
@@ -74,7 +74,7 @@ std::string plan_json(const MatrixPlan& plan) {
       inputs.push_back({{"role", input.role}, {"path", input.path}, {"sha256", input.sha256}});
     json["variants"].push_back({{"label", item.label}, {"group", item.group}, {"inputs", std::move(inputs)}});
   }
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json;
 }
 
 MatrixPlan parse_plan(const std::string& text) {

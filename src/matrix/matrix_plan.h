@@ -1,7 +1,7 @@
-// matrix_plan.h: what a matrix is of: everything that its values depend on, and the names that results are written
-// under.
+// matrix_plan.h: everything that a matrix's values depend on, and the names in its results.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,24 +17,24 @@ struct MatrixPlan {
   };
 
   std::string version;
-  std::string device;                                         ///< the back end, whose last digits may differ
-  std::vector<std::pair<std::string, std::string>> settings;  ///< every one by name
-  std::string potential;                                      ///< how potentials came about; empty for none
+  std::string device;                                         ///< the back end; last digits may differ between them
+  std::vector<std::pair<std::string, std::string>> settings;  ///< all settings by name
+  std::string potential;                                      ///< origin of the potentials; empty for none
   std::string potential_unit;                                 ///< empty for none
   std::vector<Item> variants;
 };
 
-/// @param potential in words: "maps", or "pme, grid 0.5, Ewald factor 0.25"; not counted where no variant has a map
+/// @param potential description: "maps", or "pme, grid 0.5, Ewald factor 0.25"; ignored if no variant has a map
 /// @throws InputError (fewer than two variants, labels, too many)
 MatrixPlan make_plan(const Engine& engine, const std::vector<Variant>& variants, const CompareOptions& options,
                      const std::string& potential);
 
-/// On one line, and back. @throws nlohmann::json::exception when the text is something else
-std::string plan_json(const MatrixPlan& plan);
+nlohmann::ordered_json plan_json(const MatrixPlan& plan);
+/// @throws nlohmann::json::exception if the text is not a plan
 MatrixPlan parse_plan(const std::string& json);
 
-/// What first makes the values of two plans differ, in words ("the setting grid-spacing is 0.8 there and 1 here");
-/// empty when nothing does. Groups and the paths of files do not count: fingerprints do.
+/// The first difference of two plans that changes the values ("the setting grid-spacing is 0.8 there and 1 here");
+/// empty if there is none. Groups and file paths are ignored; SHA-256 values are compared.
 std::string plan_difference(const MatrixPlan& there, const MatrixPlan& here);
 
 }  // namespace espdiff

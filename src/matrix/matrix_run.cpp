@@ -26,20 +26,21 @@ void check_results(const MatrixRun& run, bool may_replace) {
   if (!run.cluster_by.empty()) find_metric(run.cluster_by);
   for (const char* ending : {".csv", ".json"}) {
     if (!may_replace && fs::exists(run.output + ending))
-      throw InputError("the result " + run.output + ending +
-                       " exists, of a run that is complete; --overwrite replaces it");
+      throw InputError("the result " + run.output + ending + " exists, of a run that is complete; " +
+                       switched_on("overwrite") + " replaces it");
     AtomicFile probe(run.output + ending);
   }
 }
 
 /// What can be refused before the work is refused before the work.
 void check_outputs(const MatrixRun& run) {
-  if (run.resume && run.overwrite) throw InputError("--resume and --overwrite exclude each other; leave one out");
+  if (run.resume && run.overwrite)
+    throw InputError(option("resume") + " and " + option("overwrite") + " exclude each other; leave one out");
   const std::string state = state_path(run.output, run.shard);
   const bool has_state = fs::exists(state);
   if (!run.overwrite && !run.resume && has_state)
-    throw InputError("the state file " + state +
-                     " of an earlier run exists; --resume goes on with it, --overwrite begins anew");
+    throw InputError("the state file " + state + " of an earlier run exists; " + switched_on("resume") +
+                     " goes on with it, " + switched_on("overwrite") + " begins anew");
   // The results of a shard come with the merge.
   if (run.shard.count == 1) check_results(run, run.overwrite || (run.resume && has_state));
 }
@@ -112,8 +113,8 @@ MatrixReport run_matrix(Engine& engine, const std::vector<Variant>& variants, co
     compute_pairs(engine, variants, options, missing, run.skip_errors, keep, counted);
   } catch (const Cancelled&) {
     throw Error(ErrorClass::kCancelled, "cancelled after " + std::to_string(report.n_resumed + n_done) + " of " +
-                                            std::to_string(pairs.size()) + " pairs, which " + path +
-                                            " holds; --resume goes on");
+                                            std::to_string(pairs.size()) + " pairs, which " + path + " holds; " +
+                                            switched_on("resume") + " goes on");
   }
   report.seconds = seconds_since(start);
   if (run.shard.count > 1) {
@@ -132,7 +133,8 @@ std::size_t metric_to_cluster_by(const MatrixRun& run, const Matrix& matrix) {
 
 MatrixReport merge_matrix(const std::vector<std::string>& state_paths, const MatrixRun& run) {
   check_results(run, run.overwrite);
-  if (state_paths.empty()) throw InputError("no state files were given; a run with --shard writes them");
+  if (state_paths.empty())
+    throw InputError("no state files were given; a run with " + option("shard") + " writes them");
   MatrixPlan plan;
   std::vector<MatrixCell> cells;
   for (const std::string& path : state_paths) {

@@ -1,4 +1,4 @@
-// matrix_state.cpp: lines with a running check sum, one write each.
+// matrix_state.cpp: lines with a running checksum, one write each.
 #include "matrix/matrix_state.h"
 
 #include <fcntl.h>
@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/system_message.h"
 #include "io/atomic_file.h"
 #include "io/sha256.h"
 
@@ -25,7 +26,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kTag = "espdiff matrix state 1\n";
 constexpr std::size_t kSumDigits = 32;
 
-/// The check sum of a line that follows lines of the check sum `before`.
+/// The checksum of a line that follows lines with the checksum `before`.
 std::string sum_of(const std::string& before, const std::string& json) {
   return sha256_of(before + json).substr(0, kSumDigits);
 }
@@ -49,7 +50,7 @@ MatrixCell parse_cell(const std::string& text, std::size_t n_variants) {
   json.at("target").get_to(cell.target);
   if (cell.source >= n_variants || cell.target >= n_variants || cell.source == cell.target)
     throw std::out_of_range("pair");
-  for (const MatrixMetric& metric : matrix_metrics()) {
+  for (const Metric& metric : matrix_metrics()) {
     const Json& value = json.at("values").at(metric.name);
     cell.values.push_back(value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>());
   }
@@ -60,12 +61,12 @@ MatrixCell parse_cell(const std::string& text, std::size_t n_variants) {
   return cell;
 }
 
-/// Lines off the front of a file, each checked.
+/// Reads checked lines from the front of a file.
 class LineReader {
  public:
   LineReader(const std::string& path, const std::string& bytes) : path_(path), bytes_(bytes) {}
 
-  /// @returns false when no complete line is left
+  /// @returns false if no complete line remains
   bool next(std::string& json) {
     const std::size_t end = bytes_.find('\n', at_);
     if (end == std::string::npos) return false;
@@ -79,10 +80,9 @@ class LineReader {
     return true;
   }
   [[noreturn]] void damaged() const {
-    throw FormatError(
-        path_, line_,
-        "the state file is damaged from this line on; delete it and run anew (--overwrite), or remove this "
-        "line and all after it and resume");
+    throw FormatError(path_, line_,
+                      "the state file is damaged from this line on; delete it and run anew (" +
+                          switched_on("overwrite") + "), or remove this line and all after it and resume");
   }
   void skip_tag() {
     at_ = std::strlen(kTag);
@@ -104,7 +104,7 @@ std::string read_all(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-/// The check sum at the end of complete lines; `n_bytes` of them.
+/// The checksum at the end of complete lines; `n_bytes` of them.
 std::string last_sum(const std::string& bytes, std::size_t n_bytes) {
   const std::size_t start = bytes.rfind('\n', n_bytes - 2) + 1;
   return bytes.substr(start, kSumDigits);
@@ -121,7 +121,8 @@ MatrixStateContent read_matrix_state(const std::string& path) {
   MatrixStateContent content;
   std::string json;
   if (!reader.next(json))
-    throw FormatError(path, 2, "the state file is cut off before its first row; run anew (--overwrite)");
+    throw FormatError(path, 2,
+                      "the state file is cut off before its first row; run anew (" + switched_on("overwrite") + ")");
   try {
     content.plan = parse_plan(json);
     while (reader.next(json)) content.cells.push_back(parse_cell(json, content.plan.variants.size()));
@@ -137,7 +138,7 @@ MatrixStateContent read_matrix_state(const std::string& path) {
 
 MatrixState::MatrixState(std::string path, std::string sum) : path_(std::move(path)), sum_(std::move(sum)) {
   descriptor_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
-  if (descriptor_ < 0) throw IoError(path_, std::string("the state file cannot be written: ") + std::strerror(errno));
+  if (descriptor_ < 0) throw IoError(path_, std::string("the state file cannot be written: ") + system_message(errno));
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     ::close(descriptor_);
     throw IoError(path_, "another process is writing this state file; wait for it, or name another output");
@@ -154,7 +155,9 @@ MatrixState::~MatrixState() {
 }
 
 MatrixState MatrixState::begin(const std::string& path, const MatrixPlan& plan) {
-  const std::string json = plan_json(plan), sum = sum_of("", json);
+  // JSON must be UTF-8, a path need not be.
+  const std::string json = plan_json(plan).dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string sum = sum_of("", json);
   if (std::ifstream(path)) MatrixState(path, "");  // refused while another process writes it
   AtomicFile file(path);
   file.stream() << kTag << line_of(sum, json);
@@ -163,15 +166,15 @@ MatrixState MatrixState::begin(const std::string& path, const MatrixPlan& plan) 
 }
 
 MatrixState MatrixState::go_on(const std::string& path, const MatrixPlan& plan, MatrixStateContent& content) {
-  // Locked before it is read: what another process is adding would look like a row that is cut off.
+  // Locked before reading: a row that another process is writing would look truncated.
   MatrixState state(path, "");
   content = read_matrix_state(path);
   const std::string difference = plan_difference(content.plan, plan);
   if (!difference.empty())
     throw InputError(path + ": this state file is of another run: " + difference +
-                     "; run with the same input and settings to go on, or anew (--overwrite)");
+                     "; run with the same input and settings to go on, or anew (" + switched_on("overwrite") + ")");
   if (content.cut_off && ::truncate(path.c_str(), static_cast<off_t>(content.n_good_bytes)) != 0)
-    throw IoError(path, std::string("the incomplete last row cannot be taken away: ") + std::strerror(errno));
+    throw IoError(path, std::string("the incomplete last row cannot be taken away: ") + system_message(errno));
   state.sum_ = last_sum(read_all(path), content.n_good_bytes);
   return state;
 }
@@ -184,8 +187,8 @@ void MatrixState::add(const MatrixCell& cell) {
     const ssize_t n = ::write(descriptor_, line.data() + written, line.size() - written);
     if (n < 0 && errno == EINTR) continue;
     if (n < 0)
-      throw IoError(path_, std::string("a row cannot be written: ") + std::strerror(errno) +
-                               "; what is done is kept, and --resume goes on");
+      throw IoError(path_, std::string("a row cannot be written: ") + system_message(errno) +
+                               "; what is done is kept, and " + switched_on("resume") + " goes on");
     written += static_cast<std::size_t>(n);
   }
 }

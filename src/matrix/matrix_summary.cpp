@@ -1,4 +1,4 @@
-// matrix_summary.cpp: assembles a matrix and sums it up.
+// matrix_summary.cpp: assembles and summarizes a matrix.
 #include "matrix/matrix_summary.h"
 
 #include <algorithm>
@@ -24,8 +24,8 @@ double mean_of_known(double a, double b) {
   return std::isnan(b) ? a : 0.5 * (a + b);
 }
 
-double as_distance(const MatrixMetric& metric, double a, double b) {
-  if (metric.antisymmetric) return mean_of_known(std::fabs(a), std::fabs(b));
+double as_distance(const Metric& metric, double a, double b) {
+  if ((metric.flags & kAntisymmetric) != 0) return mean_of_known(std::fabs(a), std::fabs(b));
   const double mean = mean_of_known(a, b);
   return metric.unit == MetricUnit::kIndex ? std::sqrt(std::max(0.0, 2 - 2 * mean)) : mean;
 }
@@ -70,7 +70,7 @@ DistanceTable symmetric_distances(const Matrix& matrix, std::size_t metric) {
 }
 
 Asymmetry asymmetry(const Matrix& matrix, std::size_t metric) {
-  const double sign = matrix_metrics()[metric].antisymmetric ? -1 : 1;
+  const double sign = (matrix_metrics()[metric].flags & kAntisymmetric) != 0 ? -1 : 1;
   Asymmetry result;
   double sum = 0, magnitudes = 0;
   std::size_t n_pairs = 0;

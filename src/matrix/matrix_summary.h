@@ -1,5 +1,4 @@
-// matrix_summary.h: a matrix as a whole: how far both directions differ, groups, clusters, and the Hodgkin index beside
-// it.
+// matrix_summary.h: summary of a matrix: asymmetry, groups, clusters, and comparison with the Hodgkin index.
 #pragma once
 
 #include <string>
@@ -25,32 +24,32 @@ struct Matrix {
   }
 };
 
-/// Puts cells into order. A pair may be there twice if both say the same.
-/// @param hint what to do about missing pairs, for the message
-/// @throws InputError (pairs missing: how many and which first; two cells of a pair that differ)
+/// Puts cells in order. A pair may occur twice with equal values.
+/// @param hint the remedy for missing pairs, for the message
+/// @throws InputError (missing pairs: how many, and the first; a pair with two different cells)
 Matrix assemble(const MatrixPlan& plan, const std::vector<MatrixCell>& cells, const std::string& hint);
 
-/// The mean of both directions' values, or their one value where the other is missing, as a distance: of an
-/// antisymmetric metric the mean magnitude, of a similarity index s sqrt(2 - 2 s), which is 0 for equal potentials
-/// (for Hodgkin's index: Blomberg et al., Proteins 37, 379 (1999)).
+/// The mean of both directions' values as a distance, or the only value. For an antisymmetric metric the mean
+/// magnitude; for a similarity index s sqrt(2 - 2 s), which is 0 for equal potentials (for Hodgkin's index: Blomberg et
+/// al., Proteins 37, 379 (1999)).
 DistanceTable symmetric_distances(const Matrix& matrix, std::size_t metric);
 
-/// How far the directions of the pairs differ: |a - b|, of an antisymmetric metric |a + b|, in units of the mean
-/// magnitude over the matrix.
+/// Difference of the two directions: |a - b|, for an antisymmetric metric |a + b|, in units of the mean magnitude over
+/// the matrix.
 struct Asymmetry {
   double mean = 0, max = 0;           ///< NaN without pairs
-  std::size_t first = 0, second = 0;  ///< the pair of the largest
+  std::size_t first = 0, second = 0;  ///< the pair with the largest difference
 };
 Asymmetry asymmetry(const Matrix& matrix, std::size_t metric);
 
-/// The cells from one group to another, the own one included.
+/// The cells from one group to another, or within one.
 struct GroupMean {
   std::string source, target;
   std::size_t n = 0;  ///< cells with a value
   std::size_t n_trustworthy = 0;
   double mean = 0, min = 0, max = 0;
 };
-/// Groups in the order of their first variants; nothing where no variant has a group.
+/// Groups in the order of their first variants; empty if no variant has a group.
 std::vector<GroupMean> group_means(const Matrix& matrix, std::size_t metric);
 
 struct Clustering {
@@ -59,7 +58,7 @@ struct Clustering {
   std::vector<std::size_t> order;
 };
 Clustering cluster(const Matrix& matrix, std::size_t metric);
-/// mean_abs_difference where there are potentials, else mean_displacement_A.
+/// mean_abs_difference if there are potentials, otherwise mean_displacement_A.
 std::size_t usual_metric(const Matrix& matrix);
 
 }  // namespace espdiff

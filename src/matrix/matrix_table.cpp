@@ -1,4 +1,4 @@
-// matrix_table.cpp: a matrix summed up for a terminal.
+// matrix_table.cpp: prints the summary of a matrix.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -48,18 +48,18 @@ Range range_of(const Matrix& matrix, std::size_t metric) {
   return range;
 }
 
-/// What is rounding of the last digits is nothing.
+/// Treats rounding noise as zero.
 std::string percent(double fraction) {
   return std::isnan(fraction) ? "-" : significant(fraction < 1e-9 ? 0 : 100 * fraction) + " %";
 }
 
 void print_metric(std::ostream& out, const Matrix& matrix, std::size_t m) {
-  const MatrixMetric& metric = matrix_metrics()[m];
+  const Metric& metric = matrix_metrics()[m];
   const Range range = range_of(matrix, m);
   if (range.least == nullptr) return;
   const bool share = metric.unit == MetricUnit::kFraction;
   const auto value = [&](double v) { return share ? percent(v) : significant(v); };
-  out << padded("  " + std::string(metric.title), 30)
+  out << padded("  " + std::string(metric.label), 30)
       << padded(share ? "of the area" : unit_of(metric, matrix.plan.potential_unit), 13)
       << right(value(range.least->values[m]), 11) << right(value(range.mean), 11)
       << right(value(range.most->values[m]), 11) << right(percent(asymmetry(matrix, m).mean), 12) << '\n';
@@ -68,7 +68,7 @@ void print_metric(std::ostream& out, const Matrix& matrix, std::size_t m) {
 void print_groups(std::ostream& out, const Matrix& matrix, std::size_t metric) {
   const std::vector<GroupMean> means = group_means(matrix, metric);
   if (means.empty()) return;
-  out << "\nMeans of groups (source in rows), " << matrix_metrics()[metric].title << ' '
+  out << "\nMeans of groups (source in rows), " << matrix_metrics()[metric].label << ' '
       << unit_of(matrix_metrics()[metric], matrix.plan.potential_unit) << "\n  ";
   std::vector<std::string> names;
   for (const GroupMean& g : means) {
@@ -83,7 +83,7 @@ void print_groups(std::ostream& out, const Matrix& matrix, std::size_t metric) {
   out << '\n';
 }
 
-/// What makes cells not trustworthy, without the numbers in the words, and how often.
+/// Prints the reasons why cells are not trustworthy, without their numbers, and how often each occurs.
 void print_trust(std::ostream& out, const Matrix& matrix) {
   std::size_t n_trustworthy = 0, n_failed = 0;
   for (const MatrixCell& cell : matrix.cells) {
@@ -103,15 +103,16 @@ void print_matrix(std::ostream& out, const Matrix& matrix, std::size_t metric) {
   out << "\n\n"
       << padded("Over all pairs", 43) << right("least", 11) << right("mean", 11) << right("greatest", 11)
       << right("asymmetry", 12) << '\n';
-  for (const char* name : {"rmsd_A", "mean_abs_difference", "rms_difference", "mean_signed_difference",
-                           "sign_change_area_fraction", "hodgkin_index", "mean_displacement_A"})
-    print_metric(out, matrix, find_metric(name));
+  for (std::size_t m = 0; m < matrix_metrics().size(); ++m) {
+    const MetricSection section = matrix_metrics()[m].section;
+    if (section != MetricSection::kCertificate && section != MetricSection::kMapping) print_metric(out, matrix, m);
+  }
   const Range range = range_of(matrix, metric);
   if (range.least != nullptr) {
     const auto pair = [&](const MatrixCell& cell) {
       return matrix.plan.variants[cell.source].label + " to " + matrix.plan.variants[cell.target].label;
     };
-    out << "\nBy " << matrix_metrics()[metric].title << ": nearest " << pair(*range.least) << ", farthest "
+    out << "\nBy " << matrix_metrics()[metric].label << ": nearest " << pair(*range.least) << ", farthest "
         << pair(*range.most) << '\n';
   }
   print_groups(out, matrix, metric);

@@ -1,4 +1,4 @@
-// read_matrix.cpp: OUT.json of a matrix, checked as it is read.
+// read_matrix.cpp: reads and checks a matrix's OUT.json.
 #include "matrix/read_matrix.h"
 
 #include <algorithm>
@@ -6,14 +6,14 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "io/gzip_text.h"
+#include "io/read_input.h"
 
 namespace espdiff {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The entries of [source][target], row after row.
+/// The entries of [source][target], row by row.
 template <typename Value>
 std::vector<Value> table(const Json& rows, std::size_t n, Value otherwise) {
   std::vector<Value> values;

@@ -1,4 +1,4 @@
-// read_matrix.h: a matrix' OUT.json read back, for drawing.
+// read_matrix.h: reads a matrix's OUT.json, for drawing.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace espdiff {
 
-/// What OUT.json holds of one metric.
+/// One metric of OUT.json.
 struct MatrixFileMetric {
   std::string name, title, unit;
-  std::vector<double> values;  ///< [source * n + target]; NaN on the diagonal and where there is none
+  std::vector<double> values;  ///< [source * n + target]; NaN on the diagonal and for missing values
 };
 
 struct MatrixFile {
@@ -22,7 +22,7 @@ struct MatrixFile {
   std::vector<ClusterMerge> merges;
 
   std::size_t n() const { return labels.size(); }
-  /// @throws InputError that lists those there are
+  /// @throws InputError listing the metrics
   const MatrixFileMetric& metric(const std::string& name) const;
   /// The position of a label. @throws InputError
   std::size_t find(const std::string& label) const;

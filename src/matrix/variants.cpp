@@ -1,4 +1,4 @@
-// variants.cpp: labels, lists and groups of a matrix' molecules.
+// variants.cpp: labels, lists and groups of a matrix's molecules.
 #include "matrix/variants.h"
 
 #include <algorithm>
@@ -9,7 +9,6 @@
 #include "base/error.h"
 #include "io/read_csv.h"
 #include "io/read_grid.h"
-#include "io/sha256.h"
 #include "io/text_cursor.h"
 
 namespace espdiff {
@@ -17,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A variant for each model; `path` is how messages and labels name the file.
+/// One variant per model; messages and labels use `path` for the file.
 std::vector<VariantFiles> models_of(const VariantFiles& file, int n_models) {
   std::vector<VariantFiles> models;
   for (int model = 1; model <= n_models; ++model) {
@@ -34,7 +33,7 @@ std::string file_name(const std::string& path) {
   return name.stem().string();
 }
 
-/// Labels those that have none.
+/// Labels the variants without a label.
 void label(std::vector<VariantFiles>& variants) {
   std::map<std::string, std::set<std::string>> files_named;
   std::map<std::string, int> n_models;
@@ -50,7 +49,7 @@ void label(std::vector<VariantFiles>& variants) {
   }
 }
 
-/// A path of the list as the working folder sees it.
+/// A path in the list, relative to the working folder.
 std::string beside(const std::string& list, const std::string& path) {
   if (path.empty() || fs::path(path).is_absolute()) return path;
   return (fs::path(list).parent_path() / path).lexically_normal().string();
@@ -143,21 +142,23 @@ void check_labels(const std::vector<std::string>& labels) {
   }
 }
 
-Variant read_variant(const VariantFiles& files, const StructureOptions& structure, const std::string& map_array) {
+Variant read_variant(const VariantFiles& files, const StructureFile& file, const StructureOptions& structure,
+                     const std::string& map_array) {
   Variant variant;
   variant.label = files.label;
   variant.group = files.group;
   StructureOptions options = structure;
   options.model = files.model;
-  variant.molecule = read_structure(files.structure, options);
+  variant.molecule = file.read(options);
   const std::string model = files.model > 1 ? ", model " + std::to_string(files.model) : "";
-  variant.inputs.push_back({"structure", files.structure + model, sha256_of_file(files.structure)});
+  variant.inputs.push_back({"structure", files.structure + model, file.sha256()});
   if (files.map.empty()) return variant;
   GridOptions grid;
   grid.array = map_array;
-  variant.map = read_grid(files.map, grid);
+  GridFile map = read_grid_file(files.map, grid);
+  variant.map = std::move(map.grid);
   if (!files.map_unit.empty()) variant.map->unit = parse_potential_unit(files.map_unit);
-  variant.inputs.push_back({"map", files.map, sha256_of_file(files.map)});
+  variant.inputs.push_back({"map", files.map, std::move(map.sha256)});
   return variant;
 }
 

@@ -1,4 +1,4 @@
-// variants.h: the molecules of a matrix: which they are, by name, group and fingerprint, read from files and lists.
+// variants.h: the molecules of a matrix by name, group and SHA-256, from files and lists.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ namespace espdiff {
 struct Variant {
   std::string label;              ///< unique
   std::string group;              ///< empty for none
-  std::vector<InputFile> inputs;  ///< what it was made of; roles "structure" and "map"
+  std::vector<InputFile> inputs;  ///< its inputs; roles "structure" and "map"
   Molecule molecule;
   std::optional<Grid> map;
   MapMaker make_map = nullptr;  ///< instead of `map`; in kT/e
@@ -51,9 +51,11 @@ void read_groups(const std::string& path, std::vector<VariantFiles>& variants);
 void check_labels(const std::vector<std::string>& labels);
 
 /// Reads structure and map.
+/// @param file the structure's, opened before: variants may be models of one
 /// @param structure its model is the variant's
 /// @throws as read_structure(), read_grid()
-Variant read_variant(const VariantFiles& files, const StructureOptions& structure, const std::string& map_array);
+Variant read_variant(const VariantFiles& files, const StructureFile& file, const StructureOptions& structure,
+                     const std::string& map_array);
 
 /// Brings all maps to the unit of the first one.
 /// @throws InputError when some variants have maps and some none, or a unit is unknown and others are not

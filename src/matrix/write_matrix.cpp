@@ -6,6 +6,7 @@
 
 #include "io/atomic_file.h"
 #include "io/write_csv.h"
+#include "report/write_compare.h"
 
 namespace espdiff {
 namespace {
@@ -17,6 +18,20 @@ Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nul
 std::string dumped(const Json& json) {
   // A path need not be UTF-8, JSON must be.
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// One line for each entry, and for each metric: still readable, and a row of numbers is a row.
+void write_lines(std::ostream& out, const Json& json, const std::string& indent) {
+  out << "{";
+  for (const auto& [key, value] : json.items()) {
+    out << (key == json.begin().key() ? "\n" : ",\n") << indent << dumped(key) << ": ";
+    if (key == "metrics") {
+      write_lines(out, value, indent + "  ");
+    } else {
+      out << dumped(value);
+    }
+  }
+  out << '\n' << indent.substr(2) << '}';
 }
 
 /// [source][target], null on the diagonal.
@@ -36,8 +51,8 @@ Json pair_of(const Matrix& matrix, const MatrixCell& cell) {
 }
 
 Json metric_json(const Matrix& matrix, std::size_t m) {
-  const MatrixMetric& metric = matrix_metrics()[m];
-  return {{"title", metric.title},
+  const Metric& metric = matrix_metrics()[m];
+  return {{"title", metric.label},
           {"unit", unit_of(metric, matrix.plan.potential_unit)},
           {"values", table(matrix, [m](const MatrixCell& cell) { return number(cell.values[m]); })}};
 }
@@ -111,7 +126,7 @@ std::string joined(const std::vector<std::string>& words) {
 
 void write_table(std::ostream& out, const Matrix& matrix) {
   std::vector<std::string> names = {"source", "target", "source_group", "target_group", "potential_unit"};
-  for (const MatrixMetric& metric : matrix_metrics()) names.emplace_back(metric.name);
+  for (const Metric& metric : matrix_metrics()) names.emplace_back(metric.name);
   names.insert(names.end(), {"converged", "trustworthy", "reasons", "error"});
   write_csv_row(out, names);
   for (const MatrixCell& cell : matrix.cells) {
@@ -128,52 +143,44 @@ void write_table(std::ostream& out, const Matrix& matrix) {
 
 }  // namespace
 
-std::string matrix_json(const Matrix& matrix, std::size_t metric) {
-  // One line for each of the larger parts: still readable, and a row of numbers is a row.
-  std::string text = "{\n";
-  const auto add = [&](const char* key, const Json& value) {
-    text += (text.size() > 2 ? ",\n" : "") + ("  \"" + std::string(key)) + "\": " + dumped(value);
-  };
-  const Json plan = Json::parse(plan_json(matrix.plan));
-  for (const char* key : {"version", "device", "potential", "potential_unit"}) add(key, plan[key]);
-  add("options", plan["settings"]);
-  add("variants", plan["variants"]);
-  text += ",\n  \"metrics\": {";
-  for (std::size_t m = 0; m < matrix_metrics().size(); ++m) {
-    text += std::string(m == 0 ? "" : ",") + "\n    \"" + matrix_metrics()[m].name +
-            "\": " + dumped(metric_json(matrix, m));
-  }
-  text += "\n  }";
+Json matrix_json(const Matrix& matrix, std::size_t metric) {
+  Json json;
+  const Json plan = plan_json(matrix.plan);
+  for (const char* key : {"version", "device", "potential", "potential_unit"}) json[key] = plan[key];
+  json["options"] = options_json(matrix.plan.settings);
+  json["variants"] = plan["variants"];
+  for (std::size_t m = 0; m < matrix_metrics().size(); ++m)
+    json["metrics"][matrix_metrics()[m].name] = metric_json(matrix, m);
   const auto known = [](const MatrixCell& cell, bool value) {
     return cell.error.empty() ? Json(value) : Json(nullptr);
   };
-  add("trustworthy", table(matrix, [&](const MatrixCell& cell) { return known(cell, cell.trustworthy); }));
-  add("converged", table(matrix, [&](const MatrixCell& cell) { return known(cell, cell.converged); }));
-  Json reasons = Json::array(), errors = Json::array();
+  json["trustworthy"] = table(matrix, [&](const MatrixCell& cell) { return known(cell, cell.trustworthy); });
+  json["converged"] = table(matrix, [&](const MatrixCell& cell) { return known(cell, cell.converged); });
+  json["not_trustworthy"] = Json::array();
+  json["errors"] = Json::array();
   for (const MatrixCell& cell : matrix.cells) {
     Json pair = pair_of(matrix, cell);
     if (!cell.error.empty()) {
       pair["error"] = cell.error;
-      errors.push_back(std::move(pair));
+      json["errors"].push_back(std::move(pair));
     } else if (!cell.trustworthy) {
       pair["reasons"] = cell.reasons;
-      reasons.push_back(std::move(pair));
+      json["not_trustworthy"].push_back(std::move(pair));
     }
   }
-  add("not_trustworthy", reasons);
-  add("errors", errors);
-  add("asymmetry", asymmetry_json(matrix));
-  const Json groups = groups_json(matrix);
-  if (!groups.empty()) add("groups", groups);
-  add("clustering", clustering_json(matrix, cluster(matrix, metric)));
-  add("hodgkin", hodgkin_json(matrix, metric));
-  return text + "\n}\n";
+  json["asymmetry"] = asymmetry_json(matrix);
+  Json groups = groups_json(matrix);
+  if (!groups.empty()) json["groups"] = std::move(groups);
+  json["clustering"] = clustering_json(matrix, cluster(matrix, metric));
+  json["hodgkin"] = hodgkin_json(matrix, metric);
+  return json;
 }
 
 std::vector<std::string> write_matrix(const std::string& output_prefix, const Matrix& matrix, std::size_t metric) {
   AtomicFile csv(output_prefix + ".csv"), json(output_prefix + ".json");
   write_table(csv.stream(), matrix);
-  json.stream() << matrix_json(matrix, metric);
+  write_lines(json.stream(), matrix_json(matrix, metric), "  ");
+  json.stream() << '\n';
   commit_all({&csv, &json});
   return {csv.path(), json.path()};
 }

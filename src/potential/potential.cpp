@@ -8,8 +8,8 @@
 #include "align/superpose.h"
 #include "align/unwrap.h"
 #include "base/error.h"
+#include "base/water.h"
 #include "engine/engine.h"
-#include "io/molecule_builder.h"
 
 namespace espdiff {
 namespace {

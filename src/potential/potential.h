@@ -9,9 +9,9 @@
 
 #include "align/pair_atoms.h"
 #include "base/progress.h"
+#include "base/unit_cell.h"
 #include "engine/handles.h"
 #include "engine/potential_stage.h"
-#include "io/read_unit_cells.h"
 #include "potential/running_map.h"
 
 namespace espdiff {

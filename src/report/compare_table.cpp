@@ -1,27 +1,16 @@
 // compare_table.cpp: a comparison's result as a table for a terminal.
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 #include "align/rigid_domains.h"
 #include "compare/result.h"
-#include "engine/certificate_stage.h"
+#include "report/metrics.h"
 #include "report/write_compare.h"
 
 namespace espdiff {
 namespace {
 
-constexpr std::size_t kLabelWidth = 28, kUnitWidth = 14, kColumnWidth = 14;
-
-std::string formatted(const char* format, double value) {
-  if (std::isnan(value)) return "-";
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
-std::string significant(double value) { return formatted("%.4g", value); }
-std::string percent(double fraction) { return formatted("%.3g", 100 * fraction) + " %"; }
+constexpr std::size_t kLabelWidth = 35, kUnitWidth = 7, kColumnWidth = 14;
 
 std::string counted(std::size_t n, const std::string& noun, const std::string& plural) {
   return std::to_string(n) + " " + (n == 1 ? noun : plural);
@@ -55,11 +44,17 @@ void line(std::ostream& out, const std::string& label, const std::string& text) 
   out << left("  " + label, kLabelWidth) << text << '\n';
 }
 
+/// "1.234 A"
+std::string with_unit(const Metric& metric, double value) {
+  const std::string unit = unit_of(metric, "");
+  return formatted(metric, value) + (unit.empty() ? "" : " " + unit);
+}
+
 void print_superposition(std::ostream& out, const Molecule& source, const CompareResult& result) {
   const AtomPairing& pairing = result.pairing;
   out << "Superposition\n";
   if (pairing.pairs.empty()) {
-    line(out, "paired atoms", "none; compared where they lie");
+    line(out, "Paired atoms", "none; compared where they lie");
     return;
   }
   std::string paired = counted(pairing.pairs.size(), "atom") + ", by " + pairing.method;
@@ -67,82 +62,87 @@ void print_superposition(std::ostream& out, const Molecule& source, const Compar
     paired += " (" + std::to_string(pairing.n_substituted_residues) + " of " +
               counted(pairing.n_aligned_residues, "residue") + " substituted)";
   }
-  line(out, "paired atoms", paired);
+  line(out, "Paired atoms", paired);
   const std::string over = result.n_superposed_atoms > 0
                                ? "after superposing " + counted(result.n_superposed_atoms, "atom")
                                : std::string("where they lie, not superposed");
-  line(out, "RMSD", significant(result.rmsd_A) + " A " + over);
-  for (const RigidDomain& piece : result.domains)
-    line(out, "rigid piece", significant(piece.rmsd_A) + " A, " + residue_ranges(source, piece.residues));
+  for (const Metric& metric : metrics()) {
+    if (metric.section != MetricSection::kSuperposition) continue;
+    line(out, metric.label, with_unit(metric, value_of(metric, result)) + " " + over);
+  }
+  for (const RigidDomain& domain : result.domains) {
+    char rmsd[32];
+    std::snprintf(rmsd, sizeof rmsd, "%.4g", domain.rmsd_A);
+    line(out, "Rigid domain", std::string(rmsd) + " A, " + residue_ranges(source, domain.residues));
+  }
+}
+
+/// A row for each metric of the section: over the area that is counted and, with potentials, over all of it.
+void print_section(std::ostream& out, const CompareResult& result, MetricSection section) {
+  for (const Metric& metric : metrics()) {
+    if (metric.section != section || !metric.has_result()) continue;
+    std::vector<std::string> values = {formatted(metric, value_of(metric, result))};
+    if (result.has_potential && metric.source.of_area != nullptr)
+      values.push_back(formatted(metric, value_over_all_triangles(metric, result)));
+    row(out, metric.label, unit_of(metric, to_string(result.unit)), values);
+  }
+}
+
+/// The metrics that share a line follow one another.
+void print_lines(std::ostream& out, const CompareResult& result, MetricSection section) {
+  const std::vector<Metric>& all = metrics();
+  for (std::size_t i = 0; i < all.size();) {
+    const Metric& first = all[i];
+    std::vector<std::string> values;
+    const auto shares_line = [&] {
+      return i < all.size() && all[i].section == section && *first.line != '\0' &&
+             std::string(all[i].line) == first.line;
+    };
+    do {
+      const std::string word = *all[i].word != '\0' ? std::string(all[i].word) + " " : std::string();
+      if (all[i].has_result()) values.push_back(word + formatted(all[i], value_of(all[i], result)));
+      ++i;
+    } while (shares_line());
+    if (first.section != section || is_unchecked(first, result)) continue;
+    row(out, *first.line != '\0' ? first.line : first.label, unit_of(first, to_string(result.unit)), values);
+  }
 }
 
 void print_metrics(std::ostream& out, const CompareResult& result) {
-  const Metrics &valid = result.metrics, &all = result.metrics_all;
-  const std::string unit = to_string(result.unit);
-  const auto both = [&](double Metrics::*member) {
-    return std::vector<std::string>{significant(valid.*member), significant(all.*member)};
-  };
-  heading(out, "Potential (target - source)", {"valid area", "all area"});
-  row(out, "mean absolute difference", unit, both(&Metrics::mean_abs_difference));
-  row(out, "RMS difference", unit, both(&Metrics::rms_difference));
-  row(out, "mean signed difference", unit, both(&Metrics::mean_signed_difference));
-  row(out, "sign changes on", "of the area",
-      {percent(valid.sign_change_area_fraction), percent(all.sign_change_area_fraction)});
-  row(out, "Hodgkin index", "", both(&Metrics::hodgkin_index));
-  row(out, "Carbo index", "", both(&Metrics::carbo_index));
-  row(out, "mean displacement", "A", both(&Metrics::mean_displacement_A));
-  row(out, "mean path length", "A", both(&Metrics::mean_path_length_A));
-  row(out, "area", "A^2", {formatted("%.1f", valid.area_A2), formatted("%.1f", all.area_A2)});
+  if (result.has_potential) {
+    heading(out, "Potential (target - source)", {"valid area", "all area"});
+    print_section(out, result, MetricSection::kPotential);
+  } else {
+    heading(out, "Shape (no potentials given)", {"valid area"});
+  }
+  print_section(out, result, MetricSection::kShape);
 }
 
 void print_surfaces(std::ostream& out, const CompareResult& result) {
   const SurfaceSummary &source = result.source_surface, &target = result.target_surface;
-  const auto count = [](std::size_t n) { return std::to_string(n); };
-  heading(out, "Surface", {"source", "target", "mapped"});
-  row(out, "area", "A^2",
-      {formatted("%.1f", source.area_A2), formatted("%.1f", target.area_A2), formatted("%.1f", result.area_mapped_A2)});
-  row(out, "vertices", "",
-      {count(source.n_vertices), count(target.n_vertices), count(result.surface.positions.size())});
-  row(out, "components", "", {count(source.n_components), count(target.n_components)});
-  row(out, "closed cavities left out", "", {count(source.n_cavities_left_out), count(target.n_cavities_left_out)});
-  if (result.has_potential) {
-    row(out, "vertices outside the map", "", {count(result.n_outside_source_map), count(result.n_outside_target_map)});
-  }
+  out << "\nSurface\n";
+  print_lines(out, result, MetricSection::kSurface);
+  const auto counts = [&](const char* label, std::size_t of_source, std::size_t of_target) {
+    row(out, label, "", {"source " + std::to_string(of_source), "target " + std::to_string(of_target)});
+  };
+  row(out, "Vertices", "",
+      {"source " + std::to_string(source.n_vertices), "target " + std::to_string(target.n_vertices),
+       "mapped " + std::to_string(result.surface.positions.size())});
+  counts("Components", source.n_components, target.n_components);
+  counts("Closed cavities left out", source.n_cavities_left_out, target.n_cavities_left_out);
+  if (result.has_potential)
+    counts("Vertices outside the map", result.n_outside_source_map, result.n_outside_target_map);
 }
 
-std::string in_words(const DistanceSummary& d) {
-  return "mean " + significant(d.mean) + " A, 95 % of the area within " + significant(d.p95) + " A, at most " +
-         significant(d.max) + " A";
-}
-
-void print_certificate(std::ostream& out, const CompareResult& result) {
+void print_mapping(std::ostream& out, const CompareResult& result) {
   const Certificate& c = result.certificate;
-  out << "\nCertificate\n";
-  line(out, "off the target's surface", percent(c.corrupt_area_fraction) + " of the mapped area (corrupt)");
-  line(out, "turned inside out", percent(c.flipped_area_fraction) + " of the mapped area (flipped)");
-  line(out, "intersecting itself", counted(c.self_intersecting_pairs, "pair") + " of triangles");
-  line(out, "mapped to target", in_words(c.mapped_to_target));
-  line(out, "target to mapped", in_words(c.target_to_mapped));
-  line(out, "without counterpart",
-       percent(c.unmatched_source) + " of the source's, " + percent(c.unmatched_target) + " of the target's area");
-  if (c.round_trip) {
-    line(out, "there and back",
-         "mean " + significant(c.round_trip->mean_A) + " A from the start, 95 % of the area within " +
-             significant(c.round_trip->p95_A) + " A, at most " + significant(c.round_trip->max_A) + " A");
-  }
-  const DistortionReport& d = c.distortion;
-  line(out, "area, mapped to source",
-       "median " + significant(d.area_ratio_median) + ", 90 % of the area from " + significant(d.area_ratio_p05) +
-           " to " + significant(d.area_ratio_p95));
-  line(out, "on the same residue", percent(c.same_residue_area_fraction) + " of the mapped area");
-  line(out, "irregularity", significant(c.irregularity_A) + " A");
   const auto n_of = [](int n) { return static_cast<std::size_t>(std::max(n, 0)); };
   if (result.morph_report.steps > 0) {
-    line(out, "mapping",
+    line(out, "Mapping",
          "carried by the atoms in " + counted(n_of(result.morph_report.steps), "step") + ", " +
              counted(result.morph_report.n_vertices_added, "vertex", "vertices") + " added");
   } else {
-    line(out, "mapping",
+    line(out, "Mapping",
          std::string(c.converged ? "converged after " : "did not converge in ") +
              counted(n_of(result.deform_report.iterations), "iteration") +
              (result.n_vertices_subdivided > 0
@@ -150,44 +150,44 @@ void print_certificate(std::ostream& out, const CompareResult& result) {
                   : ""));
   }
   if (result.flow_report.sweeps > 0) {
-    line(out, "gradient vector flow",
+    line(out, "Gradient vector flow",
          std::string(result.flow_report.converged ? "converged after " : "did not converge in ") +
              counted(n_of(result.flow_report.sweeps), "sweep"));
   }
-  std::string not_checked;
-  for (const std::string& name : c.not_checked) not_checked += (not_checked.empty() ? "" : ", ") + name;
-  std::replace(not_checked.begin(), not_checked.end(), '_', ' ');
-  if (!not_checked.empty()) line(out, "not checked", not_checked);
 }
 
-void print_verdict(std::ostream& out, const CompareResult& result) {
+void print_certificate(std::ostream& out, const CompareResult& result) {
+  out << "\nCertificate\n";
+  print_lines(out, result, MetricSection::kCertificate);
+  print_mapping(out, result);
+  std::string not_checked;
+  for (const std::string& name : result.certificate.not_checked)
+    not_checked += (not_checked.empty() ? "" : ", ") + name;
+  std::replace(not_checked.begin(), not_checked.end(), '_', ' ');
+  if (!not_checked.empty()) line(out, "Not checked", not_checked);
+}
+
+void print_verdict(std::ostream& out, const CompareResult& result, const OptionSpelling& spelling) {
   const Certificate& c = result.certificate;
   out << '\n';
   if (c.trustworthy) {
     out << "TRUSTWORTHY: the mapping is within every limit that was checked\n";
   } else {
     out << "NOT TRUSTWORTHY:\n";
-    for (const std::string& reason : c.reasons) out << "  - " << reason << '\n';
+    for (const Message& reason : c.reasons) out << "  - " << reason.spelled(spelling) << '\n';
   }
 }
 
 }  // namespace
 
-void print_table(std::ostream& out, const Molecule& source, const Molecule& target, const CompareResult& result) {
+void print_table(std::ostream& out, const Molecule& source, const Molecule& target, const CompareResult& result,
+                 const OptionSpelling& spelling) {
   out << "Source  " << source.name << "\nTarget  " << target.name << "\n\n";
   print_superposition(out, source, result);
-  if (result.has_potential) {
-    print_metrics(out, result);
-  } else {
-    const CountedSurface shape = counted_surface(result);
-    heading(out, "Shape (no potentials given)", {"valid area"});
-    row(out, "mean displacement", "A", {significant(shape.mean_displacement_A)});
-    row(out, "mean path length", "A", {significant(shape.mean_path_length_A)});
-    row(out, "area", "A^2", {formatted("%.1f", shape.area_A2)});
-  }
+  print_metrics(out, result);
   print_surfaces(out, result);
   print_certificate(out, result);
-  print_verdict(out, result);
+  print_verdict(out, result, spelling);
 }
 
 }  // namespace espdiff

@@ -6,57 +6,40 @@
 #include "compare/result.h"
 #include "io/atomic_file.h"
 #include "io/write_pdb.h"
+#include "report/metrics.h"
 
 namespace espdiff {
 namespace {
 
-struct Quantity {
-  const char* name;
-  double ResidueRow::*member;
-  bool of_potential;
-};
-
-constexpr Quantity kQuantities[] = {
-    {"mean_abs_difference", &ResidueRow::mean_abs_difference, true},
-    {"mean_signed_difference", &ResidueRow::mean_signed_difference, true},
-    {"mean_source", &ResidueRow::mean_source, true},
-    {"mean_target", &ResidueRow::mean_target, true},
-    {"sign_change_area_fraction", &ResidueRow::sign_change_area_fraction, true},
-    {"mean_displacement_A", &ResidueRow::mean_displacement_A, false},
-};
-
-const Quantity& find_quantity(const std::string& name) {
+const Metric& find_quantity(const std::string& name) {
+  const Metric* const metric = find_metric_or_null(name);
+  if (metric != nullptr && metric->has_residues()) return *metric;
   std::string list;
-  for (const Quantity& quantity : kQuantities) {
-    if (quantity.name == name) return quantity;
-    list += (list.empty() ? "" : ", ") + std::string(quantity.name);
-  }
+  for (const std::string& there : residue_quantities()) list += (list.empty() ? "" : ", ") + there;
   throw InputError("residues have no quantity '" + name + "'; there are: " + list);
 }
 
 }  // namespace
 
-const std::vector<std::string>& residue_quantities() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const Quantity& quantity : kQuantities) all.emplace_back(quantity.name);
-    return all;
-  }();
+std::vector<std::string> residue_quantities() {
+  std::vector<std::string> names;
+  for (const Metric& metric : metrics()) {
+    if (metric.has_residues()) names.emplace_back(metric.name);
+  }
   return names;
 }
 
 std::vector<double> residue_values(const CompareResult& result, const std::string& quantity) {
-  const Quantity& q = find_quantity(quantity);
-  if (q.of_potential && !result.has_potential)
+  const Metric& metric = find_quantity(quantity);
+  if (metric.section == MetricSection::kPotential && !result.has_potential)
     throw InputError(quantity + " needs potentials, and shapes alone were compared; take mean_displacement_A");
   std::vector<double> values;
-  for (const ResidueRow& row : result.residues) values.push_back(row.*q.member);
+  for (const ResidueRow& row : result.residues) values.push_back(value_of(metric, result, row));
   return values;
 }
 
 std::string residue_unit(const CompareResult& result, const std::string& quantity) {
-  if (quantity == "mean_displacement_A") return "A";
-  return quantity == "sign_change_area_fraction" ? "" : to_string(result.unit);
+  return unit_of(find_quantity(quantity), to_string(result.unit));
 }
 
 void write_residue_pdb(const std::string& path, const Molecule& source, const CompareResult& result,

@@ -10,8 +10,8 @@ namespace espdiff {
 
 struct CompareResult;
 
-/// The quantities of a residue, as the columns of the residue table are named without units.
-const std::vector<std::string>& residue_quantities();
+/// The quantities of a residue: the names of the metrics that it has.
+std::vector<std::string> residue_quantities();
 
 /// [residue] of the source; NaN where it has no surface that is counted.
 /// @throws InputError (unknown name, with those there are; one of potentials where there are none)

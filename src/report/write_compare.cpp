@@ -1,10 +1,9 @@
 // write_compare.cpp: the mapped surface and the residues as files; all files of a result at once.
 #include "report/write_compare.h"
 
-#include <cmath>
 #include <deque>
 #include <filesystem>
-#include <limits>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "base/error.h"
@@ -15,6 +14,7 @@
 #include "io/write_grid.h"
 #include "io/write_pqr.h"
 #include "io/write_vtp.h"
+#include "report/metrics.h"
 
 namespace espdiff {
 namespace {
@@ -75,34 +75,29 @@ void write_surface_file(std::ostream& out, const Molecule& source, const Compare
   write_vtp(out, file);
 }
 
-std::vector<std::string> residue_columns(PotentialUnit unit) {
-  const std::string potential = " [" + to_string(unit) + "]";
-  return {"chain",
-          "residue_number",
-          "insertion_code",
-          "residue_name",
-          "area [A^2]",
-          "mean_abs_difference" + potential,
-          "mean_signed_difference" + potential,
-          "mean_source" + potential,
-          "mean_target" + potential,
-          "sign_change_area_fraction",
-          "mean_displacement [A]",
-          "mean_path_length [A]"};
+/// "mean_displacement [A]"
+std::string column_of(const Metric& metric, PotentialUnit potential_unit) {
+  const std::string unit = unit_of(metric, to_string(potential_unit));
+  std::string name = metric.name;
+  if (metric.unit == MetricUnit::kAngstrom) name.resize(name.size() - std::string("_A").size());
+  if (metric.unit == MetricUnit::kSquareAngstrom) name.resize(name.size() - std::string("_A2").size());
+  return unit.empty() ? name : name + " [" + unit + "]";
 }
 
 void write_residue_file(std::ostream& out, const Molecule& source, const CompareResult& result) {
-  write_csv_row(out, residue_columns(result.unit));
-  // Without potentials their columns have no values.
-  const auto potential = [&](double value) { return result.has_potential ? csv_number(value) : std::string(); };
+  std::vector<std::string> columns = {"chain", "residue_number", "insertion_code", "residue_name"};
+  for (const Metric& metric : metrics()) {
+    if (metric.has_residues()) columns.push_back(column_of(metric, result.unit));
+  }
+  write_csv_row(out, columns);
   for (const ResidueRow& row : result.residues) {
     const Residue& residue = source.residues.at(row.residue);
     const std::string insertion = residue.insertion_code == ' ' ? "" : std::string(1, residue.insertion_code);
-    write_csv_row(
-        out, {residue.chain, std::to_string(residue.number), insertion, residue.name, csv_number(row.area_A2),
-              potential(row.mean_abs_difference), potential(row.mean_signed_difference), potential(row.mean_source),
-              potential(row.mean_target), potential(row.sign_change_area_fraction), csv_number(row.mean_displacement_A),
-              csv_number(row.mean_path_length_A)});
+    std::vector<std::string> cells = {residue.chain, std::to_string(residue.number), insertion, residue.name};
+    for (const Metric& metric : metrics()) {
+      if (metric.has_residues()) cells.push_back(csv_number(value_of(metric, result, row)));
+    }
+    write_csv_row(out, cells);
   }
 }
 
@@ -110,23 +105,6 @@ void write_residue_file(std::ostream& out, const Molecule& source, const Compare
 
 InputFile computed_input(const std::string& role, const ComputedMap& map) {
   return {role, "pme of " + map.recipe().charges_from, map.fingerprint(), map.recipe()};
-}
-
-CountedSurface counted_surface(const CompareResult& result) {
-  if (result.has_potential)
-    return {result.metrics.area_A2, result.metrics.mean_displacement_A, result.metrics.mean_path_length_A};
-  CountedSurface counted;
-  double displacement = 0, path_length = 0;
-  for (const ResidueRow& row : result.residues) {
-    if (!(row.area_A2 > 0)) continue;
-    counted.area_A2 += row.area_A2;
-    displacement += row.area_A2 * row.mean_displacement_A;
-    path_length += row.area_A2 * row.mean_path_length_A;
-  }
-  const double area = counted.area_A2 > 0 ? counted.area_A2 : std::numeric_limits<double>::quiet_NaN();
-  counted.mean_displacement_A = displacement / area;
-  counted.mean_path_length_A = path_length / area;
-  return counted;
 }
 
 namespace {
@@ -152,7 +130,10 @@ class FileSet {
 
 void add_results(FileSet& files, const std::string& output_prefix, const Molecule& source, const Molecule& target,
                  const CompareResult& result, const CompareOptions& options, const Provenance& provenance) {
-  files.add(output_prefix + ".json") << compare_json(source, target, result, options, provenance) << '\n';
+  // A path need not be UTF-8, JSON must be.
+  files.add(output_prefix + ".json") << compare_json(source, target, result, options, provenance)
+                                            .dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
+                                     << '\n';
   write_surface_file(files.add(output_prefix + ".vtp"), source, result, provenance);
   write_residue_file(files.add(output_prefix + ".residues.csv"), source, result);
 }

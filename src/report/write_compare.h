@@ -1,11 +1,13 @@
 // write_compare.h: a comparison's results as files and as a table for people.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "base/types.h"
 #include "base/version.h"
 #include "io/read_structure.h"
@@ -68,21 +70,18 @@ std::vector<std::string> write_compare_with_inputs(const std::string& output_pre
                                                    const CompareOptions& options, Provenance provenance,
                                                    const KeptInputs& kept);
 
-/// The content of OUT.json.
-/// What has no value (NaN, potentials without maps, what this version does not check) is null.
-std::string compare_json(const Molecule& source, const Molecule& target, const CompareResult& result,
-                         const CompareOptions& options, const Provenance& provenance);
+/// The content of OUT.json: every metric, the certificate, and what repeats the run.
+/// What has no value (NaN, potentials without maps, what this version does not check) is null. Messages in it name
+/// options without a front end's spelling. Texts need not be UTF-8.
+nlohmann::ordered_json compare_json(const Molecule& source, const Molecule& target, const CompareResult& result,
+                                    const CompareOptions& options, const Provenance& provenance);
+/// Settings as numbers, booleans and texts, by Setting::key(); without `thesis`, which stands for values of others.
+/// @throws InputError as find_setting()
+nlohmann::ordered_json options_json(const std::vector<std::pair<std::string, std::string>>& texts);
 
 /// Prints the main numbers and the certificate for a terminal: at most 100 columns, units with every number.
-void print_table(std::ostream& out, const Molecule& source, const Molecule& target, const CompareResult& result);
-
-/// Counted area of the mapped surface, mean displacement and path length over it. Without potentials no metrics were
-/// computed; then both come from the residues' rows.
-struct CountedSurface {
-  double area_A2 = 0;
-  double mean_displacement_A = 0;  ///< NaN when nothing is counted
-  double mean_path_length_A = 0;   ///< likewise
-};
-CountedSurface counted_surface(const CompareResult& result);
+/// @param spelling of the options that reasons name
+void print_table(std::ostream& out, const Molecule& source, const Molecule& target, const CompareResult& result,
+                 const OptionSpelling& spelling);
 
 }  // namespace espdiff

@@ -65,7 +65,7 @@ Molecule FrameFiles::read(int frame, StructureOptions options) {
 std::optional<UnitCell> FrameFiles::cell(int frame) {
   const std::size_t file = file_of(frame);
   load(file);
-  if (!cells_) cells_ = read_unit_cells(paths_[file]);
+  if (!cells_) cells_ = file_->unit_cells();
   return cells_->at(static_cast<std::size_t>(frame - first_[file]));
 }
 

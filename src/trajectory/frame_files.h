@@ -8,7 +8,6 @@
 
 #include "base/types.h"
 #include "io/read_structure.h"
-#include "io/read_unit_cells.h"
 
 namespace espdiff {
 
@@ -28,7 +27,7 @@ class FrameFiles {
   /// @param options all but the model
   /// @throws as read_structure()
   Molecule read(int frame, StructureOptions options);
-  /// The cell that the frame's file gives it. @throws as read_unit_cells()
+  /// The cell that the frame's file gives it. @throws as StructureFile::unit_cells()
   std::optional<UnitCell> cell(int frame);
 
  private:

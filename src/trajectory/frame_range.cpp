@@ -37,7 +37,7 @@ class FrameParser {
       "give all, first, now, last (or end), a number from 0 (-1 is the last), begin:end or begin:step:end";
 
   [[noreturn]] void refuse(const std::string& reason) const {
-    throw InputError(frames_.option + " '" + text_ + "': " + reason);
+    throw InputError(frames_.what + " '" + text_ + "': " + reason);
   }
   std::string of() const { return frames_.of.empty() ? "" : " of " + frames_.of; }
 

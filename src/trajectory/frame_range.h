@@ -5,13 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
+
 namespace espdiff {
 
 /// What a text about frames is about.
 struct FrameSet {
   int n_frames = 0;
   std::optional<int> now = std::nullopt;  ///< the frame that VMD shows; files have none
-  std::string option = "--frames";        ///< for messages
+  Message what = option("frames");        ///< for messages: the option, or what it is
   std::string of = "";                    ///< for messages: a file, a molecule
 };
 

@@ -66,7 +66,8 @@ SeriesCsv::SeriesCsv(std::string path, SeriesHead head, ExistingFile existing)
     : path_(std::move(path)), head_(std::move(head)) {
   for (auto& entry : head_) entry.second = head_text(entry.second);
   if (has_content(path_) && existing == ExistingFile::kRefuse)
-    throw IoError(path_, "the file exists; --resume goes on with it, --overwrite replaces it");
+    throw IoError(path_, "the file exists; " + switched_on("resume") + " goes on with it, " + switched_on("overwrite") +
+                             " replaces it");
   { const AtomicFile probe(path_); }  // what cannot be written is better found before the first frame
   open_and_lock();
   try {
@@ -134,8 +135,8 @@ void SeriesCsv::read_rows() {
 
 void SeriesCsv::check_same(const std::string& name, const std::string& in_file, const std::string& now) const {
   if (in_file == now) return;
-  throw InputError(path_ + ": was made with " + name + " '" + in_file + "', not with '" + now +
-                   "'; --overwrite begins anew");
+  throw InputError(path_ + ": was made with " + name + " '" + in_file + "', not with '" + now + "'; " +
+                   switched_on("overwrite") + " begins anew");
 }
 
 void SeriesCsv::note(const std::string& name, const std::string& text) {
@@ -156,8 +157,8 @@ void SeriesCsv::write(const std::string& text) {
     const ssize_t n = ::write(descriptor_, text.data() + written, text.size() - written);
     if (n < 0 && errno == EINTR) continue;
     if (n < 0)
-      throw IoError(path_, std::string("a row cannot be written: ") + std::strerror(errno) +
-                               "; --resume goes on after the last complete row");
+      throw IoError(path_, std::string("a row cannot be written: ") + std::strerror(errno) + "; " +
+                               switched_on("resume") + " goes on after the last complete row");
     written += static_cast<std::size_t>(n);
   }
 }

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "report/metrics.h"
 #include "report/write_compare.h"
 
 namespace espdiff {
@@ -12,36 +13,34 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A column, and where its value stands in OUT.json.
+/// A column, and where its value stands in OUT.json; "" where it is in none.
 struct Column {
-  const char* name;
-  const char* pointer;
+  std::string name, pointer;
 };
 
-constexpr Column kColumns[] = {
-    {"frame", ""},
-    {"reference_frame", ""},
-    {"rmsd_A", "/rmsd_A"},
-    {"potential_unit", "/potential_unit"},
-    {"mean_abs_difference", "/mean_abs_difference"},
-    {"rms_difference", "/rms_difference"},
-    {"mean_signed_difference", "/mean_signed_difference"},
-    {"sign_change_area_fraction", "/sign_change_area_fraction"},
-    {"hodgkin_index", "/hodgkin_index"},
-    {"mean_displacement_A", "/mean_displacement_A"},
-    {"area_mapped_A2", "/area_A2/mapped"},
-    {"corrupt_area_fraction", "/certificate/corrupt_area_fraction"},
-    {"flipped_area_fraction", "/certificate/flipped_area_fraction"},
-    {"no_counterpart_source", "/certificate/no_counterpart_area_fraction/source"},
-    {"no_counterpart_target", "/certificate/no_counterpart_area_fraction/target"},
-    {"target_to_mapped_max_A", "/certificate/target_to_mapped_A/max"},
-    {"converged", "/certificate/converged"},
-    {"trustworthy", "/certificate/trustworthy"},
-    {"start", "/start"},
-    {"iterations", "/iterations"},
-    {"reasons", "/certificate/reasons"},
-    {"error", ""},
-};
+/// The metrics of a series stand between what names the row and how it came about, those of the mapping after them;
+/// the potential's unit before the first metric of potentials.
+std::vector<Column> make_columns() {
+  std::vector<Column> all = {{"frame", ""}, {"reference_frame", ""}}, of_mapping;
+  bool has_unit = false;
+  for (const Metric& metric : metrics()) {
+    if ((metric.flags & kInSeries) == 0) continue;
+    const bool is_of_potential = metric.section == MetricSection::kPotential;
+    if (is_of_potential && !has_unit) all.push_back({"potential_unit", "/potential_unit"});
+    has_unit = has_unit || is_of_potential;
+    (metric.section == MetricSection::kMapping ? of_mapping : all).push_back({metric.name, metric.json_pointer()});
+  }
+  const auto add = [&all](const std::vector<Column>& more) { all.insert(all.end(), more.begin(), more.end()); };
+  add({{"converged", "/certificate/converged"}, {"trustworthy", "/certificate/trustworthy"}, {"start", "/start"}});
+  add(of_mapping);
+  add({{"reasons", "/certificate/reasons"}, {"error", ""}});
+  return all;
+}
+
+const std::vector<Column>& columns() {
+  static const std::vector<Column> all = make_columns();
+  return all;
+}
 
 std::string cell_of(const Json& value) {
   if (value.is_null()) return {};
@@ -71,7 +70,7 @@ std::string one_line(std::string text) {
 const std::vector<std::string>& series_columns() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
-    for (const Column& column : kColumns) all.emplace_back(column.name);
+    for (const Column& column : columns()) all.push_back(column.name);
     return all;
   }();
   return names;
@@ -79,9 +78,9 @@ const std::vector<std::string>& series_columns() {
 
 SeriesRow::SeriesRow(int frame, const std::string& reference, const Molecule& source, const Molecule& target,
                      const CompareResult& result, const CompareOptions& options) {
-  const Json json = Json::parse(compare_json(source, target, result, options, {}));
-  for (const Column& column : kColumns)
-    cells_.push_back(*column.pointer != '\0' ? cell_of(json.at(Json::json_pointer(column.pointer))) : std::string());
+  const Json json = compare_json(source, target, result, options, {});
+  for (const Column& column : columns())
+    cells_.push_back(column.pointer.empty() ? std::string() : cell_of(json.at(Json::json_pointer(column.pointer))));
   at("frame") = std::to_string(frame);
   at("reference_frame") = one_line(reference);
 }

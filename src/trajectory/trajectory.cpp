@@ -33,8 +33,8 @@ std::vector<TrajectoryStep> steps_of(const TrajectoryPlan& plan) {
     previous = frame;
   }
   if (steps.empty())
-    throw InputError(plan.against_previous ? "--reference previous needs two frames or more"
-                                           : "there are no frames to compare");
+    throw InputError(plan.against_previous ? option("reference", "previous") + " needs two frames or more"
+                                           : Message("there are no frames to compare"));
   return steps;
 }
 
@@ -88,8 +88,8 @@ void TrajectoryRun::check_earlier_rows() const {
     const bool is_beyond = i >= steps_.size();
     if (!is_beyond && rows[i]["frame"] == std::to_string(steps_[i].frame)) continue;
     throw InputError(file_.path() + ": row " + std::to_string(i + 1) + " is of frame " + rows[i]["frame"] + ", " +
-                     (is_beyond ? std::string("beyond the run") : "not of " + std::to_string(steps_[i].frame)) +
-                     "; --overwrite begins anew");
+                     (is_beyond ? std::string("beyond the run") : "not of " + std::to_string(steps_[i].frame)) + "; " +
+                     switched_on("overwrite") + " begins anew");
   }
 }
 
@@ -133,7 +133,8 @@ void TrajectoryRun::note_inputs(const std::vector<InputFile>& inputs) {
 
 Error TrajectoryRun::cancelled() const {
   return {ErrorClass::kCancelled, "cancelled after " + std::to_string(file_.rows().size()) + " of " +
-                                      std::to_string(steps_.size()) + " rows; --resume goes on with " + file_.path()};
+                                      std::to_string(steps_.size()) + " rows; " + switched_on("resume") +
+                                      " goes on with " + file_.path()};
 }
 
 const SeriesRow* TrajectoryRun::step(Engine& engine, const std::function<StepInput()>& read, const Progress& progress) {
@@ -160,7 +161,7 @@ const SeriesRow* TrajectoryRun::step(Engine& engine, const std::function<StepInp
 
 const SeriesRow* TrajectoryRun::skip(const Error& why) {
   const TrajectoryStep& step = next();
-  if (!plan_.skip_errors) throw Error(why.error_class(), in_front(step.frame) + why.what());
+  if (!plan_.skip_errors) throw Error(why.error_class(), in_front(step.frame) + why.message());
   ++n_skipped_;
   return end_step({step.frame, step.reference, why.what()});
 }
@@ -205,7 +206,8 @@ void TrajectoryRun::compare_again(const SeriesRow& row) const {
   for (const char* column : {"rmsd_A", "mean_displacement_A", "mean_abs_difference"}) {
     if (same_cell(earlier[column], row[column])) continue;
     throw InputError("frame " + row["frame"] + " now has " + column + " '" + row[column] + "' instead of '" +
-                     earlier[column] + "' in " + file_.path() + ": its input has changed; --overwrite begins anew");
+                     earlier[column] + "' in " + file_.path() + ": its input has changed; " + switched_on("overwrite") +
+                     " begins anew");
   }
 }
 

@@ -7,7 +7,6 @@
 
 #include "base/error.h"
 #include "io/read_structure.h"
-#include "io/sha256.h"
 
 namespace espdiff {
 namespace {
@@ -27,11 +26,11 @@ Molecule read_molecule(const RunRecord& record, const RecordedInput& input, bool
   if (!record.found) throw InputError(record.path + ": no such file; it names the structures" + remedy);
   std::error_code ignored;
   if (!std::filesystem::exists(input.path, ignored)) throw InputError(input.path + " no longer exists" + remedy);
-  if (sha256_of_file(input.path) != input.sha256)
-    throw InputError(input.path + " has changed since the comparison" + remedy);
+  const StructureFile file(input.path);
+  if (file.sha256() != input.sha256) throw InputError(input.path + " has changed since the comparison" + remedy);
   StructureOptions options = input.read_with;
   if (with_water) options.include_hetero = options.include_water = true;
-  return read_structure(input.path, options);
+  return file.read(options);
 }
 
 /// A file may hold several models, and older records do not say which was compared, so the surface must fit the model

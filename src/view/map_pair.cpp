@@ -7,7 +7,6 @@
 
 #include "base/error.h"
 #include "io/read_grid.h"
-#include "io/sha256.h"
 #include "view/map_sampling.h"
 
 namespace espdiff {
@@ -22,8 +21,9 @@ constexpr double kBorderShare = 1e-3;
 std::shared_ptr<Grid> read_recorded(const RecordedInput& input, const std::string& unit, double temperature_K) {
   std::error_code ignored;
   if (!std::filesystem::exists(input.path, ignored)) throw InputError(input.path + " no longer exists");
-  if (sha256_of_file(input.path) != input.sha256) throw InputError(input.path + " has changed since the comparison");
-  auto map = std::make_shared<Grid>(read_grid(input.path));
+  GridFile file = read_grid_file(input.path);
+  if (file.sha256 != input.sha256) throw InputError(input.path + " has changed since the comparison");
+  auto map = std::make_shared<Grid>(std::move(file.grid));
   const PotentialUnit to = unit.empty() || unit == "unknown" ? PotentialUnit::kUnknown : parse_potential_unit(unit);
   if (map->unit != PotentialUnit::kUnknown && to != PotentialUnit::kUnknown && map->unit != to) {
     const auto factor = static_cast<float>(conversion_factor(map->unit, to, temperature_K));

@@ -25,13 +25,14 @@ void MapTexture::upload(vtkOpenGLRenderWindow* window) {
   const int limit = vtkTextureObject::GetMaximumTextureSize3D(window);
   if (limit > 0 && largest > limit) {
     throw DeviceError(map_->name + ": the map has " + std::to_string(largest) + " points along an axis, and this " +
-                      "graphics processor takes " + std::to_string(limit) + "; draw with --per-vertex");
+                      "graphics processor takes " + std::to_string(limit) + "; draw with " + switched_on("per-vertex"));
   }
   // VTK's upload functions take pointers that are not const.
   void* values = map_ != nullptr ? const_cast<float*>(map_->values.data()) : &nothing;
   const bool done = texture_->Create3DFromRaw(static_cast<unsigned>(size[0]), static_cast<unsigned>(size[1]),
                                               static_cast<unsigned>(size[2]), 1, VTK_FLOAT, values);
-  if (!done) throw DeviceError("a map could not be uploaded to the graphics processor; draw with --per-vertex");
+  if (!done)
+    throw DeviceError("a map could not be uploaded to the graphics processor; draw with " + switched_on("per-vertex"));
 }
 
 void MapTexture::activate(vtkOpenGLRenderWindow* window) {

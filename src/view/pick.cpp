@@ -152,7 +152,7 @@ std::vector<std::string> picked_in_words(const PickedPoint& point, const Compari
     for (const std::string& reason : files.record.reasons) whole += "; " + reason;
     lines.push_back(line("comparison", whole));
   }
-  lines.push_back(line("potentials", point.from_maps ? "from the maps" : "between the vertices' values"));
+  lines.push_back(line("potentials", point.from_maps ? "from the maps" : "interpolated between vertices"));
   return lines;
 }
 

@@ -39,7 +39,7 @@ std::string description(const ComparisonScene& scene) {
   }
   if (shows_potentials(scene.scene()))
     text +=
-        scene.per_fragment() ? "; potentials of the maps at every pixel" : "; potentials between the vertices' values";
+        scene.per_fragment() ? "; potentials of the maps at every pixel" : "; potentials interpolated between vertices";
   return text;
 }
 
@@ -61,7 +61,7 @@ std::string inputs(const RunRecord& record) {
 std::vector<std::string> notes_on(const ComparisonFiles& files, const Scene& scene) {
   std::vector<std::string> notes;
   if (shows_potentials(scene) && !scene.per_vertex && !files.maps.complete()) {
-    notes.push_back("potentials are drawn between the vertices' values, not from the maps: " + files.maps.why_not);
+    notes.push_back("potentials are interpolated between vertices, not looked up in the maps: " + files.maps.why_not);
   }
   if (files.record.found && !files.record.trustworthy) {
     std::string reasons;

@@ -36,6 +36,7 @@ bool has_osmesa() {
 vtkSmartPointer<vtkRenderWindow> without_display() {
 #if defined(ESPDIFF_VTK_CHOOSES)
   // By default VTK would first try X, with warnings. If EGL does not work it uses OSMesa.
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): only one thread draws
   setenv("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow", 0);
   const VtkMessages messages;
   vtkSmartPointer<vtkRenderWindow> window = vtkSmartPointer<vtkOpenGLRenderWindow>::New();

@@ -1,94 +1,43 @@
-// surface_file.cpp: reads a .vtp with VTK's reader and checks it.
+// surface_file.cpp: takes what drawing needs from a .vtp and checks it.
 #include "view/surface_file.h"
-
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkDataArray.h>
-#include <vtkFieldData.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataNormals.h>
-#include <vtkStringArray.h>
-#include <vtkXMLPolyDataReader.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <utility>
 
 #include "base/error.h"
-#include "view/vtk_messages.h"
+#include "io/file_kind.h"
+#include "io/read_input.h"
+#include "io/read_vtp.h"
 
 namespace espdiff {
 namespace {
 
-std::string names_of(vtkPointData* arrays) {
+std::string names_of(const VtpContent& surface) {
   std::string names;
-  for (int i = 0; i < arrays->GetNumberOfArrays(); ++i) {
-    const char* name = arrays->GetArrayName(i);
-    if (name != nullptr) names += (names.empty() ? "" : ", ") + std::string(name);
-  }
+  for (const VtpNumbers& array : surface.point_arrays) names += (names.empty() ? "" : ", ") + array.name;
   return names.empty() ? "none" : names;
 }
 
-std::vector<float> scalars(vtkDataArray* array) {
-  std::vector<float> values(static_cast<std::size_t>(array->GetNumberOfTuples()));
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    values[i] = static_cast<float>(array->GetComponent(static_cast<vtkIdType>(i), 0));
+/// Unit normals at the vertices: the mean of those of the triangles around, each of equal weight.
+std::vector<Vec3f> mean_normals(const VtpContent& surface) {
+  std::vector<Vec3d> sums(surface.positions.size());
+  for (const Triangle& t : surface.triangles) {
+    const Vec3d& a = surface.positions[t[0]];
+    const Vec3d normal = cross(surface.positions[t[1]] - a, surface.positions[t[2]] - a);
+    const double length = norm(normal);
+    for (const std::uint32_t vertex : t) {
+      if (length > 0) sums[vertex] += 1 / length * normal;
+    }
   }
-  return values;
-}
-
-vtkDataArray* scalar_array(vtkFieldData* arrays, const char* name) {
-  vtkDataArray* array = arrays->GetArray(name);
-  return array != nullptr && array->GetNumberOfComponents() == 1 ? array : nullptr;
-}
-
-std::vector<Vec3f> normals_of(vtkPolyData* surface) {
-  vtkDataArray* array = surface->GetPointData()->GetArray("normal");
-  vtkNew<vtkPolyDataNormals> filter;
-  if (array == nullptr || array->GetNumberOfComponents() != 3) {
-    filter->SetInputData(surface);
-    filter->SplittingOff();
-    filter->ConsistencyOff();
-    filter->Update();
-    array = filter->GetOutput()->GetPointData()->GetNormals();
-  }
-  std::vector<Vec3f> normals(static_cast<std::size_t>(surface->GetNumberOfPoints()));
-  if (array == nullptr) return normals;
-  for (std::size_t i = 0; i < normals.size(); ++i) {
-    double normal[3];
-    array->GetTuple(static_cast<vtkIdType>(i), normal);
-    normals[i] = static_cast<Vec3f>(Vec3d{normal[0], normal[1], normal[2]});
+  std::vector<Vec3f> normals(sums.size());
+  for (std::size_t v = 0; v < sums.size(); ++v) {
+    const double length = norm(sums[v]);
+    if (length > 0) normals[v] = static_cast<Vec3f>(1 / length * sums[v]);
   }
   return normals;
-}
-
-std::vector<Triangle> triangles_of(const std::string& path, vtkPolyData* surface) {
-  const auto n_vertices = surface->GetNumberOfPoints();
-  std::vector<Triangle> triangles;
-  triangles.reserve(static_cast<std::size_t>(surface->GetNumberOfPolys()));
-  vtkCellArray* cells = surface->GetPolys();
-  vtkIdType n_corners = 0;
-  const vtkIdType* corners = nullptr;
-  for (cells->InitTraversal(); cells->GetNextCell(n_corners, corners) != 0;) {
-    if (n_corners != 3) {
-      throw FormatError(path, 0,
-                        "a polygon has " + std::to_string(n_corners) + " corners; espdiff draws triangles only");
-    }
-    Triangle triangle{};
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      if (corners[corner] < 0 || corners[corner] >= n_vertices) {
-        throw FormatError(path, 0,
-                          "a triangle refers to vertex " + std::to_string(corners[corner]) + " of " +
-                              std::to_string(n_vertices) + "; write the file again");
-      }
-      triangle[corner] = static_cast<std::uint32_t>(corners[corner]);
-    }
-    triangles.push_back(triangle);
-  }
-  return triangles;
 }
 
 void check_exists(const std::string& path) {
@@ -99,57 +48,47 @@ void check_exists(const std::string& path) {
   if (std::filesystem::is_directory(status)) throw IoError(path, "is a directory; name the .vtp file in it");
 }
 
-/// [triangle] nonzero entries of a cell array; empty if the file has none of that name.
-std::vector<std::uint8_t> flags_of(vtkPolyData* surface, const char* name) {
-  vtkDataArray* array = scalar_array(surface->GetCellData(), name);
+/// [triangle] nonzero entries of a cell array; empty when the file has none of that name.
+std::vector<std::uint8_t> flags_of(const VtpContent& surface, const char* name) {
   std::vector<std::uint8_t> flags;
-  if (array == nullptr || array->GetNumberOfTuples() != surface->GetNumberOfPolys()) return flags;
-  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i) flags.push_back(array->GetComponent(i, 0) != 0 ? 1 : 0);
+  const VtpNumbers* const array = find_array(surface.cell_arrays, name);
+  if (array == nullptr || array->n_components != 1) return flags;
+  for (const double value : array->values) flags.push_back(value != 0 ? 1 : 0);
   return flags;
 }
 
-/// [vertex] numbers of a point array; empty if the file has none of that name, or one of another length.
-std::vector<float> numbers_of(vtkPolyData* surface, const char* name) {
-  vtkDataArray* array = scalar_array(surface->GetPointData(), name);
-  if (array == nullptr || array->GetNumberOfTuples() != surface->GetNumberOfPoints()) return {};
-  return scalars(array);
+/// [vertex] numbers of a point array; empty when the file has none of that name.
+std::vector<float> numbers_of(const VtpContent& surface, const char* name) {
+  const VtpNumbers* const array = find_array(surface.point_arrays, name);
+  if (array == nullptr || array->n_components != 1) return {};
+  std::vector<float> numbers;
+  for (const double value : array->values) numbers.push_back(static_cast<float>(value));
+  return numbers;
 }
 
-std::string text_of(vtkPolyData* surface, const char* name) {
-  auto* texts = vtkStringArray::SafeDownCast(surface->GetFieldData()->GetAbstractArray(name));
-  return texts != nullptr && texts->GetNumberOfValues() > 0 ? std::string(texts->GetValue(0)) : std::string();
+std::string text_of(const VtpContent& surface, const char* name) {
+  for (const auto& [key, text] : surface.texts) {
+    if (key == name) return text;
+  }
+  return {};
 }
 
 /// Empty if there is none with three components.
 template <typename Vector>
-std::vector<Vector> vectors_of(vtkPolyData* surface, const char* name) {
-  vtkDataArray* array = surface->GetPointData()->GetArray(name);
+std::vector<Vector> vectors_of(const VtpContent& surface, const char* name) {
+  const VtpNumbers* const array = find_array(surface.point_arrays, name);
   std::vector<Vector> vectors;
-  if (array == nullptr || array->GetNumberOfComponents() != 3) return vectors;
-  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i) {
-    double v[3];
-    array->GetTuple(i, v);
-    vectors.push_back(static_cast<Vector>(Vec3d{v[0], v[1], v[2]}));
+  if (array == nullptr || array->n_components != 3) return vectors;
+  const std::vector<double>& values = array->values;
+  for (std::size_t i = 0; i < values.size(); i += 3) {
+    vectors.push_back(static_cast<Vector>(Vec3d{values[i], values[i + 1], values[i + 2]}));
   }
   return vectors;
 }
 
-std::vector<Vec3d> positions_of(const std::string& path, vtkPolyData* surface) {
-  std::vector<Vec3d> positions(static_cast<std::size_t>(surface->GetNumberOfPoints()));
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    double point[3];
-    surface->GetPoint(static_cast<vtkIdType>(i), point);
-    if (!std::isfinite(point[0] + point[1] + point[2])) {
-      throw FormatError(path, 0,
-                        "the position of vertex " + std::to_string(i) + " is not finite; write the file again");
-    }
-    positions[i] = {point[0], point[1], point[2]};
-  }
-  return positions;
-}
-
-void read_arrays(SurfaceFile& file, vtkPolyData* surface) {
-  file.normals = normals_of(surface);
+void read_arrays(SurfaceFile& file, const VtpContent& surface) {
+  file.normals = vectors_of<Vec3f>(surface, "normal");
+  if (file.normals.empty()) file.normals = mean_normals(surface);
   file.source_positions = vectors_of<Vec3d>(surface, "source_position");
   file.source_normals = vectors_of<Vec3f>(surface, "source_normal");
   file.displacement = numbers_of(surface, "displacement");
@@ -163,13 +102,15 @@ void read_arrays(SurfaceFile& file, vtkPolyData* surface) {
     }
   }
   file.residue_index = numbers_of(surface, "residue_index");
+  for (float& index : file.residue_index) {
+    if (!(index >= 0 && index < 2e9F)) index = -1;  // becomes an integer later
+  }
   file.residue_number = numbers_of(surface, "residue_number");
-  // Lines or points would precede the polygons in cell data; espdiff writes none.
   file.corrupt = flags_of(surface, "corrupt");
   file.unmatched = flags_of(surface, "no_counterpart");
   file.potential_unit = text_of(surface, "potential_unit");
   file.written_by = text_of(surface, "written_by");
-  file.array_names = names_of(surface->GetPointData());
+  file.array_names = names_of(surface);
 }
 
 }  // namespace
@@ -191,30 +132,24 @@ const std::vector<float>& SurfaceFile::values(RenderArray array) const {
   };
   if (pick().empty() && array != RenderArray::kPlain) {
     throw InputError(path + ": no point array '" + array_name(array) + "' (there are: " + array_names +
-                     "); colour by another, or compare with --source-map and --target-map");
+                     "); colour by another, or compare with " + option("source-map") + " and " + option("target-map"));
   }
   return pick();
 }
 
 SurfaceFile read_surface_file(const std::string& path) {
   check_exists(path);
-  const VtkMessages messages;
-  vtkNew<vtkXMLPolyDataReader> reader;
-  reader->SetFileName(path.c_str());
-  if (reader->CanReadFile(path.c_str()) == 0) {
-    throw FormatError(path, 0, "not a VTK PolyData file (.vtp); `espdiff compare SOURCE TARGET -o OUT` writes OUT.vtp");
-  }
-  reader->Update();
-  if (messages.has_error())
-    throw FormatError(path, 0, "damaged .vtp file (" + messages.first_error() + "); write it again");
-
-  vtkPolyData* surface = reader->GetOutput();
+  VtpContent surface = read_vtp(read_input(path, [&](std::string_view head) {
+    if (head.find("<VTKFile") == std::string::npos || head.find("PolyData") == std::string::npos)
+      throw FormatError(path, 0,
+                        "not a VTK PolyData file (.vtp); `espdiff compare SOURCE TARGET -o OUT` writes OUT.vtp");
+  }));
+  if (surface.triangles.empty()) throw FormatError(path, 0, "the surface has no triangles; nothing to draw");
   SurfaceFile file;
   file.path = path;
-  file.triangles = triangles_of(path, surface);
-  if (file.triangles.empty()) throw FormatError(path, 0, "the surface has no triangles; nothing to draw");
-  file.positions = positions_of(path, surface);
   read_arrays(file, surface);
+  file.triangles = std::move(surface.triangles);
+  file.positions = std::move(surface.positions);
   const auto& lost = file.unmatched;
   if (!lost.empty() && std::find(lost.begin(), lost.end(), 0) == lost.end()) {
     throw FormatError(path, 0, "no triangle has a counterpart; nothing to draw");

@@ -1,4 +1,4 @@
-// rigid_domains.cpp: domains by chain, by name and by search; motions as screws; and what is refused.
+// rigid_domains.cpp: domains by chain, by name and by search; motions as screws; refusals.
 #include "align/rigid_domains.h"
 
 #include <doctest/doctest.h>
@@ -25,7 +25,7 @@ IndexPairs one_to_one(const Molecule& molecule) {
   return pairs;
 }
 
-/// A turn about an axis through a point, and a shift.
+/// A rotation about an axis through a point, and a translation.
 RigidTransform turn(Vec3d axis, double angle, Vec3d through, Vec3d shift) {
   Screw screw;
   screw.axis = (1 / norm(axis)) * axis;
@@ -42,7 +42,7 @@ RigidTransform turn(Vec3d axis, double angle, Vec3d through, Vec3d shift) {
   return motion;
 }
 
-/// Four times 30 residues, each stretch a helix of its own direction, in chains A, A, A, B.
+/// Four times 30 residues, each stretch a helix in its own direction, in chains A, A, A, B.
 Molecule four_stretches() {
   MadeMolecule made;
   for (int stretch = 0; stretch < 4; ++stretch)
@@ -70,7 +70,7 @@ Molecule moved(Molecule m, Motion motion, double noise) {
   return m;
 }
 
-/// Residues that are not in the domain expected.
+/// Residues outside the expected domain.
 std::size_t n_misplaced(const std::vector<RigidDomain>& domains, const std::vector<std::size_t>& expected) {
   std::vector<std::size_t> found(expected.size(), 99);
   for (std::size_t k = 0; k < domains.size(); ++k) {
@@ -87,7 +87,7 @@ TEST_SUITE_BEGIN("rigid_domains");
 
 TEST_CASE("domains that move as rigid bodies are found, the largest first, with their motions") {
   const Molecule source = four_stretches();
-  // Residues 0-59 stay, 60-89 turn, 90-119 turn otherwise: of 60, 30 and 30 residues.
+  // Residues 0-59 stay, 60-89 and 90-119 rotate differently: domains of 60, 30 and 30 residues.
   const RigidTransform second = turn({1, 2, 0}, 0.9, {20, 5, 0}, {1, 2, 3}),
                        third = turn({0, 1, 3}, -0.7, {}, {9, 0, 4});
   for (const double noise : {0.0, 0.4}) {
@@ -108,7 +108,7 @@ TEST_CASE("domains that move as rigid bodies are found, the largest first, with 
   }
 }
 
-TEST_CASE("what moves as a whole is one piece, and nothing is left out") {
+TEST_CASE("a molecule that moves as a whole is one domain with all residues") {
   const Molecule source = four_stretches();
   const RigidTransform motion = turn({1, 1, 1}, 2.0, {3, 0, 0}, {5, 5, 5});
   const Molecule target = moved(
@@ -119,7 +119,7 @@ TEST_CASE("what moves as a whole is one piece, and nothing is left out") {
   CHECK(domains[0].n_atoms == source.size());
 }
 
-TEST_CASE("chains are pieces, but for one that is too small to have a motion") {
+TEST_CASE("each chain is a domain unless it is too small to have a motion") {
   MadeMolecule made;
   made.peptide("A", 1, "ACDEF");
   made.peptide("B", 1, "GHIKL");
@@ -135,7 +135,7 @@ TEST_CASE("chains are pieces, but for one that is too small to have a motion") {
   CHECK(norm(domains[1].motion.apply({1, 2, 3}) - shift.apply({1, 2, 3})) < 1e-9);
 }
 
-TEST_CASE("residues that the user names, with and without chains") {
+TEST_CASE("domains of residues that the user names, with and without chains") {
   MadeMolecule made;
   made.peptide("A", 1, "ACDEFGHI");
   made.peptide("B", 1, "ACDEFGHI");
@@ -153,7 +153,7 @@ TEST_CASE("residues that the user names, with and without chains") {
   CHECK(residues_of("none").empty());
 }
 
-TEST_CASE("what cannot be read, found or fitted is refused with the remedy") {
+TEST_CASE("domains that cannot be read, found or fitted are refused with the remedy") {
   MadeMolecule made("made.pdb");
   made.peptide("A", 1, "ACDEF");
   made.residue("A", 9, "NA", {"NA"});
@@ -177,7 +177,7 @@ TEST_CASE("what cannot be read, found or fitted is refused with the remedy") {
   CHECK_NOTHROW(check_domains("-4--2,1"));
 }
 
-TEST_CASE("a motion as a screw ends where the motion ends, and its parts add up") {
+TEST_CASE("a motion as a screw has the same end, and its fractions add up") {
   const Vec3d p{4, -3, 7};
   for (const double angle : {0.0, 1e-9, 1e-3, 1.0, 3.1, 3.141592653589793}) {
     const RigidTransform motion = turn({1, -2, 2}, angle, {5, 1, 0}, {0.3, 2, -1});

@@ -1,4 +1,4 @@
-// unwrap.cpp: molecules cut by a periodic cell's border are whole again, wherever the border lies.
+// unwrap.cpp: molecules wrapped at a periodic cell's border become whole, wherever the border lies.
 #include "align/unwrap.h"
 
 #include <doctest/doctest.h>
@@ -40,7 +40,7 @@ std::vector<Vec3d> coil(int n, Vec3d from) {
   return atoms;
 }
 
-/// Each atom anywhere among its images.
+/// Moves each atom to a random image.
 std::vector<Vec3d> scattered(std::vector<Vec3d> atoms, const Edges& edges) {
   Random random;
   for (Vec3d& p : atoms) {
@@ -58,7 +58,7 @@ double distortion(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
 
 }  // namespace
 
-TEST_CASE("the shortest image is that of all near ones") {
+TEST_CASE("the shortest image is the shortest of all near ones") {
   Random random;
   for (int n = 0; n < 200; ++n) {
     const Vec3d v{150 * random(), 150 * random(), 150 * random()};
@@ -74,26 +74,26 @@ TEST_CASE("the shortest image is that of all near ones") {
   }
 }
 
-TEST_CASE("a chain whose atoms are scattered over images is whole, and one that is whole stays so") {
+TEST_CASE("a chain scattered over images becomes whole, and a whole one stays unchanged") {
   const auto whole = coil(60, {1, 2, 3});  // 89 A long, longer than the cell
   CHECK(distortion(whole, unwrapped(scattered(whole, kSkewed), kSkewed, {})) < 1e-9);
   CHECK(distortion(whole, unwrapped(whole, kSkewed, {})) < 1e-9);
 }
 
-TEST_CASE("two chains lie as in the reference, though another image is nearer") {
+TEST_CASE("two chains are placed as in the reference, though another image is nearer") {
   auto whole = coil(20, {0, 0, 0});
   for (const Vec3d& p : coil(12, {41, 0, 5})) whole.push_back(p);  // nearer at 41 - 60
-  // Turned and moved in the meantime, a little bent.
+  // Rotated and moved in the meantime, and slightly bent.
   std::vector<Vec3d> later = whole;
   const double c = std::cos(0.4), s = std::sin(0.4);
   for (Vec3d& p : later) p = {c * p.x - s * p.y + 17, s * p.x + c * p.y - 9, p.z + 0.01 * p.x};
   CHECK(distortion(later, unwrapped(scattered(later, kSkewed), kSkewed, whole)) < 1e-9);
-  // Without it the second chain goes to the nearest image.
+  // Without a reference the second chain takes the nearest image.
   const auto alone = unwrapped(scattered(whole, kSkewed), kSkewed, {});
   CHECK(norm(alone[25] - alone[0]) < norm(whole[25] - whole[0]));
 }
 
-TEST_CASE("what cannot be mended is refused") {
+TEST_CASE("molecules that cannot be unwrapped are refused") {
   CHECK(unwrapped({}, kSkewed, {}).empty());
   CHECK_THROWS_AS(unwrapped({{1, 2, 3}}, kSkewed, {{1, 2, 3}, {4, 5, 6}}), espdiff::InputError);
   CHECK_THROWS_AS(unwrapped({{1, 2, 3}}, {Vec3d{1, 0, 0}, Vec3d{2, 0, 0}, Vec3d{0, 0, 1}}, {}), espdiff::InputError);

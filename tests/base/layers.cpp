@@ -1,9 +1,10 @@
-// layers.cpp: no room includes what it may not know: reads every include of src/, cuda/ and vmdplugin/.
+// layers.cpp: no room includes a room above it: reads every include of src/, cuda/ and vmdplugin/.
 #include <doctest/doctest.h>
 
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <set>
 #include <string>
 
@@ -12,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 using Rooms = std::map<std::string, std::set<std::string>>;
 
-/// What each room may include besides itself. Nobody looks up.
+/// What each room may include besides itself; only rooms below it.
 const Rooms kAllowed = {
     {"base", {}},
     {"io", {"base"}},
@@ -88,7 +89,7 @@ TEST_CASE("rooms include only rooms below them") {
   CHECK(n_includes > 40);
 }
 
-TEST_CASE("every folder of src has its rule") {
+TEST_CASE("every folder of src has a rule") {
   for (const auto& entry : fs::directory_iterator(fs::path(ESPDIFF_SOURCE_DIR) / "src")) {
     if (!entry.is_directory()) continue;
     INFO(entry.path().string());
@@ -96,7 +97,7 @@ TEST_CASE("every folder of src has its rule") {
   }
 }
 
-TEST_CASE("every source file says in its first line what it is for") {
+TEST_CASE("every source file states its purpose in its first line") {
   for (const char* folder : {"src", "cuda", "vmdplugin"}) {
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(ESPDIFF_SOURCE_DIR) / folder)) {
       const std::string extension = entry.path().extension().string();
@@ -108,6 +109,25 @@ TEST_CASE("every source file says in its first line what it is for") {
       CHECK(line.find("// " + entry.path().filename().string() + ": ") == 0);
     }
   }
+}
+
+TEST_CASE("only the command line writes options with dashes; other messages name them") {
+  const std::regex spelled("\"[^\"]*--[a-z]");
+  int n_lines = 0;
+  for (const char* folder : {"src", "cuda", "vmdplugin"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(ESPDIFF_SOURCE_DIR) / folder)) {
+      const std::string extension = entry.path().extension().string();
+      if (entry.path().parent_path().filename() == "cli") continue;
+      if (extension != ".h" && extension != ".cpp" && extension != ".cu") continue;
+      std::ifstream in(entry.path());
+      for (std::string line; std::getline(in, line); ++n_lines) {
+        if (line.find("--") != std::string::npos)
+          CHECK_MESSAGE(!std::regex_search(line, spelled), entry.path().string(), ": ", line,
+                        "; name it by option() of base/message.h");
+      }
+    }
+  }
+  CHECK(n_lines > 10000);
 }
 
 TEST_SUITE_END();

@@ -1,5 +1,5 @@
-// adversarial.cpp: changes that no mapping gets right everywhere: each is either mapped or reported, never a wrong
-// number with a clean certificate.
+// adversarial.cpp: changes that no mapping handles everywhere: each is either mapped or reported, never wrong with a
+// clean certificate.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ Molecule moved(Molecule molecule, const Motion& motion) {
   return molecule;
 }
 
-/// What must hold whatever happens: where the certificate is clean, an independent look finds nothing wrong.
+/// Must hold in all cases: if the certificate is clean, an independent check finds no fault.
 CompareResult mapped_or_reported(const char* name, const Molecule& source, const Molecule& target,
                                  espdiff::AlignAtoms align = espdiff::AlignAtoms::kNone) {
   const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
@@ -38,13 +38,13 @@ CompareResult mapped_or_reported(const char* name, const Molecule& source, const
       name, c.trustworthy ? "trustworthy" : "NOT trustworthy", 100 * c.unmatched_source, 100 * c.unmatched_target,
       c.target_to_mapped.max, 100 * c.same_residue_area_fraction, r.morph_report.n_vertices_added,
       r.morph_report.n_vertices_unmatched);
-  for (const std::string& reason : c.reasons) std::printf("    %s\n", reason.c_str());
+  for (const espdiff::Message& reason : c.reasons) std::printf("    %s\n", reason.plain().c_str());
   CHECK(c.trustworthy == c.reasons.empty());
   CHECK(c.self_intersecting_pairs == 0);
   CHECK(c.flipped_area_fraction == 0);
   CHECK(c.corrupt_area_fraction <= 1e-3);
 
-  // Every vertex that counts lies on the target's surface: the density summed here, directly.
+  // Every valid vertex lies on the target's surface, by a direct sum of the density.
   const espdiff::MappedSurface& s = r.surface;
   std::vector<bool> counts(s.positions.size(), false);
   for (std::size_t t = 0; t < s.triangles.size(); ++t) {
@@ -71,7 +71,7 @@ CompareResult mapped_or_reported(const char* name, const Molecule& source, const
 
 TEST_SUITE_BEGIN("adversarial");
 
-TEST_CASE("two chains that separate: the faces that met have no counterpart") {
+TEST_CASE("two chains that separate: the faces of the contact are unmatched") {
   Builder b;
   b.add_ball(1, {0, 0, 0}, 7);
   const std::size_t n_first = b.molecule.size();
@@ -84,7 +84,7 @@ TEST_CASE("two chains that separate: the faces that met have no counterpart") {
   CHECK(r.certificate.unmatched_target > 0.01);
 }
 
-TEST_CASE("two chains that meet: what they bury has no counterpart") {
+TEST_CASE("two chains that meet: the buried surface is unmatched") {
   Builder b;
   b.add_ball(1, {0, 0, 0}, 7);
   const std::size_t n_first = b.molecule.size();
@@ -110,7 +110,7 @@ TEST_CASE("a closed cavity that opens") {
   });
   const CompareResult r = mapped_or_reported("opened cavity", b.molecule, target);
   CHECK(r.source_surface.n_cavities_left_out == 1);
-  // Its wall is part of the target's surface now, and was carried there.
+  // Its wall is part of the target's surface now and was mapped there.
   CHECK(r.certificate.unmatched_target < 0.05);
 }
 
@@ -122,7 +122,7 @@ TEST_CASE("a tunnel that forms") {
       for (int z = -1; z <= 1; ++z) b.add("SLB", 1, "C" + std::to_string(++k), {2.0 * x, 2.0 * y, 2.0 * z});
   const Molecule target = moved(b.molecule, [&](std::size_t, Vec3d p) {
     const double r = std::hypot(p.x, p.y);
-    const double out = r < 1e-9 ? 0 : std::sqrt(r * r + 30) / r;  // area for area: a hole of radius 5.5 A
+    const double out = r < 1e-9 ? 0 : std::sqrt(r * r + 30) / r;  // preserves area: a hole of radius 5.5 A
     return Vec3d{p.x * out + (r < 1e-9 ? 5.5 : 0), p.y * out, p.z};
   });
   mapped_or_reported("tunnel", b.molecule, target);

@@ -27,7 +27,7 @@ struct Builder {
     molecule.name = "made.pqr";
   }
 
-  /// A ball of atoms on a cubic lattice, a residue of its own.
+  /// A ball of atoms on a cubic lattice, as its own residue.
   void add_ball(int number, espdiff::Vec3d centre, double radius, double spacing = 2.0,
                 const std::string& chain = "A") {
     const int n = static_cast<int>(std::ceil(radius / spacing));

@@ -1,5 +1,4 @@
-// compare.cpp: the whole comparison: rigid copies, invariances, point charges, determinism, and every refusal with its
-// text.
+// compare.cpp: the whole comparison: rigid copies, invariances, point charges, determinism, and every error message.
 
 #include <doctest/doctest.h>
 
@@ -65,7 +64,7 @@ TEST_CASE("a rigid copy with its map differs by almost nothing") {
     CHECK(r.certificate.converged);
     CHECK(r.n_outside_source_map == 0);
     CHECK(r.n_outside_target_map == 0);
-    // Every vertex lies in its own frame: the motion takes the one into the other but for its displacement.
+    // Every vertex lies in its own frame; the motion relates the two up to the displacement.
     double worst = 0, least_cosine = 1;
     for (std::size_t v = 0; v < r.surface.positions.size(); ++v) {
       const Vec3d there = r.source_to_target.apply(r.surface.source_positions[v]);
@@ -105,7 +104,7 @@ TEST_CASE("a rigid motion of either side, and the order of atoms in a residue, c
   }
 }
 
-TEST_CASE("samples are the point charges' potential at the vertices") {
+TEST_CASE("samples equal the point charges' potential at the vertices") {
   const Side a = make_side(1, 0), b = make_side(2, 0.3);
   for (const auto& engine : back_ends()) {
     const CompareResult r = compare(*engine, a.input(), b.input(), quick_options(), {});
@@ -143,7 +142,7 @@ TEST_CASE("maps in two known units are compared in the source's") {
   }
 }
 
-TEST_CASE("without maps shapes alone are compared; residues share out the area") {
+TEST_CASE("without maps only shapes are compared; the residues' areas sum to the total") {
   const Side a = make_side(1, 0), b = make_side(2, 0.3);
   for (const auto& engine : back_ends()) {
     const CompareResult r = compare(*engine, a.shape(), b.shape(), quick_options(), {});
@@ -185,7 +184,7 @@ TEST_CASE("a real pair gives the same bits for 1, 2 and 4 threads, and again") {
   }
 }
 
-TEST_CASE("compare refuses what cannot be compared, and says what to do") {
+TEST_CASE("compare refuses invalid input with a remedy") {
   const Side a = make_side(1, 0, 80), b = make_side(2, 0.3, 80);
   const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 1);
   const auto message = [&](const CompareInput& source, const CompareInput& target,
@@ -193,14 +192,14 @@ TEST_CASE("compare refuses what cannot be compared, and says what to do") {
     return message_of([&] { compare(*engine, source, target, options, {}); });
   };
   CHECK(message(a.input(), b.shape()) ==
-        "a potential map was given for the source only; give one for the target too (--target-map; `map` in Tcl), or "
+        "a potential map was given for the source only; give one for the target too (target-map), or "
         "none to compare shapes alone");
   CHECK(message(a.shape(), b.input()).find("a potential map was given for the target only") == 0);
   Side unknown = b;
   unknown.map.unit = PotentialUnit::kUnknown;
   CHECK(message(a.input(), unknown.input()) ==
         "the maps are in two units: kT/e (map.dx) and unknown (map.dx); name the unknown "
-        "one's unit (--target-map-unit; `unit` in Tcl)");
+        "one's unit (target-map-unit)");
   Side elsewhere = b;
   elsewhere.map.lattice.origin += Vec3d{500, 0, 0};
   CHECK(message(a.input(), elsewhere.input()) ==
@@ -230,7 +229,7 @@ TEST_CASE("compare refuses what cannot be compared, and says what to do") {
   }
 }
 
-TEST_CASE("a vertex outside a map is counted, left out, and makes the result untrustworthy") {
+TEST_CASE("a vertex outside a map is counted, excluded, and makes the result untrustworthy") {
   const Side a = make_side(1, 0), b = make_side(2, 0.3);
   Side part = b;
   part.map.lattice.size[2] /= 2;  // half of the layers; z is slowest, so the values stay in place
@@ -247,7 +246,7 @@ TEST_CASE("a vertex outside a map is counted, left out, and makes the result unt
 
 TEST_SUITE_END();
 
-TEST_CASE("potentials are compared where the source has a closed cavity that is left out") {
+TEST_CASE("potentials are compared when a closed cavity of the source is removed") {
   Side shell;
   shell.molecule.name = "shell.pqr";
   shell.molecule.residues = {{"SHL", "A", 1, ' '}};

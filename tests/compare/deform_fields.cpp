@@ -1,4 +1,4 @@
-// deform_fields.cpp: the method deform in each of its fields, its temporary subdivision, and the lengths of ways.
+// deform_fields.cpp: the method deform in each of its fields, its subdivision, and its path lengths.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ CompareOptions deform_in(FieldKind field, bool subdivide = false) {
   return options;
 }
 
-/// Two states of ubiquitin, whose tail lies in another place.
+/// Two states of ubiquitin with different positions of its tail.
 struct Ubiquitin {
   Molecule source, target;
 };
@@ -40,7 +40,8 @@ std::optional<Ubiquitin> ubiquitin() {
 
 TEST_SUITE_BEGIN("fields of deform");
 
-TEST_CASE("in every field, with and without subdivision, deform arrives, and ways are no shorter than displacements") {
+TEST_CASE(
+    "in every field, with and without subdivision, deform converges, and paths are no shorter than displacements") {
   const Side source = make_side(1, 0), target = make_side(2, 0.4);
   for (const auto& engine : back_ends()) {
     for (const FieldKind field : {FieldKind::kDensity, FieldKind::kDistance, FieldKind::kGvf, FieldKind::kGvf2}) {
@@ -62,14 +63,14 @@ TEST_CASE("in every field, with and without subdivision, deform arrives, and way
           least = std::min(least, r.surface.path_length[v] - r.surface.displacement[v]);
         CHECK(least > -1e-4F);
         CHECK(r.metrics.mean_path_length_A > r.metrics.mean_displacement_A);
-        // They swing about the surface before they rest: 0.075 A, half of it back, and so on.
+        // They oscillate about the surface before they rest: 0.075 A, half of it back, and so on.
         CHECK(r.metrics.mean_path_length_A < r.metrics.mean_displacement_A + 0.3);
       }
     }
   }
 }
 
-TEST_CASE("subdivision reaches what was missed, and its vertices come from the source's surface") {
+TEST_CASE("subdivision reaches missed parts, and its vertices come from the source's surface") {
   const auto pair = ubiquitin();
   if (!pair) return;
   const Molecule &source = pair->source, &target = pair->target;
@@ -89,7 +90,7 @@ TEST_CASE("subdivision reaches what was missed, and its vertices come from the s
     CHECK(with.n_vertices_subdivided > 100);
     CHECK(with.certificate.target_to_mapped.max < 0.2 * without.certificate.target_to_mapped.max);
     CHECK(with.certificate.corrupt_area_fraction < 0.1 * without.certificate.corrupt_area_fraction);
-    // All rounds together make as many iterations as are allowed.
+    // The maximum number of iterations applies to all rounds together.
     CompareOptions hurried = deform_in(FieldKind::kDistance, true);
     hurried.deform.max_iterations = without.deform_report.iterations + 7;
     const CompareResult stopped = compare(*engine, {&source, nullptr}, {&target, nullptr}, hurried, {});
@@ -106,13 +107,13 @@ TEST_CASE("subdivision reaches what was missed, and its vertices come from the s
     std::size_t n_off = 0;
     for (const float density : engine->density_at(atoms, added)) n_off += std::fabs(density - 0.5F) > 0.01F ? 1 : 0;
     CHECK(n_off == 0);
-    // The old vertices are those of the mapping without it.
+    // The old vertices equal those of the mapping without subdivision.
     CHECK(std::equal(without.surface.source_positions.begin(), without.surface.source_positions.end(),
                      with.surface.source_positions.begin(), [](Vec3d a, Vec3d b) { return norm(a - b) < 1e-9; }));
   }
 }
 
-TEST_CASE("a surface mapped onto itself is not subdivided, and its ways are short") {
+TEST_CASE("a surface mapped onto itself is not subdivided, and its paths are short") {
   const Side side = make_side(1, 0);
   for (const auto& engine : back_ends()) {
     for (const FieldKind field : {FieldKind::kDistance, FieldKind::kGvf2}) {
@@ -124,7 +125,7 @@ TEST_CASE("a surface mapped onto itself is not subdivided, and its ways are shor
   }
 }
 
-TEST_CASE("the morph's ways: as long as the displacement where atoms move straight") {
+TEST_CASE("the morph's paths are as long as the displacement where atoms move straight") {
   Side source = make_side(1, 0), target = source;
   for (Vec3d& p : target.molecule.positions) p.x += 2.0;
   for (const auto& engine : back_ends()) {
@@ -142,7 +143,7 @@ TEST_CASE("the morph's ways: as long as the displacement where atoms move straig
   }
 }
 
-TEST_CASE("a series goes on from a subdivided step with the source's own vertices") {
+TEST_CASE("a series continues from a subdivided step with the source's own vertices") {
   const auto pair = ubiquitin();
   if (!pair) return;
   const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);

@@ -1,4 +1,4 @@
-// local_rotations.cpp: neighbourhoods that turn as a whole, that have too little to say, and the way back.
+// local_rotations.cpp: neighbourhoods that rotate as a whole, that have too few atoms, and the reverse path.
 #include <doctest/doctest.h>
 #include <omp.h>
 
@@ -36,7 +36,7 @@ Screw turn_by(double angle) {
   return screw;
 }
 
-/// The largest distance of a turn from what it should be.
+/// The largest difference of a rotation from the expected one.
 template <typename Expected>
 double farthest_from(const std::vector<MovingAtom>& paths, Expected expected) {
   double farthest = 0;
@@ -49,7 +49,7 @@ double farthest_from(const std::vector<MovingAtom>& paths, Expected expected) {
 
 TEST_SUITE_BEGIN("local_turns");
 
-TEST_CASE("what turns as a whole turns all neighbourhoods, at corners less") {
+TEST_CASE("a rotation of the whole rotates all neighbourhoods, less at corners") {
   std::vector<MovingAtom> paths = packed(12, 1);
   const Screw screw = turn_by(0.6);
   for (MovingAtom& path : paths) path.end = screw.apply(path.start, 1);
@@ -63,7 +63,7 @@ TEST_CASE("what turns as a whole turns all neighbourhoods, at corners less") {
   }
 }
 
-TEST_CASE("nothing turns where atoms rest, move together, or go with their piece") {
+TEST_CASE("no rotation where atoms rest, translate together, or follow their domain") {
   std::vector<MovingAtom> paths = packed(8, 2);
   const auto none = [](std::size_t) { return Vec3d{}; };
   set_local_rotations(paths);
@@ -80,7 +80,7 @@ TEST_CASE("nothing turns where atoms rest, move together, or go with their piece
   CHECK(farthest_from(paths, none) < 1e-6);
 }
 
-TEST_CASE("the way back turns by the inverse, beside a piece's motion too") {
+TEST_CASE("the reverse path rotates by the inverse, also relative to a domain's motion") {
   std::vector<MovingAtom> there = packed(8, 3);
   Random random(4);
   const Screw screw = turn_by(0.5);
@@ -106,7 +106,7 @@ TEST_CASE("the way back turns by the inverse, beside a piece's motion too") {
   CHECK(turned > 0.05);
 }
 
-TEST_CASE("atoms on a line, few atoms and atoms that fade say little") {
+TEST_CASE("rotations of collinear, few or fading atoms are damped") {
   std::vector<MovingAtom> paths(3);
   const Screw screw = turn_by(1);
   for (std::size_t i = 0; i < paths.size(); ++i) {
@@ -115,7 +115,7 @@ TEST_CASE("atoms on a line, few atoms and atoms that fade say little") {
   }
   set_local_rotations(paths);
   CHECK(farthest_from(paths, [](std::size_t) { return Vec3d{}; }) < 0.05);
-  // Those that fade have no say, but turn with the others.
+  // Fading atoms have no weight, but rotate with the others.
   std::vector<MovingAtom> all = packed(8, 5);
   for (MovingAtom& path : all) path.end = screw.apply(path.start, 1);
   const std::size_t n = all.size();

@@ -1,4 +1,4 @@
-// made_side.h: made molecules with charges and their potentials, and a fingerprint of everything a comparison gives.
+// made_side.h: made molecules with charges and potentials, and a fingerprint of all results of a comparison.
 #pragma once
 
 #include <algorithm>
@@ -52,7 +52,7 @@ inline Grid potential_map(const Molecule& molecule, double spacing) {
   return map;
 }
 
-/// A lopsided ball of residues with protein names, charged here and there.
+/// A lopsided ball of residues with protein names and some charges.
 inline Side make_side(std::uint64_t seed, double noise, std::size_t n = 120) {
   const AtomSet cloud = random_cloud(n, 200);
   Random random(seed);

@@ -1,4 +1,4 @@
-// mapped_cgal.cpp: what the morph says has a counterpart does not intersect itself, by CGAL, on real pairs.
+// mapped_cgal.cpp: the morph's matched part does not intersect itself, by CGAL, on real pairs.
 #include <doctest/doctest.h>
 
 #include "compare/compare.h"
@@ -22,7 +22,7 @@ using namespace espdiff_test;
 
 TEST_SUITE_BEGIN("morph");
 
-TEST_CASE("CGAL finds no intersection in what has a counterpart") {
+TEST_CASE("CGAL finds no intersection in the matched part") {
   const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
   for (const auto& [from, to] : {std::pair("series19_ubq_2k39/m00.pqr", "series19_ubq_2k39/m07.pqr"),
                                  {"series19_ubq_2k39/m11.pqr", "series19_ubq_2k39/m05.pqr"},
@@ -40,7 +40,7 @@ TEST_CASE("CGAL finds no intersection in what has a counterpart") {
     const espdiff::MappedSurface& surface = result.surface;
     espdiff::Mesh mesh;
     mesh.triangles = surface.triangles;
-    // In the target's frame, not the one that it was computed in: rounding is far finer than two sheets lie apart.
+    // In the target's frame instead of the common one: rounding is far finer than the distance of two sheets.
     for (const espdiff::Vec3d& p : surface.positions) mesh.positions.push_back(static_cast<espdiff::Vec3f>(p));
     const CgalMesh theirs = cgal_mesh(mesh);
     std::vector<CgalMesh::Face_index> counted, all;
@@ -63,7 +63,7 @@ TEST_SUITE_END();
 
 #else
 
-TEST_CASE("CGAL finds no intersection in what has a counterpart") {
+TEST_CASE("CGAL finds no intersection in the matched part") {
   MESSAGE("SKIPPED: CGAL was not found when this was built (Debian: libcgal-dev)");
 }
 

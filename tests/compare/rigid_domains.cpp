@@ -1,4 +1,4 @@
-// rigid_domains.cpp: molecules whose parts move far are compared part by part, by both methods.
+// rigid_domains.cpp: molecules whose domains move far are compared domain by domain, by both methods.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -10,6 +10,7 @@
 #include "compare/built_molecule.h"
 #include "compare/compare.h"
 #include "compare/made_side.h"
+#include "report/metrics.h"
 #include "report/write_compare.h"
 
 using namespace espdiff_test;
@@ -30,7 +31,7 @@ Molecule dumbbell() {
   return b.molecule;
 }
 
-/// Chain B swung about the middle of the bridge.
+/// Chain B rotated about the middle of the bridge.
 Molecule swung(const Molecule& m, double angle) {
   espdiff::Screw screw;
   screw.axis = {0, 0.6, 0.8};
@@ -48,7 +49,7 @@ Molecule swung(const Molecule& m, double angle) {
 
 TEST_SUITE_BEGIN("rigid_domains");
 
-TEST_CASE("what swings as a rigid body is displaced by nothing, by both methods") {
+TEST_CASE("a domain that swings as a rigid body has no displacement, by both methods") {
   const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
   const Molecule source = dumbbell(), target = swung(source, 1.0);
   for (const Method method : {Method::kMorph, Method::kDeform}) {
@@ -59,7 +60,7 @@ TEST_CASE("what swings as a rigid body is displaced by nothing, by both methods"
       const CompareResult r = compare(*engine, {&source, nullptr}, {&target, nullptr}, options, {});
       CHECK(r.certificate.converged);
       if (method == Method::kMorph) CHECK(r.certificate.self_intersecting_pairs == 0);
-      return std::pair(espdiff::counted_surface(r).mean_displacement_A, r);
+      return std::pair(espdiff::counted_metrics(r).mean_displacement_A, r);
     };
     const auto [as_a_whole, whole] = displacement_with("none");
     const auto [by_domains, chains] = displacement_with("chains");
@@ -73,7 +74,7 @@ TEST_CASE("what swings as a rigid body is displaced by nothing, by both methods"
   }
 }
 
-TEST_CASE("there and back goes by the pieces' motions and their inverses") {
+TEST_CASE("the round trip uses the domains' motions and their inverses") {
   const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
   const Molecule source = dumbbell(), target = swung(source, 1.2);
   CompareOptions options;
@@ -85,7 +86,7 @@ TEST_CASE("there and back goes by the pieces' motions and their inverses") {
   CHECK(r.certificate.trustworthy);
 }
 
-TEST_CASE("one piece that is all of the molecule changes nothing but rounding") {
+TEST_CASE("one domain of the whole molecule changes only rounding") {
   const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
   const Side a = make_side(1, 0), b = make_side(2, 0.3);
   CompareOptions options = quick_options();
@@ -98,13 +99,13 @@ TEST_CASE("one piece that is all of the molecule changes nothing but rounding") 
   CHECK(domain.metrics.mean_displacement_A == doctest::Approx(whole.metrics.mean_displacement_A).epsilon(1e-3));
 }
 
-TEST_CASE("a result names its pieces") {
+TEST_CASE("a result names its domains") {
   const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
   const Molecule source = dumbbell(), target = swung(source, 0.5);
   CompareOptions options;
   options.domains = "A:1-3/B:1-2";
   const CompareResult r = compare(*engine, {&source, nullptr}, {&target, nullptr}, options, {});
-  const auto json = nlohmann::json::parse(espdiff::compare_json(source, target, r, options, {}));
+  const auto json = espdiff::compare_json(source, target, r, options, {});
   const auto& domains = json["superposition"]["domains"];
   REQUIRE(domains.size() == 2);
   CHECK(domains[1]["residues"] == "B:1-2");
@@ -112,12 +113,12 @@ TEST_CASE("a result names its pieces") {
   CHECK(domains[1]["rmsd_A"].get<double>() < 1e-9);
   CHECK(json["options"]["domains"] == "A:1-3/B:1-2");
   std::ostringstream table;
-  espdiff::print_table(table, source, target, r);
-  CHECK(table.str().find("rigid piece               ") != std::string::npos);
+  espdiff::print_table(table, source, target, r, [](const espdiff::NamedOption& o) { return o.name; });
+  CHECK(table.str().find("Rigid domain") != std::string::npos);
   CHECK(table.str().find("A, B:1-2\n") != std::string::npos);
 }
 
-TEST_CASE("pieces of molecules in which nothing pairs are refused") {
+TEST_CASE("domains of molecules without pairs are refused") {
   const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
   const Molecule source = dumbbell();
   Molecule other;

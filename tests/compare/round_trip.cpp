@@ -1,4 +1,4 @@
-// round_trip.cpp: there and back ends where it began, for both methods; and what the option changes.
+// round_trip.cpp: the round-trip error of both methods, and what the option changes.
 #include <doctest/doctest.h>
 
 #include "compare/compare.h"
@@ -11,7 +11,7 @@ using espdiff::compare;
 
 TEST_SUITE_BEGIN("round_trip");
 
-TEST_CASE("there and back ends near the start, nearer by the morph") {
+TEST_CASE("the round-trip error is small, smaller with the morph") {
   const Side a = make_side(1, 0), b = make_side(1, 0.3);
   const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
   CompareOptions options = quick_options();
@@ -29,7 +29,7 @@ TEST_CASE("there and back ends near the start, nearer by the morph") {
   CHECK(morphed.certificate.round_trip->mean_A < deformed.certificate.round_trip->mean_A);
 }
 
-TEST_CASE("a protein in two conformations, 3.8 A apart, comes back to within the limit") {
+TEST_CASE("a protein in two conformations, 3.8 A apart, has a round-trip error within the limit") {
   const auto from = real_input("series19_ubq_2k39/m13.pqr"), to = real_input("series19_ubq_2k39/m02.pqr");
   if (!from || !to) return;
   const Molecule a = espdiff::read_structure(*from), b = espdiff::read_structure(*to);
@@ -44,7 +44,7 @@ TEST_CASE("a protein in two conformations, 3.8 A apart, comes back to within the
   CHECK(result.certificate.trustworthy);
 }
 
-TEST_CASE("the way back changes nothing else, and is named as not checked without the option") {
+TEST_CASE("the round trip changes no other result, and is listed as not checked without the option") {
   const Side a = make_side(1, 0), b = make_side(2, 0.3);
   const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
   CompareOptions options = quick_options();

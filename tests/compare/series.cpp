@@ -1,4 +1,4 @@
-// series.cpp: many targets with one source: the same as one by one, what a step starts from, and a state that survives.
+// series.cpp: many targets with one source: the same as one by one, the start of each step, and the saved state.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -21,7 +21,7 @@ using espdiff::StartFrom;
 
 namespace {
 
-/// The molecule bent by so much: the frames of a motion.
+/// The molecule bent by an amount: the frames of a motion.
 Side bent(const Side& side, double amount) {
   Side result = side;
   for (Vec3d& p : result.molecule.positions) p.z += amount * 0.02 * p.x * p.x;
@@ -44,7 +44,7 @@ CompareOptions options_of(Method method) {
 }
 CompareOptions deform_options() { return options_of(Method::kDeform); }
 
-/// As a state file ends.
+/// The end of a state file.
 std::string with_hash(const std::string& bytes) { return bytes + espdiff::sha256_of(bytes); }
 
 std::unique_ptr<espdiff::Engine> one_engine() { return espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2); }
@@ -64,7 +64,7 @@ TEST_CASE("steps that start from the source give the same bits as comparisons on
   }
 }
 
-TEST_CASE("a surface that the morph carries on from frame to frame ends where the direct way ends") {
+TEST_CASE("a surface continued from frame to frame by the morph ends where the direct mapping ends") {
   const Motion motion;
   const auto engine = one_engine();
   Series along(*engine, motion.source.input(), quick_options()), apart(*engine, motion.source.input(), quick_options());
@@ -98,7 +98,7 @@ TEST_CASE("a surface that the morph carries on from frame to frame ends where th
   CHECK(n_along < n_apart);
 }
 
-TEST_CASE("the morph carried on to the same target leaves the surface where it is") {
+TEST_CASE("the morph continued to the same target leaves the surface in place") {
   const Motion motion;
   const auto engine = one_engine();
   Series series(*engine, motion.source.input(), quick_options());
@@ -111,7 +111,8 @@ TEST_CASE("the morph carried on to the same target leaves the surface where it i
   CHECK(again.surface.unmatched == once.surface.unmatched);
 }
 
-TEST_CASE("what the morph lost stays lost in the next step, and after too much it starts anew") {
+TEST_CASE(
+    "surface lost by the morph stays lost in the next step, and after too much loss the step starts from the source") {
   const auto apart = [](double distance) {
     Builder b;
     b.add_ball(1, {0, 0, 0}, 6);
@@ -125,11 +126,11 @@ TEST_CASE("what the morph lost stays lost in the next step, and after too much i
     const espdiff::Molecule target = apart(distance);
     return series.step({&target, nullptr}, StartFrom::kPrevious, {});
   };
-  double closed = 2.1;  // by so much
+  double closed = 2.1;  // amount
   double lost = step(19 - closed).certificate.unmatched_source;
   const double at_start = lost;
   while (lost <= at_start + 0.005 && closed < 10) {
-    closed *= 1.8;  // the last target then lies less than half as far as the source
+    closed *= 1.8;  // the last target is then less than half as far as the source
     const CompareResult next = step(19 - closed);
     CHECK(next.start == StartFrom::kPrevious);
     CHECK(next.certificate.unmatched_source >= lost - 1e-4);
@@ -142,7 +143,7 @@ TEST_CASE("what the morph lost stays lost in the next step, and after too much i
   CHECK(hash_of(anew) == hash_of(compare(*engine, {&source, nullptr}, {&target, nullptr}, quick_options(), {})));
 }
 
-TEST_CASE("rigid pieces go on from frame to frame as well") {
+TEST_CASE("rigid domains continue from frame to frame too") {
   const Motion motion;
   const auto engine = one_engine();
   CompareOptions options = quick_options();
@@ -177,7 +178,7 @@ TEST_CASE("along a motion steps start from the previous one, need fewer iteratio
   CHECK(n_along < n_apart);
 }
 
-TEST_CASE("a step starts from the source when the previous target lies farther away than that") {
+TEST_CASE("a step starts from the source if the previous target is farther away than the source") {
   const Motion motion;
   const auto engine = one_engine();
   for (const Method method : {Method::kMorph, Method::kDeform}) {
@@ -210,7 +211,7 @@ TEST_CASE("a step that failed leaves the series usable, and the next one starts 
   }
 }
 
-TEST_CASE("a series that goes on from its saved state gives the same bits") {
+TEST_CASE("a series restored from its saved state gives the same bits") {
   const Motion motion;
   const ScratchFolder folder;
   const std::string path = folder.file("run.state");
@@ -231,14 +232,14 @@ TEST_CASE("a series that goes on from its saved state gives the same bits") {
     CHECK(result.start == StartFrom::kPrevious);
     CHECK(hash_of(result) == hash_of(expected));
     CHECK(result.surface.unmatched == expected.surface.unmatched);
-    // And what it would hand on.
+    // Also the state it would pass on.
     write_series_state(folder.file("expected"), whole.state().value(), "");
     write_series_state(folder.file("resumed"), resumed.state().value(), "");
     CHECK(read_file(folder.file("resumed")) == read_file(folder.file("expected")));
   }
 }
 
-TEST_CASE("a state of something else, or damaged, is refused with what to do") {
+TEST_CASE("a state of another series, or a damaged one, is refused with the remedy") {
   const Motion motion;
   const ScratchFolder folder;
   const std::string path = folder.file("run.state");

@@ -1,4 +1,4 @@
-// settings.cpp: every setting by name: its default, what it accepts, and how it refuses the rest.
+// settings.cpp: every setting by name: default, accepted values, and refusals.
 #include "compare/settings.h"
 
 #include <doctest/doctest.h>
@@ -16,7 +16,7 @@ using espdiff_test::message_of;
 
 TEST_SUITE_BEGIN("settings");
 
-TEST_CASE("each setting takes its own default back, and each choice") {
+TEST_CASE("each setting accepts its own default and each choice") {
   std::set<std::string> names;
   for (const Setting& setting : espdiff::settings()) {
     INFO(setting.name);
@@ -31,14 +31,16 @@ TEST_CASE("each setting takes its own default back, and each choice") {
       CHECK(setting.get(options) == choice);
     }
     if (setting.kind == SettingKind::kNumber || setting.kind == SettingKind::kInteger) {
-      setting.set(options, "7");
-      CHECK(setting.get(options) == "7");
+      const bool is_share = setting.help.find("0 to 1") != std::string::npos;
+      const std::string value = is_share ? "0.7" : "7";
+      setting.set(options, value);
+      CHECK(setting.get(options) == value);
     }
   }
   CHECK(names.size() > 20);
 }
 
-TEST_CASE("a setting changes what it names") {
+TEST_CASE("a setting changes its option") {
   const CompareOptions o = make_options({{"method", "deform"},
                                          {"grid-spacing", "0.5"},
                                          {"regularize-mu", "0.4"},
@@ -56,7 +58,7 @@ TEST_CASE("a setting changes what it names") {
   CHECK(o.deform.max_iterations == 12);
 }
 
-TEST_CASE("thesis is the base of the others, in any order") {
+TEST_CASE("thesis sets the defaults of the others, in any order") {
   const CompareOptions thesis = espdiff::thesis_options();
   for (const auto& given : {std::vector<std::pair<std::string, std::string>>{{"thesis", "1"}, {"tangential-gain", "3"}},
                             {{"tangential-gain", "3"}, {"thesis", "1"}}}) {
@@ -68,7 +70,7 @@ TEST_CASE("thesis is the base of the others, in any order") {
   CHECK(make_options({{"thesis", "0"}}).surface.project);
 }
 
-TEST_CASE("what a setting does not accept is named with what it does") {
+TEST_CASE("a refused value is named with the accepted ones") {
   const auto message = [](const std::string& name, const std::string& value) {
     return message_of([&] { make_options({{name, value}}); });
   };
@@ -86,6 +88,10 @@ TEST_CASE("what a setting does not accept is named with what it does") {
   CHECK(message("subdivide", "yes") == "subdivide: 'yes' is not 0 or 1");
   CHECK(message("method", "morf") == "method: 'morf' is not morph or deform");
   CHECK(message("max-stretch", "1") == "max-stretch: '1' is not a number above 1");
+  for (const char* share : {"mu", "rho", "regularize-mu", "regularize-rho"}) {
+    CHECK(message(share, "1.5") == std::string(share) + ": '1.5' is not a number from 0 to 1");
+    CHECK(message(share, "-0.1") == std::string(share) + ": '-0.1' is not a number from 0 to 1");
+  }
   CHECK(message("sigmas", "1") == "there is no setting 'sigmas'");
 }
 

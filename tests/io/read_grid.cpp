@@ -47,14 +47,3 @@ TEST_CASE("read_grid: missing, directory, empty; an array name where there are n
   CHECK(message_of([&] { read_grid(path, {"phi"}); }) ==
         path + ": array 'phi' was asked for, but only VTI files have named arrays");
 }
-
-#ifndef ESPDIFF_HAVE_VTK
-TEST_CASE("read_grid: a build without VTK says so") {
-  const ScratchFolder scratch;
-  const std::string path = scratch.write("a.vti", "<VTKFile type=\"ImageData\"></VTKFile>\n");
-  CHECK(message_of([&] { read_grid(path); }) == path +
-                                                    ": this is a VTI map, and this build lacks the VTI reader; build "
-                                                    "espdiff with VTK 9 (Debian: libvtk9-dev), or "
-                                                    "give an OpenDX or cube file");
-}
-#endif

@@ -24,7 +24,6 @@ Grid skewed_grid() {
 
 }  // namespace
 
-#ifdef ESPDIFF_HAVE_VTK
 TEST_CASE("write_vti: values come back bit by bit, axes to the last digits") {
   const ScratchFolder scratch;
   const Grid grid = skewed_grid();
@@ -34,8 +33,8 @@ TEST_CASE("write_vti: values come back bit by bit, axes to the last digits") {
   CHECK(back.lattice.size == grid.lattice.size);
   CHECK(back.lattice.origin == grid.lattice.origin);
   for (std::size_t axis = 0; axis < 3; ++axis) CHECK(norm(back.lattice.step[axis] - grid.lattice.step[axis]) < 1e-15);
+  CHECK(back.unit == grid.unit);
 }
-#endif
 
 TEST_CASE("write_map: the ending decides the format; nothing appears before it is committed") {
   const ScratchFolder scratch;

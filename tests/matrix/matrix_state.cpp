@@ -110,7 +110,7 @@ TEST_CASE("a byte that was changed, a line left out or moved, is found and its l
     const std::string path = folder.write("d.state", changed);
     const std::string message = message_of([&] { read_matrix_state(path); });
     CHECK_MESSAGE(has(message, "d.state:" + std::to_string(line) + ": the state file is damaged"), message);
-    CHECK(has(message, "--overwrite"));
+    CHECK(has(message, "overwrite"));
   }
   const std::size_t third = line_start(whole, 3), fourth = line_start(whole, 4);
   const std::string without = whole.substr(0, third) + whole.substr(fourth);

@@ -1,4 +1,4 @@
-// colour_map.cpp: the maps against published values and against what they are for.
+// colour_map.cpp: the colour maps against published values and their requirements.
 #include "plot/colour_map.h"
 
 #include <doctest/doctest.h>
@@ -31,7 +31,7 @@ double luminance(Rgb colour) {
   return 0.2126 * linear(colour.red) + 0.7152 * linear(colour.green) + 0.0722 * linear(colour.blue);
 }
 
-/// What a reader without one kind of cones sees, as CIE L*a*b*: G. Machado, M. Oliveira, L. Fernandes, IEEE TVCG 15,
+/// A colour as seen with one cone type missing, in CIE L*a*b*: G. Machado, M. Oliveira, L. Fernandes, IEEE TVCG 15,
 /// 1291 (2009), severity 1.
 struct Vision {
   const char* name;
@@ -62,7 +62,7 @@ std::array<double, 3> seen(Rgb colour, const Vision& vision) {
   return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
 }
 
-/// CIE 1976; about 2 can just be told apart.
+/// CIE 1976 difference; about 2 is just noticeable.
 double distance(Rgb a, Rgb b, const Vision& vision) {
   const auto p = seen(a, vision), q = seen(b, vision);
   return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
@@ -70,13 +70,13 @@ double distance(Rgb a, Rgb b, const Vision& vision) {
 
 }  // namespace
 
-TEST_CASE("signs are told apart with any colour vision") {
+TEST_CASE("signs are distinguishable with any colour vision") {
   for (const Vision& vision : kVisions) {
     INFO(std::string(vision.name));
     for (const char* name : {"red-blue", "cool-warm", "purple-orange"}) {
       const espdiff::DivergingMap& map = espdiff::diverging_map(name);
       CHECK(distance(diverging_colour(0, map), diverging_colour(1, map), vision) > 40);
-      // Already at a third of the range.
+      // At a third of the range already.
       CHECK(distance(diverging_colour(1 / 3.0, map), diverging_colour(2 / 3.0, map), vision) > 10);
       CHECK(distance(diverging_colour(0.5, map), diverging_colour(1, map), vision) > 40);
     }

@@ -1,5 +1,5 @@
-// plots.cpp: heat maps and lines: every label, unit and number in the SVG's text, the order and range of what is drawn,
-// and what is refused.
+// plots.cpp: heat maps and lines: every label, unit and number in the SVG's text, the order and range of the drawing,
+// and refusals.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -29,7 +29,7 @@ bool has_gnuplot() {
   return found;
 }
 
-/// Labels as users write them, the worst first.
+/// Difficult labels that users may write.
 HeatMap four() {
   HeatMap map;
   map.labels = {"50 % \"EtOH\" & <water>", "b_2", "c^3\\n", "\u03B2-lactamase"};
@@ -56,7 +56,7 @@ LinePlot two_units() {
   return plot;
 }
 
-/// The text of an SVG with its markup taken out and its entities put back.
+/// The text of an SVG without markup, with its entities decoded.
 std::string text_of(const std::string& svg) {
   std::string text;
   bool inside = false;
@@ -138,7 +138,7 @@ TEST_CASE("a title that is longer than its panel stands above it") {
   CHECK(has(line_plot_script(plot, PictureFormat::kSvg), "set label 4 \"Mean absolute difference (kT/e)\""));
 }
 
-TEST_CASE("the diagonal is left out of the colours' range, which is symmetric where both signs count") {
+TEST_CASE("the colour range excludes the diagonal and is symmetric for signed values") {
   HeatMap map = four();
   CHECK(colour_range(map).first == 1);
   CHECK(colour_range(map).second == 8);
@@ -154,7 +154,7 @@ TEST_CASE("the diagonal is left out of the colours' range, which is symmetric wh
   CHECK(has(message_of([&] { heat_map_script(map, PictureFormat::kSvg); }), "there is nothing to draw"));
 }
 
-TEST_CASE("a dendrogram orders rows and columns and says what it is of") {
+TEST_CASE("a dendrogram orders rows and columns and is labelled") {
   HeatMap map = four();
   map.dendrogram = {{0, 2, 1}, {4, 3, 2}, {5, 1, kNan}};
   map.dendrogram_title = "clustered by RMSD";
@@ -190,13 +190,13 @@ TEST_CASE("the sequential colours step evenly in lightness") {
     CHECK(lightness(0.1 * i) - lightness(0.1 * (i + 1)) == doctest::Approx(6.7).epsilon(0.1));
 }
 
-TEST_CASE("texts are strings to gnuplot, whatever is in them") {
+TEST_CASE("texts with any content are strings to gnuplot") {
   CHECK(gnuplot_string("a\"b\\c`d\ne") == "\"a\\\"b\\\\c\\`d e\"");
   CHECK(gnuplot_number(kNan) == "NaN");
   CHECK(gnuplot_number(0.1) == "0.1");
 }
 
-TEST_CASE("what cannot be drawn says why, and leaves no file") {
+TEST_CASE("invalid plots are refused with the reason and leave no file") {
   const ScratchFolder folder;
   CHECK(has(message_of([] { picture_format("a.pdf"); }), "ends in .png or .svg"));
   LinePlot plot = two_units();

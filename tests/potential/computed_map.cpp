@@ -126,7 +126,7 @@ TEST_CASE("a computed map beside a given one in another unit: both in kT/e") {
   in_millivolt.map.unit = PotentialUnit::kUnknown;
   CHECK(message_of([&] { compare(*engine, computed(source), in_millivolt.input(), quick_options(), {}); }) ==
         "the maps are in two units: kT/e (computed) and unknown (map.dx); name the unknown one's unit "
-        "(--target-map-unit; `unit` in Tcl)");
+        "(target-map-unit)");
   CHECK(message_of([&] {
           compare(*engine, computed(source), target.shape(), quick_options(), {});
         }).find("was given for the source only") != std::string::npos);
@@ -151,7 +151,7 @@ TEST_CASE("a result tells of a computed map what is needed to compute it again")
   const ComputedMap map(side.molecule, espdiff::UnitCell{{60, 61, 62}, {90, 90, 90}}, options);
   espdiff::Provenance provenance;
   provenance.inputs = {computed_input("source_map", map)};
-  const auto json = nlohmann::json::parse(compare_json(side.molecule, side.molecule, CompareResult(), {}, provenance));
+  const auto json = compare_json(side.molecule, side.molecule, CompareResult(), {}, provenance);
   const auto& input = json["inputs"][0];
   CHECK(input["role"] == "source_map");
   CHECK(input["path"] == "pme of molecule.pqr");

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "compare/options.h"
 #include "compare/result.h"
+#include "compare/settings.h"
 #include "engine/deform_stage.h"
 
 using namespace espdiff;
@@ -90,7 +91,7 @@ Provenance made_provenance() {
 Json made_json(const CompareResult& result) {
   CompareOptions options;
   options.method = espdiff::Method::kDeform;
-  return Json::parse(compare_json(made_molecule("a.pqr"), made_molecule("b.pqr"), result, options, made_provenance()));
+  return compare_json(made_molecule("a.pqr"), made_molecule("b.pqr"), result, options, made_provenance());
 }
 
 void write(const std::string& prefix, const CompareResult& result = made_result()) {
@@ -99,7 +100,8 @@ void write(const std::string& prefix, const CompareResult& result = made_result(
 
 std::string table_of(const CompareResult& result) {
   std::ostringstream out;
-  print_table(out, made_molecule("a.pqr"), made_molecule("b.pqr"), result);
+  print_table(out, made_molecule("a.pqr"), made_molecule("b.pqr"), result,
+              [](const espdiff::NamedOption& o) { return "--" + o.name; });
   return out.str();
 }
 
@@ -164,23 +166,27 @@ TEST_CASE("OUT.json echoes all options under their names") {
   options.align = AlignAtoms::kBackbone;
   options.field = FieldKind::kDensity;
   options.deform.interpolation = Interpolation::kTricubic;
+  options.round_trip = true;
+  options.temperature_K = 301.23456789;
   const Molecule molecule = made_molecule("a.pqr");
-  const Json json =
-      Json::parse(compare_json(molecule, molecule, made_result(), options, made_provenance())).at("options");
+  const Json json = compare_json(molecule, molecule, made_result(), options, made_provenance()).at("options");
   CHECK(json["align"] == "backbone");
   CHECK(json["field"] == "density");
   CHECK(json["grid_spacing_A"] == 0.5);
-  CHECK(json["deform"]["interpolation"] == "tricubic");
-  CHECK(json["regularize"]["interpolation"] == "trilinear");
-  CHECK(json["deform"]["mu"] == 0.75);
-  CHECK(json["deform"]["min_displacement_A"] == 0.00025);     // what takes effect: 5e-4 spacings
-  CHECK(json["regularize"]["min_displacement_A"] == 0.0005);  // 1e-3 spacings
-  CHECK(json["deform"]["rest_shape"] == true);
-  CHECK(json["deform"]["tangential_gain"] == 8);
-  for (const char* key :
-       {"method", "radius_scale", "isovalue", "cavities", "project", "distance_threshold_A", "temperature_K"}) {
-    CHECK_MESSAGE(json.contains(key), key);
+  CHECK(json["interpolation"] == "tricubic");
+  CHECK(json["mu"] == 0.75);
+  CHECK(json["min_displacement"] == 5e-4);
+  CHECK(json["regularize_min_displacement"] == 1e-3);
+  CHECK(json["rest_shape"] == "source");
+  CHECK(json["round_trip"] == true);
+  CHECK(json["cavities"] == false);
+  CHECK(json["gvf_weight_A2"].is_number());
+  CHECK(json["max_iterations"].is_number_integer());
+  CHECK(json["temperature_K"] == 301.23456789);  // every digit
+  for (const espdiff::Setting& setting : espdiff::settings()) {
+    if (setting.name != espdiff::kThesisSetting) CHECK_MESSAGE(json.contains(setting.key()), setting.name);
   }
+  CHECK(json.size() == espdiff::settings().size() - 1);
 }
 
 TEST_CASE("what has no value is null") {
@@ -207,7 +213,9 @@ TEST_CASE("a path that is not UTF-8 does not spoil the JSON") {
   Provenance provenance = made_provenance();
   provenance.inputs[0].path = "caf\xe9.pqr";
   const Molecule molecule = made_molecule("a.pqr");
-  CHECK_NOTHROW(Json::parse(compare_json(molecule, molecule, made_result(), {}, provenance)));
+  const ScratchFolder folder;
+  write_compare(folder.file("out"), molecule, molecule, made_result(), {}, provenance);
+  CHECK_NOTHROW(Json::parse(read_file(folder.file("out.json"))));
 }
 
 TEST_CASE("OUT.residues.csv has one row a source residue, with units") {
@@ -299,7 +307,7 @@ TEST_CASE("the table gives the verdict with its reasons, and units") {
   for (const char* part :
        {"a.pqr", "3 atoms, by sequence alignment (1 of 3 residues substituted)", "RMSD", "kT/e", "A^2",
         "converged after 42 iterations", "NOT TRUSTWORTHY:\n  - 12.5 % of the mapped area is corrupt",
-        "3 pairs of triangles", "not checked               something else"}) {
+        "Intersecting pairs of triangles", "Not checked", "something else"}) {
     CHECK_MESSAGE(table.find(part) != std::string::npos, part, " not in\n", table);
   }
   CHECK(table.find("nan") == std::string::npos);

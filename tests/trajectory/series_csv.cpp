@@ -95,7 +95,7 @@ TEST_CASE("what is known late belongs to the head, and must be the same when res
   SeriesCsv file(path, kHead, ExistingFile::kResume);
   file.note("source_sha256", "abc");
   CHECK(message_of([&] { file.note("source_sha256", "def"); }) ==
-        path + ": was made with source_sha256 'abc', not with 'def'; --overwrite begins anew");
+        path + ": was made with source_sha256 'abc', not with 'def'; overwrite begins anew");
 }
 
 TEST_CASE("files of something else are refused and left as they are") {
@@ -105,9 +105,9 @@ TEST_CASE("files of something else are refused and left as they are") {
     return message_of([&] { SeriesCsv(path, head, ExistingFile::kResume); });
   };
   CHECK(message_of([&] { SeriesCsv(path, kHead, ExistingFile::kRefuse); }) ==
-        path + ": the file exists; --resume goes on with it, --overwrite replaces it");
+        path + ": the file exists; resume goes on with it, overwrite replaces it");
   CHECK(refusal({{"settings", "mu 0.5"}}) ==
-        path + ": was made with settings '', not with 'mu 0.5'; --overwrite begins anew");
+        path + ": was made with settings '', not with 'mu 0.5'; overwrite begins anew");
   for (const char* other : {"a,b\n1,2\n", "no table", "# a comment\n", "frame,reference_frame,time_ms\n"}) {
     folder.write("a.csv", other);
     CAPTURE(other);

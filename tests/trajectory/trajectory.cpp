@@ -85,8 +85,7 @@ struct Runner {
       if (stage.rfind("frame " + std::to_string(last) + ":", 0) == 0) asked->request_cancel();
     });
     asked = &progress;
-    const std::string expected =
-        "cancelled after " + std::to_string(last) + " of 5 rows; --resume goes on with " + path;
+    const std::string expected = "cancelled after " + std::to_string(last) + " of 5 rows; resume goes on with " + path;
     CHECK(message_of([&] { (*this)(plan, path, ExistingFile::kRefuse, progress); }) == expected);
   }
 };
@@ -242,7 +241,7 @@ TEST_CASE("each frame against the one before") {
   CHECK(std::stod(file.rows()[1]["mean_abs_difference"]) == alone.metrics.mean_abs_difference);
   run.frames = {2};
   CHECK(message_of([&] { TrajectoryRun(run, SeriesCsv(folder.file("b.csv"), kHead, ExistingFile::kRefuse)); }) ==
-        "--reference previous needs two frames or more");
+        "reference previous needs two frames or more");
   CHECK(folder.n_files() == 1);
 }
 

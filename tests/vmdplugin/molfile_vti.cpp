@@ -3,8 +3,6 @@
 #include "io/read_grid.h"
 #include "support/test_data.h"
 
-#ifdef ESPDIFF_HAVE_VTK
-
 using namespace espdiff;
 using namespace espdiff_test;
 
@@ -96,9 +94,3 @@ TEST_CASE("a real VTI file is read as the library reads it") {
   CHECK(same_bytes(values, grid.values));
   reader.file.close_file_read(handle);
 }
-
-#else
-
-TEST_CASE("VTI files are read") { MESSAGE("SKIPPED: this build has no VTK, hence reads no VTI files"); }
-
-#endif

@@ -58,7 +58,7 @@ TEST_CASE("the corrupt band is a density within 0.1 of the isovalue") {
   }
 }
 
-TEST_CASE("a displaced sphere is corrupt where its centroids are off, as a serial count finds") {
+TEST_CASE("a displaced sphere is corrupt where its centroids are off, as in a serial count") {
   for (const auto& engine : back_ends()) {
     const Mesh mesh = icosphere(3, kRadius, {0.5, 0.3, -0.2});
     double area = 0, corrupt = 0, flipped = 0;
@@ -80,7 +80,7 @@ TEST_CASE("a displaced sphere is corrupt where its centroids are off, as a seria
   }
 }
 
-TEST_CASE("a mesh out of reach of every atom is corrupt, not flipped") {
+TEST_CASE("a mesh beyond the reach of all atoms is corrupt, not flipped") {
   for (const auto& engine : back_ends()) {
     const FitReport report = fit(*engine, icosphere(2, 3.0, {100, 0, 0}));
     CHECK(report.corrupt_area_fraction == doctest::Approx(1).epsilon(1e-12));
@@ -94,7 +94,7 @@ TEST_CASE("irregularity is the mean length of the umbrella Laplacian") {
   std::vector<Vec3d> sums(mesh.positions.size());
   std::vector<int> degree(mesh.positions.size(), 0);
   for (const auto& t : mesh.triangles) {
-    for (std::size_t c = 0; c < 3; ++c) {  // each neighbour once: as the one that follows
+    for (std::size_t c = 0; c < 3; ++c) {  // each neighbour once: the one that follows
       sums[t[c]] += static_cast<Vec3d>(mesh.positions[t[(c + 1) % 3]]);
       ++degree[t[c]];
     }

@@ -18,8 +18,7 @@ Mesh random_potato(int levels, double radius, double noise, std::uint64_t seed, 
   return moved(icosphere(levels, radius, centre), [&](Vec3d p) { return p + random.in_box(noise); });
 }
 
-/// The distance of one point to a mesh: a vertex alone carries the area of a mesh whose other vertices lie in the
-/// target.
+/// The distance of one point to a mesh: one vertex has all the area of a mesh whose other vertices lie in the target.
 double point_distance(Engine& engine, Vec3d p, const Mesh& target) {
   Mesh probe;  // a tetrahedron around p: every corner at p but for rounding would have no area, so measure the maximum
   const double e = 1e-4;
@@ -32,7 +31,7 @@ double point_distance(Engine& engine, Vec3d p, const Mesh& target) {
 void check_summary(const DistanceSummary& found, const DistanceSummary& exact) {
   CHECK(found.max == doctest::Approx(exact.max).epsilon(1e-5));
   CHECK(found.mean == doctest::Approx(exact.mean).epsilon(1e-5));
-  // The area may end within a vertex of 95 %; the next vertex's distance differs little.
+  // The 95 % quantile may fall within a vertex; the next vertex's distance differs little.
   CHECK(found.p95 == doctest::Approx(exact.p95).epsilon(1e-3));
   CHECK(found.area_fraction_beyond_limit == doctest::Approx(exact.area_fraction_beyond_limit).epsilon(1e-3));
 }
@@ -51,7 +50,7 @@ TEST_CASE("distances between random meshes are those of a brute-force search") {
       check_summary(engine->distances(engine->upload_mesh(a), engine->upload_mesh(b), 0.7),
                     distances_oracle(a, b, 0.7));
     }
-    // Far apart, so that the tree's boxes say little.
+    // Far apart, so that the tree's boxes are uninformative.
     const Mesh a = random_potato(2, 2.0, 0.2, 78), b = random_potato(3, 3.0, 0.3, 79, {40, 5, -9});
     check_summary(engine->distances(engine->upload_mesh(a), engine->upload_mesh(b), 30), distances_oracle(a, b, 30));
   }

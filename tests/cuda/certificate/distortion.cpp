@@ -1,5 +1,4 @@
-// distortion.cpp: area ratios and symmetric Dirichlet energy of linear maps, which have them in closed form, and parts
-// of a mesh.
+// distortion.cpp: area ratios and symmetric Dirichlet energy of linear maps, known in closed form, and submeshes.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -63,7 +62,7 @@ TEST_CASE("a stretch of a flat face along one edge") {
   }
 }
 
-TEST_CASE("meshes of two topologies are refused") {
+TEST_CASE("meshes of different topology are refused") {
   for (const auto& engine : back_ends()) {
     CHECK_THROWS_WITH_AS(
         engine->distortion(engine->upload_mesh(icosphere(1, 1)), engine->upload_mesh(icosphere(2, 1)), 10),
@@ -71,7 +70,7 @@ TEST_CASE("meshes of two topologies are refused") {
   }
 }
 
-TEST_CASE("a part of a mesh keeps its order, and only the vertices that it uses") {
+TEST_CASE("a submesh keeps the order, and only the vertices that it uses") {
   const Mesh mesh = icosphere(2, 4);
   for (const auto& engine : back_ends()) {
     std::vector<float> excluded;

@@ -1,8 +1,7 @@
 // intersection_oracle.h: intersecting pairs of triangles counted in integers, by separating axes, all against all.
 //
-// Another method than the engine's: two convex polygons have no point in common exactly when their projections onto
-// some axis are apart, and the axes to try are known (Gottschalk et al., SIGGRAPH 1996). On a lattice nothing is
-// rounded.
+// Another method than the engine's: two convex polygons are disjoint exactly if their projections onto one of a known
+// set of axes are (Gottschalk et al., SIGGRAPH 1996). On a lattice nothing is rounded.
 #pragma once
 
 #include <algorithm>
@@ -79,7 +78,7 @@ inline bool have_common_point(const Polygon& p, const Polygon& q) {
 
 /// Whether triangles t and u intersect in Engine::self_intersections()' sense.
 inline bool intersect_oracle(const LatticeMesh& mesh, const espdiff::Triangle& t, const espdiff::Triangle& u) {
-  Polygon own_t, own_u, shared;  // what each has for itself, and what both have
+  Polygon own_t, own_u, shared;  // vertices of one triangle only, and shared ones
   for (const std::uint32_t v : t) (std::count(u.begin(), u.end(), v) > 0 ? shared : own_t).push_back(mesh.points[v]);
   for (const std::uint32_t v : u)
     if (std::count(t.begin(), t.end(), v) == 0) own_u.push_back(mesh.points[v]);

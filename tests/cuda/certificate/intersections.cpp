@@ -1,4 +1,4 @@
-// intersections.cpp: pairs of intersecting triangles: planted ones of known number, degenerate ones, against integers.
+// intersections.cpp: pairs of intersecting triangles: known numbers, degenerate ones, against integers.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -112,7 +112,7 @@ TEST_CASE("a corner exactly on a face is found there though its determinant has 
   }
 }
 
-TEST_CASE("corners at one place, but of different number, touch") {
+TEST_CASE("corners at one position with different indices touch") {
   const LatticeMesh mesh = joined(tetrahedron({0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}),
                                   tetrahedron({0, 0, 0}, {-4, 0, 0}, {0, -4, 0}, {0, 0, -4}));
   for (const auto& engine : back_ends()) {
@@ -174,7 +174,7 @@ TEST_CASE("random closed meshes on a lattice, at any scale and place, are counte
     for (const auto& engine : engines) {
       for (const double unit : {1.0, std::ldexp(1.0, -100), std::ldexp(1.0, 100)})
         check_against_oracle(*engine, soup, placed(soup, unit), expected);
-      // Far out, where the coordinates fill all the bits that a float has.
+      // Far out, where coordinates use all bits of a float.
       check_against_oracle(*engine, soup, placed(soup, 1.0, {(1 << 23) - 4000, 1 << 22, -(1 << 23) + 2000}), expected);
     }
   }
@@ -197,7 +197,7 @@ TEST_CASE("two spheres through one another, a pierced and a crumpled one are cou
   }
 }
 
-TEST_CASE("a rigid motion changes nothing where the surfaces are clearly through one another or apart") {
+TEST_CASE("a rigid motion changes nothing if the surfaces clearly intersect or are clearly apart") {
   Random random(302);
   for (const auto& engine : back_ends()) {
     for (int round = 0; round < 10; ++round) {
@@ -228,7 +228,7 @@ TEST_CASE("the same pairs and triangles for 1, 2 and 4 threads") {
   for (const auto& engine : back_ends()) CHECK(count(*engine) == expected);
 }
 
-TEST_CASE("surfaces of real proteins, as they come from the lattice, do not intersect themselves") {
+TEST_CASE("surfaces of real proteins from the lattice do not intersect themselves") {
   for (const char* name : {"ubq/ubq.pqr", "pair_tim_maps/dTIM_chainA.pqr", "traj_adk/adk_open.pqr"}) {
     const auto path = real_input(name);
     if (!path) return;

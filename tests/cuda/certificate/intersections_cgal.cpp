@@ -19,7 +19,7 @@ using namespace espdiff_test;
 
 namespace {
 
-/// Same number of pairs, and the same triangles in them; returns the number.
+/// Same number of pairs and the same triangles in them; returns the number.
 std::size_t check_against_cgal(Engine& engine, const espdiff::MeshPtr& surface, const std::string& what) {
   const Mesh mesh = engine.download(surface);
   const CgalMesh theirs = cgal_mesh(mesh);
@@ -47,7 +47,7 @@ std::size_t check_against_cgal(Engine& engine, const Mesh& mesh) {
   return check_against_cgal(engine, engine.upload_mesh(mesh), "");
 }
 
-/// A surface on its way to another shape.
+/// A surface between two shapes.
 espdiff::MeshPtr deformed(Engine& engine, const AtomSet& source_atoms, const AtomSet& target_atoms, int iterations) {
   const auto source = upload(engine, source_atoms), target = upload(engine, target_atoms);
   const auto start = engine.project(engine.isosurface(engine.density(source, 1.0), 0.5F), source, 0.5F, 0.5);
@@ -91,7 +91,7 @@ TEST_CASE("planted intersections are those that CGAL finds") {
   }
 }
 
-TEST_CASE("touching, flat and degenerate triangles are what CGAL takes them for") {
+TEST_CASE("touching, flat and degenerate triangles are decided as CGAL does") {
   Random random(311);
   std::size_t pairs = 0;
   for (const auto& engine : back_ends()) {

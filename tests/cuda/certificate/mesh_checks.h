@@ -1,4 +1,4 @@
-// mesh_checks.h: what must hold for any surface mesh, and hashes to compare results bit by bit.
+// mesh_checks.h: invariants of any surface mesh, and hashes to compare results bit by bit.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace espdiff_test {
 
-/// Empty when the mesh is a closed, consistently oriented 2-manifold without unused vertices; else what is wrong.
+/// Empty if the mesh is a closed, consistently oriented 2-manifold without unused vertices; otherwise the fault.
 inline std::string manifold_fault(const espdiff::Mesh& mesh) {
   struct Spoke {
     std::uint32_t to, third;  // the directed edge vertex -> to, and the third vertex of its triangle
@@ -88,7 +88,7 @@ inline std::vector<std::uint32_t> components_oracle(const espdiff::Mesh& mesh) {
   return label;
 }
 
-/// FNV-1a over the bits of what is added.
+/// FNV-1a over the bits of the values added.
 class Hash {
  public:
   template <typename T>

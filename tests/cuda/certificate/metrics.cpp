@@ -16,8 +16,8 @@ using espdiff::ScalarsPtr;
 
 namespace {
 
-/// Uploads values: samples of a map are the only way to make scalars, so vertex v of a made-up mesh is sampled at point
-/// v of a row; NaN outside the map. Its triangles only have to close.
+/// Uploads values. Only samples of a map make scalars, so vertex v of a made-up mesh is sampled at point v of a row;
+/// NaN outside the map. Its triangles only have to be closed.
 ScalarsPtr scalars(Engine& engine, const std::vector<float>& values) {
   espdiff::Grid grid;
   const int n = static_cast<int>(values.size());
@@ -160,7 +160,7 @@ TEST_CASE("a linear potential against none on a sphere has its analytic means") 
   }
 }
 
-TEST_CASE("a potential of zero agrees with anything, of either sign") {
+TEST_CASE("a potential of zero agrees with either sign") {
   for (const auto& engine : back_ends()) {
     Case c = sphere_case(0, 0);
     const float values[] = {-1, 0, 1, -0.0F, 1e-30F, -1e-30F};
@@ -172,7 +172,7 @@ TEST_CASE("a potential of zero agrees with anything, of either sign") {
     double area = 0, sign = 0;
     for (std::size_t v = 0; v < w.size(); ++v) {
       area += w[v];
-      // Not by the product, which rounds to zero.
+      // Not by the product, which underflows to zero.
       sign += (c.a[v] < 0 && c.b[v] > 0) || (c.a[v] > 0 && c.b[v] < 0) ? w[v] : 0;
     }
     CHECK(metrics_of(*engine, c).sign_change_area_fraction == doctest::Approx(sign / area).epsilon(1e-6));
@@ -199,7 +199,7 @@ TEST_CASE("excluded triangles and triangles with a NaN sample are not counted") 
   }
 }
 
-TEST_CASE("with nothing to count every figure is NaN but the area") {
+TEST_CASE("without valid area every metric but the area is NaN") {
   for (const auto& engine : back_ends()) {
     const Metrics m = metrics_of(*engine, sphere_case(std::numeric_limits<double>::quiet_NaN(), 1));
     CHECK(m.area_A2 == 0);

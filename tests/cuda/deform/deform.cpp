@@ -1,5 +1,5 @@
-// deform.cpp: the force iteration on shapes of known answers: spheres onto spheres, a surface onto itself, options,
-// cancelling.
+// deform.cpp: the force iteration on shapes with known answers: spheres onto spheres, a surface onto itself, options,
+// cancellation.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -129,7 +129,7 @@ TEST_CASE("tricubic sampling of the distance field finds the surface as well as 
   }
 }
 
-TEST_CASE("the ways of the vertices: no shorter than straight lines, and longer where they swing about the surface") {
+TEST_CASE("the vertices' paths are no shorter than straight lines, and longer where they oscillate about the surface") {
   for (const auto& engine : back_ends()) {
     const auto source = engine->upload_mesh(icosphere(3, 2.5 * kRadiusPerWidth));
     const Target target = sphere_target(*engine, {0.9, -0.5, 0.4}, 2.5, false);

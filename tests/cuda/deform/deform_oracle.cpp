@@ -1,4 +1,4 @@
-// deform_oracle.cpp: the force iteration against a serial, double-precision one written from the method's description.
+// deform_oracle.cpp: the force iteration against a serial double-precision form written from the method's description.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -54,7 +54,7 @@ class FieldOracle {
   }
 
  private:
-  /// Of the four points around a place t of the way from the second to the third.
+  /// Interpolates four points at t between the second and the third.
   std::array<double, 4> weights(double t) const {
     if (!tricubic_) return {0, 1 - t, t, 0};
     // Catmull-Rom: the cubic through p1 and p2 with slopes (p2 - p0) / 2 and (p3 - p1) / 2, in Hermite's form.
@@ -81,7 +81,7 @@ class FieldOracle {
 
 struct OracleResult {
   std::vector<Vec3d> positions;
-  std::vector<double> closest_call;  ///< [vertex] smallest |field| at which its side was decided
+  std::vector<double> closest_call;  ///< [vertex] smallest |field| at which its side was determined
 };
 
 /// x += sigma (mu f_ext + (1 - mu) g f_int), f_ext = s n, f_int the tangential part of (1 - rho) L - rho L2, where L
@@ -143,7 +143,7 @@ struct Comparison {
 
 Comparison compare_to_oracle(Engine& engine, const AtomSet& atoms, const DeformOptions& options) {
   const auto density = engine.density(upload(engine, atoms), 1.0);
-  // From the surface at 0.4 to that at 0.55: the vertices cross it on the way, and not all at once.
+  // From the surface at 0.4 to that at 0.55: the vertices cross it, and not all at once.
   const auto start = engine.isosurface(density, 0.4F);
   const auto field = engine.density_field(density, 0.55F);
   const Mesh after = engine.download(engine.deform(start, field, options, "deform", {}, nullptr));
@@ -153,7 +153,7 @@ Comparison compare_to_oracle(Engine& engine, const AtomSet& atoms, const DeformO
   std::vector<double> errors;
   for (std::size_t v = 0; v < after.positions.size(); ++v) {
     ++c.n;
-    // On which side of the surface a vertex lies is chance where the field is zero to single precision.
+    // The side of a vertex is undetermined where the field is zero to single precision.
     if (exact.closest_call[v] < 2e-6) {
       ++c.n_undecided;
       continue;
@@ -192,17 +192,17 @@ void check_against_oracle(const AtomSet& atoms, const char* name) {
 
 TEST_SUITE_BEGIN("deform");
 
-TEST_CASE("iterations on a random cloud are those of a serial double-precision form") {
+TEST_CASE("iterations on a random cloud equal those of a serial double-precision form") {
   check_against_oracle(random_cloud(150, 140), "cloud");
 }
 
-TEST_CASE("iterations on a real surface are those of a serial double-precision form") {
+TEST_CASE("iterations on a real surface equal those of a serial double-precision form") {
   const auto path = real_input("pqr_pdb2pqr/1AJJ_pH7_AMBER.pqr");
   if (!path) return;
   check_against_oracle(read_atoms(*path), "1AJJ");
 }
 
-TEST_CASE("each force alone, a gain and a rest shape are those of the serial form") {
+TEST_CASE("each force alone, a gain and a rest shape agree with the serial form") {
   const AtomSet atoms = random_cloud(100, 141);
   for (const auto& engine : back_ends()) {
     for (const double mu : {0.0, 0.5, 1.0}) {

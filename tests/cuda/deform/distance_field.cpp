@@ -1,4 +1,4 @@
-// distance_field.cpp: the distance field against exact distances: size, sign, and where the density takes over.
+// distance_field.cpp: the distance field against exact distances: size, sign, and where the density replaces it.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ Surface make_surface(Engine& engine, const AtomSet& atoms, double spacing) {
   return s;
 }
 
-/// The field is the distance beyond the threshold, and the density within it: tells which by what it should be there.
+/// The field is the distance beyond the threshold and the density within it; the expected values tell which.
 struct FieldErrors {
   double mean = 0, max = 0;            ///< of the distance, where |distance| is beyond the threshold
   double near_mean = 0, near_max = 0;  ///< of those, within 2 A of the surface
@@ -37,7 +37,7 @@ struct FieldErrors {
   std::size_t n_wrong_sign = 0, n_wrong_density = 0;
 };
 
-/// What the densities are multiplied with to make them lengths: the same all over the lattice.
+/// The factor that converts densities to lengths, constant over the lattice.
 /// @param beyond_all the field with a threshold that no distance exceeds
 double density_scale(const Grid& beyond_all, const Grid& density) {
   std::size_t top = 0;
@@ -80,7 +80,7 @@ FieldErrors field_errors(Engine& engine, const Surface& surface, double threshol
   return errors;
 }
 
-/// The vertex that the sweeps find is near the nearest, not always it: the farther out, the more often. Measured on
+/// The sweeps find a vertex near the nearest, not always the nearest, less often so far from the surface. Measured on
 /// scTIM at a spacing of 1 A: mean 0.022 and largest 0.51 A; within 2 A of the surface 0.010 and 0.21 A.
 void check_errors(const FieldErrors& e) {
   CHECK(e.n_wrong_sign == 0);

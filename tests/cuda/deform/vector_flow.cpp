@@ -108,14 +108,14 @@ TEST_CASE("around a sphere the flow points to its centre, at any spacing, and is
   }
 }
 
-TEST_CASE("the scalar is the density's excess, so that signs and crossings are those of the density field") {
+TEST_CASE("the scalar is density minus isovalue, with the signs and crossings of the density field") {
   for (const auto& engine : back_ends()) {
     const GridPtr density = density_of(*engine, random_cloud(60, 5), 1.0);
     CHECK(flow_of(*engine, density).scalar == engine->download(engine->density_field(density, kIsovalue)).values);
   }
 }
 
-TEST_CASE("where nothing holds the flow it is harmonic: each point is the mean of its neighbours") {
+TEST_CASE("away from the surface the flow is harmonic: each point is the mean of its neighbours") {
   for (const auto& engine : back_ends()) {
     const GridPtr density = density_of(*engine, random_cloud(60, 5), 1.0);
     const Flow flow = flow_of(*engine, density, nullptr, with(0.2, 1e-5, 5000));
@@ -129,7 +129,7 @@ TEST_CASE("where nothing holds the flow it is harmonic: each point is the mean o
       for (std::size_t j = 1; j + 1 < ny; ++j) {
         for (std::size_t i = 1; i + 1 < nx; ++i) {
           const std::size_t p = i + nx * (j + ny * k);
-          if (std::fabs(flow.scalar[p]) < 0.25F) continue;  // held by the surface's normals
+          if (std::fabs(flow.scalar[p]) < 0.25F) continue;  // imposed by the surface's normals
           const Vec3f mean = (1.0F / 6.0F) * (flow.u[p - 1] + flow.u[p + 1] + flow.u[p - nx] + flow.u[p + nx] +
                                               flow.u[p - nx * ny] + flow.u[p + nx * ny]);
           worst = std::max(worst, static_cast<double>(norm(mean - flow.u[p])));
@@ -144,7 +144,7 @@ TEST_CASE("where nothing holds the flow it is harmonic: each point is the mean o
   }
 }
 
-TEST_CASE("sweeps bring the residual down until it is below the tolerance, at any weight and spacing") {
+TEST_CASE("sweeps lower the residual below the tolerance, at any weight and spacing") {
   for (const auto& engine : back_ends()) {
     const AtomSet atoms = random_cloud(60, 6);
     for (const double spacing : {1.5, 1.0, 0.6}) {
@@ -166,7 +166,7 @@ TEST_CASE("sweeps bring the residual down until it is below the tolerance, at an
   }
 }
 
-TEST_CASE("finer lattices and tighter tolerances tend to one flow") {
+TEST_CASE("the flow converges with finer lattices and tighter tolerances") {
   for (const auto& engine : back_ends()) {
     const AtomSet atoms = random_cloud(60, 7);
     const auto at = [&](double spacing, double tolerance) {

@@ -1,4 +1,4 @@
-// cuda_errors.cpp: what an error of the CUDA runtime becomes, by handing each to the translation; needs no GPU.
+// cuda_errors.cpp: messages for errors of the CUDA runtime, passed in directly; needs no GPU.
 #include <doctest/doctest.h>
 
 #include "base/error.h"
@@ -22,7 +22,7 @@ CudaFacts facts_of(const char* architectures, int capability) {
   return facts;
 }
 
-/// The message, after a check that the error has that class.
+/// The message, after checking the error's class.
 std::string words_for(cudaError_t status, ErrorClass expected, const CudaFacts& facts) {
   try {
     throw_cuda_error(status, "computing", facts);
@@ -36,25 +36,25 @@ std::string words_for(cudaError_t status, ErrorClass expected, const CudaFacts& 
 
 TEST_SUITE_BEGIN("cuda errors");
 
-TEST_CASE("no driver and one that is too old are told apart, with the version that is needed") {
+TEST_CASE("a missing driver and one that is too old give different messages, with the version needed") {
   CudaFacts facts = facts_of("75-real;120", 0);
   facts.driver_version = 0;
   CHECK(words_for(cudaErrorInsufficientDriver, ErrorClass::kDevice, facts) ==
         "no NVIDIA driver is installed, or it cannot be loaded; install one that supports CUDA 13.0 (580 or newer), or "
         "use "
-        "--device cpu");
+        "device cpu");
   facts.driver_version = 12040;
   CHECK(words_for(cudaErrorInsufficientDriver, ErrorClass::kDevice, facts) ==
         "the NVIDIA driver supports CUDA 12.4, this build needs CUDA 13.0 (580 or newer); update the driver, build "
         "with an "
-        "older CUDA toolkit, or use --device cpu");
+        "older CUDA toolkit, or use device cpu");
 }
 
 TEST_CASE("no GPU") {
-  CHECK(words_for(cudaErrorNoDevice, ErrorClass::kDevice, {}) == "no NVIDIA GPU was found; use --device cpu");
+  CHECK(words_for(cudaErrorNoDevice, ErrorClass::kDevice, {}) == "no NVIDIA GPU was found; use device cpu");
 }
 
-TEST_CASE("memory that runs out is an error of memory: how much was asked for, what is free, and what would help") {
+TEST_CASE("running out of memory is a memory error that says how much was requested, what is free, and the remedy") {
   CudaFacts facts = facts_of("90", 90);
   facts.asked_bytes = std::size_t{3} << 29;
   facts.free_bytes = std::size_t{1} << 30;
@@ -62,45 +62,45 @@ TEST_CASE("memory that runs out is an error of memory: how much was asked for, w
   CHECK(words_for(cudaErrorMemoryAllocation, ErrorClass::kMemory, facts) ==
         "cuda:1 (NVIDIA Test) has no room for another 1.50 GiB (computing): 1.00 GiB of its 8.00 GiB are free; use a "
         "larger "
-        "grid spacing or fewer atoms, another GPU (--device cuda:N), or --device cpu");
+        "grid spacing or fewer atoms, another GPU (device cuda:N), or device cpu");
   facts.asked_bytes = std::size_t{300} << 20;
   facts.free_bytes = 1 << 19;
   const std::string little = words_for(cudaErrorMemoryAllocation, ErrorClass::kMemory, facts);
   CHECK(little.find("another 300.0 MiB (computing): 0.5 MiB of its 8.00 GiB") != std::string::npos);
 }
 
-TEST_CASE("a GPU that the build has no code for: which it has, and how to get it") {
+TEST_CASE("a GPU without code in this build: the message says which code there is, and how to add it") {
   for (const cudaError_t status : {cudaErrorNoKernelImageForDevice, cudaErrorInvalidDeviceFunction,
                                    cudaErrorUnsupportedPtxVersion, cudaErrorJitCompilerNotFound}) {
     CHECK(words_for(status, ErrorClass::kDevice, facts_of("80-real;90-real", 89)) ==
           "this build has code for compute capability 8.0 and 9.0, none for cuda:1 (NVIDIA Test) of compute capability "
           "8.9; "
-          "configure with -DCMAKE_CUDA_ARCHITECTURES=89 and build again, or use --device cpu");
+          "configure with -DCMAKE_CUDA_ARCHITECTURES=89 and build again, or use device cpu");
   }
   const std::string too_old = words_for(cudaErrorNoKernelImageForDevice, ErrorClass::kDevice, facts_of("90", 61));
-  CHECK_MESSAGE(too_old.find("of compute capability 6.1; CUDA 13.0 supports no GPU below 7.5: use --device cpu") !=
+  CHECK_MESSAGE(too_old.find("of compute capability 6.1; CUDA 13.0 supports no GPU below 7.5: use device cpu") !=
                     std::string::npos,
                 too_old);
 }
 
-TEST_CASE("a device that is lost: what was done, what failed, and that the process has to start again") {
+TEST_CASE("a lost device: the message says what was being done, what failed, and that the process must restart") {
   for (const cudaError_t status :
        {cudaErrorIllegalAddress, cudaErrorLaunchFailure, cudaErrorECCUncorrectable, cudaErrorLaunchTimeout}) {
     const std::string text = words_for(status, ErrorClass::kDevice, facts_of("90", 90));
     CHECK_MESSAGE(
         text.find("cuda:1 (NVIDIA Test) failed while computing (" + std::string(cudaGetErrorName(status))) == 0, text);
-    CHECK_MESSAGE(text.find("start again, with --device cpu if it recurs") != std::string::npos, text);
+    CHECK_MESSAGE(text.find("start again, with device cpu if it recurs") != std::string::npos, text);
   }
 }
 
-TEST_CASE("a device that others hold, a runtime that does not start, and anything else") {
+TEST_CASE("a device in use by others, a runtime that does not start, and other errors") {
   const CudaFacts facts = facts_of("90", 90);
   CHECK(words_for(cudaErrorDevicesUnavailable, ErrorClass::kDevice, facts).find("is in use by another process") !=
         std::string::npos);
   CHECK(words_for(cudaErrorSystemDriverMismatch, ErrorClass::kDevice, facts).find("nvidia-smi") != std::string::npos);
   const std::string other = words_for(cudaErrorInvalidValue, ErrorClass::kDevice, facts);
   CHECK(other.find("cudaErrorInvalidValue") != std::string::npos);
-  CHECK(other.find("try --device cpu") != std::string::npos);
+  CHECK(other.find("try device cpu") != std::string::npos);
 }
 
 TEST_CASE("every message is one line with a remedy") {
@@ -110,14 +110,14 @@ TEST_CASE("every message is one line with a remedy") {
     } catch (const espdiff::Error& error) {
       const std::string text = error.what();
       CHECK_MESSAGE(text.find('\n') == std::string::npos, text);
-      CHECK_MESSAGE(text.find("--device cpu") != std::string::npos, text);
+      CHECK_MESSAGE(text.find("device cpu") != std::string::npos, text);
     }
   }
 }
 
 TEST_CASE("a call that succeeded throws nothing") { CHECK_NOTHROW(check_cuda(cudaSuccess, "computing")); }
 
-TEST_CASE("which GPUs a build runs on") {
+TEST_CASE("the GPUs that a build runs on") {
   const std::string release = "75-real;80-real;86-real;89-real;90-real;100-real;120";
   for (const int capability : {75, 80, 86, 87, 89, 90, 100, 103, 120, 121, 130}) {
     CAPTURE(capability);

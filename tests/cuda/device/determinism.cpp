@@ -31,7 +31,7 @@ std::uint64_t hash_of(const espdiff::Metrics& m) {
       .value();
 }
 
-/// A map of some waves around the origin.
+/// A map of a few waves around the origin.
 espdiff::Grid wave_map() {
   espdiff::Grid grid;
   grid.lattice.size = {40, 40, 40};

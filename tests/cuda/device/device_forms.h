@@ -1,5 +1,5 @@
-// device_forms.h: checks of what the stages are written in, against plain serial code and against Thrust's own forms.
-// One body for both back ends: included by device_forms.cpp (CPU) and device_forms_cuda.cu.
+// device_forms.h: checks of the parallel primitives against serial code and against Thrust. One body for both back
+// ends: included by device_forms.cpp (CPU) and device_forms_cuda.cu.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -22,7 +22,7 @@ namespace espdiff::ESPDIFF_BACKEND::forms {
 
 constexpr std::size_t kSizes[] = {0, 1, 2, 127, 128, 129, 2047, 2048, 2049, 4097, 100003};
 
-/// Numbers that are the same everywhere.
+/// Reproducible numbers.
 inline std::vector<std::uint32_t> numbers(std::size_t n) {
   std::vector<std::uint32_t> all(n);
   std::uint32_t state = 12345;
@@ -59,7 +59,7 @@ inline void check_buffers() {
   }
 }
 
-/// More than any staging area holds, there and back.
+/// More than any staging area holds, to the device and back.
 inline void check_large_transfers() {
   const std::vector<std::uint32_t> large = numbers(3000001), small = numbers(1000);
   const Buffer<std::uint32_t> a = to_device(large), b = to_device(small);
@@ -142,7 +142,7 @@ inline void check_running_sums() {
   }
 }
 
-/// Sorting and selecting by Thrust, in the engine's memory and order.
+/// Sorting and selecting by Thrust, in the engine's memory and stream order.
 inline void check_sorting() {
   const std::size_t n = 30000;
   const std::vector<std::uint32_t> random = numbers(3 * n);
@@ -167,7 +167,7 @@ inline void check_sorting() {
   CHECK(all == whole);
 }
 
-/// A tetrahedron whose faces are divided n times, blown up to a bumpy ball.
+/// A tetrahedron whose faces are divided n times, inflated to a bumpy ball.
 inline SurfaceMesh bumpy_ball(int n) {
   std::vector<Vec3f> points = {{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}};
   std::vector<Corners> triangles = {{{0, 2, 1}}, {{0, 1, 3}}, {{0, 3, 2}}, {{1, 2, 3}}};
@@ -220,7 +220,7 @@ inline SurfaceField ball_field() {
   return field;
 }
 
-/// deform() as the back end runs it against one iteration after the other, to the bit; and what it reports.
+/// deform() as the back end runs it against single iterations, to the bit, with its report.
 inline void check_deform() {
   const SurfaceMesh mesh = bumpy_ball(5);
   const SurfaceField field = ball_field();
@@ -237,14 +237,14 @@ inline void check_deform() {
     state.positions = mesh.positions;
     state.moved.resize(n);
     Buffer<Vec4f> laplacians(n), rest(n, Vec4f{});
-    Buffer<float> ways(n, 0.0F), strengths(n, -1.0F);  // all vertices lie inside the ball
+    Buffer<float> path_lengths(n, 0.0F), strengths(n, -1.0F);  // all vertices lie inside the ball
     Iteration& it = state.iteration;
     it.topology = mesh.view();
     it.lattice = field.lattice;
     it.field = raw(field.values);
     it.laplacian = raw(laplacians);
     it.rest = raw(rest);
-    it.way = raw(ways);
+    it.path_length = raw(path_lengths);
     it.strength = raw(strengths);
     set_steps(it, options);
     iterate_one_by_one(state, options, "deform", {}, expected_report);
@@ -258,13 +258,13 @@ inline void check_deform() {
   }
 }
 
-/// Everything, as the subcases of one test.
+/// All checks, as subcases of one test.
 inline void check_all() {
   SUBCASE("buffers hold what they are given") { check_buffers(); }
   SUBCASE("transfers larger than the staging area, and many small ones") { check_large_transfers(); }
   SUBCASE("a body for each index agrees with Thrust's") { check_for_each(); }
   SUBCASE("sums agree with serial ones and repeat to the bit") { check_sums(); }
-  SUBCASE("running sums") { check_running_sums(); }
+  SUBCASE("prefix sums") { check_running_sums(); }
   SUBCASE("sorting and selecting") { check_sorting(); }
   SUBCASE("iterations of deform, however they are launched") { check_deform(); }
 }

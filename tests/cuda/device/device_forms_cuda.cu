@@ -1,5 +1,4 @@
-// device_forms_cuda.cu: the forms that stages are written in, on the CUDA back end; and the device's state around a
-// call.
+// device_forms_cuda.cu: the parallel primitives of the CUDA back end, and the device's state around a call.
 #include "cuda/device/device_forms.h"
 #include "engine/select_engine.h"
 
@@ -7,16 +6,16 @@ using namespace espdiff::cuda_backend;
 
 namespace {
 
-/// False where there is no GPU, after a line that says so.
+/// False without a GPU, after printing a line that says so.
 bool can_run() {
   const espdiff::BackEndStatus cuda = espdiff::cuda_status();
-  if (!cuda.available) MESSAGE("SKIPPED: cuda: ", cuda.description);
+  if (!cuda.available) MESSAGE("SKIPPED: cuda: ", cuda.description.plain());
   return cuda.available;
 }
 
 }  // namespace
 
-TEST_CASE("the forms of the CUDA back end") {
+TEST_CASE("the primitives of the CUDA back end") {
   if (!can_run()) return;
   const auto context = std::make_shared<CudaContext>(0);
   const CudaContext::Use use(context);
@@ -50,7 +49,7 @@ TEST_CASE("a buffer may outlive its engine's context and be released by any thre
   CHECK(kept.size() == 1000);
 }
 
-TEST_CASE("the caller's current device is put back") {
+TEST_CASE("the caller's current device is restored") {
   if (!can_run()) return;
   int n = 0, before = 0, after = -1;
   REQUIRE(cudaGetDeviceCount(&n) == cudaSuccess);
@@ -64,7 +63,7 @@ TEST_CASE("the caller's current device is put back") {
   }
 }
 
-TEST_CASE("more memory than there is: the message says how much was asked for, and the engine goes on") {
+TEST_CASE("too large an allocation: the message says how much was requested, and the engine stays usable") {
   if (!can_run()) return;
   const auto context = std::make_shared<CudaContext>(0);
   const CudaContext::Use use(context);

@@ -1,4 +1,4 @@
-// engine.cpp: choosing a back end, and what it says of itself; handles that do not fit a stage.
+// engine.cpp: choice and description of a back end; handles that do not fit a stage.
 #include <doctest/doctest.h>
 
 #include <cstdlib>
@@ -15,7 +15,7 @@ using espdiff::DeviceChoice;
 
 TEST_SUITE_BEGIN("engine");
 
-TEST_CASE("the CPU back end is always there and has the threads asked for") {
+TEST_CASE("the CPU back end is always available with the requested threads") {
   CHECK(espdiff::cpu_status().available);
   CHECK(espdiff::cpu_status().name == "cpu");
   for (const int n : {1, 2, 4}) {
@@ -27,7 +27,7 @@ TEST_CASE("the CPU back end is always there and has the threads asked for") {
   CHECK(espdiff::select_engine(DeviceChoice::kCpu, 0)->n_threads() == espdiff::available_threads());
 }
 
-TEST_CASE("without a number of threads OMP_NUM_THREADS holds, else every core") {
+TEST_CASE("without a number of threads, OMP_NUM_THREADS is used, otherwise every core") {
   const char* const before = std::getenv("OMP_NUM_THREADS");
   const std::string kept = before != nullptr ? before : "";
   unsetenv("OMP_NUM_THREADS");
@@ -47,34 +47,34 @@ TEST_CASE("without a number of threads OMP_NUM_THREADS holds, else every core") 
     unsetenv("OMP_NUM_THREADS");
 }
 
-TEST_CASE("auto takes the device where there is one; an explicit cuda without one is an error with a remedy") {
+TEST_CASE("auto uses a GPU if there is one; an explicit cuda without one is an error with a remedy") {
   const espdiff::BackEndStatus cuda = espdiff::cuda_status();
   CHECK(cuda.name == "cuda");
   CHECK(espdiff::select_engine(DeviceChoice::kAuto, 1)->back_end() == (cuda.available ? "cuda" : "cpu"));
   if (cuda.available) {
     const auto engine = espdiff::select_engine(DeviceChoice::kCuda, 3);
     CHECK(engine->n_threads() == 0);
-    CHECK(engine->description().find(cuda.description) == 0);
+    CHECK(engine->description().find(cuda.description.plain()) == 0);
   } else {
     CHECK_THROWS_AS(espdiff::select_engine(DeviceChoice::kCuda, 0), espdiff::DeviceError);
     const std::string text = message_of([] { espdiff::select_engine(DeviceChoice::kCuda, 0); });
-    CHECK(text == "--device cuda: " + cuda.description);
-    CHECK(text.find("--device cpu") != std::string::npos);
+    CHECK(text == "device cuda: " + cuda.description.plain());
+    CHECK(text.find("device cpu") != std::string::npos);
   }
 }
 
-TEST_CASE("a GPU of an index that is not there is an error that says how many there are") {
+TEST_CASE("an invalid GPU index is an error that says how many GPUs there are") {
   const std::size_t n = espdiff::cuda_devices().size();
   const auto select = [&] { espdiff::select_engine({DeviceChoice::kCuda, 999}, 0); };
   CHECK_THROWS_AS(select(), espdiff::DeviceError);
   const std::string text = message_of(select);
-  CHECK_MESSAGE(text.find("--device cuda:999: ") == 0, text);
+  CHECK_MESSAGE(text.find("device cuda:999: ") == 0, text);
   if (n == 1) CHECK_MESSAGE(text.find("there is 1 GPU, cuda:0") != std::string::npos, text);
   if (n > 1) CHECK_MESSAGE(text.find("there are " + std::to_string(n) + " GPUs") != std::string::npos, text);
-  if (n == 0) CHECK(text == "--device cuda:999: " + espdiff::cuda_status().description);
+  if (n == 0) CHECK(text == "device cuda:999: " + espdiff::cuda_status().description.plain());
 }
 
-TEST_CASE("device names and thread counts that do not exist are refused") {
+TEST_CASE("invalid device names and thread counts are refused") {
   CHECK(espdiff::parse_device("auto") == DeviceChoice::kAuto);
   CHECK(espdiff::parse_device("cpu") == DeviceChoice::kCpu);
   CHECK(espdiff::parse_device("cuda") == DeviceChoice::kCuda);

@@ -1,4 +1,4 @@
-// morph.cpp: surfaces carried by moving atoms: at rest, rigidly, by growth, across fading atoms, and where they tear.
+// morph.cpp: surfaces that follow moving atoms: at rest, rigidly, by growth, across fading atoms, and where they tear.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr float kIsovalue = 0.5F;
 
-/// What a morph needs: atoms at both ends.
+/// The input of a morph: atoms at both ends.
 struct Journey {
   AtomSet source, target;
   std::vector<MovingAtom> ways;
@@ -101,7 +101,7 @@ TEST_CASE("atoms that move together carry the surface rigidly") {
   }
 }
 
-TEST_CASE("a Gaussian that widens sends every vertex out along its radius, and long edges are halved") {
+TEST_CASE("a widening Gaussian moves every vertex along its radius, and long edges are split") {
   for (const auto& engine : back_ends()) {
     MorphOptions options;
     options.max_edge_A = 1.2;
@@ -127,13 +127,13 @@ TEST_CASE("a Gaussian that widens sends every vertex out along its radius, and l
   }
 }
 
-TEST_CASE("there and back returns every vertex") {
+TEST_CASE("the reverse morph returns every vertex") {
   const AtomSet atoms = random_cloud(150, 5);
   const Journey out = journey(atoms, moved_atoms(atoms, [](Vec3d p) { return p + Vec3d{0, 0, 0.03 * p.x * p.x}; }));
   for (const auto& engine : back_ends()) {
     const auto source = upload(*engine, out.source), target = upload(*engine, out.target);
     MorphOptions options;
-    options.max_edge_A = 5;  // the same vertices both ways
+    options.max_edge_A = 5;  // the same vertices in both directions
     const MorphResult there =
         engine->morph(surface_of(*engine, source), out.ways, source, target, options, "morph", espdiff::Progress{});
     const Journey back = journey(out.target, out.source);
@@ -148,7 +148,7 @@ TEST_CASE("there and back returns every vertex") {
   }
 }
 
-TEST_CASE("a morph that goes on: at rest it leaves every vertex, and two halves make the whole") {
+TEST_CASE("a continued morph: atoms at rest move no vertex, and two halves equal the whole") {
   const AtomSet atoms = random_cloud(150, 5);
   const auto bent = [&](double amount) {
     return moved_atoms(atoms, [=](Vec3d p) { return p + Vec3d{0, 0, amount * p.x * p.x}; });
@@ -188,7 +188,7 @@ TEST_CASE("a morph that goes on: at rest it leaves every vertex, and two halves 
   }
 }
 
-TEST_CASE("what a morph has lost stays lost when it goes on") {
+TEST_CASE("surface lost by a morph stays lost when it continues") {
   AtomSet together, apart;
   for (const double x : {0.0, 4.5}) {
     together.add({x, 0, 0}, 2);
@@ -209,7 +209,7 @@ TEST_CASE("what a morph has lost stays lost when it goes on") {
   }
 }
 
-TEST_CASE("an atom that appears grows out of where its way begins, one that vanishes shrinks into where it ends") {
+TEST_CASE("an atom that appears grows at the start of its path, one that vanishes shrinks at its end") {
   AtomSet bare;
   for (int x = -2; x <= 2; ++x)
     for (int y = -2; y <= 2; ++y)
@@ -240,7 +240,7 @@ TEST_CASE("an atom that appears grows out of where its way begins, one that vani
   }
 }
 
-TEST_CASE("two balls that part: the neck is lost, the rest lies on the target") {
+TEST_CASE("two separating balls: the neck is unmatched, the rest lies on the target") {
   AtomSet together, apart;
   for (const double x : {0.0, 4.5}) {
     together.add({x, 0, 0}, 2);

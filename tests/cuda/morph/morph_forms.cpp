@@ -1,5 +1,5 @@
-// morph_forms.cpp: behind the morph: sums over moving atoms in both forms and against finite differences, and the
-// division of edges. Compiled with the CPU back end's flags.
+// morph_forms.cpp: internals of the morph: sums over moving atoms in both forms and against finite differences, and
+// edge splitting. Compiled with the CPU back end's flags.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -66,7 +66,7 @@ std::shared_ptr<SurfaceMesh> surface_mesh(const Mesh& mesh) {
   return surface;
 }
 
-/// The mesh with the edges that `chosen` names (by its ends) halved.
+/// The mesh with the edges chosen (by their ends) split.
 template <typename Chosen>
 Mesh halved(const Mesh& mesh, Chosen chosen, std::size_t* n_new) {
   const auto surface = surface_mesh(mesh);
@@ -84,7 +84,7 @@ Mesh halved(const Mesh& mesh, Chosen chosen, std::size_t* n_new) {
   result.triangles.clear();
   for (const Corners& c : to_host(split.topology->triangles)) result.triangles.push_back({c.v[0], c.v[1], c.v[2]});
   REQUIRE(split.parent.size() == result.triangles.size());
-  // Each part lies in its parent's plane and looks the same way.
+  // Each part lies in its parent's plane with the same orientation.
   const std::vector<std::uint32_t> parent = to_host(split.parent);
   for (std::size_t t = 0; t < parent.size(); ++t) {
     const auto normal = [](const Mesh& m, const espdiff::Triangle& c) {
@@ -122,7 +122,7 @@ TEST_CASE("blocks of points and single points give the same bits") {
   }
 }
 
-TEST_CASE("density, gradient and rate are those of the sum, by finite differences in double precision") {
+TEST_CASE("density, gradient and rate agree with finite differences in double precision") {
   const std::vector<MovingAtom> ways = random_paths(200, 22);
   constexpr std::size_t kPoints = 200;
   const double time = 0.4, step = 1e-5;
@@ -145,7 +145,7 @@ TEST_CASE("density, gradient and rate are those of the sum, by finite difference
   }
 }
 
-TEST_CASE("the velocity is that of the atoms where all move alike, and none where there are none") {
+TEST_CASE("the velocity is the atoms' where all move alike, and zero without atoms") {
   std::vector<MovingAtom> ways = random_paths(50, 23);
   for (MovingAtom& way : ways) way.end = way.start + Vec3d{1, -2, 3};
   const Buffer<Vec4f> points = to_device(std::vector<Vec4f>{{0, 0, 0, 0}, {2, 1, 0, 0}, {500, 0, 0, 0}});
@@ -160,7 +160,7 @@ TEST_CASE("the velocity is that of the atoms where all move alike, and none wher
   CHECK(far.density == 0);
 }
 
-TEST_CASE("the velocity is that of the atoms' turning surroundings, by the square roots of their densities") {
+TEST_CASE("the velocity follows the atoms' rotating surroundings, weighted by the square roots of their densities") {
   Random random(24);
   std::vector<MovingAtom> ways = random_paths(60, 25);
   for (MovingAtom& way : ways) {
@@ -190,7 +190,7 @@ TEST_CASE("the velocity is that of the atoms' turning surroundings, by the squar
   }
 }
 
-TEST_CASE("an atom that fades has all its weight in the half of the way where it exists") {
+TEST_CASE("a fading atom has its weight in the half of the path where it exists") {
   MovingAtom appears, leaves;
   appears.at_start = false;
   leaves.at_end = false;
@@ -204,7 +204,7 @@ TEST_CASE("an atom that fades has all its weight in the half of the way where it
   CHECK(leaves.weight_rate_at(0.7) == doctest::Approx(-2));
 }
 
-TEST_CASE("halved edges leave a closed surface of the same shape") {
+TEST_CASE("splitting edges keeps the surface closed and its shape unchanged") {
   const Mesh sphere = icosphere(2, 5);
   Random random(9);
   for (int trial = 0; trial < 20; ++trial) {
@@ -227,8 +227,8 @@ TEST_CASE("halved edges leave a closed surface of the same shape") {
   }
 }
 
-TEST_CASE("the shorter diagonal divides what two halved edges leave over") {
-  // A tetrahedron with one flat, skew face 0 1 2: halving 0-1 and 1-2 leaves the quadrangle 0, m01, m12, 2.
+TEST_CASE("the shorter diagonal divides the quadrangle that two split edges leave") {
+  // A tetrahedron with one flat, skew face 0 1 2: splitting 0-1 and 1-2 leaves the quadrangle 0, m01, m12, 2.
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {4, 0, 0}, {3, 2, 0}, {2, 1, -3}};
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {1, 0, 3}, {2, 1, 3}};
@@ -248,7 +248,7 @@ TEST_CASE("the shorter diagonal divides what two halved edges leave over") {
   CHECK_FALSE(has_edge(0, m12));
 }
 
-TEST_CASE("the spatial order names every point once, neighbours next to each other") {
+TEST_CASE("the spatial order contains every point once, with neighbours next to each other") {
   const Buffer<Vec4f> points = random_points(4000, 20);
   std::vector<std::uint32_t> order = to_host(spatial_order(points));
   const std::vector<Vec4f> x = to_host(points);

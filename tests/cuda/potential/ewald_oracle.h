@@ -1,5 +1,4 @@
-// ewald_oracle.h: charges in cells of several shapes, the direct Ewald sum over them, slow and obvious, and the engines
-// that can be held against it.
+// ewald_oracle.h: charges in cells of several shapes, and the direct Ewald sum over them as a reference.
 #pragma once
 
 #include <algorithm>
@@ -43,7 +42,7 @@ inline PmeCell cell_of(Vec3d lengths, Vec3d angles, Vec3d centre) {
   return cell;
 }
 
-/// A cube, a skewed cell and a truncated octahedron, with edges that are no whole numbers.
+/// A cube, a skewed cell and a truncated octahedron, with edges that are not whole numbers.
 inline std::vector<NamedCell> cells() {
   constexpr double kOctahedron = 109.4712206;
   return {{"cubic", cell_of({31.7, 31.7, 31.7}, {90, 90, 90}, {3, -2, 7})},
@@ -52,7 +51,7 @@ inline std::vector<NamedCell> cells() {
            cell_of({34.6, 34.6, 34.6}, {kOctahedron, kOctahedron, kOctahedron}, {20.1, 20.2, 20.3})}};
 }
 
-/// Charges anywhere in the cell; every other one beyond its border by a cell.
+/// Charges anywhere in the cell; every other one is shifted out by one cell.
 inline Charges random_charges(const PmeCell& cell, std::size_t n, std::uint64_t seed, bool neutral = false) {
   Random random(seed);
   Charges result;
@@ -69,7 +68,7 @@ inline Charges random_charges(const PmeCell& cell, std::size_t n, std::uint64_t 
   return result;
 }
 
-/// As many points along each edge as make steps of about `resolution` A.
+/// The number of points along each edge for steps of about `resolution` A.
 inline std::array<int, 3> sizes_of(const PmeCell& cell, double resolution) {
   std::array<int, 3> size{};
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -77,7 +76,7 @@ inline std::array<int, 3> sizes_of(const PmeCell& cell, double resolution) {
   return size;
 }
 
-/// The sum over all modes that matter at the points given; in double precision throughout.
+/// The sum over all significant modes at the given points; in double precision.
 inline std::vector<double> direct_ewald(const Charges& atoms, const PmeCell& cell, double beta,
                                         const std::vector<Vec3d>& points) {
   const auto& e = cell.edges;
@@ -139,7 +138,7 @@ inline espdiff::Grid pme_map(Engine& engine, const Charges& atoms, const PmeCell
   return engine.download(engine.pme_potential(atoms.positions, atoms.charges, cell, options, {}, {}));
 }
 
-/// Relative rms error of a map against the direct sum, on some of its points.
+/// Relative rms error of a map against the direct sum, at some of its points.
 inline double pme_error(Engine& engine, const Charges& atoms, const PmeCell& cell, const PmeOptions& options,
                         std::size_t n_points = 150) {
   const espdiff::Grid map = pme_map(engine, atoms, cell, options);
@@ -164,7 +163,7 @@ inline bool can_run(Engine& engine) {
   }
 }
 
-/// Back ends that have their library of Fourier transforms.
+/// Back ends whose Fourier transform library is available.
 inline std::vector<std::unique_ptr<Engine>> engines_with_fourier(int n_threads = 0) {
   std::vector<std::unique_ptr<Engine>> engines = back_ends(n_threads);
   engines.erase(std::remove_if(engines.begin(), engines.end(), [](const auto& engine) { return !can_run(*engine); }),

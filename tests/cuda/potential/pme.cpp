@@ -41,7 +41,7 @@ TEST_CASE("rock salt has Madelung's constant") {
   options.size = {25, 25, 25};  // odd: the middle point lies on the first ion
   options.order = 8;
   options.ewald_factor = kBeta;
-  // What is left of the potential at the first ion: the others' bare parts, less its own Gaussian.
+  // The rest of the potential at the first ion: the others' bare parts minus its own Gaussian.
   double rest = -2 * kBeta / std::sqrt(kPi);
   for (int i = -5; i <= 5; ++i) {
     for (int j = -5; j <= 5; ++j) {
@@ -164,7 +164,7 @@ TEST_CASE("moving all atoms by grid steps moves the map by as many points") {
   }
 }
 
-TEST_CASE("turning molecule and cell together changes nothing; doubling the charges doubles the potential") {
+TEST_CASE("rotating molecule and cell together changes nothing; doubling the charges doubles the potential") {
   Random random(13);
   for (const auto& engine : engines_with_fourier()) {
     for (const NamedCell& named : cells()) {
@@ -209,7 +209,7 @@ TEST_CASE("potentials add up; their mean is zero, also with a net charge") {
   }
 }
 
-TEST_CASE("sizes that are odd, prime or as small as the order") {
+TEST_CASE("grid sizes that are odd, prime or as small as the order") {
   const PmeCell cell = cell_of({9, 10, 11}, {90, 80, 100}, {});
   const Charges atoms = random_charges(cell, 40, 17);
   for (const auto& engine : engines_with_fourier()) {

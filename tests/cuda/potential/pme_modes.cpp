@@ -1,4 +1,4 @@
-// pme_modes.cpp: the particle-mesh potential as PMEPot has it, its smooth samples, and what is refused.
+// pme_modes.cpp: the particle-mesh potential in PMEPot's form, its smooth samples, and refusals.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -59,7 +59,7 @@ TEST_CASE("the compatible mode's values are coefficients whose splines give the 
   }
 }
 
-TEST_CASE("smooth samples err no more between the points than on them; the map's own points stay the same") {
+TEST_CASE("smooth samples are as accurate between the points as on them; the map's own points stay the same") {
   Random random(19);
   for (const auto& engine : engines_with_fourier()) {
     for (const NamedCell& named : cells()) {
@@ -86,7 +86,7 @@ TEST_CASE("smooth samples err no more between the points than on them; the map's
   }
 }
 
-TEST_CASE("wrong input is refused with what, the value, the limit and a remedy") {
+TEST_CASE("wrong input is refused with its name, the value, the limit and a remedy") {
   const PmeCell cell = cells()[0].cell;
   const Charges atoms = random_charges(cell, 20, 21);
   PmeOptions options = options_for(cell, 1.0);
@@ -127,7 +127,7 @@ TEST_CASE("wrong input is refused with what, the value, the limit and a remedy")
              {[](PmeOptions& o) {
                 o.size = {4096, 4096, 4096};
               },
-              "more than memory holds"},
+              "would fit"},
              {[](PmeOptions& o) { o.order = 3; }, "spline order 3 is not among 4 to 8"},
              {[](PmeOptions& o) { o.order = 9; }, "spline order 9"},
              {[](PmeOptions& o) { o.ewald_factor = 0; }, "Ewald factor 0.000000 1/A is not a positive number"},

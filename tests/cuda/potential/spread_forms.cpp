@@ -1,5 +1,5 @@
-// spread_forms.cpp: charges spread by slabs and by points give the same bits, and what a slow sum gives. Compiled with
-// the CPU back end's flags, because the engine's interface shows neither.
+// spread_forms.cpp: charges spread by slabs and by points give the same bits, and agree with a slow sum. Compiled with
+// the CPU back end's flags, because the engine's interface offers neither.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -56,7 +56,7 @@ TEST_CASE("slabs and points give the same bits for all orders, precisions and si
   }
 }
 
-TEST_CASE("spread charges add up to the charge, and lie around their place") {
+TEST_CASE("a spread charge sums to the charge, around its position") {
   for (int order = 4; order <= 8; ++order) {
     const std::array<int, 3> size{20, 21, 22};
     GridCharge charge{{7.3, 9.8, 10.0}, 1.5F, 0, 0};

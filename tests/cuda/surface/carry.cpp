@@ -1,4 +1,4 @@
-// carry.cpp: points taken along by a mapping known at a mesh's vertices.
+// carry.cpp: points mapped by a mapping known at a mesh's vertices.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@ using namespace espdiff_test;
 
 TEST_SUITE_BEGIN("carry");
 
-TEST_CASE("a linear map is carried exactly to points of the surface") {
+TEST_CASE("a linear map is applied exactly to points of the surface") {
   const Mesh sphere = icosphere(3, 5), points = icosphere(2, 5);  // the coarse one's vertices are the fine one's
   const auto stretch = [](Vec3d p) { return Vec3d{2 * p.x + 1, p.y - 0.5 * p.x, 3 * p.z}; };
   for (const auto& engine : back_ends()) {
@@ -25,7 +25,7 @@ TEST_CASE("a linear map is carried exactly to points of the surface") {
   }
 }
 
-TEST_CASE("a point beside the surface goes with its foot; one too far away goes nowhere") {
+TEST_CASE("a point beside the surface follows its foot; one too far away becomes NaN") {
   const Mesh sphere = icosphere(4, 5);
   for (const double height : {-0.3, 0.2, 0.4}) {
     const Mesh points = icosphere(1, 5 + height);
@@ -45,7 +45,7 @@ TEST_CASE("a point beside the surface goes with its foot; one too far away goes 
   }
 }
 
-TEST_CASE("an image of another topology is refused") {
+TEST_CASE("an image of different topology is refused") {
   for (const auto& engine : back_ends()) {
     const auto a = engine->upload_mesh(icosphere(1, 1)), b = engine->upload_mesh(icosphere(2, 1));
     CHECK_THROWS_WITH_AS(engine->carry(a, a, b, 1), "carry: the surface and its image differ in topology",

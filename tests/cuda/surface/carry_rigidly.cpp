@@ -1,4 +1,4 @@
-// carry_rigidly.cpp: a mesh goes where the motions of the atoms around take it.
+// carry_rigidly.cpp: a mesh moves with the rigid motions of its atoms.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ using espdiff::RigidTransform;
 
 namespace {
 
-/// A quarter turn about z, and a shift.
+/// A quarter turn about z, and a translation.
 RigidTransform quarter_turn(Vec3d shift) {
   RigidTransform motion;
   const double rotation[9] = {0, -1, 0, 1, 0, 0, 0, 0, 1};
@@ -27,7 +27,7 @@ RigidTransform quarter_turn(Vec3d shift) {
 
 TEST_SUITE_BEGIN("carry_rigidly");
 
-TEST_CASE("one motion for all is that motion, none is none") {
+TEST_CASE("one motion for all atoms moves the mesh rigidly; no motion leaves it") {
   AtomSet atoms = random_cloud(150, 31);
   for (std::size_t i = 0; i < atoms.size(); ++i) atoms.residues[i] = static_cast<std::int32_t>(i % 3);
   const RigidTransform motion = quarter_turn({1, 2, 3});
@@ -49,7 +49,7 @@ TEST_CASE("one motion for all is that motion, none is none") {
   }
 }
 
-TEST_CASE("between two pieces the motions blend by density, away from the seam each is its own") {
+TEST_CASE("between two domains the motions blend by density; away from the seam each moves with its own") {
   AtomSet atoms;
   for (int i = 0; i <= 20; ++i) atoms.add({static_cast<double>(i) - 10, 0.3 * (i % 2), 0}, 1.7);
   for (std::size_t i = 0; i < atoms.size(); ++i) atoms.residues[i] = i < 10 ? 0 : 1;
@@ -80,7 +80,7 @@ TEST_CASE("between two pieces the motions blend by density, away from the seam e
   }
 }
 
-TEST_CASE("a residue that belongs to a motion that is not there is refused") {
+TEST_CASE("a residue with an invalid motion index is refused") {
   AtomSet atoms = random_cloud(30, 32);
   for (const auto& engine : back_ends()) {
     const auto uploaded = upload(*engine, atoms);

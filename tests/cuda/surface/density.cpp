@@ -64,7 +64,7 @@ TEST_CASE("density truncation: real proteins err by less than 1e-3") {
     const AtomSet atoms = read_atoms(*path);
     for (const auto& engine : back_ends()) {
       const auto grid = engine->download(engine->density(upload(*engine, atoms), 1.0));
-      const double worst = largest_error(grid, atoms, 61);  // a prime: all places in the rows
+      const double worst = largest_error(grid, atoms, 61);  // a prime stride visits all positions in the rows
       std::printf("density truncation, %s, %s: largest error %.2e\n", engine->back_end().c_str(), name.c_str(), worst);
       CHECK(worst < 1e-3);
       check_border(grid);
@@ -72,7 +72,7 @@ TEST_CASE("density truncation: real proteins err by less than 1e-3") {
   }
 }
 
-TEST_CASE("the density at points is that of the lattice and of the sum") {
+TEST_CASE("the density at points agrees with the lattice and with the sum") {
   const AtomSet atoms = random_cloud(300, 3);
   Random random(4);
   std::vector<Vec3f> points;
@@ -88,7 +88,7 @@ TEST_CASE("the density at points is that of the lattice and of the sum") {
     }
     CHECK(worst < 1e-3);
 
-    // Lattice and points cut the Gaussian off in different ways (box and ball), which leaves the terms between the two.
+    // Lattice and points truncate the Gaussian differently (box and ball), which leaves the terms in between.
     const auto grid = engine->download(engine->density(uploaded, 1.0));
     std::vector<Vec3f> lattice_points;
     for (std::size_t p = 0; p < grid.values.size(); ++p)

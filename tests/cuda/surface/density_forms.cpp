@@ -1,5 +1,5 @@
-// density_forms.cpp: the forms of the density agree to the last bit: slabs and points of a lattice, blocks of points
-// and single points. Compiled with the CPU back end's flags, because the engine's interface offers one of the two only.
+// density_forms.cpp: both forms of the density agree to the last bit: slabs and points of a lattice, blocks of points
+// and single points. Compiled with the CPU back end's flags, because the engine's interface offers only one of them.
 #include <doctest/doctest.h>
 
 #include <cstring>
@@ -61,12 +61,12 @@ TEST_CASE("slabs and points agree for radii from tiny to huge") {
   CHECK(n_different(atoms, 1.0) == 0);
 }
 
-TEST_CASE("slabs and points agree where rows have every length around the vector width") {
+TEST_CASE("slabs and points agree for all row lengths around the vector width") {
   for (int n = 1; n < 60; ++n) CHECK(n_different(one_gaussian({0.01 * n, 0, 0}, 1.0), 9.0 / n) == 0);
 }
 
 TEST_CASE("slabs and points agree on atoms that sit on lattice points, cell borders and the reach") {
-  // Widths and places that are multiples of one decimal: distances to lattice points equal the reach up to rounding.
+  // Widths and positions that are multiples of one decimal: distances to lattice points equal the reach up to rounding.
   Random random(18);
   for (int trial = 0; trial < 60; ++trial) {
     const double step = trial % 3 == 0 ? 0.1 : trial % 3 == 1 ? 0.25 : 1.0 / 3;
@@ -104,7 +104,7 @@ TEST_CASE("the slab form gives the same bits for any number of threads") {
 }
 
 TEST_CASE("the lattice holds every atom's reach however far apart they are") {
-  // A million and more points along one axis, yet few enough in all.
+  // Over a million points along one axis, yet few in total.
   AtomSet atoms = one_gaussian({0, 0, 0}, 0.5);
   atoms.add({1.2e6, 0, 0}, 0.5);
   const auto cells = make_atom_cells(atoms.positions, atoms.widths, atoms.residues);

@@ -1,5 +1,5 @@
-// level_set_normals.cpp: the analytic surface's normals against a sphere's, against differences of the density, and
-// where a mesh has left the surface.
+// level_set_normals.cpp: the analytic normals against a sphere's, against finite differences of the density, and off
+// the surface.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ double cosine(Vec3f a, Vec3f b) { return static_cast<double>(dot(a, b)); }
 
 TEST_SUITE_BEGIN("level_set_normals");
 
-TEST_CASE("one atom: normals point away from its centre, nearer than the triangles' do") {
+TEST_CASE("one atom: normals point away from its centre, more exactly than the triangles'") {
   for (const auto& engine : back_ends()) {
     AtomSet atom;
     atom.positions = {{0.3, -0.2, 0.1}};
@@ -51,7 +51,7 @@ TEST_CASE("one atom: normals point away from its centre, nearer than the triangl
   }
 }
 
-TEST_CASE("many atoms: unit, on the triangles' side, and along the density's differences") {
+TEST_CASE("many atoms: normals are unit, on the triangles' side, and along the density's differences") {
   for (const auto& engine : back_ends()) {
     const AtomsPtr atoms = upload(*engine, random_cloud(250, 60));
     const MeshPtr surface = projected(*engine, atoms);
@@ -73,7 +73,7 @@ TEST_CASE("many atoms: unit, on the triangles' side, and along the density's dif
                           static_cast<double>(d[5] - d[4])};
       worst_length = std::max(worst_length, std::fabs(static_cast<double>(norm(normals[v])) - 1));
       least_side = std::min(least_side, cosine(normals[v], mesh.normals[v]));
-      // Where the level set has no direction, differences have none either.
+      // Where the level set has no direction, neither do the differences.
       if (norm(falling) > 0.02 * static_cast<double>(kStep))
         least_along = std::min(least_along, dot(static_cast<Vec3d>(normals[v]), falling) / norm(falling));
     }
@@ -83,7 +83,7 @@ TEST_CASE("many atoms: unit, on the triangles' side, and along the density's dif
   }
 }
 
-TEST_CASE("a mesh that has left the surface keeps its triangles' normals") {
+TEST_CASE("a mesh off the surface keeps its triangles' normals") {
   for (const auto& engine : back_ends()) {
     const AtomsPtr atoms = upload(*engine, random_cloud(50, 61));
     const MeshPtr surface = projected(*engine, atoms);

@@ -1,4 +1,4 @@
-// oracles.h: serial, double-precision, brute-force forms of what the engine computes.
+// oracles.h: serial, double-precision, brute-force forms of the engine's computations.
 #pragma once
 
 #include <algorithm>
@@ -50,7 +50,7 @@ inline double mesh_distance_oracle(const Mesh& mesh, Vec3d p) {
   for (const auto& t : mesh.triangles) {
     const Vec3d a = static_cast<Vec3d>(mesh.positions[t[0]]), b = static_cast<Vec3d>(mesh.positions[t[1]]);
     const Vec3d c = static_cast<Vec3d>(mesh.positions[t[2]]);
-    // A sphere around the triangle rules most of them out.
+    // A bounding sphere rules out most triangles.
     const double reach = std::max(norm(b - a), norm(c - a));
     if (norm(p - a) - reach < nearest) nearest = std::min(nearest, triangle_distance_oracle(p, a, b, c));
   }
@@ -68,7 +68,7 @@ inline double area_oracle(const Mesh& mesh) {
   return sum;
 }
 
-/// [vertex] a third of the area of the incident triangles for which counts(triangle index) holds.
+/// [vertex] a third of the area of the incident triangles that satisfy counts(triangle index).
 template <typename Counts>
 std::vector<double> vertex_weights(const Mesh& mesh, Counts counts) {
   std::vector<double> weights(mesh.positions.size(), 0.0);

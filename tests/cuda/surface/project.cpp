@@ -15,7 +15,7 @@ namespace {
 struct Projection {
   double worst_density_error = 0;  ///< of the vertices that moved
   double longest_shift = 0;
-  double left_share = 0;  ///< vertices that stayed where they were, off the isosurface
+  double left_share = 0;  ///< fraction of vertices left in place off the isosurface
 };
 
 Projection measure(Engine& engine, const AtomSet& atoms, float isovalue, double spacing, double max_shift) {
@@ -84,7 +84,7 @@ TEST_CASE("a vertex farther off than the limit stays where it is") {
   for (const auto& engine : back_ends()) {
     const double r = 2.0 * std::sqrt(2 * std::log(2.0));
     const auto atoms = upload(*engine, one_gaussian({0, 0, 0}, 2.0));
-    for (const double factor : {0.7, 1.4, 3.0, 10.0}) {  // the last two beyond the Gaussian's reach in part or whole
+    for (const double factor : {0.7, 1.4, 3.0, 10.0}) {  // the last two partly or fully beyond the Gaussian's reach
       const Mesh sphere = icosphere(2, factor * r);
       const Mesh after = engine->download(engine->project(engine->upload_mesh(sphere), atoms, 0.5F, 0.3));
       CAPTURE(factor);

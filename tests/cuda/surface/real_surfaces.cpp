@@ -1,4 +1,4 @@
-// real_surfaces.cpp: every real structure, badly written ones included, has closed manifold surfaces of even Euler
+// real_surfaces.cpp: every real structure, including badly written ones, has closed manifold surfaces of even Euler
 // characteristic.
 #include <doctest/doctest.h>
 
@@ -64,7 +64,7 @@ TEST_CASE("surfaces of all real structures are closed manifolds") {
     try {
       atoms = read_atoms(path);
     } catch (const espdiff::Error& error) {
-      // Refused by the reader, which has its own tests; what counts here is that it says so.
+      // The reader refuses it, which has its own tests; here only the refusal matters.
       ++n_refused;
       MESSAGE("SKIPPED: ", std::string(error.what()));
       continue;

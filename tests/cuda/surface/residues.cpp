@@ -1,4 +1,4 @@
-// residues.cpp: the residue that a surface point belongs to, against a full search.
+// residues.cpp: the residue of a surface point, against a full search.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -40,7 +40,7 @@ Ranking rank_residues(const AtomSet& atoms, Vec3d p) {
 
 struct Agreement {
   std::size_t n = 0, n_different = 0;
-  double widest_gap = 0;  ///< between first and second, relative, where the engine chose another
+  double widest_gap = 0;  ///< relative gap between first and second where the engine chose another
 };
 
 Agreement compare_to_search(Engine& engine, const AtomSet& atoms) {
@@ -64,7 +64,7 @@ Agreement compare_to_search(Engine& engine, const AtomSet& atoms) {
 
 TEST_SUITE_BEGIN("residues");
 
-TEST_CASE("vertices of a random cloud belong to the residue of most density") {
+TEST_CASE("vertices of a random cloud belong to the residue of highest density") {
   for (const auto& engine : back_ends()) {
     const Agreement a = compare_to_search(*engine, random_cloud(300, 110));
     CHECK(static_cast<double>(a.n_different) < 4e-3 * static_cast<double>(a.n));  // neighbours without bonds: near ties
@@ -72,7 +72,7 @@ TEST_CASE("vertices of a random cloud belong to the residue of most density") {
   }
 }
 
-TEST_CASE("vertices of real proteins belong to the residue of most density but at ties") {
+TEST_CASE("vertices of real proteins belong to the residue of highest density except at ties") {
   for (const std::string name : {"ubq/ubq.pqr", "pair_t4l_maps/3lzm.pqr"}) {
     const auto path = real_input(name);
     if (!path) return;
@@ -82,13 +82,13 @@ TEST_CASE("vertices of real proteins belong to the residue of most density but a
                   engine->back_end().c_str(), name.c_str(), a.n_different, a.n, 100 * a.widest_gap);
       CAPTURE(name);
       CHECK(static_cast<double>(a.n_different) < 1e-3 * static_cast<double>(a.n));
-      // Terms below e^-6 are left out: ten of them make 2.5 %.
+      // Terms below e^-6 are omitted: ten of them make 2.5 %.
       CHECK(a.widest_gap < 0.03);
     }
   }
 }
 
-TEST_CASE("of equal residues the one of smaller index counts; nothing in reach is -1") {
+TEST_CASE("ties go to the residue of smaller index; no residue in reach is -1") {
   for (const auto& engine : back_ends()) {
     AtomSet atoms;
     atoms.add({0, 0, 0}, 1.5, 7);

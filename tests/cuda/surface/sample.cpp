@@ -1,4 +1,4 @@
-// sample.cpp: trilinear samples of potential maps on skewed lattices, seen from another frame.
+// sample.cpp: trilinear samples of potential maps on skewed lattices, from another frame.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -74,7 +74,7 @@ double sample_oracle(const Grid& grid, Vec3d p) {
   return sum;
 }
 
-/// A mesh whose vertices lie at the given lattice indices, seen from the common frame. The topology is an icosphere's.
+/// A mesh with vertices at the given lattice indices, in the common frame. The topology is an icosphere's.
 Mesh mesh_at(const Grid& grid, const RigidTransform& to_common, Random& random, double low, double high) {
   Mesh mesh = icosphere(3, 1.0);
   for (Vec3f& p : mesh.positions) {
@@ -116,7 +116,7 @@ TEST_CASE("affine functions are sampled exactly on skewed lattices in any frame"
   }
 }
 
-TEST_CASE("samples of random maps are those of a serial interpolation, and NaN outside") {
+TEST_CASE("samples of random maps equal a serial interpolation's, and NaN outside") {
   Random random(61);
   Grid grid = skewed_grid();
   for (float& value : grid.values) value = static_cast<float>(random.uniform(-5, 5));
@@ -194,7 +194,7 @@ TEST_CASE("a periodic map wraps around its cell and has no outside") {
     const Mesh mesh = mesh_at(closed, inverse_of(to_map), random, 1e-4, 1 - 1e-4);
     const auto samples = engine->download(engine->sample(engine->upload_map(grid, to_map), engine->upload_mesh(mesh)));
     double worst = 0, worst_of_image = 0;
-    RigidTransform to_image = to_map;  // two cells back along x, one on along z
+    RigidTransform to_image = to_map;  // two cells back along x, one forward along z
     for (int step = 0; step < size[0]; ++step) to_image.translation += -2.0 * grid.lattice.step[0];
     for (int step = 0; step < size[2]; ++step) to_image.translation += grid.lattice.step[2];
     const auto images = engine->download(engine->sample(engine->upload_map(grid, to_image), engine->upload_mesh(mesh)));
@@ -209,7 +209,7 @@ TEST_CASE("a periodic map wraps around its cell and has no outside") {
   }
 }
 
-TEST_CASE("a map comes back as it was sent; one whose axes do not span space is refused") {
+TEST_CASE("a map is downloaded as uploaded; one whose axes do not span space is refused") {
   Random random(62);
   Grid grid = skewed_grid();
   grid.unit = espdiff::PotentialUnit::kKtPerE;

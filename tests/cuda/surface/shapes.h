@@ -1,4 +1,4 @@
-// shapes.h: what the engine's tests are run on: back ends, atoms, spheres, proteins, rigid motions.
+// shapes.h: inputs of the engine's tests: back ends, atoms, spheres, proteins, rigid motions.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -25,7 +25,7 @@ using espdiff::Vec3f;
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// One engine for each back end that can run here; says once per program which one cannot, and why.
+/// One engine for each back end that can run here; prints once per program which cannot, and why.
 /// @param n_threads of the CPU back end; 0 uses all
 inline std::vector<std::unique_ptr<Engine>> back_ends(int n_threads = 0) {
   std::vector<std::unique_ptr<Engine>> engines;
@@ -36,12 +36,12 @@ inline std::vector<std::unique_ptr<Engine>> back_ends(int n_threads = 0) {
     engines.push_back(espdiff::select_engine(espdiff::DeviceChoice::kCuda, 0));
   } else if (!announced) {
     announced = true;
-    MESSAGE("SKIPPED: cuda: ", cuda.description);
+    MESSAGE("SKIPPED: cuda: ", cuda.description.plain());
   }
   return engines;
 }
 
-/// Random numbers that are the same on every machine: Knuth's MMIX generator, upper bits.
+/// Reproducible random numbers: Knuth's MMIX generator, upper bits.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) { bits(); }
@@ -119,7 +119,7 @@ inline AtomSet hollow_ball(Vec3d centre, double radius, std::size_t n) {
   return atoms;
 }
 
-/// A molecule's atoms, its centroid at the origin as the pipeline has it.
+/// A molecule's atoms with the centroid at the origin, as in a comparison.
 inline AtomSet atoms_of(const espdiff::Molecule& molecule) {
   AtomSet atoms;
   Vec3d centre{};

@@ -1,4 +1,4 @@
-// spheres.cpp: surfaces that are known exactly: one Gaussian is a sphere, two merge at a known distance.
+// spheres.cpp: surfaces known exactly: one Gaussian is a sphere, two merge at a known distance.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -21,7 +21,7 @@ struct Errors {
 };
 
 Errors sphere_errors(Engine& engine, double width, float isovalue, double spacing) {
-  // Off the lattice's symmetry, so that the error is that of a generic place.
+  // Off the lattice's symmetry, for a generic error.
   const auto atoms = upload(engine, one_gaussian({0.137, -0.291, 0.418}, width));
   const auto mesh = engine.isosurface(engine.density(atoms, spacing), isovalue);
   const double r = sphere_radius(width, static_cast<double>(isovalue));
@@ -48,7 +48,7 @@ TEST_CASE("one Gaussian gives a sphere: projected vertices lie on it") {
           worst = std::max(worst, std::fabs(norm(static_cast<Vec3d>(p) - centre) - r));
         CAPTURE(width);
         CAPTURE(isovalue);
-        // The density converges to 1e-4; where it is flat, at other isovalues, that leaves more in the place.
+        // The density converges to 1e-4; at other isovalues it is flatter, which leaves a larger position error.
         CHECK(worst < (isovalue == 0.5F ? 1e-4 : 1.5e-3));
         CHECK(manifold_fault(mesh) == "");
         CHECK(euler_characteristic(mesh) == 2);
@@ -57,7 +57,7 @@ TEST_CASE("one Gaussian gives a sphere: projected vertices lie on it") {
   }
 }
 
-TEST_CASE("area and volume of the sphere converge with the second order of the spacing") {
+TEST_CASE("area and volume of the sphere converge with second order in the spacing") {
   for (const auto& engine : back_ends()) {
     CAPTURE(engine->back_end());
     const Errors coarse = sphere_errors(*engine, 2.0, 0.5F, 0.5), fine = sphere_errors(*engine, 2.0, 0.5F, 0.125);
@@ -95,10 +95,10 @@ TEST_CASE("two Gaussians merge where the density between them passes the isovalu
   }
 }
 
-TEST_CASE("two far spheres of one size have equal areas and volumes, those of one sphere") {
+TEST_CASE("two distant spheres of one size each have the area and volume of one sphere") {
   for (const auto& engine : back_ends()) {
     AtomSet atoms = one_gaussian({0, 0, 0}, 1.5);
-    atoms.add({20, 0, 0}, 1.5);  // 40 lattice steps: both lie alike in their cells
+    atoms.add({20, 0, 0}, 1.5);  // 40 lattice steps, so both have the same position in their cells
     const auto components = engine->components(engine->isosurface(engine->density(upload(*engine, atoms), 0.5), 0.5F));
     REQUIRE(components.size() == 2);
     const double r = sphere_radius(1.5, 0.5);

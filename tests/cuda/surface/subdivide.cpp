@@ -1,4 +1,4 @@
-// subdivide.cpp: what a mapping has stretched is halved on both meshes.
+// subdivide.cpp: stretched edges are split on both meshes.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using espdiff::SubdivisionResult;
 
 namespace {
 
-/// A sphere, and the same drawn out to three times its length along x where x > 0.
+/// A sphere, and the same stretched to three times its length along x for x > 0.
 struct Stretched {
   Mesh source_mesh, mapped_mesh;
   MeshPtr source, mapped;
@@ -41,7 +41,7 @@ double length(const std::vector<Vec3f>& x, const std::array<std::uint32_t, 2>& e
 
 TEST_SUITE_BEGIN("subdivide");
 
-TEST_CASE("stretched edges beyond the limit are halved on both meshes, no others, and both stay closed") {
+TEST_CASE("only stretched edges beyond the limit are split, on both meshes, and both stay closed") {
   constexpr double kLimit = 1.0;
   for (const auto& engine : back_ends()) {
     const Stretched s = stretched(*engine);
@@ -59,7 +59,7 @@ TEST_CASE("stretched edges beyond the limit are halved on both meshes, no others
       CHECK(norm(mapped.positions[n + k] - 0.5F * (mapped.positions[a] + mapped.positions[b])) < 1e-5F);
       CHECK(norm(source.positions[n + k] - 0.5F * (source.positions[a] + source.positions[b])) < 1e-5F);
     }
-    // Every edge that is long and stretched is among them: counted by brute force.
+    // Counts every long, stretched edge by brute force.
     std::size_t n_long = 0;
     for (const auto& t : s.source_mesh.triangles) {
       for (std::size_t c = 0; c < 3; ++c) {
@@ -70,12 +70,12 @@ TEST_CASE("stretched edges beyond the limit are halved on both meshes, no others
     }
     CHECK(n_long > 100);
     CHECK(halved.ends.size() == n_long);
-    // A mapping that stretches nothing is left as it is, however short the limit.
+    // A mapping that stretches nothing is not split, however short the limit.
     CHECK(engine->subdivide(s.source, s.source, 0.01).ends.empty());
   }
 }
 
-TEST_CASE("subdivide refuses meshes of two topologies and a limit that is none") {
+TEST_CASE("subdivide refuses meshes of different topology and an invalid limit") {
   for (const auto& engine : back_ends()) {
     const Stretched s = stretched(*engine);
     const MeshPtr other = engine->upload_mesh(s.source_mesh);

@@ -15,7 +15,7 @@ using espdiff::Grid;
 
 namespace {
 
-/// Many pieces, each of a few atoms, and a hollow one.
+/// Many components of a few atoms each, and a hollow one.
 AtomSet scattered_atoms(std::uint64_t seed) {
   Random random(seed);
   AtomSet atoms = hollow_ball({0, 0, 0}, 7, 220);
@@ -23,8 +23,8 @@ AtomSet scattered_atoms(std::uint64_t seed) {
   return atoms;
 }
 
-/// How many of the seven edges of every lattice point join an inside and an outside point, and how many triangles the
-/// six tetrahedra of every cell ask for.
+/// The number of crossing edges among the seven of every lattice point, and the number of triangles of the six
+/// tetrahedra of every cell.
 struct Counts {
   std::size_t vertices = 0, triangles = 0;
 };
@@ -84,14 +84,14 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("vertices lie on the lattice's edges where the density, taken as linear, is the isovalue") {
+TEST_CASE("vertices lie where the linearly interpolated density on lattice edges is the isovalue") {
   for (const auto& engine : back_ends()) {
     const auto density = engine->density(upload(*engine, random_cloud(120, 30)), 1.0);
     const Grid grid = engine->download(density);
     const Mesh mesh = engine->download(engine->isosurface(density, 0.5F));
     double worst = 0;
     for (const Vec3f& vertex : mesh.positions) {
-      // Whole indices at one end, by rounding down; the direction is where a fraction is left.
+      // Whole indices at one end, by rounding down; the fraction gives the direction.
       Vec3d at{};
       std::array<int, 3> low{};
       double part = 0;
@@ -150,7 +150,7 @@ TEST_CASE("a hollow ball has an outer surface of positive and a cavity of negati
   }
 }
 
-TEST_CASE("components are those of a union-find, and their sums add up to the mesh") {
+TEST_CASE("components equal those of a union-find, and their sums add up to the mesh") {
   for (const auto& engine : back_ends()) {
     for (std::uint64_t seed = 40; seed < 46; ++seed) {
       const auto surface = engine->isosurface(engine->density(upload(*engine, scattered_atoms(seed)), 0.7), 0.5F);
@@ -175,7 +175,7 @@ TEST_CASE("components are those of a union-find, and their sums add up to the me
   }
 }
 
-TEST_CASE("keep_components keeps vertices and triangles of the kept in order") {
+TEST_CASE("keep_components keeps the order of vertices and triangles") {
   for (const auto& engine : back_ends()) {
     const auto surface = engine->isosurface(engine->density(upload(*engine, scattered_atoms(47)), 0.7), 0.5F);
     const Mesh mesh = engine->download(surface);
@@ -218,7 +218,7 @@ TEST_CASE("normals are unit vectors that point outward") {
   }
 }
 
-TEST_CASE("no surface is an error that says how high the density is") {
+TEST_CASE("no surface is an error that gives the highest density") {
   for (const auto& engine : back_ends()) {
     const auto density = engine->density(upload(*engine, one_gaussian({0, 0, 0}, 1.5)), 1.0);
     CHECK_THROWS_AS(engine->isosurface(density, 1.5F), espdiff::GeometryError);

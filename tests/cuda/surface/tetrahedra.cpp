@@ -1,4 +1,4 @@
-// tetrahedra.cpp: proves the generated tables: every case, every pair of neighbouring cases, and whole random blocks.
+// tetrahedra.cpp: proves the generated tables: every case, every pair of neighbouring cases, and random blocks.
 #include "cuda/surface/tetrahedra.h"
 
 #include <doctest/doctest.h>
@@ -115,7 +115,7 @@ TEST_CASE("the crossing mask names the directions from corner 0 that cross") {
   }
 }
 
-TEST_CASE("a case has 0 to 12 triangles, as many as its tetrahedra ask for") {
+TEST_CASE("a case has 0 to 12 triangles, as many as its tetrahedra need") {
   int most = 0;
   for (int c = 0; c < 256; ++c) {
     int expected = 0;
@@ -149,7 +149,7 @@ TEST_CASE("triangles are counter-clockwise seen from outside") {
   }
 }
 
-TEST_CASE("within a cell every edge of the patch has its opposite, but on the cell's faces") {
+TEST_CASE("within a cell every edge of the patch has its opposite, except on the cell's faces") {
   for (const CellCase& cell : kCellCases) {
     std::multiset<DirectedEdge> edges;
     for (const DirectedEdge& e : directed_edges(cell)) edges.insert(e);

@@ -1,4 +1,4 @@
-// upload_mesh.cpp: meshes made elsewhere: taken as they are when closed, refused with the fault when not.
+// upload_mesh.cpp: uploaded meshes: accepted unchanged if closed, otherwise refused with the fault.
 #include <doctest/doctest.h>
 
 #include "base/error.h"
@@ -106,7 +106,7 @@ TEST_CASE("a vertex in no triangle does not move under deform") {
     try {
       uploaded = engine->upload_mesh(mesh);
     } catch (const espdiff::GeometryError&) {
-      continue;  // refusing it is as good
+      continue;  // refusing it is also correct
     }
     const auto density = engine->density(upload(*engine, one_gaussian({0, 0, 0}, 2)), 1.0);
     espdiff::DeformOptions options;
