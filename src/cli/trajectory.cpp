@@ -31,9 +31,8 @@ struct Arguments {
 void add_run_options(CLI::App& p, Arguments& a) {
   const char* const group = "Frames";
   p.add_option("--frames", a.frames,
-               "Frames to compare, from 0: all, a frame, begin:end or begin:step:end, also several with commas; first, "
-               "last (or "
-               "end) and -1 (the last) are frames too")
+               "Frames to compare, from 0: all, a frame, begin:end or begin:step:end, or several of these with commas; "
+               "a frame may also be first, last (or end), or -1 (the last)")
       ->capture_default_str()
       ->group(group);
   p.add_option(

@@ -14,7 +14,7 @@
 
 #include "base/error.h"
 #include "io/atomic_file.h"
-#include "io/gzip_text.h"
+#include "io/read_input.h"
 #include "io/read_csv.h"
 #include "io/sha256.h"
 #include "io/text_cursor.h"
