@@ -13,7 +13,7 @@ void add(Sha256& hash, const std::vector<T>& values) {
 }
 
 void add(Sha256& hash, const Vec3d& v) {
-  for (int axis = 0; axis < 3; ++axis) hash.update(&v[axis], sizeof v[axis]);
+  for (const double member : {v.x, v.y, v.z}) hash.update(&member, sizeof member);
 }
 
 }  // namespace

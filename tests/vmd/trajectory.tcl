@@ -98,8 +98,8 @@ test "a file's models: the same bytes from the command line, from the file here,
         check "the same rows: $arguments" {[read_rows $scratch/molecule.csv] eq [read_rows $scratch/line.csv]}
         check "rows: $arguments" {[llength [read_rows $scratch/line.csv]] >= 3}
         if {[string match *now* $arguments]} continue
-        espdiff trajectory -file $models -reference [list file $models] {*}$arguments -csv $scratch/file.csv -overwrite 1
-        check "the same bytes: $arguments" {[read_bytes $scratch/file.csv] eq [read_bytes $scratch/line.csv]}
+        espdiff trajectory -file $models -reference [list file $models] {*}$arguments -csv $scratch/models.csv -overwrite 1
+        check "the same bytes: $arguments" {[read_bytes $scratch/models.csv] eq [read_bytes $scratch/line.csv]}
     }
 }
 
