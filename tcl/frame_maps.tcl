@@ -3,12 +3,31 @@
 namespace eval ::espdiff {
     # A map as the CSV file says it, with its unit where that was given.
     proc map_in_words {map unit} {
-        if {$unit eq "" || $map in {none {}} || [is_pme $map]} { return $map }
+        if {$unit eq "" || $map in {none {}} || [is_computed $map]} { return $map }
         return "$map unit $unit"
     }
 
     # Whether all frames get the same map.
-    proc is_one_map {map mol} { expr {![is_pme $map] && [map_form $map $mol] in {number endpoint}} }
+    proc is_one_map {map mol} { expr {![is_computed $map] && [map_form $map $mol] in {number endpoint}} }
+
+    # -map auto becomes the potential that is usual for the frames and the reference together; a reference with a map of
+    # its own, or a -reference-map, leaves the frames without.
+    proc usual_run_maps {run_name} {
+        upvar 1 $run_name run
+        if {$run(map) ne "auto"} return
+        set run(map) none
+        set endpoints [list $run(endpoint)]
+        set is_endpoint [expr {[lindex $run(reference) 0] ne "frame" && $run(reference) ne "previous"}]
+        # Frames of a file take the charges of the reference where they have none.
+        if {$is_endpoint && $run(mol) eq ""} { set endpoints {} }
+        if {$is_endpoint} { lappend endpoints $run(reference) }
+        if {$run(reference_map) eq ""} {
+            set chosen [with_usual_maps $endpoints]
+            set run(map) [value_or [lindex $chosen end] map none]
+            if {$is_endpoint && [dict exists $run(reference) map]} { set run(map) none }
+            set run(because) [value_or [lindex $chosen end] because ""]
+        }
+    }
 
     # Checks -map before the run begins, as far as that can be done then: an error at night is an error too late.
     # `run` is the array of trajectory.tcl.
@@ -51,7 +70,7 @@ namespace eval ::espdiff {
             }
             return number
         }
-        if {[is_pme $map]} { return endpoint }
+        if {[is_computed $map]} { return endpoint }
         if {[string is list $map] && [llength $map] == 2} {
             switch [lindex $map 0] {
                 volumes {
@@ -63,8 +82,8 @@ namespace eval ::espdiff {
             }
         }
         if {[string is list $map] && [llength $map] % 2 == 0 && [lindex $map 0] in {file mol}} { return endpoint }
-        fail "-map: '$map' is not none, K, {volumes K}, {files PATTERN}, {file PATH}, {mol ID map K}, {command PREFIX}\
-            or pme"
+        fail "-map: '$map' is not none, K, {volumes K}, {files PATTERN}, {file PATH}, {mol ID map K}, {command PREFIX},\
+            pb, pme or coulomb"
     }
 
     # The map of a frame as it is written in an endpoint; empty for none. What a user's command returned for a frame is

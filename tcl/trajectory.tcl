@@ -10,6 +10,7 @@ namespace eval ::espdiff {
     #   structure             what vmd_structure found, for all frames
     #   frames, where         frames of the run; the molecule or file for messages
     #   reference, map, reference_map, unit, last_map       see frame_maps.tcl
+    #   because               why this potential, where the user named none
     #   temporary, source_temporary             files to delete after the step, and after the run
     #   in_step, busy         a frame is being compared; a step is being looked after
     #   state, message, error running, done, failed, cancelled; why
@@ -42,7 +43,8 @@ namespace eval ::espdiff {
     # Everything that can be checked before the first frame is checked here.
     proc begin_trajectory {options} {
         array set run {temporary {} source_temporary {} last_map {} in_step 0 busy 0 state running message {} error {}
-            told 0 fraction 0 stage {} structure {} seconds 0}
+            told 0 fraction 0 stage {} structure {} seconds 0
+            because {}}
         set run(begun) [clock milliseconds]
         foreach key {mol file map unit reference command progress callback} { set run($key) [dict get $options $key] }
         set run(reference_map) [dict get $options reference-map]
@@ -51,6 +53,7 @@ namespace eval ::espdiff {
             fail "espdiff trajectory: give one of -mol ID and -file FILE"
         }
         prepare_frames run $options
+        usual_run_maps run
         check_frame_maps run
         set handle [core::trajectory [trajectory_plan run $options] [core_options $options]]
         if {[catch {
@@ -128,8 +131,10 @@ namespace eval ::espdiff {
             } else {
                 set endpoint $run(reference)
                 set map $run(reference_map)
-                if {$map eq "" && [is_pme $run(map)]} { set map $run(map) }
-                if {![dict exists $endpoint map] && $map ne ""} { dict set endpoint map $map }
+                if {$map eq "" && [is_computed $run(map)]} { set map $run(map) }
+                if {![dict exists $endpoint map] && $map ne ""} {
+                    set endpoint [dict merge $endpoint [list map $map because $run(because)]]
+                }
                 if {![dict exists $endpoint unit] && $run(unit) ne ""} { dict set endpoint unit $run(unit) }
                 set source [make_endpoint $endpoint reference temporary]
             }

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "commands.h"
 #include "compare/compare.h"
+#include "compare/options.h"
 #include "compare/result.h"
 #include "compare/settings.h"
 #include "compare/surface.h"

@@ -12,6 +12,7 @@
 #include "compare/surface.h"
 #include "endpoint.h"
 #include "matrix/matrix_run.h"
+#include "potential/potential.h"
 #include "report/write_compare.h"
 #include "trajectory/frame_files.h"
 #include "trajectory/trajectory.h"

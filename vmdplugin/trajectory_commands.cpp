@@ -7,6 +7,8 @@
 #include "engine/engine.h"
 #include "io/read_csv.h"
 #include "io/write_csv.h"
+#include "potential/potential.h"
+#include "potential/potential_settings.h"
 #include "tcl_values.h"
 #include "trajectory/frame_range.h"
 #include "trajectory/series_head.h"
@@ -29,15 +31,33 @@ SeriesHead pairs_of(Tcl_Obj* list, const std::string& what) {
   return pairs;
 }
 
-SeriesDescription parse_description(DictReader& reader) {
+/// A computed potential in the words of the core, whatever was given of it; other maps as they are.
+std::string map_in_words(Tcl_Obj* map, double temperature_K) {
+  const std::vector<Tcl_Obj*> words = to_vector(map, "map");
+  const std::string kind = words.empty() ? std::string() : to_string(words[0]);
+  if (kind != "pb" && kind != "pme" && kind != "coulomb") return to_string(map);
+  GivenPotentialSettings given;
+  std::string others;  // which atoms, which cell
+  for (std::size_t i = 1; i + 1 < words.size(); i += 2) {
+    const std::string key = to_string(words[i]), value = to_string(words[i + 1]);
+    if (key == "sel" || key == "cell") {
+      others += " " + key + " " + value;
+    } else {
+      given.emplace_back(key, value);
+    }
+  }
+  return potential_in_words(make_potential_options(parse_potential_method(kind), given, temperature_K)) + others;
+}
+
+SeriesDescription parse_description(DictReader& reader, double temperature_K) {
   SeriesDescription run;
   if (Tcl_Obj* const file = reader.find("file")) run.files = {to_string(file)};
   if (Tcl_Obj* const molecule = reader.find("molecule")) run.molecule = pairs_of(molecule, "molecule");
   for (Tcl_Obj* const frame : to_vector(reader.require("frames"), "frames"))
     run.frames.push_back(to_int(frame, "frames"));
   run.reference = to_string(reader.require("reference"));
-  run.map = reader.text("map", "none");
-  run.reference_map = reader.text("reference_map");
+  if (Tcl_Obj* const map = reader.find("map")) run.map = map_in_words(map, temperature_K);
+  if (Tcl_Obj* const map = reader.find("reference_map")) run.reference_map = map_in_words(map, temperature_K);
   return run;
 }
 
@@ -51,7 +71,7 @@ Tcl_Obj* trajectory(const Call& call) {
   DictReader reader(call.arguments[0], "plan");
   const std::string csv = to_string(reader.require("csv"));
   const ExistingFile existing = existing_file(reader);
-  SeriesDescription run = parse_description(reader);
+  SeriesDescription run = parse_description(reader, object->computation.options.temperature_K);
   TrajectoryPlan plan;
   plan.options = object->computation.options;
   plan.frames = run.frames;

@@ -9,6 +9,8 @@
 
 #include "cli/map_options.h"
 #include "cli/verbs.h"
+#include "compare/options.h"
+#include "io/read_structure.h"
 #include "io/write_csv.h"
 #include "trajectory/frame_files.h"
 #include "trajectory/frame_range.h"
@@ -61,26 +63,20 @@ std::string map_words(const MapArguments& m, const std::string& path, const std:
   return "file " + path + (unit.empty() ? "" : " unit " + unit) + (m.map_array.empty() ? "" : " array " + m.map_array);
 }
 
-/// A computed one, with what is not as usual.
-std::string computed_map_words(const MapArguments& m) {
-  const MapArguments usual;
-  return "pme" + (m.cell == usual.cell ? "" : " cell " + m.cell) + (m.grid == usual.grid ? "" : " grid " + m.grid) +
-         (m.ewald_factor == usual.ewald_factor ? "" : " ewaldfactor " + csv_number(m.ewald_factor));
-}
-
 std::string reference_words(const Arguments& a) {
   return "file " + a.source + (a.source_model == 1 ? "" : " model " + std::to_string(a.source_model));
 }
 
-SeriesHead head_of(const Arguments& a, const TrajectoryPlan& plan) {
+/// @param potential the computed potential in words; empty for none
+SeriesHead head_of(const Arguments& a, const TrajectoryPlan& plan, const std::string& potential) {
   SeriesDescription run;
   run.files = a.targets;
   run.structure = a.structure;
   run.frames = plan.frames;
   run.reference = plan.reference;
   run.start = plan.start;
-  if (is_computed(a.maps)) {
-    run.map = computed_map_words(a.maps);
+  if (!potential.empty()) {
+    run.map = potential;
   } else {
     run.map = map_words(a.maps, a.maps.target_map, a.maps.target_map_unit);
     run.reference_map = map_words(a.maps, a.maps.source_map, a.maps.source_map_unit);
@@ -91,25 +87,23 @@ SeriesHead head_of(const Arguments& a, const TrajectoryPlan& plan) {
 /// Source and frames, and how their molecules become a comparison's inputs.
 class Sides {
  public:
-  Sides(const Arguments& a, double temperature_K) : a_(a), temperature_K_(temperature_K), frames_(a.targets) {
+  Sides(const Arguments& a, double temperature_K) : a_(a), frames_(a.targets) {
     const StructureFile file(a.source);
     source_ = file.read(with_model(a.structure));
     inputs_ = {{"source", a.source, file.sha256()}};
     source_map_ = given_map(a.maps, "source", inputs_);
     target_map_ = given_map(a.maps, "target", inputs_);
-    if (!is_computed(a.maps)) return;
-    if (takes_own_cell(a.maps)) {
-      charges_ = file.read(with_model({1, true, true}));
-      const auto cell = file.unit_cells().at(static_cast<std::size_t>(a.source_model - 1));
-      computed_ = computed_map(a.maps, charges_, cell, temperature_K);
-    } else {
-      computed_ = computed_map(a.maps, source_, std::nullopt, temperature_K);
-    }
+    if (has_given_maps(a.maps) || a.maps.potential == "none") return;
+    charges_ = read_charged(file, a.source_model);
+    plan_ = PotentialPlan(a.maps, {potential_facts(charges_.everything, charges_.cell)}, temperature_K);
+    if (!plan_.computes()) return;
+    computed_ = plan_.map_of(source_, charges_);
     inputs_.push_back(computed_input("source_map", *computed_));
   }
 
   int n_frames() const { return frames_.n_frames(); }
   const std::vector<InputFile>& inputs() const { return inputs_; }
+  std::string potential() const { return plan_.in_words(); }
   CompareInput source() const {
     return {&source_, source_map_ ? &*source_map_ : nullptr, computed_ ? computed_->maker() : MapMaker()};
   }
@@ -118,13 +112,10 @@ class Sides {
   CompareInput frame(int number) {
     target_ = read(number, a_.structure, source_);
     CompareInput input{&target_, target_map_ ? &*target_map_ : nullptr, nullptr};
-    if (!is_computed(a_.maps)) return input;
-    if (takes_own_cell(a_.maps)) {
-      Molecule all = read(number, {1, true, true}, charges_);
-      input.make_map = computed_map(a_.maps, std::move(all), frames_.cell(number), temperature_K_).maker();
-    } else {
-      input.make_map = computed_map(a_.maps, target_, std::nullopt, temperature_K_).maker();
-    }
+    if (!plan_.computes()) return input;
+    ChargedFile all;
+    if (plan_.takes_everything()) all = {read(number, {1, true, true}, charges_.everything), frames_.cell(number)};
+    input.make_map = plan_.map_of(target_, all).maker();
     return input;
   }
 
@@ -141,10 +132,11 @@ class Sides {
   }
 
   const Arguments& a_;
-  double temperature_K_;
   FrameFiles frames_;
   Molecule target_;
-  Molecule source_, charges_;  // what has the surface; with --pme-cell own, all that counts for the potential
+  Molecule source_;      // what has the surface
+  ChargedFile charges_;  // with water and ions
+  PotentialPlan plan_;
   std::optional<Grid> source_map_, target_map_;
   std::optional<ComputedMap> computed_;
   std::vector<InputFile> inputs_;
@@ -166,7 +158,7 @@ int run(const Arguments& a, const Context& context) {
                                 : a.overwrite ? ExistingFile::kReplace
                                               : ExistingFile::kRefuse;
   const std::unique_ptr<Engine> engine = make_engine(a.device);
-  TrajectoryRun run(plan, SeriesCsv(a.output, head_of(a, plan), existing));
+  TrajectoryRun run(plan, SeriesCsv(a.output, head_of(a, plan, sides.potential()), existing));
   if (!run.warning().empty()) std::fprintf(stderr, "espdiff: %s\n", run.warning().c_str());
   run.note_inputs(sides.inputs());
   while (!run.is_done())
@@ -200,7 +192,7 @@ Verb add_trajectory(CLI::App& app) {
       "Trajectories.\n\n"
       "Examples:\n"
       "  espdiff trajectory closed.pqr frames.pdb -o motion.csv\n"
-      "  espdiff trajectory closed.pqr frames.pdb --potential pme --frames 0:10:end -o motion.csv --resume");
+      "  espdiff trajectory closed.pqr frames.pdb --potential pb --frames 0:10:end -o motion.csv --resume");
   parser->add_option("SOURCE", a->source, "Structure that each frame is compared with: PQR, PDB or mmCIF")->required();
   parser->add_option("FRAMES", a->targets, "Structure files whose models are the frames")->required();
   parser->add_option("-o,--output,--csv", a->output, "CSV file that gets a row for each frame")->required();

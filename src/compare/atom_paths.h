@@ -3,8 +3,9 @@
 
 #include <vector>
 
-#include "align/pair_atoms.h"
+#include "base/pairing.h"
 #include "base/progress.h"
+#include "base/types.h"
 #include "compare/domain_motions.h"
 #include "engine/morph_stage.h"
 

@@ -6,8 +6,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "base/structure_options.h"
 #include "base/types.h"
-#include "io/read_structure.h"
 
 namespace espdiff {
 

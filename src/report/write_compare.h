@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "base/message.h"
+#include "base/structure_options.h"
 #include "base/types.h"
 #include "base/version.h"
-#include "io/read_structure.h"
 #include "potential/computed_map.h"
 
 namespace espdiff {

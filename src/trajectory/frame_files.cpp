@@ -6,6 +6,7 @@
 
 #include "align/pair_atoms.h"
 #include "base/error.h"
+#include "io/read_structure.h"
 
 namespace espdiff {
 namespace {

@@ -13,9 +13,10 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "compare/options.h"
 #include "io/atomic_file.h"
-#include "io/read_input.h"
 #include "io/read_csv.h"
+#include "io/read_input.h"
 #include "io/sha256.h"
 #include "io/text_cursor.h"
 #include "io/write_csv.h"

@@ -68,6 +68,9 @@ StartFrom parse_start(const std::string& text, const CompareOptions& options) {
 
 TrajectoryRun::TrajectoryRun(TrajectoryPlan plan, SeriesCsv file)
     : plan_(std::move(plan)), file_(std::move(file)), steps_(steps_of(plan_)) {
+  if (plan_.options.offsets_A.size() > 1)
+    throw InputError(option("offset") +
+                     ": a list of distances was given, and a trajectory has one row for a frame; give one");
   check_earlier_rows();
   position_ = n_resumed_ = file_.rows().size();
   remove_leftovers(state_path());  // what a killed run was writing; nobody else is, since the file is locked

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/handles.h"
 #include "compare/input.h"
 #include "compare/options.h"
 #include "compare/series.h"
-#include "engine/handles.h"
 #include "report/write_compare.h"
 #include "trajectory/series_csv.h"
 

@@ -15,7 +15,6 @@ namespace espdiff {
 /// side is in front. The PNG contains its provenance as text (Title, Software, Source, Description, Inputs, Scene) and
 /// replaces `png_path` only when complete.
 /// @returns notes for the user: why values are not looked up, or that the result is not trustworthy
-/// @returns notes for the user: why values are not looked up, that the result is not trustworthy
 /// @throws InputError (scene out of range; array missing or without a value; OUT.json missing although needed), IoError
 /// (file missing, output unwritable), FormatError (a file is damaged or of another kind), DeviceError (no X display;
 /// says how to get one)
