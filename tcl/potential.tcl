@@ -83,7 +83,7 @@ namespace eval ::espdiff {
         set mol [vmd_molecule_id [dict get $endpoint mol] $role]
         set name [molinfo $mol get name]
         if {[catch { vmd_charges $mol all now $role } charges]} { return [list name $name charges 0 solvent 0] }
-        set has_cell [expr {min([join [molinfo $mol get {a b c}] ,]) > 1}]
+        set has_cell [expr {[::tcl::mathfunc::min {*}[molinfo $mol get {a b c}]] > 1}]
         return [list name $name charges 1 solvent [expr {$has_cell && [vmd_has_water $mol $charges]}]]
     }
 

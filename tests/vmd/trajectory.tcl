@@ -22,14 +22,14 @@ set mol [mol new [input traj_adk/adk.psf] type psf waitfor all]
 mol addfile [input traj_adk/adk_dims.dcd] type dcd waitfor all $mol
 
 test "one row a frame, and the first is what compare says" {
-    set result [espdiff trajectory -mol $mol -frames 1:1:4 -reference {frame 0} -csv $scratch/a.csv -grid-spacing 1.5]
+    set result [espdiff trajectory -mol $mol -map none -frames 1:1:4 -reference {frame 0} -csv $scratch/a.csv -grid-spacing 1.5]
     check_equal rows [dict get $result rows] 4
     check_equal "rows in the file" [llength [read_rows $scratch/a.csv]] 4
-    set single [espdiff compare [list mol $mol frame 0] [list mol $mol frame 1] -grid-spacing 1.5]
+    set single [espdiff compare [list mol $mol frame 0 map none] [list mol $mol frame 1 map none] -grid-spacing 1.5]
     set row [split [lindex [read_rows $scratch/a.csv] 0] ,]
     check_close rmsd [lindex $row 2] [espdiff result $single rmsd_A] 1e-6
     check_equal "second start" [regexp {,source,} [lindex [read_rows $scratch/a.csv] 1]] 1
-    espdiff trajectory -mol $mol -frames 1:1:2 -reference {frame 0} -csv $scratch/deform.csv -grid-spacing 1.5 \
+    espdiff trajectory -mol $mol -map none -frames 1:1:2 -reference {frame 0} -csv $scratch/deform.csv -grid-spacing 1.5 \
         -method deform -max-iterations 3000
     check_equal "second start of deform" [regexp {,previous,} [lindex [read_rows $scratch/deform.csv] 1]] 1
     espdiff delete all
@@ -38,7 +38,7 @@ test "one row a frame, and the first is what compare says" {
 foreach start {source previous} {
     test "resumed after an interruption, each from $start: the same rows" {
         file delete $scratch/whole.csv $scratch/parts.csv
-        set all [list -mol $mol -frames 41:1:46 -csv $scratch/whole.csv -grid-spacing 1.5 -start $start]
+        set all [list -mol $mol -frames 41:1:46 -csv $scratch/whole.csv -grid-spacing 1.5 -start $start -map none]
         espdiff trajectory {*}$all
         set parts [lreplace $all 5 5 $scratch/parts.csv]
         proc stop_after {frame row} { if {$frame == 43} { return -code break } }
@@ -138,7 +138,7 @@ test "`map none` as `-map none`" {
 }
 
 test "against the frame before" {
-    espdiff trajectory -mol $mol -frames 0:2:6 -reference previous -csv $scratch/before.csv -grid-spacing 1.5
+    espdiff trajectory -mol $mol -map none -frames 0:2:6 -reference previous -csv $scratch/before.csv -grid-spacing 1.5
     set references {}
     foreach row [read_rows $scratch/before.csv] { lappend references [lindex [split $row ,] 1] }
     check_equal references $references {0 2 4}
