@@ -13,7 +13,8 @@ void add(Sha256& hash, const std::vector<T>& values) {
 }
 
 void add(Sha256& hash, const Vec3d& v) {
-  for (const double value : {v.x, v.y, v.z}) hash.update(&value, sizeof value);
+  const double members[] = {v.x, v.y, v.z};
+  hash.update(members, sizeof members);
 }
 
 }  // namespace
