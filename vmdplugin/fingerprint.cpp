@@ -13,8 +13,8 @@ void add(Sha256& hash, const std::vector<T>& values) {
 }
 
 void add(Sha256& hash, const Vec3d& v) {
-  const double values[] = {v.x, v.y, v.z};
-  hash.update(values, sizeof values);
+  const double members[] = {v.x, v.y, v.z};
+  hash.update(members, sizeof members);
 }
 
 }  // namespace
