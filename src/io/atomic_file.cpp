@@ -171,4 +171,19 @@ void commit_all(const std::vector<AtomicFile*>& files) {
   for (AtomicFile* file : files) file->forget_previous();
 }
 
+void remove_leftovers(const std::string& path) {
+  const fs::path target = follow_links(path);
+  const std::string start = target.filename().string() + ".tmp";
+  std::error_code error;
+  std::vector<fs::path> leftovers;
+  for (fs::directory_iterator at(folder_of(target.string()), error), end; !error && at != end; at.increment(error)) {
+    const std::string name = at->path().filename().string();
+    // sibling() adds a process and a number: digits, a dash, digits.
+    const bool is_ours = name.size() > start.size() && name.compare(0, start.size(), start) == 0 &&
+                         name.find_first_not_of("0123456789-", start.size()) == std::string::npos;
+    if (is_ours) leftovers.push_back(at->path());
+  }
+  for (const fs::path& leftover : leftovers) fs::remove(leftover, error);
+}
+
 }  // namespace espdiff

@@ -51,4 +51,8 @@ class AtomicFile {
 
 void commit_all(const std::vector<AtomicFile*>& files);
 
+/// Removes the temporary files beside `path` that killed processes left. Only for who knows that no process is writing
+/// this file now.
+void remove_leftovers(const std::string& path);
+
 }  // namespace espdiff
