@@ -1,5 +1,4 @@
-// trajectory_commands.cpp: trajectory, trajectory_next, trajectory_step, ...: a run over frames, which Tcl drives frame
-// by frame; frames, read_csv, csv_text: ranges of frames and tables as text.
+// trajectory_commands.cpp: runs over frames, which Tcl drives frame by frame; ranges of frames and tables as text.
 #include <sstream>
 
 #include "base/error.h"

@@ -1,5 +1,4 @@
-// trajectory.h: each frame of a trajectory against one source, or against the frame before, row by row into a file,
-// from which a run can be resumed. Whoever has the frames (files, VMD) drives it frame by frame.
+// trajectory.h: a run over frames, driven frame by frame by whoever has them; rows in a file that can be resumed.
 #pragma once
 
 #include <functional>

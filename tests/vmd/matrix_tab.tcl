@@ -34,7 +34,7 @@ test "fits a screen of 1280 x 800" {
 }
 
 test "the run, and what it wrote" {
-    set ::espdiff::gui::form(matrix,potential) $::espdiff::gui::computed
+    set ::espdiff::gui::form(matrix,potential) "PME, explicit water"
     set ::espdiff::gui::form(matrix,output) $scratch/m
     [widget matrix,compute] invoke
     wait_until {$::espdiff::gui::matrix_running eq ""}

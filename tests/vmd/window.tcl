@@ -113,7 +113,7 @@ test "AdK's trajectory: rows come, and the plot with them" {
     pause 100
     tab trajectory
     check "the trajectory is chosen" {[string match "$adk: adk*" $::espdiff::gui::form(trajectory,mol)]}
-    form trajectory,sel protein trajectory,frames 0:30:end trajectory,map $::espdiff::gui::computed \
+    form trajectory,sel protein trajectory,frames 0:30:end trajectory,map "PME, explicit water" \
         trajectory,csv $scratch/adk.csv
     press trajectory,run
     wait_until {[llength $::espdiff::gui::trajectory_rows] == 2}
@@ -124,7 +124,7 @@ test "AdK's trajectory: rows come, and the plot with them" {
     foreach item [[widget trajectory,plot] find all] {
         if {[[widget trajectory,plot] type $item] eq "text"} { lappend texts [[widget trajectory,plot] itemcget $item -text] }
     }
-    check "title and unit" {"Mean absolute difference (kT/e)" in $texts}
+    check "title and unit" {"Mean absolute difference (kT/e in vacuum)" in $texts}
 }
 
 test "a click on a point goes to its frame; keys too; VMD's frame is marked" {
@@ -181,7 +181,7 @@ test "a run that is cancelled keeps its rows, and is gone on with" {
 test "a small matrix, and a cell of it" {
     tab matrix
     form matrix,mol $::espdiff::gui::form(trajectory,mol) matrix,frames 0:45:90 matrix,sel protein \
-        matrix,output $scratch/m matrix,potential $::espdiff::gui::computed
+        matrix,output $scratch/m matrix,potential "PME, explicit water"
     press matrix,add
     press matrix,compute
     wait_until {$::espdiff::gui::matrix_running eq ""}
