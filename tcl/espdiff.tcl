@@ -35,7 +35,7 @@ namespace eval ::espdiff {
 
 ::espdiff::load_module
 foreach ::espdiff::part {
-    options commands manual jobs endpoint vmd_molecule vmd_view vmd_volume compute potential
+    files options commands manual jobs endpoint vmd_molecule vmd_view vmd_volume compute potential
     draw linked_view highlight legend matrix atoms plot plot_file frame_maps series_csv trajectory trajectory_run view
     doctor
 } {

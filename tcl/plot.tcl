@@ -66,11 +66,12 @@ namespace eval ::espdiff {
             lappend x [dict get $row frame]
             if {[value_or $row potential_unit ""] ne ""} { set unit [dict get $row potential_unit] }
         }
-        return [dict create x $x names {} x_title Frame title [file tail $path] rows $rows unit $unit columns $columns]
+        return [dict create x $x names {} x_title Frame title [file tail $path] rows $rows unit $unit columns $columns \
+            files [list $path]]
     }
 
     proc plot_read {path} {
-        set channel [open $path r]
+        set channel [open_file $path]
         fconfigure $channel -encoding utf-8
         finally { return [read $channel] } { close $channel }
     }

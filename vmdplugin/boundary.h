@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/printable.h"
 
 namespace espdiff {
 
@@ -23,12 +24,12 @@ auto boundary(Body&& body, OnFailure&& on_failure) noexcept -> decltype(body()) 
   try {
     return std::forward<Body>(body)();
   } catch (const Error& error) {
-    return on_failure(Failure{error_class_name(error.error_class()), error.what()});
+    return on_failure(Failure{error_class_name(error.error_class()), printable(error.what())});
   } catch (const std::bad_alloc&) {
     return on_failure(Failure{error_class_name(ErrorClass::kMemory),
                               "not enough memory; take a coarser grid, or close what else uses memory"});
   } catch (const std::exception& error) {
-    return on_failure(Failure{error_class_name(ErrorClass::kInternal), error.what()});
+    return on_failure(Failure{error_class_name(ErrorClass::kInternal), printable(error.what())});
   } catch (...) {
     return on_failure(Failure{error_class_name(ErrorClass::kInternal), "an exception of unknown type"});
   }

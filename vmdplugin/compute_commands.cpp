@@ -161,6 +161,13 @@ Tcl_Obj* remove(const Call& call) {
   return nullptr;
 }
 
+Tcl_Obj* lock(const Call& call) { return to_obj(call.handles.lock(call.text(0))); }
+
+Tcl_Obj* unlock(const Call& call) {
+  call.handles.unlock(call.text(0));
+  return nullptr;
+}
+
 Tcl_Obj* list_handles(const Call& call) { return to_list(call.handles.names()); }
 
 }  // namespace
@@ -177,6 +184,8 @@ std::vector<Command> compute_commands() {
           {"cancel", 1, 1, "handle", cancel},
           {"check", 1, 1, "handle", check},
           {"delete", 1, 1, "handle", remove},
+          {"lock", 1, 1, "file", lock},
+          {"unlock", 1, 1, "token", unlock},
           {"handles", 0, 0, "", list_handles}};
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "endpoint.h"
+#include "io/file_lock.h"
 #include "pipeline/matrix_run.h"
 #include "pipeline/write_compare.h"
 #include "worker.h"
@@ -94,7 +95,14 @@ class Handles {
   void remove(const std::string& handle);
   std::vector<std::string> names() const;
 
+  /// Keeps other runs from writing a file, until unlock() or the interpreter's end. Returns a token.
+  /// @throws IoError when another run writes it
+  std::string lock(const std::string& path);
+  void unlock(const std::string& token);
+
  private:
+  std::map<std::string, FileLock> locks_;
+  int n_locks_ = 0;
   std::map<std::string, std::shared_ptr<Object>> objects_;
   std::map<std::string, int> last_number_;  ///< by kind
 };

@@ -4,6 +4,7 @@
 #include "cli/map_options.h"
 #include "cli/verbs.h"
 #include "io/atomic_file.h"
+#include "io/check_outputs.h"
 #include "io/sha256.h"
 #include "pipeline/residue_values.h"
 #include "pipeline/write_compare.h"
@@ -80,6 +81,8 @@ void add_map(const Arguments& a, Side& side, double temperature_K, std::vector<I
 int run(const Arguments& a, const Context& context) {
   check_map_options(a.maps);
   const CompareOptions options = make_options(a.settings);
+  check_outputs({a.source, a.target, a.maps.source_map, a.maps.target_map},
+                {a.output + ".json", a.output + ".vtp", a.output + ".residues.csv", a.residue_pdb});
   // An output that cannot be written is better found before the work than after it.
   for (const char* suffix : {".json", ".vtp", ".residues.csv"}) AtomicFile probe(a.output + suffix);
   if (!a.residue_pdb.empty()) AtomicFile probe(a.residue_pdb);
@@ -100,11 +103,13 @@ int run(const Arguments& a, const Context& context) {
   provenance.threads = engine->n_threads();
   const CompareResult result = compare(*engine, source.input(), target.input(), options, *context.progress);
   context.progress->report("write", 0.0);
-  write_compare(a.output, source.molecule, target.molecule, result, options, provenance);
+  std::unique_ptr<AtomicFile> pdb;
   if (!a.residue_pdb.empty()) {
+    pdb = std::make_unique<AtomicFile>(a.residue_pdb);
     const std::string usual = result.has_potential ? "mean_abs_difference" : "mean_displacement_A";
-    write_residue_pdb(a.residue_pdb, source.molecule, result, a.residue_quantity.empty() ? usual : a.residue_quantity);
+    write_residue_pdb(*pdb, source.molecule, result, a.residue_quantity.empty() ? usual : a.residue_quantity);
   }
+  write_compare(a.output, source.molecule, target.molecule, result, options, provenance, pdb.get());
   context.progress->report("write", 1.0);
   if (!a.quiet) print_table(std::cout, source.molecule, target.molecule, result);
   return 0;

@@ -31,6 +31,7 @@ void add_computed_map_options(CLI::App& p, ComputedMapArguments& a) {
       ->group(kGroup);
   p.add_option("--ewaldfactor", a.ewald_factor, "Smearing of the charges in a computed potential, 1/A")
       ->capture_default_str()
+      ->check(finite_number())
       ->group(kGroup);
 }
 

@@ -6,6 +6,7 @@
 #include "cli/map_options.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
+#include "io/check_outputs.h"
 #include "pipeline/matrix_run.h"
 #include "pipeline/write_matrix.h"
 
@@ -79,6 +80,9 @@ int run(Arguments& a, const Context& context) {
   a.run.skip_errors = a.on_error == "skip";
   a.run.potential = is_computed(a.potential) ? map_in_words(a.potential) : "maps";
   const std::vector<VariantFiles> files = chosen_variants(a);
+  std::vector<std::string> inputs = {a.list, a.groups};
+  for (const VariantFiles& file : files) inputs.insert(inputs.end(), {file.structure, file.map});
+  check_outputs(inputs, output_paths(a.run));
   const std::unique_ptr<Engine> engine = make_engine(a.device);
   const std::vector<Variant> variants = read_variants(a, files, options.temperature_K, *context.progress);
   const MatrixReport report = run_matrix(*engine, variants, options, a.run, *context.progress);

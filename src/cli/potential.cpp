@@ -7,6 +7,7 @@
 
 #include "cli/options.h"
 #include "cli/verbs.h"
+#include "io/check_outputs.h"
 #include "io/read_unit_cells.h"
 #include "io/write_grid.h"
 #include "pipeline/frame_range.h"
@@ -37,7 +38,7 @@ void add_cell_options(CLI::App& p, Arguments& a) {
       ->group(group);
   p.add_option("--xscfile", a.xsc_file, "Cell of every frame from a NAMD .xsc file")->group(group);
   p.add_option("--pad", a.pad_A, "A box around the atoms, wider by so much on each side, A (10 where no cell is known)")
-      ->check(CLI::NonNegativeNumber)
+      ->check(finite_number(0))
       ->group(group);
   p.add_option("--grid", a.grid, "Resolution below 8 A, or a number of points from 8 on, or three: '80 80 96'")
       ->capture_default_str()
@@ -54,6 +55,7 @@ void add_method_options(CLI::App& p, Arguments& a) {
       ->group(group);
   p.add_option("--ewaldfactor", a.pme.ewald_factor, "Smearing of the charges, 1/A: Gaussians of variance 1 / (2 f^2)")
       ->capture_default_str()
+      ->check(finite_number())
       ->group(group);
   p.add_option("--order,--spline", a.order, "Order of the B-splines, 4 to 8 (default 6; 4 with --compatible)")
       ->group(group);
@@ -64,9 +66,13 @@ void add_method_options(CLI::App& p, Arguments& a) {
   p.add_flag("--compatible", a.pme.compatible,
              "As VMD's PMEPot: its grid sizes, squared spline factor, whole-number volume, one cell for all frames")
       ->group(group);
-  p.add_option("--temperature", a.pme.temperature_K, "Temperature of kT, K")->capture_default_str()->group(group);
+  p.add_option("--temperature", a.pme.temperature_K, "Temperature of kT, K")
+      ->capture_default_str()
+      ->check(finite_number())
+      ->group(group);
   p.add_option("--dielectric", a.coulomb.dielectric, "Dielectric constant of --method coulomb")
       ->capture_default_str()
+      ->check(finite_number())
       ->group(group);
   p.add_flag("--distance-dependent", a.coulomb.distance_dependent,
              "The dielectric of --method coulomb grows with the distance: --dielectric times r in A")
@@ -130,12 +136,15 @@ std::string numbered(const std::string& path, int frame) {
 class Outputs {
  public:
   Outputs(const Arguments& a, const std::vector<int>& frames) : each_(a.averaging == "each") {
-    if (!each_) open(a.output);
-    for (std::size_t i = 0; each_ && i < frames.size(); ++i) open(numbered(a.output, frames[i]));
-    n_maps_ = files_.size();
+    std::vector<std::string> paths;
+    if (!each_) paths.push_back(a.output);
+    for (std::size_t i = 0; each_ && i < frames.size(); ++i) paths.push_back(numbered(a.output, frames[i]));
+    n_maps_ = paths.size();
     for (const std::string* path : {&a.variance, &a.standard_error}) {
-      if (!path->empty()) open(*path);
+      if (!path->empty()) paths.push_back(*path);
     }
+    check_outputs({a.molecule, a.xsc_file}, paths);
+    for (const std::string& path : paths) open(path);
   }
 
   void write_frame(std::size_t number, const Grid& map) {

@@ -8,8 +8,8 @@
 
 namespace espdiff::cli {
 
-/// Draws one line that is rewritten, when standard error is a terminal; else nothing. While it lives, SIGINT and
-/// SIGTERM cancel.
+/// Draws one line that is rewritten, when standard error is a terminal; else nothing. While it lives, SIGINT,
+/// SIGTERM and SIGHUP cancel, unless they were ignored before; SIGPIPE and SIGXFSZ are ignored from then on.
 class TerminalProgress {
  public:
   TerminalProgress();

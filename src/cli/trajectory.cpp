@@ -7,8 +7,10 @@
 #include <optional>
 #include <utility>
 
+#include "base/printable.h"
 #include "cli/map_options.h"
 #include "cli/verbs.h"
+#include "io/check_outputs.h"
 #include "io/sha256.h"
 #include "io/write_csv.h"
 #include "pipeline/frame_files.h"
@@ -157,6 +159,9 @@ class Sides {
 int run(const Arguments& a, const Context& context) {
   check_map_options(a.maps);
   if (a.resume && a.overwrite) throw InputError("--resume and --overwrite exclude each other");
+  std::vector<std::string> inputs = a.targets;
+  inputs.insert(inputs.end(), {a.source, a.maps.source_map, a.maps.target_map});
+  check_outputs(inputs, {a.output, a.output + ".state"});
   const auto begun = std::chrono::steady_clock::now();
   Trajectory run;
   run.options = make_options(a.settings);
@@ -174,7 +179,7 @@ int run(const Arguments& a, const Context& context) {
                                : ExistingFile::kRefuse);
   const std::unique_ptr<Engine> engine = make_engine(a.device);
   const TrajectorySummary summary = compare_frames(*engine, run, file, *context.progress, [](const std::string& text) {
-    std::fprintf(stderr, "espdiff: %s\n", text.c_str());
+    std::fprintf(stderr, "espdiff: %s\n", printable(text).c_str());
   });
   if (a.quiet) return 0;
   const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();

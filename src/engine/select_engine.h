@@ -32,6 +32,11 @@ struct BackEndStatus {
   bool available = false;
   std::string description;  ///< the device, or why there is none and the remedy
 };
+/// More threads than any machine has cores only cost time, and the runtime's own limit ends the process.
+constexpr int kMostThreads = 1024;
+/// @throws InputError unless the number is 0 (all) to kMostThreads
+void check_threads(long long n_threads);
+
 /// CPU threads where none are asked for: what OMP_NUM_THREADS says, as batch systems set it, else all cores that the
 /// process may run on.
 int available_threads();
@@ -49,8 +54,8 @@ BackEndStatus cuda_fourier_status();
 
 /// Makes an engine.
 /// @param n_threads CPU threads; 0 takes available_threads(). A device ignores it.
-/// @throws DeviceError when the GPU that was asked for is not there or does not work; InputError when n_threads is
-/// negative
+/// @throws DeviceError when the GPU that was asked for is not there or does not work; InputError as
+/// check_threads()
 std::unique_ptr<Engine> select_engine(const DeviceRequest& device, int n_threads);
 
 }  // namespace espdiff

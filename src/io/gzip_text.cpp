@@ -16,6 +16,7 @@
 #include <new>
 
 #include "base/error.h"
+#include "base/memory.h"
 
 namespace espdiff {
 namespace {
@@ -29,22 +30,27 @@ struct CloseFile {
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
 File open_file(const std::string& path) {
-  struct stat status {};
-  if (stat(path.c_str(), &status) != 0) {
-    throw IoError(path, std::string("cannot be read: ") + std::strerror(errno) + "; check the path");
-  }
-  if (S_ISDIR(status.st_mode)) throw IoError(path, "is a directory; give a file in it");
+  require_regular_file(path);
   File file(std::fopen(path.c_str(), "rb"));
   if (!file) throw IoError(path, std::string("cannot be read: ") + std::strerror(errno) + "; check its permissions");
-  if (S_ISREG(status.st_mode) && status.st_size == 0) throw InputError(path + ": is empty; give a file with content");
+  struct stat status {};
+  if (fstat(fileno(file.get()), &status) == 0 && status.st_size == 0)
+    throw InputError(path + ": is empty; give a file with content");
   return file;
 }
 
 std::string read_bytes(std::FILE* file, const std::string& path, std::size_t limit) {
   std::string bytes;
+  struct stat status {};
+  if (fstat(fileno(file), &status) == 0) {
+    const std::size_t n = std::min(limit, static_cast<std::size_t>(status.st_size));
+    require_memory(static_cast<double>(n), path);
+    bytes.reserve(n + 1);  // not doubled on the way
+  }
   while (bytes.size() < limit) {
     const std::size_t old_size = bytes.size();
-    const std::size_t wanted = std::min(std::max(kChunk, old_size), limit - old_size);
+    const std::size_t room = std::max(kChunk, bytes.capacity() - old_size);
+    const std::size_t wanted = std::min(room, limit - old_size);
     bytes.resize(old_size + wanted);
     const std::size_t n = std::fread(&bytes[old_size], 1, wanted, file);
     bytes.resize(old_size + n);
@@ -76,7 +82,16 @@ class Inflater {
     std::string text;
     std::size_t consumed = 0;
     int status = Z_OK;
+    double next_look = 64e6;
     while (text.size() < limit) {
+      if (text.size() > kMostUnpacked)
+        throw InputError(path_ + ": the gzip file unpacks to more than " + std::to_string(kMostUnpacked >> 30U) +
+                         " GiB of text; coarsen or crop what it holds");
+      if (static_cast<double>(text.size()) > next_look) {
+        // A string grows by doubling: old and new are there at once.
+        require_memory(2.0 * static_cast<double>(text.size()), path_);
+        next_look = 2 * static_cast<double>(text.size());
+      }
       if (stream_.avail_in == 0) {
         const std::size_t n = std::min(packed.size() - consumed, kChunk);
         stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data() + consumed));
@@ -153,6 +168,17 @@ std::string read_up_to(const std::string& path, std::size_t limit) {
 }
 
 }  // namespace
+
+void require_regular_file(const std::string& path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0)
+    throw IoError(path, std::string("cannot be read: ") + std::strerror(errno) + "; check the path");
+  if (S_ISDIR(status.st_mode)) throw IoError(path, "is a directory; give a file in it");
+  if (S_ISREG(status.st_mode)) return;
+  const bool is_pipe = S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode);
+  throw IoError(path, std::string("is a ") + (is_pipe ? "pipe" : "device") +
+                          ", and inputs are read more than once; save its content as a file and give that");
+}
 
 std::string read_text_file(const std::string& path) {
   std::string text = read_up_to(path, kWholeFile);

@@ -6,10 +6,18 @@
 
 namespace espdiff {
 
+/// @throws IoError unless `path` is a regular file (or a link to one). Inputs are read several times (format, content,
+/// fingerprint), which a pipe cannot be, and a pipe that nobody writes into would block.
+void require_regular_file(const std::string& path);
+
+/// Bytes of text that a gzip file may hold: a thousandth of that packs as much.
+constexpr std::size_t kMostUnpacked = std::size_t{4} << 30U;
+
 /// Reads a file into memory; a gzip file (told by its first two bytes, not by its name) is decompressed, all members of
 /// it. A file with carriage returns as its only line ends gets newlines instead, so that lines can be counted.
-/// @throws IoError (missing, a directory, unreadable), FormatError (gzip stream truncated or corrupt),
-///         InputError (empty), MemoryError (does not fit)
+/// A gzip file may hold up to 4 GiB of text (kMostUnpacked), and no more than fits into memory.
+/// @throws IoError (missing, a directory, unreadable, a pipe or a device), FormatError (gzip stream truncated or
+///         corrupt), InputError (empty, unpacks to more than the limit), MemoryError (does not fit)
 std::string read_text_file(const std::string& path);
 
 /// The bytes of a file, as read_text_file() without a look at line ends.

@@ -58,9 +58,9 @@ std::vector<std::optional<UnitCell>> read_unit_cells(const std::string& path) {
   for (const AtomModel& model : split_models(text, path)) {
     std::optional<UnitCell> cell;
     for (const CellLine& line : lines) {
-      if (line.number < model.front().number) cell = line.cell;
+      if (!model.empty() && line.number < model.front().number) cell = line.cell;
     }
-    cells.push_back(cell);
+    cells.push_back(cell);  // a model without atoms has none
   }
   return cells;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "io/gzip_text.h"
 
 namespace espdiff {
 namespace {
@@ -128,6 +129,7 @@ std::string sha256_of(std::string_view bytes) {
 std::string sha256_of_file(const std::string& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) throw IoError(path, "is a folder, not a file; name a file in it");
+  if (std::filesystem::exists(path, ignored)) require_regular_file(path);
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   if (!in)

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "io/atomic_file.h"
+#include "io/check_outputs.h"
 #include "pipeline/matrix_state.h"
 #include "pipeline/write_matrix.h"
 
@@ -33,7 +34,7 @@ void check_results(const MatrixRun& run, bool may_replace) {
 }
 
 /// What can be refused before the work is refused before the work.
-void check_outputs(const MatrixRun& run) {
+void check_existing(const MatrixRun& run) {
   if (run.resume && run.overwrite) throw InputError("--resume and --overwrite exclude each other; leave one out");
   const std::string state = state_path(run.output, run.shard);
   const bool has_state = fs::exists(state);
@@ -75,9 +76,20 @@ std::string state_path(const std::string& output_prefix, const Shard& shard) {
   return output_prefix + ".shard-" + std::to_string(shard.index) + "-of-" + std::to_string(shard.count) + ".state";
 }
 
+std::vector<std::string> output_paths(const MatrixRun& run) {
+  std::vector<std::string> paths = {state_path(run.output, run.shard)};
+  if (run.shard.count == 1) paths.insert(paths.end(), {run.output + ".csv", run.output + ".json"});
+  return paths;
+}
+
 MatrixReport run_matrix(Engine& engine, const std::vector<Variant>& variants, const CompareOptions& options,
                         const MatrixRun& run, const Progress& progress) {
-  check_outputs(run);
+  std::vector<std::string> inputs;
+  for (const Variant& variant : variants) {
+    for (const InputFile& input : variant.inputs) inputs.push_back(input.path);
+  }
+  check_outputs(inputs, output_paths(run));
+  check_existing(run);
   const MatrixPlan plan = make_plan(engine, variants, options, run.potential);
   const std::string path = state_path(run.output, run.shard);
   MatrixStateContent earlier;
@@ -131,6 +143,7 @@ std::size_t metric_to_cluster_by(const MatrixRun& run, const Matrix& matrix) {
 }
 
 MatrixReport merge_matrix(const std::vector<std::string>& state_paths, const MatrixRun& run) {
+  check_outputs(state_paths, {run.output + ".csv", run.output + ".json"});
   check_results(run, run.overwrite);
   if (state_paths.empty()) throw InputError("no state files were given; a run with --shard writes them");
   MatrixPlan plan;

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "io/atomic_file.h"
+#include "io/gzip_text.h"
 #include "io/sha256.h"
 #include "io/write_csv.h"
 #include "pipeline/write_compare.h"
@@ -137,7 +138,8 @@ const std::string& SeriesRow::operator[](const std::string& column) const { retu
 std::string& SeriesRow::at(const std::string& column) { return cells_.at(index_of(column)); }
 
 SeriesCsv::SeriesCsv(std::string path, SeriesHead head, ExistingFile existing)
-    : path_(std::move(path)), head_(std::move(head)) {
+    : path_(std::move(path)), lock_(path_), head_(std::move(head)) {
+  remove_stale_temporaries(path_ + ".state");
   for (auto& entry : head_) entry.second = one_line(entry.second);
   if (!has_content(path_) || existing == ExistingFile::kReplace) {
     AtomicFile probe(path_);  // what cannot be written is better found before the first frame
@@ -157,6 +159,7 @@ void SeriesCsv::check_head(const std::string& name, const std::string& text) con
 }
 
 void SeriesCsv::read_rows() {
+  require_regular_file(path_);
   std::ifstream in(path_, std::ios::binary);
   if (!in) throw IoError(path_, "cannot be read");
   const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());

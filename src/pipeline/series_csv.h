@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/file_lock.h"
 #include "pipeline/compare.h"
 
 namespace espdiff {
@@ -42,11 +43,13 @@ using SeriesHead = std::vector<std::pair<std::string, std::string>>;
 /// How to treat a file that is there already.
 enum class ExistingFile { kRefuse, kResume, kReplace };
 
-/// The file. It is there from its first row on; every row is on disk when add() returns.
+/// The file, and the right to write it: a second run is refused. It is there from its first row on; every row is on
+/// disk when add() returns.
 class SeriesCsv {
  public:
   /// @param head what this run's rows depend on. To be resumed, a file must say the same wherever it names the same.
-  /// @throws IoError (the file exists, or cannot be written), FormatError (another file, a damaged line),
+  /// @throws IoError (the file exists, is written by another run, or cannot be written), FormatError (another file, a
+  /// damaged line),
   ///         InputError (made with something else; says what)
   SeriesCsv(std::string path, SeriesHead head, ExistingFile existing);
 
@@ -65,6 +68,7 @@ class SeriesCsv {
   void append(const std::string& text) const;
 
   std::string path_;
+  FileLock lock_;
   SeriesHead head_;
   std::vector<SeriesRow> rows_;
   bool replace_ = false;

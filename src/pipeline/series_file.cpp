@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "io/atomic_file.h"
+#include "io/gzip_text.h"
 #include "io/sha256.h"
 
 namespace espdiff {
@@ -131,6 +132,7 @@ void write_series_state(const std::string& path, const SeriesState& state, const
 }
 
 SeriesState read_series_state(const std::string& path, const std::string& fingerprint) {
+  require_regular_file(path);
   std::ifstream in(path, std::ios::binary);
   if (!in) throw IoError(path, "cannot be read; without it the run starts from the source");
   std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());

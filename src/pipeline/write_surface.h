@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "io/atomic_file.h"
 #include "pipeline/compare.h"
 
 namespace espdiff {
@@ -11,6 +12,8 @@ namespace espdiff {
 /// the map).
 /// @param unit of the potential
 /// @throws IoError; then nothing is written
+/// The first form leaves it to the caller to commit.
+void write_surface(AtomicFile& file, const Molecule& molecule, const SurfaceResult& result, PotentialUnit unit);
 void write_surface(const std::string& path, const Molecule& molecule, const SurfaceResult& result, PotentialUnit unit);
 
 }  // namespace espdiff

@@ -31,6 +31,9 @@ ComparisonFiles read_comparison(const std::string& vtp_path, const Scene& scene)
 /// @throws as read_comparison()
 void read_what_is_missing(ComparisonFiles& files, const Scene& scene);
 
+/// Every file that a comparison is read from; pictures must not replace them.
+std::vector<std::string> files_of(const ComparisonFiles& files);
+
 /// Whether pixels of a scene show potentials, and hence are better looked up in the maps.
 bool shows_potentials(const Scene& scene);
 

@@ -1,15 +1,16 @@
-// gnuplot.cpp: a script in a temporary file, gnuplot as a child, its picture through a pipe.
+// gnuplot.cpp: gnuplot as a child; script, picture and messages are files in memory.
 #include "view/gnuplot.h"
 
+#include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
+#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include "base/error.h"
@@ -17,33 +18,47 @@
 #include "io/text_cursor.h"
 #include "io/write_csv.h"
 
+extern "C" char** environ;  // NOLINT: POSIX declares no header for it
+
 namespace espdiff {
 namespace {
 
-/// A file that is gone when it goes out of scope.
-class TemporaryFile {
+/// A file in memory, without a name: neither a full disk nor a missing folder for temporary files matters.
+class MemoryFile {
  public:
-  TemporaryFile() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "espdiff-plot-XXXXXX").string();
-    const int descriptor = ::mkstemp(pattern.data());
-    if (descriptor < 0) throw IoError(pattern, "a temporary file cannot be made; free some space there, or set TMPDIR");
-    ::close(descriptor);
-    path_ = pattern;
+  explicit MemoryFile(const std::string& content = {}) : descriptor_(::memfd_create("espdiff-plot", MFD_CLOEXEC)) {
+    if (descriptor_ < 0) fail();
+    for (std::size_t written = 0; written < content.size();) {
+      const ssize_t n = ::write(descriptor_, content.data() + written, content.size() - written);
+      if (n < 0) fail();
+      written += static_cast<std::size_t>(n);
+    }
+    ::lseek(descriptor_, 0, SEEK_SET);
   }
-  ~TemporaryFile() { ::unlink(path_.c_str()); }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~MemoryFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
 
-  const std::string& path() const { return path_; }
+  int descriptor() const { return descriptor_; }
   std::string content() const {
-    std::ifstream in(path_, std::ios::binary);
-    std::ostringstream out;
-    out << in.rdbuf();
-    return out.str();
+    std::string text;
+    std::array<char, 65536> block{};
+    ::lseek(descriptor_, 0, SEEK_SET);
+    for (ssize_t n = 0; (n = ::read(descriptor_, block.data(), block.size())) > 0;)
+      text.append(block.data(), static_cast<std::size_t>(n));
+    return text;
   }
 
  private:
-  std::string path_;
+  [[noreturn]] void fail() {
+    const int error_number = errno;
+    if (descriptor_ >= 0) ::close(descriptor_);
+    throw DeviceError(std::string("gnuplot cannot be started: ") + std::strerror(error_number));
+  }
+
+  int descriptor_;
 };
 
 /// The line of gnuplot's messages that says what is wrong; its other lines show where in the script.
@@ -56,11 +71,25 @@ std::string first_message(const std::string& text) {
   return last.empty() ? "it gave no reason" : last;
 }
 
-/// For the shell: temporary folders may have any name.
-std::string quoted(const std::string& path) {
-  std::string text = "'";
-  for (const char c : path) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
+/// Starts gnuplot on a script, without a shell between and without the user's own ~/.gnuplot (-d), and waits for it.
+/// Returns what waitpid() says.
+int wait_for_gnuplot(const MemoryFile& script, const MemoryFile& picture, const MemoryFile& messages) {
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_adddup2(&files, script.descriptor(), STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&files, picture.descriptor(), STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&files, messages.descriptor(), STDERR_FILENO);
+  std::string program = "gnuplot", defaults = "-d";
+  std::array<char*, 3> words = {program.data(), defaults.data(), nullptr};
+  pid_t pid = 0;
+  const int error = ::posix_spawnp(&pid, program.c_str(), &files, nullptr, words.data(), environ);
+  posix_spawn_file_actions_destroy(&files);
+  if (error == ENOENT)
+    throw DeviceError("plots are drawn by gnuplot, which is not installed; install it (Debian: gnuplot-nox)");
+  if (error != 0) throw DeviceError(std::string("gnuplot cannot be started: ") + std::strerror(error));
+  int status = 0;
+  while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) continue;
+  return status;
 }
 
 }  // namespace
@@ -106,18 +135,9 @@ std::string gnuplot_tic(const std::string& text) {
 std::string gnuplot_number(double value) { return std::isfinite(value) ? csv_number(value, 9) : "NaN"; }
 
 std::string run_gnuplot(const std::string& script) {
-  const TemporaryFile file, messages;
-  std::ofstream(file.path(), std::ios::binary) << script;
-  const std::string command = "gnuplot " + quoted(file.path()) + " 2>" + quoted(messages.path());
-  std::FILE* const pipe = ::popen(command.c_str(), "r");
-  if (pipe == nullptr) throw DeviceError("gnuplot cannot be started; see that the machine has memory left");
-  std::string picture;
-  std::array<char, 65536> block{};
-  for (std::size_t n = 0; (n = std::fread(block.data(), 1, block.size(), pipe)) > 0;) picture.append(block.data(), n);
-  const int status = ::pclose(pipe);
-  constexpr int kNotFound = 127;
-  if (WIFEXITED(status) && WEXITSTATUS(status) == kNotFound)
-    throw DeviceError("plots are drawn by gnuplot, which is not installed; install it (Debian: gnuplot-nox)");
+  const MemoryFile input(script), output, messages;
+  const int status = wait_for_gnuplot(input, output, messages);
+  const std::string picture = output.content();
   if (status != 0 || picture.empty())
     throw DeviceError("gnuplot failed: " + first_message(messages.content()) +
                       "; version 5.2 or later with pngcairo and svg is needed (Debian: gnuplot-nox)");

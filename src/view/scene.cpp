@@ -3,10 +3,12 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "io/gzip_text.h"
 
 namespace espdiff {
 namespace {
@@ -181,6 +183,8 @@ std::string scene_json(const Scene& s) {
 }
 
 Scene read_scene(const std::string& path, const Scene& defaults) {
+  std::error_code ignored;
+  if (std::filesystem::exists(path, ignored)) require_regular_file(path);
   std::ifstream in(path);
   if (!in) throw IoError(path, "no such scene file; `espdiff render --save-scene FILE` writes one");
   Scene scene = defaults;
@@ -195,7 +199,8 @@ Scene read_scene(const std::string& path, const Scene& defaults) {
       }
     }
   } catch (const nlohmann::json::parse_error& error) {
-    throw FormatError(path, 0, std::string("not JSON: ") + error.what());
+    throw FormatError(path, 0,
+                      "no JSON at byte " + std::to_string(error.byte) + "; `--save-scene FILE` shows what a scene is");
   } catch (const nlohmann::json::exception&) {
     throw FormatError(path, 0, "the value of '" + key + "' is of the wrong kind; `--save-scene FILE` shows which");
   } catch (const InputError& error) {
