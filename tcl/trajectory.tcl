@@ -64,7 +64,11 @@ namespace eval ::espdiff {
         set run(about) [about_run run [dict replace $options start $run(start)]]
         core::check_outputs [named_files [list file $run(file) mol $run(mol) map $run(map)] $run(reference) \
             $run(reference_map)] [list $run(csv) [state_file run]]
-        set run(lock) [core::lock $run(csv)]
+        if {[catch { core::lock $run(csv) } run(lock)]} {
+            set message $run(lock)
+            set run(lock) ""
+            fail "-csv: the file '$run(csv)' cannot be written ($message)" IO
+        }
         lassign [csv_open $run(csv) [dict get $options resume] [dict get $options overwrite] $run(about)] \
             earlier run(head)
         set run(written) [llength $earlier]

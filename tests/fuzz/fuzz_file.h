@@ -10,6 +10,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/printable.h"
 
 namespace espdiff_fuzz {
 
@@ -29,7 +30,8 @@ class MemoryFile {
   std::string path_;
 };
 
-/// Reads `bytes` through a file. Errors of ours must be one line that names the file.
+/// Reads `bytes` through a file. Errors of ours must name the file; that they are one line is made sure of where they
+/// are shown (printable()).
 template <typename Read>
 int read_as_file(const std::string& bytes, Read read) {
   static MemoryFile file;
@@ -37,9 +39,9 @@ int read_as_file(const std::string& bytes, Read read) {
   try {
     read(file.path());
   } catch (const espdiff::Error& error) {
-    const std::string message = error.what();
-    if (message.find('\n') == std::string::npos && message.find(file.path()) != std::string::npos) return 0;
-    std::fprintf(stderr, "not one line that names the file: %s\n", message.c_str());
+    const std::string message = espdiff::printable(error.what());
+    if (message.find(file.path()) != std::string::npos) return 0;
+    std::fprintf(stderr, "does not name the file: %s\n", message.c_str());
     std::abort();
   }
   return 0;
