@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/system_message.h"
 #include "io/read_structure.h"
 
 namespace espdiff_bench {
@@ -22,7 +23,7 @@ using espdiff::Molecule;
 
 std::ifstream open(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
-  if (!in) throw IoError(path, std::strerror(errno));
+  if (!in) throw IoError(path, system_message(errno));
   return in;
 }
 

@@ -1,5 +1,5 @@
-// frames.cpp: adenylate kinase's closed-to-open trajectory against its first frame, by both methods: what it brings to
-// go on with each mapping from the frame before.
+// frames.cpp: adenylate kinase's closed-to-open trajectory against its first frame, by both methods: the effect of
+// continuing each mapping from the previous frame.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -11,10 +11,14 @@
 #include <vector>
 
 #include "base/error.h"
+#include "compare/options.h"
+#include "compare/result.h"
+#include "compare/series.h"
 #include "dcd_frames.h"
+#include "engine/engine.h"
+#include "engine/handles.h"
 #include "engine/select_engine.h"
 #include "pair_row.h"
-#include "pipeline/compare.h"
 
 namespace {
 
@@ -23,7 +27,7 @@ using espdiff::Method;
 using espdiff::StartFrom;
 
 struct Arguments {
-  std::string csv, rows, method, start, pieces = "none";
+  std::string csv, rows, method, start, domains = "none";
   std::size_t every = 0;
   int threads = 0;
 };
@@ -34,7 +38,7 @@ struct Run {
   std::size_t every = 1;
   std::vector<PairRow> rows{};
   int n_from_previous = 0;
-  double processor_s = 0;  ///< of all threads together
+  double processor_s = 0;  ///< of all threads
 };
 
 std::string name_of(StartFrom start) { return start == StartFrom::kSource ? "source" : "previous"; }
@@ -47,7 +51,7 @@ std::string input(const std::string& name) {
 void measure(espdiff::Engine& engine, const std::vector<espdiff::Molecule>& frames, const Arguments& a, Run& run) {
   espdiff::CompareOptions options;
   options.method = run.method;
-  options.pieces = a.pieces;
+  options.domains = a.domains;
   const std::clock_t begun = std::clock();
   espdiff::Series series(engine, {&frames[0], nullptr}, options);
   for (std::size_t f = run.every; f < frames.size(); f += run.every) {
@@ -64,7 +68,7 @@ std::vector<double> column(const Run& run, double PairRow::*value) {
   return values;
 }
 
-/// What of the columns is written: their medians, and the worst of some.
+/// The columns written: medians, and the worst of some.
 std::string csv_of(const Run& run) {
   std::vector<double> totals;
   double sum = 0;
@@ -150,7 +154,7 @@ int run(const Arguments& a) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Adenylate kinase frame by frame: mappings that start from the source, and from the frame before.");
+  CLI::App app("Adenylate kinase frame by frame: mappings that start from the source, and from the previous frame.");
   Arguments a;
   app.add_option("--csv", a.csv, "Also write the table to this file");
   app.add_option("--rows", a.rows, "Write a row for each frame to this file");
@@ -158,8 +162,8 @@ int main(int argc, char** argv) {
   app.add_option("--start", a.start, "Only this start")->check(CLI::IsMember({"source", "previous"}));
   app.add_option("--every", a.every, "Only every frame (1), or every eighth (8)")
       ->check(CLI::IsMember(std::vector<std::size_t>{1, 8}));
-  app.add_option("--pieces", a.pieces, "Rigid pieces, as espdiff compare has them")->capture_default_str();
-  app.add_option("--threads", a.threads, "CPU threads; 0 takes all")->capture_default_str();
+  app.add_option("--domains", a.domains, "Rigid domains, as espdiff compare has them")->capture_default_str();
+  app.add_option("--threads", a.threads, "CPU threads; 0 uses all")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {
     return run(a);

@@ -13,9 +13,9 @@ namespace espdiff_bench {
 namespace {
 
 constexpr int kRuns = 5;
-constexpr std::size_t kElements = std::size_t{1} << 24;  // 64 MiB an array
+constexpr std::size_t kElements = std::size_t{1} << 24;  // 64 MiB per array
 
-/// Seconds of the fastest of some runs.
+/// Seconds of the fastest of several runs.
 template <typename Work>
 double fastest(Work work) {
   double least = 1e300;

@@ -1,10 +1,10 @@
-// machine_peak.h: what a device can do at best, measured by loops that do nothing else: the roofs of the roofline.
+// machine_peak.h: a device's peak bandwidth and arithmetic, measured: the roofs of the roofline.
 #pragma once
 
 namespace espdiff_bench {
 
 struct MachinePeak {
-  double gigabytes_per_s = 0;       ///< a[i] = b[i] + s c[i] over arrays that no cache holds; 12 bytes an element
+  double gigabytes_per_s = 0;       ///< a[i] = b[i] + s c[i] over arrays larger than any cache; 12 bytes per element
   double gigaoperations_per_s = 0;  ///< multiplications and additions, not fused, in single precision
 };
 

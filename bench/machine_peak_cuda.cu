@@ -1,7 +1,7 @@
 // machine_peak_cuda.cu: the first GPU's bandwidth and arithmetic.
 #include <algorithm>
 
-#include "device.h"
+#include "cuda/device/device.h"
 #include "machine_peak.h"
 
 namespace espdiff_bench {
@@ -17,7 +17,7 @@ MachinePeak cuda_peak() {
   float* const to = raw(a);
   const float *const from = raw(b), *const other = raw(c);
   double triad = 1e300, arithmetic = 1e300;
-  for (int run = 0; run <= kRuns; ++run) {  // the first one loads the code
+  for (int run = 0; run <= kRuns; ++run) {  // the first run loads the code
     const double copied = context->elapsed_ms(
         [&] { for_each_index(kElements, [=] ESPDIFF_HD(std::size_t i) { to[i] = from[i] + 3.0F * other[i]; }); });
     const double computed = context->elapsed_ms([&] {

@@ -1,4 +1,4 @@
-// marching_cubes_peer.h: VTK's isosurfaces of the same density grid, to read our triangles and times against.
+// marching_cubes_peer.h: VTK's isosurfaces of the same density grid, as a reference for our triangles and times.
 #pragma once
 
 #include <cstddef>

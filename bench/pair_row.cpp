@@ -1,4 +1,4 @@
-// pair_row.cpp: fills, sums up and writes the rows of pairs.
+// pair_row.cpp: fills, summarizes and writes the rows of pairs.
 #include "pair_row.h"
 
 #include <algorithm>
@@ -7,15 +7,15 @@
 #include <limits>
 #include <sstream>
 
-#include "pipeline/write_compare.h"
+#include "report/metrics.h"
 
 namespace espdiff_bench {
 namespace {
 
-/// Half of the last digit that the prototype's figures were written with.
+/// Rounding of the prototype's figures: half of their last digit.
 constexpr double kCorruptRounding = 0.005, kCoverageRounding = 0.05;
 
-/// Members that are summed up and written, in the order of the CSV file's columns.
+/// Members that are summarized and written, in the order of the CSV file's columns.
 struct Column {
   const char* name;
   double PairRow::*value;
@@ -82,8 +82,8 @@ PairRow make_row(const std::string& name, const espdiff::CompareResult& result) 
   row.mapped_to_target_max_A = c.mapped_to_target.max;
   row.target_to_mapped_mean_A = c.target_to_mapped.mean;
   row.target_to_mapped_max_A = c.target_to_mapped.max;
-  row.no_counterpart_source_percent = 100 * c.no_counterpart_source;
-  row.no_counterpart_target_percent = 100 * c.no_counterpart_target;
+  row.no_counterpart_source_percent = 100 * c.unmatched_source;
+  row.no_counterpart_target_percent = 100 * c.unmatched_target;
   row.cavities_left_out =
       static_cast<double>(result.source_surface.n_cavities_left_out + result.target_surface.n_cavities_left_out);
   row.intersecting_pairs = static_cast<double>(c.self_intersecting_pairs);
@@ -94,7 +94,7 @@ PairRow make_row(const std::string& name, const espdiff::CompareResult& result) 
     row.round_trip_p95_A = c.round_trip->p95_A;
   }
   row.steps = result.morph_report.steps;
-  const espdiff::CountedSurface counted = espdiff::counted_surface(result);
+  const espdiff::Metrics counted = espdiff::counted_metrics(result);
   row.mean_displacement_A = counted.mean_displacement_A;
   row.mean_path_length_A = counted.mean_path_length_A;
   row.area_mapped_A2 = result.area_mapped_A2;

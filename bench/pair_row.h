@@ -1,4 +1,4 @@
-// pair_row.h: what one comparison reached, as a row of a table and as a line of a CSV file.
+// pair_row.h: the result of one comparison, as a row of a table and as a line of a CSV file.
 #pragma once
 
 #include <optional>
@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "pipeline/compare.h"
+#include "compare/result.h"
 #include "real_pairs.h"
 
 namespace espdiff_bench {
@@ -23,10 +23,10 @@ struct PairRow {
   double mean_displacement_A = 0, mean_path_length_A = 0, area_mapped_A2 = 0, dirichlet_median = 0, dirichlet_p95 = 0;
   double area_ratio_p05 = 0, area_ratio_p95 = 0, irregularity_A = 0;
   double cavities_left_out = 0;                         ///< of both sides
-  std::vector<std::pair<std::string, double>> time_ms;  ///< stage, in order, and last "total"
+  std::vector<std::pair<std::string, double>> time_ms;  ///< stage, in order; "total" last
   std::optional<PrototypeRow> prototype;
 
-  double time_of(const std::string& stage) const;  ///< NaN where there is no such stage
+  double time_of(const std::string& stage) const;  ///< NaN if there is no such stage
 };
 
 PairRow make_row(const std::string& name, const espdiff::CompareResult& result);
@@ -34,11 +34,11 @@ PairRow make_row(const std::string& name, const espdiff::CompareResult& result);
 double median(std::vector<double> values);
 
 enum class Summary { kMedian, kWorst };
-/// Medians of each column, or the value of each column that is worst. Times have no stages but the total.
+/// Median or worst value of each column. Times include only the total.
 PairRow summarize(const std::vector<PairRow>& rows, Summary summary);
 
-/// "", or which of the prototype's figures (corrupt area, coverage) the row misses and by how much; half of the last
-/// digit that they were written with counts as reached.
+/// "", or which of the prototype's figures (corrupt area, coverage) the row misses and by how much. Half of their last
+/// digit counts as reached.
 std::string missed(const PairRow& row);
 
 void print_heading();

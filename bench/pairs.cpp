@@ -1,4 +1,4 @@
-// pairs.cpp: compares the real pairs and prints, row by row, what the mapping reached next to the prototype's figures.
+// pairs.cpp: compares the real pairs and prints the quality of each mapping next to the prototype's figures.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "compare/settings.h"
 #include "engine/select_engine.h"
 #include "pair_row.h"
-#include "pipeline/settings.h"
 #include "real_pairs.h"
 
 namespace {
@@ -21,14 +21,14 @@ namespace {
 using namespace espdiff_bench;
 
 struct Settings {
-  std::vector<std::pair<std::string, std::string>> given;  // of the comparison, by name
+  std::vector<std::pair<std::string, std::string>> given;  // options of the comparison, by name
   std::string csv;
   std::vector<std::string> only;
   int threads = 0, repeats = 1;
   bool all_ubiquitin = false, all_adk = false, skip_series = false;
 };
 
-/// Every setting of a comparison under its own name, switches as 0 or 1.
+/// Adds every setting of a comparison as an option, switches as 0 or 1.
 void define_options(CLI::App& app, Settings& s) {
   for (const espdiff::Setting& setting : espdiff::settings()) {
     app.add_option_function<std::string>(
@@ -37,8 +37,8 @@ void define_options(CLI::App& app, Settings& s) {
         ->default_str(setting.get(espdiff::CompareOptions{}))
         ->group(setting.group);
   }
-  app.add_option("--threads", s.threads, "CPU threads; 0 takes all")->capture_default_str();
-  app.add_option("--repeats", s.repeats, "Times are medians of so many runs")
+  app.add_option("--threads", s.threads, "CPU threads; 0 uses all")->capture_default_str();
+  app.add_option("--repeats", s.repeats, "Times are medians of this many runs")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   app.add_option("--only", s.only, "Only pairs whose name contains one of these texts");
@@ -48,7 +48,7 @@ void define_options(CLI::App& app, Settings& s) {
   app.add_option("--csv", s.csv, "Write one line a pair to this file");
 }
 
-/// Compares one pair, as often as asked for; times are medians, all else is the same in every run.
+/// Compares one pair repeatedly; times are medians, all other values are the same in every run.
 PairRow measure(espdiff::Engine& engine, const RealPair& pair, const espdiff::CompareOptions& options, int repeats) {
   const MoleculePair molecules = pair.load();
   const espdiff::Progress silent;
@@ -64,7 +64,7 @@ PairRow measure(espdiff::Engine& engine, const RealPair& pair, const espdiff::Co
   return row;
 }
 
-/// Rows of a group, as they are measured, and the ones that sum them up.
+/// Prints the rows of a group and their summary.
 void print_group(const std::string& group, const std::vector<PairRow>& rows) {
   PairRow middle = summarize(rows, Summary::kMedian), extreme = summarize(rows, Summary::kWorst);
   middle.name = group + ", median of " + std::to_string(rows.size());
@@ -116,7 +116,7 @@ int run(const Settings& settings) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Compares the real pairs and prints what the mapping reached next to the prototype's figures.");
+  CLI::App app("Compares the real pairs and prints the quality of the mapping next to the prototype's figures.");
   Settings settings;
   define_options(app, settings);
   CLI11_PARSE(app, argc, argv);

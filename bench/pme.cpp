@@ -1,5 +1,5 @@
-// pme.cpp: times the particle-mesh Ewald potential beside a plain Fourier transform of the same grid there and back, as
-// CSV. bench/pmepot.tcl times VMD's PMEPot on the same numbers of atoms and grids.
+// pme.cpp: times the particle-mesh Ewald potential and a plain forward and inverse Fourier transform of the same grid,
+// as CSV. bench/pmepot.tcl times VMD's PMEPot for the same numbers of atoms and grids.
 #include <fftw3.h>
 
 #include <CLI/CLI.hpp>
@@ -79,7 +79,7 @@ double median_ms(int repeats, const std::function<void()>& work) {
   return times[times.size() / 2];
 }
 
-/// FFTW's own three-dimensional transform there and back, single precision, one thread, estimated plans.
+/// FFTW's three-dimensional transform, forward and inverse, single precision, one thread, estimated plans.
 double plain_fft_ms(int n, int repeats) {
   const std::size_t n_modes =
       static_cast<std::size_t>(n) * static_cast<std::size_t>(n) * static_cast<std::size_t>(n / 2 + 1);

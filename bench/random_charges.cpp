@@ -1,4 +1,4 @@
-// random_charges.cpp: a generator of its own, so that every machine gets the same charges.
+// random_charges.cpp: uses its own generator, so that every machine gets the same charges.
 #include "random_charges.h"
 
 #include <cstdint>

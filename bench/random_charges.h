@@ -1,9 +1,9 @@
-// random_charges.h: charges to time Ewald sums on.
+// random_charges.h: charges for timing Ewald sums.
 #pragma once
 
 #include <vector>
 
-#include "engine/engine.h"
+#include "engine/potential_stage.h"
 
 namespace espdiff_bench {
 
@@ -15,8 +15,7 @@ struct RandomCharges {
 
 espdiff::PmeCell cubic_cell(double edge_A);
 
-/// Charges spread evenly through a cube around the origin, in random order, as water boxes have them; the same each
-/// time.
+/// Charges spread evenly in a cube around the origin, in random order, as in a water box; the same on every call.
 RandomCharges random_charges(std::size_t n_atoms, double edge_A);
 
 }  // namespace espdiff_bench

@@ -1,4 +1,4 @@
-// real_pairs.h: the pairs of real structures that the mapping is judged by, with what is known of each.
+// real_pairs.h: the real pairs on which mappings are judged, with the known figures of each.
 #pragma once
 
 #include <functional>
@@ -15,7 +15,7 @@ namespace espdiff_bench {
 /// "Where a throwaway prototype stood" of the project's figures to beat (BARS.md). For a group of pairs: medians.
 struct PrototypeRow {
   double rmsd_A = 0;
-  double n_vertices = 0;  ///< 0 where not given
+  double n_vertices = 0;  ///< 0 if not given
   double corrupt_percent = 0;
   double coverage_max_A = 0;  ///< largest distance from the target's vertices to the mapped surface
 };
@@ -24,7 +24,7 @@ using MoleculePair = std::pair<espdiff::Molecule, espdiff::Molecule>;
 
 struct RealPair {
   std::string name;
-  std::string group;               ///< pairs of one group are summed up in one row; empty for a row of its own
+  std::string group;               ///< pairs of one group are summarized in one row; empty for a single row
   std::vector<std::string> files;  ///< what load() reads
   std::function<MoleculePair()> load;
   std::optional<PrototypeRow> prototype;
@@ -36,7 +36,7 @@ std::pair<PrototypeRow, PrototypeRow> series19_prototype();
 /// $ESPDIFF_DATA, else shared/data beside the checkout; empty when neither exists.
 std::string data_folder();
 
-/// What is left out of the table because it takes long.
+/// Parts omitted from the table because they take long.
 struct LongSeries {
   bool all_ubiquitin = false;  ///< all 342 ordered pairs of the 19 models instead of 32
   bool all_adk = false;        ///< adenylate kinase's frame 0 with each of the other 97 instead of three
@@ -46,7 +46,7 @@ struct LongSeries {
 /// freesasa put them.
 std::vector<RealPair> real_pairs(LongSeries series = {});
 
-/// The first file of the pair that does not exist; empty when all do.
+/// The first missing file of the pair; empty if all exist.
 std::string missing_file(const RealPair& pair);
 
 }  // namespace espdiff_bench

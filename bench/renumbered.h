@@ -1,13 +1,13 @@
-// renumbered.h: the same mesh with its vertices in another order, to see what their order in memory costs.
+// renumbered.h: the same mesh with its vertices in another order, to measure the cost of memory order.
 #pragma once
 
 #include "base/types.h"
 
 namespace espdiff_bench {
 
-/// Vertices and triangles along the Morton curve: neighbours lie near each other in memory.
+/// Vertices and triangles along the Morton curve: neighbours are close in memory.
 espdiff::Mesh along_a_curve(const espdiff::Mesh& mesh);
-/// Vertices at random.
+/// Vertices in random order.
 espdiff::Mesh shuffled(const espdiff::Mesh& mesh);
 
 }  // namespace espdiff_bench

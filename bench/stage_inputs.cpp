@@ -4,7 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "cuda/mesh_checks.h"
+#include "cuda/certificate/mesh_checks.h"
 #include "io/read_structure.h"
 #include "real_pairs.h"
 #include "synthetic_protein.h"
@@ -93,7 +93,7 @@ const StageInputs& stage_inputs(const Case& of, const BenchDevice& device) {
   static std::string last_key;
   const std::string key = of.name + "/" + device.name;
   if (key != last_key) {
-    last.reset();  // two of the largest would take twice the memory
+    last.reset();  // two of the largest would need twice the memory
     last = std::make_unique<StageInputs>(of, device);
     last_key = key;
   }

@@ -1,4 +1,4 @@
-// stage_inputs.h: what the stages are timed on: one molecule and its displaced copy, taken through the pipeline once.
+// stage_inputs.h: inputs for timing the stages: one molecule and its displaced copy, after one full comparison.
 #pragma once
 
 #include <memory>
@@ -6,21 +6,22 @@
 #include <vector>
 
 #include "base/types.h"
+#include "compare/options.h"
+#include "engine/handles.h"
 #include "engine/select_engine.h"
 #include "marching_cubes_peer.h"
-#include "pipeline/compare.h"
 
 namespace espdiff_bench {
 
 /// A molecule to benchmark with.
 struct Case {
   std::string name;         ///< "20k", "1tca"
-  std::size_t n_atoms = 0;  ///< of a generated molecule; 0 reads the file
+  std::size_t n_atoms = 0;  ///< of a generated molecule; 0 to read the file
   std::string file;
   double quicksurf_ms = 0;  ///< bar of density and isosurface at 1 A on one thread (BARS.md); 0 where there is none
 };
 
-/// The generated sizes, and the real 1tca.pqr and TIM when they are there.
+/// The generated sizes, and the real 1tca.pqr and TIM if available.
 std::vector<Case> cases();
 
 /// What to benchmark on.
@@ -30,7 +31,7 @@ struct BenchDevice {
   int n_threads;
 };
 
-/// One thread, two threads, and the first GPU where one answers.
+/// One thread, two threads, and the first GPU if there is one.
 std::vector<BenchDevice> devices();
 
 /// One side of a pair on the engine, in the frame of the molecule's centroid.
@@ -40,11 +41,11 @@ struct Side {
   std::vector<std::int32_t> residues;
   espdiff::AtomsPtr atoms;
   espdiff::GridPtr density;
-  espdiff::MeshPtr raw;      ///< isosurface as it comes from the grid, cavities included
-  espdiff::MeshPtr surface;  ///< projected, without cavities, as the pipeline uses it
+  espdiff::MeshPtr raw;      ///< isosurface from the grid, cavities included
+  espdiff::MeshPtr surface;  ///< projected, without cavities, as in a comparison
 };
 
-/// All inputs of the stages for one case and device, made with the pipeline's default options.
+/// All inputs of the stages for one case and device, made with default options.
 struct StageInputs {
   StageInputs(const Case& of, const BenchDevice& device);
 
@@ -64,7 +65,7 @@ struct StageInputs {
   double projection_limit() const { return 0.5 * spacing(); }
 };
 
-/// The inputs of a case; the last ones are kept, so that stages of one case share them.
+/// The inputs of a case; the last ones are cached, so that stages of one case share them.
 const StageInputs& stage_inputs(const Case& of, const BenchDevice& device);
 
 }  // namespace espdiff_bench

@@ -1,4 +1,4 @@
-// stage_timer.cpp: repetitions and their median; the machine that they ran on.
+// stage_timer.cpp: repetitions and their median; description of the machine.
 #include "stage_timer.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
-// stages.cpp: times every stage of the pipeline and the whole of it, and prints beside each time how good its result
-// is.
+// stages.cpp: times every stage and the whole comparison, and prints the quality of each result beside its time.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
@@ -31,12 +30,12 @@ void count_work(StageTimer& timer, const espdiff_bench::Work& work) {
   timer.counters["work_operations"] = work.operations;
 }
 
-/// One benchmark: called with the inputs of a case; times itself.
+/// One benchmark; called with the inputs of a case, it times itself.
 struct Stage {
   std::string name;
   std::function<void(StageTimer&, const StageInputs&)> run;
-  bool slow = false;  ///< seconds rather than milliseconds: fewer repetitions
-  bool once = false;  ///< a call is long enough to be timed by itself
+  bool slow = false;  ///< takes seconds instead of milliseconds: fewer repetitions
+  bool once = false;  ///< one call is long enough to time
 };
 
 void count_mesh(StageTimer& timer, const StageInputs& in, const MeshPtr& mesh) {
@@ -78,8 +77,8 @@ void isosurface(StageTimer& timer, const StageInputs& in) {
   count_work(timer, espdiff_bench::isosurface_work(in));
 }
 
-/// From atoms to triangles, the sorting of the atoms included: what a peer's surface has to be set against. The bar is
-/// the peer's time, times our triangles over those of marching cubes on the same grid.
+/// From atoms to triangles, including the sorting of atoms, for comparison with a peer's surface. The bar is the peer's
+/// time, scaled by our number of triangles over that of marching cubes on the same grid.
 void density_and_isosurface(StageTimer& timer, const StageInputs& in, double quicksurf_ms) {
   timer.time(*in.engine, [&] {
     const auto atoms = in.engine->upload_atoms(in.source.molecule.positions, in.source.widths, in.source.residues);
@@ -118,7 +117,7 @@ void distance_field(StageTimer& timer, const StageInputs& in) {
   });
 }
 
-/// The mean time of an iteration over a run of many, as the whole is run.
+/// Mean time per iteration over a run of many.
 void per_iteration(StageTimer& timer, const StageInputs& in, const MeshPtr& mesh, const espdiff::FieldPtr& field,
                    DeformOptions options) {
   constexpr int kIterations = 50;
@@ -166,7 +165,7 @@ void fit(StageTimer& timer, const StageInputs& in) {
   count_work(timer, espdiff_bench::fit_work(in));
 }
 
-/// Both directions, as the certificate takes them.
+/// Both directions, as in the certificate.
 void distances(StageTimer& timer, const StageInputs& in) {
   espdiff::DistanceSummary there, back;
   timer.time(*in.engine, [&] {
@@ -184,7 +183,7 @@ void self_intersections(StageTimer& timer, const StageInputs& in) {
   timer.counters["pairs"] = static_cast<double>(report.n_pairs);
 }
 
-/// Sampling of both potentials and their comparison; the maps are on the device already.
+/// Sampling and comparison of both potentials; the maps are on the device already.
 void sample_and_metrics(StageTimer& timer, const StageInputs& in) {
   const auto map = in.engine->upload_map(in.map, espdiff::RigidTransform{});
   const auto corrupt = in.engine->fit(in.mapped, in.target.atoms, in.isovalue()).corrupt;
@@ -201,7 +200,7 @@ void vertex_residues(StageTimer& timer, const StageInputs& in) {
   timer.time(*in.engine, [&] { in.engine->vertex_residues(in.start, in.source.atoms); });
 }
 
-/// Everything from atoms and maps to metrics and certificate, with the pipeline's default options but for the method.
+/// Everything from atoms and maps to metrics and certificate, with default options except the method.
 void compare(StageTimer& timer, const StageInputs& in, espdiff::Method method) {
   espdiff::CompareResult result;
   espdiff::CompareOptions options = in.options;
@@ -302,7 +301,7 @@ nlohmann::ordered_json record_of(const std::string& name, const StageTimer& time
 
 constexpr int kRepetitions = 5, kSlowRepetitions = 3;
 
-/// Runs one, prints it, and adds it to the records.
+/// Runs one benchmark, prints it, and adds it to the records.
 void run_one(const std::string& name, StageTimer timer, const std::function<void(StageTimer&)>& run,
              nlohmann::ordered_json& records) {
   try {
@@ -315,7 +314,7 @@ void run_one(const std::string& name, StageTimer timer, const std::function<void
   records.push_back(record_of(name, timer));
 }
 
-/// Runs what matches, case by case, so that the stages of one share its inputs.
+/// Runs the matching benchmarks case by case, so that the stages of one case share its inputs.
 nlohmann::ordered_json run_stages(const std::regex& filter) {
   constexpr std::size_t kLarge = 30000;  // atoms; seconds per stage: once will do
   constexpr double kLeast_ms = 50;
@@ -352,14 +351,14 @@ void add_peak(nlohmann::ordered_json& context, const std::string& device, const 
   context["arithmetic_Gops " + device] = peak.gigaoperations_per_s;
 }
 
-/// The roofs that stages are read against, measured in the same run.
+/// The peaks for the roofline, measured in the same run.
 void add_peaks(nlohmann::ordered_json& context) {
   for (const espdiff_bench::BenchDevice& device : espdiff_bench::devices()) {
     if (device.n_threads > 0) add_peak(context, device.name, espdiff_bench::cpu_peak(device.n_threads));
 #if defined(ESPDIFF_HAVE_CUDA)
     if (device.n_threads == 0) {
       add_peak(context, device.name, espdiff_bench::cuda_peak());
-      context["gpu"] = espdiff::cuda_status().description;
+      context["gpu"] = espdiff::cuda_status().description.plain();
     }
 #endif
   }
@@ -368,7 +367,7 @@ void add_peaks(nlohmann::ordered_json& context) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Times the stages of the pipeline, and prints beside each time how good its result is");
+  CLI::App app("Times the stages of a comparison and prints the quality of each result beside its time");
   std::string filter = ".", out;
   app.add_option("--filter", filter, "Regular expression for STAGE/CASE/DEVICE, such as '^deform.*/1tca/threads:1'");
   app.add_option("--out", out, "Write the results as JSON");

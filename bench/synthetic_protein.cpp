@@ -41,7 +41,7 @@ struct Wave {
   double at(Vec3d u) const { return amplitude * std::cos(dot(wave_vector, u) + phase); }
 };
 
-/// The outline: radius(u) = size * (1 + sum of waves), where `size` makes the volume what the atoms need.
+/// The outline: radius(u) = size * (1 + sum of waves), with `size` chosen for the volume of the atoms.
 class Outline {
  public:
   Outline(double volume_A3, Random& random) {
@@ -86,7 +86,7 @@ class Outline {
   double size_ = 1;
 };
 
-/// Finds what lies nearer than kMinDistance_A, by cells of that size.
+/// Finds atoms nearer than kMinDistance_A, by cells of that size.
 class Neighbours {
  public:
   bool free(Vec3d p) const {

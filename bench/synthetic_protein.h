@@ -1,4 +1,4 @@
-// synthetic_protein.h: generated molecules of any size that load the stages as a protein does; fixed seeds.
+// synthetic_protein.h: generated molecules of any size with a protein's workload; fixed seeds.
 #pragma once
 
 #include <cstddef>
@@ -21,11 +21,11 @@ namespace espdiff_bench {
 /// @param n_atoms at least 10
 espdiff::Molecule synthetic_protein(std::size_t n_atoms, std::uint64_t seed = 1);
 
-/// A copy of `molecule` whose atoms are displaced by a smooth random field: 24 waves of 20 to 60 A, scaled so that the
-/// root mean square displacement is `rms_A`. What is near moves alike, as in two conformations of one protein.
+/// A copy of `molecule` with its atoms displaced by a smooth random field: 24 waves of 20 to 60 A, scaled to a root
+/// mean square displacement of `rms_A`. Nearby atoms move alike, as in two conformations of one protein.
 espdiff::Molecule displaced_smoothly(const espdiff::Molecule& molecule, double rms_A, std::uint64_t seed = 2);
 
-/// A potential map of `n`^3 points over the molecule and 6 A around it: a smooth wave of 1 kT/e, for timing only.
+/// A potential map of `n`^3 points over the molecule plus 6 A: a smooth wave of 1 kT/e, for timing only.
 espdiff::Grid smooth_map(const espdiff::Molecule& molecule, int n = 97);
 
 }  // namespace espdiff_bench

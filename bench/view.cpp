@@ -33,7 +33,7 @@ using namespace espdiff;  // NOLINT: a program of one file
 
 constexpr int kSize = 1024;
 
-/// A picture that is timed, and the row that it is compared with.
+/// A timed picture, and the row to compare it with.
 struct Row {
   std::string name;
   std::size_t peer = 0;
@@ -54,7 +54,7 @@ double time_frame(Row& row) {
   return spent.count();
 }
 
-/// The same mesh, light and window with VTK's mapper and one colour a vertex.
+/// The same mesh, light and window with VTK's mapper and vertex colours.
 Row plain_row(const std::string& name, std::size_t peer, const ComparisonFiles& files, const Scene& scene) {
   const ComparisonScene like(files, scene);
   Row row{name, peer, nullptr, make_hidden_window(), {}, {}};
@@ -149,16 +149,16 @@ int run(const std::string& vtp, int n_frames, const std::string& csv, const std:
                         with_molecules = read_comparison(vtp, with_cartoon(opaque));
   if (!bare.maps.complete()) throw InputError("no maps: " + bare.maps.why_not);
   std::vector<Row> rows;
-  rows.push_back(plain_row("VTK's mapper, colours of the vertices, opaque", 0, bare, opaque));
+  rows.push_back(plain_row("VTK's mapper, vertex colours, opaque", 0, bare, opaque));
   rows.push_back(plain_row("VTK's mapper, the same semi-transparent", 1, bare, faint));
-  rows.push_back(scene_row("opaque, between the vertices' values", 0, bare, vertices));
+  rows.push_back(scene_row("opaque, interpolated vertex values", 0, bare, vertices));
   rows.push_back(scene_row("opaque, both maps at every pixel", 0, bare, opaque));
   rows.push_back(scene_row("semi-transparent", 1, bare, faint));
   rows.push_back(scene_row("semi-transparent, with cartoon", 1, with_molecules, with_cartoon(faint)));
   rows.push_back(scene_row("linked: semi-transparent and two opaque", 1, bare, linked));
   rows.push_back(scene_row("linked, with cartoon", 1, with_molecules, with_cartoon(linked)));
-  // Rows take turns, in bursts as when a molecule is turned: what else the machine does is then shared by all rows. The
-  // fastest frame counts, which is the one that nothing else disturbed. The first frames of a burst fill the caches.
+  // Rows take turns in bursts, as when a user rotates a molecule, so that other load on the machine affects all rows.
+  // The fastest frame counts, because nothing disturbed it. The first frames of a burst fill the caches.
   constexpr int kBurst = 8, kWarmUp = 2;
   for (int frame = 0; frame < n_frames; frame += kBurst) {
     for (Row& row : rows) {

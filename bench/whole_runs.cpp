@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "io/read_structure.h"
-#include "pipeline/matrix.h"
+#include "matrix/matrix.h"
 #include "random_charges.h"
 #include "real_pairs.h"
 #include "synthetic_protein.h"
@@ -13,7 +13,8 @@
 namespace espdiff_bench {
 namespace {
 
-/// Each of n copies of a molecule, displaced smoothly in ways of their own, with each other, both ways, by `deform`.
+/// Compares each of n copies of a molecule, each with its own smooth displacement, with each other, in both directions,
+/// by `deform`.
 void matrix(StageTimer& timer, espdiff::Engine& engine, const std::string& file, int n) {
   constexpr double kDisplacement_A = 0.5;
   const espdiff::Molecule molecule = espdiff::read_structure(file);
@@ -43,7 +44,7 @@ void matrix(StageTimer& timer, espdiff::Engine& engine, const std::string& file,
   timer.counters["atoms"] = static_cast<double>(molecule.size());
 }
 
-/// From charges on the host to the map on the device, in the mode that gives PMEPot's numbers.
+/// From charges on the host to the map on the device, in PMEPot's mode.
 void pme(StageTimer& timer, espdiff::Engine& engine, std::size_t n_atoms, double edge_A, int n_points) {
   const RandomCharges of = random_charges(n_atoms, edge_A);
   espdiff::PmeOptions options;

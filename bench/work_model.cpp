@@ -68,7 +68,7 @@ Work deform_iteration_work(const StageInputs& in, bool tricubic) {
   const double v = static_cast<double>(in.engine->n_vertices(in.start)),
                t = static_cast<double>(in.engine->n_triangles(in.start)), ring = 3 * t / v;
   // First pass: positions, rest and one-rings in, Laplacians out. Second: positions, Laplacians, one-rings, strengths,
-  // ways and the field in; positions and ways out.
+  // path lengths and the field in; positions and path lengths out.
   const double first = 3 * kVector + kIndex * (1 + ring), second = 3 * kVector + kIndex * (1 + ring) + 3 * kPoint;
   const double field = kVector * n_points_touched(in, tricubic ? 1 : 0);
   // Two umbrellas; seven interpolations of four numbers, or twenty-one of four points each; the forces.

@@ -1,4 +1,4 @@
-# EspdiffDependencies.cmake: finds what the project builds on, and keeps account of what is left out and why.
+# EspdiffDependencies.cmake: finds the libraries, and records which parts are left out and why.
 
 set_property(GLOBAL PROPERTY ESPDIFF_SUMMARY "")
 function(espdiff_note text)
@@ -32,7 +32,7 @@ find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 
-# CUDA: needed by the second back end only.
+# CUDA: for the second back end only.
 if(NOT ESPDIFF_CUDA STREQUAL "OFF")
   include(CheckLanguage)
   check_language(CUDA)
@@ -48,7 +48,7 @@ if(NOT ESPDIFF_CUDA STREQUAL "OFF")
 endif()
 espdiff_resolve(ESPDIFF_CUDA "${CMAKE_CUDA_COMPILER}" "CUDA back end" "no nvcc was found (set CUDACXX, or install the CUDA toolkit)")
 
-# Thrust for the CPU back end: Debian's, else the CUDA toolkit's.
+# Thrust for the CPU back end: Debian's, otherwise the CUDA toolkit's.
 find_path(ESPDIFF_THRUST_INCLUDE thrust/for_each.h
   PATHS /usr/include PATH_SUFFIXES cccl NO_CMAKE_SYSTEM_PATH)
 if(NOT ESPDIFF_THRUST_INCLUDE AND CUDAToolkit_FOUND)
@@ -91,11 +91,11 @@ if(NOT ESPDIFF_VTK STREQUAL "OFF")
 endif()
 espdiff_resolve(ESPDIFF_VTK "${VTK_FOUND}" "Renderer and viewer" "VTK 9 was not found (Debian: libvtk9-dev)")
 
-# Tcl by its stubs: the module then loads into VMD's own Tcl, whatever its version from 8.5 on.
+# Tcl through stubs, so that the module loads into VMD's own Tcl of any version from 8.5.
 if(NOT ESPDIFF_TCL STREQUAL "OFF")
   find_path(ESPDIFF_TCL_INCLUDE tcl.h PATH_SUFFIXES tcl8.6 tcl8.5 tcl)
   find_library(ESPDIFF_TCL_STUB NAMES tclstub8.6 tclstub8.5)
-  find_library(ESPDIFF_TCL_LIBRARY NAMES tcl8.6 tcl8.5)  # for tests, which are no modules
+  find_library(ESPDIFF_TCL_LIBRARY NAMES tcl8.6 tcl8.5)  # for the tests, which link to Tcl
 endif()
 if(ESPDIFF_TCL_INCLUDE AND ESPDIFF_TCL_STUB AND ESPDIFF_TCL_LIBRARY)
   set(tcl_found TRUE)

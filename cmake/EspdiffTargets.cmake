@@ -1,13 +1,13 @@
-# EspdiffTargets.cmake: the one place for flags that every target of the project shares.
+# EspdiffTargets.cmake: flags shared by all targets of the project.
 
 add_library(espdiff_flags INTERFACE)
 target_include_directories(espdiff_flags INTERFACE ${PROJECT_SOURCE_DIR}/src)
-# No contraction and no fast-math: the same source then gives the same bits on every instruction set.
+# No contraction and no fast-math, so that the same source gives the same bits on every instruction set.
 target_compile_options(espdiff_flags INTERFACE
   $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off -fvisibility=hidden -Wall -Wextra -Wpedantic -Wshadow>
   $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<BOOL:${ESPDIFF_WERROR}>>:-Werror>)
 
-# espdiff_add_library(name SOURCES ... [LIBRARIES ...]): a static library of one room.
+# espdiff_add_library(name SOURCES ... [LIBRARIES ...]): a static library for one room.
 function(espdiff_add_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})

@@ -9,51 +9,50 @@
 #include <string>
 #include <thread>
 
-#include "adjacency.h"
 #include "base/error.h"
-#include "carry.h"
-#include "certificate.h"
-#include "components.h"
-#include "coulomb.h"
-#include "deform.h"
-#include "density.h"
-#include "density_at_points.h"
-#include "distortion.h"
+#include "cuda/certificate/certificate.h"
+#include "cuda/certificate/distortion.h"
+#include "cuda/certificate/intersections.h"
+#include "cuda/certificate/metrics.h"
+#include "cuda/deform/deform.h"
+#include "cuda/deform/fields.h"
+#include "cuda/deform/vector_flow.h"
+#include "cuda/device/spatial_order.h"
+#include "cuda/morph/morph.h"
+#include "cuda/potential/coulomb.h"
+#include "cuda/potential/pme.h"
+#include "cuda/surface/adjacency.h"
+#include "cuda/surface/carry.h"
+#include "cuda/surface/components.h"
+#include "cuda/surface/density.h"
+#include "cuda/surface/density_at_points.h"
+#include "cuda/surface/isosurface.h"
+#include "cuda/device/unwrap.h"
+#include "cuda/surface/level_set_normals.h"
+#include "cuda/surface/project.h"
+#include "cuda/surface/sample.h"
+#include "cuda/surface/subdivide.h"
+#include "cuda/surface/submesh.h"
+#include "engine/certificate_stage.h"
+#include "engine/deform_stage.h"
 #include "engine/engine.h"
+#include "engine/handles.h"
 #include "engine/make_engine.h"
-#include "fields.h"
-#include "intersections.h"
-#include "isosurface.h"
-#include "level_set_normals.h"
-#include "metrics.h"
-#include "morph.h"
-#include "pme.h"
-#include "project.h"
-#include "sample.h"
-#include "spatial_order.h"
-#include "subdivide.h"
-#include "submesh.h"
-#include "vector_flow.h"
+#include "engine/morph_stage.h"
+#include "engine/potential_stage.h"
+#include "engine/surface_stage.h"
 
 #if defined(ESPDIFF_BACKEND_CUDA)
 #include <cuda_runtime_api.h>
 #include <thrust/system_error.h>
 
-#include "cuda_context.h"
+#include "cuda/device/cuda_context.h"
 #endif
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-template <typename Derived, typename Base>
-const Derived& unwrap(const std::shared_ptr<Base>& handle) {
-  const auto* derived = dynamic_cast<const Derived*>(handle.get());
-  if (derived == nullptr)
-    throw Error(ErrorClass::kInternal, "a handle of another engine, or of another kind, was passed to a stage");
-  return *derived;
-}
-
-/// Calls a stage; what the back end throws becomes an espdiff error.
+/// Calls a stage and translates the back end's exceptions into espdiff errors.
 template <typename Stage>
 auto guarded(Stage stage) -> decltype(stage()) {
   try {
@@ -70,7 +69,24 @@ auto guarded(Stage stage) -> decltype(stage()) {
   }
 }
 
-/// Every directed edge must have exactly one opposite, else the one-rings are not rings.
+/// Without the fourth components.
+std::vector<Vec3f> host_vectors(const Buffer<Vec4f>& padded) {
+  std::vector<Vec3f> result;
+  result.reserve(padded.size());
+  for (const Vec4f& v : to_host(padded)) result.push_back(v.xyz());
+  return result;
+}
+
+/// Positions and triangles.
+Mesh host_shape(const SurfaceMesh& surface) {
+  Mesh result;
+  result.positions = host_vectors(surface.positions);
+  result.triangles.reserve(surface.n_triangles());
+  for (const Corners& t : to_host(surface.topology->triangles)) result.triangles.push_back({t.v[0], t.v[1], t.v[2]});
+  return result;
+}
+
+/// Every directed edge must have exactly one opposite; otherwise the one-rings are not rings.
 void check_closed(const Mesh& mesh) {
   std::vector<std::uint64_t> edges;
   edges.reserve(3 * mesh.triangles.size());
@@ -103,7 +119,7 @@ class BackEndEngine : public Engine {
       const CudaContext::Use use(context_);
       pme_ = {};  // its plans belong to the device
     } catch (const Error&) {
-      // A device that is lost has nothing to give back.
+      // A lost device has nothing to release.
     }
   }
 
@@ -186,11 +202,8 @@ class BackEndEngine : public Engine {
 
   std::vector<Vec3f> level_set_normals(const MeshPtr& mesh, const AtomsPtr& atoms, float isovalue) override {
     return run([&] {
-      std::vector<Vec3f> result;
-      for (const Vec4f& n :
-           to_host(ESPDIFF_BACKEND::level_set_normals(unwrap<SurfaceMesh>(mesh), unwrap<AtomCells>(atoms), isovalue)))
-        result.push_back(n.xyz());
-      return result;
+      return host_vectors(
+          ESPDIFF_BACKEND::level_set_normals(unwrap<SurfaceMesh>(mesh), unwrap<AtomCells>(atoms), isovalue));
     });
   }
 
@@ -307,10 +320,10 @@ class BackEndEngine : public Engine {
     });
   }
 
-  MeshPtr carry_rigidly(const MeshPtr& mesh, const AtomsPtr& atoms, const std::vector<std::int32_t>& pieces,
+  MeshPtr carry_rigidly(const MeshPtr& mesh, const AtomsPtr& atoms, const std::vector<std::int32_t>& domains,
                         const std::vector<RigidTransform>& motions) override {
     return run([&]() -> MeshPtr {
-      return ESPDIFF_BACKEND::carry_rigidly(unwrap<SurfaceMesh>(mesh), unwrap<AtomCells>(atoms), pieces, motions);
+      return ESPDIFF_BACKEND::carry_rigidly(unwrap<SurfaceMesh>(mesh), unwrap<AtomCells>(atoms), domains, motions);
     });
   }
 
@@ -362,14 +375,19 @@ class BackEndEngine : public Engine {
     });
   }
 
+  std::vector<Vec3f> download_positions(const MeshPtr& mesh) override {
+    return run([&] { return host_vectors(unwrap<SurfaceMesh>(mesh).positions); });
+  }
+
+  Mesh download_shape(const MeshPtr& mesh) override {
+    return run([&] { return host_shape(unwrap<SurfaceMesh>(mesh)); });
+  }
+
   Mesh download(const MeshPtr& mesh) override {
     return run([&] {
       const auto& surface = unwrap<SurfaceMesh>(mesh);
-      Mesh result;
-      for (const Vec4f& p : to_host(surface.positions)) result.positions.push_back(p.xyz());
-      for (const Vec4f& n : to_host(vertex_normals(surface))) result.normals.push_back(n.xyz());
-      for (const Corners& t : to_host(surface.topology->triangles))
-        result.triangles.push_back({t.v[0], t.v[1], t.v[2]});
+      Mesh result = host_shape(surface);
+      result.normals = host_vectors(vertex_normals(surface));
       result.component = to_host(label_components(surface).label);
       return result;
     });
@@ -416,9 +434,7 @@ class BackEndEngine : public Engine {
 
   std::vector<Vec3f> download_gradient(const FieldPtr& field) override {
     return run([&] {
-      std::vector<Vec3f> result;
-      for (const Vec4f& value : to_host(unwrap<SurfaceField>(field).values)) result.push_back(value.xyz());
-      return result;
+      return host_vectors(unwrap<SurfaceField>(field).values);
     });
   }
 
@@ -441,7 +457,7 @@ class BackEndEngine : public Engine {
   }
 
 #if defined(ESPDIFF_BACKEND_CUDA)
-  /// Runs a stage on this engine's device, and waits for it, so that what fails there is told here.
+  /// Runs a stage on this engine's device and waits for it, so that its errors are reported by this call.
   template <typename Stage>
   auto run(Stage stage) const -> decltype(stage()) {
     const CudaContext::Use use(context_);
@@ -454,7 +470,7 @@ class BackEndEngine : public Engine {
 
   std::shared_ptr<CudaContext> context_;
 #else
-  /// Sets the number of threads for this call (another engine may have set its own) and guards the stage.
+  /// Sets the number of threads for this call, since another engine may have changed it, and translates exceptions.
   template <typename Stage>
   auto run(Stage stage) const -> decltype(stage()) {
     omp_set_num_threads(n_threads_);
@@ -479,7 +495,7 @@ Lattice host_lattice(const CubicLattice& lattice) {
 
 std::unique_ptr<Engine> make_engine(int device) { return std::make_unique<BackEndEngine>(device); }
 
-std::vector<CudaDeviceStatus> probe_devices(std::string* why_none) {
+std::vector<CudaDeviceStatus> probe_devices(Message* why_none) {
   int n = 0;
   const cudaError_t status = cudaGetDeviceCount(&n);
   cudaGetLastError();
@@ -488,7 +504,7 @@ std::vector<CudaDeviceStatus> probe_devices(std::string* why_none) {
     if (status != cudaSuccess) throw_cuda_error(status, "looking for GPUs", facts);
     if (n == 0) throw_cuda_error(cudaErrorNoDevice, "looking for GPUs", facts);
   } catch (const Error& error) {
-    *why_none = error.what();
+    *why_none = error.message();
     return {};
   }
   std::vector<CudaDeviceStatus> devices;
@@ -499,12 +515,12 @@ std::vector<CudaDeviceStatus> probe_devices(std::string* why_none) {
     CudaDeviceStatus found{true, describe_device(device)};
     if (!has_code_for(facts.architectures, 10 * major + minor)) {
       CudaFacts of_it = facts;
-      of_it.device = found.description;
+      of_it.device = found.description.plain();
       of_it.capability = 10 * major + minor;
       try {
         throw_cuda_error(cudaErrorNoKernelImageForDevice, "looking for GPUs", of_it);
       } catch (const Error& error) {
-        found = {false, error.what()};
+        found = {false, error.message()};
       }
     }
     devices.push_back(found);

@@ -4,14 +4,14 @@ const vec3 kLights[2] = vec3[2](vec3(-0.3790, 0.5307, 0.7581), vec3(0.5565, -0.2
 const float kIntensities[2] = float[2](0.75, 0.35);
 const float kAmbient = 0.28, kDiffuse = 0.82, kSpecular = 0.10;
 
-/// The exponent of the highlight is 32, by squaring: a power function costs as much as all the rest.
+/// The exponent of the highlight is 32, by repeated squaring, because pow() costs as much as everything else.
 float highlight(float x)
 {
   float x2 = x * x, x4 = x2 * x2, x8 = x4 * x4, x16 = x8 * x8;
   return x16 * x16;
 }
 
-/// @param normal   unit, toward the outside
+/// @param normal   unit, outward
 /// @param position of the fragment, seen from the camera
 vec3 blinnPhong(vec3 colour, vec3 normal, vec3 position)
 {

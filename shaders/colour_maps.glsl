@@ -1,5 +1,5 @@
 // colour_maps.glsl: the colours of values. src/view/colour_map.h computes the maps (diverging in Msh, sequential of one
-// hue), and a table brings them here: their powers and sines cost a renderer in software a fifth of the picture.
+// hue). They arrive here as a table, because computing them would cost a software renderer a fifth of the picture.
 
 uniform vec2 range;           // the scale's ends
 uniform sampler2D colours;    // one row, from the scale's low end to its high end; sRGB, 0 to 1, like all colours
@@ -24,14 +24,14 @@ vec3 scaleColour(float value)
   return tabulated(positionOnScale(value));
 }
 
-/// The table is a circle of hues here. Residues' hues are a golden section apart, so that neighbours along the chain
-/// differ.
+/// Here the table is a circle of hues. Residues' hues differ by the golden ratio, so neighbours along the chain look
+/// different.
 vec3 residueColour(float index)
 {
   return index < 0.0 ? noValueColour : tabulated(fract(0.61803399 * index));
 }
 
-/// The value's place in `range` in 24 bits, the highest in red: for tests, which read it back.
+/// The value's position in `range` in 24 bits, the highest in red. Tests read it back.
 vec3 bytesOf(float value)
 {
   float whole = floor(positionOnScale(value) * 16777215.0 + 0.5);

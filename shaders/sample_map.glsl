@@ -1,10 +1,10 @@
-// sample_map.glsl: trilinear interpolation in a map, as the engine does it.
+// sample_map.glsl: trilinear interpolation in a map, as in the engine.
 
-// Graphics processors filter with weights of 8 bits, which is too coarse beside a charge: there the eight neighbours are
-// fetched. Renderers in software filter in floats, and in half the time.
+// GPUs filter textures with 8-bit weights, which is too coarse near a charge, so the eight neighbours are fetched
+// there. Software renderers filter in floats, in half the time.
 const bool filteredInFloats = FILTERED_IN_FLOATS;
 
-// Whether some of the surface lies outside of a map.
+// Whether some of the surface lies outside a map.
 const bool someOutside = SOME_OUTSIDE;
 
 float interpolated(sampler3D map, vec3 place)
@@ -23,7 +23,7 @@ float interpolated(sampler3D map, vec3 place)
   return mix(line.x, line.y, w.x);
 }
 
-/// From the first grid point's centre to the last one's.
+/// From the centre of the first grid point to that of the last.
 bool isInside(sampler3D map, vec3 place)
 {
   vec3 border = (0.5 - 1e-4) / vec3(textureSize(map, 0));

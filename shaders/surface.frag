@@ -1,11 +1,11 @@
-// surface.frag: looks both potentials up where this fragment lies in their maps, and draws what they differ by.
+// surface.frag: looks up both potentials at this fragment and draws their difference.
 // Lines that begin with //VTK:: are filled in by VTK: the outputs, and order-independent transparency.
 //VTK::Output::Dec
 //VTK::DepthPeeling::Dec
 
-// Constants of the program, #defined above this file: software renderers pay for every branch that is there.
-const bool perFragment = PER_FRAGMENT;  // else between the vertices' values, where there are no maps
-const int part = PART;                  // 0 trusted, 1 corrupt, 2 without counterpart
+// Constants of the program, #defined above this file, because software renderers pay for every branch.
+const bool perFragment = PER_FRAGMENT;  // otherwise interpolated between the vertices' values (no maps)
+const int part = PART;                  // 0 trusted, 1 corrupt, 2 unmatched
 const int colourBy = COLOUR_BY;         // the numbers of RenderArray
 const bool fades = FADES;
 const bool split = SPLIT;
@@ -31,7 +31,7 @@ uniform float hatchPitch;     // pixels
 const int kDifference = 0, kSource = 1, kTarget = 2, kSign = 3, kDisplacement = 4, kMagnitude = 5, kResidue = 6,
           kPlain = 7, kReadBack = 8;
 
-/// Source and target potential here, as far as they are drawn; z is 1 where what is drawn has a value.
+/// Source and target potential here, as far as they are drawn; z is 1 if the drawn quantity has a value.
 vec3 potentials()
 {
   if (!perFragment) return vec3(vertexPotentialFS.xy, vertexPotentialFS.z > 0.999 ? 1.0 : 0.0);
@@ -48,7 +48,7 @@ vec3 surfaceColour()
   vec3 both = potentials();
   if (both.z == 0.0) return noValueColour;
   if (colourBy == kReadBack) return bytesOf(both.y - both.x);
-  // Zero agrees with anything.
+  // Zero agrees with either sign.
   if (colourBy == kSign) return both.x * both.y < 0.0 ? signChangeColour : sameSignColour;
   if (colourBy == kMagnitude) return scaleColour(abs(both.y - both.x));
   float value = colourBy == kSource ? both.x : colourBy == kTarget ? both.y : both.y - both.x;
@@ -63,7 +63,7 @@ float opacityHere()
   return mix(fade.w, fade.z, clamp((displacementFS - fade.x) / (fade.y - fade.x), 0.0, 1.0));
 }
 
-/// Diagonal stripes, fixed to the paper.
+/// Diagonal stripes, fixed to the picture.
 bool onStripe()
 {
   return mod(gl_FragCoord.x - gl_FragCoord.y, hatchPitch) < 0.4 * hatchPitch;

@@ -1,4 +1,4 @@
-// surface.vert: places a vertex between source and target, and hands on where it lies in the maps of both.
+// surface.vert: places a vertex between source and target, and passes on its coordinates in both maps.
 in vec4 vertexMC;            // on the target, Angstrom
 in vec3 normalMC;
 in vec3 startMC;             // the same point on the superposed source

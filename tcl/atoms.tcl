@@ -1,12 +1,11 @@
-# atoms.tcl: quantities of residues on the atoms of VMD's molecules, or in a PDB file.
+# atoms.tcl: writes residues' quantities to the atoms of VMD's molecules, or to a PDB file.
 
 namespace eval ::espdiff {
     proc atoms {options handle} {
         require_core_handle $handle
         set quantity [dict get $options quantity]
         if {$quantity eq "auto"} {
-            set quantity [expr {[core::result $handle] ne "" && [dict get [core::result $handle] potential_unit] ne ""
-                ? "mean_abs_difference" : "mean_displacement_A"}]
+            set quantity [usual_metric [expr {[dict get [core::result $handle] potential_unit] ne ""}]]
         }
         if {[dict get $options file] ne ""} { return [core::residue_pdb $handle $quantity [dict get $options file]] }
         require_vmd "espdiff atoms" "outside of it -file FILE writes a PDB file with the values as B factors"
@@ -25,14 +24,14 @@ namespace eval ::espdiff {
         return $id
     }
 
-    # The name of a residue that VMD and files agree on: where a file has no chains, VMD says X.
+    # Identifier of a residue that VMD and files share; VMD writes chain X if a file has no chains.
     proc residue_key {chain segment number insertion} {
         if {$chain in {X " " ""}} { set chain $segment }
         if {$chain eq "X"} { set chain "" }
         return "$chain|$number|[string trim $insertion]"
     }
 
-    # By residue_key, those that have a value; and the unit.
+    # Values by residue_key, only existing ones; and the unit.
     proc residue_values {handle quantity} {
         set values [core::residue_quantity $handle $quantity]
         set of [dict create]
@@ -44,7 +43,7 @@ namespace eval ::espdiff {
         return [dict create unit [dict get $values unit] of $of]
     }
 
-    # Sets the field of every atom; returns how many got a value of their own, and its range.
+    # Sets the field of every atom; returns the number of atoms with a value, and the range.
     proc set_atoms {mol of options} {
         set all [atomselect $mol all]
         finally {

@@ -1,137 +1,135 @@
-# commands.tcl: the table of all commands. Dispatch, checks, help and the manual's second part are made from it.
+# commands.tcl: the table of all commands, from which dispatch, checks, help and the manual's second part are made.
 
 # The keys of a command:
-#   arguments  their names; ?name? may be left out, ?name ...? takes any number
-#   options    {-name kind default help ?choices?}; kinds are those of options.tcl, default "required" has to be given
-#   settings   all, surface or none: which of core::settings it takes as options
+#   arguments  their names; ?name? is optional, ?name ...? takes any number
+#   options    {-name kind default help ?choices?}; kinds as in options.tcl, default "required" marks required ones
+#   settings   all, surface or none: the core::settings it takes as options
 #   summary    one paragraph; returns: one sentence; example: a line or more
 #   run        the procedure; called with the dict of options and the arguments
 namespace eval ::espdiff {
     variable computing {
-        {-device device auto "Where to compute: auto takes a GPU if one answers, cuda:1 the second one"}
-        {-threads count 0 "CPU threads; 0 takes OMP_NUM_THREADS, else all. The result is the same for any number"}
+        {-device device auto "Where to compute: auto takes a GPU if one works, cuda:1 the second one"}
+        {-threads count 0 "CPU threads; 0 takes OMP_NUM_THREADS, otherwise all. The result does not depend on it"}
         {-progress command {} "Called as CMD stage fraction (0 to 1) about 20 times a second; `break` from it cancels"}
         {-command command {} "Compute in the background, and call CMD handle from the event loop at the end"}
     }
 
     command compare [dict create arguments {source target} options $computing settings all run ::espdiff::compare \
-        summary {Maps the surface of the source onto that of the target, compares the potentials at counterparts, and
-            certifies the mapping. Source and target are endpoints. Without maps the shapes alone are compared.} \
-        returns {a handle, such as comparison1. With -command at once, else when the comparison is done} \
+        summary {Maps the surface of the source onto that of the target, compares the potentials at corresponding
+            points, and certifies the mapping. Source and target are endpoints. Without maps only the shapes are
+            compared.} \
+        returns {a handle, such as comparison1. With -command at once, otherwise when the comparison is done} \
         example {espdiff compare {file wild.pqr map wild.dx} {file mutant.pqr map mutant.dx} -grid-spacing 0.8}]
 
     command surface [dict create arguments {molecule} settings surface run ::espdiff::surface \
-        options [concat $computing {{-regularize boolean 0 "Even out the triangles"}}] \
-        summary {Makes the surface of one molecule (an endpoint), with its potential where a map is given.} \
+        options [concat $computing {{-regularize boolean 0 "Regularize the triangles"}}] \
+        summary {Makes the surface of one molecule (an endpoint), with its potential if a map is given.} \
         returns {a handle, such as surface1} \
         example {espdiff surface {file wild.pqr map wild.dx} -regularize 1}]
 
     command result [dict create arguments {handle {?key ...?}} options {} settings none run ::espdiff::result \
-        summary {What came out, under the keys of the command line's OUT.json; further keys lead into nested
-            dictionaries. What has no value is an empty string.} \
+        summary {The results, under the keys of the command line's OUT.json; further keys select from nested
+            dictionaries. Missing values are empty strings.} \
         returns {a dictionary, or the value under the keys} \
         example {espdiff result comparison1 certificate trustworthy}]
 
     command residues [dict create arguments {handle} options {} settings none run ::espdiff::residues \
         summary {The comparison by residue of the source, over the mapped surface.} \
-        returns {a list of dictionaries: index chain number insertion name area_A2 mean_abs_difference
-            mean_signed_difference mean_source mean_target sign_change_area_fraction mean_displacement_A
-            mean_path_length_A} \
+        returns "a list of dictionaries: index chain number insertion name [metric_names residues]" \
         example {foreach residue [espdiff residues comparison1] { puts [dict get $residue mean_abs_difference] }}]
 
     command table [dict create arguments {handle} options {} settings none run ::espdiff::table_of \
-        summary {A comparison or a matrix as a table for reading, as the command line prints it.} \
+        summary {A comparison or a matrix as a readable table, as the command line prints it.} \
         returns {the text} example {puts [espdiff table comparison1]}]
 
     command export [dict create arguments {handle prefix} settings none run ::espdiff::export options {
-            {-inputs boolean 0 "Of a comparison also what it was made of: PREFIX.source.pqr and PREFIX.target.pqr as\
-                they were compared, and maps that came from VMD as PREFIX.source_map.vti and PREFIX.target_map.vti"}
+            {-inputs boolean 0 "For a comparison also its inputs: PREFIX.source.pqr and PREFIX.target.pqr as\
+                compared, and maps from VMD as PREFIX.source_map.vti and PREFIX.target_map.vti"}
         } \
         summary {Writes PREFIX.json (numbers, certificate, provenance), PREFIX.vtp (mapped surface, for ParaView) and
-            PREFIX.residues.csv; of a surface PREFIX.vtp alone. All files appear together or not at all.} \
+            PREFIX.residues.csv; for a surface only PREFIX.vtp. All files appear together or not at all.} \
         returns {the files written} example {espdiff export comparison1 wild_mutant}]
 
     command map [dict create arguments {handle} settings none run ::espdiff::map options {
-            {-quantity choice difference "What the map holds" {difference source target sign displacement path_length}}
+            {-quantity choice difference "Quantity of the map" {difference source target sign displacement path_length}}
             {-spacing positive 1.0 "Distance of the lattice's points, Angstrom"}
             {-mol molecule {} "Add the map to this molecule of VMD, for `Color Volume` and Isosurface representations"}
             {-file file {} "Write the map to this DX file"}
         } \
-        summary {Carries a quantity from the mapped surface onto a lattice around it. Give -mol or -file.} \
+        summary {Writes a quantity of the mapped surface to a lattice around it. Give -mol or -file.} \
         returns {the number of the data set in the molecule, or the file} \
         example {espdiff map comparison1 -mol 1}]
 
-    command atoms [dict create arguments {handle} settings none run ::espdiff::atoms options {
-            {-quantity choice auto "What the atoms of a residue get; auto is mean_abs_difference, or without potentials\
-                mean_displacement_A" {auto mean_abs_difference mean_signed_difference mean_source mean_target
-                sign_change_area_fraction mean_displacement_A}}
+    command atoms [dict create arguments {handle} settings none run ::espdiff::atoms options [concat \
+        [list [list -quantity choice auto "Value for the atoms of a residue; auto is mean_abs_difference, or without\
+            potentials mean_displacement_A" [concat auto [metric_names residues]]]] {
             {-mol text source "Molecule of VMD that gets the values: source, target, or an id"}
-            {-field choice user "Where VMD keeps them: user to user4 are of one frame, the others of all frames" {user
+            {-field choice user "VMD's field: user to user4 hold one frame, the others all frames" {user
                 user2 user3 user4 beta occupancy}}
             {-frame text now "Frame of a user field: a number, now, or all"}
-            {-missing number 0 "Value of atoms whose residue has no surface that is counted"}
+            {-missing number 0 "Value of atoms whose residue has no valid surface"}
             {-file file {} "Instead of VMD: a PDB file of the source with the values as B factors"}
-        } \
-        summary {Carries a quantity of the residues onto their atoms, so that any representation can be coloured by it
-            (`Coloring Method` User or Beta), or any other program by the B factors of a file. Residues are found by
-            chain, number and insertion code.} \
-        returns {a dictionary: quantity, unit, mol, field, atoms (how many have a value), min, max; or the file} \
+        }] \
+        summary {Writes a quantity of the residues to their atoms, for colouring any representation
+            (`Coloring Method` User or Beta), or to the B factors of a file for other programs. Residues are identified
+            by chain, number and insertion code.} \
+        returns {a dictionary: quantity, unit, mol, field, atoms (number with a value), min, max; or the file} \
         example {espdiff atoms comparison1 -quantity mean_abs_difference; mol modcolor 0 top User}]
 
     command highlight [dict create arguments {handle residues} settings none run ::espdiff::highlight options {
-            {-mol text both "Where: both, source, target (molecules of VMD that the comparison came from), or an id"}
-            {-style text {VDW 2.0} "Representation and its parameters, as of `mol modstyle`; spheres of twice the\
+            {-mol text both "Where: both, source, target (the comparison's molecules in VMD), or an id"}
+            {-style text {VDW 2.0} "Representation and its parameters, as for `mol modstyle`; spheres of twice the\
                 radius reach through the surface"}
-            {-color text {ColorID 4} "Colouring method, as of `mol modcolor`; ColorID 4 is yellow"}
-            {-face boolean 0 "Turn the view so that they are in front"}
+            {-color text {ColorID 4} "Colouring method, as for `mol modcolor`; ColorID 4 is yellow"}
+            {-face boolean 0 "Rotate the view so that they are in front"}
         } \
-        summary {Shows residues in VMD by a representation of their own, in the place of those that were highlighted
-            before; an empty list takes it away. Residues are named by their `index` in `espdiff residues`, and found
-            by chain, number and insertion code, in the target's molecule as well.} \
-        returns {the molecules in which some were found} \
+        summary {Highlights residues in VMD by a separate representation, which replaces the previous highlight; an
+            empty list removes it. Residues are given by their `index` in `espdiff residues`, and identified by chain,
+            number and insertion code, also in the target's molecule.} \
+        returns {the molecules in which residues were found} \
         example {espdiff highlight comparison1 {88 113}}]
 
     command draw [dict create arguments {handle} settings none run ::espdiff::draw options {
-            {-color choice auto "What is shown; auto is difference (potential of a surface), or displacement without\
-                potentials. difference: target - source, red negative, white 0, blue positive; sign: blue turned\
-                positive, red turned negative; potential is of surfaces; path_length: of the way of each point to its\
-                counterpart, which is as long as its displacement or longer"
+            {-color choice auto "Quantity shown; auto is difference (for a surface, potential), or displacement without\
+                potentials. difference: target - source, red negative, white 0, blue positive; sign: blue became\
+                positive, red became negative; potential is for surfaces; path_length: length of each point's path,\
+                at least its displacement"
                 {auto difference sign source target potential displacement path_length none}}
-            {-range range auto "Values at the ends of the colour scale; auto is symmetric about 0 and holds 98 % of the\
-                surface's points on each side"}
-            {-transparency choice uncertainty "uncertainty: the farther a point travelled, the more transparent"
+            {-range range auto "Values at the ends of the colour scale; auto is symmetric about 0 and covers 98 % of\
+                the surface's points on each side"}
+            {-transparency choice uncertainty "uncertainty: the larger the displacement, the more transparent"
                 {uncertainty none}}
             {-uncertainty-limit positive 2.0 "Displacement at which the surface is most transparent, Angstrom; below\
                 half of it nothing is transparent"}
-            {-corrupt choice transparent "Parts off the target's surface: most transparent, marked in yellow (as is\
-                then what lies outside of a map), or not drawn" {transparent mark hide}}
-            {-surface choice mapped "mapped: on the target; source: where it came from, on the source" {mapped source}}
+            {-corrupt choice transparent "Parts off the target's surface: most transparent, marked in yellow (then\
+                also points outside a map), or not drawn" {transparent mark hide}}
+            {-surface choice mapped "mapped: on the target; source: on the source" {mapped source}}
             {-legend boolean 1 "A colour bar with title and unit at the window's bottom"}
-            {-view choice single "linked: three surfaces side by side that the mouse turns together, the source and the\
-                target coloured by their potentials, the third one on the target by -color; until `undraw` other\
+            {-view choice single "linked: three surfaces side by side that the mouse rotates together, the source and\
+                the target coloured by their potentials, the third on the target by -color; until `undraw` other\
                 molecules are hidden and the projection is orthographic" {single linked}}
-            {-potential-range range auto "Of both potentials with -view linked; auto holds 98 % of either's points on\
-                each side"}
+            {-potential-range range auto "For both potentials with -view linked; auto covers 98 % of the points of\
+                each on each side"}
         } \
-        summary {Draws the surface in VMD, in the place of an older drawing of the same handle. View, top molecule and
-            colour settings stay as they are.} \
+        summary {Draws the surface in VMD and replaces an older drawing of the same handle. View, top molecule and
+            colour settings do not change.} \
         returns {the graphics molecules' ids} example {espdiff draw comparison1 -color difference -range {-5 5}}]
 
     command view [dict create arguments {input} settings none run ::espdiff::view options {
-            {-layout choice turned "From several sides; source, target and difference side by side; or one half of\
-                each" {turned linked split}}
+            {-layout choice turned "turned: from several sides; linked: source, target and difference; split: one half\
+                of each" {turned linked split}}
             {-arguments text {} "Further options of the command line's `espdiff view`, a list such as {--molecule\
                 cartoon --labels 8}"}
-            {-output file {} "Pictures and scenes that are saved in the viewer begin with this; INPUT-view in the\
-                working folder otherwise"}
+            {-output file {} "Prefix of pictures and scenes saved in the viewer; default: INPUT-view in the\
+                working folder"}
         } \
-        summary {Starts espdiff's viewer, a program of its own, with a comparison (its handle, or the PREFIX.vtp that it
-            was exported to). For a handle, what the viewer needs is written into a temporary folder, which is deleted
-            when it ends. The viewer goes on when VMD is left.} \
-        returns {the number of its process} example {espdiff view comparison1 -layout linked}]
+        summary {Starts espdiff's viewer, a separate program, with a comparison (its handle, or the exported
+            PREFIX.vtp). For a handle, the viewer's inputs are written to a temporary folder, which is deleted when it
+            ends. The viewer continues when VMD exits.} \
+        returns {its process id} example {espdiff view comparison1 -layout linked}]
 
     command undraw [dict create arguments {{?handle ...?}} options {} settings none run ::espdiff::undraw \
-        summary {Removes drawings with their legends; without a handle all of them.} \
+        summary {Removes drawings with their legends; without a handle, all of them.} \
         returns {nothing} example {espdiff undraw comparison1}]
 
     command trajectory [dict create arguments {} settings all run ::espdiff::trajectory options [concat {
@@ -161,34 +159,35 @@ namespace eval ::espdiff {
 
     command matrix [dict create arguments {variants} settings all run ::espdiff::matrix options [concat {
             {-output file required "Prefix of the results OUT.csv and OUT.json, and of the state file"}
-            {-resume boolean 0 "Go on where an interrupted run stopped: its state file is beside the results"}
-            {-overwrite boolean 0 "Begin anew, in the place of results and state files"}
+            {-resume boolean 0 "Resume an interrupted run from its state file beside the results"}
+            {-overwrite boolean 0 "Start again and replace results and state files"}
             {-on-error choice stop "A pair that cannot be compared stops the run, or is skipped and noted in the\
                 results" {stop skip}}
-            {-shard text 1/1 "Compute part I of N of the pairs, I/N, into OUT.shard-I-of-N.state; `espdiff merge` puts\
-                the parts together"}
-            {-cluster-by text {} "Metric that variants are clustered by; mean_abs_difference, or without potentials\
+            {-shard text 1/1 "Compute part I of N of the pairs, I/N, into OUT.shard-I-of-N.state; `espdiff merge`\
+                merges the parts"}
+            {-cluster-by text {} "Metric for clustering; mean_abs_difference, or without potentials\
                 mean_displacement_A"}
         } $computing] \
-        summary {Compares many variants, each with each, both ways. A variant is an endpoint that may have a `label` and
-            a `group`; {mol ID frames BEGIN:STEP:END ...} stands for one variant a frame, and {file PATH ...} without
-            `model` for one a model. Each source's surface is regularized, and its potential computed, once.} \
-        returns {a handle, such as matrix1; `espdiff result` has what OUT.json has, and pairs, resumed, seconds,
+        summary {Compares many variants, each with each, in both directions. A variant is an endpoint that may have a
+            `label` and a `group`; {mol ID frames BEGIN:STEP:END ...} stands for one variant per frame,
+            {file PATH ...} without `model` for one per model. Each source's surface is regularized, and its
+            potential computed, once.} \
+        returns {a handle, such as matrix1; `espdiff result` has the content of OUT.json, and pairs, resumed, seconds,
             files} \
         example {espdiff matrix {{mol 0 frames 0:10: map pme} {file open.pqr map pme group open}} -output adk}]
 
     command plot [dict create arguments {input} settings none run ::espdiff::plot options {
             {-metrics text auto "Names of columns; auto is mean_abs_difference, or without potentials\
                 mean_displacement_A"}
-            {-source text {} "Of a matrix: label of the variant that is drawn against all others (the\
+            {-source text {} "For a matrix: label of the variant to draw against all others (the\
                 first one)"}
-            {-normalize boolean 0 "Each metric from its least value, 0, to its greatest, 1, all in one window"}
+            {-normalize boolean 0 "Scale each metric from its minimum, 0, to its maximum, 1, all in one window"}
             {-title text {} "Title of the window's plot"}
-            {-mol text top "Of a trajectory: molecule that goes to the frame of a point that is clicked; none for none"}
-            {-callback command {} "Instead of that, called as CMD x y with the frame, or the variant's label, and the\
+            {-mol text top "For a trajectory: molecule that shows the frame of a clicked point; none for none"}
+            {-callback command {} "Called instead as CMD x y with the frame or the variant's label, and the\
                 value"}
-            {-file file {} "Instead of VMD's windows: a picture, OUT.png or OUT.svg, as the command line's\
-                `espdiff plot` draws it by gnuplot; hollow points are not trustworthy"}
+            {-file file {} "Instead of VMD's windows: a picture, OUT.png or OUT.svg, drawn by gnuplot like the\
+                command line's `espdiff plot`; hollow points are not trustworthy"}
         } \
         summary {Plots a trajectory (its CSV file or handle), or one variant of a matrix (its handle) against all
             others, in VMD's own plot windows (package multiplot), a window for each unit, or into a file. Heat maps
@@ -199,81 +198,83 @@ namespace eval ::espdiff {
     command merge [dict create arguments {states} settings none run ::espdiff::merge options {
             {-output file required "Prefix of the results OUT.csv and OUT.json"}
             {-overwrite boolean 0 "Replace results that exist"}
-            {-cluster-by text {} "As of `espdiff matrix`"}
+            {-cluster-by text {} "Metric for clustering, as in `espdiff matrix`"}
         } \
-        summary {Puts the parts of a matrix together: the state files that `espdiff matrix -shard` left. The results are
-            those of one process, byte by byte.} \
+        summary {Merges the parts of a matrix: the state files of `espdiff matrix -shard`. The results are those of one
+            process, byte by byte.} \
         returns {the files written} \
         example {espdiff merge [glob part.shard-*.state] -output all}]
 
     command potential [dict create arguments {} settings none run ::espdiff::potential options {
             {-mol text top "Molecule of VMD"}
-            {-sel text all "Atoms whose charges count"}
-            {-updatesel boolean 0 "Select anew in each frame, instead of in the first one"}
+            {-sel text all "Atoms whose charges are included"}
+            {-updatesel boolean 0 "Select again in each frame, instead of in the first only"}
             {-frames text now "now, all, last, a frame, begin:end or begin:step:end"}
             {-method choice pme "pme: particle-mesh Ewald, the smooth part, as PMEPot computes it. coulomb: point\
                 charges, isolated, for small molecules" {pme coulomb}}
-            {-cell text {} "Cell of all frames: {{ox oy oz} {ax ay az} {bx by bz} {cx cy cz}}, o its middle; without it\
-                each frame's own, else a box around the atoms"}
+            {-cell text {} "Cell of all frames: {{ox oy oz} {ax ay az} {bx by bz} {cx cy cz}}, o its centre; default:\
+                each frame's own, otherwise a box around the atoms"}
             {-xscfile file {} "Cell of all frames from a NAMD .xsc file"}
-            {-pad text {} "A box around the atoms, wider by so much on each side, Angstrom (10 where there is no cell)"}
-            {-grid text 1.0 "Resolution in Angstrom below 8, else the number of points along each edge, or {na nb nc}"}
-            {-ewaldfactor positive 0.25 "How sharply charges are smeared, 1/A"}
+            {-pad text {} "Use a box around the atoms plus this margin on each side, Angstrom (10 if there is no cell)"}
+            {-grid text 1.0 "Resolution in Angstrom if below 8, otherwise the number of points along each edge, or\
+                {na nb nc}"}
+            {-ewaldfactor positive 0.25 "Smearing of the charges, 1/A"}
             {-spline text {} "Order of the B-splines, 4 to 8 (6; 4 with -compatible)"}
-            {-compatible boolean 0 "PMEPot's own numbers: its grid, its splines' factor, its truncated volume"}
-            {-precision choice single "Of the computation" {single double}}
+            {-compatible boolean 0 "Reproduce PMEPot's numbers: its grid, its splines' factor, its truncated volume"}
+            {-precision choice single "Precision of the computation" {single double}}
             {-dielectric positive 1.0 "Dielectric constant of -method coulomb"}
-            {-align choice none "Superpose each frame on the first by these atoms: the average then stays with the\
+            {-align choice none "Superpose each frame on the first by these atoms; the average then follows the\
                 molecule" {none all backbone ca}}
             {-averaging choice mean "mean: one map, the mean over the frames; each: a map for each frame, FILE.0000.dx\
-                and so on by the frames' numbers" {mean each}}
+                and so on, by frame number" {mean each}}
             {-block count 1 "Frames in a block, for the error bar"}
-            {-variance boolean 0 "Also the variance over the frames, a data set or FILE.variance.dx"}
-            {-error boolean 0 "Also the standard error of the mean from the blocks, a data set or FILE.error.dx"}
+            {-variance boolean 0 "Also make the variance over the frames, as a data set or FILE.variance.dx"}
+            {-error boolean 0 "Also make the standard error of the mean from the blocks, as a data set or\
+                FILE.error.dx"}
             {-dxfile file {} "Write the mean to this DX file"}
             {-loadmol text same "Molecule that gets the maps as data sets: an id, same, new, or none"}
-            {-device device auto "Where to compute: auto takes a GPU if one answers, cuda:1 the second one"}
-            {-threads count 0 "CPU threads; 0 takes OMP_NUM_THREADS, else all. The result is the same for any number"}
+            {-device device auto "Where to compute: auto takes a GPU if one works, cuda:1 the second one"}
+            {-threads count 0 "CPU threads; 0 takes OMP_NUM_THREADS, otherwise all. The result does not depend on it"}
             {-progress command {} "Called as CMD stage fraction; `break` from it cancels"}
         } \
         summary {Computes the electrostatic potential of a molecule's charges, by PME in the cell of each frame, or its
-            mean over frames. Needs VMD; the options are PMEPot's where they mean the same. For a comparison nothing of
-            this is needed: `map pme` computes the maps in between.} \
+            mean over frames. Needs VMD; options shared with PMEPot have its names and meanings. A comparison does
+            not need this command: `map pme` computes the maps itself.} \
         returns {a dictionary: frames, mol (the molecule with the maps), volumes (their numbers), files, seconds} \
         example {espdiff potential -mol 0 -frames all -align backbone -variance 1}]
 
     command status [dict create arguments {handle} options {} settings none run ::espdiff::status \
-        summary {How far a computation is.} \
+        summary {State and progress of a computation.} \
         returns {a dictionary: kind, state (queued, running, done, failed, cancelled), stage, fraction} \
         example {dict get [espdiff status comparison1] state}]
 
     command wait [dict create arguments {handle} settings none run ::espdiff::wait options {
-            {-timeout count {} "Milliseconds to wait at most; without it until the end"}
+            {-timeout count {} "Maximum time to wait, milliseconds; default: until the end"}
         } \
-        summary {Waits for a computation in the background; its error, if it failed, is thrown here. Serves no
+        summary {Waits for a computation in the background. If it failed, throws its error. Processes no
             events.} \
         returns {1, or 0 after the timeout} example {espdiff wait comparison1 -timeout 5000}]
 
     command cancel [dict create arguments {handle} options {} settings none run ::espdiff::cancel \
-        summary {Ends a computation in the background at its next chance; what is done already stays as it is.} \
+        summary {Cancels a computation in the background as soon as possible; finished results stay.} \
         returns {nothing} example {espdiff cancel trajectory1}]
 
     command delete [dict create arguments {{handle ...}} options {} settings none run ::espdiff::delete \
-        summary {Frees handles with their drawings, and cancels what still computes. `all` frees all. Handles are freed
-            with the interpreter as well.} \
+        summary {Frees handles with their drawings, and cancels running computations. `all` frees all. Deleting the
+            interpreter also frees them.} \
         returns {nothing} example {espdiff delete comparison1 surface1}]
 
     command handles [dict create arguments {} options {} settings none run ::espdiff::handles \
-        summary {The handles that exist.} returns {a list} example {espdiff handles}]
+        summary {All existing handles.} returns {a list} example {espdiff handles}]
 
     command device [dict create arguments {?name?} options {} settings none run ::espdiff::device \
-        summary {Where later commands compute that are given no -device: auto, cpu, cuda, or cuda:N for the GPU of that
-            index. Without a name, changes nothing. `espdiff doctor` lists the GPUs.} \
+        summary {Sets the default -device of later commands: auto, cpu, cuda, or cuda:N for the GPU of that index.
+            Without a name, changes nothing. `espdiff doctor` lists the GPUs.} \
         returns {the name} \
         example {espdiff device cuda:1}]
 
     command doctor [dict create arguments {} options {} settings none run ::espdiff::doctor \
-        summary {What is installed, found and loaded, what is missing, and how to mend it.} \
+        summary {Lists what is installed, found, loaded and missing, with remedies.} \
         returns {the text} example {puts [espdiff doctor]}]
 
     command gui [dict create arguments {} options {} settings none run ::espdiff::open_window \
@@ -284,7 +285,7 @@ namespace eval ::espdiff {
         summary {The version of espdiff.} returns {the version} example {espdiff version}]
 
     command help [dict create arguments {?command?} options {} settings none run ::espdiff::help \
-        summary {What there is, or a command explained; `espdiff COMMAND -help` is the same.} \
+        summary {Lists the commands, or explains one; `espdiff COMMAND -help` is the same.} \
         returns {the text} example {puts [espdiff help compare]}]
 
     make_ensemble

@@ -1,14 +1,14 @@
-# compute.tcl: compare and surface, and what came out of them.
+# compute.tcl: the commands compare and surface, and their results.
 
 namespace eval ::espdiff {
-    # What the core wants to know besides the molecules.
+    # The core's options besides the molecules.
     proc core_options {options} {
         variable call
         dict merge [dict get $options settings] [dict create device [dict get $options device] \
             threads [dict get $options threads] command_line $call]
     }
 
-    # Calls the core, with what it does not take in (files, volumes in memory) removed again when it refuses.
+    # Calls the core, and removes its inputs (files, volumes in memory) if it refuses.
     proc submit {temporary_name script} {
         upvar 1 $temporary_name temporary
         if {[catch { uplevel 1 $script } result error]} {
@@ -81,7 +81,7 @@ namespace eval ::espdiff {
 
     proc version {options} { return [core::version] }
 
-    # The window is sourced when it is first wanted, so that the package loads without Tk.
+    # The window is sourced at first use, so that the package loads without Tk.
     proc open_window {options} {
         variable directory
         if {![info exists ::tk_version]} {

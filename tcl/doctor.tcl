@@ -1,4 +1,4 @@
-# doctor.tcl: what is there and what is missing, with the remedy.
+# doctor.tcl: lists what is available and what is missing, with the remedy.
 
 namespace eval ::espdiff {
     # Items {name ok|missing|note text}.
@@ -104,7 +104,7 @@ namespace eval ::espdiff {
         return "$radii, charges on $charged atoms"
     }
 
-    # `espdiff device`: a device that is not there is told at once.
+    # `espdiff device`: an absent device is reported at once.
     proc device {options {name {}}} {
         variable default_device
         if {$name eq ""} { return $default_device }

@@ -5,8 +5,8 @@ namespace eval ::espdiff {
     variable drawings [dict create]
 
     # Steps of displacement, from 0 to the limit, and their opacity. VMD does not sort triangles: with GLSL it blends
-    # what has an opacity of 0.5 or less in the order of the list, without writing depths, and draws the rest as if it
-    # were opaque. Hence nothing between 0.5 and 1. Steps of one opacity share a graphics molecule.
+    # triangles of opacity 0.5 or less in list order, without writing depths, and draws the others as if opaque. So no
+    # opacity lies between 0.5 and 1. Steps of one opacity share a graphics molecule.
     variable opacities {1.0 1.0 1.0 0.5 0.35 0.2}
 
     # Three colours for the lower end, the middle and the upper end of VMD's colour scale.
@@ -14,10 +14,10 @@ namespace eval ::espdiff {
         diverging  {{0.78 0.08 0.10} {0.88 0.88 0.88} {0.10 0.22 0.78}}
         sequential {{0.88 0.88 0.88} {0.98 0.62 0.20} {0.45 0.05 0.05}}
     }
-    variable lengths {displacement path_length}  ;# quantities that begin at 0
-    variable scale_method RWB  ;# VMD's colour scale whose colours are replaced for a moment
+    variable lengths {displacement path_length}  ;# quantities that start at 0
+    variable scale_method RWB  ;# VMD's colour scale whose colours are replaced temporarily
 
-    variable plain_color 2    ;# gray: no quantity, and what lies outside of a map
+    variable plain_color 2    ;# gray: no quantity, and points outside a map
     variable marked_color 4   ;# yellow: corrupt parts with -corrupt mark
 
     proc draw {options handle} {
@@ -46,7 +46,7 @@ namespace eval ::espdiff {
         return $molecules
     }
 
-    # What is drawn, from options and handle: color, low, high, unit, colors, legend, and the core's options.
+    # The drawing's parameters, from options and handle: color, low, high, unit, colors, legend, and the core's options.
     proc drawing_plan {options handle} {
         variable scales
         variable lengths
@@ -74,11 +74,11 @@ namespace eval ::espdiff {
             if {![catch { core::range $handle $color }]} { return $color }
             return [expr {$is_surface ? "none" : "displacement"}]
         }
-        if {$color ne "none"} { core::range $handle $color }  ;# the core says what the handle does not have
+        if {$color ne "none"} { core::range $handle $color }  ;# the core reports quantities that the handle lacks
         return $color
     }
 
-    # The ends of the colour scale. Symmetric about 0, so that white is 0; a length begins at 0.
+    # The ends of the colour scale: symmetric about 0, so that white is 0; a length starts at 0.
     proc drawn_range {handle color range} {
         variable lengths
         set found [core::range $handle $color]
@@ -92,7 +92,7 @@ namespace eval ::espdiff {
         return [dict create low [expr {$color in $lengths ? 0 : -$high}] high $high unit $unit]
     }
 
-    # Opacity and the steps of displacement that have it, for each graphics molecule.
+    # For each graphics molecule, its opacity and steps of displacement.
     proc opacity_levels {options is_surface} {
         variable opacities
         if {$is_surface} { return {1.0 0} }
@@ -113,12 +113,12 @@ namespace eval ::espdiff {
         expr {[dict get $options corrupt] eq "transparent" ? 2 : 1}
     }
 
-    # One graphics molecule for each opacity; their ids are added to the caller's list as they are made. Opaque ones
-    # come first: VMD draws in this order.
+    # One graphics molecule per opacity; their ids are appended to the caller's list as they are made. Opaque ones come
+    # first, because VMD draws in this order.
     proc draw_levels {handle plan molecules_name} {
         upvar 1 $molecules_name molecules
         set levels [dict get $plan levels]
-        # Without uncertainty the limit is beyond any displacement, and the second step holds what is corrupt.
+        # Without uncertainty the limit exceeds any displacement, and the second step holds the corrupt parts.
         set limit [expr {[dict get $plan n_bins] > 2 ? [dict get $plan limit] : 1e9}]
         dict for {opacity bins} $levels {
             set name "espdiff $handle [dict get $plan color]"
@@ -132,7 +132,7 @@ namespace eval ::espdiff {
         }
     }
 
-    # A graphics molecule that is seen as `beside` is, or else the top molecule.
+    # A graphics molecule with the view of `beside`, otherwise of the top molecule.
     proc new_graphics {name beside} {
         set top [molinfo top]
         set mol [mol load graphics $name]
@@ -141,8 +141,8 @@ namespace eval ::espdiff {
         return $mol
     }
 
-    # A material for each opacity, made once; the user may change it, and it stays as the user wants it. Where both of
-    # VMD's lights fall, ambient and diffuse light add up to 1: more would wash the colours out, to white on white.
+    # A material for each opacity, made once; the user's changes to it are kept. Where both of VMD's lights fall,
+    # ambient and diffuse light add up to 1; more would wash out the colours.
     proc material_of {opacity} {
         set name Espdiff[format %.0f [expr {100 * $opacity}]]
         if {$name ni [material list]} {
@@ -155,12 +155,12 @@ namespace eval ::espdiff {
         return $name
     }
 
-    # Evaluates `body` in the caller under our colours. VMD has one colour scale of 1,024 steps for everything, made
-    # from the three colours of a method, the midpoint, and "min", which is added to red, green and blue; graphics keep
-    # the number of a step until their display list is built, and then red, green and blue. So: set ours, draw, have the
-    # lists built (build_list), and set back what the user had. Lists are built anew when something is added to their
-    # molecule, never for a change of the scale; colours by number (0 to 32) are not touched. Representations that are
-    # coloured by the scale notice the change, and take the restored colours at the next redraw.
+    # Evaluates `body` in the caller with our colours. VMD has one colour scale of 1,024 steps for everything, made from
+    # the three colours of a method, the midpoint, and "min", which is added to red, green and blue. Graphics store the
+    # number of a step until their display list is built, and then red, green and blue. So we set our colours, draw,
+    # have the lists built (build_list), and restore the user's colours. Lists are rebuilt when something is added to
+    # their molecule, never for a change of the scale. Colours by number (0 to 32) are not affected. Representations
+    # coloured by the scale notice the change and use the restored colours at the next redraw.
     proc with_color_scale {colors body} {
         variable scale_method
         set method [colorinfo scale method]
@@ -181,7 +181,7 @@ namespace eval ::espdiff {
         }
     }
 
-    # Has VMD build the molecule's display list now: it does so when a frame is chosen, even where there is none.
+    # Makes VMD build the molecule's display list, which it does when a frame is chosen, even if there is none.
     proc build_list {mol} { molinfo $mol set frame [molinfo $mol get frame] }
 
     proc drawing_of {handle} {
@@ -194,7 +194,7 @@ namespace eval ::espdiff {
         dict set drawings $handle $molecules
     }
 
-    # The user may have deleted some meanwhile; VMD does not use an id twice.
+    # The user may have deleted some of them; VMD does not reuse ids.
     proc delete_molecules {molecules} {
         foreach mol $molecules { if {$mol in [molinfo list]} { mol delete $mol } }
     }

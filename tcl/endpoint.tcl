@@ -1,4 +1,4 @@
-# endpoint.tcl: one side of a comparison as the user writes it, {mol ID ...} or {file PATH ...}, for the core.
+# endpoint.tcl: translates one side of a comparison, {mol ID ...} or {file PATH ...}, for the core.
 
 namespace eval ::espdiff {
     variable endpoint_keys {
@@ -6,7 +6,7 @@ namespace eval ::espdiff {
         mol {mol frame sel map unit radii}
     }
 
-    # Reads what the user wrote into a dict, and names what is wrong with it. `role` is source, target, ...
+    # Parses an endpoint into a dict and reports its errors. `role` is source, target, ...
     proc parse_endpoint {text role} {
         variable endpoint_keys
         if {![string is list $text] || [llength $text] % 2 || [llength $text] == 0} {
@@ -23,8 +23,8 @@ namespace eval ::espdiff {
         return $endpoint
     }
 
-    # The endpoint for the core, and in the caller's variable `temporary` the files that the caller must delete after
-    # the computation. `map` in it, where the endpoint has none, is taken from `otherwise`.
+    # The endpoint for the core; appends to the caller's variable `temporary` the files to delete after the computation.
+    # If the endpoint has no `map`, it is taken from `otherwise`.
     proc make_endpoint {text role temporary_name} {
         upvar 1 $temporary_name temporary
         set endpoint [parse_endpoint $text $role]
@@ -46,7 +46,7 @@ namespace eval ::espdiff {
         return $otherwise
     }
 
-    # The full name of a file: the core may read it when the working folder is another.
+    # The full name of a file, because the core may read it from another working folder.
     proc existing_file {path what} {
         if {![file exists $path]} { fail "$what: there is no file '$path' (in [pwd])" IO }
         return [file normalize $path]
@@ -62,8 +62,8 @@ namespace eval ::espdiff {
         return $result
     }
 
-    # A map as the user writes it: the number of a data set of the endpoint's molecule, a file, {file PATH ?array A?},
-    # or {mol ID map K}; for the core. `unit` and `array` may stand in the endpoint or in the map.
+    # The core's map for a map as the user writes it: the number of a data set of the endpoint's molecule, a file, {file
+    # PATH ?array A?}, or {mol ID map K}. `unit` and `array` may be in the endpoint or in the map.
     proc make_map {text endpoint role temporary_name} {
         upvar 1 $temporary_name temporary
         if {[is_pme $text]} { return [pme_map $text $endpoint "$role map"] }

@@ -1,4 +1,4 @@
-# highlight.tcl: residues of a result shown in VMD by representations of ours, which go again.
+# highlight.tcl: highlights residues of a result in VMD by removable representations.
 
 namespace eval ::espdiff {
     variable highlights [dict create]  ;# by handle: {molecule name} of each representation
@@ -21,14 +21,15 @@ namespace eval ::espdiff {
         foreach mol $found {
             dict lappend highlights $handle [list $mol [add_highlight $mol [dict get $atoms $mol] $options]]
         }
-        # Of the target's molecule, on which surfaces are drawn.
+        # On the target's molecule, where surfaces are drawn.
         if {[dict get $options face] && $found ne ""} {
             face_atoms [lindex $found end] [dict get $atoms [lindex $found end]]
         }
         return $found
     }
 
-    # Turns the view by the shortest way until the atoms are in front of their molecule's middle; all molecules alike.
+    # Rotates the view by the smallest angle that brings the atoms in front of their molecule's centre; all molecules
+    # alike.
     proc face_atoms {mol indices} {
         foreach {name text} [list middle all place "index [join $indices]"] {
             set selection [atomselect $mol $text]
@@ -45,7 +46,7 @@ namespace eval ::espdiff {
         }
     }
 
-    # Names of residues by their `index`, as atoms.tcl finds atoms by.
+    # Identifiers of residues by `index`, as in atoms.tcl.
     proc residue_keys {handle residues} {
         set keys [dict create]
         set known [dict create]
@@ -87,7 +88,7 @@ namespace eval ::espdiff {
         return $indices
     }
 
-    # VMD's name of the new representation, which stays when others are deleted.
+    # VMD's name of the new representation, which stays valid when others are deleted.
     proc add_highlight {mol indices options} {
         mol addrep $mol
         set rep [expr {[molinfo $mol get numreps] - 1}]
@@ -98,7 +99,7 @@ namespace eval ::espdiff {
         return [mol repname $mol $rep]
     }
 
-    # The user may have deleted some meanwhile, or their molecules.
+    # The user may have deleted some of them, or their molecules.
     proc forget_highlight {handle} {
         variable highlights
         foreach place [value_or $highlights $handle {}] {

@@ -1,20 +1,20 @@
-# jobs.tcl: the life of a computation: waiting, progress, the end of one in the background, cancelling, deleting.
+# jobs.tcl: computations from start to end: waiting, progress, background, cancellation, deletion.
 
 namespace eval ::espdiff {
-    # By handle: command and progress (the user's), temporary (files to delete at its end), source_mol and target_mol
-    # (molecules of VMD that it came from, or empty).
+    # By handle: command and progress (the user's), temporary (files to delete at the end), source_mol and target_mol
+    # (VMD's molecules, or empty).
     variable jobs [dict create]
 
-    variable slice_ms 50  ;# between two looks at a computation: how long a progress bar may stand still
+    variable slice_ms 50  ;# between two polls of a computation: the longest standstill of a progress bar
 
-    # A line for the user, on VMD's console or on standard error.
+    # Prints a line on VMD's console or on standard error.
     proc say {text} {
         if {[in_vmd]} { vmdcon -warn "espdiff) $text" } else { puts stderr "espdiff: $text" }
     }
 
     proc exists {handle} { expr {$handle in [core::handles]} }
 
-    # Takes a computation that the core has begun under its care: waits for it, or looks after it in the background.
+    # Manages a computation that the core has started: waits for it, or polls it in the background.
     proc begin_job {handle options {description {}}} {
         variable jobs
         variable slice_ms
@@ -32,7 +32,7 @@ namespace eval ::espdiff {
         return $handle
     }
 
-    # Waits for the end without serving events, and throws the computation's error.
+    # Waits for the end without processing events, and throws the computation's error.
     proc wait_for {handle progress} {
         variable slice_ms
         report_progress $handle $progress
@@ -41,7 +41,7 @@ namespace eval ::espdiff {
         if {$progress ne ""} { catch { call_user $progress done 1.0 } }
     }
 
-    # Calls the user's progress command; a `break` from it cancels, an error from it as well, and is passed on.
+    # Calls the user's progress command. A `break` or an error from it cancels; an error is passed on.
     proc report_progress {handle progress} {
         if {$progress eq ""} return
         set status [core::status $handle]
@@ -51,15 +51,15 @@ namespace eval ::espdiff {
         if {$code == 1} { return -options $options $message }
     }
 
-    # Looks after a computation in the background. An error of a user's command goes to Tcl's background error handler,
-    # as every error of an `after` script does.
+    # Polls a computation in the background. Errors of a user's command go to Tcl's background error handler, like all
+    # errors of `after` scripts.
     proc poll {handle} {
         variable jobs
         variable slice_ms
         if {![exists $handle] || ![dict exists $jobs $handle]} return
         set job [dict get $jobs $handle]
         if {![core::wait $handle 0]} {
-            # Scheduled first, so that an error of the progress command leaves the handle looked after.
+            # Scheduled first, so that an error of the progress command does not stop the polling.
             after $slice_ms [list ::espdiff::poll $handle]
             report_progress $handle [dict get $job progress]
             return
@@ -75,7 +75,7 @@ namespace eval ::espdiff {
         dict set jobs $handle temporary {}
     }
 
-    # Frees a handle of the core, with what hangs on it.
+    # Frees a handle of the core and everything that belongs to it.
     proc forget_job {handle} {
         variable jobs
         if {[exists $handle]} { core::delete $handle }
@@ -85,7 +85,7 @@ namespace eval ::espdiff {
         forget_highlight $handle
     }
 
-    # The molecule of VMD that one side came from; empty when it came from a file or is gone.
+    # The molecule of VMD of one side; empty if it came from a file or is deleted.
     proc molecule_of {handle side} {
         variable jobs
         if {![in_vmd] || ![dict exists $jobs $handle]} { return "" }
@@ -93,7 +93,7 @@ namespace eval ::espdiff {
         expr {$mol in [molinfo list] ? $mol : ""}
     }
 
-    # Refuses handles that do not exist, saying which do.
+    # Refuses unknown handles, and lists the known ones.
     proc require_handle {handle} {
         set known [handles {}]
         if {$handle in $known} return
@@ -101,7 +101,7 @@ namespace eval ::espdiff {
         fail "there is no handle '$handle'; there are [join_words [lsort -dictionary $known] and]"
     }
 
-    # A trajectory's handle has no surface or table of its own.
+    # A trajectory's handle has no surface or table.
     proc require_core_handle {handle} {
         require_handle $handle
         if {[is_trajectory $handle]} { fail "'$handle' is a trajectory; this needs a comparison or a surface" }
@@ -110,7 +110,7 @@ namespace eval ::espdiff {
     proc handles {options} {
         variable jobs
         set known [trajectory_handles]
-        # Series and the comparisons of a trajectory's frames are not the user's.
+        # Excludes series and the comparisons of a trajectory's frames, which are internal.
         foreach handle [core::handles] { if {[dict exists $jobs $handle]} { lappend known $handle } }
         return [lsort -dictionary $known]
     }
@@ -133,7 +133,7 @@ namespace eval ::espdiff {
         return 1
     }
 
-    # Whether it has ended, after waiting for at most so long.
+    # Whether it has ended, after waiting at most this long.
     proc finished {handle milliseconds} {
         if {[is_trajectory $handle]} { return [trajectory_advance $handle $milliseconds] }
         return [core::wait $handle $milliseconds]

@@ -1,11 +1,11 @@
-# legend.tcl: the colour bar of a drawing: a graphics molecule that stays where it is on the screen.
+# legend.tcl: the colour bar of a drawing: a graphics molecule fixed on the screen.
 
 namespace eval ::espdiff {
-    # In units of half the window's height, from its centre: place and size of the bar, heights of the texts' baselines.
-    # The bar is at the bottom's middle: VMD's view is as high in any window, so that only a window that is narrower
-    # than high would cut it, and there all of it is made narrower.
+    # In units of half the window's height, from its centre: position and size of the bar, baselines of the texts. The
+    # bar is at the bottom centre. VMD's view has the same height in any window, so only a window narrower than high
+    # would crop it; there all of it is made narrower.
     variable legend_layout {half_width 0.62 bottom -0.885 top -0.845 ticks -0.945 title -0.815}
-    variable letter_width 0.0275  ;# of VMD's letters at size 1, on average, in the same units
+    variable letter_width 0.0275  ;# average width of VMD's letters at size 1, in the same units
     variable legend_titles {
         difference "Potential difference, target - source" source "Potential of the source"
         target "Potential of the target" potential "Potential" displacement "Displacement"
@@ -13,11 +13,11 @@ namespace eval ::espdiff {
         sign "Sign of the potential, target against source"
     }
 
-    # By id of the graphics molecule: its middle, in units of half the window's width.
+    # By id of the graphics molecule: its centre, in units of half the window's width.
     variable legends [dict create]
 
-    # `plan` is drawing_plan's. The legend's middle, and half of the room that it has, are in units of half the
-    # window's width. Returns the molecule's id; its list is not built yet.
+    # `plan` comes from drawing_plan. The legend's centre, and half of its space, are in units of half the window's
+    # width. Returns the molecule's id; its list is not built yet.
     proc draw_legend {plan {middle 0} {room 1}} {
         variable legend_layout
         variable letter_width
@@ -36,7 +36,7 @@ namespace eval ::espdiff {
         return $mol
     }
 
-    # The name of a panel, at the window's top.
+    # Draws the name of a panel at the window's top.
     proc draw_panel_title {handle middle text size} {
         set mol [new_legend "espdiff $handle title" $middle]
         graphics $mol color [legend_text_color]
@@ -45,7 +45,7 @@ namespace eval ::espdiff {
         return $mol
     }
 
-    # At which all titles have room in a third of the window's width.
+    # The size at which all titles fit into a third of the window's width.
     proc panel_title_size {titles} {
         variable letter_width
         set most 0
@@ -53,18 +53,18 @@ namespace eval ::espdiff {
         expr {min(1.0, [lindex [legend_screen] 2] * 2 / 3.0 / ($letter_width * $most + 0.05))}
     }
 
-    # A graphics molecule that stays where it is on the screen, from place_legends on.
+    # A graphics molecule that is fixed on the screen by place_legends.
     proc new_legend {name middle} {
         variable legends
         set mol [mol load graphics $name]
         dict set legends $mol $middle
-        graphics $mol materials off  ;# the bar's colours as they are, without light and shade
+        graphics $mol materials off  ;# the bar's colours unchanged, without light and shade
         trace remove variable ::vmd_logfile write ::espdiff::on_vmd_command
         trace add variable ::vmd_logfile write ::espdiff::on_vmd_command
         return $mol
     }
 
-    # Puts a legend where it belongs on the screen, and fixes it there.
+    # Moves a legend to its position on the screen and fixes it there.
     proc place_legend {mol middle} {
         lassign [legend_screen] unit z aspect
         set x [expr {$middle * $aspect * $unit}]
@@ -84,12 +84,12 @@ namespace eval ::espdiff {
         if {[dict size $legends] == 0} { trace remove variable ::vmd_logfile write ::espdiff::on_vmd_command }
     }
 
-    # VMD writes each command that changed something into ::vmd_logfile. Resetting the view centres even molecules that
-    # are fixed (VMD 1.9.4), changes of the display move what is to stay in place, and after a deletion VMD may make a
-    # legend the top molecule, about which it would then centre the view.
+    # VMD writes each command that changed something into ::vmd_logfile. Resetting the view centres even fixed molecules
+    # (VMD 1.9.4), changes of the display move the fixed legend, and after a deletion VMD may make a legend the top
+    # molecule and centre the view about it.
     proc on_vmd_command {args} {
         variable legends
-        # An error here would fail the user's command.
+        # An error here would make the user's command fail.
         catch {
             if {[regexp {^display (?:resetview|resize|height|distance)} $::vmd_logfile]} { place_panels }
             if {[regexp {^display (?!update)} $::vmd_logfile]} { place_legends }
@@ -110,7 +110,7 @@ namespace eval ::espdiff {
     }
 
     # Half the window's height at the legend's depth, in VMD's coordinates; the depth, just behind the near clipping
-    # plane, so that molecules are behind it; the window's width by its height.
+    # plane, so that molecules are behind it; the window's aspect ratio, width by height.
     proc legend_screen {} {
         lassign [display get size] width height
         set aspect [expr {$height > 0 ? double($width) / $height : 1.0}]
@@ -121,7 +121,7 @@ namespace eval ::espdiff {
         return [list $unit $z $aspect]
     }
 
-    # The whole colour scale, ids 33 to 1056, in pieces between which VMD interpolates colours.
+    # Draws the whole colour scale, ids 33 to 1056, in segments between which VMD interpolates colours.
     proc draw_bar {mol half_width bottom top} {
         set n 64
         for {set i 0} {$i < $n} {incr i} {
@@ -148,7 +148,7 @@ namespace eval ::espdiff {
         }
     }
 
-    # Places from -1 (left end) to 1, and what stands there.
+    # Positions from -1 (left end) to 1, and their labels.
     proc tick_labels {plan} {
         if {[dict get $plan color] eq "sign"} { return {-1 "+ to -" 0 "same" 1 "- to +"} }
         set labels {}
@@ -159,7 +159,7 @@ namespace eval ::espdiff {
         return $labels
     }
 
-    # A text that is centred about x.
+    # A text centred about x.
     proc draw_text {mol text x y size} {
         variable letter_width
         set left [expr {$x - 0.5 * $letter_width * $size * [string length $text]}]

@@ -1,18 +1,19 @@
-# linked_view.tcl: source, target and difference side by side in VMD's window, turned, moved and zoomed by one mouse.
+# linked_view.tcl: source, target and difference side by side in VMD's window; the mouse moves them together.
 
-# VMD has one scene, in which each molecule has matrices of its own: a point is centred, turned and scaled, and at last
-# translated by the global matrix. The mouse turns all molecules, each about its own centre, and so those in three
-# panels that differ by the global matrix stay alike. The source is turned into the target's frame first.
+# VMD has one scene, in which each molecule has its own matrices: a point is centred, rotated and scaled, and finally
+# translated by the global matrix. The mouse rotates all molecules, each about its own centre, so three panels that
+# differ by the global matrix stay aligned. The source is first rotated into the target's frame.
 namespace eval ::espdiff {
-    # While there is a linked view: handle, panels (by source, target, difference: molecules), saved (what the user
-    # had), rotation and centre (of the source, of the target), scale (VMD's own for the surface).
+    # During a linked view: handle, panels (by source, target, difference: molecules), saved (the previous state),
+    # rotation and centre (of the source, of the target), scale (VMD's own for the surface).
     variable linked {}
 
-    # Middle of each panel, in units of half the window's width, and its title.
+    # Centre of each panel, in units of half the window's width, and its title.
     variable panels {source {-0.6667 Source} target {0.0 Target} difference {0.6667 Difference}}
-    variable panel_fill 0.72  ;# a surface that VMD would let fill a window fills so much of a panel: it may be turned
+    variable panel_fill 0.72  ;# a surface that would fill VMD's window fills this fraction of a panel, to leave room
+                               # for rotation
 
-    # In the place of the handle's and of any other linked drawing.
+    # Replaces the handle's drawing and any other linked drawing.
     proc draw_linked {options handle} {
         variable linked
         if {[dict get [core::status $handle] kind] eq "surface"} {
@@ -30,7 +31,7 @@ namespace eval ::espdiff {
         }
         set linked [dict merge [dict create handle $handle saved $saved panels [panel_members $handle $made]] \
             [panel_frames $handle [lindex [dict get $made target] 0]]]
-        display projection Orthographic  ;# else the outer panels would be seen from the side
+        display projection Orthographic  ;# otherwise the outer panels would be seen from the side
         hide_others [concat {*}[dict values $made] {*}[dict values [dict get $linked panels]]]
         place_panels
         place_legends
@@ -39,7 +40,7 @@ namespace eval ::espdiff {
         return $molecules
     }
 
-    # drawing_plan's for each panel. Both potentials have the same range.
+    # drawing_plan for each panel. Both potentials have the same range.
     proc panel_plans {options handle} {
         set quantity [drawn_quantity $handle [dict get $options color] 0]
         set has_potentials [expr {![catch { core::range $handle source }]}]
@@ -55,7 +56,7 @@ namespace eval ::espdiff {
         return $plans
     }
 
-    # The wider of the two, symmetric about 0.
+    # The wider of both ranges, symmetric about 0.
     proc common_range {handle} {
         set high 0
         foreach side {source target} {
@@ -64,7 +65,7 @@ namespace eval ::espdiff {
         return [list [expr {-$high}] $high]
     }
 
-    # Adds to the caller's dict, by panel and by `fixed`, which are titles and legends.
+    # Adds molecules to the caller's dict, by panel and by `fixed` (titles and legends).
     proc draw_panels {handle plans made_name} {
         upvar 1 $made_name made
         variable panels
@@ -97,7 +98,7 @@ namespace eval ::espdiff {
         }
     }
 
-    # "Source: scTIM_chainA", or what the third panel shows.
+    # "Source: scTIM_chainA", or the quantity of the third panel.
     proc panel_title {handle panel title} {
         if {$panel eq "difference"} { return [string totitle [string map {_ " "} $title]] }
         foreach input [dict get [core::result $handle] inputs] {
@@ -111,8 +112,8 @@ namespace eval ::espdiff {
         return $title
     }
 
-    # What is in each panel: our surfaces, and the molecules that the comparison came from. A molecule that both came
-    # from shows the target.
+    # The content of each panel: our surfaces, and the compared molecules. A molecule that is both source and target
+    # shows the target.
     proc panel_members {handle made} {
         set members [dict create]
         foreach panel {source target difference} { dict set members $panel [dict get $made $panel] }
@@ -123,8 +124,8 @@ namespace eval ::espdiff {
         return $members
     }
 
-    # Where the surface's middle is on both sides, how the source is turned into the target's frame, and the scale that
-    # VMD takes for the surface.
+    # The surface's centre on both sides, the rotation of the source into the target's frame, and VMD's scale for the
+    # surface.
     proc panel_frames {handle surface} {
         variable matrices
         set view [saved_view]
@@ -136,7 +137,7 @@ namespace eval ::espdiff {
         set superposition [dict get [core::result $handle] superposition]
         set rotation [dict get $superposition rotation_row_major]
         set shift [dict get $superposition translation_A]
-        # The target's middle is -centre; what lies there on the source: R^-1 (x - t).
+        # The target's centre is -centre; the corresponding point on the source is R^-1 (x - t).
         set on_source {}
         foreach column {0 1 2} {
             set sum 0
@@ -173,7 +174,7 @@ namespace eval ::espdiff {
         return [concat $product {{0 0 0 1}}]
     }
 
-    # Each panel's molecules to their place, all turned alike; as the target is turned now.
+    # Moves each panel's molecules into place, all with the target's current rotation.
     proc place_panels {} {
         variable linked
         variable panels
@@ -181,7 +182,7 @@ namespace eval ::espdiff {
         if {$linked eq ""} return
         lassign [scene_unit] unit aspect
         set turned [lindex [molinfo [lindex [dict get $linked panels target] 0] get rotate_matrix] 0]
-        # VMD's own scale lets a molecule fill 1.5 of its units.
+        # With VMD's own scale a molecule fills 1.5 of its units.
         set room [expr {$panel_fill * $unit * min(2 * $aspect / 3, 1.5)}]
         set scale [expr {[dict get $linked scale] * $room / 1.5}]
         dict for {panel members} [dict get $linked panels] {
@@ -199,12 +200,12 @@ namespace eval ::espdiff {
         }
     }
 
-    # Half the window's height where molecules are, in VMD's units, and the window's width by its height.
+    # Half the window's height at the molecules' depth, in VMD's units, and the window's aspect ratio.
     proc scene_unit {} {
         list [expr {[display get height] / 4.0}] [lindex [legend_screen] 2]
     }
 
-    # What is put back at the end: matrices, who is displayed, projection.
+    # The state to restore at the end: matrices, displayed molecules, projection.
     proc saved_scene {} { dict create view [saved_view] projection [display get projection] }
 
     proc hide_others {members} {
@@ -212,14 +213,14 @@ namespace eval ::espdiff {
         foreach mol $members { mol on $mol }
     }
 
-    # Takes the linked view away, whosever it is; the molecules stay turned as they are.
+    # Ends any linked view; the molecules keep their rotation.
     proc end_linked_view {} {
         variable linked
         if {$linked ne ""} { forget_drawing [dict get $linked handle] }
     }
 
-    # Called when the drawing's molecules are about to be deleted: what has to be put back is returned for
-    # restore_scene, which is called when they are gone.
+    # Called before the drawing's molecules are deleted; returns the state for restore_scene, which is called
+    # afterwards.
     proc leave_linked_view {handle} {
         variable linked
         if {$linked eq "" || [dict get $linked handle] ne $handle} { return {} }

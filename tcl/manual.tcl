@@ -1,10 +1,10 @@
-# manual.tcl: help texts and the manual's second part, both from the table of commands.
+# manual.tcl: makes help texts and the manual's second part from the table of commands.
 
 namespace eval ::espdiff {
-    # A paragraph of the table on one line.
+    # A paragraph of the table as one line.
     proc one_line {text} { join [regexp -all -inline {\S+} $text] }
 
-    # Breaks a paragraph into lines of at most `width` letters, each after `indent`.
+    # Wraps a paragraph to lines of at most `width` letters, each after `indent`.
     proc wrapped {text indent {width 100}} {
         set lines {}
         set line ""
@@ -75,7 +75,7 @@ namespace eval ::espdiff {
         variable table
         set text ""
         dict for {name description} $table { append text [manual_of $name $description] }
-        return "$text[manual_of_settings]"
+        return "$text[manual_of_settings]\n[manual_of_metrics]"
     }
 
     proc manual_of {name description} {

@@ -1,4 +1,4 @@
-# matrix.tcl: many variants, each with each: which they are, by label, and the computation.
+# matrix.tcl: the command matrix: many variants, each with each, by label.
 
 namespace eval ::espdiff {
     proc matrix {options variants} {
@@ -22,12 +22,12 @@ namespace eval ::espdiff {
         foreach key {resume overwrite on-error shard cluster-by} {
             dict set core [string map {- _} $key] [dict get $options $key]
         }
-        # In the background the working folder may change.
+        # The working folder may change during a background computation.
         dict set core output [file normalize [dict get $options output]]
         return $core
     }
 
-    # What the user wrote as the core's variants: endpoints with label and group.
+    # The user's variants for the core: endpoints with label and group.
     proc make_variants {variants temporary_name} {
         upvar 1 $temporary_name temporary
         if {![string is list $variants]} { fail "variants: '$variants' is not a list of endpoints" }
@@ -49,7 +49,7 @@ namespace eval ::espdiff {
         return [set_apart $made]
     }
 
-    # Label and group on one side, the endpoint on the other.
+    # Separates label and group from the endpoint.
     proc split_variant {text role} {
         if {![string is list $text] || [llength $text] % 2 || [llength $text] == 0} {
             fail "$role: '$text' is not {mol ID ?key value ...?} or {file PATH ?key value ...?}"
@@ -70,7 +70,7 @@ namespace eval ::espdiff {
         return [molinfo [vmd_molecule_id [dict get $endpoint mol] $role] get name]
     }
 
-    # The endpoint of each frame or model, with what tells it from the others.
+    # The endpoint of each frame or model, and the suffix that distinguishes it.
     proc each_state {endpoint role} {
         set states {}
         if {[dict exists $endpoint frames]} {
@@ -94,7 +94,7 @@ namespace eval ::espdiff {
         return $states
     }
 
-    # Labels that several variants share get numbers, as two molecules of one name in VMD need.
+    # Adds numbers to labels that several variants share, such as two molecules of one name in VMD.
     proc set_apart {variants} {
         set count [dict create]
         foreach variant $variants { dict incr count [dict get $variant label] }

@@ -1,16 +1,16 @@
-# options.tcl: what is common to all commands: their table, checks of arguments and options, dispatch, errors.
+# options.tcl: shared by all commands: their table, checks of arguments and options, dispatch, errors.
 
 namespace eval ::espdiff {
     variable table [dict create]
     variable default_device auto
-    variable call {}  ;# the command that runs, for the provenance of its result
+    variable call {}  ;# the running command, for the provenance of its result
 
-    # Ends the calling procedure with an error; classes are those of the manual's last part.
+    # Ends the calling procedure with an error; the classes are listed at the end of the manual.
     proc fail {message {class INPUT}} {
         return -code error -errorcode [list ESPDIFF $class] $message
     }
 
-    # Evaluates `body` and then, whatever came of it, `cleanup`, both in the caller; Tcl 8.5 has no `try`.
+    # Evaluates `body` and then always `cleanup`, both in the caller; Tcl 8.5 has no `try`.
     proc finally {body cleanup} {
         set code [catch {uplevel 1 $body} result options]
         uplevel 1 $cleanup
@@ -19,14 +19,25 @@ namespace eval ::espdiff {
         return -options $options $result
     }
 
-    # Calls the user's command, given as a prefix, at the top level. A `break` from it arrives at the caller's catch.
+    # Calls the user's command prefix at the top level. A `break` from it reaches the caller's catch.
     proc call_user {prefix args} {
         catch { uplevel #0 [concat $prefix $args] } result options
         dict incr options -level
         return -options $options $result
     }
 
-    # Adds a command to the table; commands.tcl says what the keys are.
+    # A command prefix that spells the options in messages, called as PREFIX name value switch; empty for Tcl's own
+    # spelling. Front ends with another spelling set it temporarily; the core reads it too.
+    variable option_spelling {}
+
+    # An option without its dash, as messages name it.
+    proc spelled {name} {
+        variable option_spelling
+        if {$option_spelling eq ""} { return -$name }
+        return [{*}$option_spelling $name "" 0]
+    }
+
+    # Adds a command to the table; commands.tcl explains the keys.
     proc command {name description} {
         variable table
         dict set table $name $description
@@ -37,7 +48,7 @@ namespace eval ::espdiff {
         return "[join [lrange $words 0 end-1] {, }] $last [lindex $words end]"
     }
 
-    # The words that are within a few letters of `word`; for "did you mean".
+    # The words that differ from `word` by a few letters, for "did you mean".
     proc nearest {word words} {
         set best {}
         set least [expr {2 + [string length $word] / 4}]
@@ -50,7 +61,7 @@ namespace eval ::espdiff {
         return $best
     }
 
-    # Letters to change, add or take away to turn one word into the other.
+    # Number of letters to change, add or remove between two words.
     proc edit_distance {a b} {
         set row {}
         for {set j 0} {$j <= [string length $b]} {incr j} { lappend row $j }
@@ -94,7 +105,7 @@ namespace eval ::espdiff {
         return $options
     }
 
-    # The values that each kind of option accepts, in words.
+    # Descriptions of the values that each kind of option accepts.
     variable kinds {
         number "a number"
         positive "a number above 0"
@@ -117,7 +128,7 @@ namespace eval ::espdiff {
         return [dict get $kinds [dict get $option kind]]
     }
 
-    # The value in the form the commands use, or an error that says what is accepted.
+    # The value in the form the commands use, or an error with the accepted values.
     proc check_value {option value} {
         dict with option {}
         switch $kind {
@@ -133,12 +144,12 @@ namespace eval ::espdiff {
             command { set valid [string is list $value] }
             device { set valid [regexp {^(auto|cpu|cuda(:[0-9]{1,4})?)$} $value] }
             choice {
-                # Of settings the core knows more, such as values that a later version will have.
+                # The core knows more about settings, such as values added by a later version.
                 set valid [expr {$value in $choices || $setting}]
             }
             default { set valid 1 }
         }
-        if {!$valid} { fail "$name: '$value' is not [accepted_values $option]" }
+        if {!$valid} { fail "[spelled [string range $name 1 end]]: '$value' is not [accepted_values $option]" }
         return $value
     }
 
@@ -160,15 +171,15 @@ namespace eval ::espdiff {
         return -code error -errorcode {TCL WRONGARGS} "wrong # args: should be \"[usage $name]\""
     }
 
-    # Where to compute can be set for all commands, by `espdiff device`.
+    # `espdiff device` sets the device for all commands.
     proc default_of {option} {
         variable default_device
         if {[dict get $option kind] eq "device"} { return $default_device }
         return [dict get $option default]
     }
 
-    # -option value pairs as a dict of names without the dash; the settings that were given are under `settings`.
-    # Options without a default are absent unless given.
+    # -option value pairs as a dict of names without the dash; given settings are under `settings`. Options without a
+    # default are absent unless given.
     proc parse_options {name words} {
         set options [dict create settings {}]
         set known [dict create]
@@ -196,14 +207,19 @@ namespace eval ::espdiff {
         return $options
     }
 
-    # Options are not abbreviated: a script that does so would break when an option is added.
+    # Options cannot be abbreviated: a new option would break such scripts.
     proc refuse_word {name word known} {
         if {![string match -* $word]} { return -code error -errorcode {TCL WRONGARGS} \
             "wrong # args: should be \"[usage $name]\"" }
+        set renamed [core::renamed_settings]
+        set old [string range $word 1 end]
+        if {[dict exists $renamed $old] && "-[dict get $renamed $old]" in $known} {
+            fail "espdiff $name: $word is called -[dict get $renamed $old] now"
+        }
         fail "espdiff $name: [unknown_word option $word $known]"
     }
 
-    # Runs a command of the table: the ensemble ::espdiff calls this.
+    # Runs a command of the table; called by the ensemble ::espdiff.
     proc run {name args} {
         variable table
         variable call
@@ -229,7 +245,7 @@ namespace eval ::espdiff {
         [dict get $description run] [parse_options $name [lrange $args $n end]] {*}$positional
     }
 
-    # Called by the ensemble for a subcommand that does not exist.
+    # Called by the ensemble for an unknown subcommand.
     proc unknown_command {ensemble name args} {
         variable table
         fail "espdiff: [unknown_word command $name [dict keys $table]]; `espdiff help` explains them"

@@ -1,13 +1,13 @@
 # plot.tcl: lines along a trajectory, or of one variant against all, in VMD's own plot windows (the package multiplot).
 
 namespace eval ::espdiff {
-    # What a click does, by the number of the window: {callback molecule x names}. multiplot writes its callback into a
-    # binding of Tk, where nothing but a short word is safe.
+    # The action of a click, by number of the window: {callback molecule x names}. multiplot writes its callback into a
+    # Tk binding, where only a short word is safe.
     variable plot_clicks [dict create]
 
     variable plot_colours {#0072b2 #d55e00 #009e73 #cc79a7 #56b4e9 #e69f00 #000000}
 
-    # A window for each unit, or one where values are normalized.
+    # A window for each unit, or one for normalized values.
     proc plot {options input} {
         set table [plot_table $input $options]
         if {[dict get $options file] ne ""} { return [plot_into_file $table $options] }
@@ -34,7 +34,7 @@ namespace eval ::espdiff {
         }
     }
 
-    # A dict: x, names (of the points; empty where x says it), x_title, title, rows (dicts by column), unit, columns.
+    # A dict: x, names (of the points; empty if x is numeric), x_title, title, rows (dicts by column), unit, columns.
     proc plot_table {input options} {
         if {[exists $input] || [is_trajectory $input]} {
             if {[is_trajectory $input]} { return [plot_csv [dict get [trajectory_result $input] csv]] }
@@ -104,35 +104,20 @@ namespace eval ::espdiff {
             columns [dict keys [dict get $matrix metrics]]]
     }
 
-    # Title, unit and factor of a column.
-    proc plot_quantity {column unit} {
-        foreach metric [core::metrics] {
-            if {[dict get $metric name] ne $column} continue
-            switch [dict get $metric kind] {
-                potential { return [list [dict get $metric title] $unit 1] }
-                fraction { return [list [dict get $metric title] % 100] }
-                length { return [list [dict get $metric title] A 1] }
-                area { return [list [dict get $metric title] A^2 1] }
-            }
-            return [list [dict get $metric title] "" 1]
-        }
-        return [list $column "" 1]
-    }
-
     proc plot_metrics {table options} {
         set metrics [dict get $options metrics]
         if {$metrics ne "auto"} { return $metrics }
-        expr {[dict get $table unit] eq "" ? "mean_displacement_A" : "mean_abs_difference"}
+        usual_metric [expr {[dict get $table unit] ne ""}]
     }
 
-    # A dict for each metric: title, unit, x, y; points without a value are left out.
+    # A dict for each metric: title, unit, x, y; points without a value are omitted.
     proc plot_series {table options} {
         set all {}
         foreach column [plot_metrics $table $options] {
             if {$column ni [dict get $table columns]} {
                 fail "-metrics: [unknown_word metric $column [dict get $table columns]]"
             }
-            lassign [plot_quantity $column [dict get $table unit]] title unit factor
+            lassign [shown_metric $column [dict get $table unit]] title unit factor
             set x {}
             set y {}
             foreach at [dict get $table x] row [dict get $table rows] {
@@ -190,7 +175,7 @@ namespace eval ::espdiff {
         return $plot
     }
 
-    # multiplot calls this with the point that was clicked.
+    # Called by multiplot with the clicked point.
     proc plot_clicked {number index x y colour marker} {
         variable plot_clicks
         lassign [dict get $plot_clicks $number] callback mol positions names

@@ -1,9 +1,9 @@
-# plot_file.tcl: the plots of plot.tcl as pictures for publications, drawn by gnuplot as the command line draws them.
+# plot_file.tcl: the plots of plot.tcl as pictures for publications, drawn by gnuplot as on the command line.
 
 namespace eval ::espdiff {
-    # `table` is plot_table's. Points without a value leave a gap.
+    # `table` comes from plot_table. Points without a value leave a gap.
     proc plot_into_file {table options} {
-        plot_series $table $options  ;# refuses what cannot be drawn, as for VMD's windows
+        plot_series $table $options  ;# reports errors, as for VMD's windows
         set plot [dict create title [dict get $options title] normalize [dict get $options normalize]]
         if {[dict get $table names] eq ""} {
             dict set plot x [dict get $table x]
@@ -21,9 +21,9 @@ namespace eval ::espdiff {
         return [core::plot_lines [file normalize [dict get $options file]] $plot]
     }
 
-    # The core's series of a column; units as they are printed.
+    # The core's series of a column, with printed units.
     proc plot_line {table column} {
-        lassign [plot_quantity $column [dict get $table unit]] title unit factor
+        lassign [shown_metric $column [dict get $table unit]] title unit factor
         set values {}
         foreach row [dict get $table rows] {
             set value [dict get $row $column]

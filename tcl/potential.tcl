@@ -1,12 +1,12 @@
-# potential.tcl: potentials that are computed here from the charges VMD holds: one molecule's, or averaged over frames.
+# potential.tcl: computes potentials from VMD's charges: of one molecule, or averaged over frames.
 
 namespace eval ::espdiff {
-    # What a computed map may be told, as `map pme` or {pme ?key value ...?}; they mean what `espdiff potential` says.
+    # Keys of a computed map, as in `map pme` or {pme ?key value ...?}, with the meanings of `espdiff potential`.
     variable pme_keys {sel cell pad grid ewaldfactor spline compatible precision}
 
     proc is_pme {text} { expr {[string is list $text] && [lindex $text 0] eq "pme"} }
 
-    # The core's map of `text` for an endpoint, which the core has the coordinates of.
+    # The core's map of `text` for an endpoint whose coordinates the core has.
     proc pme_map {text endpoint what} {
         variable pme_keys
         set keys [lrange $text 1 end]
@@ -25,7 +25,7 @@ namespace eval ::espdiff {
         return $map
     }
 
-    # The core calls a given cell `box`: `cell` is what the molecule says itself.
+    # The core calls a given cell `box`; `cell` is the molecule's own.
     proc pme_core_options {options} {
         if {[dict exists $options cell]} {
             dict set options box [dict get $options cell]
@@ -34,7 +34,7 @@ namespace eval ::espdiff {
         return $options
     }
 
-    # The charges of all atoms, 0 for those that are not selected.
+    # The charges of all atoms, 0 for unselected ones.
     proc vmd_charges {mol text frame what} {
         set all [atomselect $mol all]
         finally { set charges [$all get charge] } { $all delete }
@@ -53,7 +53,7 @@ namespace eval ::espdiff {
         vmd_require_charges [dict create mol $mol charges_origin none] $what
     }
 
-    # Computes the potential of each frame, averages, and puts the maps where they were asked for.
+    # Computes the potential of each frame, averages, and stores the maps as requested.
     proc potential {options} {
         require_vmd "espdiff potential" "outside of it the command line's `espdiff potential` computes maps of files"
         set mol [vmd_molecule_id [dict get $options mol] -mol]
@@ -87,7 +87,7 @@ namespace eval ::espdiff {
             [dict create seconds [expr {([clock milliseconds] - $begun) / 1000.0}]]]
     }
 
-    # PMEPot's words: now, all, a frame, begin:end or begin:step:end.
+    # PMEPot's syntax: now, all, a frame, begin:end or begin:step:end.
     proc potential_frames {mol text} {
         vmd_frame $mol last -mol
         if {$text eq "all"} { set text 0:1: }
@@ -149,8 +149,8 @@ namespace eval ::espdiff {
         core::check $handle
     }
 
-    # Puts a map of the handle where it was asked for, and notes it in the caller's dict: mol, volumes, files. `suffix`
-    # tells its file from others. A new molecule is made for the first map, when nothing can go wrong in computing it.
+    # Stores a map of the handle as requested, and records it in the caller's dict: mol, volumes, files. `suffix`
+    # distinguishes its file. A new molecule is made for the first map, after the computation has succeeded.
     proc potential_result {maps_name handle which suffix options} {
         upvar 1 $maps_name maps
         set path [dict get $options dxfile]

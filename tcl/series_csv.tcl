@@ -75,7 +75,7 @@ namespace eval ::espdiff {
     # Each call opens and closes the file: what is written is there whatever happens next.
     proc csv_write {path mode lines} {
         if {[catch {
-            set channel [open_file $path $mode]
+            set channel [open $path $mode]
             fconfigure $channel -encoding utf-8 -translation lf
             foreach line $lines { puts $channel $line }
             close $channel
@@ -102,7 +102,7 @@ namespace eval ::espdiff {
     # Rows of an earlier run and what they were made with; a last line that is not complete is cut off.
     proc csv_read {path about} {
         variable csv_columns
-        set channel [open_file $path]
+        set channel [open $path r]
         fconfigure $channel -encoding utf-8 -translation lf
         set text [read $channel]
         close $channel

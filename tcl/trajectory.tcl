@@ -48,7 +48,7 @@ namespace eval ::espdiff {
         upvar 1 $run_name run
         array set run {series {} job {} temporary {} reference_temporary {} last_map {} position 0 rows 0 skipped 0
             replay {} head {} written 0 state running message {} error {} busy 0 fraction 0 stage {} structure {}
-            failed 0 lock {}}
+            failed 0}
         set run(begun) [clock milliseconds]
         foreach key {mol file map csv start unit command progress callback} { set run($key) [dict get $options $key] }
         set run(csv) [file normalize $run(csv)]  ;# in the background the working folder may change
@@ -58,17 +58,11 @@ namespace eval ::espdiff {
             fail "espdiff trajectory: give one of -mol ID and -file FILE"
         }
         prepare_frames run $options
+        usual_run_maps run options
         check_frame_maps run
         set run(core_options) [core_options $options]
         if {$run(start) eq "auto"} { set run(start) [usual_start $run(core_options)] }
         set run(about) [about_run run [dict replace $options start $run(start)]]
-        core::check_outputs [named_files [list file $run(file) mol $run(mol) map $run(map)] $run(reference) \
-            $run(reference_map)] [list $run(csv) [state_file run]]
-        if {[catch { core::lock $run(csv) } run(lock)]} {
-            set message $run(lock)
-            set run(lock) ""
-            fail "-csv: the file '$run(csv)' cannot be written ($message)" IO
-        }
         lassign [csv_open $run(csv) [dict get $options resume] [dict get $options overwrite] $run(about)] \
             earlier run(head)
         set run(written) [llength $earlier]

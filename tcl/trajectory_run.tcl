@@ -176,8 +176,6 @@ namespace eval ::espdiff {
         if {$run(series) ne "" && [exists $run(series)]} { core::delete $run(series) }
         set run(series) ""
         foreach path $run(reference_temporary) { file delete -force $path }
-        if {$run(lock) ne ""} { core::unlock $run(lock) }
-        set run(lock) ""
     }
 
     # From the event loop. An error of a user's command ends the run and goes to the background error handler too.

@@ -1,7 +1,7 @@
-# view.tcl: the viewer, a program of its own, on a comparison that is in memory or in files.
+# view.tcl: starts the viewer, a separate program, on a comparison in memory or in files.
 
 namespace eval ::espdiff {
-    # The command line's program: beside the package as it is built or installed, or on PATH; empty where there is none.
+    # The command line's program: beside the package as built or installed, or on PATH; empty if there is none.
     proc program_path {} {
         variable directory
         if {[info exists ::env(ESPDIFF_PROGRAM)] && $::env(ESPDIFF_PROGRAM) ne ""} { return $::env(ESPDIFF_PROGRAM) }
@@ -29,7 +29,7 @@ namespace eval ::espdiff {
                 set surface [export_for_viewer $folder $input]
             }
             if {$prefix eq ""} { set prefix [file join [pwd] [file rootname [file tail $surface]]-view] }
-            # The shell tidies up when the viewer has ended, since VMD may have been left by then.
+            # The shell cleans up when the viewer has ended, since VMD may have exited by then.
             set script {
                 trap : HUP INT TERM
                 folder=$1 log=$2
@@ -43,7 +43,7 @@ namespace eval ::espdiff {
             set process [core::start_program [list /bin/sh -c $script espdiff-view $folder $log \
                 $program view $surface -o $prefix --layout [dict get $options layout] \
                 {*}[dict get $options arguments]] $log]
-            # What is wrong with display or options shows at once.
+            # Errors of display or options appear at once.
             for {set i 0} {$i < 10} {incr i} {
                 after 50
                 if {[viewer_has_ended $process $log]} break
@@ -75,7 +75,7 @@ namespace eval ::espdiff {
         return [file join $folder $handle.vtp]
     }
 
-    # Whether it is over; an error with the viewer's own words when it failed.
+    # Whether it has ended; if it failed, an error with the viewer's message.
     proc viewer_has_ended {process log} {
         set state [core::program_state $process]
         if {$state eq "running"} { return 0 }
@@ -95,7 +95,7 @@ namespace eval ::espdiff {
         fail "the viewer: $words" DEVICE
     }
 
-    # Looks from time to time, until it has ended.
+    # Polls until it has ended.
     proc watch_viewer {process log} {
         if {[catch { viewer_has_ended $process $log } over]} {
             viewer_failed $over

@@ -1,11 +1,11 @@
-# vmd_molecule.tcl: atoms, coordinates, radii and charges of a molecule that VMD holds, for the core.
+# vmd_molecule.tcl: atoms, coordinates, radii and charges of a VMD molecule, for the core.
 
 namespace eval ::espdiff {
-    # File types of VMD that carry radii of their own; all others leave VMD's guess by element or name, and those that
-    # set that guess again when they are added to a molecule are in the second list.
+    # VMD's file types with radii; all others leave VMD's guess by element or name. The second list has the types that
+    # reset that guess when they are added to a molecule.
     variable types_with_radii {pqr js vsf vtf hoomd lammpstrj}
     variable types_that_guess_radii {pdb webpdb pdbx xyz cube gaussian cpmdlog xsf}
-    # File types that carry charges. Gaussian cube files are not among them: their "charges" are the nuclei's.
+    # File types with charges. Not Gaussian cube files, whose "charges" are the nuclei's.
     variable types_with_charges {
         psf pqr parm parm7 tpr mol2 js mae dms bgf xbgf car mdf pdbx vsf vtf hoomd lammpstrj gaussian gamess cpmdlog
     }
@@ -14,7 +14,7 @@ namespace eval ::espdiff {
         if {![in_vmd]} { fail "$what needs VMD; $remedy" }
     }
 
-    # The id of a molecule that exists; `top` counts.
+    # The id of an existing molecule, or of `top`.
     proc vmd_molecule_id {mol role} {
         require_vmd "$role: a molecule of VMD"
         if {$mol eq "top" && [molinfo num] > 0} { set mol [molinfo top] }
@@ -31,7 +31,7 @@ namespace eval ::espdiff {
         fail "$role: there is no molecule '$mol'; loaded are [join_words $loaded and]"
     }
 
-    # now, first, last or a number from 0, as the number of a frame that exists.
+    # The number of an existing frame from now, first, last or a number from 0.
     proc vmd_frame {mol frame role} {
         set n [molinfo $mol get numframes]
         set name "molecule $mol ([molinfo $mol get name])"
@@ -50,8 +50,8 @@ namespace eval ::espdiff {
         return $frame
     }
 
-    # All of the core's endpoint but the coordinates, and under `mol`, `n_atoms` and `sel` where they are: one look at
-    # the structure serves all frames. The selection is that of the endpoint's frame.
+    # The core's endpoint without coordinates, and their place under `mol`, `n_atoms` and `sel`: the structure is read
+    # once for all frames. The selection is that of the endpoint's frame.
     proc vmd_structure {endpoint role} {
         set mol [vmd_molecule_id [dict get $endpoint mol] $role]
         set name [molinfo $mol get name]
@@ -93,7 +93,7 @@ namespace eval ::espdiff {
         return $endpoint
     }
 
-    # The last file with radii counts: VMD lets it replace those of files before it.
+    # The last file with radii counts, because VMD lets it replace those of earlier files.
     proc vmd_radii_origin {mol} {
         variable types_with_radii
         variable types_that_guess_radii
@@ -105,8 +105,8 @@ namespace eval ::espdiff {
         return $origin
     }
 
-    # Charges that are all 0 are none: VMD has 0 where a file says nothing. Charges without a file that brings them were
-    # set by the user (`$sel set charge`), and count.
+    # All-zero charges mean none, because VMD has 0 if a file contains no charges. Nonzero charges without a file that
+    # provides them were set by the user (`$sel set charge`) and are used.
     proc vmd_charges_origin {mol atoms} {
         foreach atom $atoms { if {[lindex $atom 8] != 0} { return file } }
         return none

@@ -1,13 +1,13 @@
-# vmd_view.tcl: what the user sees, kept over commands of VMD that change it by the way.
+# vmd_view.tcl: preserves the user's view over VMD commands that change it as a side effect.
 
 namespace eval ::espdiff {
     variable matrices {center_matrix rotate_matrix scale_matrix global_matrix}
 
-    # Evaluates `body` in the caller; then view, top molecule, and what is active and displayed are as before for all
-    # molecules that were there. Loading a map or a graphics molecule resets every view and changes the top molecule.
+    # Evaluates `body` in the caller, then restores view, top molecule, and active and displayed states of all existing
+    # molecules. (Loading a map or a graphics molecule resets every view and changes the top molecule.)
     proc keep_view {body} {
         set view [saved_view]
-        # With updates off, VMD would put off the reset until after we have restored the view.
+        # With updates off, VMD would postpone the reset until after we have restored the view.
         set updates [display update status]
         display update on
         finally { uplevel 1 $body } {

@@ -1,9 +1,9 @@
-# vmd_volume.tcl: potential maps out of VMD and into it, through memory, or through DX files where that does not work.
+# vmd_volume.tcl: passes potential maps out of VMD and into it, through memory, or through DX files as a fallback.
 
 namespace eval ::espdiff {
-    variable n_volumes 0  ;# for names that are not used twice
+    variable n_volumes 0  ;# for names that are never reused
 
-    # Data set K of a molecule as the core's map; files that the caller must delete later are added to `temporary`.
+    # Data set K of a molecule as the core's map; files for the caller to delete are appended to `temporary`.
     proc vmd_take_map {mol k role temporary_name} {
         upvar 1 $temporary_name temporary
         set mol [vmd_molecule_id $mol "$role map"]
@@ -25,8 +25,8 @@ namespace eval ::espdiff {
         return [dict create file $path]
     }
 
-    # {unit U} of a data set that VMD calls "FILE : DX map", or nothing. VMD keeps no units; PMEPot's, whose files are
-    # temporary, is kT/e, and that of other maps is in their files, where those are still there.
+    # {unit U} of a data set that VMD calls "FILE : DX map", or nothing. VMD stores no units. PMEPot's, whose files are
+    # temporary, is kT/e; for other maps the unit is read from their files, if they still exist.
     proc vmd_map_unit {mol dataname} {
         if {![regexp {^(\S.*) : } $dataname all name]} { return {} }
         if {[string match pmedx_* $name]} { return {unit kT/e} }
@@ -48,8 +48,8 @@ namespace eval ::espdiff {
         fail "$what: there is no data set $k, $name $there; `mol addfile FILE.dx waitfor all $mol` adds one"
     }
 
-    # VMD ignores what its writers return, so that the caller must see whether the volume arrived. One frame at most: a
-    # molecule that holds maps only has none, and VMD would complain about frame 0.
+    # VMD ignores its writers' return values, so the caller must check whether the volume arrived. At most one frame: a
+    # molecule with maps only has none, and VMD would complain about frame 0.
     proc vmd_write_volume {type name mol k} {
         set range [expr {[molinfo $mol get numframes] > 0 ? "beg 0 end 0" : ""}]
         expr {![catch { animate write $type $name {*}$range volsets [list $k] $mol }]}
@@ -60,7 +60,7 @@ namespace eval ::espdiff {
         return espdiff-[pid]-[incr n_volumes]
     }
 
-    # A new file that only this user can read.
+    # A new file readable only by this user.
     proc temporary_file {extension} {
         variable n_volumes
         set folder /tmp
@@ -77,8 +77,8 @@ namespace eval ::espdiff {
         fail "no temporary file can be made in '$folder' ($channel); TMPDIR names another folder" IO
     }
 
-    # Loads a volume of a type into a molecule; returns whether it arrived. The molecule's id has to be last: VMD takes
-    # `molid N` for nothing and loads into the top molecule.
+    # Loads a volume of a type into a molecule; returns whether it arrived. The molecule's id must come last: VMD
+    # ignores `molid N` and loads into the top molecule.
     proc vmd_add_volume {type name mol} {
         set n [molinfo $mol get numvolumedata]
         catch { mol addfile $name type $type waitfor all $mol }

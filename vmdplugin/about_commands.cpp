@@ -1,17 +1,20 @@
-// about_commands.cpp: version, build, back_ends, device, settings, abi, models, map_unit, colours, volumes: what this
-// module is and offers.
+// about_commands.cpp: version, build, back_ends, device, settings, renamed_settings, metrics, abi, models, map_unit,
+// colours, volumes: what this module is and offers.
 #include <cstdio>
+#include <sstream>
 
 #include "base/error.h"
 #include "base/version.h"
 #include "commands.h"
+#include "compare/settings.h"
 #include "engine/select_engine.h"
 #include "io/read_dx.h"
 #include "io/read_structure.h"
 #include "molfile_bridge.h"
-#include "pipeline/settings.h"
+#include "option_spelling.h"
+#include "plot/colour_map.h"
+#include "report/metrics.h"
 #include "tcl_values.h"
-#include "view/colour_map.h"
 
 namespace espdiff::vmdplugin {
 namespace {
@@ -39,24 +42,25 @@ Tcl_Obj* build(const Call&) {
 /// What a name given as -device means.
 Tcl_Obj* device(const Call& call) {
   const BackEndStatus status = device_status(parse_device(call.text(0)));
-  return to_dict({{"name", to_obj(status.name)}, {"description", to_obj(in_tcl_words(status.description))}});
+  return to_dict({{"name", to_obj(status.name)}, {"description", to_obj(spelled(call.interp, status.description))}});
 }
 
-Tcl_Obj* back_ends(const Call&) {
+Tcl_Obj* back_ends(const Call& call) {
   std::vector<Tcl_Obj*> gpus;
   for (const BackEndStatus& gpu : cuda_devices())
     gpus.push_back(to_dict({{"name", to_obj(gpu.name)},
                             {"available", to_obj(gpu.available)},
-                            {"description", to_obj(in_tcl_words(gpu.description))}}));
+                            {"description", to_obj(spelled(call.interp, gpu.description))}}));
   std::vector<Tcl_Obj*> all;
   for (const auto& [status, fourier] :
        {std::pair(cpu_status(), cpu_fourier_status()), std::pair(cuda_status(), cuda_fourier_status())}) {
-    all.push_back(to_dict({{"name", to_obj(status.name)},
-                           {"available", to_obj(status.available)},
-                           {"description", to_obj(in_tcl_words(status.description))},
-                           {"devices", status.name == "cuda" ? to_list(gpus) : Tcl_NewObj()},
-                           {"fourier", to_dict({{"available", to_obj(fourier.available)},
-                                                {"description", to_obj(in_tcl_words(fourier.description))}})}}));
+    all.push_back(
+        to_dict({{"name", to_obj(status.name)},
+                 {"available", to_obj(status.available)},
+                 {"description", to_obj(spelled(call.interp, status.description))},
+                 {"devices", status.name == "cuda" ? to_list(gpus) : Tcl_NewObj()},
+                 {"fourier", to_dict({{"available", to_obj(fourier.available)},
+                                      {"description", to_obj(spelled(call.interp, fourier.description))}})}}));
   }
   return to_list(all);
 }
@@ -83,6 +87,68 @@ Tcl_Obj* list_settings(const Call&) {
                            {"default", to_obj(setting.get(defaults))},
                            {"help", to_obj(setting.help)},
                            {"surface", to_obj(setting.of_surface)}}));
+  }
+  return to_list(all);
+}
+
+/// Earlier names with the present ones.
+Tcl_Obj* list_renamed(const Call&) {
+  Tcl_Obj* const dict = Tcl_NewDictObj();
+  for (const RenamedSetting& renamed : renamed_settings())
+    Tcl_DictObjPut(nullptr, dict, to_obj(renamed.old_name), to_obj(renamed.name));
+  return dict;
+}
+
+const char* name_of(MetricUnit unit) {
+  switch (unit) {
+    case MetricUnit::kPotential: return "potential";
+    case MetricUnit::kAngstrom: return "length";
+    case MetricUnit::kSquareAngstrom: return "area";
+    case MetricUnit::kFraction: return "fraction";
+    case MetricUnit::kIndex: return "index";
+    case MetricUnit::kCount: break;
+  }
+  return "count";
+}
+
+const char* name_of(MetricSection section) {
+  switch (section) {
+    case MetricSection::kSuperposition: return "superposition";
+    case MetricSection::kPotential: return "potential";
+    case MetricSection::kShape: return "shape";
+    case MetricSection::kSurface: return "surface";
+    case MetricSection::kCertificate: return "certificate";
+    case MetricSection::kMapping: break;
+  }
+  return "mapping";
+}
+
+/// The keys that lead to a metric in `espdiff result`; none where it is a residue's only.
+std::vector<std::string> result_keys(const Metric& metric) {
+  std::vector<std::string> keys;
+  std::istringstream parts(metric.has_result() ? metric.json_pointer() : "");
+  for (std::string key; std::getline(parts, key, '/');) {
+    if (!key.empty()) keys.push_back(key);
+  }
+  return keys;
+}
+
+/// The table of metrics. `unit` is `potential` where it is the potentials'; values times `factor` are in it.
+Tcl_Obj* list_metrics(const Call&) {
+  std::vector<Tcl_Obj*> all;
+  for (const Metric& metric : metrics()) {
+    const ShownUnit shown = shown_unit(metric, "potential");
+    all.push_back(to_dict({{"name", to_obj(metric.name)},
+                           {"title", to_obj(metric.label)},
+                           {"section", to_obj(name_of(metric.section))},
+                           {"kind", to_obj(name_of(metric.unit))},
+                           {"unit", to_obj(shown.unit)},
+                           {"factor", to_obj(shown.factor)},
+                           {"help", to_obj(metric.help)},
+                           {"keys", to_list(result_keys(metric))},
+                           {"residues", to_obj(metric.has_residues())},
+                           {"series", to_obj((metric.flags & kInSeries) != 0)},
+                           {"matrix", to_obj((metric.flags & kInMatrix) != 0)}}));
   }
   return to_list(all);
 }
@@ -152,6 +218,8 @@ std::vector<Command> about_commands() {
           {"back_ends", 0, 0, "", back_ends},
           {"device", 1, 1, "name", device},
           {"settings", 0, 0, "", list_settings},
+          {"renamed_settings", 0, 0, "", list_renamed},
+          {"metrics", 0, 0, "", list_metrics},
           {"abi", 0, 0, "", abi},
           {"models", 1, 1, "file", models},
           {"map_unit", 1, 1, "file", map_unit},

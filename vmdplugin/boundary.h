@@ -2,19 +2,18 @@
 #pragma once
 
 #include <exception>
-#include <new>
 #include <string>
 #include <utility>
 
 #include "base/error.h"
-#include "base/printable.h"
+#include "base/translate.h"
 
 namespace espdiff {
 
 /// What the other side of a boundary learns of an exception.
 struct Failure {
   const char* error_class;  ///< "INPUT", "MEMORY", ...: the CLASS of a Tcl errorcode
-  std::string message;      ///< one line
+  Message message;          ///< one line
 };
 
 /// Returns body(), or on_failure(Failure) when body throws anything at all; both return the same type. Tcl and VMD are
@@ -23,15 +22,13 @@ template <typename Body, typename OnFailure>
 auto boundary(Body&& body, OnFailure&& on_failure) noexcept -> decltype(body()) {
   try {
     return std::forward<Body>(body)();
-  } catch (const Error& error) {
-    return on_failure(Failure{error_class_name(error.error_class()), printable(error.what())});
-  } catch (const std::bad_alloc&) {
-    return on_failure(Failure{error_class_name(ErrorClass::kMemory),
-                              "not enough memory; take a coarser grid, or close what else uses memory"});
   } catch (const std::exception& error) {
-    return on_failure(Failure{error_class_name(ErrorClass::kInternal), printable(error.what())});
+    const Error ours = translated(error);
+    return on_failure(Failure{error_class_name(ours.error_class()), ours.message()});
   } catch (...) {
-    return on_failure(Failure{error_class_name(ErrorClass::kInternal), "an exception of unknown type"});
+    return on_failure(
+        Failure{error_class_name(ErrorClass::kInternal),
+                Message("internal error: an exception of unknown type; please report it with the command")});
   }
 }
 

@@ -2,6 +2,7 @@
 #include "commands.h"
 
 #include "boundary.h"
+#include "option_spelling.h"
 #include "tcl_values.h"
 
 namespace espdiff::vmdplugin {
@@ -37,7 +38,7 @@ extern "C" int run_command(ClientData client, Tcl_Interp* interp, int n_words, T
         return TCL_OK;
       },
       [&](const Failure& failure) {
-        Tcl_SetObjResult(interp, to_obj(in_tcl_words(failure.message)));
+        Tcl_SetObjResult(interp, to_obj(spelled(interp, failure.message)));
         Tcl_SetErrorCode(interp, "ESPDIFF", failure.error_class, static_cast<char*>(nullptr));
         return TCL_ERROR;
       });

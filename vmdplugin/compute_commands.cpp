@@ -2,10 +2,13 @@
 // it.
 #include "base/error.h"
 #include "commands.h"
+#include "compare/result.h"
+#include "compare/settings.h"
+#include "compare/surface.h"
+#include "engine/engine.h"
 #include "engine/select_engine.h"
-#include "pipeline/series_file.h"
-#include "pipeline/settings.h"
 #include "tcl_values.h"
+#include "trajectory/series_file.h"
 
 namespace espdiff::vmdplugin {
 Computation parse_computation(DictReader& reader, bool* regularize) {
@@ -14,7 +17,7 @@ Computation parse_computation(DictReader& reader, bool* regularize) {
   parse_device(computation.device);  // a wrong one is told at once
   computation.threads = reader.integer("threads", 0);
   if (computation.threads < 0)
-    throw InputError("threads: " + std::to_string(computation.threads) + " is negative; 0 takes all");
+    throw InputError("threads: " + std::to_string(computation.threads) + " is negative; 0 uses all");
   computation.command_line = reader.text("command_line");
   if (regularize != nullptr) *regularize = reader.boolean("regularize", false);
   computation.options = make_options(reader.rest());
@@ -161,13 +164,6 @@ Tcl_Obj* remove(const Call& call) {
   return nullptr;
 }
 
-Tcl_Obj* lock(const Call& call) { return to_obj(call.handles.lock(call.text(0))); }
-
-Tcl_Obj* unlock(const Call& call) {
-  call.handles.unlock(call.text(0));
-  return nullptr;
-}
-
 Tcl_Obj* list_handles(const Call& call) { return to_list(call.handles.names()); }
 
 }  // namespace
@@ -184,8 +180,6 @@ std::vector<Command> compute_commands() {
           {"cancel", 1, 1, "handle", cancel},
           {"check", 1, 1, "handle", check},
           {"delete", 1, 1, "handle", remove},
-          {"lock", 1, 1, "file", lock},
-          {"unlock", 1, 1, "token", unlock},
           {"handles", 0, 0, "", list_handles}};
 }
 

@@ -7,7 +7,7 @@
 #include "graphics_draw.h"
 #include "io/check_outputs.h"
 #include "io/write_grid.h"
-#include "pipeline/difference_map.h"
+#include "report/difference_map.h"
 #include "tcl_values.h"
 #include "vertex_quantity.h"
 #include "volume_store.h"
@@ -50,12 +50,12 @@ DrawnSurface drawn_surface(const std::string& handle, const Object& object, cons
     drawn.positions = single_precision(s.positions);
     drawn.normals = s.normals;
     drawn.corrupt = s.corrupt;
-    drawn.left_out = &s.no_counterpart;
+    drawn.left_out = &s.unmatched;
   } else if (which == "source") {
     drawn.positions = single_precision(s.source_positions);
     drawn.normals = s.source_normals;
     drawn.corrupt = s.corrupt;
-    for (std::size_t t = 0; t < s.no_counterpart.size(); ++t) drawn.corrupt[t] |= s.no_counterpart[t];
+    for (std::size_t t = 0; t < s.unmatched.size(); ++t) drawn.corrupt[t] |= s.unmatched[t];
   } else {
     throw InputError("surface: '" + which + "' is not mapped or source");
   }

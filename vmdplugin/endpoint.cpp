@@ -5,9 +5,9 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "fingerprint.h"
 #include "io/molecule_builder.h"
 #include "io/read_grid.h"
-#include "io/sha256.h"
 #include "molfile_bridge.h"
 #include "tcl_values.h"
 
@@ -60,21 +60,6 @@ VmdAtom atom_of(Tcl_Obj* description, const std::string& what) {
   atom.radius = to_double(fields[7], what + ", radius");
   atom.charge = to_double(fields[8], what + ", charge");
   return atom;
-}
-
-std::string fingerprint(const Molecule& molecule) {
-  Sha256 hash;
-  hash.update(molecule.positions.data(), molecule.positions.size() * sizeof(Vec3d));
-  hash.update(molecule.radii.data(), molecule.radii.size() * sizeof(float));
-  hash.update(molecule.charges.data(), molecule.charges.size() * sizeof(float));
-  return hash.finish();
-}
-
-std::string fingerprint(const Grid& map) {
-  Sha256 hash;
-  hash.update(&map.lattice, sizeof map.lattice);
-  hash.update(map.values.data(), map.values.size() * sizeof(float));
-  return hash.finish();
 }
 
 void parse_vmd_molecule(DictReader& reader, Endpoint& endpoint) {
@@ -237,9 +222,10 @@ Molecule named_atoms(const std::vector<Tcl_Obj*>& atoms, const std::vector<Vec3d
 
 void load(Endpoint& endpoint, double temperature_K) {
   if (!endpoint.molecule) {
-    endpoint.molecule = read_structure(endpoint.structure_path, endpoint.structure);
-    endpoint.inputs.push_back({endpoint.role, endpoint.structure_path, sha256_of_file(endpoint.structure_path),
-                               std::nullopt, endpoint.structure});
+    const StructureFile file(endpoint.structure_path);
+    endpoint.molecule = file.read(endpoint.structure);
+    endpoint.inputs.push_back(
+        {endpoint.role, endpoint.structure_path, file.sha256(), std::nullopt, endpoint.structure});
   }
   if (endpoint.map || endpoint.computed_map) return;
   if (endpoint.map_request) {
@@ -253,10 +239,10 @@ void load(Endpoint& endpoint, double temperature_K) {
   if (endpoint.map_path.empty()) return;
   GridOptions options;
   options.array = endpoint.map_array;
-  Grid map = read_grid(endpoint.map_path, options);
-  if (!endpoint.map_unit.empty()) map.unit = parse_potential_unit(endpoint.map_unit);
-  endpoint.map = std::move(map);
-  endpoint.inputs.push_back({endpoint.role + "_map", endpoint.map_path, sha256_of_file(endpoint.map_path)});
+  GridFile map = read_grid_file(endpoint.map_path, options);
+  if (!endpoint.map_unit.empty()) map.grid.unit = parse_potential_unit(endpoint.map_unit);
+  endpoint.map = std::move(map.grid);
+  endpoint.inputs.push_back({endpoint.role + "_map", endpoint.map_path, std::move(map.sha256)});
 }
 
 CompareInput input_of(const Endpoint& endpoint) {

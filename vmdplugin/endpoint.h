@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "base/types.h"
-#include "engine/engine.h"
+#include "compare/input.h"
 #include "io/read_structure.h"
-#include "pipeline/potential.h"
-#include "pipeline/write_compare.h"
+#include "potential/potential.h"
+#include "report/write_compare.h"
 #include "tcl_values.h"
 
 namespace espdiff::vmdplugin {

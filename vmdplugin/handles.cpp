@@ -37,15 +37,6 @@ void require_done(const std::string& handle, const Object& object) {
   if (object.job->status().state != Job::State::kDone) throw_again(object.job->failure());
 }
 
-std::string Handles::lock(const std::string& path) {
-  FileLock lock(path);
-  std::string token = "lock" + std::to_string(++n_locks_);
-  locks_.emplace(token, std::move(lock));
-  return token;
-}
-
-void Handles::unlock(const std::string& token) { locks_.erase(token); }
-
 Handles::~Handles() {
   for (const auto& [name, object] : objects_) {
     if (object->job != nullptr) object->job->cancel();

@@ -6,10 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "compare/options.h"
+#include "compare/result.h"
+#include "compare/series.h"
+#include "compare/surface.h"
 #include "endpoint.h"
-#include "io/file_lock.h"
-#include "pipeline/matrix_run.h"
-#include "pipeline/write_compare.h"
+#include "matrix/matrix_run.h"
+#include "potential/potential.h"
+#include "report/write_compare.h"
 #include "worker.h"
 
 namespace espdiff::vmdplugin {
@@ -95,14 +99,7 @@ class Handles {
   void remove(const std::string& handle);
   std::vector<std::string> names() const;
 
-  /// Keeps other runs from writing a file, until unlock() or the interpreter's end. Returns a token.
-  /// @throws IoError when another run writes it
-  std::string lock(const std::string& path);
-  void unlock(const std::string& token);
-
  private:
-  std::map<std::string, FileLock> locks_;
-  int n_locks_ = 0;
   std::map<std::string, std::shared_ptr<Object>> objects_;
   std::map<std::string, int> last_number_;  ///< by kind
 };

@@ -1,6 +1,7 @@
 // matrix_commands.cpp: matrix, merge: many variants, each with each, and parts of a matrix put together.
 #include "base/error.h"
 #include "commands.h"
+#include "engine/engine.h"
 #include "tcl_values.h"
 
 namespace espdiff::vmdplugin {
@@ -92,32 +93,10 @@ Tcl_Obj* merge(const Call& call) {
   return to_list(merge_matrix(paths, run).files);
 }
 
-const char* name_of(MetricUnit unit) {
-  switch (unit) {
-    case MetricUnit::kPotential: return "potential";
-    case MetricUnit::kAngstrom: return "length";
-    case MetricUnit::kSquareAngstrom: return "area";
-    case MetricUnit::kFraction: return "fraction";
-    case MetricUnit::kIndex: return "index";
-    case MetricUnit::kCount: break;
-  }
-  return "count";
-}
-
-Tcl_Obj* metrics(const Call&) {
-  std::vector<Tcl_Obj*> all;
-  for (const MatrixMetric& metric : matrix_metrics())
-    all.push_back(to_dict(
-        {{"name", to_obj(metric.name)}, {"title", to_obj(metric.title)}, {"kind", to_obj(name_of(metric.unit))}}));
-  return to_list(all);
-}
-
 }  // namespace
 
 std::vector<Command> matrix_commands() {
-  return {{"matrix", 2, 2, "variants options", matrix},
-          {"merge", 2, 2, "states options", merge},
-          {"metrics", 0, 0, "", metrics}};
+  return {{"matrix", 2, 2, "variants options", matrix}, {"merge", 2, 2, "states options", merge}};
 }
 
 }  // namespace espdiff::vmdplugin

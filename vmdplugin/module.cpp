@@ -37,7 +37,7 @@ ESPDIFF_ENTRY int Espdiff_Init(Tcl_Interp* interp) {  // NOLINT: Tcl makes the n
         return Tcl_PkgProvide(interp, "espdiff_core", espdiff::kVersion);
       },
       [interp](const espdiff::Failure& failure) {
-        Tcl_SetObjResult(interp, Tcl_NewStringObj(failure.message.c_str(), -1));
+        Tcl_SetObjResult(interp, Tcl_NewStringObj(failure.message.plain().c_str(), -1));
         return TCL_ERROR;
       });
 }

@@ -42,7 +42,7 @@ struct FileTypes {
 /// VMD has no other way to show why a file was refused.
 template <int Version>
 void say(const molfile::Plugin<Version>& plugin, const Failure& failure) {
-  const std::string line = "espdiff) " + failure.message + "\n";
+  const std::string line = "espdiff) " + failure.message.plain() + "\n";
   constexpr int kErrorLevel = 3;  // of VMD's console
   if (plugin.timesteps.print_to_console != nullptr) {
     plugin.timesteps.print_to_console(kErrorLevel, line.c_str());

@@ -6,13 +6,14 @@
 namespace espdiff {
 
 std::vector<StoredVolume> read_vti_volumes(const std::string& path) {
-  const std::vector<std::string> names = list_vti_scalars(path);
+  const VtkXmlFile file(path, kImageData);
+  const std::vector<std::string> names = list_vti_scalars(file);
   if (names.empty()) {
     throw InputError(path + ": has no point array with one number a point; VMD can show nothing else of a VTI file");
   }
   std::vector<StoredVolume> volumes;
   for (const std::string& name : names) {
-    volumes.push_back({read_vti(path, GridOptions{name}), name});
+    volumes.push_back({read_vti(file, GridOptions{name}), name});
   }
   return volumes;
 }

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "commands.h"
+#include "plot/line_plot.h"
 #include "tcl_values.h"
-#include "view/line_plot.h"
 
 namespace espdiff::vmdplugin {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "commands.h"
+#include "engine/engine.h"
 #include "engine/select_engine.h"
 #include "io/write_grid.h"
 #include "tcl_values.h"

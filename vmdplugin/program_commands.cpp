@@ -5,9 +5,9 @@
 #include <sys/wait.h>
 
 #include <cerrno>
-#include <cstring>
 
 #include "base/error.h"
+#include "base/system_message.h"
 #include "commands.h"
 #include "tcl_values.h"
 
@@ -33,7 +33,7 @@ pid_t start(const std::vector<std::string>& words, const std::string& log) {
   const int error = posix_spawnp(&pid, arguments.front(), &files, &attributes, arguments.data(), environ);
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&files);
-  if (error != 0) throw DeviceError(words.front() + " cannot be started: " + std::strerror(error));
+  if (error != 0) throw DeviceError(words.front() + " cannot be started: " + system_message(error));
   return pid;
 }
 

@@ -3,17 +3,21 @@
 #include <sstream>
 
 #include "commands.h"
+#include "compare/result.h"
+#include "compare/surface.h"
 #include "io/check_outputs.h"
-#include "pipeline/residue_values.h"
-#include "pipeline/write_matrix.h"
-#include "pipeline/write_surface.h"
+#include "matrix/write_matrix.h"
+#include "option_spelling.h"
+#include "report/metrics.h"
+#include "report/residue_values.h"
+#include "report/write_surface.h"
 #include "tcl_values.h"
 #include "vertex_quantity.h"
 
 namespace espdiff::vmdplugin {
 namespace {
 
-std::string json_of(const ComparisonObject& comparison) {
+nlohmann::ordered_json json_of(const ComparisonObject& comparison) {
   const SeriesObject& series = *comparison.series;
   return compare_json(*series.source.molecule, *comparison.target.molecule, comparison.result,
                       series.computation.options, comparison.provenance);
@@ -35,9 +39,9 @@ Tcl_Obj* surface_result(const SurfaceObject& surface) {
 /// The results' JSON, of a shard without matrix; and how the run went.
 Tcl_Obj* matrix_result(const MatrixObject& object) {
   const MatrixReport& report = object.report;
-  Tcl_Obj* const dict = report.matrix ? to_obj(nlohmann::ordered_json::parse(matrix_json(
-                                            *report.matrix, metric_to_cluster_by(object.run, *report.matrix))))
-                                      : Tcl_NewDictObj();
+  Tcl_Obj* const dict = report.matrix
+                            ? to_obj(matrix_json(*report.matrix, metric_to_cluster_by(object.run, *report.matrix)))
+                            : Tcl_NewDictObj();
   const std::pair<const char*, Tcl_Obj*> about[] = {{"pairs", to_obj(report.n_pairs)},
                                                     {"resumed", to_obj(report.n_resumed)},
                                                     {"seconds", to_obj(report.seconds)},
@@ -57,8 +61,10 @@ Tcl_Obj* result(const Call& call) {
     require_done(handle, *surface);
     return surface_result(*surface);
   }
-  auto json = nlohmann::ordered_json::parse(json_of(*call.handles.finished_comparison(handle)));
-  for (auto& reason : json["certificate"]["reasons"]) reason = in_tcl_words(reason.get<std::string>());
+  const auto comparison = call.handles.finished_comparison(handle);
+  auto json = json_of(*comparison);
+  auto& reasons = json["certificate"]["reasons"] = nlohmann::ordered_json::array();
+  for (const Message& reason : comparison->result.certificate.reasons) reasons.push_back(spelled(call.interp, reason));
   return to_obj(json);
 }
 
@@ -69,19 +75,16 @@ Tcl_Obj* residues(const Call& call) {
   for (const ResidueRow& row : comparison->result.residues) {
     const Residue& residue = source.residues.at(row.residue);
     const std::string insertion(residue.insertion_code == ' ' ? 0 : 1, residue.insertion_code);
-    rows.push_back(to_dict({{"index", to_obj(row.residue)},
-                            {"chain", to_obj(residue.chain)},
-                            {"number", to_obj(static_cast<int>(residue.number))},
-                            {"insertion", to_obj(insertion)},
-                            {"name", to_obj(residue.name)},
-                            {"area_A2", to_obj(row.area_A2)},
-                            {"mean_abs_difference", to_obj(row.mean_abs_difference)},
-                            {"mean_signed_difference", to_obj(row.mean_signed_difference)},
-                            {"mean_source", to_obj(row.mean_source)},
-                            {"mean_target", to_obj(row.mean_target)},
-                            {"sign_change_area_fraction", to_obj(row.sign_change_area_fraction)},
-                            {"mean_displacement_A", to_obj(row.mean_displacement_A)},
-                            {"mean_path_length_A", to_obj(row.mean_path_length_A)}}));
+    Tcl_Obj* const dict = to_dict({{"index", to_obj(row.residue)},
+                                   {"chain", to_obj(residue.chain)},
+                                   {"number", to_obj(static_cast<int>(residue.number))},
+                                   {"insertion", to_obj(insertion)},
+                                   {"name", to_obj(residue.name)}});
+    for (const Metric& metric : metrics()) {
+      if (metric.has_residues())
+        Tcl_DictObjPut(nullptr, dict, to_obj(metric.name), to_obj(value_of(metric, comparison->result, row)));
+    }
+    rows.push_back(dict);
   }
   return to_list(rows);
 }
@@ -98,8 +101,9 @@ Tcl_Obj* table(const Call& call) {
   }
   const auto comparison = call.handles.finished_comparison(call.text(0));
   std::ostringstream out;
-  print_table(out, *comparison->series->source.molecule, *comparison->target.molecule, comparison->result);
-  return to_obj(in_tcl_words(out.str()));
+  print_table(out, *comparison->series->source.molecule, *comparison->target.molecule, comparison->result,
+              [&](const NamedOption& option) { return spelled(call.interp, option); });
+  return to_obj(out.str());
 }
 
 Tcl_Obj* range(const Call& call) {

@@ -50,14 +50,6 @@ Tcl_Obj* to_obj(const nlohmann::ordered_json& json) {
   return Tcl_NewObj();
 }
 
-std::string in_tcl_words(std::string text) {
-  const auto starts_word = [&](std::size_t i) { return i == 0 || text[i - 1] == ' ' || text[i - 1] == '('; };
-  for (std::size_t i = text.find("--"); i != std::string::npos; i = text.find("--", i + 1)) {
-    if (starts_word(i) && i + 2 < text.size() && text[i + 2] >= 'a' && text[i + 2] <= 'z') text.erase(i, 1);
-  }
-  return text;
-}
-
 std::string to_string(Tcl_Obj* value) {
   int length = 0;
   const char* const text = Tcl_GetStringFromObj(value, &length);

@@ -25,9 +25,6 @@ Tcl_Obj* to_dict(std::initializer_list<std::pair<const char*, Tcl_Obj*>> entries
 /// Objects become dicts, arrays lists, null the empty string, true and false 1 and 0.
 Tcl_Obj* to_obj(const nlohmann::ordered_json& json);
 
-/// Text that speaks of options as the command line writes them ("--align none"), as Tcl writes them ("-align none").
-std::string in_tcl_words(std::string text);
-
 std::string to_string(Tcl_Obj* value);
 /// Each throws InputError with `what` and the value where that is something else.
 int to_int(Tcl_Obj* value, const std::string& what);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "compare/result.h"
 
 namespace espdiff::vmdplugin {
 namespace {

@@ -101,7 +101,7 @@ void Job::cancel() {
   if (status_.state != State::kQueued) return;
   status_.state = State::kCancelled;
   const Cancelled reason;
-  failure_ = {error_class_name(reason.error_class()), reason.what()};
+  failure_ = {error_class_name(reason.error_class()), reason.message()};
   ended_.notify_all();
 }
 

@@ -38,7 +38,7 @@ constexpr signed char kBlosum62[] = {4,                                         
                                      4};  // V
 static_assert(sizeof kBlosum62 == 20 * 21 / 2, "one entry for each pair of amino acids");
 
-/// How the best alignment that ends in a cell got there.
+/// How the best alignment reaches a cell.
 enum Step : unsigned char {
   kPair = 0,
   kGapInB = 1,
@@ -48,8 +48,7 @@ enum Step : unsigned char {
   kExtendsGapInA = 8
 };
 
-/// Fills the table row by row and keeps two rows of it. Scores are doubled, so that a half can be added for equal
-/// numbers.
+/// Fills the table row by row and keeps two rows. Scores are doubled, so that equal numbers can add one half.
 class AlignmentTable {
  public:
   AlignmentTable(const Sequence& a, const Sequence& b) : a_(a), b_(b) {}
@@ -126,7 +125,7 @@ class AlignmentTable {
     return 2 * substitution_score(a_[i], b_[j]) + same_number;
   }
 
-  /// An alignment may end in the last row or column; what is left of the other sequence is an end gap.
+  /// An alignment may end in the last row or column; the rest of the other sequence is an end gap.
   void consider_end(std::size_t i, std::size_t j) {
     const int score = row_[j] - (i < a_.size() || j < b_.size() ? 2 * kEndGap : 0);
     if (score < best_) return;
@@ -135,7 +134,7 @@ class AlignmentTable {
     best_j_ = j;
   }
 
-  /// Follows a gap that ends in cell (i, j) to where it was opened.
+  /// Length of the gap that ends in cell (i, j).
   std::size_t gap_length(std::size_t i, std::size_t j, int step) const {
     const int extends = step == kGapInB ? kExtendsGapInB : kExtendsGapInA;
     std::size_t length = 1;
@@ -149,7 +148,7 @@ class AlignmentTable {
   const Sequence &a_, &b_;
   const std::int32_t *numbers_a_ = nullptr, *numbers_b_ = nullptr;
   std::vector<int> row_, gap_in_b_;
-  std::vector<unsigned char> steps_;  // [i][j]; empty when only the score is asked for
+  std::vector<unsigned char> steps_;  // [i][j]; empty if only the score is needed
   int best_ = 0;
   std::size_t best_i_ = 0, best_j_ = 0;
 };

@@ -1,4 +1,4 @@
-// pair_atoms.cpp: atoms one to one where the order tells, else by name within paired residues.
+// pair_atoms.cpp: pairs atoms one to one if the order matches, otherwise by name within paired residues.
 #include "align/pair_atoms.h"
 
 #include <algorithm>
@@ -49,20 +49,20 @@ AtomPairing pair_in_order(const Molecule& source) {
   return pairing;
 }
 
-/// Atoms that two different residues share.
+/// Atoms that any two different residues share.
 bool is_shared_by_all(const std::string& name, ResidueKind kind) {
   static constexpr std::array<std::string_view, 8> kProtein = {"N", "H", "CA", "HA", "C", "O", "OXT", "CB"};
   if (kind == ResidueKind::kAminoAcid) return is_one_of(kProtein, name);
   return name == "P" || name == "OP1" || name == "OP2" || name.find('\'') != std::string::npos;
 }
 
-/// A hydrogen's name without the digit that numbers it among its like: HB for HB2. Other atoms keep their names.
+/// A hydrogen's name without its number: HB for HB2. Other atoms keep their names.
 std::string hydrogen_stem(const std::string& name) {
   const bool numbered = name.size() > 1 && name[0] == 'H' && name.back() >= '0' && name.back() <= '9';
   return numbered ? name.substr(0, name.size() - 1) : name;
 }
 
-/// Atoms of one residue by name; atoms of one name (alternate locations that a reader kept) in file order.
+/// Atoms of one residue by name. Atoms with the same name (alternate locations) are in file order.
 using NamedAtoms = std::map<std::string, std::vector<std::size_t>>;
 
 /// [stem] named atoms of a residue.
@@ -80,8 +80,8 @@ void pair_firsts(const std::vector<std::size_t>& a, const std::vector<std::size_
   for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k) pairs.emplace_back(a[k], b[k]);
 }
 
-/// Pairs atoms of one stem by name. Where two naming schemes count alike but number differently, what is left pairs in
-/// order: CHARMM's HB1, HB2 are HB3, HB2 elsewhere, and its HT1, HT2, HT3 are H, H2, H3.
+/// Pairs atoms of one stem by name. Naming schemes may number the same atoms differently (CHARMM's HB1, HB2 are HB3,
+/// HB2 elsewhere; its HT1, HT2, HT3 are H, H2, H3), so the remaining atoms pair in order if their counts agree.
 void pair_stem(const NamedAtoms& source, const NamedAtoms& target, IndexPairs& pairs) {
   std::vector<const std::vector<std::size_t>*> source_left, target_left;
   for (const auto& [name, atoms] : source) {
@@ -132,7 +132,7 @@ std::string describe(const char* role, const Molecule& molecule) {
   return molecule.residues.empty() ? text : text + ")";
 }
 
-/// Some atoms of paired residues that found no counterpart.
+/// Examples of unpaired atoms in paired residues.
 std::string unpaired_examples(const ResidueView& source, const ResidueView& target, const IndexPairs& residues) {
   std::string text;
   for (std::size_t k = 0; k < std::min(kMaxExamples, residues.size()); ++k) {
@@ -146,16 +146,16 @@ std::string unpaired_examples(const ResidueView& source, const ResidueView& targ
 
 [[noreturn]] void report_no_match(const ResidueView& source, const ResidueView& target, const IndexPairs& residues,
                                   std::size_t n_pairs) {
-  std::string text = "only " + std::to_string(n_pairs) +
-                     " atoms of the two molecules correspond, at least 3 are needed; " +
+  std::string text = "only " + std::to_string(n_pairs) + " atoms of the two molecules pair, at least 3 are needed; " +
                      describe("source", *source.molecule) + "; " + describe("target", *target.molecule) + "; ";
   if (residues.empty()) {
-    text += "no residues correspond";
+    text += "no residues pair";
   } else {
-    text += std::to_string(residues.size()) + " residues correspond, but hardly any of their atom names (" +
+    text += std::to_string(residues.size()) + " residues pair, but hardly any of their atom names (" +
             unpaired_examples(source, target, residues) + ")";
   }
-  throw InputError(text + "; give two states of one molecule, or compare them where they lie with --align none");
+  throw InputError(text + "; give two states of one molecule, or compare them as given with " +
+                   option("align", "none"));
 }
 
 bool is_backbone(const std::string& name, ResidueKind kind) {
@@ -219,14 +219,14 @@ IndexPairs select_pairs(const AtomPairing& pairing, const Molecule& source, Alig
   const ResidueView view(source);
   IndexPairs chosen = selected(pairing, view, atoms);
   if (chosen.size() >= kMinPairs) return chosen;
-  std::string remedies;
+  Message remedies;
   for (const AlignAtoms other : {AlignAtoms::kAll, AlignAtoms::kBackbone, AlignAtoms::kCAlpha}) {
     const std::size_t n = selected(pairing, view, other).size();
-    if (n >= kMinPairs) remedies += "--align " + to_string(other) + " (" + std::to_string(n) + " pairs), ";
+    if (n >= kMinPairs) remedies += option("align", to_string(other)) + " (" + std::to_string(n) + " pairs), ";
   }
-  throw InputError("--align " + to_string(atoms) + " selects " + std::to_string(chosen.size()) + " of " +
+  throw InputError(option("align", to_string(atoms)) + " selects " + std::to_string(chosen.size()) + " of " +
                    std::to_string(pairing.pairs.size()) + " paired atoms, at least 3 are needed; use " + remedies +
-                   "or --align none");
+                   "or " + option("align", "none"));
 }
 
 }  // namespace espdiff

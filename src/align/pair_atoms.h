@@ -1,4 +1,4 @@
-// pair_atoms.h: which atom of one molecule corresponds to which of the other.
+// pair_atoms.h: pairs the atoms of two molecules.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace espdiff {
 /// Which paired atoms the superposition uses.
 enum class AlignAtoms { kAll, kBackbone, kCAlpha, kNone };
 
-/// @throws InputError for anything but all, backbone, ca, none
+/// @throws InputError unless the text is all, backbone, ca or none
 AlignAtoms parse_align_atoms(const std::string& text);
 /// The text that parse_align_atoms() reads.
 std::string to_string(AlignAtoms atoms);
@@ -25,18 +25,18 @@ struct AtomPairing {
   std::size_t n_substituted_residues = 0;  ///< aligned, with different names
 };
 
-/// Pairs all atoms: same count, names and residues in the same order pair one to one (chain names may differ); else
-/// residues are paired by a global alignment of the sequences, chain by chain (pair_residues.h), and atoms within
-/// paired residues by name. Where the residue is substituted only backbone and C-beta atoms pair: N, H, CA, HA, C, O,
-/// OXT, CB, or phosphate and sugar. Names are compared in one spelling (residue_names.h). Hydrogens that two naming
-/// schemes number differently (HB1, HB2 against HB2, HB3): equal names first, then the others in order. Each atom pairs
-/// at most once.
-/// @throws InputError that lists what did not match, when fewer than 3 atoms pair
+/// Pairs all atoms. Molecules with the same count, names and residues in the same order pair one to one (chain names
+/// may differ). Otherwise residues are paired by a global alignment of the sequences, chain by chain (pair_residues.h),
+/// and atoms within paired residues by name. In a substituted residue only backbone and C-beta atoms pair: N, H, CA,
+/// HA, C, O, OXT, CB, or phosphate and sugar. Names are compared in a normalized spelling (residue_names.h). Where two
+/// naming schemes number hydrogens differently (HB1, HB2 against HB2, HB3), equal names pair first, then the others in
+/// order. Each atom pairs at most once.
+/// @throws InputError listing what did not match, if fewer than 3 atoms pair
 AtomPairing pair_atoms(const Molecule& source, const Molecule& target);
 
 /// The pairs that `atoms` selects; none for kNone. Backbone: N, CA, C, O (proteins), P, O3', C3', C4', C5', O5'
-/// (nucleic acids); atoms of ligands and ions with these names do not count.
-/// @throws InputError when fewer than 3 pairs are left, with the choices that would do
+/// (nucleic acids). Atoms of ligands and ions with these names are not selected.
+/// @throws InputError if fewer than 3 pairs remain; the message lists the choices that work
 std::vector<std::pair<std::size_t, std::size_t>> select_pairs(const AtomPairing& pairing, const Molecule& source,
                                                               AlignAtoms atoms);
 

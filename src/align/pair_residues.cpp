@@ -1,4 +1,4 @@
-// pair_residues.cpp: chains by their sequences, then all that is not a chain by name and number.
+// pair_residues.cpp: pairs chains by their sequences, then all other residues by name and number.
 #include "align/pair_residues.h"
 
 #include <algorithm>
@@ -18,18 +18,18 @@ namespace {
 
 using IndexPairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
-/// A leftover shorter than this is an insertion, not a chain that waits for its counterpart.
+/// A shorter leftover is an insertion, not a chain that may pair.
 constexpr std::size_t kMinLeftover = 10;
-/// Share of the lower self score that related sequences reach; a quarter of identical residues gives about 0.13.
+/// Fraction of the lower self score that related sequences reach; 25 % identical residues give about 0.13.
 constexpr double kMinScoreShare = 0.1;
 /// Scale of BLOSUM62 in nats: random sequences of lengths n and m reach about ln(n m) / lambda (Karlin and Altschul,
 /// Proc. Natl. Acad. Sci. USA 87, 2264 (1990)).
 constexpr double kLambda = 0.318;
-/// What the same chain name is worth, as a share of the lower self score: some residues missing here or there must not
-/// swap the chains of a dimer.
+/// Bonus for the same chain name, as a fraction of the lower self score: a few missing residues must not swap the
+/// chains of a dimer.
 constexpr double kSameNameShare = 0.1;
 
-/// A chain, or what is left of one: residues with their codes, in the order of the file.
+/// A chain, or the rest of one: residues with their codes, in file order.
 struct Chain {
   std::string name;
   ResidueKind kind = ResidueKind::kAminoAcid;
@@ -44,8 +44,8 @@ struct Chain {
   }
 };
 
-/// Splits a molecule's amino acids and nucleotides into chains. Where the file has no chain names, a number that falls
-/// starts a new chain.
+/// Splits a molecule's amino acids and nucleotides into chains. Without chain names in the file, a decreasing residue
+/// number starts a new chain.
 std::vector<Chain> chains_of(const ResidueView& view, SequenceEncoder& encoder) {
   std::vector<Chain> chains;
   std::map<std::pair<std::string, ResidueKind>, std::size_t> open;
@@ -64,7 +64,7 @@ std::vector<Chain> chains_of(const ResidueView& view, SequenceEncoder& encoder) 
   return chains;
 }
 
-/// Alignment scores, each computed once for each two sequences: in a large assembly most chains are copies.
+/// Alignment scores, computed once per pair of sequences: in a large assembly most chains are copies.
 class ScoreTable {
  public:
   int score(const Sequence& a, const Sequence& b) {
@@ -116,8 +116,7 @@ void keep_leftovers(const Chain& chain, const std::vector<std::size_t>& paired, 
   }
 }
 
-/// Aligns the chains that match best, best first. Chains and stretches that stay unpaired remain in `source` and
-/// `target`.
+/// Aligns the best-matching chains, best first. Unpaired chains and stretches remain in `source` and `target`.
 /// @returns whether any residues were paired
 bool pair_chains(std::vector<Chain>& source, std::vector<Chain>& target, ScoreTable& scores, IndexPairs& pairs) {
   std::vector<Candidate> candidates;
@@ -154,7 +153,7 @@ bool pair_chains(std::vector<Chain>& source, std::vector<Chain>& target, ScoreTa
   return pairs.size() > n_before;
 }
 
-/// [source chain name] the target chain with which most of its residues pair.
+/// [source chain name] the target chain that most of its residues pair with.
 std::map<std::string, std::string> corresponding_chains(const ResidueView& source, const ResidueView& target,
                                                         const IndexPairs& pairs) {
   std::map<std::string, std::map<std::string, std::size_t>> votes;
@@ -168,7 +167,7 @@ std::map<std::string, std::string> corresponding_chains(const ResidueView& sourc
   return chains;
 }
 
-/// Residues of one name that wait for a counterpart, by number.
+/// Unpaired residues of one name, by number.
 using Waiting = std::set<std::pair<std::int32_t, std::size_t>>;
 
 /// Takes the residue with the number closest to `number`, the lower one on ties.
@@ -187,7 +186,7 @@ std::optional<std::size_t> take_closest(Waiting& waiting, std::int32_t number) {
   return residue;
 }
 
-/// Pairs what is not in a sequence: equal numbers in corresponding chains, then the closest number there, then
+/// Pairs residues outside sequences: equal numbers in corresponding chains, then the closest number there, then
 /// anywhere.
 void pair_others(const ResidueView& source, const ResidueView& target, IndexPairs& pairs) {
   const auto chains = corresponding_chains(source, target, pairs);
@@ -199,7 +198,7 @@ void pair_others(const ResidueView& source, const ResidueView& target, IndexPair
   for (std::size_t r = 0; r < source.kinds.size(); ++r) {
     if (source.kinds[r] == ResidueKind::kOther) open.push_back(r);
   }
-  // Three rounds, from strict to lax; `key` says which residues compete with each other.
+  // Three rounds, from strict to lax; `key` groups the residues that compete with each other.
   for (const int round : {0, 1, 2}) {
     const auto key = [&](const Residue& residue, const std::string& chain) {
       return std::make_tuple(residue.name, round < 2 ? chain : std::string(), round < 1 ? residue.number : 0);

@@ -6,12 +6,14 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "base/water.h"
+
 namespace espdiff {
 namespace {
 
 using LetterTable = std::unordered_map<std::string_view, char>;
 
-/// One line a letter: PDB's name, then protonation states of Amber, CHARMM and Gromacs, then modified forms.
+/// One line per letter: the PDB name, then protonation states of Amber, CHARMM and Gromacs, then modified residues.
 const LetterTable& letters() {
   static const LetterTable table = {
       {"ALA", 'A'},  {"ARG", 'R'},  {"ARN", 'R'},  {"AR0", 'R'},  {"ASN", 'N'},  {"ASP", 'D'},  {"ASH", 'D'},
@@ -42,17 +44,11 @@ std::string upper_case(std::string text) {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-bool is_water(const std::string& name) {
-  static const std::vector<std::string> names = {"HOH",  "WAT",  "H2O",  "DOD", "SOL", "TIP", "TP3",
-                                                 "TIP3", "TIP4", "TIP5", "T3P", "T4P", "SPC"};
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 ResidueKind kind_of(const std::string& residue_name, const std::vector<std::string>& atom_names) {
   const char letter = residue_letter(residue_name);
   if (letter >= 'A' && letter <= 'Z') return ResidueKind::kAminoAcid;
   if (letter >= 'a' && letter <= 'z') return ResidueKind::kNucleotide;
-  if (is_water(upper_case(residue_name))) return ResidueKind::kWater;
+  if (is_water_name(upper_case(residue_name))) return ResidueKind::kWater;
   const auto has = [&](const char* name) {
     return std::find(atom_names.begin(), atom_names.end(), name) != atom_names.end();
   };
@@ -101,7 +97,7 @@ std::string normalized_atom_name(const std::string& atom_name, char letter) {
   if (first_letter != name.begin() && first_letter != name.end()) {
     const std::string digits(name.begin(), first_letter);
     name.erase(name.begin(), first_letter);
-    // 1H5* and 2H5* are today's H5' and H5''.
+    // 1H5* and 2H5* are now H5' and H5''.
     if (name.back() == '\'' && (digits == "1" || digits == "2")) return digits == "1" ? name : name + '\'';
     name += digits;
   }

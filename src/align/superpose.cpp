@@ -1,4 +1,4 @@
-// superpose.cpp: Kabsch's rotation by singular value decomposition, and the algebra of rigid transforms.
+// superpose.cpp: Kabsch's rotation by singular value decomposition, and algebra of rigid transforms.
 #include "align/superpose.h"
 
 #include <Eigen/Eigenvalues>
@@ -15,14 +15,14 @@ namespace {
 
 using IndexPairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
-/// The second singular value of the covariance against the first below which points count as collinear: a width of
-/// about 1e-5 of the length, far below any molecule's and far above rounding.
+/// Points are collinear if the ratio of the second to the first singular value of the covariance is below this: a width
+/// of about 1e-5 of the length, far below any molecule's and far above rounding.
 constexpr double kCollinear = 1e-10;
-/// A third moment below this share of the spread says nothing about the direction of an axis.
+/// A third moment below this fraction of the spread does not determine the direction of an axis.
 constexpr double kSymmetric = 1e-9;
 
-/// Radians: a smaller turn moves no atom by what matters, and its axis is noise.
-constexpr double kNoTurn = 1e-6;
+/// Radians: a smaller rotation moves no atom noticeably, and its axis is noise.
+constexpr double kNoRotation = 1e-6;
 
 Eigen::Vector3d to_eigen(const Vec3d& v) { return {v.x, v.y, v.z}; }
 Vec3d from_eigen(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
@@ -40,21 +40,21 @@ Eigen::Matrix3d rotation_of(const RigidTransform& transform) {
   return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(transform.rotation);
 }
 
-/// Rotation R with the least sum of |fixed - R moving|^2, from their covariance sum of moving * fixed^T.
+/// The rotation R that minimizes the sum of |fixed - R moving|^2, from the covariance, the sum of moving * fixed^T.
 Eigen::Matrix3d best_rotation(const Eigen::Matrix3d& covariance) {
-  if (!covariance.allFinite()) throw GeometryError("the position of a paired atom is not a finite number");
+  if (!covariance.allFinite()) throw GeometryError("the position of a paired atom is not finite");
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Vector3d& singular = svd.singularValues();
   if (!(singular(1) > kCollinear * singular(0))) {
-    throw GeometryError(
-        "the paired atoms lie on a line or in a point, so that no rotation superposes them best; pair more atoms "
-        "(--align all) or use --align none");
+    throw GeometryError(Message("the paired atoms lie on a line or in a point, so that no rotation superposes them "
+                                "best; pair more atoms (") +
+                        option("align", "all") + ") or use " + option("align", "none"));
   }
   const double sign = svd.matrixV().determinant() * svd.matrixU().determinant() < 0 ? -1.0 : 1.0;
   return svd.matrixV() * Eigen::Vector3d(1, 1, sign).asDiagonal() * svd.matrixU().transpose();
 }
 
-/// Turns an axis so that the third moment of the points along it is positive; where that vanishes by symmetry, so that
+/// Directs an axis so that the third moment of the points along it is positive; if that vanishes by symmetry, so that
 /// its largest component is positive.
 Eigen::Vector3d directed(const Eigen::Vector3d& axis, const std::vector<Eigen::Vector3d>& centred) {
   double third = 0, spread = 0;
@@ -74,7 +74,8 @@ Eigen::Vector3d directed(const Eigen::Vector3d& axis, const std::vector<Eigen::V
 Superposition superpose(const std::vector<Vec3d>& moving, const std::vector<Vec3d>& fixed, const IndexPairs& pairs) {
   if (pairs.size() < 3) {
     throw GeometryError("a superposition needs at least 3 pairs of atoms, " + std::to_string(pairs.size()) +
-                        " were given; pair more atoms (--align all) or use --align none");
+                        " were given; pair more atoms (" + option("align", "all") + ") or use " +
+                        option("align", "none"));
   }
   Eigen::Vector3d moving_centre = Eigen::Vector3d::Zero(), fixed_centre = Eigen::Vector3d::Zero();
   for (const auto& [m, f] : pairs) {
@@ -99,7 +100,7 @@ Superposition superpose(const std::vector<Vec3d>& moving, const std::vector<Vec3
 }
 
 double rmsd(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b, const IndexPairs& pairs) {
-  if (pairs.empty()) throw GeometryError("the RMSD over no pairs of atoms is not defined");
+  if (pairs.empty()) throw GeometryError("the RMSD of no pairs of atoms is undefined");
   double sum = 0;
   for (const auto& [i, j] : pairs) {
     const Vec3d difference = a[i] - b[j];
@@ -121,8 +122,9 @@ Screw screw_of(const RigidTransform& transform) {
   const Eigen::AngleAxisd turn(rotation_of(transform));
   Screw screw;
   screw.shift = transform.translation;
-  if (turn.angle() < kNoTurn) return screw;
-  const Eigen::Vector3d axis = turn.axis(), translation = to_eigen(transform.translation);
+  if (turn.angle() < kNoRotation) return screw;
+  const Eigen::Vector3d& axis = turn.axis();
+  const Eigen::Vector3d translation = to_eigen(transform.translation);
   const Eigen::Vector3d along = axis.dot(translation) * axis, across = translation - along;
   screw.axis = from_eigen(axis);
   screw.angle = turn.angle();
@@ -144,7 +146,7 @@ RigidTransform principal_frame(const std::vector<Vec3d>& positions) {
     centred.push_back(to_eigen(p) - centre);
     scatter += centred.back() * centred.back().transpose();
   }
-  // Eigenvalues come in ascending order, hence the last axis first.
+  // Eigenvalues are ascending, so the last axis comes first.
   const Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvectors();
   Eigen::Matrix3d rotation;
   rotation.row(0) = directed(axes.col(2), centred);

@@ -1,4 +1,4 @@
-// superpose.h: the rigid motion that brings paired points together with the least RMSD.
+// superpose.h: least-squares superposition of paired points.
 #pragma once
 
 #include <cstddef>
@@ -19,13 +19,12 @@ struct Superposition {
 /// of their covariance, d = +-1 so that R is a rotation (Kabsch, Acta Cryst. A32, 922 (1976); thesis eq. 3.3-3.7 with
 /// errata).
 /// @param pairs (index into moving, index into fixed)
-/// @throws GeometryError with fewer than 3 pairs or when the points lie on a line (the rotation is not determined), or
-/// when a
-///         position is not finite
+/// @throws GeometryError if there are fewer than 3 pairs, the points are collinear (the rotation is undetermined), or a
+/// position is not finite
 Superposition superpose(const std::vector<Vec3d>& moving, const std::vector<Vec3d>& fixed,
                         const std::vector<std::pair<std::size_t, std::size_t>>& pairs);
 
-/// RMSD over the pairs without moving anything. Angstrom.
+/// RMSD over the pairs as given, Angstrom.
 double rmsd(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b,
             const std::vector<std::pair<std::size_t, std::size_t>>& pairs);
 
@@ -33,13 +32,12 @@ RigidTransform inverse(const RigidTransform& transform);
 /// x -> outer(inner(x)).
 RigidTransform compose(const RigidTransform& outer, const RigidTransform& inner);
 
-/// The motion as a turn about an axis and a shift along it (Chasles' theorem); one that turns by less than 1e-6 as a
-/// shift alone.
+/// The motion as a rotation about an axis and a translation along it (Chasles' theorem). Rotations below 1e-6 are
+/// dropped, leaving only the translation.
 Screw screw_of(const RigidTransform& transform);
 
-/// The frame of a molecule itself: origin at the centroid, axes along the principal axes of its atoms (largest extent
-/// first), signs by third moments, right-handed. Depends on shape alone, so a rigid motion or another atom order
-/// changes nothing.
+/// A molecule's principal frame: origin at the centroid, axes along the principal axes of its atoms (largest extent
+/// first), signs by third moments, right-handed. Depends on the shape only, not on position, orientation or atom order.
 /// @returns original coordinates -> principal frame
 RigidTransform principal_frame(const std::vector<Vec3d>& positions);
 

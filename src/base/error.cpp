@@ -27,9 +27,9 @@ int Error::exit_status() const {
   }
 }
 
-FormatError::FormatError(const std::string& path, long line, const std::string& message)
+FormatError::FormatError(const std::string& path, long line, const Message& message)
     : Error(ErrorClass::kFormat, path + (line > 0 ? ":" + std::to_string(line) : std::string()) + ": " + message) {}
 
-IoError::IoError(const std::string& path, const std::string& message) : Error(ErrorClass::kIo, path + ": " + message) {}
+IoError::IoError(const std::string& path, const Message& message) : Error(ErrorClass::kIo, path + ": " + message) {}
 
 }  // namespace espdiff

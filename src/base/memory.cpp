@@ -17,25 +17,36 @@ namespace {
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 /// The number in a file of the kernel's; `if_none` where there is no such file or no number ("max").
-double number_in(const char* path, double if_none) {
+double number_in(const std::string& path, double if_none) {
   std::ifstream file(path);
   double value = 0;
   return file >> value ? value : if_none;
 }
 
-double available_in_machine() {
-  std::ifstream file("/proc/meminfo");
-  for (std::string key; file >> key;) {
-    double kilobytes = 0;
-    if (key == "MemAvailable:" && file >> kilobytes) return 1024 * kilobytes;
-    std::getline(file, key);
+/// The number behind a key at a line's start.
+double number_behind(const std::string& path, const std::string& wanted, double if_none) {
+  std::ifstream file(path);
+  for (std::string key, rest; file >> key; std::getline(file, rest)) {
+    double value = 0;
+    if (key == wanted && file >> value) return value;
   }
-  return kUnlimited;
+  return if_none;
 }
 
-double left_in_group() {
-  const double limit = number_in("/sys/fs/cgroup/memory.max", kUnlimited);
-  return limit - number_in("/sys/fs/cgroup/memory.current", 0);
+double available_in_machine() { return 1024 * number_behind("/proc/meminfo", "MemAvailable:", kUnlimited); }
+
+/// Names of a control group's files.
+struct GroupFiles {
+  const char *limit, *used, *droppable;
+};
+constexpr GroupFiles kVersion2 = {"/memory.max", "/memory.current", "inactive_file"};
+constexpr GroupFiles kVersion1 = {"/memory.limit_in_bytes", "/memory.usage_in_bytes", "total_inactive_file"};
+
+double left_in(const std::string& group, const GroupFiles& files) {
+  const double limit = number_in(group + files.limit, kUnlimited);
+  if (limit == kUnlimited) return kUnlimited;
+  const double used = number_in(group + files.used, 0);
+  return limit - used + std::min(used, number_behind(group + "/memory.stat", files.droppable, 0));
 }
 
 double left_in_address_space() {
@@ -53,7 +64,30 @@ std::string gigabytes(double n_bytes) {
 
 }  // namespace
 
-double available_memory() { return std::min({available_in_machine(), left_in_group(), left_in_address_space()}); }
+double left_in_groups(const std::string& group_file, const std::string& mount) {
+  double least = kUnlimited;
+  std::ifstream groups(group_file);
+  for (std::string line; std::getline(groups, line);) {
+    // "0::/path" in version 2, "4:cpu,memory:/path" in version 1.
+    const std::size_t controllers = line.find(':'), path = line.find(':', controllers + 1);
+    if (path == std::string::npos) continue;
+    const std::string names = "," + line.substr(controllers + 1, path - controllers - 1) + ",";
+    const bool is_version_2 = names == ",,";
+    if (!is_version_2 && names.find(",memory,") == std::string::npos) continue;
+    const std::string root = is_version_2 ? mount : mount + "/memory";
+    for (std::string group = line.substr(path + 1);; group.erase(group.find_last_of('/'))) {
+      while (!group.empty() && group.back() == '/') group.pop_back();
+      least = std::min(least, left_in(root + group, is_version_2 ? kVersion2 : kVersion1));
+      if (group.find('/') == std::string::npos) break;
+    }
+  }
+  return least;
+}
+
+double available_memory() {
+  return std::min(
+      {available_in_machine(), left_in_groups("/proc/self/cgroup", "/sys/fs/cgroup"), left_in_address_space()});
+}
 
 void require_memory(double n_bytes, const std::string& what) {
   constexpr double kNotWorthALook = 64e6;

@@ -1,4 +1,4 @@
-// progress.h: how long work says how far it is, and how it is stopped.
+// progress.h: progress reports and cancellation of long computations.
 #pragma once
 
 #include <atomic>
@@ -9,10 +9,10 @@
 
 namespace espdiff {
 
-/// Reports progress and carries the request to stop. Safe to cancel from a signal handler or another thread.
+/// Reports progress and carries the cancellation request. Cancelling is safe from a signal handler or another thread.
 class Progress {
  public:
-  /// Receives the stage's name ("density", "regularize", ...) and the part of it done, 0 to 1.
+  /// Receives the stage's name ("density", "regularize", ...) and the fraction done, 0 to 1.
   using Listener = std::function<void(const std::string& stage, double fraction)>;
 
   Progress() = default;

@@ -1,4 +1,4 @@
-// types.h: the plain host data that the stages pass on: molecule, grid, mesh.
+// types.h: plain host data passed between stages: molecule, grid, mesh.
 #pragma once
 
 #include <array>
@@ -12,10 +12,10 @@
 
 namespace espdiff {
 
-/// What a structure file says of one atom, besides numbers.
+/// An atom's record in a structure file, without numbers.
 struct Atom {
   std::string name;          ///< "CA", without padding
-  std::string element;       ///< "C", "Na"; empty when neither file nor name tells
+  std::string element;       ///< "C", "Na"; empty if neither file nor name determines it
   std::int32_t residue = 0;  ///< index into Molecule::residues
   bool hetero = false;       ///< from a HETATM record
 };
@@ -28,12 +28,12 @@ struct Residue {
   char insertion_code = ' ';
 };
 
-/// Where a molecule's radii or charges come from; a result says so. kVmd: VMD, which guesses radii from names, or its
-/// user.
+/// Origin of a molecule's radii or charges; results report it. kVmd: from VMD, which guesses radii from names, or from
+/// its user.
 enum class ValueOrigin { kNone, kFile, kElement, kVmd };
 
-/// One conformation of a molecule: arrays of one length, in file order. Of charges alone, for a potential, there may be
-/// no atoms, residues and radii.
+/// One conformation of a molecule: arrays of equal length, in file order. For a potential of charges alone, atoms,
+/// residues and radii may be empty.
 struct Molecule {
   std::vector<Atom> atoms;
   std::vector<Residue> residues;
@@ -62,7 +62,7 @@ struct Lattice {
 struct Grid {
   Lattice lattice;
   std::vector<float> values;
-  /// The lattice repeats after size[i] * step[i] along each axis: samples wrap around instead of ending at its border.
+  /// The lattice repeats after size[i] * step[i] along each axis: samples wrap around at the border.
   bool periodic = false;
   PotentialUnit unit = PotentialUnit::kUnknown;
   std::string name;  ///< for messages: the path
@@ -73,9 +73,9 @@ using Triangle = std::array<std::uint32_t, 3>;  ///< vertex indices, counter-clo
 /// A triangle mesh on the host.
 struct Mesh {
   std::vector<Vec3f> positions;          ///< [vertex], Angstrom
-  std::vector<Vec3f> normals;            ///< [vertex], unit, outward; empty when not asked for
+  std::vector<Vec3f> normals;            ///< [vertex], unit, outward; empty if not requested
   std::vector<Triangle> triangles;       ///< [triangle]
-  std::vector<std::uint32_t> component;  ///< [vertex], index of its connected component; empty when not asked for
+  std::vector<std::uint32_t> component;  ///< [vertex], index of its connected component; empty if not requested
 };
 
 }  // namespace espdiff

@@ -14,9 +14,9 @@ std::string to_string(PotentialUnit unit);
 /// @throws InputError naming the spellings accepted.
 PotentialUnit parse_potential_unit(const std::string& text);
 
-/// Factor f such that value[to] = f * value[from]; kT is taken at `temperature_K`.
+/// Factor f such that value[to] = f * value[from]; kT is at `temperature_K`.
 /// Constants: CODATA 2018 (exact e, k_B, N_A; hartree 4.3597447222071e-18 J).
-/// @throws InputError when either unit is unknown and they differ, or the temperature is not positive.
+/// @throws InputError if either unit is unknown and they differ, or the temperature is not positive.
 double conversion_factor(PotentialUnit from, PotentialUnit to, double temperature_K);
 
 }  // namespace espdiff

@@ -13,7 +13,7 @@
 
 namespace espdiff {
 
-/// A 3-vector; lengths are in Angstrom unless the declaration that uses it says otherwise.
+/// A 3-vector; lengths are in Angstrom unless the declaration says otherwise.
 template <typename T>
 struct Vec3 {
   T x{}, y{}, z{};

@@ -2,12 +2,15 @@
 #include <iostream>
 
 #include "cli/map_options.h"
+#include "cli/spelling.h"
 #include "cli/verbs.h"
+#include "compare/compare.h"
+#include "compare/result.h"
+#include "engine/engine.h"
 #include "io/atomic_file.h"
 #include "io/check_outputs.h"
-#include "io/sha256.h"
-#include "pipeline/residue_values.h"
-#include "pipeline/write_compare.h"
+#include "report/residue_values.h"
+#include "report/write_compare.h"
 
 namespace espdiff::cli {
 namespace {
@@ -50,6 +53,7 @@ void add_input_options(CLI::App& p, Arguments& a) {
 /// One of the two states.
 struct Side {
   std::string role, path;
+  std::unique_ptr<StructureFile> file;  // until all is read of it
   Molecule molecule;
   std::optional<Grid> map;
   std::optional<ComputedMap> computed;
@@ -64,9 +68,11 @@ StructureOptions structure_options(const Arguments& a, const std::string& role) 
 }
 
 Side read_side(const Arguments& a, const std::string& role) {
-  Side side{role, role == "source" ? a.source : a.target, {}, {}, {}};
-  const StructureFile file(side.path);
-  side.molecule = file.read(structure_options(a, role));
+  Side side;
+  side.role = role;
+  side.path = role == "source" ? a.source : a.target;
+  side.file = std::make_unique<StructureFile>(side.path);
+  side.molecule = side.file->read(structure_options(a, role));
   return side;
 }
 
@@ -74,7 +80,7 @@ void add_map(const Arguments& a, Side& side, double temperature_K, std::vector<I
   side.map = given_map(a.maps, side.role, inputs);
   if (!is_computed(a.maps)) return;
   const int model = side.role == "source" ? a.source_model : a.target_model;
-  side.computed = computed_map_of_file(a.maps, side.path, model, side.molecule, temperature_K);
+  side.computed = computed_map_of_file(a.maps, *side.file, model, side.molecule, temperature_K);
   inputs.push_back(computed_input(side.role + "_map", *side.computed));
 }
 
@@ -83,11 +89,11 @@ int run(const Arguments& a, const Context& context) {
   const CompareOptions options = make_options(a.settings);
   check_outputs({a.source, a.target, a.maps.source_map, a.maps.target_map},
                 {a.output + ".json", a.output + ".vtp", a.output + ".residues.csv", a.residue_pdb});
-  // An output that cannot be written is better found before the work than after it.
+  // An unwritable output is found before the work.
   for (const char* suffix : {".json", ".vtp", ".residues.csv"}) AtomicFile probe(a.output + suffix);
   if (!a.residue_pdb.empty()) AtomicFile probe(a.residue_pdb);
   if (a.residue_pdb.empty() && !a.residue_quantity.empty())
-    throw InputError("--residue-quantity is of --residue-pdb FILE, which is missing");
+    throw InputError("--residue-quantity needs --residue-pdb FILE");
 
   context.progress->report("read", 0.0);
   Side source = read_side(a, "source"), target = read_side(a, "target");
@@ -95,8 +101,11 @@ int run(const Arguments& a, const Context& context) {
   provenance.command_line = context.command_line;
   for (const Side* side : {&source, &target})
     provenance.inputs.push_back(
-        {side->role, side->path, sha256_of_file(side->path), std::nullopt, structure_options(a, side->role)});
-  for (Side* side : {&source, &target}) add_map(a, *side, options.temperature_K, provenance.inputs);
+        {side->role, side->path, side->file->sha256(), std::nullopt, structure_options(a, side->role)});
+  for (Side* side : {&source, &target}) {
+    add_map(a, *side, options.temperature_K, provenance.inputs);
+    side->file = nullptr;
+  }
   const std::unique_ptr<Engine> engine = make_engine(a.device);
   provenance.device = engine->back_end();
   provenance.device_description = engine->description();
@@ -111,7 +120,7 @@ int run(const Arguments& a, const Context& context) {
   }
   write_compare(a.output, source.molecule, target.molecule, result, options, provenance, pdb.get());
   context.progress->report("write", 1.0);
-  if (!a.quiet) print_table(std::cout, source.molecule, target.molecule, result);
+  if (!a.quiet) print_table(std::cout, source.molecule, target.molecule, result, spelled_option);
   return 0;
 }
 
@@ -122,14 +131,14 @@ Verb add_compare(CLI::App& app) {
   CLI::App* parser =
       app.add_subcommand("compare", "Compare the electrostatic surface potentials of two states of a molecule");
   parser->footer(
-      "Each point of the source's surface is mapped to its counterpart on the target's, the potentials there are "
-      "compared, and the\n"
-      "result says how far it can be trusted. Without maps the shapes alone are compared.\n\n"
+      "Maps each point of the source's surface to the corresponding point of the target's, compares the potentials "
+      "there, and\n"
+      "certifies the mapping. Without maps only the shapes are compared.\n\n"
       "Example:\n"
       "  espdiff compare wild.pqr mutant.pqr --source-map wild.dx --target-map mutant.dx -o result\n\n"
       "Writes result.json (numbers, certificate, provenance), result.vtp (mapped surface, for ParaView) and "
       "result.residues.csv.\n"
-      "Exit status: 0 done, 1 could not be computed, 2 wrong usage or input.");
+      "Exit status: 0 done, 1 could not compute, 2 wrong usage or input.");
   add_input_options(*parser, *arguments);
   add_structure_options(*parser, arguments->structure);
   add_settings(*parser, arguments->settings, false);

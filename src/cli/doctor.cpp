@@ -1,4 +1,4 @@
-// doctor.cpp: `espdiff doctor`: what this build and this machine offer, and how to get what is missing.
+// doctor.cpp: `espdiff doctor`: the parts of this build and machine, and how to get missing ones.
 #include <unistd.h>
 
 #include <cstdio>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/version.h"
+#include "cli/spelling.h"
 #include "cli/verbs.h"
 #include "engine/select_engine.h"
 #if defined(ESPDIFF_HAVE_VTK)
@@ -18,11 +19,11 @@
 namespace espdiff::cli {
 namespace {
 
-void line(const char* what, bool good, const std::string& text) {
-  std::printf("%-14s %-4s %s\n", what, good ? "ok" : "--", text.c_str());
+void line(const char* what, bool good, const Message& text) {
+  std::printf("%-14s %-4s %s\n", what, good ? "ok" : "--", spelled(text).c_str());
 }
 
-/// The module in the tree that this program was built in; empty when there is none.
+/// The module built with this program; empty if there is none.
 std::string vmd_module() {
   std::error_code ignored;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
@@ -30,7 +31,7 @@ std::string vmd_module() {
   return std::filesystem::exists(module, ignored) ? module.string() : std::string();
 }
 
-/// The program of that name that a shell would start; empty when there is none.
+/// The program of that name on PATH; empty if there is none.
 std::string on_path(const std::string& name) {
   const char* const path = std::getenv("PATH");
   std::istringstream folders(path != nullptr ? path : "");
@@ -76,12 +77,11 @@ int run() {
   const std::string module = vmd_module();
   line("vmd module", !module.empty(),
        !module.empty()
-           ? module + "; scripts/install-vmd puts it where VMD finds it"
+           ? module + "; scripts/install-vmd installs it for VMD"
            : "not built beside this program: Tcl 8.6 was not found when this was built (Debian: tcl8.6-dev), "
-             "or it is installed elsewhere; `espdiff doctor` in VMD tells more");
+             "or it is installed elsewhere; `espdiff doctor` in VMD has details");
   const std::string vmd = on_path("vmd");
-  line("vmd", !vmd.empty(),
-       !vmd.empty() ? vmd : "no program `vmd` on PATH; everything but the VMD module works without");
+  line("vmd", !vmd.empty(), !vmd.empty() ? vmd : "no program `vmd` on PATH; only the VMD module needs it");
   return 0;
 }
 
@@ -89,7 +89,7 @@ int run() {
 
 Verb add_doctor(CLI::App& app) {
   CLI::App* parser =
-      app.add_subcommand("doctor", "Say what this build and this machine offer, and how to get what is missing");
+      app.add_subcommand("doctor", "List the parts of this build and machine, and how to get missing ones");
   return {parser, [](const Context&) { return run(); }};
 }
 

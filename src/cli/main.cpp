@@ -1,17 +1,18 @@
-// main.cpp: parses the command line, runs the verb, and turns errors into one line and an exit status.
+// main.cpp: parses the command line, runs the command, and turns errors into one line and an exit status.
 #include <fcntl.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <new>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
 #include "base/printable.h"
+#include "base/translate.h"
 #include "base/version.h"
+#include "cli/spelling.h"
 #include "cli/terminal_progress.h"
 #include "cli/verbs.h"
 
@@ -30,16 +31,15 @@ void open_standard_streams() {
   }
 }
 
-/// OpenMP threads spin while they wait for each other, unless told otherwise before the program starts; on a machine
-/// that is busy with something else that makes a run up to ten times as long. So the program tells itself, and starts
-/// again. Who sets either variable keeps his choice.
+/// Sets OMP_WAIT_POLICY=passive and restarts the program. OpenMP threads spin while they wait unless told otherwise
+/// before the start; on a busy machine that makes a run up to ten times as long. A user's own setting is kept.
 void start_again_without_spinning(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
-  setenv("OMP_WAIT_POLICY", "passive", 1);
-  execv("/proc/self/exe", argv);  // returns only where there is no /proc: then it spins
+  setenv("OMP_WAIT_POLICY", "passive", 1);  // NOLINT(concurrency-mt-unsafe): no other thread exists yet
+  execv("/proc/self/exe", argv);  // returns only without /proc; threads then spin
 }
 
-/// Runs the verb that was chosen; what it throws becomes one line on standard error.
+/// Runs the chosen command; errors become one line on standard error.
 int run_verb(const espdiff::cli::Verb& verb, const std::string& command_line) {
   espdiff::cli::TerminalProgress terminal;
   const auto fail = [&](const char* message, int status) {
@@ -52,13 +52,11 @@ int run_verb(const espdiff::cli::Verb& verb, const std::string& command_line) {
     context.command_line = command_line;
     context.progress = &terminal.progress();
     return verb.run(context);
-  } catch (const espdiff::Error& error) {
-    return fail(error.what(), error.exit_status());
-  } catch (const std::bad_alloc&) {
-    return fail("not enough memory; use a larger --grid-spacing or fewer atoms", 1);
   } catch (const std::exception& error) {
-    return fail((std::string("internal error: ") + error.what() + "; please report it with the command line").c_str(),
-                1);
+    const espdiff::Error ours = espdiff::translated(error);
+    return fail(espdiff::cli::spelled(ours.message()).c_str(), ours.exit_status());
+  } catch (...) {
+    return fail("internal error: an exception of unknown type; please report it with the command", 1);
   }
 }
 

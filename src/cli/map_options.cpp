@@ -1,10 +1,8 @@
-// map_options.cpp: options of maps, and what they ask for.
+// map_options.cpp: options of maps, given or computed.
 #include "cli/map_options.h"
 
 #include <utility>
 
-#include "io/read_structure.h"
-#include "io/sha256.h"
 #include "io/write_csv.h"
 
 namespace espdiff::cli {
@@ -16,12 +14,12 @@ constexpr const char* kGroup = "Potentials";
 
 void add_computed_map_options(CLI::App& p, ComputedMapArguments& a) {
   p.add_option("--potential", a.potential,
-               "Compute the potentials instead of reading maps: pme, from the charges of the atoms that are read")
+               "Compute the potentials instead of reading maps: pme, from the charges of the atoms")
       ->check(CLI::IsMember({"pme"}))
       ->group(kGroup);
   p.add_option("--pme-cell", a.cell,
-               "Cell of a computed potential. box: 10 A wider than the atoms on each side, whatever cell the file has. "
-               "own: the file's (CRYST1 of each model), where the charges of water and ions count too")
+               "Cell of a computed potential. box: 10 A wider than the atoms on each side, ignoring the file's cell. "
+               "own: the file's (CRYST1 of each model), including the charges of water and ions")
       ->check(CLI::IsMember({"box", "own"}))
       ->capture_default_str()
       ->group(kGroup);
@@ -41,11 +39,11 @@ void add_map_options(CLI::App& p, MapArguments& a) {
       ->group(kGroup);
   p.add_option("--target-map", a.target_map, "Potential around the target")->group(kGroup);
   p.add_option("--source-map-unit", a.source_map_unit,
-               "Unit of the source map if the file does not say: kT/e, mV, V, kcal/mol/e, hartree/e")
+               "Unit of the source map if the file does not give it: kT/e, mV, V, kcal/mol/e, hartree/e")
       ->group(kGroup);
-  p.add_option("--target-map-unit", a.target_map_unit, "Unit of the target map if the file does not say")
+  p.add_option("--target-map-unit", a.target_map_unit, "Unit of the target map if the file does not give it")
       ->group(kGroup);
-  p.add_option("--map-array", a.map_array, "Array to take from VTI maps that hold several")->group(kGroup);
+  p.add_option("--map-array", a.map_array, "Array of VTI maps with several")->group(kGroup);
   add_computed_map_options(p, a);
 }
 
@@ -58,9 +56,9 @@ std::optional<Grid> given_map(const MapArguments& a, const std::string& role, st
   const bool is_source = role == "source";
   const std::string& path = is_source ? a.source_map : a.target_map;
   if (path.empty()) return std::nullopt;
-  Grid map = read_map(path, a.map_array, is_source ? a.source_map_unit : a.target_map_unit);
-  inputs.push_back({role + "_map", path, sha256_of_file(path)});
-  return map;
+  GridFile map = read_map(path, a.map_array, is_source ? a.source_map_unit : a.target_map_unit);
+  inputs.push_back({role + "_map", path, map.sha256});
+  return std::move(map.grid);
 }
 
 ComputedMap computed_map(const ComputedMapArguments& a, Molecule charges, const std::optional<UnitCell>& cell,
@@ -77,11 +75,11 @@ ComputedMap computed_map(const ComputedMapArguments& a, Molecule charges, const 
   return {std::move(charges), cell, options};
 }
 
-ComputedMap computed_map_of_file(const ComputedMapArguments& a, const std::string& path, int model,
+ComputedMap computed_map_of_file(const ComputedMapArguments& a, const StructureFile& file, int model,
                                  const Molecule& molecule, double temperature_K) {
   if (!takes_own_cell(a)) return computed_map(a, molecule, std::nullopt, temperature_K);
-  const auto cell = read_unit_cells(path).at(static_cast<std::size_t>(model - 1));
-  return computed_map(a, read_structure(path, {model, true, true}), cell, temperature_K);
+  const auto cell = file.unit_cells().at(static_cast<std::size_t>(model - 1));
+  return computed_map(a, file.read({model, true, true}), cell, temperature_K);
 }
 
 std::string map_in_words(const ComputedMapArguments& a) {

@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "cli/options.h"
-#include "io/read_unit_cells.h"
-#include "pipeline/computed_map.h"
-#include "pipeline/write_compare.h"
+#include "io/read_structure.h"
+#include "potential/computed_map.h"
+#include "report/write_compare.h"
 
 namespace espdiff::cli {
 
-/// Potentials that are computed instead of read.
+/// Options of potentials computed instead of read.
 struct ComputedMapArguments {
   std::string potential;  ///< empty: none
   std::string grid = usual_grid(false), cell = "box";
@@ -28,20 +28,20 @@ void add_map_options(CLI::App& parser, MapArguments& arguments);
 void check_map_options(const MapArguments& arguments);
 
 inline bool is_computed(const ComputedMapArguments& arguments) { return !arguments.potential.empty(); }
-/// Whether charges of water and ions count, and the file's cell is taken.
+/// Whether to include the charges of water and ions, and use the file's cell.
 inline bool takes_own_cell(const ComputedMapArguments& arguments) { return arguments.cell == "own"; }
 
-/// The file's map of a side, "source" or "target"; nothing where none was given. Adds to `inputs`.
+/// The given map of a side, "source" or "target"; empty if none was given. Adds to `inputs`.
 std::optional<Grid> given_map(const MapArguments& arguments, const std::string& role, std::vector<InputFile>& inputs);
 
-/// The map that is computed from a molecule's charges.
-/// @param cell of the molecule's file; counts with --pme-cell own only, and has to be there then
+/// The map computed from a molecule's charges.
+/// @param cell of the molecule's file; required with --pme-cell own, ignored otherwise
 /// @throws InputError
 ComputedMap computed_map(const ComputedMapArguments& arguments, Molecule charges, const std::optional<UnitCell>& cell,
                          double temperature_K);
 
-/// The same for one model of a file, whose atoms with a surface are `molecule`.
-ComputedMap computed_map_of_file(const ComputedMapArguments& arguments, const std::string& path, int model,
+/// The same for one model of a file, `molecule` has its surface atoms.
+ComputedMap computed_map_of_file(const ComputedMapArguments& arguments, const StructureFile& file, int model,
                                  const Molecule& molecule, double temperature_K);
 /// "pme, cell box, grid 1, Ewald factor 0.25"
 std::string map_in_words(const ComputedMapArguments& arguments);

@@ -6,9 +6,10 @@
 #include "cli/map_options.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
+#include "engine/engine.h"
 #include "io/check_outputs.h"
-#include "pipeline/matrix_run.h"
-#include "pipeline/write_matrix.h"
+#include "matrix/matrix_run.h"
+#include "matrix/write_matrix.h"
 
 namespace espdiff::cli {
 namespace {
@@ -38,17 +39,23 @@ std::vector<VariantFiles> chosen_variants(const Arguments& a) {
   return variants;
 }
 
-/// Each molecule is read, and its potential computed, once.
+/// Reads each molecule, and computes its potential, once.
 std::vector<Variant> read_variants(const Arguments& a, const std::vector<VariantFiles>& files, double temperature_K,
                                    const Progress& progress) {
   std::vector<Variant> variants;
+  std::unique_ptr<StructureFile> structure;  // several models of one follow each other
+  std::string open_path;
   for (const VariantFiles& file : files) {
     const double fraction = static_cast<double>(variants.size()) / static_cast<double>(files.size());
     progress.report("read " + file.label, fraction);
-    variants.push_back(read_variant(file, a.structure, a.map_array));
+    if (structure == nullptr || open_path != file.structure) {
+      structure = std::make_unique<StructureFile>(file.structure);
+      open_path = file.structure;
+    }
+    variants.push_back(read_variant(file, *structure, a.structure, a.map_array));
     if (is_computed(a.potential))
       variants.back().make_map =
-          computed_map_of_file(a.potential, file.structure, file.model, variants.back().molecule, temperature_K)
+          computed_map_of_file(a.potential, *structure, file.model, variants.back().molecule, temperature_K)
               .maker();
   }
   unite_map_units(variants, temperature_K);
@@ -92,16 +99,15 @@ int run(Arguments& a, const Context& context) {
 }
 
 void add_run_options(CLI::App& p, Arguments& a) {
-  p.add_flag("--resume", a.run.resume, "Go on where an interrupted run stopped: its state file OUT.state is beside OUT")
-      ->group("Run");
-  p.add_flag("--overwrite", a.run.overwrite, "Begin anew, in the place of results and state files")->group("Run");
+  p.add_flag("--resume", a.run.resume, "Resume an interrupted run from its state file OUT.state")->group("Run");
+  p.add_flag("--overwrite", a.run.overwrite, "Start again and replace results and state files")->group("Run");
   p.add_option("--on-error", a.on_error,
                "A pair that cannot be compared stops the run, or is skipped and noted in the results")
       ->check(CLI::IsMember({"stop", "skip"}))
       ->capture_default_str()
       ->group("Run");
   p.add_option("--shard", a.shard,
-               "Compute part I of N of the pairs, I/N, into OUT.shard-I-of-N.state; `espdiff merge` puts the parts "
+               "Compute part I of N of the pairs, I/N, into OUT.shard-I-of-N.state; `espdiff merge` merges the parts "
                "together")
       ->capture_default_str()
       ->group("Run");
@@ -111,10 +117,11 @@ void add_run_options(CLI::App& p, Arguments& a) {
 
 Verb add_matrix(CLI::App& app) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* parser = app.add_subcommand("matrix", "Compare many states of a molecule, each with each, both ways");
+  CLI::App* parser =
+      app.add_subcommand("matrix", "Compare many states of a molecule, each with each, in both directions");
   parser->footer(
       "Writes OUT.csv (a row for each ordered pair) and OUT.json (matrices, groups, clusters); `espdiff plot` draws "
-      "them.\nA list is a table of comma-separated values whose first row names its columns: structure, and as wanted "
+      "them.\nA list is a table of comma-separated values whose first row names its columns: structure, and optionally "
       "model, map,\nunit (of the map), label, group. Paths are relative to the list.\n\nExamples:\n"
       "  espdiff matrix m*.pqr --potential pme -o ubiquitin\n"
       "  espdiff matrix --list variants.csv -o variants --resume\n"
@@ -122,14 +129,14 @@ Verb add_matrix(CLI::App& app) {
       "all");
   parser->add_option("VARIANT", a->files, "Structures: PQR, PDB or mmCIF; each model of a file is a variant");
   parser->add_option("-o,--output", a->run.output, "Prefix of the results")->required();
-  parser->add_option("--list", a->list, "Table of the variants, in the place of files")->group("Molecules");
+  parser->add_option("--list", a->list, "Table of the variants, instead of files")->group("Molecules");
   parser->add_option("--groups", a->groups, "Table with the columns label and group")->group("Molecules");
   parser->add_option("--cluster-by", a->run.cluster_by,
-                     "Metric that variants are clustered by (mean_abs_difference; without potentials "
+                     "Metric for clustering (mean_abs_difference; without potentials "
                      "mean_displacement_A)");
   add_structure_options(*parser, a->structure);
   add_computed_map_options(*parser, a->potential);
-  parser->add_option("--map-array", a->map_array, "Array to take from VTI maps that hold several")->group("Potentials");
+  parser->add_option("--map-array", a->map_array, "Array of VTI maps with several")->group("Potentials");
   add_run_options(*parser, *a);
   add_settings(*parser, a->settings, false);
   add_device_options(*parser, a->device);

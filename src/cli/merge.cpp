@@ -2,8 +2,8 @@
 #include <iostream>
 
 #include "cli/verbs.h"
-#include "pipeline/matrix_run.h"
-#include "pipeline/write_matrix.h"
+#include "matrix/matrix_run.h"
+#include "matrix/write_matrix.h"
 
 namespace espdiff::cli {
 namespace {
@@ -29,13 +29,14 @@ int run(const Arguments& a, const Context&) {
 
 Verb add_merge(CLI::App& app) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* parser = app.add_subcommand("merge", "Put the parts of a matrix together");
+  CLI::App* parser = app.add_subcommand("merge", "Merge the parts of a matrix");
   parser->footer(
-      "The parts are what `espdiff matrix --shard I/N` leaves. The results are those of one process, byte by byte.\n\n"
+      "The parts are the state files of `espdiff matrix --shard I/N`. The results are those of one process, byte by "
+      "byte.\n\n"
       "Example:\n  espdiff merge part.shard-*-of-8.state -o all");
   parser->add_option("STATE", a->states, "State files of all parts")->required();
   parser->add_option("-o,--output", a->run.output, "Prefix of the results OUT.csv and OUT.json")->required();
-  parser->add_option("--cluster-by", a->run.cluster_by, "As of `espdiff matrix`");
+  parser->add_option("--cluster-by", a->run.cluster_by, "Metric for clustering, as in `espdiff matrix`");
   parser->add_flag("--overwrite", a->run.overwrite, "Replace results that exist");
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
   return {parser, [a](const Context& context) { return run(*a, context); }};

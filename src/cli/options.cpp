@@ -1,9 +1,11 @@
-// options.cpp: options that several verbs share.
+// options.cpp: options that several commands share.
 #include "cli/options.h"
+#include "engine/engine.h"
 
 #include <cmath>
 
 #include "base/error.h"
+#include "cli/spelling.h"
 #include "engine/select_engine.h"
 #include "io/read_grid.h"
 #include "io/text_cursor.h"
@@ -26,7 +28,7 @@ CLI::Validator checked_by(const std::function<void(const std::string&)>& check) 
         try {
           check(text);
         } catch (const InputError& error) {
-          return std::string(error.what());
+          return spelled(error.message());
         }
         return std::string();
       },
@@ -45,14 +47,14 @@ CLI::Validator finite_number(double least) {
 void add_device_options(CLI::App& parser, DeviceArguments& arguments) {
   parser
       .add_option("--device", arguments.device,
-                  "Where to compute: auto takes a GPU if one answers; doctor lists those there are")
+                  "Where to compute: auto takes a GPU if one works; doctor lists the GPUs")
       ->check(checked_by([](const std::string& text) { parse_device(text); }))
       ->type_name("auto|cpu|cuda|cuda:N")
       ->capture_default_str()
       ->group("Computation");
   parser
       .add_option("--threads", arguments.threads,
-                  "CPU threads; 0 takes OMP_NUM_THREADS, else all. The result is the same for any number")
+                  "CPU threads; 0 takes OMP_NUM_THREADS, otherwise all. The result does not depend on it")
       ->check(checked_by([](const std::string& text) {
         long long n = -1;
         if (!parse_integer(text, n)) throw InputError(in_quotes(text) + " is no whole number");
@@ -67,13 +69,28 @@ std::unique_ptr<Engine> make_engine(const DeviceArguments& arguments) {
 }
 
 void add_structure_options(CLI::App& parser, StructureOptions& options) {
-  parser.add_flag("!--no-hetero", options.include_hetero, "Leave out HETATM records (ligands, ions)")
-      ->group("Molecules");
-  parser.add_flag("--water", options.include_water, "Keep water molecules, which are left out else")
+  parser.add_flag("!--no-hetero", options.include_hetero, "Ignore HETATM records (ligands, ions)")->group("Molecules");
+  parser.add_flag("--water", options.include_water, "Keep water molecules, which are removed by default")
       ->group("Molecules");
 }
 
+namespace {
+
+/// Refuses an old name with the new one. Help does not list it.
+void refuse_earlier_names(CLI::App& parser) {
+  for (const RenamedSetting& renamed : renamed_settings()) {
+    const std::string message = "--" + renamed.old_name + " is now called --" + renamed.name;
+    parser
+        .add_option_function<std::string>(
+            "--" + renamed.old_name, [message](const std::string&) { throw CLI::ValidationError(message); }, "")
+        ->group("");
+  }
+}
+
+}  // namespace
+
 void add_settings(CLI::App& parser, GivenSettings& given, bool of_surface_only) {
+  if (!of_surface_only) refuse_earlier_names(parser);
   const CompareOptions defaults;
   for (const Setting& setting : settings()) {
     if (of_surface_only && !setting.of_surface) continue;
@@ -87,13 +104,13 @@ void add_settings(CLI::App& parser, GivenSettings& given, bool of_surface_only) 
           ->group(setting.group);
       continue;
     }
-    // Checked while the line is parsed, so that the message names the option.
+    // Checked during parsing, so that the message names the option.
     const auto check = [&setting](const std::string& text) {
       CompareOptions scratch;
       try {
         setting.set(scratch, text);
       } catch (const InputError& error) {
-        return std::string(error.what()).substr(setting.name.size() + 2);  // without "NAME: ": CLI11 names the option
+        return spelled(error.message()).substr(setting.name.size() + 4);  // without "--NAME: ": CLI11 says it
       }
       return std::string();
     };
@@ -109,11 +126,11 @@ void add_settings(CLI::App& parser, GivenSettings& given, bool of_surface_only) 
   }
 }
 
-Grid read_map(const std::string& path, const std::string& array, const std::string& unit) {
+GridFile read_map(const std::string& path, const std::string& array, const std::string& unit) {
   GridOptions options;
   options.array = array;
-  Grid map = read_grid(path, options);
-  if (!unit.empty()) map.unit = parse_potential_unit(unit);
+  GridFile map = read_grid_file(path, options);
+  if (!unit.empty()) map.grid.unit = parse_potential_unit(unit);
   return map;
 }
 

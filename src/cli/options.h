@@ -1,4 +1,4 @@
-// options.h: options that several verbs share.
+// options.h: options that several commands share.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -9,10 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "engine/engine.h"
+#include "compare/settings.h"
+#include "engine/handles.h"
+#include "io/read_grid.h"
 #include "io/read_structure.h"
-#include "pipeline/potential.h"
-#include "pipeline/settings.h"
+#include "potential/potential.h"
 
 namespace espdiff::cli {
 
@@ -29,13 +30,13 @@ void add_device_options(CLI::App& parser, DeviceArguments& arguments);
 std::unique_ptr<Engine> make_engine(const DeviceArguments& arguments);
 
 void add_structure_options(CLI::App& parser, StructureOptions& options);
-/// The settings of a comparison that were given, by name; make_options() takes them.
+/// The given settings of a comparison, by name, for make_options().
 using GivenSettings = std::vector<std::pair<std::string, std::string>>;
-/// Adds every setting as an option `--name`; a boolean one as a flag, `--no-name` where it is on by default.
-/// @param of_surface_only leaves out what only a mapping depends on
+/// Adds every setting as an option `--name`; a boolean one as a flag, `--no-name` if it is on by default.
+/// @param of_surface_only omits settings that only a mapping uses
 void add_settings(CLI::App& parser, GivenSettings& given, bool of_surface_only);
 
-/// Reads a potential map and, where `unit` is not empty, declares its unit.
-Grid read_map(const std::string& path, const std::string& array, const std::string& unit);
+/// Reads a potential map and, unless `unit` is empty, declares its unit.
+GridFile read_map(const std::string& path, const std::string& array, const std::string& unit);
 
 }  // namespace espdiff::cli

@@ -7,10 +7,10 @@
 #include "io/check_outputs.h"
 #include "io/read_csv.h"
 #include "io/text_cursor.h"
-#include "pipeline/matrix.h"
-#include "pipeline/read_matrix.h"
-#include "view/heat_map.h"
-#include "view/line_plot.h"
+#include "matrix/read_matrix.h"
+#include "plot/heat_map.h"
+#include "plot/line_plot.h"
+#include "report/metrics.h"
 
 namespace espdiff::cli {
 namespace {
@@ -24,26 +24,24 @@ struct Arguments {
 
 constexpr const char* kAngstrom = "\u00C5";
 
-/// Units as they are printed, shares as percent.
+/// Units as printed; fractions as percent.
 struct Quantity {
   std::string title, unit;
   double factor = 1;
 };
 
 Quantity quantity_of(const std::string& name, const std::string& potential_unit) {
-  for (const MatrixMetric& metric : matrix_metrics()) {
-    if (metric.name != name) continue;
-    if (metric.unit == MetricUnit::kFraction) return {metric.title, "%", 100};
-    if (metric.unit == MetricUnit::kAngstrom) return {metric.title, kAngstrom, 1};
-    if (metric.unit == MetricUnit::kSquareAngstrom) return {metric.title, std::string(kAngstrom) + "\u00B2", 1};
-    return {metric.title, unit_of(metric, potential_unit), 1};
-  }
-  return {name, "", 1};
+  const Metric* const metric = find_metric_or_null(name);
+  if (metric == nullptr) return {name, "", 1};
+  const ShownUnit shown = shown_unit(*metric, potential_unit);
+  if (metric->unit == MetricUnit::kAngstrom) return {metric->label, kAngstrom, 1};
+  if (metric->unit == MetricUnit::kSquareAngstrom) return {metric->label, std::string(kAngstrom) + "\u00B2", 1};
+  return {metric->label, shown.unit, shown.factor};
 }
 
 bool is_antisymmetric(const std::string& name) {
-  return std::any_of(matrix_metrics().begin(), matrix_metrics().end(),
-                     [&](const MatrixMetric& metric) { return metric.name == name && metric.antisymmetric; });
+  const Metric* const metric = find_metric_or_null(name);
+  return metric != nullptr && (metric->flags & kAntisymmetric) != 0;
 }
 
 std::string only_metric(const Arguments& a, const std::string& otherwise) {
@@ -77,7 +75,8 @@ HeatMap heat_map(const Arguments& a, const MatrixFile& matrix) {
   return map;
 }
 
-/// One variant as the source against all others; with both ways the mean of both directions, the bars reaching to each.
+/// One variant as the source against all others; with both_ways the mean of both directions, with bars that reach to
+/// each.
 LinePlot one_against_all(const Arguments& a, const MatrixFile& matrix) {
   const std::size_t n = matrix.n(), one = matrix.find(a.source);
   LinePlot plot;
@@ -108,7 +107,7 @@ LinePlot one_against_all(const Arguments& a, const MatrixFile& matrix) {
   return plot;
 }
 
-/// The potentials' unit, from a row that has one.
+/// The potentials' unit, from any row that has one.
 std::string potential_unit_of(const CsvTable& table) {
   const int column = table.find("potential_unit");
   for (const auto& row : table.rows) {
@@ -117,12 +116,13 @@ std::string potential_unit_of(const CsvTable& table) {
   return "";
 }
 
-/// Columns of a table along another one, such as the frames of a trajectory. A column NAME_error gives NAME error bars.
+/// Columns of a table along another column, such as the frames of a trajectory. A column NAME_error gives NAME error
+/// bars.
 LinePlot along_table(const Arguments& a, const CsvTable& table) {
   if (!a.source.empty() || a.both_ways)
-    throw InputError("--source and --both-ways are of a matrix; give its OUT.json instead of " + table.path);
+    throw InputError("--source and --both-ways need a matrix; give its OUT.json instead of " + table.path);
   if (table.find("source") >= 0 && table.find("target") >= 0)
-    throw InputError(table.path + ": a matrix is drawn from its JSON file; give that");
+    throw InputError(table.path + ": a matrix is drawn from its JSON file; give that file");
   if (table.rows.empty()) throw FormatError(table.path, 0, "there are no rows to draw");
   const std::string x_name = a.x.empty() ? (table.find("frame") >= 0 ? "frame" : table.columns.front()) : a.x;
   const std::size_t x = table.require(x_name);
@@ -161,12 +161,12 @@ int run(const Arguments& a, const Context&) {
   check_outputs({a.input}, {a.output});
   const bool is_json = lower_case(a.input).size() > 5 && lower_case(a.input).substr(a.input.size() - 5) == ".json";
   if (is_json && a.source.empty()) {
-    if (a.normalize || a.both_ways) throw InputError("--normalize and --both-ways are of lines; name one --source");
+    if (a.normalize || a.both_ways) throw InputError("--normalize and --both-ways are for lines; name one --source");
     write_picture(a.output, heat_map_script(heat_map(a, read_matrix_json(a.input)), format));
     return 0;
   }
   if (!a.range.empty() || a.order != "given")
-    throw InputError("--range and --order are of heat maps; leave out --source, and give OUT.json of a matrix");
+    throw InputError("--range and --order are for heat maps; leave out --source, and give a matrix's OUT.json");
   LinePlot plot = is_json ? one_against_all(a, read_matrix_json(a.input)) : along_table(a, read_csv(a.input));
   if (a.no_marks) plot.trustworthy.clear();
   plot.normalized = a.normalize;
@@ -180,31 +180,32 @@ Verb add_plot(CLI::App& app) {
   auto a = std::make_shared<Arguments>();
   CLI::App* parser = app.add_subcommand("plot", "Draw a matrix, one variant against all, or a trajectory");
   parser->footer(
-      "OUT.json of a matrix becomes a heat map, with --source a plot of one variant against all others; a CSV file, as "
-      "of a\ntrajectory, becomes lines along its frames. Drawn by gnuplot; text stays text in an SVG.\n\nExamples:\n"
+      "OUT.json of a matrix becomes a heat map, with --source a plot of one variant against all others; a CSV file, "
+      "such as "
+      "a\ntrajectory's, becomes lines along its frames. Drawn by gnuplot; text stays text in an SVG.\n\nExamples:\n"
       "  espdiff plot ubiquitin.json --order dendrogram -o map.svg\n"
       "  espdiff plot ubiquitin.json --source m00 --metric mean_abs_difference --metric rmsd_A --normalize -o m00.png\n"
       "  espdiff plot adk.csv --metric mean_displacement_A --metric rmsd_A -o adk.svg");
   parser->add_option("FILE", a->input, "OUT.json of a matrix, or a CSV file")->required();
   parser->add_option("-o,--output", a->output, "Picture to write (.png or .svg)")->required();
   parser->add_option("--metric", a->metrics,
-                     "What is drawn, by the names of the files' columns; several for lines (as clustered by; of a "
+                     "Columns to draw; several for lines (default: the clustering metric; for a "
                      "trajectory mean_abs_difference)");
   parser->add_option("--title", a->title, "Title of a plot of lines");
   parser->add_option("--order", a->order, "Order of a heat map; dendrogram draws the clustering too")
       ->check(CLI::IsMember({"given", "dendrogram"}))
       ->capture_default_str()
       ->group("Heat map");
-  parser->add_option("--range", a->range, "Ends of the colours (least and greatest value off the diagonal)")
+  parser->add_option("--range", a->range, "Ends of the colours (default: range off the diagonal)")
       ->expected(2)
       ->group("Heat map");
-  parser->add_option("--source", a->source, "Label of the variant that is drawn against all others")->group("Lines");
+  parser->add_option("--source", a->source, "Label of the variant to draw against all others")->group("Lines");
   parser->add_flag("--both-ways", a->both_ways, "Mean of both directions, with bars that reach to each")
       ->group("Lines");
-  parser->add_flag("--normalize", a->normalize, "Each metric from its least value, 0, to its greatest, 1")
+  parser->add_flag("--normalize", a->normalize, "Scale each metric from its minimum, 0, to its maximum, 1")
       ->group("Lines");
   parser->add_option("--x", a->x, "Column of a CSV file that is the x axis (frame)")->group("Lines");
-  parser->add_flag("--no-marks", a->no_marks, "Do not tell apart what is not trustworthy");
+  parser->add_flag("--no-marks", a->no_marks, "Do not mark results that are not trustworthy");
   return {parser, [a](const Context& context) { return run(*a, context); }};
 }
 

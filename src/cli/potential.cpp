@@ -7,11 +7,13 @@
 
 #include "cli/options.h"
 #include "cli/verbs.h"
+#include "engine/engine.h"
 #include "io/check_outputs.h"
+#include "io/read_structure.h"
 #include "io/read_unit_cells.h"
 #include "io/write_grid.h"
-#include "pipeline/frame_range.h"
-#include "pipeline/potential.h"
+#include "potential/potential.h"
+#include "trajectory/frame_range.h"
 
 namespace espdiff::cli {
 namespace {
@@ -33,11 +35,11 @@ struct Arguments {
 void add_cell_options(CLI::App& p, Arguments& a) {
   const char* const group = "Cell and grid";
   p.add_option("--cell", a.cell,
-               "Cell of every frame, '{{ox oy oz} {ax ay az} {bx by bz} {cx cy cz}}', o its centre. Without one: each "
-               "frame's CRYST1 record, centred on the atoms; without these, a box around the atoms")
+               "Cell of every frame, '{{ox oy oz} {ax ay az} {bx by bz} {cx cy cz}}', o its centre. Default: each "
+               "frame's CRYST1 record, centred on the atoms; without it, a box around the atoms")
       ->group(group);
   p.add_option("--xscfile", a.xsc_file, "Cell of every frame from a NAMD .xsc file")->group(group);
-  p.add_option("--pad", a.pad_A, "A box around the atoms, wider by so much on each side, A (10 where no cell is known)")
+  p.add_option("--pad", a.pad_A, "Use a box around the atoms plus this margin on each side, A (10 if there is no cell)")
       ->check(finite_number(0))
       ->group(group);
   p.add_option("--grid", a.grid, "Resolution below 8 A, or a number of points from 8 on, or three: '80 80 96'")
@@ -63,8 +65,9 @@ void add_method_options(CLI::App& p, Arguments& a) {
       ->check(CLI::IsMember({"single", "double"}))
       ->capture_default_str()
       ->group(group);
-  p.add_flag("--compatible", a.pme.compatible,
-             "As VMD's PMEPot: its grid sizes, squared spline factor, whole-number volume, one cell for all frames")
+  p.add_flag(
+       "--compatible", a.pme.compatible,
+       "Reproduce VMD's PMEPot: its grid sizes, squared spline factor, whole-number volume, one cell for all frames")
       ->group(group);
   p.add_option("--temperature", a.pme.temperature_K, "Temperature of kT, K")
       ->capture_default_str()
@@ -75,7 +78,7 @@ void add_method_options(CLI::App& p, Arguments& a) {
       ->check(finite_number())
       ->group(group);
   p.add_flag("--distance-dependent", a.coulomb.distance_dependent,
-             "The dielectric of --method coulomb grows with the distance: --dielectric times r in A")
+             "Distance-dependent dielectric of --method coulomb: --dielectric times r in A")
       ->group(group);
 }
 
@@ -92,11 +95,11 @@ void add_frame_options(CLI::App& p, Arguments& a) {
   p.add_option("--standard-error", a.standard_error,
                "Also write the standard error of the mean, from the means of blocks of frames (.dx or .vti)")
       ->group(group);
-  p.add_option("--block", a.frames_per_block, "Frames in a block; take more than the frames that resemble each other")
+  p.add_option("--block", a.frames_per_block, "Frames in a block; more than the correlation time in frames")
       ->check(CLI::PositiveNumber)
       ->capture_default_str()
       ->group(group);
-  p.add_option("--align", a.align, "Superpose frames on the first by these atoms; maps then stay with the molecule")
+  p.add_option("--align", a.align, "Superpose frames on the first by these atoms; the maps follow the molecule")
       ->check(CLI::IsMember({"all", "backbone", "ca", "none"}))
       ->capture_default_str()
       ->group(group);
@@ -131,8 +134,8 @@ std::string numbered(const std::string& path, int frame) {
   return path.substr(0, dot) + digits + path.substr(dot);
 }
 
-/// The files of a run: opened at the start, so that a folder that is missing is found before the work; named at the
-/// end, all or none.
+/// Output files of a run: opened at the start, so that a missing folder is found before the work; renamed at the end,
+/// all or none.
 class Outputs {
  public:
   Outputs(const Arguments& a, const std::vector<int>& frames) : each_(a.averaging == "each") {
@@ -189,10 +192,11 @@ int run(const Arguments& a, const Context& context) {
   const PotentialOptions options = options_from(a);
   const auto start = std::chrono::steady_clock::now();
   context.progress->report("read", 0.0);
-  const std::vector<int> frames = parse_frames(a.frames, count_models(a.molecule));
-  const std::vector<std::optional<UnitCell>> cells = read_unit_cells(a.molecule);
+  const StructureFile file(a.molecule);
+  const std::vector<int> frames = parse_frames(a.frames, file.n_models());
+  const std::vector<std::optional<UnitCell>> cells = file.unit_cells();
   if (frames.size() < 2 && !(a.variance.empty() && a.standard_error.empty()))
-    throw InputError("--variance and --standard-error need 2 frames at least; there is " +
+    throw InputError("--variance and --standard-error need at least 2 frames; there is " +
                      std::to_string(frames.size()));
   const std::unique_ptr<Engine> engine = make_engine(a.device);
   PotentialSeries series(*engine, options);
@@ -201,7 +205,7 @@ int run(const Arguments& a, const Context& context) {
   for (std::size_t i = 0; i < frames.size(); ++i) {
     StructureOptions structure = a.structure;
     structure.model = frames[i] + 1;
-    molecule = read_structure(a.molecule, structure);
+    molecule = file.read(structure);
     require_charges(molecule);
     if (!outputs) outputs = std::make_unique<Outputs>(a, frames);
     const auto& cell = cells[static_cast<std::size_t>(frames[i])];
@@ -223,7 +227,7 @@ Verb add_potential(CLI::App& app) {
   CLI::App* parser =
       app.add_subcommand("potential", "Compute the electrostatic potential around a molecule, or its mean over frames");
   parser->footer(
-      "Options that PMEPot has too are named and mean as there.\n\nExamples:\n"
+      "Options shared with PMEPot have its names and meanings.\n\nExamples:\n"
       "  espdiff potential protein.pqr -o protein.dx\n"
       "  espdiff potential frames.pqr --align ca --variance variance.dx -o mean.dx");
   parser->add_option("MOLECULE", a->molecule, "Structure with charges: PQR; several models are frames")->required();
@@ -232,9 +236,9 @@ Verb add_potential(CLI::App& app) {
   add_method_options(*parser, *a);
   add_cell_options(*parser, *a);
   add_frame_options(*parser, *a);
-  parser->add_flag("!--no-hetero", a->structure.include_hetero, "Leave out HETATM records (ligands, ions)")
+  parser->add_flag("!--no-hetero", a->structure.include_hetero, "Ignore HETATM records (ligands, ions)")
       ->group("Molecules");
-  parser->add_flag("!--no-water", a->structure.include_water, "Leave out water molecules, which are kept else")
+  parser->add_flag("!--no-water", a->structure.include_water, "Ignore water molecules, which are kept by default")
       ->group("Molecules");
   add_device_options(*parser, a->device);
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");

@@ -34,12 +34,12 @@ int run(Arguments& a, const Context& context) {
 
 Verb add_render(CLI::App& app) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* parser = app.add_subcommand("render", "Draw a comparison into a PNG");
+  CLI::App* parser = app.add_subcommand("render", "Draw a comparison to a PNG");
   parser->footer(
       "Needs an X display; without one: xvfb-run -a espdiff render ...\n\nExamples:\n  espdiff render result.vtp -o "
       "result.png --title 'mutant - wild type'\n  espdiff render result.vtp -o linked.png --layout linked --molecule "
       "cartoon");
-  parser->add_option("SURFACE", a->input, "OUT.vtp of compare; OUT.json is looked for beside it")->required();
+  parser->add_option("SURFACE", a->input, "OUT.vtp of compare; OUT.json must be beside it")->required();
   parser->add_option("-o,--output", a->output, "Picture to write (.png)")->required();
   add_scene_options(*parser, a->scene);
   return {parser, [a](const Context& context) { return run(*a, context); }};

@@ -1,28 +1,23 @@
-// scene_options.cpp: one row an option of a scene.
+// scene_options.cpp: one row per option of a scene.
 #include "cli/scene_options.h"
 
 #include "base/error.h"
 #include "io/atomic_file.h"
+#include "io/text_cursor.h"
 
 namespace espdiff::cli {
 namespace {
 
 /// "5" is symmetric, "-8:2" gives both ends.
 void set_range(Scene& scene, const std::string& text) {
-  const std::size_t colon = text.find(':', 1);
-  try {
-    std::size_t used = 0;
-    scene.range.given_ends = colon != std::string::npos;
-    if (!scene.range.given_ends) {
-      scene.range.limit = std::stod(text, &used);
-      if (used != text.size()) throw std::invalid_argument(text);
-      return;
-    }
-    scene.range.low = std::stod(text.substr(0, colon));
-    scene.range.high = std::stod(text.substr(colon + 1));
-  } catch (const std::logic_error&) {
-    throw InputError("--range " + text + ": give one number, as 5 for -5 to 5, or two, as -8:2");
-  }
+  const std::size_t colon = text.find(':');
+  scene.range.given_ends = colon != std::string::npos;
+  const std::string_view words = text;
+  const bool are_numbers = scene.range.given_ends
+                               ? parse_number(words.substr(0, colon), scene.range.low) &&
+                                     parse_number(words.substr(colon + 1), scene.range.high)
+                               : parse_number(words, scene.range.limit);
+  if (!are_numbers) throw InputError("--range " + text + ": give one number, as 5 for -5 to 5, or two, as -8:2");
 }
 
 /// Adds an option whose value changes the scene.
@@ -56,21 +51,21 @@ void add_colour_options(CLI::App& p, SceneArguments& a) {
   add<Text>(p, a, "--range",
             "End of the colour scale, for signed values both ends, or LOW:HIGH; 0: by --percentile [0]", set_range)
       ->type_name("NUMBER");
-  add<Number>(p, a, "--percentile", "Share of the values that an automatic scale holds, 50 to 100 [98]",
+  add<Number>(p, a, "--percentile", "Percentage of the values that an automatic scale covers, 50 to 100 [98]",
               [](Scene& s, Number v) { s.range.percentile = v; });
-  add<Text>(p, a, "--colours,--colors", "Signed values' colours [red-blue]", [](Scene& s, const Text& t) {
+  add<Text>(p, a, "--colours,--colors", "Colour map of signed values [red-blue]", [](Scene& s, const Text& t) {
     s.colours = t;
   })->check(CLI::IsMember({"red-blue", "cool-warm", "purple-orange"}));
-  add<Text>(p, a, "--unit", "Unit in the legend, if the file does not say",
+  add<Text>(p, a, "--unit", "Unit in the legend, if the file does not give it",
             [](Scene& s, const Text& t) { s.unit = t; });
-  add_flag(p, a, "--per-vertex", "Interpolate the vertices' values instead of looking the maps up at every pixel",
+  add_flag(p, a, "--per-vertex", "Interpolate vertex values instead of looking up the maps at every pixel",
            [](Scene& s) { s.per_vertex = true; });
   add_flag(p, a, "--opaque", "Do not fade by displacement", [](Scene& s) { s.fade = false; });
   add<Number>(p, a, "--opaque-below", "Displacement up to which the surface is opaque, Angstrom [0.5]",
               [](Scene& s, Number v) { s.opacity.opaque_below_A = v; });
   add<Number>(p, a, "--faint-above", "Displacement from which it is faintest, Angstrom [3]",
               [](Scene& s, Number v) { s.opacity.faint_above_A = v; });
-  add<Number>(p, a, "--opacity", "Opacity of what is certain, 0 to 1; below 1 a molecule inside shows [1]",
+  add<Number>(p, a, "--opacity", "Opacity of certain parts, 0 to 1; below 1 a molecule inside is visible [1]",
               [](Scene& s, Number v) { s.opacity.greatest = v; });
   add<Number>(p, a, "--least-opacity", "Opacity there, 0 to 1 [0.25]", [](Scene& s, Number v) { s.opacity.least = v; });
 }
@@ -81,19 +76,19 @@ void add_context_options(CLI::App& p, SceneArguments& a) {
       ->check(CLI::IsMember({"none", "cartoon", "sticks", "lines"}));
   add<Number>(p, a, "--around", "Ligands, ions and water within this distance of the protein, Angstrom [none]",
               [](Scene& s, Number v) { s.around_A = v; });
-  add<int>(p, a, "--labels", "Name this many residues with the largest mean difference [0]",
+  add<int>(p, a, "--labels", "Label this many residues with the largest mean difference [0]",
            [](Scene& s, int v) { s.n_labels = v; });
-  add<Numbers>(p, a, "--isopotential", "Surfaces on which the potential has these values, such as -2,2",
+  add<Numbers>(p, a, "--isopotential", "Isosurfaces of the potential at these values, such as -2,2",
                [](Scene& s, const Numbers& v) { s.isopotentials = v; })
       ->delimiter(',');
-  add<int>(p, a, "--field-lines", "This many field lines, from where the field is strongest on the surface [0]",
+  add<int>(p, a, "--field-lines", "Number of field lines, from the points of the surface with the strongest field [0]",
            [](Scene& s, int v) { s.n_field_lines = v; });
-  add<Number>(p, a, "--slice", "The potential on a plane across the view: 0 in front, 1 behind [none]",
+  add<Number>(p, a, "--slice", "Potential on a plane across the view: 0 in front, 1 behind [none]",
               [](Scene& s, Number v) { s.slice = v; });
-  add<Numbers>(p, a, "--offsets", "Compare also on surfaces this far outside, Angstrom, such as 1,2,4",
+  add<Numbers>(p, a, "--offsets", "Also compare on surfaces this far outside, Angstrom, such as 1,2,4",
                [](Scene& s, const Numbers& v) { s.offsets_A = v; })
       ->delimiter(',');
-  add_flag(p, a, "--no-surface", "Leave the surface out", [](Scene& s) { s.surface = false; });
+  add_flag(p, a, "--no-surface", "Do not draw the surface", [](Scene& s) { s.surface = false; });
 }
 
 void add_layout_options(CLI::App& p, SceneArguments& a) {
@@ -101,22 +96,21 @@ void add_layout_options(CLI::App& p, SceneArguments& a) {
             "turned: from several sides; linked: source, target and difference; split: source | target [turned]",
             [](Scene& s, const Text& t) { s.layout = parse_layout(t); })
       ->check(CLI::IsMember({"turned", "linked", "split"}));
-  add<int>(p, a, "--views", "Views of the layout turned, each turned on about the vertical, 1 to 4 [2]",
-           [](Scene& s, int v) { s.n_views = v; });
-  add<Number>(p, a, "--split", "Where the layout split has its line, 0 to 1 of the width [0.5]",
+  add<int>(p, a, "--views", "Number of views of the layout turned, 1 to 4 [2]", [](Scene& s, int v) { s.n_views = v; });
+  add<Number>(p, a, "--split", "Position of the layout split's line, 0 to 1 of the width [0.5]",
               [](Scene& s, Number v) { s.split = v; });
-  add<Number>(p, a, "--morph", "Shape: 0 the source's, 1 the target's, between: on the way [1]",
+  add<Number>(p, a, "--morph", "Shape: 0 the source's, 1 the target's, or in between [1]",
               [](Scene& s, Number v) { s.morph = v; });
   add<Text>(p, a, "--title", "Title above the views", [](Scene& s, const Text& t) { s.title = t; });
-  add_flag(p, a, "--no-legend", "Leave title, scales and keys out", [](Scene& s) { s.legend = false; });
+  add_flag(p, a, "--no-legend", "Omit title, scales and keys", [](Scene& s) { s.legend = false; });
   add_flag(p, a, "--axes", "Show the directions of the target's x, y and z", [](Scene& s) { s.axes = true; });
   add<int>(p, a, "--width", "Pixels [1800; in a window 1280]", [](Scene& s, int v) { s.width = v; });
   add<int>(p, a, "--height", "Pixels [1100; in a window 860]", [](Scene& s, int v) { s.height = v; });
-  add<Number>(p, a, "--turn", "Degrees to turn the molecule to the right from the automatic view [0]",
+  add<Number>(p, a, "--turn", "Rotate the molecule to the right from the automatic view, degrees [0]",
               [](Scene& s, Number v) { s.turn_deg = v; });
-  add<Number>(p, a, "--tilt", "Degrees to tilt its upper side toward the viewer [0]",
+  add<Number>(p, a, "--tilt", "Tilt its upper side toward the viewer, degrees [0]",
               [](Scene& s, Number v) { s.tilt_deg = v; });
-  add<Number>(p, a, "--zoom", "Times as large as what fits [1]", [](Scene& s, Number v) { s.zoom = v; });
+  add<Number>(p, a, "--zoom", "Magnification relative to the fitted size [1]", [](Scene& s, Number v) { s.zoom = v; });
 }
 
 }  // namespace

@@ -12,10 +12,10 @@
 
 namespace espdiff::cli {
 
-/// A scene file, and what the options change of it.
+/// A scene file, and the options' changes to it.
 struct SceneArguments {
   std::string scene_file, saved_scene;
-  std::vector<std::function<void(Scene&)>> changes;  ///< of the options that were given, in order
+  std::vector<std::function<void(Scene&)>> changes;  ///< of the given options, in order
 };
 
 void add_scene_options(CLI::App& parser, SceneArguments& arguments);

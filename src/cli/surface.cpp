@@ -4,9 +4,12 @@
 
 #include "cli/options.h"
 #include "cli/verbs.h"
+#include "compare/input.h"
+#include "compare/surface.h"
+#include "engine/engine.h"
 #include "io/check_outputs.h"
 #include "io/write_grid.h"
-#include "pipeline/write_surface.h"
+#include "report/write_surface.h"
 
 namespace espdiff::cli {
 namespace {
@@ -25,7 +28,7 @@ void print_summary(const SurfaceResult& result) {
               result.summary.n_triangles, result.summary.n_components, result.summary.n_components == 1 ? "" : "s");
   std::printf("area           %.1f A^2\n", result.summary.area_A2);
   if (result.summary.n_cavities_left_out > 0) {
-    std::printf("cavities       %zu left out, %.1f A^2 (--cavities keeps them)\n", result.summary.n_cavities_left_out,
+    std::printf("cavities       %zu removed, %.1f A^2 (--cavities keeps them)\n", result.summary.n_cavities_left_out,
                 result.summary.cavity_area_A2);
   }
   for (const auto& [stage, ms] : result.time_ms) {
@@ -45,7 +48,7 @@ int run(const Arguments& a, const Context& context) {
   CompareInput input{&molecule, nullptr};
   Grid map;
   if (!a.map.empty()) {
-    map = read_map(a.map, a.map_array, a.map_unit);
+    map = read_map(a.map, a.map_array, a.map_unit).grid;
     input.map = &map;
   }
   const std::unique_ptr<Engine> engine = make_engine(a.device);
@@ -66,21 +69,19 @@ int run(const Arguments& a, const Context& context) {
 
 Verb add_surface(CLI::App& app) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* parser =
-      app.add_subcommand("surface", "Write a molecule's surface, with its potential where a map is given");
+  CLI::App* parser = app.add_subcommand("surface", "Write a molecule's surface, with its potential if a map is given");
   parser->footer("Example:\n  espdiff surface protein.pqr --map protein.dx --regularize -o surface.vtp");
   parser->add_option("MOLECULE", a->molecule, "Structure: PQR, PDB or mmCIF")->required();
   parser->add_option("-o,--output", a->output, "Surface to write (.vtp)")->required();
   parser->add_option("--map", a->map, "Potential map: DX, VTI or cube")->group("Potentials");
-  parser->add_option("--map-unit", a->map_unit, "Unit of the map if the file does not say")->group("Potentials");
-  parser->add_option("--map-array", a->map_array, "Array to take from a VTI map that holds several")
-      ->group("Potentials");
+  parser->add_option("--map-unit", a->map_unit, "Unit of the map if the file does not give it")->group("Potentials");
+  parser->add_option("--map-array", a->map_array, "Array of a VTI map with several")->group("Potentials");
   parser->add_option("--model", a->structure.model, "Model of a multi-model file, from 1")
       ->check(CLI::PositiveNumber)
       ->capture_default_str()
       ->group("Molecules");
-  parser->add_option("--density", a->density, "Also write the density that the surface is cut from (.dx, for VMD)");
-  parser->add_flag("--regularize", a->regularize, "Even out the triangles first");
+  parser->add_option("--density", a->density, "Also write the surface's density (.dx, for VMD)");
+  parser->add_flag("--regularize", a->regularize, "Regularize the triangles");
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
   add_structure_options(*parser, a->structure);
   add_settings(*parser, a->settings, true);

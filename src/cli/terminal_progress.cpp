@@ -1,4 +1,4 @@
-// terminal_progress.cpp: a progress bar on standard error, and Ctrl-C as a request to stop.
+// terminal_progress.cpp: a progress bar on standard error, and cancellation by Ctrl-C.
 #include "cli/terminal_progress.h"
 
 #include <unistd.h>
@@ -12,7 +12,7 @@ namespace {
 
 Progress* interruptible = nullptr;
 
-/// Only sets a flag: the stages look at it between their steps, and leave nothing half written.
+/// Only sets a flag, which the stages check between their steps; nothing is left half written.
 extern "C" void on_interrupt(int) {
   if (interruptible != nullptr) interruptible->request_cancel();
 }

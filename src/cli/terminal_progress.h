@@ -1,4 +1,4 @@
-// terminal_progress.h: a progress bar on standard error, and Ctrl-C as a request to stop.
+// terminal_progress.h: a progress bar on standard error, and cancellation by Ctrl-C.
 #pragma once
 
 #include <chrono>
@@ -8,7 +8,7 @@
 
 namespace espdiff::cli {
 
-/// Draws one line that is rewritten, when standard error is a terminal; else nothing. While it lives, SIGINT,
+/// Draws one line, rewritten in place, if standard error is a terminal; otherwise nothing. While it lives, SIGINT,
 /// SIGTERM and SIGHUP cancel, unless they were ignored before; SIGPIPE and SIGXFSZ are ignored from then on.
 class TerminalProgress {
  public:
@@ -18,7 +18,7 @@ class TerminalProgress {
   TerminalProgress& operator=(const TerminalProgress&) = delete;
 
   Progress& progress() { return progress_; }
-  /// Removes the line, before something else is printed.
+  /// Removes the line before other output.
   void clear();
 
  private:

@@ -1,5 +1,6 @@
 // trajectory.cpp: `espdiff trajectory SOURCE FRAMES... -o OUT.csv`.
-#include "pipeline/trajectory.h"
+#include "trajectory/trajectory.h"
+#include "engine/engine.h"
 
 #include <chrono>
 #include <cstdio>
@@ -11,10 +12,9 @@
 #include "cli/map_options.h"
 #include "cli/verbs.h"
 #include "io/check_outputs.h"
-#include "io/sha256.h"
 #include "io/write_csv.h"
-#include "pipeline/frame_files.h"
-#include "pipeline/frame_range.h"
+#include "trajectory/frame_files.h"
+#include "trajectory/frame_range.h"
 
 namespace espdiff::cli {
 namespace {
@@ -103,13 +103,13 @@ class Sides {
   Sides(const Arguments& a, double temperature_K) : a_(a), temperature_K_(temperature_K), frames_(a.targets) {
     const StructureFile file(a.source);
     source_ = file.read(with_model(a.structure));
-    inputs_ = {{"source", a.source, sha256_of_file(a.source)}};
+    inputs_ = {{"source", a.source, file.sha256()}};
     source_map_ = given_map(a.maps, "source", inputs_);
     target_map_ = given_map(a.maps, "target", inputs_);
     if (!is_computed(a.maps)) return;
     if (takes_own_cell(a.maps)) {
       charges_ = file.read(with_model({1, true, true}));
-      const auto cell = read_unit_cells(a.source).at(static_cast<std::size_t>(a.source_model - 1));
+      const auto cell = file.unit_cells().at(static_cast<std::size_t>(a.source_model - 1));
       computed_ = computed_map(a.maps, charges_, cell, temperature_K);
     } else {
       computed_ = computed_map(a.maps, source_, std::nullopt, temperature_K);

@@ -1,4 +1,4 @@
-// verbs.h: the verbs of the command line; each adds its options to the parser and runs when it was chosen.
+// verbs.h: the commands of the command line; each adds its options to the parser and returns its work.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -11,16 +11,16 @@
 
 namespace espdiff::cli {
 
-/// What every verb is given.
+/// Given to every command.
 struct Context {
   std::string command_line;  ///< as typed, for the provenance of a result
   Progress* progress = nullptr;
 };
 
-/// A verb's work: runs after parsing when the verb was chosen; returns the exit status.
+/// A command's work: runs after parsing if the command was chosen; returns the exit status.
 using Run = std::function<int(const Context&)>;
 
-/// A verb as the parser knows it, and its work.
+/// A command's parser, and its work.
 struct Verb {
   CLI::App* parser;
   Run run;

@@ -43,9 +43,9 @@ std::string footer() {
 
 Verb add_view(CLI::App& app) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* parser = app.add_subcommand("view", "Look at a comparison in a window");
+  CLI::App* parser = app.add_subcommand("view", "Show a comparison in a window");
   parser->footer(footer());
-  parser->add_option("SURFACE", a->input, "OUT.vtp of compare; OUT.json is looked for beside it")->required();
+  parser->add_option("SURFACE", a->input, "OUT.vtp of compare; OUT.json must be beside it")->required();
   parser->add_option("-o,--output", a->prefix,
                      "Pictures and scenes are saved as PREFIX.png and PREFIX.json [OUT-view]");
   add_scene_options(*parser, a->scene);
@@ -55,7 +55,7 @@ Verb add_view(CLI::App& app) {
 #else
 
 Verb add_view(CLI::App& app) {
-  CLI::App* parser = app.add_subcommand("view", "Look at a comparison in a window (not in this build)");
+  CLI::App* parser = app.add_subcommand("view", "Show a comparison in a window (not in this build)");
   parser->allow_extras();
   return {
       parser, [](const Context&) -> int {

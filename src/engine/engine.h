@@ -1,257 +1,43 @@
-// engine.h: what a back end offers: the numerical stages, on data that stays on its device.
+// engine.h: the interface of a back end: the numerical stages, on data that stays on its device.
 //
-// One source in cuda/ implements this interface twice, for OpenMP threads and for CUDA. The pipeline calls the stages
-// in order and passes opaque handles; nothing is copied to the host but what a download function or a returned struct
-// holds.
+// One source in cuda/ implements this interface twice, for OpenMP threads and for CUDA. Callers run the stages in order
+// and pass opaque handles. Only download functions and returned structs copy data to the host.
 //
-// Frame: every position is relative to the *common frame* that the pipeline chooses (source and target superposed,
-// origin near the molecules), so that single precision suffices. Maps keep their own frame; sample() gets the transform
-// into it.
+// Frame: every position is in the *common frame* that the caller chooses (source and target superposed, origin near the
+// molecules), so that single precision suffices. Maps keep their own frame; upload_map() takes the transform into it.
 //
 // Same input, same bits, at any number of threads. Density is high inside: *inside* means density > isovalue.
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "base/progress.h"
-#include "base/screw.h"
 #include "base/types.h"
+#include "engine/handles.h"
 
 namespace espdiff {
 
-/// Opaque device objects. Each belongs to the engine that made it and may not outlive it.
-struct DeviceAtoms {
-  virtual ~DeviceAtoms() = default;
-};  ///< atoms sorted into a cell list
-struct DeviceGrid {
-  virtual ~DeviceGrid() = default;
-};  ///< a scalar on a lattice
-struct DeviceField {
-  virtual ~DeviceField() = default;
-};  ///< a scalar and its gradient on a lattice
-struct DeviceMesh {
-  virtual ~DeviceMesh() = default;
-};  ///< positions and shared topology (triangles, one-rings)
-struct DeviceScalars {
-  virtual ~DeviceScalars() = default;
-};  ///< one float per vertex or per triangle
-
-using AtomsPtr = std::shared_ptr<const DeviceAtoms>;
-using GridPtr = std::shared_ptr<const DeviceGrid>;
-using FieldPtr = std::shared_ptr<const DeviceField>;
-using MeshPtr = std::shared_ptr<const DeviceMesh>;
-using ScalarsPtr = std::shared_ptr<const DeviceScalars>;
-
-enum class Interpolation { kTrilinear, kTricubic };
-
-/// A connected component of a closed mesh.
-struct ComponentSummary {
-  std::uint32_t n_vertices = 0;
-  std::uint32_t n_triangles = 0;
-  double area_A2 = 0;
-  double volume_A3 = 0;  ///< signed: negative for a cavity, whose normals point into the void
-};
-
-/// Parameters of the force iteration (thesis section 3.5.4); defaults are its study's values for the mapping.
-struct DeformOptions {
-  double sigma = 0.1;                ///< step scale, > 0
-  double mu = 0.75;                  ///< weight of the external against the internal force, 0 to 1
-  double rho = 0.3;                  ///< rigidity (thin plate) against tension (membrane), 0 to 1
-  double min_displacement_A = 1e-3;  ///< converged when the mean displacement of an iteration falls below it
-  int max_iterations = 1000;
-  Interpolation interpolation = Interpolation::kTrilinear;
-  /// Multiplies the internal force; 1 is the thesis' iteration. That force moves vertices along the surface only, so a
-  /// larger one lets them spread into what the surface has been drawn into sooner, and the surface itself no less
-  /// exact.
-  double tangential_gain = 1;
-  /// Measures the internal force from a rest shape (see Engine::deform), so that it resists distortion; else from
-  /// equal edges (the thesis), so that the mesh goes on sliding along the surface even when nothing is to be deformed.
-  bool rest_shape = false;
-};
-
-struct DeformReport {
-  int iterations = 0;
-  double mean_displacement_A = 0;  ///< of the last iteration
-  bool converged = false;
-  ScalarsPtr path_length;  ///< [vertex] length of the way that the iterations took it, Angstrom
-};
-
-/// Parameters of gvf_field().
-struct VectorFlowOptions {
-  double weight_A2 = 0.05;  ///< mu: smoothness against the normals at the surface; they are blended over its root
-  double tolerance = 1e-3;  ///< converged when no point would move by more in a sweep; normals are 1 long
-  int max_sweeps = 1000;
-};
-
-struct VectorFlowReport {
-  int sweeps = 0;
-  double residual = 0;  ///< largest move of a point in the last sweep looked at
-  bool converged = false;
-};
-
-/// Area-weighted comparison of two potentials on the mapped mesh. Weights are a third of the area of each counted
-/// triangle at each of its vertices. Potentials in the unit of the samples.
-struct Metrics {
-  double area_A2 = 0;  ///< of the counted triangles of the mapped mesh; all else is NaN when it is 0
-  double mean_abs_difference = 0;
-  double rms_difference = 0;
-  double mean_signed_difference = 0;     ///< target - source
-  double sign_change_area_fraction = 0;  ///< a vertex with a potential of exactly 0 agrees with anything
-  double hodgkin_index = 0;              ///< 2<ab> / (<aa> + <bb>)
-  double carbo_index = 0;                ///< <ab> / sqrt(<aa><bb>)
-  double mean_displacement_A = 0;        ///< |mapped - source| in the common frame
-  double mean_path_length_A = 0;         ///< of the vertices' ways from the one to the other; NaN where not given
-};
-
-/// Distances of one surface's vertices to the other surface's triangles, area-weighted over its vertices. Angstrom.
-struct DistanceSummary {
-  double mean = 0;
-  double p95 = 0;  ///< 95 % of the area lies nearer
-  double max = 0;
-  double area_fraction_beyond_limit = 0;
-  double mean_within_limit = 0;  ///< of the area within the limit
-  ScalarsPtr beyond;             ///< [triangle of the first surface] 1 where a corner lies beyond the limit, else 0
-};
-
-/// How well a mapped mesh fits its target.
-struct FitReport {
-  double corrupt_area_fraction =
-      0;  ///< triangles whose analytic density at the centroid is off the isovalue by more than 0.1
-  double flipped_area_fraction = 0;  ///< triangles whose normal opposes the density's outward normal at their centroid
-  double irregularity_A = 0;         ///< mean length of the umbrella Laplacian
-  double area_A2 = 0;
-  ScalarsPtr corrupt;  ///< [triangle] 1 where corrupt, else 0
-  ScalarsPtr flipped;  ///< [triangle] 1 where flipped, else 0
-};
-
-/// A periodic cell: `edges` span it, `centre` lies in its middle. Angstrom.
-struct PmeCell {
-  Vec3d centre{};
-  std::array<Vec3d, 3> edges{};
-};
-
-/// The points of a grid over a cell, symmetric about its centre: (0, 0, 0) lies at centre - sum_i (K_i - 1) / (2 K_i)
-/// edge_i, steps are edge_i / K_i. As PMEPot lays them.
-inline Lattice lattice_over(const PmeCell& cell, const std::array<int, 3>& size) {
-  Lattice lattice;
-  lattice.size = size;
-  lattice.origin = cell.centre;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double n = size[axis];
-    lattice.step[axis] = (1.0 / n) * cell.edges[axis];
-    lattice.origin += (-0.5 * (n - 1) / n) * cell.edges[axis];
-  }
-  return lattice;
-}
-
-enum class Precision { kSingle, kDouble };
-
-/// Parameters of pme_potential().
-struct PmeOptions {
-  std::array<int, 3> size{0, 0, 0};  ///< grid points along each edge
-  double ewald_factor = 0.25;        ///< beta, 1/A: charges are smeared into Gaussians of variance 1 / (2 beta^2)
-  int order = 6;                     ///< of the B-splines, 4 to 8; 4 with `compatible`
-  Precision precision = Precision::kSingle;
-  /// As VMD's PMEPot 1.0.4 computes it: the splines' factor squared, the volume truncated to whole A^3.
-  bool compatible = false;
-  /// Later samples of the map use splines of `order` instead of trilinear interpolation, and err no more between the
-  /// grid's points than on them. Not with `compatible`.
-  bool smooth_samples = false;
-  double temperature_K = 300;
-};
-
-/// Parameters of coulomb_potential().
-struct CoulombOptions {
-  double dielectric = 1;            ///< epsilon, > 0
-  bool distance_dependent = false;  ///< epsilon * r / (1 A) instead of epsilon
-  double temperature_K = 300;
-};
-
-/// An atom's way from the source to the target, in a straight line, for Engine::morph(). Common frame, Angstrom.
-struct MovingAtom {
-  Vec3d start{}, end{};
-  Screw motion{};                         ///< of the rigid piece that it belongs to; its own way is straight beside it
-  Vec3d own_turn{};                       ///< of its surroundings beside the piece's motion: axis times angle, radians
-  double start_width = 0, end_width = 0;  ///< standard deviation of its Gaussian; 0 counts as absent
-  /// Atoms without a counterpart are absent at one end. They appear and vanish in the half of the way that lies at that
-  /// end.
-  bool at_start = true, at_end = true;
-
-  Vec3d position_at(double time) const { return motion.apply(start + time * own_way(), time); }
-  Vec3d velocity_at(double time) const { return motion.velocity_at(position_at(time)) + motion.turn(own_way(), time); }
-  /// Angular velocity of its surroundings.
-  Vec3d spin_at(double time) const { return motion.angle * motion.axis + motion.turn(own_turn, time); }
-  /// From where it starts to where it would end if its piece stood still.
-  Vec3d own_way() const { return motion.apply(end, -1) - start; }
-
-  static constexpr double kFadingShare = 0.5;
-  /// Share of the Gaussian that is there at a time from 0 (source) to 1 (target).
-  double weight_at(double time) const {
-    const double appeared = at_start ? 1.0 : std::min(1.0, time / kFadingShare);
-    const double left = at_end ? 1.0 : std::min(1.0, (1.0 - time) / kFadingShare);
-    return std::min(appeared, left);
-  }
-  /// Its derivative; at a kink that of the later side.
-  double weight_rate_at(double time) const {
-    if (!at_start && time < kFadingShare) return 1.0 / kFadingShare;
-    if (!at_end && time >= 1.0 - kFadingShare) return -1.0 / kFadingShare;
-    return 0.0;
-  }
-};
-
-/// Parameters of morph(). Lengths in Angstrom.
-struct MorphOptions {
-  double isovalue = 0.5;
-  double max_step_A = 0.35;  ///< no atom moves farther in one step
-  double max_edge_A = 1.4;   ///< longer edges are halved
-  double max_stretch = 20;   ///< where an edge to be halved has grown by more the surface counts as torn
-};
-
-struct MorphReport {
-  int steps = 0;
-  std::size_t n_vertices_added = 0;
-  std::size_t n_vertices_lost = 0;  ///< without counterpart
-};
-
-/// What morph() gives: meshes of one topology, that of the source with some edges halved.
-struct MorphResult {
-  MeshPtr source;  ///< where each vertex comes from, on the source's surface
-  MeshPtr mapped;  ///< where it lies on the target's
-  /// [triangle] 1 where the surface was torn or crushed on the way, so that there is no counterpart; the mapped
-  /// positions there mean nothing.
-  ScalarsPtr lost;
-  ScalarsPtr path_length;  ///< [vertex] length of its way, Angstrom; an added vertex begins with its ends' mean
-  MorphReport report;
-};
-
-/// What subdivide() gives: both meshes with the same edges halved. Old vertices keep their numbers and places.
-struct SubdivisionResult {
-  MeshPtr source, mapped;
-  std::vector<std::array<std::uint32_t, 2>> ends;  ///< [new vertex] the vertices that it lies in the middle of
-};
-
-/// How a mapping changes areas and shapes; see Engine::distortion(). Quantiles by the source's area.
-struct DistortionReport {
-  double area_ratio_p05 = 1, area_ratio_median = 1, area_ratio_p95 = 1;  ///< mapped area / source area
-  /// Symmetric Dirichlet energy (|J|^2 + |J^-1|^2) / 4, J the triangle's linear map: 1 where nothing is distorted,
-  /// infinite for a triangle without area.
-  double dirichlet_median = 1, dirichlet_p95 = 1;
-  ScalarsPtr excessive;  ///< [triangle] 1 where the area around it has grown by more than the limit, else 0
-};
-
-/// The triangles of a closed mesh that intersect one another; see Engine::self_intersections().
-struct IntersectionReport {
-  std::size_t n_pairs = 0;       ///< of triangles that intersect, and each triangle without area as a pair with itself
-  std::size_t n_degenerate = 0;  ///< the latter
-  ScalarsPtr intersecting;       ///< [triangle] 1 where it takes part in a pair, else 0
-};
+struct ComponentSummary;
+struct CoulombOptions;
+struct DeformOptions;
+struct DeformReport;
+struct DistanceSummary;
+struct DistortionReport;
+struct FitReport;
+struct IntersectionReport;
+struct Metrics;
+struct MorphOptions;
+struct MorphResult;
+struct MovingAtom;
+struct PmeCell;
+struct PmeOptions;
+struct SubdivisionResult;
+struct VectorFlowOptions;
+struct VectorFlowReport;
 
 /// One back end on one device.
 class Engine {
@@ -260,107 +46,105 @@ class Engine {
 
   /// "cpu" or "cuda".
   virtual std::string back_end() const = 0;
-  /// The device in words, such as "16 OpenMP threads".
+  /// Description of the device, such as "16 OpenMP threads".
   virtual std::string description() const = 0;
   /// Threads used by the CPU back end; 0 on a device.
   virtual int n_threads() const = 0;
-  /// Milliseconds that calls of this engine take: between two events on a device's stream, by the clock on the CPU.
+  /// Milliseconds that calls of this engine take: between two events on a device's stream, or by the clock on the CPU.
   /// For benchmarks.
   virtual double elapsed_ms(const std::function<void()>& calls) = 0;
 
   /// Sorts atoms into a cell list.
   /// @param positions [atom] Angstrom, common frame
   /// @param widths    [atom] standard deviation s = radius scale * radius of each Gaussian, Angstrom; atoms of width 0
-  /// are left out
-  /// @param residues  [atom] residue index that vertex_residues() reports
+  /// are ignored
+  /// @param residues  [atom] residue index reported by vertex_residues()
   /// @throws InputError if no atom has a positive width, MemoryError
   virtual AtomsPtr upload_atoms(const std::vector<Vec3d>& positions, const std::vector<float>& widths,
                                 const std::vector<std::int32_t>& residues) = 0;
 
-  /// rho(x) = sum_i exp(-|x - x_i|^2 / (2 s_i^2)) (thesis eq. 3.1) on a cubic lattice of the given spacing that reaches
-  /// so far beyond the atoms that rho vanishes on its border. Terms beyond 4.5 s are dropped: the sum errs by less than
-  /// 1e-3.
-  /// @throws InputError (spacing), MemoryError (more lattice points than memory holds; says which spacing would fit)
+  /// rho(x) = sum_i exp(-|x - x_i|^2 / (2 s_i^2)) (thesis eq. 3.1) on a cubic lattice of the given spacing, large
+  /// enough that rho vanishes on its border. Terms beyond 4.5 s are dropped: the error of the sum is below 1e-3.
+  /// @throws InputError (spacing), MemoryError (too many lattice points for the memory; names a spacing that fits)
   virtual GridPtr density(const AtomsPtr& atoms, double spacing_A) = 0;
 
   /// Marching tetrahedra on the Freudenthal division: a closed, welded, consistently oriented mesh with its one-rings.
-  /// @throws GeometryError when no lattice point is inside
+  /// @throws GeometryError if no lattice point is inside
   virtual MeshPtr isosurface(const GridPtr& density, float isovalue) = 0;
 
-  /// Connected components in the order of their first vertex.
+  /// Connected components in order of their first vertex.
   virtual std::vector<ComponentSummary> components(const MeshPtr& mesh) = 0;
-  /// The mesh without the components whose entry is false. `keep` has one entry per component.
+  /// The mesh without the components for which `keep` is false. `keep` has one entry per component.
   virtual MeshPtr keep_components(const MeshPtr& mesh, const std::vector<bool>& keep) = 0;
 
-  /// The mesh without the triangles whose entry is nonzero, and without vertices in none; open where they were. What is
-  /// left keeps its order.
+  /// The mesh without the triangles with nonzero `excluded` and without isolated vertices; open where triangles were
+  /// removed. The rest keeps its order.
   /// @param excluded [triangle]
-  /// @throws GeometryError when nothing is left
+  /// @throws GeometryError if nothing remains
   virtual MeshPtr without(const MeshPtr& mesh, const ScalarsPtr& excluded) = 0;
 
-  /// Moves each vertex by Newton steps along the gradient onto the analytic isosurface; a vertex that would have to
-  /// move farther than `max_shift_A` stays where it is.
+  /// Moves each vertex by Newton steps along the gradient onto the analytic isosurface. A vertex that would move
+  /// farther than `max_shift_A` stays in place.
   virtual MeshPtr project(const MeshPtr& mesh, const AtomsPtr& atoms, float isovalue, double max_shift_A) = 0;
 
-  /// [vertex] unit, outward: the normal of the analytic isosurface, which the mesh's triangles only approximate. Where
-  /// the density is off the isovalue by more than a tenth of it, or falls against the triangles' side, the mean of the
-  /// triangles' normals, as download() gives it.
+  /// [vertex] unit, outward: the normal of the analytic isosurface, which the triangles only approximate. If the
+  /// density differs from the isovalue by more than a tenth of it, or its normal opposes the triangles', the mean of
+  /// the triangles' normals instead, as in download().
   virtual std::vector<Vec3f> level_set_normals(const MeshPtr& mesh, const AtomsPtr& atoms, float isovalue) = 0;
 
   /// Density and gradient for deform().
   virtual FieldPtr density_field(const GridPtr& density, float isovalue) = 0;
-  /// Signed distance to `surface` (positive inside) where it exceeds `threshold_A` in magnitude, the density elsewhere
-  /// (thesis section 3.5.3). The distance is that to the triangles around the nearest vertex.
+  /// Signed distance to `surface` (positive inside) where its magnitude exceeds `threshold_A`, the density elsewhere
+  /// (thesis section 3.5.3). The distance is to the triangles around the nearest vertex.
   virtual FieldPtr distance_field(const GridPtr& density, float isovalue, const MeshPtr& surface, double threshold_A,
                                   const Progress& progress) = 0;
 
-  /// Gradient vector flow: the direction of the target's inward normals, spread from its surface over the lattice by
-  /// diffusion, so that it leads into crevices (Xu and Prince, IEEE Trans. Image Process. 7, 359 (1998)); the scalar is
-  /// that of density_field(). See cuda/vector_flow.h for the equation and the method.
-  /// @param source_density  holds the source's normals too, where the target's do not (two-way); null for the target's
-  /// alone
+  /// Gradient vector flow: the target's inward normals, spread from its surface over the lattice by diffusion, which
+  /// leads into crevices (Xu and Prince, IEEE Trans. Image Process. 7, 359 (1998)). The scalar is that of
+  /// density_field(). See cuda/deform/vector_flow.h for the equation and the method.
+  /// @param source_density  imposes the source's normals too, where the target's are not (two-way); null for one-way
   /// @throws InputError (options), Cancelled
   virtual FieldPtr gvf_field(const GridPtr& target_density, const GridPtr& source_density, float isovalue,
                              const VectorFlowOptions& options, const Progress& progress, VectorFlowReport* report) = 0;
 
-  /// Iterates x += sigma (mu f_ext + (1 - mu) f_int) until converged (thesis section 3.5 with its errata): f_ext along
-  /// the unit gradient of the field toward its surface, halved and turned at each crossing; f_int the tangential part
-  /// of (1 - rho) L - rho L^2, L the uniform umbrella Laplacian. Topology is shared with `mesh`.
+  /// Iterates x += sigma (mu f_ext + (1 - mu) f_int) until converged (thesis section 3.5 with its errata). f_ext acts
+  /// along the unit gradient of the field toward its surface; each crossing halves and reverses it. f_int is the
+  /// tangential part of (1 - rho) L - rho L^2 with L the uniform umbrella Laplacian. The result shares the topology of
+  /// `mesh`.
   /// @param stage name for progress reports
-  /// @param rest  the shape that options.rest_shape measures from, of the same topology; null takes `mesh` itself
+  /// @param rest  the shape that options.rest_shape measures from, of the same topology; null for `mesh` itself
   /// @throws InputError (options), GeometryError (rest shape of another topology), Cancelled
   virtual MeshPtr deform(const MeshPtr& mesh, const FieldPtr& field, const DeformOptions& options,
                          const std::string& stage, const Progress& progress, DeformReport* report,
                          const MeshPtr& rest = nullptr) = 0;
 
-  /// Halves the edges of a mapped mesh that are longer than `max_edge_A` and longer than on the source, on both meshes;
-  /// new vertices lie in the middles of both edges.
-  /// @throws InputError (length), GeometryError when the topologies differ
+  /// Splits the edges of a mapped mesh that are longer than `max_edge_A` and longer than on the source, on both meshes;
+  /// new vertices are the midpoints of both edges.
+  /// @throws InputError (length), GeometryError if the topologies differ
   virtual SubdivisionResult subdivide(const MeshPtr& source, const MeshPtr& mapped, double max_edge_A) = 0;
 
   /// Carries a surface from source to target by the level sets of the density of moving atoms.
   ///
-  /// rho(x, t) = sum_i w_i exp(-|x - x_i|^2 / (2 s_i^2)), t from 0 to 1, positions as MovingAtom::position_at() says
-  /// (straight, but for rigid pieces), widths linear in t, weights 1 but
-  /// for atoms without a counterpart. A vertex flows with the atoms under it, at
-  /// u = sum_i rho_i dx_i/dt / sum_i rho_i, plus what along the gradient keeps it on the level set (the change of rho
-  /// along u, predicted, then corrected by Newton's method). Edges that grow too long are halved; triangles whose
-  /// shape suffers are evened out along the surface. A vertex that can no longer be kept on the level set, and a
-  /// triangle whose side turns, have met a change of topology, such as a crevice that closes: they are cut out.
+  /// rho(x, t) = sum_i w_i exp(-|x - x_i|^2 / (2 s_i^2)), t from 0 to 1. Positions follow MovingAtom::position_at()
+  /// (straight, except in rigid domains), widths are linear in t, weights are 1 except for unpaired atoms. A vertex
+  /// flows with the atoms around it, at u = sum_i rho_i dx_i/dt / sum_i rho_i, plus a component along the gradient that
+  /// keeps it on the level set (the change of rho along u, predicted, then corrected by Newton's method). Edges that
+  /// grow too long are split; badly shaped triangles are smoothed tangentially. A vertex that cannot stay on the level
+  /// set, and a triangle that flips, indicate a change of topology, such as a closing crevice; they are removed.
   ///
   /// @param mesh   the source's surface, on its isosurface
   /// @param atoms  of both molecules; at time 0 those of the source, at time 1 those of the target
-  /// @param source_atoms, target_atoms  the same at the ends, onto whose isosurfaces vertices are moved at last
+  /// @param source_atoms, target_atoms  the same at the ends; vertices are finally projected onto their isosurfaces
   /// @throws InputError (options), Cancelled
   virtual MorphResult morph(const MeshPtr& mesh, const std::vector<MovingAtom>& atoms, const AtomsPtr& source_atoms,
                             const AtomsPtr& target_atoms, const MorphOptions& options, const std::string& stage,
                             const Progress& progress) = 0;
 
-  /// The same from where an earlier morph has brought the surface: a trajectory in small steps. What is lost stays
-  /// lost, edges that are halved stay so, and path lengths go on.
-  /// @param so_far  of this engine, or its four parts as they were downloaded; its report is not read
-  /// @param atoms   at time 0 those that so_far.mapped is the surface of
-  /// @param source_atoms  those that so_far.source is the surface of
+  /// Continues an earlier morph: a trajectory in small steps. Lost surface stays lost, split edges stay split, and path
+  /// lengths add up.
+  /// @param so_far  of this engine, or its four parts as downloaded; its report is not read
+  /// @param atoms   at time 0 the atoms of so_far.mapped
+  /// @param source_atoms  the atoms of so_far.source
   /// @throws GeometryError (the parts of `so_far` do not fit together), and as morph()
   virtual MorphResult continue_morph(const MorphResult& so_far, const std::vector<MovingAtom>& atoms,
                                      const AtomsPtr& source_atoms, const AtomsPtr& target_atoms,
@@ -370,8 +154,8 @@ class Engine {
   /// @param map         potential
   /// @param to_map      common frame -> the map's frame
   virtual GridPtr upload_map(const Grid& map, const RigidTransform& to_map) = 0;
-  /// [vertex] trilinear samples of a map, or by splines where it was made with smooth_samples; NaN where the vertex
-  /// lies outside the map. A periodic map has no outside.
+  /// [vertex] samples of a map, trilinear, or by splines if it was made with smooth_samples; NaN if the vertex lies
+  /// outside the map. A periodic map has no outside.
   virtual ScalarsPtr sample(const GridPtr& map, const MeshPtr& mesh) = 0;
   /// The map's samples on another lattice, given in the common frame; NaN outside the map.
   /// @throws InputError (axes that do not span space, no points)
@@ -383,9 +167,9 @@ class Engine {
   ///     phi(n) = C sum_{m != 0} exp(-pi^2 m^2 / beta^2) / (pi V m^2) B(m) Q(m) e^(2 pi i k.n/K)   [kT/e]
   ///
   /// Q is the transform of the charges spread by centred B-splines, B the inverse of the splines' own transform, and C
-  /// = 332.0636 / (T 0.001987191) (Essmann et al., J. Chem. Phys. 103, 8577 (1995)). Leaving out m = 0 makes the mean
-  /// zero and stands for a uniform background that neutralizes a net charge. Modes at half the grid's frequency are
-  /// left out too, since a real grid cannot hold their phase. Atoms outside the cell are wrapped into it.
+  /// = 332.0636 / (T 0.001987191) (Essmann et al., J. Chem. Phys. 103, 8577 (1995)). Omitting m = 0 makes the mean zero
+  /// and stands for a uniform background that neutralizes a net charge. Modes at half the grid's frequency are omitted
+  /// too, since a real grid cannot hold their phase. Atoms outside the cell are wrapped into it.
   ///
   /// With `compatible` the order is 4, B is squared, V truncated, and modes at half the frequency are kept; the values
   /// then are the splines' coefficients rather than the potential, as PMEPot writes them.
@@ -401,56 +185,55 @@ class Engine {
                                 const PmeCell& cell, const PmeOptions& options, const RigidTransform& to_map,
                                 const Progress& progress) = 0;
 
-  /// Coulomb's law summed directly, without a cutoff and without periodic images, at the points of a lattice:
-  /// phi(x) = C sum_i q_i / (epsilon |x - x_i|) [kT/e], C as in pme_potential(). Distances below 0.5 A count as 0.5 A.
-  /// A cross-check for small systems: time grows with atoms * points. In double precision; the same bits always.
+  /// Coulomb's law summed directly, without cutoff or periodic images, at the points of a lattice: phi(x) = C sum_i q_i
+  /// / (epsilon |x - x_i|) [kT/e], C as in pme_potential(). Distances below 0.5 A count as 0.5 A. A cross-check for
+  /// small systems: time grows with atoms * points. In double precision; bitwise reproducible.
   /// @param positions [atom] Angstrom, the lattice's frame
   /// @throws InputError (dielectric, values that are not finite, no charges, lattice), MemoryError, Cancelled
   virtual GridPtr coulomb_potential(const std::vector<Vec3d>& positions, const std::vector<float>& charges,
                                     const Lattice& lattice, const CoulombOptions& options,
                                     const Progress& progress) = 0;
 
-  /// Compares potentials at counterparts.
-  /// @param source, mapped  meshes of one topology: where each vertex comes from, and where it lies on the target
+  /// Compares potentials at corresponding vertices.
+  /// @param source, mapped  meshes of one topology: each vertex on the source and on the target
   /// @param source_potential, target_potential [vertex]
-  /// @param excluded [triangle] not counted where nonzero; null counts all. Triangles with a NaN sample are never
-  /// counted.
-  /// @param path_length [vertex] for the mean of it; null when there is none
+  /// @param excluded [triangle] nonzero to exclude; null includes all. Triangles with a NaN sample are always excluded.
+  /// @param path_length [vertex] for its mean; null for none
   virtual Metrics compare(const MeshPtr& source, const MeshPtr& mapped, const ScalarsPtr& source_potential,
                           const ScalarsPtr& target_potential, const ScalarsPtr& excluded,
                           const ScalarsPtr& path_length = nullptr) = 0;
 
   virtual FitReport fit(const MeshPtr& mapped, const AtomsPtr& target_atoms, float isovalue) = 0;
-  /// Distances from the vertices of `from` to the triangles of `to`, exact.
+  /// Exact distances from the vertices of `from` to the triangles of `to`.
   virtual DistanceSummary distances(const MeshPtr& from, const MeshPtr& to, double limit_A) = 0;
-  /// Pairs of triangles that intersect, as CGAL's Polygon_mesh_processing::self_intersections counts them:
-  /// - two triangles that share no vertex, when they have a point in common, touching included;
-  /// - two that share a vertex, when they have another point in common;
-  /// - two that share an edge, when they lie in one plane on the same side of it: folded flat onto each other;
-  /// - a triangle without area (corners on a line, or not finite) as a pair with itself, and in no other.
+  /// Pairs of intersecting triangles, as CGAL's Polygon_mesh_processing::self_intersections counts them:
+  /// - two triangles without a shared vertex that have a point in common, touching included;
+  /// - two that share a vertex and have another point in common;
+  /// - two that share an edge and are folded flat onto each other (in one plane, on the same side of the edge);
+  /// - a triangle without area (corners collinear or not finite) as a pair with itself, and in no other.
   ///
-  /// Exact for every position a float can hold: signs of determinants are computed without rounding where an error
-  /// bound in double precision leaves them open. Every pair is examined whose boxes overlap, found by a tree: time
-  /// grows as n log n with the number of triangles, and with the number of such pairs.
+  /// Exact for all float positions: where an error bound in double precision leaves a sign open, the determinant is
+  /// computed exactly. A tree finds every pair whose boxes overlap: time grows as n log n with the number of triangles,
+  /// and with the number of such pairs.
   virtual IntersectionReport self_intersections(const MeshPtr& mesh) = 0;
   virtual double area(const MeshPtr& mesh) = 0;
-  /// The vertices of `points` taken along by the mapping that takes `surface` to `image`: each goes from the place of
-  /// `surface` nearest to it to the same place of `image` (linear within a triangle); where
-  /// it lies farther than `max_distance_A` from `surface`, to NaN.
+  /// Maps the vertices of `points` by the mapping from `surface` to `image`: each goes from its nearest point on
+  /// `surface` to the corresponding point of `image` (linear within a triangle), or to NaN if it is farther than
+  /// `max_distance_A` from `surface`.
   /// @param surface, image meshes of one topology
   /// @returns a mesh of the topology of `points`
-  /// @throws GeometryError when the topologies differ in size
+  /// @throws GeometryError if the topologies differ in size
   virtual MeshPtr carry(const MeshPtr& points, const MeshPtr& surface, const MeshPtr& image, double max_distance_A) = 0;
-  /// A mesh taken along by rigid motions of the atoms: each vertex goes where the motions of the atoms around would
-  /// take it, weighted by their densities there.
-  /// @param pieces [residue] index of its motion, -1 for none; residues as given to upload_atoms()
+  /// Moves a mesh with rigid motions of the atoms: each vertex by the density-weighted mean of the surrounding atoms'
+  /// motions.
+  /// @param domains [residue] index of its motion, -1 for none; residues as given to upload_atoms()
   /// @throws GeometryError (an index beyond the motions)
-  virtual MeshPtr carry_rigidly(const MeshPtr& mesh, const AtomsPtr& atoms, const std::vector<std::int32_t>& pieces,
+  virtual MeshPtr carry_rigidly(const MeshPtr& mesh, const AtomsPtr& atoms, const std::vector<std::int32_t>& domains,
                                 const std::vector<RigidTransform>& motions) = 0;
   /// Compares the triangles of two meshes of one topology (Smith and Schaefer, ACM Trans. Graph. 34, 70 (2015), for the
   /// energy).
-  /// @param limit of the ratio of areas, mapped to source, as measured over the rings of a triangle's three corners
-  /// @throws GeometryError when the topologies differ in size
+  /// @param limit of the ratio of areas, mapped to source, measured over the one-rings of a triangle's corners
+  /// @throws GeometryError if the topologies differ in size
   virtual DistortionReport distortion(const MeshPtr& source, const MeshPtr& mapped, double limit) = 0;
 
   /// [vertex] index of the residue with the largest density at the vertex; -1 where no atom reaches.
@@ -460,23 +243,28 @@ class Engine {
 
   virtual std::size_t n_vertices(const MeshPtr& mesh) const = 0;
   virtual std::size_t n_triangles(const MeshPtr& mesh) const = 0;
-  /// A mesh made elsewhere. Closed and consistently oriented, else:
+  /// Uploads a mesh, which must be closed and consistently oriented.
   /// @throws GeometryError naming the first edge that does not lie in exactly two triangles
   virtual MeshPtr upload_mesh(const Mesh& mesh) = 0;
-  /// A mesh that shares the topology of `mesh`, with its vertices elsewhere.
+  /// A mesh with the topology of `mesh` and other positions.
   /// @param positions [vertex]
-  /// @throws GeometryError when the numbers of vertices differ
+  /// @throws GeometryError if the numbers of vertices differ
   virtual MeshPtr with_positions(const MeshPtr& mesh, const std::vector<Vec3f>& positions) = 0;
-  /// Positions, triangles, component labels and outward vertex normals (area-weighted mean of the triangles').
+  /// [vertex]
+  virtual std::vector<Vec3f> download_positions(const MeshPtr& mesh) = 0;
+  /// Positions and triangles.
+  virtual Mesh download_shape(const MeshPtr& mesh) = 0;
+  /// Positions, triangles, component labels and outward vertex normals (area-weighted mean of the triangles'). Labels
+  /// and normals are computed by each call.
   virtual Mesh download(const MeshPtr& mesh) = 0;
   virtual std::vector<float> download(const ScalarsPtr& scalars) = 0;
   virtual ScalarsPtr upload_scalars(const std::vector<float>& values) = 0;
   virtual Grid download(const GridPtr& grid) = 0;
   /// The field's scalar.
   virtual Grid download(const FieldPtr& field) = 0;
-  /// [point] the field's gradient, or the direction that stands for it.
+  /// [point] the field's gradient, or the direction used in its place.
   virtual std::vector<Vec3f> download_gradient(const FieldPtr& field) = 0;
-  /// Analytic density at points [point] of the common frame.
+  /// Analytic density [point] in the common frame.
   virtual std::vector<float> density_at(const AtomsPtr& atoms, const std::vector<Vec3f>& points) = 0;
 };
 

@@ -5,29 +5,30 @@
 #include <string>
 #include <vector>
 
-#include "engine/engine.h"
+#include "base/message.h"
+#include "engine/handles.h"
 
 namespace espdiff {
 
 namespace cpu_backend {
 std::unique_ptr<Engine> make_engine(int n_threads);
-/// Whether potentials can be computed; returns the library of Fourier transforms, or why there is none and what to do.
-std::string probe_fourier(bool* available);
+/// Whether potentials can be computed; returns the Fourier transform library, or why there is none and the remedy.
+Message probe_fourier(bool* available);
 }  // namespace cpu_backend
 
 namespace cuda_backend {
 /// @param device its index
-/// @throws DeviceError where it does not work
+/// @throws DeviceError if it does not work
 std::unique_ptr<Engine> make_engine(int device);
 
-/// What is known of a GPU before it is used.
+/// Facts about a GPU before it is used.
 struct CudaDeviceStatus {
-  bool usable;              ///< this build has code for it
-  std::string description;  ///< name, compute capability, memory; or why it cannot be used and what to do
+  bool usable;          ///< this build has code for it
+  Message description;  ///< name, compute capability, memory; or why it cannot be used and the remedy
 };
-/// The GPUs that answer, by index; where there are none, says why, and what to do. Starts nothing on them.
-std::vector<CudaDeviceStatus> probe_devices(std::string* why_none);
-std::string probe_fourier(bool* available);
+/// The GPUs that respond, by index; if there are none, the reason and the remedy. Starts no work on them.
+std::vector<CudaDeviceStatus> probe_devices(Message* why_none);
+Message probe_fourier(bool* available);
 }  // namespace cuda_backend
 
 }  // namespace espdiff

@@ -1,5 +1,6 @@
-// select_engine.cpp: probes the back ends and makes the engine that was asked for.
+// select_engine.cpp: probes the back ends and makes the requested engine.
 #include "engine/select_engine.h"
+#include "engine/engine.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -11,10 +12,10 @@
 namespace espdiff {
 namespace {
 
-/// The GPUs, or why there are none.
+/// The GPUs, or the reason for none.
 struct CudaDevices {
   std::vector<BackEndStatus> all;
-  std::string why_none;
+  Message why_none;
 };
 
 CudaDevices find_cuda_devices() {
@@ -24,27 +25,28 @@ CudaDevices find_cuda_devices() {
     found.all.push_back({"cuda:" + std::to_string(found.all.size()), device.usable, device.description});
 #else
   found.why_none =
-      "this build has no CUDA back end; configure with -DESPDIFF_CUDA=ON where nvcc is installed, or use --device cpu";
+      "this build has no CUDA back end; configure with -DESPDIFF_CUDA=ON where nvcc is installed, or use " +
+      option("device", "cpu");
 #endif
   return found;
 }
 
-/// What `--device` was given, for messages.
-std::string option_of(const DeviceRequest& device) {
-  return "--device cuda" + (device.index > 0 ? ":" + std::to_string(device.index) : std::string());
+/// The argument of the option `device`, for messages.
+Message option_of(const DeviceRequest& device) {
+  return option("device", "cuda" + (device.index > 0 ? ":" + std::to_string(device.index) : std::string()));
 }
 
 void check_cuda_device(const DeviceRequest& device, const CudaDevices& found) {
-  const std::string option = option_of(device);
-  if (found.all.empty()) throw DeviceError(option + ": " + found.why_none);
+  const Message given = option_of(device);
+  if (found.all.empty()) throw DeviceError(given + ": " + found.why_none);
   const std::size_t n = found.all.size(), index = static_cast<std::size_t>(device.index);
   if (index >= n) {
     throw DeviceError(
-        option + ": there " +
+        given + ": there " +
         (n == 1 ? "is 1 GPU, cuda:0" : "are " + std::to_string(n) + " GPUs, cuda:0 to cuda:" + std::to_string(n - 1)) +
-        "; take one of them, or use --device cpu");
+        "; take one of them, or use " + option("device", "cpu"));
   }
-  if (!found.all[index].available) throw DeviceError(option + ": " + found.all[index].description);
+  if (!found.all[index].available) throw DeviceError(given + ": " + found.all[index].description);
 }
 
 }  // namespace
@@ -67,8 +69,8 @@ void check_threads(long long n_threads) {
 }
 
 int available_threads() {
-  // As OpenMP reads it: of a list the first, for the outermost team. Read here, since the engine sets the number
-  // itself.
+  // Like OpenMP: the first number of a list, for the outermost team. Read here because the engine sets the number of
+  // threads itself.
   const char* const text = std::getenv("OMP_NUM_THREADS");
   const long wanted = text != nullptr ? std::strtol(text, nullptr, 10) : 0;
   if (wanted > 0 && wanted <= kMostThreads) return static_cast<int>(wanted);

@@ -5,15 +5,16 @@
 #include <string>
 #include <vector>
 
-#include "engine/engine.h"
+#include "base/message.h"
+#include "engine/handles.h"
 
 namespace espdiff {
 
 enum class DeviceChoice { kAuto, kCpu, kCuda };
 
-/// A back end, and which of several GPUs.
+/// A back end, and the index of a GPU.
 struct DeviceRequest {
-  // Not explicit: mostly the back end alone is asked for.
+  // Not explicit, because most callers name the back end only.
   DeviceRequest(DeviceChoice which, int gpu = 0) : choice(which), index(gpu) {}
 
   DeviceChoice choice;
@@ -23,39 +24,38 @@ inline bool operator==(const DeviceRequest& a, const DeviceRequest& b) {
   return a.choice == b.choice && a.index == b.index;
 }
 
-/// @throws InputError for anything but auto, cpu, cuda, cuda:N
+/// @throws InputError unless the text is auto, cpu, cuda or cuda:N
 DeviceRequest parse_device(const std::string& text);
 
-/// What selecting would do, for `doctor`.
+/// The result that selecting would have, for `doctor`.
 struct BackEndStatus {
   std::string name;  ///< "cpu", "cuda", or "cuda:1"
   bool available = false;
-  std::string description;  ///< the device, or why there is none and the remedy
+  Message description;  ///< the device, or the reason for none and the remedy
 };
 /// More threads than any machine has cores only cost time, and the runtime's own limit ends the process.
 constexpr int kMostThreads = 1024;
 /// @throws InputError unless the number is 0 (all) to kMostThreads
 void check_threads(long long n_threads);
 
-/// CPU threads where none are asked for: what OMP_NUM_THREADS says, as batch systems set it, else all cores that the
-/// process may run on.
+/// Default number of CPU threads: OMP_NUM_THREADS, which batch systems set, otherwise all cores available to the
+/// process.
 int available_threads();
 BackEndStatus cpu_status();
-/// What select_engine() would take.
+/// The device that select_engine() would choose.
 /// @throws DeviceError as select_engine()
 BackEndStatus device_status(const DeviceRequest& device);
-/// Of the GPU that `cuda` takes: the first.
+/// Status of the GPU that `cuda` chooses: the first.
 BackEndStatus cuda_status();
-/// Of all GPUs that answer, "cuda:0" and so on.
+/// Status of all GPUs that respond: "cuda:0" and so on.
 std::vector<BackEndStatus> cuda_devices();
-/// Of the Fourier transforms that PME potentials need there.
+/// Status of the CPU's Fourier transforms, which PME potentials need.
 BackEndStatus cpu_fourier_status();
 BackEndStatus cuda_fourier_status();
 
 /// Makes an engine.
-/// @param n_threads CPU threads; 0 takes available_threads(). A device ignores it.
-/// @throws DeviceError when the GPU that was asked for is not there or does not work; InputError as
-/// check_threads()
+/// @param n_threads CPU threads; 0 means available_threads(). A GPU ignores it.
+/// @throws DeviceError if the requested GPU is absent or does not work; InputError as check_threads()
 std::unique_ptr<Engine> select_engine(const DeviceRequest& device, int n_threads);
 
 }  // namespace espdiff

@@ -14,13 +14,12 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/system_message.h"
 
 namespace espdiff {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string system_message(int error_number) { return std::strerror(error_number); }
 
 std::string folder_of(const std::string& path) {
   const std::string folder = fs::path(path).parent_path().string();

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/water.h"
 
 namespace espdiff {
 namespace {
@@ -29,13 +30,6 @@ std::string element_of(const AtomEntry& entry) {
 }
 
 }  // namespace
-
-bool is_water_name(const std::string& residue_name) {
-  static constexpr std::array<const char*, 18> kNames = {"HOH",  "WAT",  "H2O",  "DOD",  "TIP", "TIP2",
-                                                         "TIP3", "TIP4", "TIP5", "TP3",  "TP4", "TP5",
-                                                         "T3P",  "T4P",  "SPC",  "SPCE", "SOL", "OH2"};
-  return is_one_of(residue_name, kNames);
-}
 
 bool is_standard_residue(const std::string& residue_name) {
   static constexpr std::array<const char*, 60> kNames = {

@@ -28,9 +28,6 @@ struct AtomEntry {
   long line = 0;  ///< for messages; 0 when the format has no lines
 };
 
-/// Whether a residue of this name is water: HOH, WAT, TIP3 and the like.
-bool is_water_name(const std::string& residue_name);
-
 /// Whether this is one of the twenty amino acids (also in Amber's and CHARMM's protonation states) or a nucleotide.
 bool is_standard_residue(const std::string& residue_name);
 

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "base/error.h"
-#include "io/gzip_text.h"
+#include "io/read_input.h"
 #include "io/text_cursor.h"
 
 namespace espdiff {

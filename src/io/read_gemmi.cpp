@@ -187,7 +187,7 @@ void check_atom_site(const std::string& path, const std::string& text, gemmi::ci
   gemmi::cif::Table table = block.find("_atom_site.", {"Cartn_x", "Cartn_y", "Cartn_z"});
   for (std::size_t row = 0; row < table.length(); ++row) {
     for (int axis = 0; axis < 3; ++axis) {
-      const std::string& value = table[row][axis];
+      const std::string& value = table[static_cast<int>(row)][axis];
       if (std::isfinite(gemmi::cif::as_number(value))) continue;
       throw FormatError(path, row_line(text, block.items.front(), row, value),
                         std::string("_atom_site.Cartn_") + "xyz"[axis] + " of atom " + std::to_string(row + 1) +

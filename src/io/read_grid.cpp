@@ -1,11 +1,13 @@
 // read_grid.cpp: finds out what a map file is and hands it to the reader for it.
 #include "io/read_grid.h"
 
+#include <utility>
+
 #include "base/error.h"
 #include "io/file_kind.h"
-#include "io/gzip_text.h"
 #include "io/read_cube.h"
 #include "io/read_dx.h"
+#include "io/read_input.h"
 #include "io/read_vti.h"
 
 namespace espdiff {
@@ -32,24 +34,34 @@ namespace {
   throw InputError(path + ": this looks like " + describe(kind) + ", which is not read as a map; " + remedy);
 }
 
-Grid read_vti_or_refuse(const std::string& path, const GridOptions& options) {
-  if (is_gzip_file(path)) {
-    throw InputError(path + ": a VTI file packed by gzip; unpack it (gunzip), VTI compresses its values itself");
-  }
-  return read_vti(path, options);
+/// Only VTI files have named arrays.
+void refuse_array(const std::string& path, const GridOptions& options) {
+  if (options.array.empty()) return;
+  throw InputError(path + ": array '" + options.array + "' was asked for, but only VTI files have named arrays");
+}
+
+Grid parse_grid(FileContent file, FileKind kind, const GridOptions& options) {
+  if (kind == FileKind::kVti) return read_vti(VtkXmlFile(std::move(file), kImageData), options);
+  unify_line_ends(file.content);
+  return kind == FileKind::kDx ? read_dx(file.path, file.content) : read_cube(file.path, file.content);
 }
 
 }  // namespace
 
+GridFile read_grid_file(const std::string& path, const GridOptions& options) {
+  FileKind kind{};
+  FileContent file = read_input(path, [&](std::string_view head) {
+    kind = recognise(head);
+    if (kind == FileKind::kVti) return;
+    if (kind != FileKind::kDx && kind != FileKind::kCube) refuse(path, kind);
+    refuse_array(path, options);
+  });
+  std::string sha256 = file.sha256;
+  return {parse_grid(std::move(file), kind, options), std::move(sha256)};
+}
+
 Grid read_grid(const std::string& path, const GridOptions& options) {
-  const FileKind kind = recognise(peek_text_file(path, kRecogniseBytes));
-  if (kind == FileKind::kVti) return read_vti_or_refuse(path, options);
-  if (kind != FileKind::kDx && kind != FileKind::kCube) refuse(path, kind);
-  if (!options.array.empty()) {
-    throw InputError(path + ": array '" + options.array + "' was asked for, but only VTI files have named arrays");
-  }
-  const std::string text = read_text_file(path);
-  return kind == FileKind::kDx ? read_dx(path, text) : read_cube(path, text);
+  return std::move(read_grid_file(path, options).grid);
 }
 
 }  // namespace espdiff

@@ -12,7 +12,7 @@ struct GridOptions {
 };
 
 /// Reads a grid: OpenDX as APBS, PMEPot and VMD write it (any axes; gzip too), VTI (ascii, binary, appended; any
-/// number type), Gaussian cube (Bohr or, with negative counts, Angstrom; converted to Angstrom; first volume of
+/// number type; gzip too), Gaussian cube (Bohr or, with negative counts, Angstrom; converted to Angstrom; first volume of
 /// several). The format is found from the content. Values are re-ordered to x fastest. The unit is taken from the file
 /// where it says one ("POTENTIAL (kT/e)"), else unknown. A header that promises more than the file can hold is refused
 /// before anything is allocated.
@@ -20,5 +20,13 @@ struct GridOptions {
 /// @throws FormatError (with line: fewer or more values than promised, not finite, counts below 2, degenerate axes)
 /// @throws InputError (format not read, array missing, VTI in a build without VTK, with remedy), MemoryError
 Grid read_grid(const std::string& path, const GridOptions& options = {});
+
+/// A grid and the file that it came from, read once.
+struct GridFile {
+  Grid grid;
+  std::string sha256;  ///< of the file
+};
+/// @throws as read_grid()
+GridFile read_grid_file(const std::string& path, const GridOptions& options = {});
 
 }  // namespace espdiff

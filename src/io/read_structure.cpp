@@ -4,9 +4,11 @@
 #include <utility>
 
 #include "base/error.h"
+#include "io/atom_records.h"
 #include "io/file_kind.h"
-#include "io/gzip_text.h"
+#include "io/read_input.h"
 #include "io/read_pqr.h"
+#include "io/read_unit_cells.h"
 #ifdef ESPDIFF_HAVE_GEMMI
 #include "io/read_gemmi.h"
 #endif
@@ -48,35 +50,55 @@ namespace {
 
 }  // namespace
 
-StructureFile::StructureFile(std::string path) : path_(std::move(path)) {
-  const FileKind kind = recognise(peek_text_file(path_, kRecogniseBytes));
-  is_mmcif_ = kind == FileKind::kMmcif;
-  if (!is_mmcif_ && kind != FileKind::kAtomRecords) refuse(path_, kind);
-  text_ = read_text_file(path_);
-  if (!is_mmcif_) models_ = split_models(text_, path_);
+struct StructureFile::Parsed {
+  FileContent file;
+  bool is_mmcif = false;
+  std::vector<AtomModel> models;  // of files with atom records; they point into the content
+};
+
+StructureFile::StructureFile(const std::string& path) {
+  auto parsed = std::make_unique<Parsed>();
+  parsed->file = read_input(path, [&](std::string_view head) {
+    const FileKind kind = recognise(head);
+    parsed->is_mmcif = kind == FileKind::kMmcif;
+    if (!parsed->is_mmcif && kind != FileKind::kAtomRecords) refuse(path, kind);
+  });
+  unify_line_ends(parsed->file.content);
+  if (!parsed->is_mmcif) parsed->models = split_models(parsed->file.content, path);
+  parsed_ = std::move(parsed);
 }
 
+StructureFile::~StructureFile() = default;
+
+const std::string& StructureFile::sha256() const { return parsed_->file.sha256; }
+
 int StructureFile::n_models() const {
-  if (!is_mmcif_) return static_cast<int>(models_.size());
+  if (!parsed_->is_mmcif) return static_cast<int>(parsed_->models.size());
 #ifdef ESPDIFF_HAVE_GEMMI
-  return count_mmcif_models(path_, text_);
+  return count_mmcif_models(parsed_->file.path, parsed_->file.content);
 #else
-  lack_gemmi(path_, "mmCIF");
+  lack_gemmi(parsed_->file.path, "mmCIF");
 #endif
+}
+
+std::vector<std::optional<UnitCell>> StructureFile::unit_cells() const {
+  if (parsed_->is_mmcif) return std::vector<std::optional<UnitCell>>(static_cast<std::size_t>(n_models()));
+  return read_unit_cells(parsed_->file.content, parsed_->models, parsed_->file.path);
 }
 
 Molecule StructureFile::read(const StructureOptions& options) const {
+  const auto& [path, text, sha256] = parsed_->file;
 #ifdef ESPDIFF_HAVE_GEMMI
-  if (is_mmcif_) return read_mmcif(path_, text_, options);
+  if (parsed_->is_mmcif) return read_mmcif(path, text, options);
 #else
-  if (is_mmcif_) lack_gemmi(path_, "mmCIF");
+  if (parsed_->is_mmcif) lack_gemmi(path, "mmCIF");
 #endif
-  const AtomModel& model = pick_model(models_, options.model, path_);
-  if (looks_like_pqr(model, path_)) return read_pqr(path_, model, options);
+  const AtomModel& model = pick_model(parsed_->models, options.model, path);
+  if (looks_like_pqr(model, path)) return read_pqr(path, model, options);
 #ifdef ESPDIFF_HAVE_GEMMI
-  return read_pdb(path_, model, options);
+  return read_pdb(path, model, options);
 #else
-  lack_gemmi(path_, "PDB");
+  lack_gemmi(path, "PDB");
 #endif
 }
 

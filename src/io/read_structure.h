@@ -1,11 +1,13 @@
 // read_structure.h: molecules from PQR, PDB and mmCIF files, told apart by content.
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/types.h"
-#include "io/atom_records.h"
+#include "base/unit_cell.h"
 
 namespace espdiff {
 
@@ -33,19 +35,23 @@ int count_models(const std::string& path);
 class StructureFile {
  public:
   /// @throws as read_structure()
-  explicit StructureFile(std::string path);
+  explicit StructureFile(const std::string& path);
+  ~StructureFile();
   StructureFile(const StructureFile&) = delete;
   StructureFile& operator=(const StructureFile&) = delete;
 
+  /// Of the file as it was read.
+  const std::string& sha256() const;
   int n_models() const;
+  /// The cell of each model, see read_unit_cells(); none of an mmCIF file.
+  /// @throws FormatError (a CRYST1 record that cannot be read)
+  std::vector<std::optional<UnitCell>> unit_cells() const;
   /// @throws as read_structure()
   Molecule read(const StructureOptions& options) const;
 
  private:
-  std::string path_;
-  bool is_mmcif_ = false;
-  std::string text_;
-  std::vector<AtomModel> models_;  // of files with atom records; they point into the text
+  struct Parsed;
+  std::unique_ptr<const Parsed> parsed_;
 };
 
 /// Van der Waals radius by element, Angstrom. Bondi, J. Phys. Chem. 68, 441 (1964); elements he does not give: Alvarez,

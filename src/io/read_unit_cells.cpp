@@ -5,10 +5,7 @@
 #include <map>
 
 #include "base/error.h"
-#include "io/atom_records.h"
-#include "io/file_kind.h"
-#include "io/gzip_text.h"
-#include "io/read_structure.h"
+#include "io/read_input.h"
 #include "io/text_cursor.h"
 
 namespace espdiff {
@@ -35,12 +32,12 @@ CellLine read_cell_line(std::string_view line, long number, const std::string& p
   return {number, UnitCell{{values[0], values[1], values[2]}, {values[3], values[4], values[5]}}};
 }
 
-std::vector<CellLine> find_cell_lines(const std::string& text, const std::string& path) {
+std::vector<CellLine> find_cell_lines(std::string_view text, const std::string& path) {
   std::vector<CellLine> cells;
   long number = 1;
   for (std::size_t start = 0; start < text.size(); ++number) {
     const std::size_t end = std::min(text.find('\n', start), text.size());
-    const std::string_view line = std::string_view(text).substr(start, end - start);
+    const std::string_view line = text.substr(start, end - start);
     if (line.substr(0, 6) == "CRYST1") cells.push_back(read_cell_line(line, number, path));
     start = end + 1;
   }
@@ -49,18 +46,19 @@ std::vector<CellLine> find_cell_lines(const std::string& text, const std::string
 
 }  // namespace
 
-std::vector<std::optional<UnitCell>> read_unit_cells(const std::string& path) {
-  if (recognise(peek_text_file(path, kRecogniseBytes)) != FileKind::kAtomRecords)
-    return std::vector<std::optional<UnitCell>>(static_cast<std::size_t>(count_models(path)));
-  const std::string text = read_text_file(path);
+std::vector<std::optional<UnitCell>> read_unit_cells(std::string_view text, const std::vector<AtomModel>& models,
+                                                     const std::string& path) {
   const std::vector<CellLine> lines = find_cell_lines(text, path);
   std::vector<std::optional<UnitCell>> cells;
-  for (const AtomModel& model : split_models(text, path)) {
-    std::optional<UnitCell> cell;
-    for (const CellLine& line : lines) {
-      if (!model.empty() && line.number < model.front().number) cell = line.cell;
+  std::optional<UnitCell> cell;
+  std::size_t next = 0;  // models and lines are both in the order of the file
+  for (const AtomModel& model : models) {
+    if (model.empty()) {  // a model without atoms has none
+      cells.emplace_back();
+      continue;
     }
-    cells.push_back(cell);  // a model without atoms has none
+    for (; next < lines.size() && lines[next].number < model.front().number; ++next) cell = lines[next].cell;
+    cells.push_back(cell);
   }
   return cells;
 }

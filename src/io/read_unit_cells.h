@@ -4,22 +4,20 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "base/types.h"
+#include "base/unit_cell.h"
+#include "io/atom_records.h"
 
 namespace espdiff {
 
-/// A cell by lengths and angles, as structure files give it.
-struct UnitCell {
-  Vec3d lengths{};  ///< Angstrom
-  Vec3d angles{};   ///< degrees: between b and c, a and c, a and b
-};
-
-/// The cell of each model: the last CRYST1 record before its atoms. None where there is no such record or an edge is at
-/// most 1 A, which says that there is no cell; none for files other than PQR and PDB.
-/// @throws as read_structure(); FormatError (a CRYST1 record that cannot be read)
-std::vector<std::optional<UnitCell>> read_unit_cells(const std::string& path);
+/// The cell of each model of a PQR or PDB file: the last CRYST1 record before its atoms. None where there is no such
+/// record or an edge is at most 1 A, which says that there is no cell. Linear in the length of the text.
+/// @param text of the file, into which the models point
+/// @throws FormatError (a CRYST1 record that cannot be read)
+std::vector<std::optional<UnitCell>> read_unit_cells(std::string_view text, const std::vector<AtomModel>& models,
+                                                     const std::string& path);
 
 /// Centre and edges from the last line of a NAMD .xsc (or .xst) file: {o, a, b, c}.
 /// @throws FormatError (no labels, a column missing), IoError

@@ -182,9 +182,9 @@ PotentialUnit read_unit(const VtkXmlFile& file) {
 
 }  // namespace
 
-Grid read_vti(const std::string& path, const GridOptions& options) {
+Grid read_vti(const VtkXmlFile& file, const GridOptions& options) {
+  const std::string& path = file.path();
   try {
-    const VtkXmlFile file(path, "ImageData");
     const Extent whole = read_extent(file, file.data_set(), "WholeExtent");
     Grid grid;
     grid.name = path;
@@ -214,8 +214,7 @@ Grid read_vti(const std::string& path, const GridOptions& options) {
   }
 }
 
-std::vector<std::string> list_vti_scalars(const std::string& path) {
-  const VtkXmlFile file(path, "ImageData");
+std::vector<std::string> list_vti_scalars(const VtkXmlFile& file) {
   std::vector<std::string> names;
   for (const XmlElement* array : point_arrays(*pieces_of(file).front())) {
     if (file.n_components(*array) == 1) names.push_back(name_of(*array));

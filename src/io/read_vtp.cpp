@@ -142,9 +142,12 @@ const VtpNumbers* find_array(const std::vector<VtpNumbers>& arrays, const std::s
   return found != arrays.end() ? &*found : nullptr;
 }
 
-VtpContent read_vtp(const std::string& path) {
+VtpContent read_vtp(const std::string& path) { return read_vtp(read_input(path)); }
+
+VtpContent read_vtp(FileContent content_of_file) {
+  const std::string path = content_of_file.path;
   try {
-    const VtkXmlFile file(path, "PolyData");
+    const VtkXmlFile file(std::move(content_of_file), "PolyData");
     const XmlElement& piece = only_piece(file);
     const Counts counts = read_counts(file, piece);
     VtpContent content;

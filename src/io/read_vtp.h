@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/types.h"
+#include "io/read_input.h"
 
 namespace espdiff {
 
@@ -36,5 +37,7 @@ const VtpNumbers* find_array(const std::vector<VtpNumbers>& arrays, const std::s
 /// @throws FormatError (damage, sizes that do not agree, corners that name no vertex, positions that are not finite),
 ///         InputError (strips, polygons, several pieces, another data set), IoError, MemoryError
 VtpContent read_vtp(const std::string& path);
+/// The same of what was read before.
+VtpContent read_vtp(FileContent file);
 
 }  // namespace espdiff

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "io/gzip_text.h"
+#include "base/system_message.h"
 
 namespace espdiff {
 namespace {
@@ -129,11 +129,10 @@ std::string sha256_of(std::string_view bytes) {
 std::string sha256_of_file(const std::string& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) throw IoError(path, "is a folder, not a file; name a file in it");
-  if (std::filesystem::exists(path, ignored)) require_regular_file(path);
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   if (!in)
-    throw IoError(path, std::string("cannot read: ") + std::strerror(errno) + "; check the name and its permissions");
+    throw IoError(path, std::string("cannot read: ") + system_message(errno) + "; check the name and its permissions");
   Sha256 hash;
   std::vector<char> chunk(std::size_t{1} << 16);
   while (in.read(chunk.data(), static_cast<std::streamsize>(chunk.size())) || in.gcount() > 0) {

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "io/gzip_text.h"
 #include "io/text_cursor.h"
 
 namespace espdiff {
@@ -86,8 +85,8 @@ std::string array_in_words(const XmlElement& array) {
   return "array " + in_quotes(name != nullptr ? *name : "");
 }
 
-VtkXmlFile::VtkXmlFile(std::string path, const std::string& type) : path_(std::move(path)) {
-  bytes_ = read_binary_file(path_);
+VtkXmlFile::VtkXmlFile(FileContent file, const std::string& type)
+    : path_(std::move(file.path)), bytes_(std::move(file.content)) {
   const std::size_t end = bytes_.rfind("</VTKFile>");
   if (end == std::string::npos || !is_blank(std::string_view(bytes_).substr(end + 10))) {
     throw FormatError(path_, 0,

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/read_input.h"
 #include "io/vtk_encoding.h"
 #include "io/xml_text.h"
 
@@ -22,7 +23,9 @@ class VtkXmlFile {
   /// Reads and parses the file. `type` is the data set: "ImageData".
   /// @throws FormatError (damaged, cut short), InputError (another data set, an unknown compressor), IoError,
   /// MemoryError
-  VtkXmlFile(std::string path, const std::string& type);
+  VtkXmlFile(const std::string& path, const std::string& type) : VtkXmlFile(read_input(path), type) {}
+  /// The same of what was read before.
+  VtkXmlFile(FileContent file, const std::string& type);
   VtkXmlFile(const VtkXmlFile&) = delete;
   VtkXmlFile& operator=(const VtkXmlFile&) = delete;
 

@@ -15,7 +15,7 @@ namespace espdiff {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
-/// Room left around the surface in each view.
+/// Margin around the surface in each view.
 constexpr double kMargin = 1.06;
 
 double half_extent(const std::vector<Vec3d>& positions, Vec3d centre, Vec3d axis) {
@@ -47,7 +47,7 @@ CameraView choose_camera(const Scene& scene, const std::vector<Vec3d>& positions
   Orientation o = choose_orientation(positions, shown, aspect > 1, n_views);
   const double turn = scene.turn_deg * kDegree, tilt = scene.tilt_deg * kDegree;
   if (turn != 0 || tilt != 0) {
-    // The molecule turns to the right under a camera that goes to the left.
+    // Rotating the molecule to the right means moving the camera to the left.
     const Vec3d forward = std::cos(turn) * o.toward_viewer - std::sin(turn) * o.right;
     o.right = cross(o.up, forward);
     o.toward_viewer = std::cos(tilt) * forward - std::sin(tilt) * o.up;

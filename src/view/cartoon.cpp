@@ -1,4 +1,4 @@
-// cartoon.cpp: guides along the backbone, and a closed profile swept along them.
+// cartoon.cpp: guide points along the backbone, and a closed profile swept along them.
 #include "view/cartoon.h"
 
 #include <vtkCellArray.h>
@@ -16,8 +16,8 @@
 namespace espdiff {
 namespace {
 
-constexpr int kSteps = 8;     ///< of the spline, a residue
-constexpr int kCorners = 16;  ///< of the profile
+constexpr int kSteps = 8;     ///< spline steps per residue
+constexpr int kCorners = 16;  ///< corners of the profile
 constexpr double kPi = 3.14159265358979323846;
 
 /// Half axes of the profile, Angstrom.
@@ -38,7 +38,7 @@ Vec3d unit(Vec3d v) {
   return length > 0 ? (1 / length) * v : Vec3d{1, 0, 0};
 }
 
-/// A stretch of residues that are bound one to the next.
+/// A stretch of bonded residues.
 class Strip {
  public:
   explicit Strip(std::vector<Guide> guides) : guides_(std::move(guides)) { smooth_strands(); }
@@ -63,7 +63,7 @@ class Strip {
   int size() const { return static_cast<int>(guides_.size()); }
   const Guide& at(int i) const { return guides_[static_cast<std::size_t>(std::min(std::max(i, 0), size() - 1))]; }
 
-  /// A strand's C-alphas lie on alternate sides of the sheet; its ribbon goes through the middle.
+  /// A strand's C-alphas lie on alternating sides of the sheet; its ribbon runs through the middle.
   void smooth_strands() {
     std::vector<Guide> smooth = guides_;
     for (int i = 1; i + 1 < size(); ++i) {
@@ -131,13 +131,13 @@ class Strip {
   std::vector<Guide> guides_;
 };
 
-/// The direction across the ribbon at a residue: in the plane of the peptide that follows, square to the chain.
+/// Direction across the ribbon at a residue: in the plane of the following peptide, perpendicular to the chain.
 Vec3d across_of(const Molecule& molecule, const Backbone& residue, Vec3d along, Vec3d before) {
   if (residue.c < 0 || residue.o < 0) return before;
   const Vec3d carbonyl =
       molecule.positions[static_cast<std::size_t>(residue.o)] - molecule.positions[static_cast<std::size_t>(residue.c)];
   const Vec3d across = unit(carbonyl - (dot(carbonyl, along) / dot(along, along)) * along);
-  // Peptides of a strand point to alternate sides; the ribbon must not twist with them.
+  // Peptides of a strand point to alternating sides; the ribbon must not twist with them.
   return dot(across, before) < 0 ? -1.0 * across : across;
 }
 

@@ -4,18 +4,18 @@
 #include <vtkSmartPointer.h>
 
 #include "base/types.h"
-#include "view/colour_map.h"
+#include "plot/colour_map.h"
 
 class vtkPolyData;
 
 namespace espdiff {
 
-/// Colours that keep clear of red, blue and the greys of a surface around them.
+/// Colours distinct from the red, blue and grey of a surrounding surface.
 inline constexpr Rgb kHelixColour{214, 170, 74}, kStrandColour{72, 148, 122}, kCoilColour{168, 168, 164};
 
 /// The ribbons as triangles with point normals and colours (unsigned bytes, active scalars); empty for a molecule
-/// without backbone. M. Carson, J. Mol. Graph. 5, 103 (1987): the ribbon lies in the planes of the peptides; here it
-/// goes through the C-alphas of helices and coils, and through their means along strands, by Catmull-Rom splines.
+/// without backbone. M. Carson, J. Mol. Graph. 5, 103 (1987): the ribbon lies in the planes of the peptides. Here
+/// Catmull-Rom splines pass through the C-alphas of helices and coils, and through their means along strands.
 vtkSmartPointer<vtkPolyData> make_cartoon(const Molecule& molecule);
 
 }  // namespace espdiff

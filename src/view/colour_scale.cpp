@@ -31,7 +31,7 @@ constexpr std::array<ArrayDescription, 8> kArrays = {{
 
 const ArrayDescription& describe(RenderArray array) { return kArrays[static_cast<std::size_t>(array)]; }
 
-/// Magnitude that `percentile` per cent of the values do not exceed.
+/// The magnitude that `percentile` per cent of the values do not exceed.
 double percentile_of(std::vector<float> magnitudes, double percentile) {
   const auto rank = static_cast<std::size_t>(percentile / 100 * static_cast<double>(magnitudes.size() - 1));
   std::nth_element(magnitudes.begin(), magnitudes.begin() + static_cast<std::ptrdiff_t>(rank), magnitudes.end());
@@ -83,7 +83,7 @@ std::string legend_title(RenderArray array, const std::string& unit) {
 double round_up_nicely(double value) {
   if (!(value > 0)) return 1;
   const double power = std::pow(10.0, std::floor(std::log10(value)));
-  // The tolerance keeps 0.3, which is 3.0000000000000004e-1 after the division, from becoming 0.4.
+  // The tolerance keeps 0.3, which is 3.0000000000000004e-1 after the division, from being rounded up to 0.4.
   for (const double factor : {1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0}) {
     if (value <= factor * power * (1 + 1e-9)) return factor * power;
   }

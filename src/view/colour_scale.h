@@ -1,21 +1,21 @@
-// colour_scale.h: from a value on a vertex to its colour and opacity, and what a legend must say about it.
+// colour_scale.h: maps a vertex's value to colour and opacity, and provides the legend's numbers.
 #pragma once
 
 #include <cstddef>
 #include <string>
 #include <vector>
 
-#include "view/colour_map.h"
+#include "plot/colour_map.h"
 
 namespace espdiff {
 
-/// What a mapped surface is coloured by. The numbers are those of shaders/surface.frag.
+/// The quantity that colours a mapped surface. The numbers are those of shaders/surface.frag.
 enum class RenderArray { kDifference, kSource, kTarget, kSign, kDisplacement, kMagnitude, kResidue, kPlain };
 
 /// @param text difference, source, target, sign, displacement (or uncertainty), magnitude, residue or plain
-/// @throws InputError naming them
+/// @throws InputError listing them
 RenderArray parse_render_array(const std::string& text);
-/// The word that parse_render_array() reads.
+/// The name that parse_render_array() reads.
 const char* to_string(RenderArray array);
 /// All of them, in order.
 std::vector<std::string> render_array_names();
@@ -26,11 +26,11 @@ const char* array_name(RenderArray array);
 /// The legend's title, such as "potential difference, target - source (kT/e)"; without parentheses for an empty unit.
 std::string legend_title(RenderArray array, const std::string& unit);
 
-/// How a scale's ends are found.
+/// How the ends of a scale are chosen.
 struct ScaleRange {
   double limit = 0;         ///< > 0: the upper end; for signed values both ends. 0: by the percentile
-  double percentile = 98;   ///< of |value|, 50 to 100, rounded up to a round number: a few vertices in a crevice must
-                            ///< not bleach all others
+  double percentile = 98;   ///< of |value|, 50 to 100, rounded up to a round number, so that a few vertices in a
+                            ///< crevice do not bleach all others
   bool given_ends = false;  ///< the scale goes from `low` to `high`
   double low = 0, high = 0;
 };
@@ -40,7 +40,7 @@ struct ScaleRange {
 class ColourScale {
  public:
   /// @param values [vertex] of the array; NaN allowed
-  /// @throws InputError when the range cannot be (not finite, negative, empty, a percentile out of bounds), or no value
+  /// @throws InputError if the range is invalid (not finite, negative, empty, a percentile out of bounds) or no value
   /// is finite
   ColourScale(RenderArray array, const std::vector<float>& values, const ScaleRange& range,
               const DivergingMap& map = kRedBlue);
@@ -48,14 +48,14 @@ class ColourScale {
 
   RenderArray array() const { return array_; }
   Rgb colour(float value) const;
-  /// So many colours from the low end to the high one; of residues, the circle of their hues.
+  /// n colours from the low end to the high end; for residues, the circle of hues.
   std::vector<Rgb> table(std::size_t n) const;
   double low() const { return low_; }
   double high() const { return high_; }
   bool two_classes() const { return array_ == RenderArray::kSign; }
-  /// Whether a legend shows a bar: residues and plain surfaces have none.
+  /// Whether a legend shows a bar; residues and plain surfaces have none.
   bool has_bar() const { return array_ != RenderArray::kResidue && array_ != RenderArray::kPlain; }
-  /// Whether values lie below or above the scale's ends, where they are drawn in the ends' colours.
+  /// Whether values lie beyond the scale's ends, where they are drawn in the ends' colours.
   bool exceeds_low() const { return exceeds_low_; }
   bool exceeds_high() const { return exceeds_high_; }
   bool has_missing() const { return has_missing_; }
@@ -71,15 +71,16 @@ class ColourScale {
   bool exceeds_low_ = false, exceeds_high_ = false, has_missing_ = false;
 };
 
-/// The next of 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10 times a power of ten that is not below `value`; 1 for a value of 0.
+/// The smallest of 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10 times a power of ten that is not below `value`; 1 for a value of
+/// 0.
 double round_up_nicely(double value);
 
-/// Opacity by how far a vertex moved to its counterpart: the farther, the less certain.
+/// Opacity by displacement: the farther a vertex moved, the less certain its correspondence.
 struct OpacityScale {
   double opaque_below_A = 0.5;  ///< displacement up to which the surface is opaque
   double faint_above_A = 3.0;   ///< displacement from which it has the least opacity; linear between
   double least = 0.25;          ///< 0 to 1
-  double greatest = 1;          ///< opacity of what is certain, 0 to 1
+  double greatest = 1;          ///< opacity of certain parts, 0 to 1
 
   double opacity(double displacement_A) const;
 };

@@ -1,4 +1,4 @@
-// colour_texture.h: the colours of a scale as a texture in the memory of the graphics processor.
+// colour_texture.h: the colours of a scale as a texture on the GPU.
 #pragma once
 
 #include <vtkNew.h>
@@ -6,19 +6,19 @@
 
 #include <vector>
 
-#include "view/colour_map.h"
+#include "plot/colour_map.h"
 
 class vtkOpenGLRenderWindow;
 class vtkWindow;
 
 namespace espdiff {
 
-/// One row of colours, uploaded when it is first drawn and after each change.
+/// One row of colours, uploaded at the first drawing and after each change.
 class ColourTexture {
  public:
   void set(std::vector<Rgb> colours);
-  /// Binds it to a texture unit of its own.
-  /// @throws DeviceError when the graphics processor does not take it
+  /// Binds it to its own texture unit.
+  /// @throws DeviceError if the GPU refuses it
   void activate(vtkOpenGLRenderWindow* window);
   void deactivate() { texture_->Deactivate(); }
   int unit() { return texture_->GetTextureUnit(); }

@@ -1,4 +1,4 @@
-// comparison_files.cpp: reads what a scene needs of a comparison.
+// comparison_files.cpp: reads the files of a comparison that a scene needs.
 #include "view/comparison_files.h"
 
 #include <algorithm>
@@ -7,7 +7,6 @@
 
 #include "base/error.h"
 #include "io/read_structure.h"
-#include "io/sha256.h"
 
 namespace espdiff {
 namespace {
@@ -26,16 +25,16 @@ Molecule read_molecule(const RunRecord& record, const RecordedInput& input, bool
   const char* const remedy = "; compare again, or draw without the molecule and labels";
   if (!record.found) throw InputError(record.path + ": no such file; it names the structures" + remedy);
   std::error_code ignored;
-  if (!std::filesystem::exists(input.path, ignored)) throw InputError(input.path + " is not there any more" + remedy);
-  if (sha256_of_file(input.path) != input.sha256)
-    throw InputError(input.path + " has changed since the comparison" + remedy);
+  if (!std::filesystem::exists(input.path, ignored)) throw InputError(input.path + " no longer exists" + remedy);
+  const StructureFile file(input.path);
+  if (file.sha256() != input.sha256) throw InputError(input.path + " has changed since the comparison" + remedy);
   StructureOptions options = input.read_with;
   if (with_water) options.include_hetero = options.include_water = true;
-  return read_structure(input.path, options);
+  return file.read(options);
 }
 
-/// A file may hold several models, and records of earlier versions do not say which was compared: the surface must fit
-/// the one that was read.
+/// A file may hold several models, and older records do not say which was compared, so the surface must fit the model
+/// read.
 void check_model(const SurfaceFile& surface, const Molecule& source, const std::string& path) {
   if (surface.source_positions.empty() || surface.residue_index.empty()) return;
   constexpr std::size_t kStride = 23;
@@ -95,11 +94,11 @@ ComparisonFiles read_comparison(const std::string& vtp_path, const Scene& scene)
   files.record = read_run_record(vtp_path);
   const bool needs_maps = (shows_potentials(scene) && !scene.per_vertex) || draws_maps(scene);
   if (needs_maps) files.maps = read_map_pair(files.record, files.surface);
-  read_what_is_missing(files, scene);
+  read_missing_files(files, scene);
   return files;
 }
 
-void read_what_is_missing(ComparisonFiles& files, const Scene& scene) {
+void read_missing_files(ComparisonFiles& files, const Scene& scene) {
   const SurfaceFile& surface = files.surface;
   surface.values(scene.array);
   if (draws_source_shape(scene)) {

@@ -16,25 +16,25 @@ struct ComparisonFiles {
   SurfaceFile surface;
   RunRecord record;
   MapPair maps;
-  /// Where the scene draws or names residues: as they were compared, in the target's frame.
+  /// As they were compared, in the target's frame; present if the scene draws or names residues.
   std::optional<Molecule> source_molecule, target_molecule;
-  /// Where the scene shows what is around them: the same with water.
+  /// The same with water; present if the scene shows the surroundings.
   std::optional<Molecule> source_surroundings, target_surroundings;
 };
 
-/// Reads OUT.vtp, the OUT.json beside it and, unless the scene can do without, the maps that it names.
-/// @throws as read_surface_file() and read_run_record(); InputError where the scene draws the source's shape and
-/// OUT.json is missing, or colours by an array that the file lacks
+/// Reads OUT.vtp, the OUT.json beside it and, if the scene needs them, the maps that it names.
+/// @throws as read_surface_file() and read_run_record(); InputError if the scene draws the source's shape and OUT.json
+/// is missing, or colours by an array that the file lacks
 ComparisonFiles read_comparison(const std::string& vtp_path, const Scene& scene);
 
-/// Reads what a changed scene needs besides; maps are not read again.
+/// Reads the files that a changed scene needs in addition; maps are not read again.
 /// @throws as read_comparison()
-void read_what_is_missing(ComparisonFiles& files, const Scene& scene);
+void read_missing_files(ComparisonFiles& files, const Scene& scene);
 
 /// Every file that a comparison is read from; pictures must not replace them.
 std::vector<std::string> files_of(const ComparisonFiles& files);
 
-/// Whether pixels of a scene show potentials, and hence are better looked up in the maps.
+/// Whether a scene's pixels show potentials, which are better looked up in the maps.
 bool shows_potentials(const Scene& scene);
 
 }  // namespace espdiff

@@ -20,7 +20,7 @@
 namespace espdiff {
 namespace {
 
-/// Colours of potentials are compared by eye: both sides have one scale.
+/// Both sides share one scale, since their potentials are compared by eye.
 std::vector<float> both_potentials(const SurfaceFile& surface) {
   std::vector<float> values = surface.potential_source;
   values.insert(values.end(), surface.potential_target.begin(), surface.potential_target.end());
@@ -31,7 +31,7 @@ bool draws_maps(const Scene& scene) {
   return !scene.isopotentials.empty() || scene.n_field_lines > 0 || scene.slice.has_value();
 }
 
-/// Whether two scenes have the same things in them, whatever they look like.
+/// Whether two scenes contain the same objects, apart from their look.
 bool same_things(const Scene& a, const Scene& b) {
   return a.layout == b.layout && a.n_views == b.n_views && a.width == b.width && a.height == b.height &&
          a.surface == b.surface && a.molecule == b.molecule && a.around_A == b.around_A && a.n_labels == b.n_labels &&
@@ -52,7 +52,7 @@ ComparisonScene::ComparisonScene(const ComparisonFiles& files, Scene scene)
   const SurfaceFile& surface = files_.surface;
   std::vector<bool> is_shown(surface.positions.size(), false);
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    if (!surface.has_counterpart(t)) continue;
+    if (!surface.is_matched(t)) continue;
     for (const std::uint32_t corner : surface.triangles[t]) is_shown[corner] = true;
   }
   for (std::size_t i = 0; i < is_shown.size(); ++i) {
@@ -74,7 +74,7 @@ void ComparisonScene::choose_scales(const Scene& scene) {
       if (std::any_of(scales.begin(), scales.end(), is_same)) continue;
       const bool is_one_side = sheet.array == RenderArray::kSource || sheet.array == RenderArray::kTarget;
       const bool shares = scene.layout != Layout::kTurned && is_one_side;
-      // A range that was given is that of the array that it was given for.
+      // A given range applies only to the array it was given for.
       const bool is_asked_for = scene.layout == Layout::kLinked ? sheet.array == compared_array(scene.array) : true;
       scales.emplace_back(sheet.array, shares ? both_potentials(files_.surface) : files_.surface.values(sheet.array),
                           is_asked_for ? scene.range : automatic, map);
@@ -103,7 +103,7 @@ void ComparisonScene::make_offsets() {
 }
 
 void ComparisonScene::lay_out() {
-  // A displacement is in the colour already; fading it too would hide the places it is to show.
+  // Displacement is already shown as colour; fading would hide the places of interest.
   const bool fades = scene_.fade && scene_.array != RenderArray::kDisplacement && !files_.surface.displacement.empty();
   std::vector<Panel> panels = panels_of(scene_, fades);
   const LegendShares shares = legend_shares(scene_);
@@ -117,7 +117,7 @@ SurfaceLook ComparisonScene::look_of(const Panel& panel, const Sheet& sheet) con
   SurfaceLook look;
   look.scale = scale(sheet.array);
   look.opacity = scene_.opacity;
-  // Linked views keep the two sides whole, whatever shows through the third.
+  // Linked views keep the two sides opaque; only the third fades.
   if (scene_.layout == Layout::kLinked && &panel != &panels_.back()) look.opacity.greatest = 1;
   look.fades = sheet.fades;
   look.morph = sheet.morph;
@@ -134,14 +134,14 @@ void ComparisonScene::add_parts(std::size_t panel, std::size_t sheet) {
   for (std::size_t i = 0; i < offsets_.size(); ++i) {
     if (offset == scene_.offsets_A[i]) geometry = offsets_[i].second.get();
   }
-  for (const SurfacePart part : {SurfacePart::kTrusted, SurfacePart::kCorrupt, SurfacePart::kWithoutCounterpart}) {
+  for (const SurfacePart part : {SurfacePart::kTrusted, SurfacePart::kCorrupt, SurfacePart::kUnmatched}) {
     if (!geometry->has(part)) continue;
     auto mapper = vtkSmartPointer<SurfaceMapper>::New();
     mapper->SetInputData(geometry->part(part));
     mapper->set_part(part);
     auto actor = vtkSmartPointer<vtkActor>::New();
     actor->SetMapper(mapper);
-    // Through a faint place the paper shows, not the inside of the far wall.
+    // Through a faint part the background shows, not the inside of the far wall.
     actor->GetProperty()->BackfaceCullingOn();
     panels_[panel].renderer->AddActor(actor);
     parts_.push_back({panel, sheet, part, geometry, mapper, actor});
@@ -156,8 +156,8 @@ void ComparisonScene::update_looks() {
     drawn.mapper->set_look(look);
     drawn.mapper->set_maps(per_fragment() ? source_texture_ : no_texture_,
                            per_fragment() ? target_texture_ : no_texture_);
-    // What has no counterpart has its place on the source only.
-    drawn.actor->SetVisibility(drawn.part != SurfacePart::kWithoutCounterpart || look.morph == 0);
+    // Unmatched parts exist on the source only.
+    drawn.actor->SetVisibility(drawn.part != SurfacePart::kUnmatched || look.morph == 0);
     if (look.fades || look.opacity.greatest < 1 || drawn.part == SurfacePart::kCorrupt)
       drawn.actor->ForceTranslucentOn();
     else
@@ -215,8 +215,7 @@ void ComparisonScene::fill_panels() {
     panel.renderer = vtkSmartPointer<vtkRenderer>::New();
     panel.renderer->SetViewport(panel.left, panel.bottom, panel.right, panel.top);
     panel.renderer->SetBackground(1, 1, 1);
-    // Sorts every fragment by depth; without it, faint triangles would cover or miss each other by their order in the
-    // file.
+    // Sorts fragments by depth; otherwise faint triangles would hide each other according to their order in the file.
     panel.renderer->UseDepthPeelingOn();
     panel.renderer->SetMaximumNumberOfPeels(16);
     panel.renderer->SetOcclusionRatio(0);
@@ -224,7 +223,7 @@ void ComparisonScene::fill_panels() {
     for (std::size_t s = 0; scene_.surface && s < panel.sheets.size(); ++s) add_parts(p, s);
     add_molecule(panel);
     add_map_drawings(panel);
-    // Names stand where the compared surface is.
+    // Labels belong to the compared surface.
     if (scene_.layout == Layout::kTurned || p + 1 == panels_.size()) add_labels(panel);
     window_->AddRenderer(panel.renderer);
   }
@@ -251,7 +250,7 @@ void ComparisonScene::aim_camera() {
   const std::vector<float>& all = files_.surface.values(scene_.array);
   for (const std::size_t i : shown_) values.push_back(all.empty() ? 0 : all[i]);
   camera_ = choose_camera(scene_, shown_positions_, values, aspect);
-  // The outermost surface has to fit too, and names beside the surface.
+  // The outermost surface must fit too, and the labels beside it.
   double beside_A = scene_.n_labels > 0 ? 6 : 0;
   for (const double offset : scene_.offsets_A) beside_A = std::max(beside_A, offset);
   if (!scene_.camera) camera_.half_height_A += beside_A * std::max(1.0, aspect) / scene_.zoom;
@@ -301,7 +300,7 @@ void ComparisonScene::change_to(const Scene& scene) {
     panels_.clear();
   }
   lay_out();
-  // Views of another shape show as much of the molecule as those before did.
+  // Views of another shape show as much of the molecule as the previous ones.
   camera_.half_height_A *= height_that_fits(camera_, shown_positions_, view_aspect()) / fitted;
   if (only_looks)
     update_looks();

@@ -1,4 +1,4 @@
-// comparison_scene.h: turns a comparison and a scene into renderers of a window.
+// comparison_scene.h: turns a comparison and a scene into the renderers of a window.
 #pragma once
 
 #include <vtkNew.h>
@@ -26,33 +26,33 @@ namespace espdiff {
 class ComparisonScene {
  public:
   /// `files` is kept by reference and must hold what the scene needs (see read_comparison()).
-  /// @throws InputError when the scene cannot be drawn of these files
+  /// @throws InputError if the scene cannot be drawn from these files
   ComparisonScene(const ComparisonFiles& files, Scene scene);
 
-  /// Adds renderers to a window without any: one a panel, and one above them for what is written.
+  /// Adds renderers to an empty window: one per panel, and one above them for text.
   /// @param scale_factor pixels of the window per pixel of the scene
   void add_to(vtkRenderWindow* window, double scale_factor);
 
-  /// Shows another scene in the same window, from where the camera is now. What changes only how surfaces look
-  /// (colours, range, morph, split, opacity) is done without uploading anything.
-  /// @throws as the constructor; the scene that was shown then stays
+  /// Shows another scene in the same window with the current camera. Changes that concern only the look of surfaces
+  /// (colours, range, morph, split, opacity) upload nothing.
+  /// @throws as the constructor; the previous scene then stays
   void change_to(const Scene& scene);
   /// The same with the automatic camera.
   void reset_camera();
-  /// Brings what follows the camera, length bar and axes, up to where it is now.
+  /// Updates what depends on the camera: length bar and axes.
   void camera_moved();
 
   const Scene& scene() const { return scene_; }
   const std::vector<Panel>& panels() const { return panels_; }
-  /// What a scale of this array looks like here; source and target share one.
+  /// The scale of an array; source and target share one.
   const ColourScale& scale(RenderArray array) const;
   const std::string& unit() const { return unit_; }
   /// Whether potentials are looked up at every pixel.
   bool per_fragment() const { return files_.maps.complete() && !scene_.per_vertex; }
   const SurfaceGeometry& geometry() const { return geometry_; }
-  /// Of what is drawn of the maps themselves; nullptr when nothing is.
+  /// The scale of the drawings of the maps themselves; nullptr if there are none.
   const ColourScale* map_scale() const { return map_scale_ ? &*map_scale_ : nullptr; }
-  /// The renderer of what is written, above all others.
+  /// The renderer of the text, above all others.
   vtkRenderer* writing() { return writing_; }
 
  private:
@@ -87,9 +87,9 @@ class ComparisonScene {
   /// Surfaces of the scene's offsets_A, with their geometry.
   std::vector<std::pair<std::unique_ptr<SurfaceFile>, std::unique_ptr<SurfaceGeometry>>> offsets_;
   std::shared_ptr<MapTexture> source_texture_, target_texture_, no_texture_;
-  std::vector<std::size_t> shown_;      ///< vertices of triangles with a counterpart
+  std::vector<std::size_t> shown_;      ///< vertices of matched triangles
   std::vector<Vec3d> shown_positions_;  ///< of those
-  std::vector<ColourScale> scales_;     ///< one for each array that is shown
+  std::vector<ColourScale> scales_;     ///< one per array shown
   std::optional<ColourScale> map_scale_;
   std::vector<Panel> panels_;
   std::vector<DrawnPart> parts_;

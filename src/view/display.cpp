@@ -1,4 +1,4 @@
-// display.cpp: tries the X server with the library that VTK uses, found at run time so that nothing here links X11.
+// display.cpp: tries the X server through libX11, loaded at run time so that nothing here links to it.
 #include "view/display.h"
 
 #include <dlfcn.h>
@@ -10,7 +10,7 @@ namespace {
 
 constexpr const char* kRemedy = "put `xvfb-run -a` before the command (Debian: packages xvfb and xauth)";
 
-/// The few entry points of Xlib that are needed; a Display is opaque here.
+/// The few Xlib functions needed; a Display is opaque here.
 using OpenDisplay = void* (*)(const char*);
 using CloseDisplay = int (*)(void*);
 using QueryExtension = int (*)(void*, const char*, int*, int*, int*);
@@ -27,7 +27,7 @@ std::string display_problem() {
   if (name == nullptr || *name == '\0') {
     return std::string("drawing needs an X display and DISPLAY is not set; ") + kRemedy;
   }
-  // Never closed: VTK keeps it loaded anyway, and Xlib leaves handlers behind that point into it.
+  // Never closed: VTK keeps it loaded anyway, and Xlib leaves handlers that point into it.
   void* library = dlopen("libX11.so.6", RTLD_NOW | RTLD_GLOBAL);
   if (library == nullptr) return "drawing needs libX11.so.6, which cannot be loaded; install it (Debian: libx11-6)";
   const auto open_display = find_function<OpenDisplay>(library, "XOpenDisplay");
@@ -42,8 +42,8 @@ std::string display_problem() {
   }
   int opcode = 0, first_event = 0, first_error = 0;
   const bool has_glx = query_extension(display, "GLX", &opcode, &first_event, &first_error) != 0;
-  // An X server whose last client leaves starts over, and refuses whoever comes meanwhile, which VTK would answer with
-  // abort(). So the first good connection to a display stays until the process ends.
+  // An X server restarts when its last client leaves and refuses connections meanwhile, on which VTK calls abort(). So
+  // the first successful connection stays open until the process ends.
   static std::string held_name;
   if (has_glx && held_name != name) {
     held_name = name;

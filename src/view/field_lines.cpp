@@ -1,4 +1,4 @@
-// field_lines.cpp: traces field lines of a potential map outside of a surface.
+// field_lines.cpp: traces field lines of a potential map outside a surface.
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -15,16 +15,16 @@ namespace espdiff {
 namespace {
 
 constexpr double kStep_A = 0.25, kLongest_A = 60, kApart_A = 4;
-/// Of the gradient's central differences.
+/// Step of the gradient's central differences.
 constexpr double kReach_A = 0.25;
-/// How deep under the surface a line may dip before it ends: it begins on it.
+/// Depth below the surface at which a line ends; it starts on the surface.
 constexpr double kDepth_A = 0.3;
 
 class Field {
  public:
   explicit Field(const PlacedMap& map) : map_(map), index_(map.map->lattice, map.map->name) {}
 
-  /// -grad of the potential in the picture's frame; none at the border and outside.
+  /// -grad of the potential in the picture's frame; empty at the border and outside.
   std::optional<Vec3d> at(Vec3d place) const {
     const Vec3d p = map_.in_map(place);
     Vec3d field{};
@@ -45,7 +45,7 @@ class Field {
   LatticeIndex index_;
 };
 
-/// Tells inside from outside by the nearest vertex.
+/// Tests for inside by the nearest vertex.
 class Inside {
  public:
   Inside(const std::vector<Vec3d>& positions, const std::vector<Vec3f>& normals)
@@ -70,7 +70,7 @@ class Inside {
   vtkNew<vtkStaticPointLocator> locator_;
 };
 
-/// The next point of a line, one step along the field's direction.
+/// The next point of a line, one step in the field's direction.
 std::optional<Vec3d> step(const Field& field, Vec3d p, double sign) {
   const auto direction = [&](Vec3d place) -> std::optional<Vec3d> {
     const std::optional<Vec3d> e = field.at(place);

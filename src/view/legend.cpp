@@ -1,4 +1,4 @@
-// legend.cpp: builds the legend from flat polygons and text, so that its place and size are ours to the pixel.
+// legend.cpp: builds the legend from polygons and text, with exact positions and sizes in pixels.
 #include "view/legend.h"
 
 #include <vtkActor2D.h>
@@ -64,7 +64,7 @@ double round_down_to_length(double value) {
 }
 
 Legend::Legend(vtkRenderer* renderer, double text_height) : renderer_(renderer), text_height_(text_height) {
-  // VTK's own copy of the font: the system's choice for "Arial" differs between machines.
+  // VTK's built-in font, because the system's choice for "Arial" differs between machines.
   vtkFreeTypeTools::GetInstance()->ForceCompiledFontsOn();
 }
 
@@ -143,7 +143,7 @@ void Legend::axes(double x, double y, double length, Vec3d right, Vec3d up, Vec3
   for (const Axis& axis : all) {
     const Rgb colour = axis.toward < -0.05 ? Rgb{150, 150, 150} : Rgb{26, 26, 26};
     line(x, y, x + length * axis.across, y + length * axis.upward, colour);
-    // Beside the end, where the axis is seen; an axis that points at the viewer has its letter at the origin.
+    // Beside the end, where the axis is visible; an axis that points at the viewer has its letter at the origin.
     const double beyond = length + 0.7 * text_height_;
     text(x + beyond * axis.across, y + beyond * axis.upward, axis.letter, Align::kCentre);
   }
@@ -159,7 +159,7 @@ void Legend::frame(const PixelBox& box) {
 }
 
 double Legend::text_width(const std::string& words) const {
-  // Close enough to place what follows; the font's true widths differ by a few per cent.
+  // Accurate enough for layout; the font's true widths differ by a few per cent.
   return 0.52 * text_height_ * static_cast<double>(words.size());
 }
 
@@ -178,7 +178,7 @@ double Legend::hatched_key(double x, double y, const std::string& meaning) {
   const double step = side / kStripes;
   rectangle({x, y - side / 2, x + side, y + side / 2}, {237, 237, 237});
   for (int i = 0; i < kStripes; ++i) {
-    // Each stripe is cut where it leaves the square, by drawing it as two triangles on either side of the diagonal.
+    // Two triangles per stripe cut it where it leaves the square, at the diagonal.
     const double a = x + i * step, b = a + 0.45 * step;
     const double top = y + side / 2;
     triangle(a, top, b, top, x, top - (a - x), kNoValueColour);

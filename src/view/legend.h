@@ -1,4 +1,4 @@
-// legend.h: what stands around the surfaces: title, colour bar, length bar, opacity key, in pixels from the lower left
+// legend.h: annotations around the surfaces: title, colour bar, length bar, opacity key, in pixels from the lower left
 // corner.
 #pragma once
 
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/vector.h"
-#include "view/colour_map.h"
+#include "plot/colour_map.h"
 #include "view/colour_scale.h"
 
 class vtkRenderer;
@@ -22,10 +22,10 @@ struct PixelBox {
 
 enum class Align { kLeft, kCentre, kRight };
 
-/// Draws two-dimensional things into a renderer that covers the whole picture.
+/// Draws two-dimensional shapes and text into a renderer that covers the whole picture.
 class Legend {
  public:
-  /// @param text_height font size in pixels; everything else is in proportion to it
+  /// @param text_height font size in pixels; everything else scales with it
   Legend(vtkRenderer* renderer, double text_height);
 
   /// @param y      middle of the line of text
@@ -33,23 +33,23 @@ class Legend {
   void text(double x, double y, const std::string& words, Align align, double factor = 1.0);
 
   /// The scale with its title above and its numbers below; pointed ends where values exceed it. For two classes, two
-  /// squares with their meaning.
+  /// squares with labels.
   void colours(const PixelBox& bar, const ColourScale& scale, const std::string& title);
 
   /// A bar of a round length that takes at most `max_pixels`.
   void length(double x, double y, double max_pixels, double pixels_per_A);
 
-  /// How opacity fades with the displacement. Shown on the colour that the surface's neutral parts have.
+  /// Key of opacity against displacement, in the surface's neutral colour.
   void opacity(const PixelBox& bar, const OpacityScale& scale);
 
-  /// The width of a key in pixels, nearly.
+  /// Approximate width of a key, pixels.
   double key_width(const std::string& meaning) const { return 1.5 * text_height_ + text_width(meaning); }
-  /// A square of a colour with its meaning to the right. @return key_width()
+  /// A square of a colour with its label to the right. @return key_width()
   double key(double x, double y, Rgb colour, double opacity, const std::string& meaning);
-  /// The same for what is hatched.
+  /// The same for a hatched square.
   double hatched_key(double x, double y, const std::string& meaning);
 
-  /// Directions of three axes with their letters, from their origin. Those that point away from the viewer are paler.
+  /// Three axes with their letters, from their origin. Axes that point away from the viewer are paler.
   /// @param right, up, toward_viewer unit vectors of the picture in the frame of the axes
   void axes(double x, double y, double length, Vec3d right, Vec3d up, Vec3d toward_viewer);
 

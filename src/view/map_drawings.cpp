@@ -23,12 +23,12 @@
 namespace espdiff {
 namespace {
 
-/// The map as an image in grid points: VTK's filters know no skewed axes.
+/// The map as an image in lattice coordinates, since VTK's filters do not support skewed axes.
 vtkNew<vtkImageData> image_of(const Grid& map) {
   vtkNew<vtkImageData> image;
   image->SetDimensions(map.lattice.size[0], map.lattice.size[1], map.lattice.size[2]);
   vtkNew<vtkFloatArray> values;
-  // The filter only reads, though VTK cannot say so.
+  // The filter only reads, but VTK's interface is not const.
   values->SetArray(const_cast<float*>(map.values.data()), static_cast<vtkIdType>(map.values.size()), 1);
   image->GetPointData()->SetScalars(values);
   return image;

@@ -7,23 +7,23 @@
 
 #include "base/error.h"
 #include "io/read_grid.h"
-#include "io/sha256.h"
 #include "view/map_sampling.h"
 
 namespace espdiff {
 namespace {
 
-/// A potential that the comparison found, in shares of its range, must come out again this well ...
+/// The comparison's potentials must be reproduced within this fraction of their range ...
 constexpr double kTolerance = 1e-3;
-/// ... but for this share of the vertices: those on a map's very border.
+/// ... except at this fraction of the vertices: those on a map's border.
 constexpr double kBorderShare = 1e-3;
 
-/// @throws what reading throws; InputError when the file is another than the one compared
+/// @throws as the readers; InputError if the file differs from the one compared
 std::shared_ptr<Grid> read_recorded(const RecordedInput& input, const std::string& unit, double temperature_K) {
   std::error_code ignored;
-  if (!std::filesystem::exists(input.path, ignored)) throw InputError(input.path + " is not there any more");
-  if (sha256_of_file(input.path) != input.sha256) throw InputError(input.path + " has changed since the comparison");
-  auto map = std::make_shared<Grid>(read_grid(input.path));
+  if (!std::filesystem::exists(input.path, ignored)) throw InputError(input.path + " no longer exists");
+  GridFile file = read_grid_file(input.path);
+  if (file.sha256 != input.sha256) throw InputError(input.path + " has changed since the comparison");
+  auto map = std::make_shared<Grid>(std::move(file.grid));
   const PotentialUnit to = unit.empty() || unit == "unknown" ? PotentialUnit::kUnknown : parse_potential_unit(unit);
   if (map->unit != PotentialUnit::kUnknown && to != PotentialUnit::kUnknown && map->unit != to) {
     const auto factor = static_cast<float>(conversion_factor(map->unit, to, temperature_K));
@@ -33,7 +33,7 @@ std::shared_ptr<Grid> read_recorded(const RecordedInput& input, const std::strin
   return map;
 }
 
-/// @throws InputError when the map does not give the values that the comparison found
+/// @throws InputError if the map does not reproduce the comparison's values
 void check_values(const Grid& map, const std::vector<Vec3d>& positions, const std::vector<float>& expected) {
   const LatticeIndex index(map.lattice, map.name);
   const auto finite = [](float v) { return std::isfinite(v); };
@@ -68,7 +68,7 @@ MapPair read_map_pair(const RunRecord& record, const SurfaceFile& surface) {
   if (surface.potential_source.empty() || surface.potential_target.empty())
     return without("the file has no potentials");
   if (surface.source_positions.empty()) return without("the file has no source positions");
-  if (!record.found) return without(record.path + " is not there to name the maps");
+  if (!record.found) return without(record.path + " is missing, which names the maps");
   if (record.maps_computed) return without("the potentials were computed in process, and there are no map files");
   if (record.source_map.path.empty() || record.target_map.path.empty()) {
     return without(record.path + " names no maps");

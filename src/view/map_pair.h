@@ -1,4 +1,4 @@
-// map_pair.h: the potential maps of both sides, so that a picture can look them up at every pixel.
+// map_pair.h: the potential maps of both sides, for lookups at every pixel.
 #pragma once
 
 #include <memory>
@@ -10,19 +10,19 @@
 
 namespace espdiff {
 
-/// Both maps in the unit of the comparison, or why there are none.
+/// Both maps in the unit of the comparison, or the reason for none.
 struct MapPair {
   std::shared_ptr<const Grid> source, target;
-  std::string why_not;  ///< empty when there are maps
+  std::string why_not;  ///< empty if there are maps
 
   bool complete() const { return source != nullptr && target != nullptr; }
 };
 
-/// Reads the maps that a comparison used. They are taken only when they are the same: by their fingerprints, and by the
-/// potentials that the comparison sampled from them, which must come out again within 1e-3 of their range at (nearly)
+/// Reads the maps that a comparison used. They are accepted only if they are the same: by SHA-256, and by the
+/// potentials that the comparison sampled from them, which must be reproduced within 1e-3 of their range at (nearly)
 /// every vertex.
-/// Never throws for maps that are missing, changed or unreadable: pictures are then drawn between the vertices' values,
-/// and say so.
+/// Does not throw for maps that are missing, changed or unreadable: pictures then interpolate the vertices' values and
+/// say so.
 MapPair read_map_pair(const RunRecord& record, const SurfaceFile& surface);
 
 }  // namespace espdiff

@@ -1,14 +1,14 @@
-// map_sampling.h: where a point lies in a map, and the map's value there: what the shaders do, on the host.
+// map_sampling.h: lookups of a map's value at a point, as in the shaders, on the host.
 #pragma once
 
 #include "base/types.h"
 
 namespace espdiff {
 
-/// From positions in a map's frame (Angstrom) to places in grid points; whole numbers are grid points.
+/// Converts positions in a map's frame (Angstrom) to lattice coordinates; whole numbers are grid points.
 class LatticeIndex {
  public:
-  /// @throws InputError when the axes lie in a plane. @param name of the map, for the message
+  /// @throws InputError if the axes lie in a plane. @param name of the map, for the message
   LatticeIndex(const Lattice& lattice, const std::string& name);
 
   Vec3d operator()(Vec3d position) const {
@@ -18,11 +18,10 @@ class LatticeIndex {
 
  private:
   Vec3d origin_;
-  Vec3d rows_[3];  ///< of the inverse of the matrix whose columns are the steps
+  Vec3d rows_[3];  ///< of the inverse of the matrix with the steps as columns
 };
 
-/// Trilinear value of a map at a place in grid points; NaN outside, where `outside` is taken with the slack of the
-/// shaders.
+/// Trilinear value of a map at lattice coordinates; NaN outside, with the shaders' tolerance at the border.
 float sample_at(const Grid& map, Vec3d index);
 
 }  // namespace espdiff

@@ -1,4 +1,4 @@
-// map_texture.h: a potential map as a texture in the memory of the graphics processor.
+// map_texture.h: a potential map as a texture on the GPU.
 #pragma once
 
 #include <vtkNew.h>
@@ -13,15 +13,15 @@ class vtkWindow;
 
 namespace espdiff {
 
-/// One map, uploaded when it is first drawn; all mappers of a window share it.
+/// One map, uploaded at the first drawing; all mappers of a window share it.
 class MapTexture {
  public:
-  /// @param map nullptr: a texture of one voxel, for shaders that look nothing up but must have one bound
+  /// @param map nullptr: a texture of one voxel, for shaders without lookups that must have one bound
   explicit MapTexture(std::shared_ptr<const Grid> map) : map_(std::move(map)) {}
 
   const Grid* map() const { return map_.get(); }
-  /// Uploads the map if it is not there yet, and binds it to a texture unit of its own.
-  /// @throws DeviceError when the map is larger than the graphics processor takes
+  /// Uploads the map if needed and binds it to its own texture unit.
+  /// @throws DeviceError if the map is larger than the GPU allows
   void activate(vtkOpenGLRenderWindow* window);
   void deactivate() { texture_->Deactivate(); }
   int unit() { return texture_->GetTextureUnit(); }

@@ -1,4 +1,4 @@
-// molecule_actors.cpp: bonds, and molecules for VTK's mappers.
+// molecule_actors.cpp: bonds, and molecules in the form VTK's mappers need.
 #include "view/molecule_actors.h"
 
 #include <vtkActor.h>
@@ -28,7 +28,7 @@ namespace {
 constexpr double kBondSlack_A = 0.4;
 constexpr double kCell_A = 3;
 
-/// Elements by their numbers; what has none is drawn as carbon.
+/// Atomic numbers of elements; an unknown element is drawn as carbon.
 class Elements {
  public:
   explicit Elements(const Molecule& molecule) {
@@ -57,7 +57,7 @@ class Elements {
   std::vector<unsigned short> numbers_;
 };
 
-/// Atoms by cubes of space.
+/// Atoms in cubic cells.
 class AtomCells {
  public:
   AtomCells(const std::vector<Vec3d>& positions, double size) : positions_(positions), size_(size) {
@@ -65,7 +65,7 @@ class AtomCells {
       cells_[key(positions[i], 0, 0, 0)].push_back(static_cast<int>(i));
   }
 
-  /// Calls `visit(index)` for all atoms in the cubes around a place.
+  /// Calls `visit(index)` for all atoms in the cells around a position.
   template <typename Visit>
   void around(Vec3d place, const Visit& visit) const {
     for (int corner = 0; corner < 27; ++corner) {

@@ -13,12 +13,12 @@
 namespace espdiff {
 namespace {
 
-/// A drag across the window's height turns by half a turn.
+/// A drag across the window's height rotates by 180 degrees.
 constexpr double kDegreesPerHeight = 180;
-/// Pixels that a click may move.
+/// Largest movement of a click, pixels.
 constexpr int kClickSlack = 3;
 
-/// Views that are linked share a camera, which must not be moved twice.
+/// Linked views share a camera, which must be moved only once.
 std::set<vtkCamera*> cameras_of(const std::vector<vtkRenderer*>& renderers) {
   std::set<vtkCamera*> cameras;
   for (vtkRenderer* renderer : renderers) cameras.insert(renderer->GetActiveCamera());

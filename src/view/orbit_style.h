@@ -1,4 +1,4 @@
-// orbit_style.h: what the mouse does in the viewer: turn, shift, zoom, click, and drag what was grabbed.
+// orbit_style.h: mouse control of the viewer: rotate, pan, zoom, click, and drag.
 #pragma once
 
 #include <vtkInteractorStyle.h>
@@ -11,8 +11,8 @@ class vtkRenderer;
 
 namespace espdiff {
 
-/// Left button: turn, or a click where it does not move. Middle button, or Shift and left: shift. Right button or
-/// wheel: zoom. All renderers turn together.
+/// Left button: rotate, or click if the mouse does not move. Middle button, or Shift and left: pan. Right button or
+/// wheel: zoom. All renderers rotate together.
 class OrbitStyle : public vtkInteractorStyle {
  public:
   static OrbitStyle* New();
@@ -24,7 +24,7 @@ class OrbitStyle : public vtkInteractorStyle {
   struct Calls {
     std::function<std::vector<vtkRenderer*>()> renderers;
     std::function<void()> moved;         ///< after the cameras have
-    std::function<bool(int, int)> grab;  ///< whether something there takes the drag that begins
+    std::function<bool(int, int)> grab;  ///< whether the object there takes the drag
     std::function<void(int, int)> drag;
     std::function<void(int, int)> click;
     std::function<void(const std::string&)> key;  ///< X's name of the key, such as "bracketleft"
@@ -41,7 +41,7 @@ class OrbitStyle : public vtkInteractorStyle {
   void OnMouseWheelForward() override { zoom(1.1); }
   void OnMouseWheelBackward() override { zoom(1 / 1.1); }
   void OnKeyPress() override;
-  /// VTK's own keys are not for this viewer.
+  /// Disables VTK's own keys.
   void OnChar() override {}
 
  protected:

@@ -10,7 +10,7 @@ namespace {
 
 Vec3d to_vec3(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-/// Turns an axis, whose sign is arbitrary, toward the file's z, y or x: the first that is not nearly across it.
+/// Directs an axis, whose sign is arbitrary, toward the file's z, y or x: the first that is not nearly perpendicular.
 Vec3d toward_file_axis(Vec3d axis) {
   for (int i = 2; i >= 0; --i) {
     if (std::abs(axis[i]) > 0.1) return axis[i] < 0 ? -1.0 * axis : axis;
@@ -18,7 +18,7 @@ Vec3d toward_file_axis(Vec3d axis) {
   return axis;
 }
 
-/// Columns by rising extent.
+/// Columns by ascending extent.
 Eigen::Matrix3d principal_axes(const std::vector<Vec3d>& positions) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const Vec3d& p : positions) mean += Eigen::Vector3d(p.x, p.y, p.z);
@@ -31,7 +31,7 @@ Eigen::Matrix3d principal_axes(const std::vector<Vec3d>& positions) {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors();
 }
 
-/// Half of the extent along a direction, and its middle.
+/// Half the extent along a direction, and its middle.
 struct Extent {
   double half = 0, middle = 0;
 };
@@ -77,7 +77,7 @@ Orientation choose_orientation(const std::vector<Vec3d>& positions, const std::v
   for (const Vec3d& p : positions) {
     const Vec3d offset = p - view.centre;
     view.radius_A = std::max(view.radius_A, norm(offset));
-    // Turned views show every side of the molecule, so that they need the widest.
+    // Turned views show all sides of the molecule, so they need the largest width.
     if (n_views > 2) {
       view.half_width_A =
           std::max(view.half_width_A, std::hypot(dot(offset, view.right), dot(offset, view.toward_viewer)));

@@ -1,4 +1,4 @@
-// overlay.cpp: draws words and slider with the legend's means.
+// overlay.cpp: draws text and slider with the legend's functions.
 #include "view/overlay.h"
 
 #include <vtkRenderWindow.h>
@@ -16,7 +16,7 @@ namespace {
 constexpr double kText = 15, kLine = 21;
 constexpr Rgb kTrack{150, 150, 150}, kKnob{40, 40, 40}, kPaper{255, 255, 255};
 
-/// The slider's track, in shares of the window.
+/// The slider's track, as fractions of the window.
 constexpr double kLeft = 0.09, kRight = 0.18, kHeight = 0.165;
 
 }  // namespace
@@ -50,7 +50,7 @@ void Overlay::draw_slider(const Scene& scene) {
 }
 
 void Overlay::draw_lines(const std::vector<std::string>& lines, double left, double top) {
-  // A column of names, and one of what they say.
+  // A column of keys, and one of descriptions.
   constexpr double kColumn = 8.2 * kText;
   Legend legend(renderer_, kText);
   std::vector<std::pair<std::string, std::string>> columns;

@@ -1,4 +1,4 @@
-// overlay.h: what the viewer writes over its views: words, help, and the slider of the morph.
+// overlay.h: text over the viewer's views: messages, help, and the slider of the morph.
 #pragma once
 
 #include <vtkNew.h>
@@ -18,13 +18,13 @@ class Overlay {
   explicit Overlay(bool has_slider) : has_slider_(has_slider) {}
 
   void add_to(vtkRenderWindow* window);
-  /// Lines in the upper left corner; none when empty. Shown by the next draw().
+  /// Sets the lines in the upper left corner (none if empty), shown by the next draw().
   void say(const std::vector<std::string>& lines) { lines_ = lines; }
   void toggle_help() { shows_help_ = !shows_help_; }
   void draw(const Scene& scene);
 
   bool is_on_slider(const Scene& scene, int x, int y) const;
-  /// The morph at a place of the slider, 0 to 1.
+  /// The morph value of a slider position, 0 to 1.
   double slider_value(const Scene& scene, int x) const;
 
  private:

@@ -33,7 +33,7 @@ Panel turned_panel(const Scene& scene, int i, bool fades) {
   return panel;
 }
 
-/// The surface, and those outside of it, side by side.
+/// The surface and its offset surfaces, side by side.
 Panel offset_panel(const Scene& scene, std::size_t i, bool fades) {
   Panel panel;
   const double offset = i == 0 ? 0 : scene.offsets_A[i - 1];

@@ -1,4 +1,4 @@
-// panels.h: the views of a scene's layout, and which surface each shows how.
+// panels.h: the views of a scene's layout, and the surfaces in each.
 #pragma once
 
 #include <vtkRenderer.h>
@@ -11,34 +11,34 @@
 
 namespace espdiff {
 
-/// A surface as one view shows it.
+/// A surface as shown in one view.
 struct Sheet {
   RenderArray array = RenderArray::kDifference;
   double morph = 1;
   bool fades = false;
-  double offset_A = 0;      ///< how far outside of the surface it is taken
-  double from = 0, to = 1;  ///< shares of the view's width
+  double offset_A = 0;      ///< distance outside the molecular surface
+  double from = 0, to = 1;  ///< fractions of the view's width
 };
 
-/// One view: a place in the window, and the sheets in it.
+/// One view: its position in the window, and its sheets.
 struct Panel {
   std::string name;
-  double left = 0, bottom = 0, right = 1, top = 1;  ///< shares of the window
+  double left = 0, bottom = 0, right = 1, top = 1;  ///< fractions of the window
   double angle = 0;                                 ///< about the vertical, radians
   std::vector<Sheet> sheets;
   vtkSmartPointer<vtkRenderer> renderer;
 
-  /// Whether it shows the source's shape, and hence what belongs to the source.
+  /// Whether it shows the source's shape, and hence the source's molecule.
   bool is_source() const { return sheets.front().morph == 0; }
 };
 
-/// What the third of the linked views shows: the scene's array, or the difference where that is of one side.
+/// The array of the third linked view: the scene's, or the difference if that belongs to one side.
 RenderArray compared_array(RenderArray array);
 
 /// @param fades whether the compared surface fades by displacement
 std::vector<Panel> panels_of(const Scene& scene, bool fades);
 
-/// Side by side between two heights, in shares of the window's.
+/// Places the panels side by side between two heights, as fractions of the window's.
 void place(std::vector<Panel>& panels, double bottom, double top);
 
 }  // namespace espdiff

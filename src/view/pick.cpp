@@ -1,4 +1,4 @@
-// pick.cpp: intersects a line with the surface and interpolates what its corners and the maps know.
+// pick.cpp: intersects a line with the surface and interpolates the values of its corners and the maps.
 #include "view/pick.h"
 
 #include <vtkCellArray.h>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 
-/// Shares of the corners in a point of their triangle's plane.
+/// Barycentric weights of a point in a triangle's plane.
 std::array<double, 3> weights_at(Vec3d p, Vec3d a, Vec3d b, Vec3d c) {
   const Vec3d normal = cross(b - a, c - a);
   const double area = dot(normal, normal);
@@ -51,7 +51,7 @@ std::string number(double value, const std::string& unit) {
 }
 
 std::string trust(const PickedPoint& point) {
-  if (!point.has_counterpart) return "without a counterpart on the target";
+  if (!point.is_matched) return "without a counterpart on the target";
   if (point.is_corrupt) return "corrupt here: the triangle is off the target's surface";
   return "trusted here";
 }
@@ -73,7 +73,7 @@ void SurfacePicker::prepare(double morph) {
   vtkNew<vtkCellArray> cells;
   triangles_.clear();
   for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
-    if (morph > 0 && !surface.has_counterpart(i)) continue;
+    if (morph > 0 && !surface.is_matched(i)) continue;
     const Triangle& t = surface.triangles[i];
     cells->InsertNextCell({static_cast<vtkIdType>(t[0]), static_cast<vtkIdType>(t[1]), static_cast<vtkIdType>(t[2])});
     triangles_.push_back(i);
@@ -114,7 +114,7 @@ PickedPoint SurfacePicker::describe(std::size_t triangle, std::array<double, 3> 
   point.triangle = triangle;
   point.weights = weights;
   point.is_corrupt = surface.is_corrupt(triangle);
-  point.has_counterpart = surface.has_counterpart(triangle);
+  point.is_matched = surface.is_matched(triangle);
   point.from_maps = files_.maps.complete();
   if (point.from_maps) {
     point.source = looked_up(*files_.maps.source, interpolated(surface.source_positions, t, weights));
@@ -123,8 +123,8 @@ PickedPoint SurfacePicker::describe(std::size_t triangle, std::array<double, 3> 
     point.source = interpolated(surface.potential_source, t, weights);
     point.target = interpolated(surface.potential_target, t, weights);
   }
-  if (!point.has_counterpart) point.target = kNothing;
-  point.displacement_A = point.has_counterpart ? interpolated(surface.displacement, t, weights) : kNothing;
+  if (!point.is_matched) point.target = kNothing;
+  point.displacement_A = point.is_matched ? interpolated(surface.displacement, t, weights) : kNothing;
   const std::size_t nearest =
       t[static_cast<std::size_t>(std::max_element(weights.begin(), weights.end()) - weights.begin())];
   if (!surface.residue_index.empty()) point.residue = static_cast<int>(surface.residue_index[nearest]);
@@ -152,7 +152,7 @@ std::vector<std::string> picked_in_words(const PickedPoint& point, const Compari
     for (const std::string& reason : files.record.reasons) whole += "; " + reason;
     lines.push_back(line("comparison", whole));
   }
-  lines.push_back(line("potentials", point.from_maps ? "from the maps" : "between the vertices' values"));
+  lines.push_back(line("potentials", point.from_maps ? "from the maps" : "interpolated between vertices"));
   return lines;
 }
 

@@ -1,4 +1,4 @@
-// pick.h: the point of the surface under the mouse, and what is known there.
+// pick.h: the point of the surface under the mouse, and the values there.
 #pragma once
 
 #include <vtkNew.h>
@@ -15,7 +15,7 @@
 
 namespace espdiff {
 
-/// A point of the surface and of its counterpart.
+/// A point of the surface and its mapped position.
 struct PickedPoint {
   std::size_t triangle = 0;
   std::array<double, 3> weights{};  ///< of the triangle's corners
@@ -23,8 +23,8 @@ struct PickedPoint {
   float displacement_A = 0;         ///< NaN: unknown
   int residue = -1;                 ///< index into the source's residues; negative: none
   int residue_number = 0;
-  bool is_corrupt = false, has_counterpart = true;
-  bool from_maps = false;  ///< potentials looked up there, not between the vertices' values
+  bool is_corrupt = false, is_matched = true;
+  bool from_maps = false;  ///< potentials looked up in the maps, not interpolated between vertices
 };
 
 class SurfacePicker {
@@ -32,11 +32,11 @@ class SurfacePicker {
   /// All are kept by reference.
   SurfacePicker(const ComparisonFiles& files, const StartSurface& start) : files_(files), start_(start) {}
 
-  /// The nearest point of a line on the surface as it is drawn at a stage of the morph. What has no counterpart is part
-  /// of it on the source only. Building the search structure, once a stage, costs about 10 ms.
+  /// The first point where a line meets the surface as drawn at a stage of the morph. Unmatched parts are included on
+  /// the source only. Building the search structure costs about 10 ms per stage.
   std::optional<PickedPoint> pick(Vec3d from, Vec3d to, double morph);
 
-  /// Where a picked point is at a stage of the morph.
+  /// Position of a picked point at a stage of the morph.
   Vec3d place(const PickedPoint& point, double morph) const;
 
  private:
@@ -52,7 +52,7 @@ class SurfacePicker {
   vtkNew<vtkStaticCellLocator> locator_;
 };
 
-/// What a picked point says to a reader, line by line.
+/// Description of a picked point, line by line.
 std::vector<std::string> picked_in_words(const PickedPoint& point, const ComparisonFiles& files,
                                          const std::string& unit);
 

@@ -1,4 +1,4 @@
-// picture.cpp: reads the pixels back, averages them down, and encodes them.
+// picture.cpp: reads back the pixels, averages them, and encodes them.
 #include "view/picture.h"
 
 #include <vtkImageData.h>

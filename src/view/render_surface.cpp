@@ -1,4 +1,4 @@
-// render_surface.cpp: draws a scene at twice the size, averages down, and writes the PNG.
+// render_surface.cpp: draws a scene at twice the size, averages, and writes the PNG.
 #include "view/render_surface.h"
 
 #include <vtkImageData.h>
@@ -20,7 +20,7 @@
 namespace espdiff {
 namespace {
 
-/// Pixels drawn per pixel of the picture and axis. Smooths edges where depth peeling rules out multisampling.
+/// Pixels drawn per pixel of the picture and axis. Smooths edges, since depth peeling excludes multisampling.
 constexpr int kOversampling = 2;
 
 std::string described(const ColourScale& scale, const std::string& unit) {
@@ -40,11 +40,11 @@ std::string description(const ComparisonScene& scene) {
   }
   if (shows_potentials(scene.scene()))
     text +=
-        scene.per_fragment() ? "; potentials of the maps at every pixel" : "; potentials between the vertices' values";
+        scene.per_fragment() ? "; potentials of the maps at every pixel" : "; potentials interpolated between vertices";
   return text;
 }
 
-/// By name and fingerprint: a figure that is published need not tell the folders of who made it.
+/// Name and SHA-256 only: a published figure should not reveal its author's folders.
 std::string inputs(const RunRecord& record) {
   std::string text;
   const auto add = [&](const char* role, const RecordedInput& input) {
@@ -62,7 +62,7 @@ std::string inputs(const RunRecord& record) {
 std::vector<std::string> notes_on(const ComparisonFiles& files, const Scene& scene) {
   std::vector<std::string> notes;
   if (shows_potentials(scene) && !scene.per_vertex && !files.maps.complete()) {
-    notes.push_back("potentials are drawn between the vertices' values, not from the maps: " + files.maps.why_not);
+    notes.push_back("potentials are interpolated between vertices, not looked up in the maps: " + files.maps.why_not);
   }
   if (files.record.found && !files.record.trustworthy) {
     std::string reasons;
@@ -83,7 +83,7 @@ std::vector<std::string> render_surface(const std::string& vtp_path, const std::
 std::vector<std::string> render_comparison(const ComparisonFiles& files, const std::string& png_path,
                                            const Scene& scene, AtomicFile* beside) {
   check_outputs(files_of(files), {png_path, beside != nullptr ? beside->path() : std::string()});
-  AtomicFile file(png_path);  // before the drawing: an output that cannot be written is better found early
+  AtomicFile file(png_path);  // before drawing, to find an unwritable output early
   ComparisonScene drawn(files, scene);
   const vtkSmartPointer<vtkRenderWindow> window = make_hidden_window();
   const VtkMessages messages;

@@ -1,4 +1,4 @@
-// render_surface.h: a picture (PNG) of a comparison, drawn without a window on the screen.
+// render_surface.h: draws a picture (PNG) of a comparison off screen.
 #pragma once
 
 #include <string>
@@ -9,17 +9,16 @@
 
 namespace espdiff {
 
-/// Draws what `espdiff compare` wrote: the surface of OUT.vtp coloured by one array, fainter where the counterpart is
-/// farther away, corrupt triangles and places without a value in grey, with colour bar, length bar and keys, on white.
-/// Potentials are looked up at every pixel in the maps that OUT.json names; where those are missing or have changed,
-/// between the vertices' values. The view is parallel, so that the length bar holds everywhere; the side with more
-/// colour is the front. The PNG carries its provenance as text (Title, Software, Source, Description, Inputs, Scene),
-/// and replaces `png_path` only when complete.
-/// @returns notes for the user: why values are not looked up, that the result is not trustworthy
+/// Draws the output of `espdiff compare`: the surface of OUT.vtp coloured by one array, fainter where the displacement
+/// is larger, corrupt triangles and points without a value in grey, with colour bar, length bar and keys, on white.
+/// Potentials are looked up at every pixel in the maps that OUT.json names; if those are missing or changed, the
+/// vertices' values are interpolated. The projection is parallel, so the length bar holds everywhere; the more coloured
+/// side is in front. The PNG contains its provenance as text (Title, Software, Source, Description, Inputs, Scene) and
+/// replaces `png_path` only when complete.
+/// @returns notes for the user: why values are not looked up, or that the result is not trustworthy
 /// @throws InputError (the picture would replace a file of the comparison; scene out of range; array missing or without
-/// a value; OUT.json missing where it is needed),
-///         IoError (file missing, output unwritable), FormatError (a file is damaged or another), DeviceError (no X
-///         display to draw on; says how to get one)
+/// a value; OUT.json missing although needed), IoError (file missing, output unwritable), FormatError (a file is damaged
+/// or of another kind), DeviceError (no X display; says how to get one)
 /// Cost: about 2 s at the default size by software OpenGL. Same machine and OpenGL driver: same pixels.
 /// `beside`, where given, is complete and gets its name together with the picture.
 std::vector<std::string> render_surface(const std::string& vtp_path, const std::string& png_path, const Scene& scene,
@@ -27,7 +26,7 @@ std::vector<std::string> render_surface(const std::string& vtp_path, const std::
 
 struct ComparisonFiles;
 
-/// The same of files that were read already.
+/// The same for files already read.
 std::vector<std::string> render_comparison(const ComparisonFiles& files, const std::string& png_path,
                                            const Scene& scene, AtomicFile* beside = nullptr);
 

@@ -1,4 +1,4 @@
-// render_window.cpp: picks the kind of window.
+// render_window.cpp: chooses the kind of window.
 #include "view/render_window.h"
 
 #include <dlfcn.h>
@@ -23,7 +23,7 @@ namespace espdiff {
 namespace {
 
 #if defined(ESPDIFF_VTK_CHOOSES)
-/// VTK's window draws without it as well, and ends the program.
+/// VTK's window ends the program if it is missing.
 bool has_osmesa() {
   for (const char* name : {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"}) {
     if (dlopen(name, RTLD_LAZY) != nullptr) return true;
@@ -32,10 +32,11 @@ bool has_osmesa() {
 }
 #endif
 
-/// Null where this VTK, or this machine, has neither EGL nor OSMesa.
+/// Null if neither this VTK nor this machine has EGL or OSMesa.
 vtkSmartPointer<vtkRenderWindow> without_display() {
 #if defined(ESPDIFF_VTK_CHOOSES)
-  // Its first choice would be X, with warnings. Where EGL does not work it takes OSMesa.
+  // By default VTK would first try X, with warnings. If EGL does not work it uses OSMesa.
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): only one thread draws
   setenv("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow", 0);
   const VtkMessages messages;
   vtkSmartPointer<vtkRenderWindow> window = vtkSmartPointer<vtkOpenGLRenderWindow>::New();

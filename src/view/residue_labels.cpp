@@ -1,4 +1,4 @@
-// residue_labels.cpp: picks residues and writes their names in space.
+// residue_labels.cpp: selects residues and places their labels.
 #include "view/residue_labels.h"
 
 #include <vtkActor.h>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kFewestVertices = 20;
 constexpr double kApart_A = 9, kOffSurface_A = 4;
-constexpr double kPin_A = 2.8;  // ends short of the text, which it would strike through
+constexpr double kPin_A = 2.8;  // ends before the text
 
 struct Sum {
   double difference = 0;

@@ -1,4 +1,4 @@
-// residue_labels.h: names of the residues whose potential differs most, beside their places on the surface.
+// residue_labels.h: labels of the residues with the largest potential difference.
 #pragma once
 
 #include <vtkSmartPointer.h>
@@ -21,14 +21,14 @@ struct ResidueMark {
   Vec3d outward{};         ///< unit
 };
 
-/// The residues with the largest mean |difference| over their vertices (20 or more of them with a value), in falling
-/// order; at most `n`, and none within 9 A of one before it, so that labels can be read.
+/// The residues with the largest mean |difference| over their vertices (at least 20 with a value), in descending order;
+/// at most `n`, at least 9 A apart, so that the labels are readable.
 std::vector<ResidueMark> most_different_residues(const SurfaceFile& surface, int n);
 
-/// "LYS 12", with the chain before the number where the molecule has several: "LYS A12".
+/// "LYS 12", with the chain before the number if the molecule has several: "LYS A12".
 std::string residue_name(const Molecule& molecule, int residue);
 
-/// Text that faces the viewer, off the surface, and a line to its place. Hidden where the surface is in between.
+/// Text that faces the viewer, off the surface, and a line to its position. Hidden where the surface is in front.
 std::vector<vtkSmartPointer<vtkProp>> make_label(const ResidueMark& mark, const std::string& text, double text_pixels);
 
 }  // namespace espdiff

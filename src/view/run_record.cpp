@@ -1,4 +1,4 @@
-// run_record.cpp: picks what pictures need out of OUT.json.
+// run_record.cpp: extracts from OUT.json what pictures need.
 #include "view/run_record.h"
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "io/gzip_text.h"
+#include "io/read_input.h"
 #include "io/sha256.h"
 
 namespace espdiff {
@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-/// The file with the recorded content, where there are two of this name.
+/// The file with the recorded content, if there are two of this name.
 RecordedInput found_from(const fs::path& folder, const std::string& path, const std::string& sha256) {
   std::error_code ignored;
   const std::string beside = (folder / path).string();

@@ -1,4 +1,4 @@
-// run_record.h: what OUT.json says of the inputs of a comparison, as far as pictures need it.
+// run_record.h: the inputs of a comparison from OUT.json, as far as pictures need them.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace espdiff {
 
-/// An input as the comparison read it.
+/// An input as recorded by the comparison.
 struct RecordedInput {
-  std::string path;    ///< empty: there was none, or it was computed in process
+  std::string path;    ///< empty if there was none, or it was computed in process
   std::string sha256;  ///< of the content
-  /// Of a structure: which of the file's models and atoms were compared. Records of earlier versions do not say.
+  /// Of a structure: the models and atoms of the file that were compared. Older records do not say.
   StructureOptions read_with;
 };
 

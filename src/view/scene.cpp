@@ -1,14 +1,17 @@
-// scene.cpp: scenes as JSON, and what they may hold.
+// scene.cpp: scenes as JSON, and checks of their values.
 #include "view/scene.h"
 
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
 
 #include "base/error.h"
-#include "io/gzip_text.h"
+#include "io/read_input.h"
 
 namespace espdiff {
 namespace {
@@ -29,28 +32,56 @@ Enum parse_word(const std::array<const char*, Count>& words, const std::string& 
   throw InputError(std::string("no ") + what + " '" + text + "'; use " + allowed);
 }
 
-Json vector(Vec3d v) { return {v.x, v.y, v.z}; }
+// How a member's type is written and read; numbers, texts and lists are JSON's own.
 
-Vec3d vector_of(const Json& json) { return {json.at(0), json.at(1), json.at(2)}; }
+template <typename T>
+Json json_of(const T& value) {
+  return value;
+}
+template <typename T>
+void read(const Json& json, T& value) {
+  json.get_to(value);
+}
 
-Json camera_json(const CameraView& camera) {
-  return {{"centre_A", vector(camera.centre)},
-          {"toward_viewer", vector(camera.toward_viewer)},
-          {"up", vector(camera.up)},
+Json json_of(const Vec3d& v) { return {v.x, v.y, v.z}; }
+void read(const Json& json, Vec3d& v) { v = {json.at(0), json.at(1), json.at(2)}; }
+
+Json json_of(const CameraView& camera) {
+  return {{"centre_A", json_of(camera.centre)},
+          {"toward_viewer", json_of(camera.toward_viewer)},
+          {"up", json_of(camera.up)},
           {"half_height_A", camera.half_height_A}};
 }
-
-CameraView camera_of(const Json& json) {
-  return {vector_of(json.at("centre_A")), vector_of(json.at("toward_viewer")), vector_of(json.at("up")),
-          json.at("half_height_A")};
+void read(const Json& json, CameraView& camera) {
+  read(json.at("centre_A"), camera.centre);
+  read(json.at("toward_viewer"), camera.toward_viewer);
+  read(json.at("up"), camera.up);
+  read(json.at("half_height_A"), camera.half_height_A);
 }
 
-Json range_json(const ScaleRange& range) {
+template <typename T>
+Json json_of(const std::optional<T>& value) {
+  return value ? json_of(*value) : Json(nullptr);
+}
+template <typename T>
+void read(const Json& json, std::optional<T>& value) {
+  value.reset();
+  if (!json.is_null()) read(json, value.emplace());
+}
+
+Json json_of(RenderArray array) { return to_string(array); }
+void read(const Json& json, RenderArray& array) { array = parse_render_array(json); }
+Json json_of(Layout layout) { return kLayouts[static_cast<std::size_t>(layout)]; }
+void read(const Json& json, Layout& layout) { layout = parse_layout(json); }
+Json json_of(MoleculeStyle style) { return kStyles[static_cast<std::size_t>(style)]; }
+void read(const Json& json, MoleculeStyle& style) { style = parse_molecule_style(json); }
+
+/// A limit, or both ends; the percentile has an entry of its own.
+Json json_of(const ScaleRange& range) {
   if (range.given_ends) return {range.low, range.high};
   return range.limit;
 }
-
-void read_range(const Json& json, ScaleRange& range) {
+void read(const Json& json, ScaleRange& range) {
   range.given_ends = json.is_array();
   if (!range.given_ends) {
     range.limit = json;
@@ -60,78 +91,75 @@ void read_range(const Json& json, ScaleRange& range) {
   range.high = json.at(1);
 }
 
-/// Sets one entry of a scene. @returns false when there is none of this name
-bool set(Scene& s, const std::string& key, const Json& value) {
-  if (key == "colour_by")
-    s.array = parse_render_array(value);
-  else if (key == "range")
-    read_range(value, s.range);
-  else if (key == "percentile")
-    s.range.percentile = value;
-  else if (key == "colours")
-    s.colours = value;
-  else if (key == "unit")
-    s.unit = value;
-  else if (key == "per_vertex")
-    s.per_vertex = value;
-  else if (key == "fade")
-    s.fade = value;
-  else if (key == "opaque_below_A")
-    s.opacity.opaque_below_A = value;
-  else if (key == "faint_above_A")
-    s.opacity.faint_above_A = value;
-  else if (key == "least_opacity")
-    s.opacity.least = value;
-  else if (key == "opacity")
-    s.opacity.greatest = value;
-  else if (key == "layout")
-    s.layout = parse_layout(value);
-  else if (key == "width")
-    s.width = value;
-  else if (key == "height")
-    s.height = value;
-  else if (key == "views")
-    s.n_views = value;
-  else if (key == "title")
-    s.title = value;
-  else if (key == "legend")
-    s.legend = value;
-  else if (key == "axes")
-    s.axes = value;
-  else if (key == "morph")
-    s.morph = value;
-  else if (key == "split")
-    s.split = value;
-  else if (key == "camera")
-    s.camera = value.is_null() ? std::nullopt : std::optional<CameraView>(camera_of(value));
-  else if (key == "turn_deg")
-    s.turn_deg = value;
-  else if (key == "tilt_deg")
-    s.tilt_deg = value;
-  else if (key == "zoom")
-    s.zoom = value;
-  else if (key == "surface")
-    s.surface = value;
-  else if (key == "molecule")
-    s.molecule = parse_molecule_style(value);
-  else if (key == "around_A")
-    s.around_A = value;
-  else if (key == "labels")
-    s.n_labels = value;
-  else if (key == "isopotentials")
-    s.isopotentials = value.get<std::vector<double>>();
-  else if (key == "offsets_A")
-    s.offsets_A = value.get<std::vector<double>>();
-  else if (key == "field_lines")
-    s.n_field_lines = value;
-  else if (key == "slice")
-    s.slice = value.is_null() ? std::nullopt : std::optional<double>(value.get<double>());
-  else
-    return false;
-  return true;
+/// One entry of a scene file.
+struct Entry {
+  const char* key;
+  std::function<Json(const Scene&)> get;
+  std::function<void(Scene&, const Json&)> set;
+};
+
+/// `at` finds the member in a scene.
+template <typename At>
+Entry entry(const char* key, At at) {
+  return {key, [at](const Scene& s) { return json_of(at(s)); },
+          [at](Scene& s, const Json& json) { read(json, at(s)); }};
 }
 
-void require(bool fulfilled, const std::string& message) {
+/// A member by its path from the scene.
+#define ESPDIFF_ENTRY_OF(key, path) \
+  entry(                            \
+      key, [](auto& s) -> auto& { return s.path; })
+
+const std::vector<Entry>& entries() {
+  static const std::vector<Entry> all = {
+      ESPDIFF_ENTRY_OF("colour_by", array),
+      ESPDIFF_ENTRY_OF("range", range),
+      ESPDIFF_ENTRY_OF("percentile", range.percentile),
+      ESPDIFF_ENTRY_OF("colours", colours),
+      ESPDIFF_ENTRY_OF("unit", unit),
+      ESPDIFF_ENTRY_OF("per_vertex", per_vertex),
+      ESPDIFF_ENTRY_OF("fade", fade),
+      ESPDIFF_ENTRY_OF("opaque_below_A", opacity.opaque_below_A),
+      ESPDIFF_ENTRY_OF("faint_above_A", opacity.faint_above_A),
+      ESPDIFF_ENTRY_OF("least_opacity", opacity.least),
+      ESPDIFF_ENTRY_OF("opacity", opacity.greatest),
+      ESPDIFF_ENTRY_OF("layout", layout),
+      ESPDIFF_ENTRY_OF("width", width),
+      ESPDIFF_ENTRY_OF("height", height),
+      ESPDIFF_ENTRY_OF("views", n_views),
+      ESPDIFF_ENTRY_OF("title", title),
+      ESPDIFF_ENTRY_OF("legend", legend),
+      ESPDIFF_ENTRY_OF("axes", axes),
+      ESPDIFF_ENTRY_OF("morph", morph),
+      ESPDIFF_ENTRY_OF("split", split),
+      ESPDIFF_ENTRY_OF("camera", camera),
+      ESPDIFF_ENTRY_OF("turn_deg", turn_deg),
+      ESPDIFF_ENTRY_OF("tilt_deg", tilt_deg),
+      ESPDIFF_ENTRY_OF("zoom", zoom),
+      ESPDIFF_ENTRY_OF("surface", surface),
+      ESPDIFF_ENTRY_OF("molecule", molecule),
+      ESPDIFF_ENTRY_OF("around_A", around_A),
+      ESPDIFF_ENTRY_OF("labels", n_labels),
+      ESPDIFF_ENTRY_OF("isopotentials", isopotentials),
+      ESPDIFF_ENTRY_OF("offsets_A", offsets_A),
+      ESPDIFF_ENTRY_OF("field_lines", n_field_lines),
+      ESPDIFF_ENTRY_OF("slice", slice),
+  };
+  return all;
+}
+#undef ESPDIFF_ENTRY_OF
+
+/// Sets one entry of a scene. @returns false when there is none of this name
+bool set(Scene& scene, const std::string& key, const Json& value) {
+  for (const Entry& entry : entries()) {
+    if (key != entry.key) continue;
+    entry.set(scene, value);
+    return true;
+  }
+  return false;
+}
+
+void require(bool fulfilled, const Message& message) {
   if (!fulfilled) throw InputError(message);
 }
 
@@ -145,40 +173,9 @@ MoleculeStyle parse_molecule_style(const std::string& text) {
   return parse_word<MoleculeStyle>(kStyles, text, "molecule style");
 }
 
-std::string scene_json(const Scene& s) {
+std::string scene_json(const Scene& scene) {
   Json json;
-  json["colour_by"] = to_string(s.array);
-  json["range"] = range_json(s.range);
-  json["percentile"] = s.range.percentile;
-  json["colours"] = s.colours;
-  json["unit"] = s.unit;
-  json["per_vertex"] = s.per_vertex;
-  json["fade"] = s.fade;
-  json["opaque_below_A"] = s.opacity.opaque_below_A;
-  json["faint_above_A"] = s.opacity.faint_above_A;
-  json["least_opacity"] = s.opacity.least;
-  json["opacity"] = s.opacity.greatest;
-  json["layout"] = kLayouts[static_cast<std::size_t>(s.layout)];
-  json["width"] = s.width;
-  json["height"] = s.height;
-  json["views"] = s.n_views;
-  json["title"] = s.title;
-  json["legend"] = s.legend;
-  json["axes"] = s.axes;
-  json["morph"] = s.morph;
-  json["split"] = s.split;
-  json["camera"] = s.camera ? camera_json(*s.camera) : Json(nullptr);
-  json["turn_deg"] = s.turn_deg;
-  json["tilt_deg"] = s.tilt_deg;
-  json["zoom"] = s.zoom;
-  json["surface"] = s.surface;
-  json["molecule"] = kStyles[static_cast<std::size_t>(s.molecule)];
-  json["around_A"] = s.around_A;
-  json["labels"] = s.n_labels;
-  json["isopotentials"] = s.isopotentials;
-  json["offsets_A"] = s.offsets_A;
-  json["field_lines"] = s.n_field_lines;
-  json["slice"] = s.slice ? Json(*s.slice) : Json(nullptr);
+  for (const Entry& entry : entries()) json[entry.key] = entry.get(scene);
   return json.dump(1, ' ', true);
 }
 
@@ -186,7 +183,7 @@ Scene read_scene(const std::string& path, const Scene& defaults) {
   std::error_code ignored;
   if (std::filesystem::exists(path, ignored)) require_regular_file(path);
   std::ifstream in(path);
-  if (!in) throw IoError(path, "no such scene file; `espdiff render --save-scene FILE` writes one");
+  if (!in) throw IoError(path, "no such scene file; " + option("save-scene", "FILE") + " writes one");
   Scene scene = defaults;
   std::string key;
   try {
@@ -195,16 +192,19 @@ Scene read_scene(const std::string& path, const Scene& defaults) {
     for (const auto& [name, value] : json.items()) {
       key = name;
       if (!set(scene, key, value)) {
-        throw FormatError(path, 0, "no setting '" + key + "' in scenes; `--save-scene FILE` writes all there are");
+        throw FormatError(
+            path, 0, "a scene has no setting '" + key + "'; " + option("save-scene", "FILE") + " writes all settings");
       }
     }
   } catch (const nlohmann::json::parse_error& error) {
     throw FormatError(path, 0,
                       "no JSON at byte " + std::to_string(error.byte) + "; `--save-scene FILE` shows what a scene is");
   } catch (const nlohmann::json::exception&) {
-    throw FormatError(path, 0, "the value of '" + key + "' is of the wrong kind; `--save-scene FILE` shows which");
+    throw FormatError(
+        path, 0,
+        "the value of '" + key + "' has the wrong type; " + option("save-scene", "FILE") + " shows the right one");
   } catch (const InputError& error) {
-    throw FormatError(path, 0, error.what());
+    throw FormatError(path, 0, error.message());
   }
   return scene;
 }
@@ -239,7 +239,8 @@ void check(const Scene& s) {
   }
   require(s.offsets_A.size() <= 3, "at most 3 offset surfaces fit beside the surface");
   require(s.offsets_A.empty() || s.layout == Layout::kTurned, "offset surfaces need the layout turned");
-  require(s.offsets_A.empty() || !s.per_vertex, "offset surfaces need the maps; leave --per-vertex out");
+  require(s.offsets_A.empty() || !s.per_vertex,
+          "offset surfaces need the maps; leave " + option("per-vertex") + " out");
   require(!s.slice || is_share(*s.slice), "a slice lies at 0 (front) to 1 (back)");
   if (s.camera) {
     require(s.camera->half_height_A > 0 && norm(cross(s.camera->up, s.camera->toward_viewer)) > 1e-6,

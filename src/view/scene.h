@@ -1,4 +1,4 @@
-// scene.h: all that a picture of a comparison is made of, but for the files: what a scene file (JSON) holds.
+// scene.h: all parameters of a picture except the files; the content of a scene file (JSON).
 #pragma once
 
 #include <optional>
@@ -16,10 +16,10 @@ enum class Layout { kTurned, kLinked, kSplit };
 
 enum class MoleculeStyle { kNone, kCartoon, kSticks, kLines };
 
-/// Where the camera stands, in the target's frame; Angstrom.
+/// The camera, in the target's frame; Angstrom.
 struct CameraView {
   Vec3d centre{}, toward_viewer{0, 0, 1}, up{0, 1, 0};
-  double half_height_A = 0;  ///< of what a view shows
+  double half_height_A = 0;  ///< half the height shown
 };
 
 struct Scene {
@@ -27,46 +27,46 @@ struct Scene {
   ScaleRange range;
   std::string colours = "red-blue";  ///< or cool-warm, purple-orange
   std::string unit;                  ///< of the potential; the file's when empty
-  bool per_vertex = false;           ///< values between the vertices' instead of from the maps
-  bool fade = true;                  ///< fainter where the counterpart is farther away
+  bool per_vertex = false;           ///< interpolate the vertices' values instead of looking up the maps
+  bool fade = true;                  ///< fainter where the displacement is larger
   OpacityScale opacity;
 
   Layout layout = Layout::kTurned;
   int width = 1800;   ///< pixels, 400 to 6000
   int height = 1100;  ///< pixels, 400 to 6000
-  int n_views = 2;    ///< of the layout `turned`, each turned on about the vertical by a full turn / n_views; 1 to 4
-  std::string title;  ///< above the views; none when empty
+  int n_views = 2;    ///< of the layout `turned`, each rotated about the vertical by a full turn / n_views; 1 to 4
+  std::string title;  ///< above the views; empty for none
   bool legend = true;
   bool axes = false;   ///< directions of the target's x, y and z in each view
-  double morph = 1;    ///< 0 draws the surface on the source, 1 on the target, between: on the way
-  double split = 0.5;  ///< of the width, where the layout `split` has its line
+  double morph = 1;    ///< 0 draws the surface on the source, 1 on the target
+  double split = 0.5;  ///< position of the dividing line of the layout `split`, as a fraction of the width
 
   std::optional<CameraView> camera;   ///< automatic when empty
-  double turn_deg = 0, tilt_deg = 0;  ///< from there: to the right, upward
+  double turn_deg = 0, tilt_deg = 0;  ///< rotation from there: to the right, upward
   double zoom = 1;
 
   bool surface = true;
   MoleculeStyle molecule = MoleculeStyle::kNone;
   double around_A = 0;                ///< ligands, ions and water within this distance of the protein; 0: none
-  int n_labels = 0;                   ///< residues with the largest mean |difference| that are named
+  int n_labels = 0;                   ///< number of labelled residues, those with the largest mean |difference|
   std::vector<double> isopotentials;  ///< surfaces of equal potential, of the target's map
-  std::vector<double> offsets_A;      ///< surfaces this far outside of the molecular one
+  std::vector<double> offsets_A;      ///< offset surfaces, at these distances outside the molecular surface
   int n_field_lines = 0;
   std::optional<double> slice;  ///< plane through the target's map across the view: 0 front, 1 back
 };
 
-/// @throws InputError naming the words
+/// @throws InputError listing the layouts
 Layout parse_layout(const std::string& text);
 MoleculeStyle parse_molecule_style(const std::string& text);
 
-/// A scene as JSON; the defaults are written too.
+/// A scene as JSON, including the defaults.
 std::string scene_json(const Scene& scene);
 
-/// What a scene file says; what it does not say is as in `defaults`.
-/// @throws IoError, FormatError (not JSON, a key that there is not, a value of the wrong kind)
+/// Reads a scene file; missing entries are taken from `defaults`.
+/// @throws IoError, FormatError (not JSON, an unknown key, a value of the wrong type)
 Scene read_scene(const std::string& path, const Scene& defaults);
 
-/// @throws InputError for what is out of range, with the limits
+/// @throws InputError for values out of range, with the limits
 void check(const Scene& scene);
 
 }  // namespace espdiff

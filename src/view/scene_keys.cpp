@@ -1,4 +1,4 @@
-// scene_keys.cpp: one table for what the keys do and what the help says.
+// scene_keys.cpp: one table of keys, their actions and their help.
 #include "view/scene_keys.h"
 
 #include <algorithm>

@@ -7,9 +7,9 @@
 
 namespace espdiff {
 
-/// Changes a scene as a key of the viewer says. @returns false for a key that changes none
+/// Changes a scene according to a key of the viewer. @returns false for other keys
 /// @param key   X's name of it, such as "bracketleft"
-/// @param limit the upper end of the scale that is shown now
+/// @param limit the upper end of the current scale
 bool change_by_key(Scene& scene, const std::string& key, double limit);
 
 }  // namespace espdiff

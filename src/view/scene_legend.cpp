@@ -13,12 +13,12 @@
 namespace espdiff {
 namespace {
 
-/// Shares of the picture's height, from the bottom: legend, names of the views, title.
+/// Heights from the bottom as fractions of the picture's: legend, names of the views, title.
 constexpr double kLegendShare = 0.19;
 constexpr double kNameShare = 0.03;
 constexpr double kTitleShare = 0.09;
 
-/// The shorter titles of scales that stand side by side.
+/// Short titles for scales side by side.
 std::string short_title(RenderArray array, const std::string& unit) {
   const std::string in_unit = unit.empty() ? "" : " (" + unit + ")";
   if (array == RenderArray::kSource || array == RenderArray::kTarget) return "potential" + in_unit;
@@ -38,7 +38,7 @@ struct Paper {
 Paper paper_of(const ComparisonScene& drawn, double scale_factor) {
   const Scene& scene = drawn.scene();
   const double width = scene.width * scale_factor, height = scene.height * scale_factor;
-  // A narrow picture needs smaller text, so that its legends stay apart.
+  // A narrow picture needs smaller text to keep its legends apart.
   const double letters = drawn.panels().size() > 2 || drawn.map_scale() != nullptr ? 84 : 64;
   const double text_height = std::min(height / 42, width / letters);
   const double bottom = height * 0.085;
@@ -47,7 +47,7 @@ Paper paper_of(const ComparisonScene& drawn, double scale_factor) {
 
 bool is_potential(RenderArray array) { return array == RenderArray::kSource || array == RenderArray::kTarget; }
 
-/// The scale of both sides where they stand beside what is compared, or of what is drawn of the maps.
+/// The second scale: of both sides beside the compared one, or of the drawings of the maps.
 const ColourScale* second_scale(const ComparisonScene& scene) {
   if (scene.scene().layout == Layout::kLinked) return &scene.scale(RenderArray::kSource);
   return is_potential(scene.scene().array) ? nullptr : scene.map_scale();
@@ -83,12 +83,11 @@ void add_keys(Legend& legend, const ComparisonScene& scene, const Paper& paper) 
       std::any_of(scene.panels().begin(), scene.panels().end(), [](const Panel& p) { return p.is_source(); });
   const bool no_value = scene.scale(sheets.front().array).has_missing();
   const bool corrupt = scene.geometry().has(SurfacePart::kCorrupt);
-  const bool no_counterpart = shows_start && scene.geometry().has(SurfacePart::kWithoutCounterpart);
+  const bool unmatched = shows_start && scene.geometry().has(SurfacePart::kUnmatched);
   const auto needed = [&](bool drawn, const char* meaning) {
     return drawn ? legend.key_width(meaning) + paper.text_height : 0.0;
   };
-  const double all =
-      needed(no_value, "no value") + needed(corrupt, "corrupt") + needed(no_counterpart, "no counterpart");
+  const double all = needed(no_value, "no value") + needed(corrupt, "corrupt") + needed(unmatched, "no counterpart");
   const double y = paper.height * 0.02 + paper.text_height / 2;
   double x = std::min(paper.width * left, paper.width - all);
   const auto key = [&](double opacity, const std::string& meaning) {
@@ -96,7 +95,7 @@ void add_keys(Legend& legend, const ComparisonScene& scene, const Paper& paper) 
   };
   if (no_value) key(1, "no value");
   if (corrupt) key(0.3, "corrupt");
-  if (no_counterpart) legend.hatched_key(x, y, "no counterpart");
+  if (unmatched) legend.hatched_key(x, y, "no counterpart");
 }
 
 void add_names(Legend& legend, const ComparisonScene& scene, const Paper& paper) {
@@ -147,7 +146,7 @@ void add_scene_gauges(vtkRenderer* renderer, const ComparisonScene& scene, doubl
   const double length = 2.2 * paper.text_height, room = 2 * paper.text_height + length;
   const double* before = nullptr;
   for (const Panel& each : scene.panels()) {
-    // Where all look from one place, one is enough.
+    // If all views look in the same direction, one is enough.
     const double* from = each.renderer->GetActiveCamera()->GetDirectionOfProjection();
     if (before != nullptr && std::equal(from, from + 3, before)) continue;
     before = from;

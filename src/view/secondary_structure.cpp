@@ -7,7 +7,7 @@
 namespace espdiff {
 namespace {
 
-/// For one residue's N-H: the residues whose C=O take it, at most the two best (bifurcated bonds).
+/// Acceptors of a residue's N-H: the residues whose C=O it binds, at most the best two (bifurcated bonds).
 using Acceptors = std::array<int, 2>;
 
 class HydrogenBonds {
@@ -33,7 +33,7 @@ class HydrogenBonds {
     const Backbone& d = at(donor);
     const bool has_hydrogen = molecule_.residues[static_cast<std::size_t>(donor)].name != "PRO";
     if (!d.complete() || !at(donor - 1).complete() || !are_bound(molecule_, at(donor - 1), d) || !has_hydrogen) return;
-    // The hydrogen lies opposite to the C=O of the peptide bond before.
+    // The hydrogen lies opposite to the C=O of the previous peptide bond.
     const Vec3d carbonyl = place(at(donor - 1).o) - place(at(donor - 1).c);
     const Vec3d hydrogen = place(d.n) - (1.01 / norm(carbonyl)) * carbonyl;
     std::array<double, 2> best = {-0.5, -0.5};
@@ -76,7 +76,7 @@ std::vector<Backbone> backbone_of(const Molecule& molecule) {
     Backbone& b = backbone[static_cast<std::size_t>(atom.residue)];
     const int index = static_cast<int>(i);
     if (atom.name == "N") b.n = index;
-    // A calcium ion is named CA too.
+    // A calcium ion is also named CA.
     if (atom.name == "CA" && atom.element != "Ca") b.ca = index;
     if (atom.name == "C") b.c = index;
     if (atom.name == "O" || atom.name == "OT1" || atom.name == "O1") b.o = index;
@@ -101,7 +101,7 @@ std::vector<Fold> assign_folds(const Molecule& molecule, const std::vector<Backb
     for (int j = i + 3; j + 1 < n; ++j) {
       for (const bool parallel : {true, false}) {
         if (!are_bridged(bonds, i, j, parallel)) continue;
-        // A ladder: the next or the last pair of residues is bridged in the same way.
+        // A ladder: the next or the previous pair of residues is bridged in the same way.
         const int step = parallel ? 1 : -1;
         if (!are_bridged(bonds, i + 1, j + step, parallel) && !are_bridged(bonds, i - 1, j - step, parallel)) continue;
         set(i, Fold::kStrand);
@@ -113,7 +113,8 @@ std::vector<Fold> assign_folds(const Molecule& molecule, const std::vector<Backb
     if (!bonds.bond(i - 1, i + 3) || !bonds.bond(i, i + 4)) continue;
     for (int k = i; k < i + 4; ++k) set(k, Fold::kHelix);
   }
-  // One residue between two of a strand belongs to it: a bulge, or an edge whose every other residue is bound.
+  // A single residue between two of a strand belongs to it: a bulge, or an edge strand in which every other residue is
+  // bonded.
   for (int i = 1; i + 1 < n; ++i) {
     const auto at = [&](int k) { return folds[static_cast<std::size_t>(k)]; };
     if (at(i) == Fold::kCoil && at(i - 1) == Fold::kStrand && at(i + 1) == Fold::kStrand) set(i, Fold::kStrand);

@@ -1,4 +1,4 @@
-// shader_text.cpp: puts a shader together from its files.
+// shader_text.cpp: assembles a shader from its files.
 #include "view/shader_text.h"
 
 #include <vtkNew.h>

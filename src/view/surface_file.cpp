@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "io/file_kind.h"
-#include "io/gzip_text.h"
+#include "io/read_input.h"
 #include "io/read_vtp.h"
 
 namespace espdiff {
@@ -73,7 +73,7 @@ std::string text_of(const VtpContent& surface, const char* name) {
   return {};
 }
 
-/// Empty where there is none with three components.
+/// Empty if there is none with three components.
 template <typename Vector>
 std::vector<Vector> vectors_of(const VtpContent& surface, const char* name) {
   const VtpNumbers* const array = find_array(surface.point_arrays, name);
@@ -107,7 +107,7 @@ void read_arrays(SurfaceFile& file, const VtpContent& surface) {
   }
   file.residue_number = numbers_of(surface, "residue_number");
   file.corrupt = flags_of(surface, "corrupt");
-  file.no_counterpart = flags_of(surface, "no_counterpart");
+  file.unmatched = flags_of(surface, "no_counterpart");
   file.potential_unit = text_of(surface, "potential_unit");
   file.written_by = text_of(surface, "written_by");
   file.array_names = names_of(surface);
@@ -132,25 +132,25 @@ const std::vector<float>& SurfaceFile::values(RenderArray array) const {
   };
   if (pick().empty() && array != RenderArray::kPlain) {
     throw InputError(path + ": no point array '" + array_name(array) + "' (there are: " + array_names +
-                     "); colour by another, or compare with --source-map and --target-map");
+                     "); colour by another, or compare with " + option("source-map") + " and " + option("target-map"));
   }
   return pick();
 }
 
 SurfaceFile read_surface_file(const std::string& path) {
   check_exists(path);
-  const std::string head = peek_text_file(path, kRecogniseBytes);
-  if (head.find("<VTKFile") == std::string::npos || head.find("PolyData") == std::string::npos) {
-    throw FormatError(path, 0, "not a VTK PolyData file (.vtp); `espdiff compare SOURCE TARGET -o OUT` writes OUT.vtp");
-  }
-  VtpContent surface = read_vtp(path);
+  VtpContent surface = read_vtp(read_input(path, [&](std::string_view head) {
+    if (head.find("<VTKFile") == std::string::npos || head.find("PolyData") == std::string::npos)
+      throw FormatError(path, 0,
+                        "not a VTK PolyData file (.vtp); `espdiff compare SOURCE TARGET -o OUT` writes OUT.vtp");
+  }));
   if (surface.triangles.empty()) throw FormatError(path, 0, "the surface has no triangles; nothing to draw");
   SurfaceFile file;
   file.path = path;
   read_arrays(file, surface);
   file.triangles = std::move(surface.triangles);
   file.positions = std::move(surface.positions);
-  const auto& lost = file.no_counterpart;
+  const auto& lost = file.unmatched;
   if (!lost.empty() && std::find(lost.begin(), lost.end(), 0) == lost.end()) {
     throw FormatError(path, 0, "no triangle has a counterpart; nothing to draw");
   }

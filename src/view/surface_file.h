@@ -10,7 +10,7 @@
 
 namespace espdiff {
 
-/// A mapped surface: one entry a vertex, or an empty array where the file has none of that name.
+/// A mapped surface: one entry per vertex; arrays that the file lacks are empty.
 struct SurfaceFile {
   std::string path;
   std::vector<Vec3d> positions;         ///< mapped, in the target's frame, Angstrom
@@ -18,27 +18,26 @@ struct SurfaceFile {
   std::vector<Vec3f> normals;           ///< unit, outward, at the mapped positions
   std::vector<Vec3f> source_normals;    ///< the same at the source's, in its frame
   std::vector<Triangle> triangles;
-  std::vector<std::uint8_t> corrupt;         ///< [triangle]
-  std::vector<std::uint8_t> no_counterpart;  ///< [triangle] 1: its mapped positions mean nothing
-  std::vector<float> displacement;           ///< Angstrom
-  std::vector<float> potential_source, potential_target, potential_difference;  ///< NaN where there is no value
-  std::vector<float> sign_change;                                               ///< NaN where there is no value
+  std::vector<std::uint8_t> corrupt;    ///< [triangle]
+  std::vector<std::uint8_t> unmatched;  ///< [triangle] 1: its mapped positions are meaningless
+  std::vector<float> displacement;      ///< Angstrom
+  std::vector<float> potential_source, potential_target, potential_difference;  ///< NaN without a value
+  std::vector<float> sign_change;                                               ///< NaN without a value
   std::vector<float> residue_index;   ///< of the source's residues; negative: none
-  std::vector<float> residue_number;  ///< as the structure file numbers them
+  std::vector<float> residue_number;  ///< as numbered in the structure file
   std::string potential_unit;         ///< field data `potential_unit`
   std::string written_by;             ///< field data `written_by`
   std::string array_names;            ///< of the point arrays in the file, for messages
 
-  bool has_counterpart(std::size_t triangle) const { return no_counterpart.empty() || no_counterpart[triangle] == 0; }
+  bool is_matched(std::size_t triangle) const { return unmatched.empty() || unmatched[triangle] == 0; }
   bool is_corrupt(std::size_t triangle) const { return !corrupt.empty() && corrupt[triangle] != 0; }
-  /// What the surface is coloured by.
-  /// @throws InputError when the file lacks it, naming what it has
+  /// The values that colour the surface.
+  /// @throws InputError if the file lacks them, listing the arrays it has
   const std::vector<float>& values(RenderArray array) const;
 };
 
 /// Reads a VTK XML PolyData file (.vtp).
-/// @throws IoError (missing, a directory), FormatError (not a .vtp file, truncated, no triangles, none with a
-/// counterpart)
+/// @throws IoError (missing, a directory), FormatError (not a .vtp file, truncated, no triangles, none matched)
 SurfaceFile read_surface_file(const std::string& path);
 
 }  // namespace espdiff

@@ -1,4 +1,4 @@
-// surface_geometry.cpp: fills the point arrays that the shaders take.
+// surface_geometry.cpp: fills the point arrays of the shaders.
 #include "view/surface_geometry.h"
 
 #include <vtkCellArray.h>
@@ -31,7 +31,7 @@ std::vector<Vec3f> vertex_normals(const std::vector<Vec3d>& positions, const std
   return normals;
 }
 
-/// Adds a point array and returns it, to be filled.
+/// Adds a point array and returns it for filling.
 vtkFloatArray* add_array(vtkPolyData* data, const char* name, int n_components) {
   vtkNew<vtkFloatArray> array;
   array->SetName(name);
@@ -67,7 +67,7 @@ bool add_places(vtkPolyData* data, const char* name, const Grid* map, const std:
   return all_inside;
 }
 
-/// `missing` where there is no number.
+/// Replaces NaN by `missing`.
 void add_numbers(vtkPolyData* data, const char* name, const std::vector<float>& numbers, float missing) {
   vtkFloatArray* array = add_array(data, name, 1);
   array->FillValue(missing);
@@ -76,8 +76,8 @@ void add_numbers(vtkPolyData* data, const char* name, const std::vector<float>& 
   }
 }
 
-/// A vertex' two potentials. A file may hold the difference alone: then they are made to differ by it, with one sign or
-/// two as the file says.
+/// A vertex's two potentials. If a file holds only the difference, they are made up to have that difference, with equal
+/// or opposite signs as the file says.
 std::array<float, 2> potentials_at(const SurfaceFile& surface, std::size_t i) {
   if (!surface.potential_source.empty() && !surface.potential_target.empty()) {
     return {surface.potential_source[i], surface.potential_target[i]};
@@ -126,7 +126,7 @@ std::unique_ptr<SurfaceFile> moved_outward(const SurfaceFile& surface, const Sta
   for (std::size_t i = 0; i < surface.positions.size(); ++i) {
     moved->positions[i] += offset_A * static_cast<Vec3d>(surface.normals[i]);
     const auto n = static_cast<Vec3d>(start.normals[i]);
-    // Back into the source's own frame, by the transpose.
+    // Rotates back into the source's own frame (transpose).
     moved->source_positions[i] +=
         offset_A * Vec3d{r[0] * n.x + r[3] * n.y + r[6] * n.z, r[1] * n.x + r[4] * n.y + r[7] * n.z,
                          r[2] * n.x + r[5] * n.y + r[8] * n.z};
@@ -157,7 +157,7 @@ SurfaceGeometry::SurfaceGeometry(const SurfaceFile& surface, const RunRecord& re
 }
 
 SurfacePart SurfaceGeometry::part_of(std::size_t triangle) const {
-  if (!surface_.has_counterpart(triangle)) return SurfacePart::kWithoutCounterpart;
+  if (!surface_.is_matched(triangle)) return SurfacePart::kUnmatched;
   return surface_.is_corrupt(triangle) ? SurfacePart::kCorrupt : SurfacePart::kTrusted;
 }
 

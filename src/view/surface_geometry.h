@@ -1,5 +1,5 @@
-// surface_geometry.h: a mapped surface as SurfaceMapper draws it: both places of every vertex, and where they lie in
-// the maps.
+// surface_geometry.h: a mapped surface for SurfaceMapper: both positions of every vertex, and their coordinates in the
+// maps.
 #pragma once
 
 #include <vtkSmartPointer.h>
@@ -16,32 +16,32 @@ class vtkPolyData;
 
 namespace espdiff {
 
-/// The source's surface superposed on the target: what a morph starts from.
+/// The source's surface superposed on the target: the start of a morph.
 struct StartSurface {
   std::vector<Vec3f> positions;  ///< [vertex] in the target's frame
   std::vector<Vec3f> normals;    ///< [vertex] unit, outward
 };
 
-/// Without source positions or a record of the superposition: the mapped surface itself.
+/// Without source positions or a recorded superposition: the mapped surface itself.
 StartSurface superposed_start(const SurfaceFile& surface, const RunRecord& record);
 
-/// The surface moved outward along its normals, on both molecules: where the potentials are compared instead. The
-/// arrays keep the surface's own values; only maps tell those farther out.
+/// The surface moved outward along its normals, on both molecules; potentials are then compared there. The arrays keep
+/// the surface's own values; only maps give values farther out.
 /// @param surface with source positions
 std::unique_ptr<SurfaceFile> moved_outward(const SurfaceFile& surface, const StartSurface& start,
                                            const RigidTransform& source_to_target, double offset_A);
 
-/// The triangles of one part with the point arrays of kSurfaceAttributes. Parts that are made of the same `points`
-/// share their memory, here and on the graphics processor.
+/// The triangles of one part with the point arrays of kSurfaceAttributes. Parts with the same `points` share their
+/// memory, on the host and on the GPU.
 class SurfaceGeometry {
  public:
   SurfaceGeometry(const SurfaceFile& surface, const RunRecord& record, const MapPair& maps);
 
-  /// Without triangles where the surface has no such part.
+  /// Has no triangles if the surface has no such part.
   vtkSmartPointer<vtkPolyData> part(SurfacePart part) const;
   bool has(SurfacePart part) const;
   const StartSurface& start() const { return start_; }
-  /// Whether all vertices, and hence all between them, lie inside of both maps.
+  /// Whether all vertices, and hence all points between them, lie inside both maps.
   bool inside_maps() const { return inside_maps_; }
 
  private:

@@ -1,4 +1,4 @@
-// surface_mapper.cpp: gives VTK's mapper our shaders, and the shaders what they ask for.
+// surface_mapper.cpp: passes our shaders, and the data they need, to VTK's mapper.
 #include "view/surface_mapper.h"
 
 #include <vtkCamera.h>
@@ -16,7 +16,7 @@
 namespace espdiff {
 namespace {
 
-/// Sets a uniform that the compiler may have removed.
+/// Sets a uniform, which the compiler may have removed.
 template <typename Set>
 void if_used(vtkShaderProgram* program, const char* name, const Set& set) {
   if (program->IsUniformUsed(name)) set(name);
@@ -41,7 +41,7 @@ void set_integer(vtkShaderProgram* program, const char* name, int value) {
   if_used(program, name, [&](const char* n) { program->SetUniformi(n, value); });
 }
 
-/// In a table: its steps are below those of eight bits. Graphics processors of the last fifteen years take 8192.
+/// Table size: finer than eight bits. GPUs of the last fifteen years support 8192.
 constexpr std::size_t kColours = 2048;
 
 /// kReadBack of shaders/surface.frag.
@@ -55,7 +55,7 @@ SurfaceMapper::SurfaceMapper() {
   set_maps(std::make_shared<MapTexture>(nullptr), std::make_shared<MapTexture>(nullptr));
   set_look({});
   this->ScalarVisibilityOff();
-  // The shaders mix two sets of positions, which must not be shifted each by its own way.
+  // The shaders mix two sets of positions, which must not be shifted separately.
   this->SetVBOShiftScaleMethod(vtkOpenGLVertexBufferObject::DISABLE_SHIFT_SCALE);
   for (const char* name : kSurfaceAttributes) {
     this->MapDataArrayToVertexAttribute(name, name, vtkDataObject::FIELD_ASSOCIATION_POINTS, -1);

@@ -1,4 +1,4 @@
-// surface_mapper.h: draws a mapped surface with the shaders of shaders/, both potentials looked up at every fragment.
+// surface_mapper.h: draws a mapped surface with the shaders of shaders/, looking up both potentials at every fragment.
 #pragma once
 
 #include <vtkOpenGLPolyDataMapper.h>
@@ -13,32 +13,32 @@
 
 namespace espdiff {
 
-/// Which triangles a mapper draws; the numbers are those of shaders/surface.frag.
-enum class SurfacePart { kTrusted, kCorrupt, kWithoutCounterpart };
+/// The triangles that a mapper draws; the numbers are those of shaders/surface.frag.
+enum class SurfacePart { kTrusted, kCorrupt, kUnmatched };
 
-/// Names of the point arrays that the shaders take besides positions and normals.
+/// Names of the point arrays that the shaders need besides positions and normals.
 inline constexpr const char* kSurfaceAttributes[] = {"startMC",         "startNormalMC", "sourcePlace", "targetPlace",
                                                      "vertexPotential", "displacement",  "residueIndex"};
 
-/// How a surface is drawn; may change from picture to picture.
+/// How a surface is drawn; may change between pictures.
 struct SurfaceLook {
   ColourScale scale{RenderArray::kPlain, {}, 0.0};
   OpacityScale opacity;
   bool fades = false;        ///< opacity by displacement
-  bool inside_maps = false;  ///< no fragment lies outside of a map
+  bool inside_maps = false;  ///< no fragment lies outside a map
   double morph = 1;          ///< 0 on the source, 1 on the target
-  bool splits = false;       ///< draws these columns of the window only
+  bool splits = false;       ///< draws only these columns of the window
   double first_column = 0, last_column = 0;
   double hatch_pixels = 14;
-  bool reads_back = false;  ///< draws the difference as 24 bits instead of a colour; for tests
-  bool fetches = false;     ///< as on graphics processors, wherever this is drawn; for tests
+  bool reads_back = false;  ///< draws the difference as 24 bits instead of a colour, for tests
+  bool fetches = false;     ///< looks up as on GPUs, on any renderer, for tests
 };
 
-/// How potentials are looked up. kFiltered where the OpenGL driver interpolates in floats, as software does; kFetched
-/// elsewhere.
+/// How potentials are looked up: kFiltered if the OpenGL driver interpolates in floats, as software does; otherwise
+/// kFetched.
 enum class Lookup { kPerVertex, kFiltered, kFetched };
 
-/// The constants of the shaders' program for a look.
+/// The shader program's constants for a look.
 std::map<std::string, std::string> shader_definitions(const SurfaceLook& look, SurfacePart part, Lookup lookup,
                                                       bool parallel_projection);
 
@@ -53,7 +53,7 @@ class SurfaceMapper : public vtkOpenGLPolyDataMapper {
   void set_look(const SurfaceLook& look);
   const SurfaceLook& look() const { return look_; }
   void set_part(SurfacePart part);
-  /// Without maps (textures of nothing) values are interpolated between the vertices.
+  /// Without maps (empty textures), values are interpolated between the vertices.
   void set_maps(std::shared_ptr<MapTexture> source, std::shared_ptr<MapTexture> target);
 
   void RenderPieceStart(vtkRenderer* renderer, vtkActor* actor) override;
@@ -75,7 +75,7 @@ class SurfaceMapper : public vtkOpenGLPolyDataMapper {
 
   SurfaceLook look_;
   SurfacePart part_ = SurfacePart::kTrusted;
-  bool changed_ = true;  ///< the program's constants are no longer what is to be drawn
+  bool changed_ = true;  ///< the program's constants are out of date
   std::shared_ptr<MapTexture> source_map_, target_map_;
   ColourTexture colours_;
 };

@@ -1,4 +1,4 @@
-// viewer.cpp: a window that shows a scene, and changes it by keys and mouse.
+// viewer.cpp: an interactive window for a scene, controlled by keys and mouse.
 #include "view/viewer.h"
 
 #include <vtkActor.h>
@@ -30,7 +30,7 @@
 namespace espdiff {
 namespace {
 
-/// Pixels around the line of a split view that take hold of it.
+/// Distance from a split view's line within which the mouse grabs it, pixels.
 constexpr int kGrasp = 8;
 
 class Viewer {
@@ -69,14 +69,14 @@ class Viewer {
  private:
   static ComparisonFiles read_for_viewer(const std::string& vtp_path, const Scene& scene) {
     ComparisonFiles files = read_comparison(vtp_path, scene);
-    // Keys may ask for them later.
+    // Keys may need them later.
     if (!files.maps.complete() && files.maps.why_not.empty()) files.maps = read_map_pair(files.record, files.surface);
     try {
       Scene with_names = scene;
       with_names.n_labels = 1;
-      read_what_is_missing(files, with_names);
+      read_missing_files(files, with_names);
     } catch (const Error&) {
-      // Residues are then told by their numbers alone.
+      // Residues are then identified by number only.
     }
     return files;
   }
@@ -99,10 +99,10 @@ class Viewer {
     window_->Render();
   }
 
-  /// Shows a changed scene; what cannot be shown is said, and the old scene stays.
+  /// Shows a changed scene. If it cannot be shown, reports the reason and keeps the old scene.
   void show(const Scene& scene) {
     try {
-      read_what_is_missing(files_, scene);
+      read_missing_files(files_, scene);
       drawn_.change_to(scene);
       smooth_edges();
     } catch (const Error& error) {
@@ -117,7 +117,7 @@ class Viewer {
     if (size[0] == scene.width && size[1] == scene.height) return;
     scene.width = size[0];
     scene.height = size[1];
-    // Below that nothing can be laid out; the picture is then cut.
+    // Below this size the layout fails; the picture is cropped.
     constexpr int kSmallest = 400;
     if (std::min(size[0], size[1]) >= kSmallest) show(scene);
   }
@@ -171,14 +171,14 @@ class Viewer {
     refresh();
   }
 
-  /// A ball at the picked point, in every view where it is.
+  /// Marks the picked point with a ball in every view.
   void show_marks() {
     for (const auto& [renderer, mark] : marks_) renderer->RemoveActor(mark);
     marks_.clear();
     if (!picked_) return;
     for (const Panel& panel : drawn_.panels()) {
       const double morph = panel.sheets.front().morph;
-      if (morph > 0 && !picked_->has_counterpart) continue;
+      if (morph > 0 && !picked_->is_matched) continue;
       const Vec3d place = picker_.place(*picked_, morph);
       vtkNew<vtkSphereSource> ball;
       ball->SetCenter(place.x, place.y, place.z);
@@ -213,7 +213,7 @@ class Viewer {
     }
   }
 
-  /// What the views' scale is of.
+  /// The array of the views' scale.
   RenderArray shown_array() const { return drawn_.panels().back().sheets.front().array; }
 
   Scene scene_as_seen() const {

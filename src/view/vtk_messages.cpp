@@ -1,4 +1,4 @@
-// vtk_messages.cpp: listens to VTK's output window and silences its log.
+// vtk_messages.cpp: captures VTK's output window and silences its log.
 #include "view/vtk_messages.h"
 
 #include <vtkCallbackCommand.h>
@@ -10,7 +10,7 @@
 namespace espdiff {
 namespace {
 
-/// VTK writes "ERROR: In file, line n\nvtkClass (address): message\n\n"; the message is what a user can use.
+/// VTK writes "ERROR: In file, line n\nvtkClass (address): message\n\n"; only the message is useful to a user.
 std::string last_part(const std::string& text) {
   std::string message = text;
   const std::size_t address_end = message.find("): ");
@@ -28,7 +28,7 @@ VtkMessages::VtkMessages() {
   vtkOutputWindow* window = vtkOutputWindow::GetInstance();
   mode_before_ = window->GetDisplayMode();
   window->SetDisplayModeToNever();
-  // The log is a second way to the terminal, beside the window.
+  // The log is a second path to the terminal.
   verbosity_before_ = vtkLogger::GetCurrentVerbosityCutoff();
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   vtkNew<vtkCallbackCommand> command;

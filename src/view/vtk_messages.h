@@ -1,4 +1,4 @@
-// vtk_messages.h: keeps VTK's warnings and errors off the terminal, so that they can be thrown as one line.
+// vtk_messages.h: captures VTK's warnings and errors, so that they can be thrown as one line.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@ class vtkObject;
 
 namespace espdiff {
 
-/// While it lives, VTK's messages are kept here instead of being printed. One at a time, on one thread.
+/// While it lives, VTK's messages are stored instead of printed. Only one at a time, on one thread.
 class VtkMessages {
  public:
   VtkMessages();
@@ -16,7 +16,7 @@ class VtkMessages {
   VtkMessages& operator=(const VtkMessages&) = delete;
 
   bool has_error() const { return !first_error_.empty(); }
-  /// The first error in one line, without VTK's source position; empty when there was none.
+  /// The first error in one line, without VTK's source position; empty if there was none.
   const std::string& first_error() const { return first_error_; }
 
  private:

@@ -17,11 +17,10 @@ namespace eval ::espdiff::gui {
         bind $path.color <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::update_draw}
         form_row $path 0 "Colour by" $path.color "difference: target - source, red negative, blue positive;\
             sign: where it changed; source, target: the potentials; displacement: how far each point travelled,\
-            path_length: the length of its way"
+            path_length: the path length"
         ttk::combobox $path.surface -textvariable ${variable}(draw,surface) -state readonly -width 12 \
             -values {target source}
-        form_row $path 0 "on the" $path.surface "Surface that is coloured: mapped onto the target, or as it is on the\
-            source" 2
+        form_row $path 0 "on the" $path.surface "Surface to colour: mapped onto the target, or on the source" 2
         build_range $path.range
         form_row $path 1 Range $path.range "Values at the ends of the colour scale. Automatic: symmetric about 0, holds\
             98 % of the surface's points on each side"
@@ -31,7 +30,7 @@ namespace eval ::espdiff::gui {
             -variable ${variable}(draw,transparency)
         ttk::spinbox $path.look.limit -textvariable ${variable}(draw,limit) -width 5 -from 0.5 -to 20 -increment 0.5
         ttk::label $path.look.unit -text "\u00c5"
-        tip $path.look.transparent "The farther a point travelled, the more transparent it is"
+        tip $path.look.transparent "The larger a point's displacement, the more transparent it is"
         tip $path.look.limit "Displacement at which the surface is most transparent"
         ttk::checkbutton $path.look.legend -text Legend -variable ${variable}(draw,legend)
         tip $path.look.legend "A colour bar at the bottom of VMD's window"
@@ -81,9 +80,9 @@ namespace eval ::espdiff::gui {
         button $path.map "Add map to" ::espdiff::gui::add_map 0
         ttk::combobox $path.mol -textvariable ::espdiff::gui::form(draw,mol) -state readonly -width 18 \
             -postcommand {::espdiff::gui::guard ::espdiff::gui::update_draw}
-        tip $path.draw "Draw the surface in VMD's window, in place of this result's older drawing"
+        tip $path.draw "Draw the surface in VMD's window, and replace this result's older drawing"
         tip $path.undraw "Remove this result's drawing"
-        tip $path.picture "VMD's window as it is, as a Targa file; File > Render in VMD's menu has other forms"
+        tip $path.picture "Save VMD's window as a Targa file; File > Render in VMD's menu has other formats"
         tip $path.map "Add what is chosen under Colour by as a volumetric map to this molecule, for Color Volume and\
             Isosurface representations"
         tip $path.mol "Molecule that gets the map"
@@ -95,7 +94,7 @@ namespace eval ::espdiff::gui {
         set widget(draw,mol) $path.mol
     }
 
-    # What can be drawn of the result on display, and the molecules that can take a map.
+    # Updates what can be drawn of the shown result, and the molecules that can take a map.
     proc update_draw {} {
         variable form
         variable widget
@@ -120,7 +119,7 @@ namespace eval ::espdiff::gui {
         }
     }
 
-    # The form as options of `espdiff draw`, without those that are at their defaults.
+    # The form as options of `espdiff draw`, without defaults.
     proc draw_options {} {
         variable form
         variable drawn_on
@@ -163,12 +162,12 @@ namespace eval ::espdiff::gui {
         if {$path ne ""} { save_picture_as $path }
     }
 
-    # VMD says nothing when it cannot write.
+    # VMD reports nothing if it cannot write.
     proc save_picture_as {path} {
         file delete $path
         display update
         render snapshot $path
-        if {![file exists $path]} { error "VMD could not write '$path'; its console may say why" }
+        if {![file exists $path]} { error "VMD could not write '$path'; see its console" }
         show_message "Written: $path"
     }
 
@@ -177,7 +176,7 @@ namespace eval ::espdiff::gui {
         variable shown
         set mol [number_of $form(draw,mol)]
         if {$mol eq ""} { error "there is no molecule to add the map to; load one into VMD" }
-        if {$form(draw,color) eq "none"} { error "choose under Colour by what the map is to hold" }
+        if {$form(draw,color) eq "none"} { error "choose the map's quantity under Colour by" }
         set k [espdiff map $shown -quantity $form(draw,color) -mol $mol]
         remember $shown map.$form(draw,color).$mol [list map -quantity $form(draw,color) -mol $mol]
         show_message "The map of $form(draw,color) is data set $k of molecule $form(draw,mol)."

@@ -2,7 +2,7 @@
 
 namespace eval ::espdiff::gui {
     variable form       ;# what the user entered: form(SIDE,FIELD)
-    variable automatic  ;# per side: the potential that was chosen for the user, who has not changed it since
+    variable automatic  ;# per side: the potential chosen automatically, until the user changes it
     array set form {}
     array set automatic {source none target none}
     foreach side {source target} {
@@ -14,7 +14,7 @@ namespace eval ::espdiff::gui {
     variable units {"as the map says" kT/e mV V kcal/mol/e kJ/mol/e hartree/e}
     variable structure_types {{"Structures" {.pqr .pdb .ent .cif .mmcif .gz}} {"All files" *}}
     variable map_types {{"Potential maps" {.dx .vti .cube .cub .gz}} {"All files" *}}
-    variable computed "computed (PME)"  ;# in the place of a map: from the charges
+    variable computed "computed (PME)"  ;# instead of a map: computed from the charges
 
     proc build_endpoint {path side title} {
         variable form
@@ -50,7 +50,7 @@ namespace eval ::espdiff::gui {
         ttk::label $path.frames -foreground gray40
         grid $path.frames -row 2 -column 2 -sticky w -padx {4 0}
         ttk::entry $path.sel -textvariable ::espdiff::gui::form($side,sel) -width 12
-        form_row $path 3 Atoms $path.sel "VMD selection of the atoms that make the surface, such as: protein"
+        form_row $path 3 Atoms $path.sel "VMD selection of the atoms of the surface, such as: protein"
         grid configure $path.mol $path.sel -columnspan 2
         foreach name {mol frame frames sel} { set widget($side,$name) $path.$name }
     }
@@ -87,7 +87,7 @@ namespace eval ::espdiff::gui {
         foreach name {map browse_map unit} { set widget($side,$name) $path.$name }
     }
 
-    # The rows that matter for what is chosen, with VMD's molecules, frames and data sets as they are now.
+    # Shows the rows for the current choice, with VMD's current molecules, frames and data sets.
     proc update_endpoint {side} {
         variable form
         variable widget
@@ -126,7 +126,7 @@ namespace eval ::espdiff::gui {
         variable widget
         set names [molecule_names]
         $widget($side,mol) configure -values $names
-        # A molecule keeps its number when it is renamed; one that is gone is not replaced behind the user's back.
+        # A molecule keeps its number when it is renamed; a deleted one is not replaced silently.
         set chosen [lsearch -inline $names "[number_of $form($side,mol)]: *"]
         if {$chosen ne $form($side,mol) || $chosen eq ""} {
             if {$chosen eq "" && $form($side,mol) eq ""} { set chosen [default_molecule $side $names] }
@@ -148,7 +148,7 @@ namespace eval ::espdiff::gui {
     # The first molecule for the source, the second for the target.
     proc default_molecule {side names} { lindex $names [expr {$side eq "target" && [llength $names] > 1}] }
 
-    # Another molecule: its own frame and potential.
+    # For another molecule: its own frame and potential.
     proc choose_molecule {side} {
         variable form
         variable automatic
@@ -159,7 +159,7 @@ namespace eval ::espdiff::gui {
         if {$mol ne ""} { update_maps $side $mol }
     }
 
-    # A molecule's first data set is chosen when it arrives, unless the user has chosen otherwise.
+    # Chooses a new molecule's first data set, unless the user has chosen otherwise.
     proc update_maps {side mol} {
         variable form
         variable automatic
@@ -173,7 +173,7 @@ namespace eval ::espdiff::gui {
         }
     }
 
-    # "0: pot.dx": VMD does not tell the names of data sets, but those of files, which are used where they match.
+    # "0: pot.dx": VMD does not name data sets, so the names of its files are used if their number matches.
     proc data_set_names {mol} {
         set files {}
         lassign [molinfo $mol get {filename filetype}] paths types
@@ -202,8 +202,8 @@ namespace eval ::espdiff::gui {
         update_endpoint $side
     }
 
-    # What the form says, as the endpoint of `espdiff compare`. The frame is named by its number, so that a script made
-    # of it does the same again.
+    # The form as an endpoint of `espdiff compare`. The frame is given by its number, so that a script of it is
+    # repeatable.
     proc endpoint {side} {
         variable form
         variable computed
@@ -235,13 +235,13 @@ namespace eval ::espdiff::gui {
     proc file_endpoint {side} {
         variable form
         set path [string trim $form($side,file)]
-        if {$path eq ""} { error "$side: no file is given; type its name or press the button beside it" }
+        if {$path eq ""} { error "$side: no file is given; type its name or use the button beside it" }
         set endpoint [list file $path]
         if {[string trim $form($side,model)] ni {1 ""}} { lappend endpoint model [string trim $form($side,model)] }
         return $endpoint
     }
 
-    # The mapping goes from the source to the target: the other direction is another comparison.
+    # The mapping goes from source to target; the other direction is another comparison.
     proc swap_sides {} {
         variable form
         variable automatic

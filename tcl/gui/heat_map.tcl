@@ -1,12 +1,12 @@
-# heat_map.tcl: a matrix drawn on a canvas: its cells, and what a pointer or the arrow keys do to them.
+# heat_map.tcl: a matrix drawn on a canvas, with its pointer and arrow-key actions.
 
 namespace eval ::espdiff::gui {
-    variable heat {}  ;# where cells are: left, top, size of a cell, order of the variants
+    variable heat {}  ;# layout: left, top, size of a cell, order of the variants
     variable colours         ;# by kind: sequential, diverging
     array set colours {}
     variable chosen_cell {}  ;# row and column, as drawn; empty for none
 
-    # Each cell in its colour, labels on the left, dots where a pair is not trustworthy.
+    # Draws each cell in its colour, labels on the left, and dots where a pair is not trustworthy.
     proc draw_heat_map {} {
         variable widget
         variable matrix_shown
@@ -22,7 +22,7 @@ namespace eval ::espdiff::gui {
         set n [llength $order]
         set height [expr {max(80, [winfo height $map] - 12)}]
         set left [label_width $labels]
-        set room [expr {[winfo width $map] - $left - 96}]  ;# without the labels and the scale
+        set room [expr {[winfo width $map] - $left - 96}]  ;# without labels and scale
         set cell [expr {max(3, min(44, $height / $n, $room / $n))}]
         incr left [expr {max(0, ($room - $n * $cell) / 2)}]
         set top 6
@@ -61,7 +61,7 @@ namespace eval ::espdiff::gui {
         return [expr {min(180, $width) + 10}]
     }
 
-    # Lowest and highest value; symmetric about 0 where both signs count.
+    # Lowest and highest value; symmetric about 0 for signed metrics.
     proc value_range {metric} {
         set values [lsort -real [lsearch -all -inline -not -exact [concat {*}[dict get $metric values]] ""]]
         set low [lindex $values 0]
@@ -95,7 +95,7 @@ namespace eval ::espdiff::gui {
             -fill $fill -outline ""
     }
 
-    # Neighbours of one group.
+    # Frames consecutive variants of one group.
     proc frame_groups {map order} {
         variable matrix_result
         variable heat
@@ -148,7 +148,7 @@ namespace eval ::espdiff::gui {
         if {$cell ne ""} { tell_cell $cell }
     }
 
-    # Says in words what a cell holds.
+    # Describes a cell.
     proc tell_cell {cell} {
         variable heat
         variable widget
@@ -185,7 +185,7 @@ namespace eval ::espdiff::gui {
         set row [expr {max(0, min($n - 1, $row + $rows))}]
         set column [expr {max(0, min($n - 1, $column + $columns))}]
         if {$row == $column} {
-            # The diagonal holds nothing: on to the other side, or back.
+            # The diagonal is empty: skip to the other side, or back.
             if {$columns != 0} { incr column $columns } else { incr row $rows }
             if {$row < 0 || $column < 0 || $row >= $n || $column >= $n} return
         }
@@ -209,7 +209,7 @@ namespace eval ::espdiff::gui {
         }
     }
 
-    # Compares the pair anew, with its surface, shows it in the tab Pair, and draws it.
+    # Compares the pair again, with its surface, shows it in the tab Pair, and draws it.
     proc open_chosen_pair {} {
         variable chosen_cell
         variable heat

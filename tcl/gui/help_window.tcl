@@ -1,41 +1,41 @@
 # help_window.tcl: the window's help.
 
 namespace eval ::espdiff::gui {
-    # Paragraphs are parted by empty lines; the lines within them are broken anew.
+    # Empty lines separate paragraphs; lines within them are rewrapped.
     variable help_text {
-Where on the surface does the electrostatic potential of two states of a molecule differ, by how much, and can that be
-trusted?
+Where on the surface does the electrostatic potential of two states of a molecule differ, by how much, and can the
+result be trusted?
 
-1. Choose the source and the target: molecules that are loaded in VMD (with frame and atoms), or structure files.
-Potential is a volumetric map: a data set of the molecule (as PMEPot or a DX file gives), or a map file. Without maps
-the shapes alone are compared.
+1. Choose the source and the target: molecules loaded in VMD (with frame and atoms), or structure files. Potential is
+a volumetric map: a data set of the molecule (from PMEPot or a DX file), or a map file. Without maps only the shapes
+are compared.
 
 2. Compare maps the surface of the source onto that of the target and compares the potentials at corresponding points.
-VMD stays usable meanwhile; Cancel ends it.
+VMD stays usable; Cancel stops the computation.
 
-3. The result says whether the mapping is trustworthy, and if not, why. The numbers are means over the surface,
+3. The result says whether the mapping is trustworthy, and why not. The numbers are means over the surface,
 weighted by area. The mapping has a direction: Swap exchanges the sides. Rest the mouse on a name for its meaning;
 Table shows all numbers, Export writes them with the surface.
 
 4. Draw colours the surface in VMD's window. Difference is target - source: red where it became more negative, blue
-where more positive. Parts that travelled far are transparent: their values are less certain. "Side by side" draws
-source, target and difference in three views that the mouse turns together; Undraw puts VMD's view back.
+where more positive. Parts with a large displacement are transparent: their values are less certain. "Side by side"
+draws source, target and difference in three views that the mouse rotates together; Undraw restores VMD's view.
 
-5. Residues lists what each residue's share of the surface says; headings sort. Selected rows are highlighted in VMD,
-also through the surface, and the view turns to them; Clear highlight takes the yellow away. Colour atoms puts the
-numbers into VMD's field User.
+5. Residues lists the means over each residue's part of the surface; click a heading to sort. Selected rows are
+highlighted in VMD, visible through the surface, and the view rotates to them; Clear highlight removes the yellow.
+Colour atoms writes the numbers to VMD's field User.
 
-6. Trajectory compares frames with one frame, or each with the one before, and draws a point as soon as a frame is
-done. Hollow points are not trustworthy. A click on a point, or the arrow keys, show its frame in VMD; Compare and draw
-(space bar) compares it anew with its surface. Stop keeps the rows, and "go on with it" computes the rest.
+6. Trajectory compares frames with one frame, or each with the previous one, and draws a point for each finished
+frame. Hollow points are not trustworthy. A click on a point, or the arrow keys, show its frame in VMD; Compare and draw
+(space bar) compares it again with its surface. Stop keeps the rows; with "resume", Run computes the rest.
 
-7. Matrix compares each of many states with each other one. A click on a cell compares and draws its pair.
+7. Matrix compares each of many states with every other one. A click on a cell compares and draws its pair.
 
-Script shows the Tcl commands that do the same again; `espdiff help` in VMD's console explains them. What you enter is
-remembered from one session to the next, without molecules and files.
+Script shows the Tcl commands that repeat your actions; `espdiff help` in VMD's console explains them. Your entries are
+remembered for the next session, except molecules and files.
 
 Keys: Return computes, Escape cancels, Control-Tab goes to the next tab, Alt with an underlined letter presses a button,
-Alt-S shows the settings, Tab goes on, F1 is this help, Control-W closes the window.
+Alt-S shows the settings, Tab moves on, F1 is this help, Control-W closes the window.
 }
 
     proc show_help {} {

@@ -1,10 +1,10 @@
-# line_plot.tcl: a metric against the frames, drawn on a canvas as far as the run is.
+# line_plot.tcl: plots a metric against the frames on a canvas, while the run proceeds.
 
 namespace eval ::espdiff::gui {
-    variable plot_frame {}  ;# of the plot: left, top, width, height in pixels; x_low, x_high, y_low, y_high; points
+    variable plot_frame {}  ;# layout: left, top, width, height in pixels; x_low, x_high, y_low, y_high; points
     variable plot_inks {line #0072b2 chosen #e07000 axis gray30 grid gray90 now gray60 failed #b00020}
 
-    # points: {row x y} for each row, in pixels, y empty where the row has no number.
+    # points: {row x y} for each row, in pixels; y is empty if the row has no number.
     proc draw_trajectory {} {
         variable widget
         variable plot_frame
@@ -37,7 +37,7 @@ namespace eval ::espdiff::gui {
         tell_chosen_point
     }
 
-    # Axes with room for a value of any length, and ends at round numbers.
+    # Axes with room for any value, and round ends.
     proc plot_frame_of {plot frames values} {
         variable trajectory_rows
         set sorted [lsort -real [lsearch -all -inline -not -exact $values ""]]
@@ -53,20 +53,20 @@ namespace eval ::espdiff::gui {
 
     proc tick_width {value step} { font measure TkSmallCaptionFont [tick_text $value $step] }
 
-    # As many decimals as the step has.
+    # As many decimals as the step.
     proc tick_text {value step} {
         if {abs($value) < 1e-9 * $step} { set value 0 }
         format %.*f [expr {max(0, -int(floor(log10($step) + 1e-9)))}] $value
     }
 
-    # 1, 2 or 5 times a power of ten, of which there are about `n` in the span.
+    # The round step (1, 2 or 5 times a power of ten) that gives about `n` steps in the span.
     proc round_step {span n} {
         set power [expr {pow(10, floor(log10($span / double($n))))}]
         foreach factor {1 2 5} { if {$span / ($factor * $power) <= $n} { return [expr {$factor * $power}] } }
         return [expr {10 * $power}]
     }
 
-    # Ends of an axis that holds both values, and the step between its ticks. 0 is an end where it is near.
+    # Round ends of an axis that contains both values, and the step between ticks. A nearby 0 becomes an end.
     proc round_ends {low high} {
         if {$low > 0 && $low < 0.5 * $high} { set low 0 }
         if {$high < 0 && $high > 0.5 * $low} { set high 0 }
@@ -108,7 +108,7 @@ namespace eval ::espdiff::gui {
         }
     }
 
-    # What hollow points and crosses mean, where there are any.
+    # Explains hollow points and crosses, if there are any.
     proc draw_key {plot right baseline} {
         variable trajectory_rows
         set words {}
@@ -145,8 +145,8 @@ namespace eval ::espdiff::gui {
         return $points
     }
 
-    # A line through the neighbours that have values; filled points, hollow where not trustworthy, crosses on the axis
-    # for frames without numbers.
+    # A line through consecutive frames with values; filled points, hollow if not trustworthy; crosses on the axis for
+    # frames without values.
     proc draw_points {plot} {
         variable plot_frame
         variable plot_inks

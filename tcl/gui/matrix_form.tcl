@@ -1,10 +1,10 @@
-# matrix_form.tcl: the tab for many variants: which they are, their potential, where results go.
+# matrix_form.tcl: the tab for many variants: the list, their potential, and the results' name.
 
 namespace eval ::espdiff::gui {
     variable form
     array set form {matrix,mol "" matrix,frames now matrix,sel "not water" matrix,label "" matrix,group ""
         matrix,potential none matrix,output matrix matrix,resume 0}
-    variable variants {}      ;# dicts: endpoint (without map), label, group, what (in words)
+    variable variants {}      ;# dicts: endpoint (without map), label, group, what (a description)
     variable data_set "data set 0 of each"
 
     proc build_matrix {path} {
@@ -50,7 +50,7 @@ namespace eval ::espdiff::gui {
         set widget(matrix,remove) $path.buttons.remove
     }
 
-    # Molecule, frames and atoms that are added together.
+    # Molecule, frames and atoms to add.
     proc build_add_row {path} {
         variable widget
         ttk::frame $path
@@ -61,7 +61,7 @@ namespace eval ::espdiff::gui {
         button $path.add "Add molecule" ::espdiff::gui::add_molecule
         tip $path.mol "A molecule that is loaded in VMD"
         tip $path.frames "Frames: now, a number from 0, or begin:step:end, such as 0:10: for every tenth"
-        tip $path.sel "VMD selection of the atoms that make the surface, such as: protein"
+        tip $path.sel "VMD selection of the atoms of the surface, such as: protein"
         ttk::label $path.frames_label -text frames
         ttk::label $path.sel_label -text atoms
         pack $path.add -side right -padx {6 0}
@@ -71,7 +71,7 @@ namespace eval ::espdiff::gui {
         foreach name {mol frames sel add} { set widget(matrix,$name) $path.$name }
     }
 
-    # Label and group of what is selected in the list.
+    # Label and group of the selected variants.
     proc build_label_row {path} {
         variable widget
         ttk::frame $path
@@ -100,9 +100,9 @@ namespace eval ::espdiff::gui {
         ttk::entry $path.output -textvariable ::espdiff::gui::form(matrix,output) -width 16
         form_row $path 0 "Results" $path.output "Files begin with this: NAME.csv and NAME.json, and NAME.state while\
             the run goes on" 2
-        ttk::checkbutton $path.resume -text "go on where an interrupted run stopped" \
+        ttk::checkbutton $path.resume -text "resume an interrupted run" \
             -variable ::espdiff::gui::form(matrix,resume)
-        tip $path.resume "Its state file has to be there, and variants and settings the same"
+        tip $path.resume "Needs its state file, and the same variants and settings"
         grid $path.resume -row 1 -column 3 -sticky w
         ttk::label $path.note -text "The settings are those of the tab Pair." -foreground gray40
         grid $path.note -row 1 -column 0 -columnspan 3 -sticky w
@@ -186,7 +186,7 @@ namespace eval ::espdiff::gui {
         show_variants
     }
 
-    # The file and its folder: the end of a path is what tells.
+    # File and folder: the end of a path is the informative part.
     proc near_name {path} { file join {*}[lrange [file split [file normalize $path]] end-1 end] }
 
     proc remove_variants {} {
@@ -210,7 +210,7 @@ namespace eval ::espdiff::gui {
         update_matrix
     }
 
-    # What is typed goes to the selected variants: a group to all of them, a label to one.
+    # Applies the typed text to the selected variants: a group to all of them, a label to one.
     proc rename_variants {key} {
         variable form
         variable variants
@@ -223,7 +223,7 @@ namespace eval ::espdiff::gui {
         }
     }
 
-    # As `espdiff compare` takes it.
+    # In the form of `espdiff compare`.
     proc variant_endpoint {variant} {
         variable form
         variable computed
@@ -234,7 +234,7 @@ namespace eval ::espdiff::gui {
         return $endpoint
     }
 
-    # As `espdiff matrix` takes them.
+    # In the form of `espdiff matrix`.
     proc matrix_variants {} {
         variable variants
         set list {}

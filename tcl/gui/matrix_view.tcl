@@ -1,19 +1,19 @@
-# matrix_view.tcl: the run of a matrix, and the heat map that leads to its pairs.
+# matrix_view.tcl: runs a matrix and shows its heat map, which leads to its pairs.
 
 namespace eval ::espdiff::gui {
-    variable matrix_running ""  ;# handle that is being computed
-    variable matrix_shown ""    ;# handle whose heat map is on display
-    variable matrix_result {}   ;# what `espdiff result` says of it
-    variable matrix_pairs {}    ;# the endpoints and settings that it was computed with
-    variable matrix_run {}      ;# the same as words for `espdiff matrix`: variants, output, settings
-    variable draw_when_done ""  ;# comparison that is drawn as soon as it is done
+    variable matrix_running ""  ;# handle of the running computation
+    variable matrix_shown ""    ;# handle of the heat map shown
+    variable matrix_result {}   ;# its `espdiff result`
+    variable matrix_pairs {}    ;# its endpoints and settings
+    variable matrix_run {}      ;# the same as arguments of `espdiff matrix`: variants, output, settings
+    variable draw_when_done ""  ;# comparison to draw when it is done
     variable form
     array set form {matrix,metric "" matrix,ordered 0}
 
     proc build_matrix_bar {path} {
         build_tab_bar matrix $path compute Compute ::espdiff::gui::compute_matrix ::espdiff::gui::cancel_matrix \
-            "Compare each variant with each other one, both ways (Return)" \
-            "End the computation; what is done is kept, and can be gone on with (Escape)"
+            "Compare each variant with each other one, in both directions (Return)" \
+            "Stop the computation; finished pairs are kept, and the run can be resumed (Escape)"
     }
 
     proc build_heat_map {path} {
@@ -22,14 +22,14 @@ namespace eval ::espdiff::gui {
         ttk::label $path.top.label -text Metric
         ttk::combobox $path.top.metric -textvariable ::espdiff::gui::form(matrix,metric) -state readonly -width 22
         bind $path.top.metric <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::draw_heat_map}
-        ttk::checkbutton $path.top.ordered -text "similar ones side by side" \
+        ttk::checkbutton $path.top.ordered -text "similar variants together" \
             -variable ::espdiff::gui::form(matrix,ordered) \
             -command {::espdiff::gui::guard ::espdiff::gui::draw_heat_map}
         button $path.top.plot "Plot row" ::espdiff::gui::plot_row
         button $path.top.table Table... ::espdiff::gui::matrix_table
-        tip $path.top.ordered "In the order of the clustering instead of the list's"
-        tip $path.top.plot "The variant of the chosen row against all others, in VMD's plot window"
-        tip $path.top.table "The matrix summed up"
+        tip $path.top.ordered "Order by clustering instead of the list"
+        tip $path.top.plot "Plot the chosen row's variant against all others in VMD's plot window"
+        tip $path.top.table "Summary of the matrix"
         pack $path.top.label $path.top.metric $path.top.ordered -side left -padx {0 6}
         pack $path.top.table $path.top.plot -side right -padx {6 0}
         canvas $path.map -width 420 -height 240 -background white -highlightthickness 1 -takefocus 1 \
@@ -119,7 +119,7 @@ namespace eval ::espdiff::gui {
         if {$handle ne $matrix_running} return
         set matrix_running ""
         show_matrix_running
-        if {[catch { espdiff wait $handle } message]} {
+        if {[catch_labelled { espdiff wait $handle } message options]} {
             espdiff delete $handle
             tell_in matrix $message error
             return
@@ -177,7 +177,7 @@ namespace eval ::espdiff::gui {
         return $order
     }
 
-    # Name and description of the metric that is chosen.
+    # Name and description of the chosen metric.
     proc chosen_metric {} {
         variable matrix_result
         variable form
@@ -191,7 +191,7 @@ namespace eval ::espdiff::gui {
         text_window matrix_table "espdiff: $matrix_shown" [espdiff table $matrix_shown]
     }
 
-    # The tab's window goes: so does what is computed for it.
+    # The tab's window closes: cancel its computation.
     proc abandon_matrix {} {
         variable matrix_running
         set handle $matrix_running

@@ -1,4 +1,4 @@
-# presets.tcl: settings that go together, by name.
+# presets.tcl: named groups of settings.
 
 namespace eval ::espdiff::gui {
     # Name, settings that differ from the defaults, help.
@@ -29,7 +29,7 @@ namespace eval ::espdiff::gui {
         return $path
     }
 
-    # Where the computation runs is no matter of the preset.
+    # A preset does not change where the computation runs.
     proc preset_settings {} {
         set changed [dict create]
         foreach {option value} [setting_options] {
@@ -49,11 +49,11 @@ namespace eval ::espdiff::gui {
                 if {$other ni {device threads}} { set setting($other) $standard($other) }
             }
             foreach {key value} $settings { set setting($key) $value }
-            set chosen_preset $name  ;# not what was passed on the way
+            set chosen_preset $name  ;# discards intermediate names
         }
     }
 
-    # The name of what is set now.
+    # The name of the current settings.
     proc show_preset {} {
         variable presets
         variable chosen_preset

@@ -1,4 +1,4 @@
-# remembered.tcl: what the user entered, kept from one session to the next in a file of its own.
+# remembered.tcl: saves the user's entries between sessions in a file.
 
 namespace eval ::espdiff::gui {
     # Form fields that make sense in another session (no molecules, files or frames of this one): a text, a switch, or
@@ -14,7 +14,7 @@ namespace eval ::espdiff::gui {
         trajectory,against {"the frame" "the frame before"} residues,sort text
     }
     variable remembered_head "# espdiff: settings of the window, version 1"
-    variable were_read 0  ;# the file is read once a session
+    variable were_read 0  ;# the file is read once per session
 
     proc settings_file {} {
         global env tcl_platform
@@ -30,7 +30,7 @@ namespace eval ::espdiff::gui {
         return [file join $folder espdiff window]
     }
 
-    # One line for each field and each setting that is not at its default: `form NAME VALUE`, `setting NAME VALUE`.
+    # One line for each field and each setting that differs from its default: `form NAME VALUE`, `setting NAME VALUE`.
     proc settings_text {} {
         variable form
         variable remembered
@@ -44,17 +44,17 @@ namespace eval ::espdiff::gui {
         return [join $lines \n]\n
     }
 
-    # A window that cannot keep its settings works all the same.
+    # A window that cannot save its settings still works.
     proc save_settings {args} {
         set path [settings_file]
         if {$path eq ""} return
         if {[catch {
             file mkdir [file dirname $path]
             write_whole_file $path [settings_text]
-        } message]} { show_message "The window's settings are not kept: $message" error }
+        } message]} { show_message "The window's settings cannot be saved: $message" error }
     }
 
-    # Read when the window is first opened. A file that is not one of ours, or damaged, changes nothing.
+    # Read when the window first opens. A foreign or damaged file changes nothing.
     proc load_settings {} {
         variable were_read
         if {$were_read} return
@@ -69,7 +69,7 @@ namespace eval ::espdiff::gui {
         foreach {array name value} $entries { set ::espdiff::gui::${array}($name) $value }
     }
 
-    # What the file says, all of it checked: array, name, value, ... Names that this version does not know are left out.
+    # The file's content, fully checked: array, name, value, ... Names unknown to this version are ignored.
     proc parse_settings {text} {
         variable remembered
         variable remembered_head
@@ -86,13 +86,13 @@ namespace eval ::espdiff::gui {
             lassign $line array name value
             if {$array eq "form" && ![dict exists $remembered $name]} continue
             if {$array eq "setting" && ![info exists standard($name)]} continue
-            if {![is_possible $array $name $value]} { error "line $number: '$value' is no value of $name" }
+            if {![is_possible $array $name $value]} { error "line $number: '$value' is not a value of $name" }
             lappend entries $array $name $value
         }
         return $entries
     }
 
-    # A setting is what its command takes.
+    # Checks a setting with its command.
     proc is_possible {array name value} {
         variable remembered
         if {$array eq "setting"} {
@@ -114,7 +114,7 @@ namespace eval ::espdiff::gui {
         ::espdiff::finally { return [read $channel] } { close $channel }
     }
 
-    # Under another name first: whoever reads it, or crashes, never meets a half of it.
+    # Writes under another name first, so that no reader or crash ever leaves half a file.
     proc write_whole_file {path text} {
         set new $path.[pid].new
         if {[catch {

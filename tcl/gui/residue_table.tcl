@@ -1,13 +1,13 @@
-# residue_table.tcl: the tab with the residues of the result on display: sorted, highlighted in VMD, as CSV.
+# residue_table.tcl: the tab with the residues of the shown result: sorting, highlighting in VMD, CSV export.
 
 namespace eval ::espdiff::gui {
-    variable residues_of ""     ;# handle whose residues are in the table
-    variable residue_rows {}    ;# what `espdiff residues` says
-    variable highlighted ""     ;# handle that has a highlight of ours in VMD
+    variable residues_of ""     ;# handle of the residues in the table
+    variable residue_rows {}    ;# its `espdiff residues`
+    variable highlighted ""     ;# handle with a highlight in VMD
     variable form
     array set form {residues,sort mean_abs_difference residues,falling 1 residues,face 1}
 
-    # Key of `espdiff residues`, heading, whether it is of potentials, decimals, factor.
+    # Key of `espdiff residues`, heading, whether it needs potentials, decimals, factor.
     variable residue_columns {
         residue Residue 0 "" 1
         mean_abs_difference "|Diff.|" 1 2 1
@@ -22,15 +22,15 @@ namespace eval ::espdiff::gui {
     proc build_residues {path} {
         variable widget
         variable residue_columns
-        variable residues_of -  ;# of no handle: the table is new
+        variable residues_of -  ;# no handle: the table is new
         ttk::frame $path.top
         ttk::label $path.title -anchor w -width 28 -font [bold_font]
         ttk::combobox $path.top.sort -state readonly -width 15
         bind $path.top.sort <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::sort_as_chosen}
-        ttk::checkbutton $path.top.falling -text "greatest first" -variable ::espdiff::gui::form(residues,falling) \
+        ttk::checkbutton $path.top.falling -text "largest first" -variable ::espdiff::gui::form(residues,falling) \
             -command {::espdiff::gui::guard ::espdiff::gui::fill_residues}
         ttk::label $path.top.by -text "Sorted by"
-        tip $path.top.sort "As a click on a heading"
+        tip $path.top.sort "Same as a click on a heading"
         pack $path.top.by $path.top.sort $path.top.falling -side left -padx {0 6}
         ttk::frame $path.list
         set columns {}
@@ -66,19 +66,19 @@ namespace eval ::espdiff::gui {
         button $path.clear "Clear highlight" ::espdiff::gui::clear_highlight
         button $path.atoms "Colour atoms" ::espdiff::gui::colour_atoms
         button $path.export "Export CSV..." ::espdiff::gui::export_residues
-        tip $path.clear "Deselects all rows and takes the highlight out of VMD (Escape)"
+        tip $path.clear "Deselect all rows and remove the highlight from VMD (Escape)"
         tip $path.atoms "Carries what the table is sorted by onto the atoms, in VMD's field User, and colours the\
             molecule's representations by it"
-        tip $path.export "The table as it stands, with every digit"
+        tip $path.export "Write the table in its current order, with all digits"
         pack $path.export -side right
-        ttk::checkbutton $path.face -text "turn to it" -variable ::espdiff::gui::form(residues,face) \
+        ttk::checkbutton $path.face -text "rotate the view to it" -variable ::espdiff::gui::form(residues,face) \
             -command {::espdiff::gui::guard_in residues ::espdiff::gui::highlight_chosen}
-        tip $path.face "Turns VMD's view so that what is highlighted is in front"
+        tip $path.face "Rotate VMD's view so that the highlighted residues are in front"
         if {[in_vmd]} { pack $path.clear $path.face $path.atoms -side left -padx {0 6} }
         foreach name {clear face atoms export} { set widget(residues,$name) $path.$name }
     }
 
-    # The residues of the result that is shown, whenever another one is.
+    # Shows the residues of a newly shown result.
     proc show_residues {} {
         variable shown
         variable residues_of
@@ -116,7 +116,7 @@ namespace eval ::espdiff::gui {
         expr {$font eq "" ? "TkHeadingFont" : $font}
     }
 
-    # A key's number for sorting; what has none sorts last.
+    # A key's number for sorting; missing values sort last.
     proc residue_number {row key} {
         if {$key eq "residue"} { return [dict get $row index] }
         return [dict get $row $key]
@@ -143,7 +143,7 @@ namespace eval ::espdiff::gui {
         return "[dict get $row chain]:$name"
     }
 
-    # Rows in order; those that are selected stay selected.
+    # Fills the rows in order; selected rows stay selected.
     proc fill_residues {} {
         variable form
         variable widget
@@ -158,7 +158,7 @@ namespace eval ::espdiff::gui {
             foreach {key heading of_potentials decimals factor} $residue_columns {
                 if {$key eq "residue"} { lappend cells [residue_name $row]; continue }
                 set value [dict get $row $key]
-                # Outside of an expression, which would take a number's last zeros away.
+                # Not in an expression, which would drop trailing zeros.
                 set text \u2013
                 if {$value ne ""} { set text [format %.*f $decimals [expr {$factor * $value}]] }
                 lappend cells $text
@@ -168,11 +168,11 @@ namespace eval ::espdiff::gui {
         set still {}
         foreach item $selected { if {[$table exists $item]} { lappend still $item } }
         if {$still ne ""} { $table selection set $still; $table see [lindex $still 0] }
-        # Where the arrow keys begin.
+        # Start of the arrow keys.
         $table focus [lindex [concat $still [$table children {}]] 0]
     }
 
-    # Without potentials the columns of potentials are hidden.
+    # Hides the columns of potentials if there are none.
     proc set_residue_headings {} {
         variable form
         variable shown
@@ -199,7 +199,7 @@ namespace eval ::espdiff::gui {
         $widget(residues,sort) set [lindex $titles [lsearch -exact $visible $form(residues,sort)]]
     }
 
-    # A click on a heading: by that, greatest first; once more, the other way round.
+    # A click on a heading sorts by it, largest first; a second click reverses the order.
     proc sort_by {key} {
         variable form
         set form(residues,falling) [expr {$form(residues,sort) eq $key ? !$form(residues,falling) : $key ne "residue"}]
@@ -215,7 +215,7 @@ namespace eval ::espdiff::gui {
         fill_residues
     }
 
-    # The selected rows' residues in VMD, in the place of those before.
+    # Highlights the selected rows' residues in VMD, replacing the previous ones.
     proc highlight_chosen {} {
         variable form
         variable shown
@@ -255,14 +255,14 @@ namespace eval ::espdiff::gui {
         forget $handle highlight
     }
 
-    # The column that the table is sorted by, on the atoms of the molecule that the surface is drawn on.
+    # Writes the sorted column to the atoms of the molecule on which the surface is drawn.
     proc colour_atoms {} { guard_in residues ::espdiff::gui::carry_onto_atoms }
 
     proc carry_onto_atoms {} {
         variable form
         variable shown
         set quantity $form(residues,sort)
-        if {$quantity in {residue area_A2}} { error "sort by what the atoms are to be coloured by" }
+        if {$quantity in {residue area_A2}} { error "sort by the column that should colour the atoms" }
         set words [list -quantity $quantity -mol source]
         set carried [espdiff atoms $shown {*}$words]
         remember $shown atoms [concat atoms $words]
@@ -280,7 +280,7 @@ namespace eval ::espdiff::gui {
         if {$path ne ""} { guard_in residues ::espdiff::gui::write_residues $path }
     }
 
-    # In the table's order; written under another name first, so that it is there as a whole or not at all.
+    # In the table's order; written under another name first, so that the file is always complete.
     proc write_residues {path} {
         variable residue_rows
         set rows [sorted_residues]

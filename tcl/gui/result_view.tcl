@@ -1,39 +1,25 @@
-# result_view.tcl: what came out of a comparison: the numbers, whether they can be trusted, table and export.
+# result_view.tcl: the result of a comparison: numbers, verdict, table and export.
 
 namespace eval ::espdiff::gui {
-    variable shown ""  ;# handle whose numbers are on display
-    variable chosen_result ""  ;# the same as the list of results says it
+    variable shown ""  ;# handle of the numbers shown
+    variable chosen_result ""  ;# its entry in the list of results
 
-    # Key of `espdiff result`, name, unit (potential: that of the result), help. Left column, then right column.
-    variable potential_numbers {
-        mean_abs_difference "Mean abs. difference" potential "Mean absolute difference of the potentials at\
-            corresponding points, weighted by area"
-        rms_difference "RMS difference" potential "Root of the mean squared difference"
-        mean_signed_difference "Mean difference" potential "Mean of target - source, with its sign"
-        sign_change_area_fraction "Sign changes on" percent "Share of the surface's area where the potential has\
-            another sign on the target"
-        hodgkin_index "Hodgkin index" "" "Similarity of the potentials: 1 same, 0 unrelated, -1 opposite"
-    }
-    variable shape_numbers {
-        rmsd_A RMSD length "Of the superposed atom pairs"
-        mean_displacement_A "Mean displacement" length "How far points of the source's surface travel to the\
-            target's: the more, the less certain"
-        mean_path_length_A "Mean path length" length "Length of their ways: the more it exceeds the displacement, the\
-            less certain"
-        {area_A2 source} "Area, source" area "Surface area of the source"
-        {area_A2 target} "Area, target" area "Surface area of the target"
-        {area_A2 valid} "Area compared" area "Area of the mapped surface on which the numbers rest"
+    # Rows of the core's table of metrics that are shown, potentials in the left column and shapes in the right one.
+    proc shown_metrics {sections} {
+        set rows {}
+        foreach metric [::espdiff::core::metrics] {
+            if {[dict get $metric section] in $sections && [dict get $metric keys] ne ""} { lappend rows $metric }
+        }
+        return $rows
     }
 
     proc build_results {path} {
         variable widget
-        variable potential_numbers
-        variable shape_numbers
         ttk::labelframe $path -text Result -padding 6
         ttk::frame $path.top
         ttk::combobox $path.top.list -textvariable ::espdiff::gui::chosen_result -state readonly -width 24 \
             -postcommand {::espdiff::gui::guard ::espdiff::gui::list_results}
-        tip $path.top.list "Results that exist, those of scripts as well"
+        tip $path.top.list "All results, including those of scripts"
         bind $path.top.list <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::choose_result}
         button $path.top.table Table... ::espdiff::gui::show_table 0
         button $path.top.view Viewer ::espdiff::gui::view_result 0
@@ -49,15 +35,15 @@ namespace eval ::espdiff::gui {
         grid columnconfigure $path.top 0 -weight 1
         build_verdict $path.verdict
         ttk::frame $path.numbers
-        build_numbers $path.numbers 0 15 $potential_numbers
-        build_numbers $path.numbers 3 10 $shape_numbers
+        build_numbers $path.numbers 0 13 [shown_metrics potential]
+        build_numbers $path.numbers 3 10 [shown_metrics {superposition shape surface}]
         grid columnconfigure $path.numbers {1 4} -weight 1
         grid columnconfigure $path.numbers 2 -minsize 16
         pack $path.top $path.verdict $path.numbers -fill x -pady {0 4}
         foreach name {list view table export delete} { set widget(result,$name) $path.top.$name }
     }
 
-    # A coloured band: one line in bold, and reasons if there are any.
+    # A coloured band: one bold line, and reasons if there are any.
     proc build_verdict {path} {
         variable widget
         frame $path -padx 8 -pady 4
@@ -81,22 +67,22 @@ namespace eval ::espdiff::gui {
         if {[llength $reasons] > 0} { pack $widget(reasons) -fill x } else { pack forget $widget(reasons) }
     }
 
-    # `width` in letters has room for any value: the window does not change its size with the numbers.
+    # `width` in letters fits any value, so that the window does not change size with the numbers.
     proc build_numbers {parent column width numbers} {
         variable widget
         set row 0
-        foreach {key name unit help} $numbers {
-            set label [ttk::label $parent.name$column$row -text $name]
+        foreach metric $numbers {
+            set label [ttk::label $parent.name$column$row -text [dict get $metric title]]
             set value [ttk::label $parent.value$column$row -anchor e -width $width -text "\u2013"]
             grid $label -row $row -column $column -sticky w
             grid $value -row $row -column [expr {$column + 1}] -sticky e -padx {6 0}
-            tip $label $help
-            set widget([concat number $key]) $value
+            tip $label [dict get $metric help]
+            set widget([concat number [dict get $metric keys]]) $value
             incr row
         }
     }
 
-    # The comparisons that are done, newest first: "comparison2: wild -> adk #97", the latter being a frame.
+    # The finished comparisons, newest first: "comparison2: wild -> adk #97", where #97 is a frame.
     proc result_names {} {
         set names {}
         foreach handle [lsort -dictionary -decreasing [espdiff handles]] {
@@ -111,7 +97,7 @@ namespace eval ::espdiff::gui {
         foreach input [espdiff result $handle inputs] {
             if {[dict get $input role] ne $side} continue
             set name [dict get $input path]
-            # VMD's molecules are told as: mol 0 "ubq.psf" frame 5 sel "not water"
+            # Format of VMD's molecules: mol 0 "ubq.psf" frame 5 sel "not water"
             set frame 0
             regexp {^mol \d+ "(.*)" frame (\d+)} $name -> name frame
             return "[file rootname [file tail $name]][expr {$frame == 0 ? "" : " #$frame"}]"
@@ -131,7 +117,7 @@ namespace eval ::espdiff::gui {
         show_results [lindex [split $chosen_result :] 0]
     }
 
-    # Shows a result: the one named, else the one shown already, else the newest; none if there is none.
+    # Shows a result: the given one, otherwise the one shown already, otherwise the newest; none if there is none.
     proc show_results {{handle ""}} {
         variable shown
         variable chosen_result
@@ -155,7 +141,7 @@ namespace eval ::espdiff::gui {
             say_verdict "No comparison yet" {"Choose source and target, and press Compare."} gray90 gray30
             return
         }
-        set certificate [espdiff result $shown certificate]
+        set certificate [labelled { espdiff result $shown certificate }]
         if {[dict get $certificate trustworthy]} {
             say_verdict Trustworthy {"The mapping is within every limit that was checked."} #d3efd8 #0b4a1c
             return
@@ -168,17 +154,17 @@ namespace eval ::espdiff::gui {
     proc show_numbers {} {
         variable shown
         variable widget
-        variable potential_numbers
-        variable shape_numbers
-        foreach {key name unit help} [concat $potential_numbers $shape_numbers] {
-            set value [expr {$shown eq "" ? "" : [espdiff result $shown {*}$key]}]
+        foreach metric [shown_metrics {superposition potential shape surface}] {
+            set keys [dict get $metric keys]
+            set value [expr {$shown eq "" ? "" : [espdiff result $shown {*}$keys]}]
+            if {$value ne ""} { set value [expr {[dict get $metric factor] * $value}] }
+            set unit [dict get $metric unit]
             switch $unit {
-                potential { if {$value ne ""} { set unit [potential_unit] } }
-                length { set unit "\u00c5" }
-                area { set unit "\u00c5\u00b2" }
-                percent { set unit "% of area"; if {$value ne ""} { set value [expr {100 * $value}] } }
+                potential { set unit [expr {$value eq "" ? "" : [potential_unit]}] }
+                % { set unit "% of area" }
+                default { set unit [string map [list A \u00c5 ^2 \u00b2] $unit] }
             }
-            $widget([concat number $key]) configure -text [with_unit $value $unit]
+            $widget([concat number $keys]) configure -text [with_unit $value $unit]
         }
     }
 
@@ -197,7 +183,7 @@ namespace eval ::espdiff::gui {
     proc view_result {} {
         variable shown
         espdiff view $shown
-        show_message "The viewer is starting; h there shows its keys."
+        show_message "The viewer is starting; press h there for its keys."
     }
 
     proc export {} {

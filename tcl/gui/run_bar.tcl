@@ -1,18 +1,17 @@
-# run_bar.tcl: starting and cancelling a comparison, its progress, and the line that says what happened.
+# run_bar.tcl: starts and cancels a comparison, and shows its progress and messages.
 
 namespace eval ::espdiff::gui {
-    variable running ""   ;# handle that is being computed for this window
-    variable watch_id ""  ;# the `after` script that notices when someone deletes it
+    variable running ""   ;# handle of this window's running computation
+    variable watch_id ""  ;# the `after` script that notices its deletion
 
-    # Stages as they follow each other: name, words, share of the bar at its begin and end. The surfaces' stages come
-    # twice; the bar does not go back.
+    # Stages in order: name, text, start and end on the bar. The surfaces' stages come twice; the bar does not go back.
     variable stages {
         "" Waiting 0 0
         read "Reading" 0 2
         align "Superposing" 2 2
         potential "Computing the potentials" 2 4
-        surface "Making the surfaces" 4 8
-        regularize "Evening out the triangles" 8 25
+        surface "Building the surfaces" 4 8
+        regularize "Regularizing the triangles" 8 25
         morph "Mapping source onto target" 25 70
         deform "Mapping source onto target" 25 70
         certificate "Checking the mapping" 70 96
@@ -29,9 +28,9 @@ namespace eval ::espdiff::gui {
         button $path.script Script... ::espdiff::gui::show_script 2
         button $path.help Help ::espdiff::gui::show_help 0
         tip $path.compare "Map the source onto the target and compare them (Return)"
-        tip $path.cancel "End the computation (Escape)"
+        tip $path.cancel "Cancel the computation (Escape)"
         tip $path.swap "Exchange source and target: the other direction is another mapping"
-        tip $path.script "The Tcl commands that do the same again"
+        tip $path.script "The Tcl commands that repeat this"
         text $path.message -height 1 -width 20 -wrap word -relief flat -borderwidth 0 -highlightthickness 0 \
             -font TkDefaultFont -background [ttk::style lookup TFrame -background] -takefocus 0 -cursor xterm
         $path.message tag configure error -foreground #b00020
@@ -48,7 +47,7 @@ namespace eval ::espdiff::gui {
         show_message ""
     }
 
-    # One line or several, to be selected and copied; errors are red, and go to the console as well.
+    # One line or several, selectable; errors are red and also go to the console.
     proc show_message {text {kind note}} {
         variable widget
         if {$kind eq "error"} { tell_console $text }
@@ -64,7 +63,7 @@ namespace eval ::espdiff::gui {
         if {[info commands ::vmdcon] ne ""} { vmdcon -err "espdiff) $text" } else { puts stderr "espdiff: $text" }
     }
 
-    # As many lines as the text has at this width, within reason: the wheel shows the rest.
+    # As many lines as the text needs at this width, up to a limit; the wheel shows the rest.
     proc fit_message {} {
         variable widget
         if {![info exists widget(message)]} return
@@ -82,7 +81,7 @@ namespace eval ::espdiff::gui {
     # Compares in the background; returns the handle.
     proc start_compare {source target settings} {
         variable running
-        if {$running ne ""} { error "a comparison is being computed; wait for it, or cancel it" }
+        if {$running ne ""} { error "a comparison is running; wait for it, or cancel it" }
         set running [espdiff compare $source $target {*}$settings \
             -progress ::espdiff::gui::show_progress -command {::espdiff::gui::guard ::espdiff::gui::finish}]
         remember_compare $running $source $target $settings
@@ -99,7 +98,7 @@ namespace eval ::espdiff::gui {
         espdiff cancel $running
     }
 
-    # What can be pressed, and the bar.
+    # Enables buttons and shows the bar.
     proc show_running {is_running} {
         variable widget
         if {![info exists widget(compare)] || ![winfo exists $widget(compare)]} return
@@ -114,7 +113,7 @@ namespace eval ::espdiff::gui {
         return $stage
     }
 
-    # Called by espdiff with the stage and how much of it is done.
+    # Called by espdiff with the stage and the fraction done.
     proc show_progress {stage fraction} {
         variable widget
         variable stages
@@ -127,12 +126,12 @@ namespace eval ::espdiff::gui {
         }
     }
 
-    # Called by espdiff when a computation has ended, well or not.
+    # Called by espdiff at the end of a computation, successful or not.
     proc finish {handle} {
         variable running
         if {$handle ne $running} return
         end_run
-        if {[catch { espdiff wait $handle } message options]} {
+        if {[catch_labelled { espdiff wait $handle } message options]} {
             espdiff delete $handle
             forget $handle
             if {[lindex [dict get $options -errorcode] 1] eq "CANCELLED"} {
@@ -147,7 +146,7 @@ namespace eval ::espdiff::gui {
         draw_if_wanted $handle
     }
 
-    # A pair that was opened from a matrix is drawn at once.
+    # Draws a pair opened from a matrix at once.
     proc draw_if_wanted {handle} {
         variable draw_when_done
         set wanted [expr {$draw_when_done eq $handle && [in_vmd]}]
@@ -165,7 +164,7 @@ namespace eval ::espdiff::gui {
         show_running 0
     }
 
-    # A script can delete any handle, and then nobody calls `finish`.
+    # A script can delete any handle; `finish` is then not called.
     proc watch {} {
         variable running
         variable watch_id
@@ -174,11 +173,11 @@ namespace eval ::espdiff::gui {
             set watch_id [after 500 ::espdiff::gui::watch]
             return
         }
-        show_message "$running was deleted before it was done."
+        show_message "$running was deleted before it finished."
         end_run
     }
 
-    # The window goes: so does what is computed for it.
+    # The window closes: cancel its computation.
     proc abandon_run {} {
         variable running
         set handle $running

@@ -1,7 +1,7 @@
-# scrolled.tcl: a page that scrolls where the screen is too small for it.
+# scrolled.tcl: a page that scrolls if the screen is too small.
 
 namespace eval ::espdiff::gui {
-    # Makes the frame `path` with a page in it that scrolls vertically; returns the page.
+    # Makes the frame `path` with a vertically scrolling page; returns the page.
     proc scrolled {path} {
         ttk::frame $path
         canvas $path.view -highlightthickness 0 -borderwidth 0 -background [ttk::style lookup TFrame -background] \
@@ -17,7 +17,7 @@ namespace eval ::espdiff::gui {
         return $path.view.page
     }
 
-    # The view is as high as the page, if the screen is; the bar is there only when it is of use.
+    # The view is as high as the page, if the screen permits; the bar appears only when needed.
     proc fit_page {path} {
         set width [winfo reqwidth $path.view.page]
         set height [winfo reqheight $path.view.page]
@@ -31,14 +31,14 @@ namespace eval ::espdiff::gui {
         }
     }
 
-    # The page that a widget is in, as the frame given to `scrolled`; empty for the others.
+    # The page that contains a widget, as the frame given to `scrolled`; empty if there is none.
     proc page_of {path} {
         if {[regexp {^(.*)\.view\.page(\.|$)} $path -> frame]} { return $frame }
         return ""
     }
 
-    # The wheel scrolls the page. In a list or a spinbox it would change what is chosen without being noticed, so it is
-    # kept from them. Fields that are reached by the Tab key are brought into view.
+    # The wheel scrolls the page. It is disabled on lists and spinboxes, where it would change values unnoticed. Fields
+    # reached by the Tab key are scrolled into view.
     proc keep_wheel_from_changing_values {path} {
         if {[winfo class $path] ne "Text"} { bindtags $path [concat EspdiffWheel [bindtags $path]] }
         foreach child [winfo children $path] { keep_wheel_from_changing_values $child }

@@ -1,10 +1,10 @@
-# session_script.tcl: what was done in the window as a Tcl script.
+# session_script.tcl: the actions in the window as a Tcl script.
 
 namespace eval ::espdiff::gui {
-    # By handle: by what was done (compare, draw, map.QUANTITY.MOL, export), the words after `espdiff` without the
-    # handle. Doing something again replaces it, as it does in VMD.
+    # By handle and action (compare, draw, map.QUANTITY.MOL, export): the words after `espdiff` without the handle.
+    # Repeating an action replaces it, as in VMD.
     variable done [dict create]
-    # By handle, and for `trajectory` and `matrix`: how the molecules that it came from were loaded, as comments.
+    # By handle, and for `trajectory` and `matrix`: how their molecules were loaded, as comments.
     variable loaded [dict create]
 
     proc remember_compare {handle source target settings} {
@@ -27,7 +27,7 @@ namespace eval ::espdiff::gui {
         dict set done $handle $what $words
     }
 
-    # What was undone; without `what` all that is known of a handle.
+    # Removes an undone action; without `what` all actions of a handle.
     proc forget {handle {what ""}} {
         variable done
         variable loaded
@@ -39,7 +39,7 @@ namespace eval ::espdiff::gui {
         }
     }
 
-    # Comments that say how VMD came by a molecule.
+    # Comments that say how VMD loaded a molecule.
     proc how_loaded {mol} {
         set lines {}
         foreach path [lindex [molinfo $mol get filename] 0] {
@@ -51,8 +51,8 @@ namespace eval ::espdiff::gui {
     # A word within a comment, which a newline in a file's name would end.
     proc comment_word {word} { return [string map {\n \\n \r \\r} [list $word]] }
 
-    # A script that does again what was done in the window: the comparison on display with its drawing, the trajectory,
-    # the matrix.
+    # A script that repeats the actions in the window: the shown comparison with its drawing, the trajectory, the
+    # matrix.
     proc session_text {} {
         variable shown
         variable loaded
@@ -70,11 +70,11 @@ namespace eval ::espdiff::gui {
         if {$handle eq ""} { return {} }
         set steps [expr {[dict exists $done $handle] ? [dict get $done $handle] : {}}]
         if {![dict exists $steps compare]} {
-            # A script made it: its own call is what does it again.
+            # Made by a script: its own call repeats it.
             dict set steps compare [lrange [espdiff result $handle command_line] 1 end]
         }
         set settings [lassign [dict get $steps compare] compare source target]
-        # Another program's procedures are not there.
+        # Callbacks of another program are not available.
         if {[llength $settings] % 2 == 0} { set settings [dict remove $settings -command -progress] }
         lappend lines "set comparison \[espdiff compare [list $source] \\"
         lappend lines "    [list $target][option_lines $settings]\]"
@@ -85,7 +85,7 @@ namespace eval ::espdiff::gui {
         return $lines
     }
 
-    # The run whose rows are on display, from its first frame.
+    # The run whose rows are shown, from its first frame.
     proc trajectory_lines {} {
         variable trajectory_run
         if {$trajectory_run eq ""} { return {} }
@@ -114,7 +114,7 @@ namespace eval ::espdiff::gui {
         return $text
     }
 
-    # Options, each on a line that continues the one before.
+    # Options, each on a continuation line.
     proc option_lines {options} {
         set text ""
         foreach {option value} $options { append text " \\\n    [list $option $value]" }
@@ -126,7 +126,7 @@ namespace eval ::espdiff::gui {
         variable trajectory_run
         variable matrix_run
         if {$shown eq "" && $trajectory_run eq "" && $matrix_run eq ""} {
-            error "nothing is done yet that a script could do again; press Compare first"
+            error "nothing has been done yet that a script could repeat; press Compare first"
         }
         text_window script "espdiff: script of this session" [session_text]
     }

@@ -1,4 +1,4 @@
-# settings_form.tcl: all settings of a comparison, behind a button, as the core's table has them.
+# settings_form.tcl: all settings of a comparison, behind a button, from the core's table.
 
 namespace eval ::espdiff::gui {
     variable setting   ;# values by name
@@ -6,7 +6,7 @@ namespace eval ::espdiff::gui {
     array set setting {}
     array set standard {}
 
-    # Groups of the table that are small share a page.
+    # Small groups of the table share a page.
     variable setting_pages {General {Molecules Potentials Computing} Surface Surface
         Mapping {Mapping {Mapping by morph}} Deform {{Mapping by deform}} Regularization Regularization}
 
@@ -14,13 +14,13 @@ namespace eval ::espdiff::gui {
     proc all_settings {} {
         set rows [::espdiff::core::settings]
         lappend rows [dict create name device group Computing kind choice choices [device_choices] default auto \
-            help "Where to compute: auto takes a GPU if one answers"]
+            help "Where to compute: auto takes a GPU if one works"]
         lappend rows {name threads group Computing kind integer choices {} default 0
-            help "CPU threads; 0 takes OMP_NUM_THREADS, else all. The result is the same for any number"}
+            help "CPU threads; 0 takes OMP_NUM_THREADS, otherwise all. The result does not depend on it"}
         return $rows
     }
 
-    # With several GPUs, each by its name. They are looked for once.
+    # Lists several GPUs by name. They are detected once.
     proc device_choices {} {
         variable known_devices
         if {[info exists known_devices]} { return $known_devices }
@@ -64,7 +64,7 @@ namespace eval ::espdiff::gui {
         return $path
     }
 
-    # Two columns of rows, with room between them.
+    # Two columns of rows with space between them.
     proc build_setting_page {page groups} {
         set rows {}
         foreach row [all_settings] { if {[dict get $row group] in $groups} { lappend rows $row } }
@@ -89,10 +89,45 @@ namespace eval ::espdiff::gui {
             boolean { ttk::checkbutton $path -variable $variable }
             default { ttk::entry $path -textvariable $variable -width 10 }
         }
-        regsub {^regularize-} $name "" label
         set widget(setting,$name) $path
-        set label [string totitle [string map {- " "} $label] 0 0]
-        form_row $page $grid_row $label $path "$help (default $default)" $column
+        form_row $page $grid_row [setting_label $name] $path "$help (default $default)" $column
+    }
+
+    # What a setting's field is called; those of the regularization stand on a page of that name.
+    proc setting_label {name} {
+        regsub {^regularize-} $name "" label
+        return [string totitle [string map {- " "} $label] 0 0]
+    }
+
+    # An option as the window's messages name it: by the label of its field, with the value that is advised.
+    proc option_label {name value switch} {
+        set labels {source-map "the source's Potential" target-map "the target's Potential"
+            source-map-unit "the source's Unit" target-map-unit "the target's Unit"}
+        if {[dict exists $labels $name]} { return [dict get $labels $name] }
+        set label -$name
+        foreach row [all_settings] {
+            if {[dict get $row name] ne $name} continue
+            set label [setting_label $name]
+            if {[string match regularize-* $name]} { set label "Regularization: $label" }
+        }
+        if {$value eq "" && $switch && [string match -* $label]} { set value 1 }
+        return [expr {$value eq "" ? $label : "$label $value"}]
+    }
+
+    # Evaluates a script whose errors name the window's fields. Returns catch's code, and result and options.
+    proc catch_labelled {script result_name options_name} {
+        upvar 1 $result_name result $options_name options
+        set before $::espdiff::option_spelling
+        set ::espdiff::option_spelling ::espdiff::gui::option_label
+        set code [catch { uplevel 1 $script } result options]
+        set ::espdiff::option_spelling $before
+        return $code
+    }
+
+    # The script's result, with options in it named so too.
+    proc labelled {script} {
+        set code [catch_labelled { uplevel 1 $script } result options]
+        return -options [dict incr options -level] $result
     }
 
     proc toggle_settings {} {
@@ -113,7 +148,7 @@ namespace eval ::espdiff::gui {
         foreach name [array names standard] { set setting($name) $standard($name) }
     }
 
-    # The settings that are not at their defaults, as options of `espdiff compare`.
+    # The settings that differ from their defaults, as options of `espdiff compare`.
     proc setting_options {} {
         variable setting
         variable standard
@@ -126,7 +161,7 @@ namespace eval ::espdiff::gui {
         return $options
     }
 
-    # The button's title says whether something was changed while the settings are out of sight.
+    # The button's title reports changes while the settings are hidden.
     proc count_changes {args} {
         variable widget
         set n [expr {[llength [setting_options]] / 2}]

@@ -1,4 +1,4 @@
-# trajectory_form.tcl: the tab for a trajectory: which frames are compared with what, their potential, where rows go.
+# trajectory_form.tcl: the tab for a trajectory: its frames, their reference and potential, and the results' file.
 
 namespace eval ::espdiff::gui {
     variable form
@@ -7,7 +7,7 @@ namespace eval ::espdiff::gui {
         trajectory,csv trajectory.csv trajectory,resume 0 trajectory,skip 0
         trajectory,steps 0}
     variable references {"the frame" "the frame before"}
-    variable automatic_trajectory ""  ;# the molecule that was chosen for the user, who has not chosen since
+    variable automatic_trajectory ""  ;# the molecule chosen automatically, until the user chooses
 
     proc build_trajectory {path} {
         ttk::labelframe $path.frames -text Frames -padding 6
@@ -47,7 +47,7 @@ namespace eval ::espdiff::gui {
         pack $path.choose.file -fill x -expand 1
         form_row $path 0 File $path.choose "Structure file (PQR, PDB, mmCIF) whose models are the frames; the first one\
             is frame 0"
-        tip $path.choose.file "Structure file whose models are the frames; the first one is frame 0"
+        tip $path.choose.file "Structure file whose models are the frames; the first is frame 0"
         grid configure $path.choose -columnspan 3
         set widget(trajectory,file) $path.choose.file
     }
@@ -68,7 +68,7 @@ namespace eval ::espdiff::gui {
         form_row $path 1 Against $path.against "What each frame is compared with: one frame for all, or the frame\
             before it in the run" 2
         tip $path.against.what "What each frame is compared with"
-        tip $path.against.frame "Number of the frame that all others are compared with"
+        tip $path.against.frame "Number of the reference frame"
         grid configure $path.label_against -padx {16 6}
         foreach name {frames against} { set widget(trajectory,$name) $path.$name }
         set widget(trajectory,against) $path.against.what
@@ -92,13 +92,13 @@ namespace eval ::espdiff::gui {
         button $path.csv.browse ... ::espdiff::gui::choose_csv
         pack $path.csv.browse -side right -padx {4 0}
         pack $path.csv.name -fill x -expand 1
-        form_row $path 3 Results $path.csv "CSV file that gets a row for each frame as soon as it is done"
-        tip $path.csv.name "CSV file that gets a row for each frame as soon as it is done"
+        form_row $path 3 Results $path.csv "CSV file; each frame's row is written as soon as it is done"
+        tip $path.csv.name "CSV file; each frame's row is written as soon as it is done"
         ttk::frame $path.options
-        ttk::checkbutton $path.options.resume -text "go on with it" -variable ::espdiff::gui::form(trajectory,resume)
+        ttk::checkbutton $path.options.resume -text "resume" -variable ::espdiff::gui::form(trajectory,resume)
         ttk::checkbutton $path.options.skip -text "skip what fails" -variable ::espdiff::gui::form(trajectory,skip)
-        tip $path.options.resume "Go on where an interrupted run left the file, with the same frames and settings"
-        tip $path.options.skip "A frame that cannot be compared becomes a row with the reason, and the run goes on"
+        tip $path.options.resume "Resume an interrupted run in this file, with the same frames and settings"
+        tip $path.options.skip "A frame that cannot be compared becomes a row with the reason, and the run continues"
         pack $path.options.resume $path.options.skip -side left -padx {0 10}
         grid $path.options -row 3 -column 2 -columnspan 2 -sticky w -padx {16 0}
         ttk::label $path.note -text "The settings are those of the tab Pair." -foreground gray40
@@ -114,7 +114,7 @@ namespace eval ::espdiff::gui {
         foreach name {resume skip} { set widget(trajectory,$name) $path.options.$name }
     }
 
-    # VMD's molecules and data sets as they are now.
+    # VMD's current molecules and data sets.
     proc update_trajectory {} {
         variable form
         variable widget
@@ -146,7 +146,7 @@ namespace eval ::espdiff::gui {
         update_trajectory
     }
 
-    # The molecule that looks most like a trajectory.
+    # The molecule with most frames.
     proc most_frames {names} {
         set best ""
         set most 0
@@ -172,7 +172,7 @@ namespace eval ::espdiff::gui {
         if {$path ne ""} { set form(trajectory,csv) $path }
     }
 
-    # The form as options of `espdiff trajectory`, without where results go.
+    # The form as options of `espdiff trajectory`, without the output.
     proc trajectory_options {} {
         variable form
         variable references
@@ -183,7 +183,7 @@ namespace eval ::espdiff::gui {
             if {$form(trajectory,sel) ne "not water"} { lappend options -sel $form(trajectory,sel) }
         } else {
             set path [string trim $form(trajectory,file)]
-            if {$path eq ""} { error "File: no file is given; type its name or press the button beside it" }
+            if {$path eq ""} { error "File: no file is given; type its name or use the button beside it" }
             set options [list -file $path]
         }
         lappend options -frames [string trim $form(trajectory,frames)]
@@ -202,7 +202,7 @@ namespace eval ::espdiff::gui {
         return $options
     }
 
-    # As -map takes it; empty for none.
+    # In the form of -map; empty for none.
     proc trajectory_map {} {
         variable form
         variable computed

@@ -1,9 +1,9 @@
-# trajectory_point.tcl: a point of the trajectory's plot: chosen by pointer or keys, its frame in VMD, its comparison.
+# trajectory_point.tcl: a point of the trajectory's plot: choice by pointer or keys, its frame in VMD, its comparison.
 
 namespace eval ::espdiff::gui {
     variable chosen_point ""  ;# number of a row; empty for none
 
-    # The molecule of VMD whose frames the rows are of; empty for a file's, or when it is gone.
+    # The VMD molecule of the rows' frames; empty for files, or if it is deleted.
     proc trajectory_molecule {} {
         variable trajectory_run
         if {![in_vmd] || $trajectory_run eq "" || ![dict exists $trajectory_run options -mol]} { return "" }
@@ -11,7 +11,7 @@ namespace eval ::espdiff::gui {
         expr {$mol in [molinfo list] ? $mol : ""}
     }
 
-    # The row whose point is nearest in x; empty beside the plot.
+    # The row whose point is nearest in x; empty outside the plot.
     proc point_near {x y} {
         variable plot_frame
         if {$plot_frame eq ""} { return "" }
@@ -44,7 +44,7 @@ namespace eval ::espdiff::gui {
         }
     }
 
-    # A frame in words.
+    # Describes a frame.
     proc tell_row {row} {
         variable widget
         variable trajectory_rows
@@ -79,7 +79,7 @@ namespace eval ::espdiff::gui {
         choose_point [expr {max(0, min($n - 1, $now + $step))}]
     }
 
-    # VMD goes to the point's frame.
+    # Takes VMD to the point's frame.
     proc choose_point {row} {
         variable chosen_point
         variable trajectory_rows
@@ -133,7 +133,7 @@ namespace eval ::espdiff::gui {
         return [list file [format [lindex $map 1] $frame]]
     }
 
-    # Compares the chosen frame anew, shows it in the tab Pair, and draws it.
+    # Compares the chosen frame again, shows it in the tab Pair, and draws it.
     proc compare_frame {} {
         variable chosen_point
         variable trajectory_run

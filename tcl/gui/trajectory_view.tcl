@@ -1,21 +1,16 @@
-# trajectory_view.tcl: the run along a trajectory, and the plot that grows with it and leads to its frames.
+# trajectory_view.tcl: the run along a trajectory, and its growing plot, which leads to the frames.
 
 namespace eval ::espdiff::gui {
-    variable trajectory_running ""  ;# handle that is being computed
-    variable trajectory_rows {}     ;# rows on display, dicts by column
-    variable trajectory_run {}      ;# what they were computed with: options, output, settings, as words
+    variable trajectory_running ""  ;# handle of the running computation
+    variable trajectory_rows {}     ;# rows shown, dicts by column
+    variable trajectory_run {}      ;# their options, output and settings, as arguments
     variable form
     array set form {trajectory,metric ""}
-
-    # What can be plotted, by column; those without any value are not offered.
-    variable trajectory_metrics {mean_abs_difference rms_difference mean_signed_difference sign_change_area_fraction
-        hodgkin_index rmsd_A mean_displacement_A area_mapped_A2 corrupt_area_fraction no_counterpart_source
-        no_counterpart_target target_to_mapped_max_A}
 
     proc build_trajectory_bar {path} {
         build_tab_bar trajectory $path run Run ::espdiff::gui::run_trajectory ::espdiff::gui::cancel_trajectory \
             "Compare each frame with the reference (Return)" \
-            "End the run; its rows stay in the file, and can be gone on with (Escape)"
+            "Stop the run; its rows stay in the file, and it can be resumed (Escape)"
     }
 
     proc build_trajectory_plot {path} {
@@ -27,7 +22,7 @@ namespace eval ::espdiff::gui {
         button $path.top.open "Open CSV..." ::espdiff::gui::browse_rows
         button $path.top.save "Save plot..." ::espdiff::gui::save_plot
         tip $path.top.open "Rows of an earlier run"
-        tip $path.top.save "The plot as PNG or SVG, by gnuplot"
+        tip $path.top.save "Save the plot as PNG or SVG, by gnuplot"
         pack $path.top.label $path.top.metric -side left -padx {0 6}
         pack $path.top.save $path.top.open -side right -padx {6 0}
         canvas $path.plot -width 420 -height 240 -background white -highlightthickness 1 -takefocus 1 \
@@ -97,7 +92,7 @@ namespace eval ::espdiff::gui {
             : {}}]
     }
 
-    # Those that a file has already; a run that begins has none.
+    # Rows already in a file; none at the start of a run.
     proc rows_of {csv} {
         if {![file exists $csv] || [file size $csv] == 0} { return {} }
         return [dict get [::espdiff::plot_csv $csv] rows]
@@ -125,17 +120,17 @@ namespace eval ::espdiff::gui {
         if {$trajectory_running ne ""} { espdiff cancel $trajectory_running }
     }
 
-    # Called by espdiff at the end, whatever it is.
+    # Called by espdiff at the end, successful or not.
     proc finish_trajectory {handle} {
         variable trajectory_running
         variable trajectory_rows
         if {$handle ne $trajectory_running} return
         set trajectory_running ""
-        if {[catch { espdiff result $handle } result options]} {
+        if {[catch_labelled { espdiff result $handle } result options]} {
             set cancelled [expr {[lindex [dict get $options -errorcode] 1] eq "CANCELLED"}]
             if {$cancelled} {
-                set result "Stopped: the file has [llength $trajectory_rows] rows. With \u201cgo on with it\u201d, Run\
-                    computes the rest."
+                set result "Stopped: the file has [llength $trajectory_rows] rows. With\
+                    \u201cresume\u201d, Run computes the rest."
             }
             tell_in trajectory $result [expr {$cancelled ? "note" : "error"}]
         } else {
@@ -181,7 +176,7 @@ namespace eval ::espdiff::gui {
         if {$path ne ""} { guard_in trajectory ::espdiff::gui::open_rows $path }
     }
 
-    # Rows of an earlier run belong to what the form says now: the file names no molecule of VMD.
+    # Assigns rows of an earlier run to the current form, because the file names no molecule of VMD.
     proc open_rows {path} {
         variable form
         variable trajectory_rows
@@ -217,21 +212,21 @@ namespace eval ::espdiff::gui {
         tell_in trajectory "Written: $path"
     }
 
-    # Column, title, unit, factor of what is chosen; the first one that has values where nothing is.
+    # Column, title, unit, factor of what is chosen, the usual metric where nothing is. Metrics without any value are
+    # not offered.
     proc chosen_trajectory_metric {} {
         variable form
         variable widget
         variable trajectory_rows
-        variable trajectory_metrics
         set unit ""
         foreach row $trajectory_rows {
             if {[dict get $row potential_unit] ne ""} { set unit [dict get $row potential_unit] }
         }
         set offered {}
-        foreach column $trajectory_metrics {
+        foreach column [::espdiff::metric_names series] {
             foreach row $trajectory_rows {
-                if {[::espdiff::is_number [dict get $row $column]]} {
-                    lappend offered [concat $column [::espdiff::plot_quantity $column $unit]]
+                if {[::espdiff::is_number [::espdiff::value_or $row $column ""]]} {
+                    lappend offered [concat $column [::espdiff::shown_metric $column $unit]]
                     break
                 }
             }
@@ -240,11 +235,14 @@ namespace eval ::espdiff::gui {
         foreach metric $offered { lappend titles [lindex $metric 1] }
         $widget(trajectory,metric) configure -values $titles
         if {$titles eq ""} { return {} }
-        if {$form(trajectory,metric) ni $titles} { set form(trajectory,metric) [lindex $titles 0] }
+        if {$form(trajectory,metric) ni $titles} {
+            set usual [lindex [::espdiff::shown_metric [::espdiff::usual_metric [expr {$unit ne ""}]] $unit] 0]
+            set form(trajectory,metric) [expr {$usual in $titles ? $usual : [lindex $titles 0]}]
+        }
         return [lindex $offered [lsearch -exact $titles $form(trajectory,metric)]]
     }
 
-    # The tab's window goes: so does what is computed for it. Its rows stay in the file.
+    # The tab's window closes: cancel its run. Its rows stay in the file.
     proc abandon_trajectory {} {
         variable trajectory_running
         set handle $trajectory_running

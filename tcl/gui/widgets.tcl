@@ -1,16 +1,16 @@
-# widgets.tcl: small things that the parts of the window share: tips, keys, texts, guarded commands, numbers in words.
+# widgets.tcl: helpers shared by the window's parts: tips, keys, texts, guarded commands, formatted numbers.
 
 namespace eval ::espdiff::gui {
     variable tips       ;# help by widget
-    variable tip_id ""  ;# the `after` script that shows one
+    variable tip_id ""  ;# the `after` script that shows a tip
     array set tips {}
 
-    # Evaluates a command, and shows its error in the window: no dialog with a traceback ever.
+    # Evaluates a command and shows its error in the window instead of a traceback dialog.
     proc guard {args} {
-        if {[catch { uplevel #0 $args } message]} { show_message $message error }
+        if {[catch_labelled { uplevel #0 $args } message options]} { show_message $message error }
     }
 
-    # A button whose command is guarded. An underlined letter is also a key with Alt.
+    # A button with a guarded command. An underlined letter is also its Alt key.
     proc button {path text command {underline -1}} {
         variable window
         ttk::button $path -text $text -command [concat ::espdiff::gui::guard $command] -underline $underline -width 0
@@ -20,7 +20,7 @@ namespace eval ::espdiff::gui {
         return $path
     }
 
-    # Presses a button that others can press as well, if it can be pressed now.
+    # Presses a button, if it is enabled.
     proc press {name} {
         variable widget
         if {[info exists widget($name)] && [winfo exists $widget($name)]} { $widget($name) invoke }
@@ -30,11 +30,11 @@ namespace eval ::espdiff::gui {
         foreach path $args { $path state [expr {$enabled ? "!disabled" : "disabled"}] }
     }
 
-    # Explains a widget where the mouse rests on it.
+    # Shows a text when the mouse rests on a widget.
     proc tip {path text} {
         variable tips
         set tips($path) $text
-        # Tk gives the focus to whatever has a binding for keys.
+        # Tk focuses any widget with key bindings.
         if {[winfo class $path] eq "TLabel"} { $path configure -takefocus 0 }
         bind $path <Enter> {+::espdiff::gui::tip_later %W}
         foreach event {<Leave> <ButtonPress> <KeyPress>} { bind $path $event {+::espdiff::gui::hide_tip} }
@@ -78,7 +78,7 @@ namespace eval ::espdiff::gui {
         array unset tips
     }
 
-    # A labelled row of a form: label in `column`, widget right of it, both with the same tip.
+    # A labelled row of a form: label in `column`, widget to its right, both with the same tip.
     proc form_row {parent row label path help {column 0}} {
         set name [ttk::label $parent.label_[string map {. _} [winfo name $path]] -text $label]
         grid $name -row $row -column $column -sticky w -padx {0 6} -pady 2
@@ -88,7 +88,7 @@ namespace eval ::espdiff::gui {
         return $name
     }
 
-    # A window beside ours with a text to read and copy.
+    # A window with a text to read and copy.
     proc text_window {name title text {fixed 1}} {
         variable window
         set top $window.$name
@@ -134,18 +134,18 @@ namespace eval ::espdiff::gui {
         clipboard append -displayof $path [string trimright [$path get 1.0 end]]\n
     }
 
-    # A script as it is; any other text for reading.
+    # Saves a script unchanged; other texts are for reading.
     proc save_text {path name} {
         set ending [expr {$name eq "script" ? ".tcl" : ".txt"}]
         set file [tk_getSaveFile -parent [winfo toplevel $path] -initialfile espdiff$ending -defaultextension $ending]
         if {$file ne ""} { write_whole_file $file [string trimright [$path get 1.0 end]]\n }
     }
 
-    # Four significant digits and the unit; a dash for what has no value.
+    # Four significant digits and the unit; a dash if there is no value.
     proc with_unit {value {unit ""}} {
         if {$value eq ""} { return "\u2013" }
         set text [expr {abs($value) >= 1000 && abs($value) < 1e7 ? [format %.0f $value] : [format %.4g $value]}]
-        # Nothing but rounding.
+        # Rounding noise.
         if {abs($value) < 1e-9} { set text 0 }
         if {$unit eq ""} { return $text }
         return "$text $unit"
@@ -156,8 +156,8 @@ namespace eval ::espdiff::gui {
         return EspdiffBold
     }
 
-    # What a tab starts and ends, how far it is, and its message: widget(TAB,...) under the names START, cancel, bar,
-    # script and message.
+    # A tab's start and cancel buttons, progress and message: widget(TAB,...) with the names START, cancel, bar, script
+    # and message.
     proc build_tab_bar {tab path start title start_command cancel_command start_tip cancel_tip} {
         variable widget
         ttk::frame $path
@@ -168,7 +168,7 @@ namespace eval ::espdiff::gui {
         ttk::label $path.message -anchor w -wraplength 600 -justify left
         tip $path.$start $start_tip
         tip $path.cancel $cancel_tip
-        tip $path.script "The Tcl commands that do the same again"
+        tip $path.script "The Tcl commands that repeat this"
         grid $path.$start $path.cancel $path.bar $path.script -sticky ew -padx {0 6}
         grid configure $path.script -padx 0
         grid $path.message -columnspan 4 -sticky ew -pady {4 0}
@@ -176,7 +176,7 @@ namespace eval ::espdiff::gui {
         foreach name [list $start cancel bar script message] { set widget($tab,$name) $path.$name }
     }
 
-    # A tab's line of text; errors go to VMD's console as well, and are not lost where the tab is gone.
+    # A tab's line of text; errors also go to VMD's console, so that they are not lost with the tab.
     proc tell_in {tab text {kind note}} {
         variable widget
         if {$kind eq "error"} { tell_console $text }
@@ -184,8 +184,8 @@ namespace eval ::espdiff::gui {
         $widget($tab,message) configure -text $text -foreground [expr {$kind eq "error" ? "#b00020" : "black"}]
     }
 
-    # As guard, for what happens in a tab.
+    # Like guard, for actions in a tab.
     proc guard_in {tab args} {
-        if {[catch { uplevel #0 $args } message]} { tell_in $tab $message error }
+        if {[catch_labelled { uplevel #0 $args } message options]} { tell_in $tab $message error }
     }
 }

@@ -1,13 +1,12 @@
-# window.tcl: the window "Surface Potential Comparison": what it is made of, its opening and its end.
+# window.tcl: the window "Surface Potential Comparison": its parts, opening and closing.
 
-# The window calls public commands of espdiff only (and reads the table of settings, core::settings), so that whatever
-# it does can be done by a script. Its parts are files of their own; each has build_PART, which makes the widgets in a
-# frame that it is given. What the user enters is in the array `form`, the settings in `setting`, and the widgets that
-# others need in `widget`.
+# The window calls only public commands of espdiff (and reads the table of settings, core::settings), so that a script
+# can do whatever it does. Its parts are separate files; each has build_PART, which makes the widgets in a given frame.
+# User entries are in the array `form`, settings in `setting`, and shared widgets in `widget`.
 namespace eval ::espdiff::gui {
     variable window .espdiff
-    variable traced {}          ;# variables of VMD that tell what happens, and what is called then
-    variable pending_update ""  ;# the `after` script that looks at VMD's molecules again
+    variable traced {}          ;# traced variables of VMD, and the procedures called
+    variable pending_update ""  ;# the `after` script that updates VMD's molecules
 
     foreach part {widgets scrolled endpoint_form presets settings_form run_bar result_view draw_form session_script
         help_window matrix_form matrix_view heat_map residue_table trajectory_form trajectory_view trajectory_point
@@ -34,14 +33,14 @@ namespace eval ::espdiff::gui {
 
     proc build {} {
         variable window
-        # VMD gives some widgets a smaller font; in our window all have the same.
+        # VMD gives some widgets a smaller font; here all have the same.
         option add *Espdiff*font TkDefaultFont interactive
         toplevel $window -class Espdiff
         wm withdraw $window
         wm title $window "Surface Potential Comparison"
         wm protocol $window WM_DELETE_WINDOW ::espdiff::gui::close_window
         variable widget
-        # Control-Tab goes from tab to tab; the Tab key stays in one.
+        # Control-Tab moves between tabs; the Tab key stays in one.
         set widget(tabs) [ttk::notebook $window.tabs -takefocus 0]
         ttk::notebook::enableTraversal $window.tabs
         foreach {name title build} {pair Pair build_pair residues Residues build_residues
@@ -71,11 +70,11 @@ namespace eval ::espdiff::gui {
         grid $outer.run -sticky ew
         grid columnconfigure $outer 0 -weight 1
         grid rowconfigure $outer 0 -weight 1
-        # In the order of the Tab key: the page is made after the bar, and comes before it.
+        # In Tab key order: the page is made after the bar but comes before it.
         lower $outer.page
     }
 
-    # The page for one comparison: what is compared, with which settings, what came out, how it is drawn.
+    # The page for one comparison: inputs, settings, result, drawing.
     proc build_page {body} {
         ttk::frame $body.sides
         build_endpoint $body.sides.source source Source
@@ -107,7 +106,7 @@ namespace eval ::espdiff::gui {
         bind $window <Control-w> ::espdiff::gui::close_window
     }
 
-    # The button that a key means in the tab that is open, from pairs of tab and button.
+    # The button of a key in the open tab, from pairs of tab and button.
     proc press_of_tab {buttons} {
         if {[dict exists $buttons [open_tab]]} { press [dict get $buttons [open_tab]] }
     }
@@ -123,7 +122,7 @@ namespace eval ::espdiff::gui {
         $widget(tabs) select $widget(tabs).$name
     }
 
-    # VMD writes these when a molecule comes, changes or goes, and when a file has been read into one.
+    # VMD writes these variables when a molecule is added, changed or deleted, and when a file has been read into one.
     proc trace_molecules {} {
         variable traced
         if {![in_vmd]} return
@@ -133,7 +132,7 @@ namespace eval ::espdiff::gui {
         foreach {name command} $traced { trace add variable $name write $command }
     }
 
-    # VMD is in the middle of its change when it calls this.
+    # VMD calls this during its change.
     proc update_soon {args} {
         variable pending_update
         after cancel $pending_update
@@ -149,7 +148,7 @@ namespace eval ::espdiff::gui {
         update_matrix
     }
 
-    # In VMD the window's manager does not come here: VMD puts the window away with a computation going on in it.
+    # In VMD the window manager's close does not arrive here: VMD hides the window with its computation running.
     proc close_window {} {
         variable window
         variable running
@@ -157,13 +156,13 @@ namespace eval ::espdiff::gui {
         variable trajectory_running
         if {$running ne "" || $matrix_running ne "" || $trajectory_running ne ""} {
             set answer [tk_messageBox -parent $window -type yesno -icon question -title "Surface Potential Comparison" \
-                -message "A comparison is being computed." -detail "Cancel it and close the window?"]
+                -message "A comparison is running." -detail "Cancel it and close the window?"]
             if {$answer ne "yes"} return
         }
         destroy $window
     }
 
-    # Whatever ended the window: nothing of it stays behind but what the user entered.
+    # However the window closed: leaves only the user's entries.
     proc closed {} {
         variable traced
         variable pending_update

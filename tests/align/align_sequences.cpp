@@ -1,4 +1,4 @@
-// align_sequences.cpp: alignment against brute force, and where gaps go.
+// align_sequences.cpp: alignment against brute force, and the placement of gaps.
 #include "align/align_sequences.h"
 
 #include <doctest/doctest.h>
@@ -44,7 +44,7 @@ std::string written(const std::string& a, const std::string& b, int first_a = 1,
   return top + "|" + bottom;
 }
 
-/// Score of an alignment given as pairs, by the rules in words.
+/// Score of an alignment given as pairs, by the documented rules.
 int score_of(const Sequence& a, const Sequence& b, const std::vector<std::pair<std::size_t, std::size_t>>& pairs) {
   int score = 0;
   std::size_t i = 0, j = 0;
@@ -60,7 +60,7 @@ int score_of(const Sequence& a, const Sequence& b, const std::vector<std::pair<s
   return score - gap(i, a.size(), a.size()) - gap(j, b.size(), b.size());
 }
 
-/// The best score over every way to pair positions in order.
+/// The best score over all ways to pair positions in order.
 int brute_force(const Sequence& a, const Sequence& b) {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   int best = score_of(a, b, pairs);
@@ -93,7 +93,7 @@ TEST_CASE("substitution scores are symmetric and highest for equal residues") {
   CHECK(substitution_score(20, 24) == -4);  // a against u
 }
 
-TEST_CASE("names without a letter get a code each, the same for both sequences") {
+TEST_CASE("names without a letter get their own code, the same in both sequences") {
   SequenceEncoder encoder;
   const ResidueCode nte = encoder.encode("NTE"), cte = encoder.encode("CTE");
   CHECK(nte != cte);
@@ -118,7 +118,7 @@ TEST_CASE("score and alignment are optimal: compared with every alignment of sho
   }
 }
 
-TEST_CASE("gaps go where residues are missing") {
+TEST_CASE("gaps are placed where residues are missing") {
   CHECK(written("MKTAYIAKQR", "MKTAYIAKQR") == "MKTAYIAKQR|MKTAYIAKQR");
   CHECK(written("MKTAYIAKQR", "MKTAYLAKQR") == "MKTAYIAKQR|MKTAYLAKQR");
   CHECK(written("MKTAYIAKQR", "TAYIAKQR") == "MKTAYIAKQR|--TAYIAKQR");
@@ -128,8 +128,8 @@ TEST_CASE("gaps go where residues are missing") {
   CHECK(written("MKTAYW", "MKTAYG") == "MKTAYW|MKTAYG");
 }
 
-TEST_CASE("equal numbers decide where a gap goes in a repeat") {
-  // WCAAAAAACW has lost two of six alanines: 5 and 6 by their numbers, which no score can tell.
+TEST_CASE("equal residue numbers place the gap in a repeat") {
+  // WCAAAAAACW has lost two of six alanines: 5 and 6 by their numbers; the score alone cannot decide.
   const Sequence a = encode("WCAAAAAACW"), b = encode("WCAAAACW");
   const auto pairs = align_sequences(a, b, numbered(10), {1, 2, 3, 4, 7, 8, 9, 10});
   std::vector<std::size_t> positions;

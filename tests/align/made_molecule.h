@@ -1,4 +1,4 @@
-// made_molecule.h: molecules that tests put together residue by residue.
+// made_molecule.h: molecules that tests build residue by residue.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// pair_atoms.cpp: which atoms correspond, on made molecules and on real pairs.
+// pair_atoms.cpp: pairing of atoms, on made molecules and on real pairs.
 #include "align/pair_atoms.h"
 
 #include <doctest/doctest.h>
@@ -36,7 +36,7 @@ const char* const kSequence = "MKTAYIAKQRQISFVKSHFSRQLEERLGLIEVQ";
 
 }  // namespace
 
-TEST_CASE("the same atoms in the same order pair one to one, whatever the chains are called") {
+TEST_CASE("the same atoms in the same order pair one to one under any chain names") {
   MadeMolecule a, b;
   a.peptide("A", 1, "MKT");
   b.peptide("X", 1, "MKT");
@@ -55,7 +55,7 @@ TEST_CASE("spellings of one residue or atom do not break the order") {
   CHECK(pair_atoms(a.molecule, b.molecule).method == "same order");
 }
 
-TEST_CASE("other numbers mean that the order alone is not trusted") {
+TEST_CASE("with different residue numbers the order alone is not trusted") {
   MadeMolecule a, b;
   a.peptide("A", 1, "MKTAYIAK");
   b.peptide("A", 101, "MKTAYIAK");
@@ -123,7 +123,7 @@ TEST_CASE("atoms of one name pair in file order, as many as both sides have") {
   CHECK(pair_atoms(a.molecule, b.molecule).pairs.size() == 5);
 }
 
-TEST_CASE("chains are found by sequence, and by name where sequences agree") {
+TEST_CASE("chains pair by sequence, and by name where sequences agree") {
   const std::string other = "GSHMWDPCLLNEVTYRWQGHPDFNACKEWG";
   MadeMolecule a, b;
   a.peptide("A", 1, kSequence);
@@ -135,7 +135,7 @@ TEST_CASE("chains are found by sequence, and by name where sequences agree") {
   CHECK(has_pair(pairing, a.molecule, b.molecule, "B3:CA=H1:CA"));
   CHECK(pairing.n_aligned_residues == 33 + 28);
 
-  // A dimer whose chains miss residues here and there: the longer match is A with B, but the names say otherwise.
+  // A dimer whose chains lack some residues: the longer match is A with B, but the names decide otherwise.
   const std::string full = kSequence;
   MadeMolecule c, d;
   c.peptide("A", 1, full);
@@ -147,7 +147,7 @@ TEST_CASE("chains are found by sequence, and by name where sequences agree") {
   CHECK(has_pair(pairing, c.molecule, d.molecule, "B5:CA=B5:CA"));
 }
 
-TEST_CASE("a file without chain names meets one with them, numbered on or from the start") {
+TEST_CASE("a file without chain names pairs with one that has them, with continuous or restarted numbers") {
   const std::string second = "GSHMWDPCLLNEVTYRWQGHPDFNACKEWG";
   MadeMolecule named, continued, restarted;
   named.peptide("A", 1, kSequence);
@@ -155,7 +155,7 @@ TEST_CASE("a file without chain names meets one with them, numbered on or from t
   continued.peptide("", 1, kSequence + second);
   restarted.peptide("", 1, kSequence);
   restarted.peptide("", 1, second);
-  named.residue("B", 31, "LYS", {"N", "CA"});  // keeps the order from being the same
+  named.residue("B", 31, "LYS", {"N", "CA"});  // breaks the same order
   for (const MadeMolecule* plain : {&continued, &restarted}) {
     CHECK(pair_atoms(named.molecule, plain->molecule).n_aligned_residues == 33 + 30);
     CHECK(pair_atoms(plain->molecule, named.molecule).n_aligned_residues == 33 + 30);
@@ -190,7 +190,7 @@ TEST_CASE("molecules with nothing in common are refused, with counts, examples a
   const std::string message = message_of([&] { pair_atoms(protein.molecule, ligand.molecule); });
   for (const char* part :
        {"only 0 atoms", "source prot.pqr: 165 atoms in 33 residues (such as MET 7 of chain A, LYS 8",
-        "target lig.pqr: 4 atoms in 1 residues (such as DMS 108)", "no residues correspond", "--align none"}) {
+        "target lig.pqr: 4 atoms in 1 residues (such as DMS 108)", "no residues pair", "align none"}) {
     CHECK_MESSAGE(message.find(part) != std::string::npos, part, " not in: ", message);
   }
   CHECK(message.find('\n') == std::string::npos);
@@ -200,9 +200,9 @@ TEST_CASE("unrelated chains stay unpaired, though some alignment always exists")
   MadeMolecule a, b;
   a.peptide("A", 1, kSequence);
   b.peptide("A", 1, "GGWPNDGHCGWPNDGHCPGWPNDCHGGWPNDGHC");
-  // Five residues like this are found somewhere in many a chain.
+  // Short stretches like this occur in many chains.
   b.peptide("B", 1, "SHFSK");
-  CHECK(message_of([&] { pair_atoms(a.molecule, b.molecule); }).find("no residues correspond") != std::string::npos);
+  CHECK(message_of([&] { pair_atoms(a.molecule, b.molecule); }).find("no residues pair") != std::string::npos);
 }
 
 TEST_CASE("residues that correspond but share no atom names are named in the message") {
@@ -213,7 +213,7 @@ TEST_CASE("residues that correspond but share no atom names are named in the mes
   }
   const std::string message = message_of([&] { pair_atoms(a.molecule, b.molecule); });
   CHECK(message.find(
-            "10 residues correspond, but hardly any of their atom names (Q1 of TRP 1 of chain A against B1 of TRP 1") !=
+            "10 residues pair, but hardly any of their atom names (Q1 of TRP 1 of chain A against B1 of TRP 1") !=
         std::string::npos);
 }
 
@@ -232,12 +232,12 @@ TEST_CASE("the choice of atoms to align") {
   const AtomPairing own = pair_atoms(rna.molecule, rna.molecule);
   CHECK(select_pairs(own, rna.molecule, AlignAtoms::kBackbone).size() == 6);
   CHECK(message_of([&] { select_pairs(own, rna.molecule, AlignAtoms::kCAlpha); }) ==
-        "--align ca selects 0 of 7 paired atoms, at least 3 are needed; use --align all (7 pairs), --align backbone (6 "
+        "align ca selects 0 of 7 paired atoms, at least 3 are needed; use align all (7 pairs), align backbone (6 "
         "pairs), "
-        "or --align none");
+        "or align none");
 }
 
-TEST_CASE("the choice of atoms is read as it is written") {
+TEST_CASE("the choice of atoms survives writing and reading") {
   for (const AlignAtoms atoms : {AlignAtoms::kAll, AlignAtoms::kBackbone, AlignAtoms::kCAlpha, AlignAtoms::kNone}) {
     CHECK(parse_align_atoms(to_string(atoms)) == atoms);
   }

@@ -1,4 +1,4 @@
-// real_pairs.cpp: pairing and superposition of real molecules, against what is known of them.
+// real_pairs.cpp: pairing and superposition of real molecules against known values.
 #include <doctest/doctest.h>
 
 #include "../support/test_data.h"

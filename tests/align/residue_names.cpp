@@ -1,4 +1,4 @@
-// residue_names.cpp: spellings that mean the same, and what a residue is.
+// residue_names.cpp: equivalent spellings, and kinds of residues.
 #include "align/residue_names.h"
 
 #include <doctest/doctest.h>
@@ -8,7 +8,7 @@
 using namespace espdiff;
 using espdiff_test::MadeMolecule;
 
-TEST_CASE("residue names of force fields stand for the amino acid that they are forms of") {
+TEST_CASE("force fields' residue names map to their amino acid") {
   for (const char* name : {"HIS", "HSD", "HSE", "HSP", "HID", "HIE", "HIP", "hie", "NHIE"})
     CHECK(residue_letter(name) == 'H');
   for (const char* name : {"CYS", "CYX", "CYM", "CCYX"}) CHECK(residue_letter(name) == 'C');
@@ -22,7 +22,7 @@ TEST_CASE("residue names of force fields stand for the amino acid that they are 
   CHECK(residue_letter("") == '?');
 }
 
-TEST_CASE("nucleotides have letters of their own, so that A is not alanine") {
+TEST_CASE("nucleotides have their own letters, so that A is not alanine") {
   for (const char* name : {"A", "DA", "RA", "ADE", "A5", "DA3", "RA5"}) CHECK(residue_letter(name) == 'a');
   CHECK(residue_letter("DT") == 't');
   CHECK(residue_letter("U") == 'u');
@@ -32,7 +32,7 @@ TEST_CASE("nucleotides have letters of their own, so that A is not alanine") {
   CHECK_FALSE(same_residue_name("NTE", "CTE"));
 }
 
-TEST_CASE("atom names of old, CHARMM and current files come to one spelling") {
+TEST_CASE("old, CHARMM and current atom names are normalized to one spelling") {
   CHECK(normalized_atom_name("1HB") == "HB1");
   CHECK(normalized_atom_name("2HG1") == "HG12");
   CHECK(normalized_atom_name(" HN ") == "H");
@@ -49,7 +49,7 @@ TEST_CASE("atom names of old, CHARMM and current files come to one spelling") {
   CHECK(normalized_atom_name("CD", 'K') == "CD");
 }
 
-TEST_CASE("a residue is known by its name, else by its atoms") {
+TEST_CASE("a residue's kind follows from its name, otherwise from its atoms") {
   MadeMolecule made;
   made.residue("A", 1, "ALA", {"CA"});
   made.residue("A", 2, "XAA", {"N", "CA", "C", "O"});

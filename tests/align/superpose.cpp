@@ -1,5 +1,5 @@
-// superpose.cpp: known motions are recovered, reflections refused, and a molecule's own frame does not depend on where
-// it lies.
+// superpose.cpp: known motions are recovered, reflections refused, and the principal frame does not depend on the
+// position.
 #include "align/superpose.h"
 
 #include <doctest/doctest.h>
@@ -114,7 +114,7 @@ TEST_CASE("no nearby motion has a lower RMSD, and the RMSD is that of the moved 
   }
 }
 
-TEST_CASE("pairs choose the points; all others are free") {
+TEST_CASE("only paired points determine the superposition") {
   const auto points = cloud(20, 5);
   const RigidTransform truth = motion(2.5, {-7, 0, 1});
   auto fixed = moved(points, truth);
@@ -125,20 +125,20 @@ TEST_CASE("pairs choose the points; all others are free") {
   CHECK(largest_difference(superpose(points, fixed, pairs).transform, truth) < 1e-12);
 }
 
-TEST_CASE("what determines no rotation is refused with a remedy") {
+TEST_CASE("points that determine no rotation are refused with a remedy") {
   const std::vector<Vec3d> line = {{0, 0, 0}, {1, 1, 2}, {2, 2, 4}, {5, 5, 10}}, point(4, Vec3d{1, 2, 3});
   const auto shape = cloud(4, 6);
   for (const auto* degenerate : {&line, &point}) {
     CHECK_THROWS_AS(superpose(*degenerate, shape, one_to_one(4)), GeometryError);
     const std::string message = message_of([&] { superpose(shape, *degenerate, one_to_one(4)); });
     CHECK(message.find("lie on a line or in a point") != std::string::npos);
-    CHECK(message.find("--align none") != std::string::npos);
+    CHECK(message.find("align none") != std::string::npos);
   }
   const std::string too_few = message_of([&] { superpose(shape, shape, one_to_one(2)); });
   CHECK(too_few.find("at least 3 pairs of atoms, 2 were given") != std::string::npos);
   std::vector<Vec3d> broken = shape;
   broken[1].y = std::nan("");
-  CHECK(message_of([&] { superpose(broken, shape, one_to_one(4)); }).find("not a finite number") != std::string::npos);
+  CHECK(message_of([&] { superpose(broken, shape, one_to_one(4)); }).find("not finite") != std::string::npos);
 }
 
 TEST_CASE("RMSD is the root of the mean squared distance") {
@@ -147,14 +147,14 @@ TEST_CASE("RMSD is the root of the mean squared distance") {
   CHECK_THROWS_AS(rmsd(a, b, {}), GeometryError);
 }
 
-TEST_CASE("inverse and compose are those of the motions") {
+TEST_CASE("inverse and compose act like the motions") {
   const RigidTransform a = motion(0.8, {1, 2, 3}), b = motion(-2.1, {-5, 9, 0.5});
   const Vec3d p{3, -4, 5};
   CHECK(norm(compose(a, b).apply(p) - a.apply(b.apply(p))) < 1e-14 * 50);
   CHECK(norm(inverse(a).apply(a.apply(p)) - p) < 1e-14 * 50);
 }
 
-TEST_CASE("the principal frame is that of the shape: rigid motion and atom order change nothing") {
+TEST_CASE("the principal frame depends on the shape only, not on rigid motion or atom order") {
   const auto points = cloud(200, 8);
   const auto reference = moved(points, principal_frame(points));
   for (const double angle : {0.3, 1.9, 3.0}) {
@@ -186,7 +186,7 @@ TEST_CASE("the principal frame is right-handed, centred, and ordered by extent")
   CHECK(cubes.y > 0);
 }
 
-TEST_CASE("few or symmetric points still have a right-handed frame") {
+TEST_CASE("few or symmetric points also have a right-handed frame") {
   const std::vector<Vec3d> one = {{1, 2, 3}}, two = {{0, 0, 0}, {0, 0, 2}};
   const std::vector<Vec3d> cross_shape = {{1, 0, 0}, {-1, 0, 0}, {0, 2, 0}, {0, -2, 0}, {0, 0, 3}, {0, 0, -3}};
   for (const auto* points : {&one, &two, &cross_shape}) {

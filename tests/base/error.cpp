@@ -1,4 +1,4 @@
-// error.cpp: every error class has a name and an exit status, and its message says where.
+// error.cpp: names, exit statuses and messages of the error classes.
 #include "base/error.h"
 
 #include <doctest/doctest.h>
@@ -43,7 +43,7 @@ TEST_CASE("file errors name the file, and the line where there is one") {
   CHECK(std::string(espdiff::IoError("a.dx", "no such file").what()) == "a.dx: no such file");
 }
 
-TEST_CASE("progress tells its listener until it is cancelled") {
+TEST_CASE("progress is reported until cancellation") {
   int n = 0;
   espdiff::Progress progress([&](const std::string& stage, double fraction) {
     CHECK(stage == "stage");

@@ -1,9 +1,10 @@
-// layers.cpp: no room includes what it may not know: reads every include of src/, cuda/ and vmdplugin/.
+// layers.cpp: no room includes a room above it: reads every include of src/, cuda/ and vmdplugin/.
 #include <doctest/doctest.h>
 
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <set>
 #include <string>
 
@@ -12,17 +13,31 @@ namespace {
 namespace fs = std::filesystem;
 using Rooms = std::map<std::string, std::set<std::string>>;
 
-/// What each room may include besides itself. Nobody looks up.
+/// What each room may include besides itself; only rooms below it.
 const Rooms kAllowed = {
     {"base", {}},
     {"io", {"base"}},
     {"align", {"base"}},
     {"engine", {"base"}},
-    {"cuda", {"base", "engine"}},
-    {"pipeline", {"base", "align", "engine", "io"}},
-    {"view", {"base", "io"}},
-    {"cli", {"base", "align", "engine", "io", "pipeline", "view"}},
-    {"vmdplugin", {"base", "align", "engine", "io", "pipeline", "view"}},
+    {"cuda/device", {"base", "engine"}},
+    {"cuda/surface", {"base", "engine", "cuda/device"}},
+    {"cuda/deform", {"base", "engine", "cuda/device", "cuda/surface"}},
+    {"cuda/morph", {"base", "engine", "cuda/device", "cuda/surface"}},
+    {"cuda/certificate", {"base", "engine", "cuda/device", "cuda/surface"}},
+    {"cuda/potential", {"base", "engine", "cuda/device", "cuda/surface"}},
+    {"cuda",
+     {"base", "engine", "cuda/device", "cuda/surface", "cuda/deform", "cuda/morph", "cuda/certificate",
+      "cuda/potential"}},
+    {"compare", {"base", "align", "engine"}},
+    {"potential", {"base", "align", "engine", "io", "compare"}},
+    {"plot", {"base", "io"}},
+    {"view", {"base", "io", "plot"}},
+    {"report", {"base", "align", "engine", "io", "compare", "potential"}},
+    {"trajectory", {"base", "align", "engine", "io", "compare", "potential", "report"}},
+    {"matrix", {"base", "align", "engine", "io", "compare", "potential", "report"}},
+    {"cli",
+     {"base", "align", "engine", "io", "compare", "potential", "plot", "view", "report", "trajectory", "matrix"}},
+    {"vmdplugin", {"base", "align", "engine", "io", "compare", "potential", "plot", "report", "trajectory", "matrix"}},
 };
 
 std::string quoted_include(const std::string& line) {
@@ -31,16 +46,20 @@ std::string quoted_include(const std::string& line) {
   return line.substr(start.size(), line.find('"', start.size()) - start.size());
 }
 
+/// The room of a file that is included as "room/file" or "cuda/room/file"; empty for a file of the same folder.
+std::string room_of(const std::string& include) {
+  const std::size_t slash = include.rfind('/');
+  return slash == std::string::npos ? "" : include.substr(0, slash);
+}
+
 /// Checks one file; returns how many includes of other rooms it has.
 int check_file(const fs::path& file, const std::string& room) {
   std::ifstream in(file);
   int n = 0;
   for (std::string line; std::getline(in, line);) {
     const std::string include = quoted_include(line);
-    const std::size_t slash = include.find('/');
-    if (slash == std::string::npos) continue;  // a file of the same folder
-    const std::string other = include.substr(0, slash);
-    if (other == room) continue;
+    const std::string other = room_of(include);
+    if (other.empty() || other == room) continue;
     ++n;
     INFO(file.string(), " includes ", include);
     CHECK(kAllowed.at(room).count(other) == 1);
@@ -56,10 +75,10 @@ TEST_CASE("rooms include only rooms below them") {
   const fs::path root = ESPDIFF_SOURCE_DIR;
   int n_files = 0, n_includes = 0;
   for (const auto& [room, allowed] : kAllowed) {
-    const bool is_at_top = room == "cuda" || room == "vmdplugin";
+    const bool is_at_top = room.compare(0, 4, "cuda") == 0 || room == "vmdplugin";
     const fs::path folder = is_at_top ? root / room : root / "src" / room;
     if (!fs::is_directory(folder)) continue;
-    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    for (const auto& entry : fs::directory_iterator(folder)) {
       const std::string extension = entry.path().extension().string();
       if (extension != ".h" && extension != ".cpp" && extension != ".cu") continue;
       ++n_files;
@@ -70,7 +89,7 @@ TEST_CASE("rooms include only rooms below them") {
   CHECK(n_includes > 40);
 }
 
-TEST_CASE("every folder of src has its rule") {
+TEST_CASE("every folder of src has a rule") {
   for (const auto& entry : fs::directory_iterator(fs::path(ESPDIFF_SOURCE_DIR) / "src")) {
     if (!entry.is_directory()) continue;
     INFO(entry.path().string());
@@ -78,7 +97,7 @@ TEST_CASE("every folder of src has its rule") {
   }
 }
 
-TEST_CASE("every source file says in its first line what it is for") {
+TEST_CASE("every source file states its purpose in its first line") {
   for (const char* folder : {"src", "cuda", "vmdplugin"}) {
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(ESPDIFF_SOURCE_DIR) / folder)) {
       const std::string extension = entry.path().extension().string();
@@ -90,6 +109,25 @@ TEST_CASE("every source file says in its first line what it is for") {
       CHECK(line.find("// " + entry.path().filename().string() + ": ") == 0);
     }
   }
+}
+
+TEST_CASE("only the command line writes options with dashes; other messages name them") {
+  const std::regex spelled("\"[^\"]*--[a-z]");
+  int n_lines = 0;
+  for (const char* folder : {"src", "cuda", "vmdplugin"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(ESPDIFF_SOURCE_DIR) / folder)) {
+      const std::string extension = entry.path().extension().string();
+      if (entry.path().parent_path().filename() == "cli") continue;
+      if (extension != ".h" && extension != ".cpp" && extension != ".cu") continue;
+      std::ifstream in(entry.path());
+      for (std::string line; std::getline(in, line); ++n_lines) {
+        if (line.find("--") != std::string::npos)
+          CHECK_MESSAGE(!std::regex_search(line, spelled), entry.path().string(), ": ", line,
+                        "; name it by option() of base/message.h");
+      }
+    }
+  }
+  CHECK(n_lines > 10000);
 }
 
 TEST_SUITE_END();

@@ -52,7 +52,7 @@ TEST_CASE("factors are those of CODATA 2018") {
         doctest::Approx(0.5961613).epsilon(1e-6));  // RT at 300 K
 }
 
-TEST_CASE("factors there and back cancel, and chain") {
+TEST_CASE("a factor and its inverse cancel, and factors chain") {
   for (const PotentialUnit a : kUnits) {
     CHECK(conversion_factor(a, a, 300) == 1.0);
     for (const PotentialUnit b : kUnits) {

@@ -32,7 +32,7 @@ TEST_CASE("four components are one aligned load") {
   CHECK(sum.w == 12);
 }
 
-TEST_CASE("a rigid transform turns first, then shifts") {
+TEST_CASE("a rigid transform rotates first, then translates") {
   RigidTransform quarter;  // about z
   quarter.rotation[0] = 0;
   quarter.rotation[1] = -1;

@@ -137,13 +137,13 @@ TEST_CASE("potential: wrong input gives one line and leaves nothing") {
                         {molecule + " --grid 0", "not above 0"},
                         {molecule + " --grid '8 8'", "has 2 numbers"},
                         {molecule + " --grid '4 8 8'", "each edge needs 6"},
-                        {molecule + " --grid 4096 --precision double", "more than memory holds"},
+                        {molecule + " --grid 4096 --precision double", "would fit"},
                         {molecule + " --order 12", "spline order 12 is not among 4 to 8"},
                         {molecule + " --compatible --order 6", "PMEPot's is 4"},
                         {molecule + " --compatible --align ca", "`compatible` with superposition"},
                         {molecule + " --cell '0 0 0 9 0 0 0 9 0 0 0 9' --pad 3", "a cell and a padding"},
                         {molecule + " --method coulomb --dielectric 0", "dielectric constant 0.000000"},
-                        {molecule + " --variance " + folder.file("v.dx") + " --frames 0", "need 2 frames at least"},
+                        {molecule + " --variance " + folder.file("v.dx") + " --frames 0", "need at least 2 frames"},
                         {folder.file("absent.pqr"), "absent.pqr"}}) {
     const Outcome outcome = run_espdiff("potential " + c.arguments + " --device cpu -o " + folder.file("m.dx"));
     CAPTURE(c.arguments);

@@ -89,6 +89,18 @@ TEST_CASE("two molecules with nothing in common") {
   in.check_refused(in.compare(), 2, "--align none");
 }
 
+TEST_CASE("options that the core names are spelled as the command line's, and plainly in files") {
+  Inputs in;
+  in.check_refused(in.compare("--mu 0.5"), 2,
+                   "--mu is a setting of the method deform, and the method is morph; give --method deform as well, or "
+                   "leave --mu out");
+  in.check_refused(in.compare("--device cuda:999"), 1, "--device cuda:999: ");
+  const Outcome outcome = in.compare("--method deform --max-iterations 1");
+  CHECK_MESSAGE(outcome.status == 0, outcome.err);
+  CHECK(contains(outcome.out, "  - the mapping did not converge; raise --max-iterations\n"));
+  CHECK(contains(read_file(in.folder.file("out.json")), "\"the mapping did not converge; raise max-iterations\""));
+}
+
 TEST_CASE("a map that does not cover the molecule") {
   Inputs in;
   in.target_map = in.folder.write("far.dx", constant_dx(9, 1.0, 1.0, "kT/e", 500));

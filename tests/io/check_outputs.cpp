@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include "base/error.h"
-#include "io/file_lock.h"
 #include "support/test_data.h"
 
 using namespace espdiff;
@@ -44,23 +43,4 @@ TEST_CASE("check_outputs names both files") {
           check_outputs({}, {out, other});
         }) == "two outputs would have one name: '" + out + "' and '" + other +
                   "', which are one file; choose another for one of them");
-}
-
-TEST_CASE("a lock keeps a second run out, in this process too, and leaves nothing") {
-  const ScratchFolder folder;
-  const std::string path = folder.file("out.csv");
-  {
-    const FileLock lock(path);
-    CHECK(message_of([&] { FileLock second(path); }) ==
-          path + ": another run is writing this file; wait for it, or name another output");
-    CHECK(message_of([&] { FileLock second(folder.file("./out.csv")); }).find("another run") != std::string::npos);
-    CHECK_NOTHROW(FileLock(folder.file("other.csv")));
-  }
-  CHECK(folder.n_files() == 0);
-  folder.write("out.csv.lock", "");  // of a process that was killed
-  folder.write("out.csv.tmp4242-1", "half");
-  { const FileLock lock(path); }
-  CHECK(folder.n_files() == 0);
-  CHECK(message_of([&] { FileLock lock(folder.file("no/out.csv")); }).find("does not exist; create it first") !=
-        std::string::npos);
 }

@@ -1,4 +1,5 @@
 // elements.cpp: radii by element and elements by atom name.
+#include "base/water.h"
 #include "io/molecule_builder.h"
 #include "io/read_structure.h"
 #include "support/test_data.h"

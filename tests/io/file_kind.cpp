@@ -1,7 +1,7 @@
 // file_kind.cpp: formats are told by content.
 #include "io/file_kind.h"
 
-#include "io/gzip_text.h"
+#include "io/read_input.h"
 #include "support/test_data.h"
 
 using namespace espdiff;
@@ -58,6 +58,6 @@ TEST_CASE("file_kind: real files") {
     const auto kind = file.second;
     const auto path = real_input(name);
     if (!path) return;
-    CHECK_MESSAGE(recognise(peek_text_file(*path, kRecogniseBytes)) == kind, name);
+    CHECK_MESSAGE(recognise(read_text_file(*path)) == kind, name);
   }
 }

@@ -10,10 +10,9 @@
 
 #include "base/error.h"
 #include "base/printable.h"
-#include "io/gzip_text.h"
+#include "io/read_input.h"
 #include "io/read_grid.h"
 #include "io/read_structure.h"
-#include "io/read_unit_cells.h"
 #include "io/read_vtp.h"
 #include "io/sha256.h"
 #include "io/write_vtp.h"

@@ -2,6 +2,7 @@
 #include "io/read_unit_cells.h"
 
 #include "base/error.h"
+#include "io/read_structure.h"
 #include "support/test_data.h"
 
 using namespace espdiff;
@@ -10,6 +11,8 @@ using namespace espdiff_test;
 namespace {
 
 const char* const kAtom = "ATOM      1  CA  ALA A   1       1.000   2.000   3.000  0.5000 2.0000\n";
+
+std::vector<std::optional<UnitCell>> cells_of(const std::string& path) { return StructureFile(path).unit_cells(); }
 
 std::string cryst1(const char* numbers) { return std::string("CRYST1") + numbers + " P 1           1\n"; }
 
@@ -20,7 +23,7 @@ TEST_CASE("unit cells: each model has the last CRYST1 before it; none and dummie
   const std::string first = cryst1("   42.439   42.500   43.125 109.47  90.00  80.50"),
                     second = cryst1("   50.000   51.000   52.000  90.00  90.00  90.00"),
                     dummy = cryst1("    1.000    1.000    1.000  90.00  90.00  90.00");
-  const auto cells = read_unit_cells(
+  const auto cells = cells_of(
       scratch.write("a.pqr", first + kAtom + "END\n" + second + kAtom + "END\n" + dummy + kAtom + "END\n"));
   REQUIRE(cells.size() == 3);
   REQUIRE(cells[0].has_value());
@@ -31,12 +34,12 @@ TEST_CASE("unit cells: each model has the last CRYST1 before it; none and dummie
   CHECK_FALSE(cells[2].has_value());
   // One record for all models of a file.
   const auto shared =
-      read_unit_cells(scratch.write("b.pqr", second + "MODEL 1\n" + kAtom + "ENDMDL\nMODEL 2\n" + kAtom + "ENDMDL\n"));
+      cells_of(scratch.write("b.pqr", second + "MODEL 1\n" + kAtom + "ENDMDL\nMODEL 2\n" + kAtom + "ENDMDL\n"));
   REQUIRE(shared.size() == 2);
   CHECK(shared[1].has_value());
-  CHECK_FALSE(read_unit_cells(scratch.write("c.pqr", kAtom))[0].has_value());
+  CHECK_FALSE(cells_of(scratch.write("c.pqr", kAtom))[0].has_value());
   CHECK(message_of([&] {
-          read_unit_cells(scratch.write("d.pqr", "CRYST1   42.439\n" + std::string(kAtom)));
+          cells_of(scratch.write("d.pqr", "CRYST1   42.439\n" + std::string(kAtom)));
         }).find("d.pqr:1: the CRYST1 record's length is ''") != std::string::npos);
 }
 

@@ -186,17 +186,17 @@ TEST_CASE("list_vti_scalars: names of arrays with one number a point, in file or
   const std::string vectors = ascii_array("Float32", "v", kAscii + " " + kAscii, " NumberOfComponents=\"2\"");
   const std::string damaged_a = ascii_array("Float64", "a", "nan");
   const std::string good = kImage + point_data(scalar_b + vectors + damaged_a) + kEnd;
-  CHECK(list_vti_scalars(scratch.write("a.vti", good)) == std::vector<std::string>{"b", "a"});
-  CHECK(list_vti_scalars(scratch.write("b.vti", kImage + kEnd)).empty());
+  CHECK(list_vti_scalars(VtkXmlFile(scratch.write("a.vti", good), kImageData)) == std::vector<std::string>{"b", "a"});
+  CHECK(list_vti_scalars(VtkXmlFile(scratch.write("b.vti", kImage + kEnd), kImageData)).empty());
 
   CapturedOutput output(scratch.file("output"));
   const std::string cut = scratch.write("c.vti", good.substr(0, good.size() - 20));
-  CHECK(message_of([&] { list_vti_scalars(cut); }).find("c.vti: the VTI file is cut short") != std::string::npos);
+  CHECK(message_of([&] { list_vti_scalars(VtkXmlFile(cut, kImageData)); }).find("c.vti: the VTI file is cut short") != std::string::npos);
   const std::string broken = scratch.write("d.vti", replaced(good, "</PointData>", "</PointDatum>"));
   CHECK(message_of([&] {
-          list_vti_scalars(broken);
+          list_vti_scalars(VtkXmlFile(broken, kImageData));
         }).find("d.vti:5: damaged XML: <PointData> of line 5 ends with </PointDatum>") != std::string::npos);
-  CHECK(message_of([&] { list_vti_scalars(scratch.file("absent.vti")); }).find("absent.vti") != std::string::npos);
+  CHECK(message_of([&] { list_vti_scalars(VtkXmlFile(scratch.file("absent.vti"), kImageData)); }).find("absent.vti") != std::string::npos);
   CHECK(output.text() == "");
 }
 
@@ -276,7 +276,7 @@ TEST_CASE("read_vti: a compressed map from elsewhere") {
   // python3, base64 and zlib by hand: 262144 floats, sum 4856.008970333924, and at (20, 31, 33), (33, 31, 20):
   CHECK(grid.values[20 + 64 * (31 + 64 * 33)] == 0.21766400337219238F);
   CHECK(grid.values[33 + 64 * (31 + 64 * 20)] == 0.9119439721107483F);
-  CHECK(list_vti_scalars(*path) == std::vector<std::string>{"probability_density"});
+  CHECK(list_vti_scalars(VtkXmlFile(*path, kImageData)) == std::vector<std::string>{"probability_density"});
   double sum = 0;
   for (float v : grid.values) sum += static_cast<double>(v);
   CHECK(sum == doctest::Approx(4856.008970333924).epsilon(1e-12));

@@ -80,7 +80,7 @@ void check_same(const std::string& path) {
   reader->Update();
   vtkImageData* const image = reader->GetOutput();
   vtkDataArray* const expected = image->GetPointData()->GetArray(0);
-  const Grid grid = read_vti(path, {});
+  const Grid grid = read_vti(VtkXmlFile(path, kImageData), {});
   REQUIRE(grid.values.size() == static_cast<std::size_t>(expected->GetNumberOfTuples()));
   for (std::size_t i = 0; i < grid.values.size(); ++i) {
     if (grid.values[i] != static_cast<float>(expected->GetComponent(static_cast<vtkIdType>(i), 0)))

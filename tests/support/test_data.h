@@ -1,4 +1,4 @@
-// test_data.h: where tests find real inputs and put their files, and how they say that they skip.
+// test_data.h: where tests find real inputs and write their files, and how they report skipping.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -12,14 +12,14 @@
 
 namespace espdiff_test {
 
-/// The folder of real inputs: $ESPDIFF_DATA, else shared/data beside the checkout; empty when neither exists.
+/// The folder of real inputs: $ESPDIFF_DATA, otherwise shared/data beside the checkout; empty if neither exists.
 inline std::string data_folder() {
   const char* from_environment = std::getenv("ESPDIFF_DATA");
   const std::string folder = from_environment != nullptr ? from_environment : ESPDIFF_SOURCE_DIR "/../shared/data";
   return std::filesystem::is_directory(folder) ? folder : std::string();
 }
 
-/// Path of a real input, or nothing (and a line that says SKIPPED and why) when the folder is absent.
+/// Path of a real input, or nothing (after a line with SKIPPED and the reason) if the folder is absent.
 inline std::optional<std::string> real_input(const std::string& name) {
   const std::string folder = data_folder();
   if (folder.empty()) {
@@ -29,7 +29,7 @@ inline std::optional<std::string> real_input(const std::string& name) {
   return folder + "/" + name;
 }
 
-/// An empty folder of its own for one test, removed at the end.
+/// An empty folder for one test, removed at the end.
 class ScratchFolder {
  public:
   ScratchFolder() {
@@ -67,7 +67,7 @@ inline std::string read_file(const std::string& path) {
   return out.str();
 }
 
-/// The message of the exception that `call` throws; "(nothing thrown)" when it returns.
+/// The message of the exception that `call` throws; "(nothing thrown)" if it returns.
 template <typename Call>
 std::string message_of(Call call) {
   try {

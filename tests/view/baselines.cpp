@@ -1,6 +1,6 @@
-// baselines.cpp: a few small pictures against those that were found good by eye (tests/view/baselines).
+// baselines.cpp: a few small pictures against baselines accepted by eye (tests/view/baselines).
 //
-// ESPDIFF_WRITE_BASELINES=1 writes them anew; look at each before it is kept.
+// ESPDIFF_WRITE_BASELINES=1 rewrites them; look at each before you keep it.
 #include <doctest/doctest.h>
 #include <vtkPNGWriter.h>
 
@@ -22,7 +22,7 @@ const std::string kFolder = ESPDIFF_SOURCE_DIR "/tests/view/baselines/";
 
 struct Difference {
   double mean = 0;       ///< of the channels' absolute differences, 0 to 255
-  double far_share = 0;  ///< of the pixels that differ by more than 48 in a channel
+  double far_share = 0;  ///< fraction of pixels that differ by more than 48 in a channel
 };
 
 Difference difference(const Picture& a, const Picture& b) {
@@ -44,7 +44,7 @@ Difference difference(const Picture& a, const Picture& b) {
   return {sum.mean / n, sum.far_share / n};
 }
 
-/// A quarter of the pixels: baselines are kept small.
+/// A quarter of the pixels, to keep baselines small.
 std::string halved(const Picture& picture, const std::string& path) {
   vtkNew<vtkImageData> half;
   half->SetDimensions(picture.width() / 2, picture.height() / 2, 1);
@@ -68,7 +68,7 @@ std::string halved(const Picture& picture, const std::string& path) {
   return path;
 }
 
-/// Fonts and rasterizers of other machines move edges by a pixel; what is missing, or in another colour, is more.
+/// Fonts and rasterizers of other machines move edges by a pixel; a missing part or another colour differs more.
 void compare(const std::string& name, const std::string& drawn) {
   const std::string baseline = kFolder + name + ".png";
   if (std::getenv("ESPDIFF_WRITE_BASELINES") != nullptr) {
@@ -96,7 +96,7 @@ std::string draw(const ScratchFolder& scratch, const std::string& vtp, Scene sce
 
 }  // namespace
 
-TEST_CASE("pictures are as they were when they were found good") {
+TEST_CASE("pictures equal their accepted baselines") {
   if (!espdiff_test::can_draw()) return;
   const ScratchFolder scratch;
   const std::string vtp = espdiff_test::compare_made_pair(scratch);
@@ -121,7 +121,7 @@ TEST_CASE("pictures are as they were when they were found good") {
   compare("sign", draw(scratch, vtp, sign));
 }
 
-TEST_CASE("a picture that lacks something, or has another colour, is far from its baseline") {
+TEST_CASE("a picture with a missing part or a wrong colour is far from its baseline") {
   if (!espdiff_test::can_draw()) return;
   const ScratchFolder scratch;
   const std::string vtp = espdiff_test::compare_made_pair(scratch);

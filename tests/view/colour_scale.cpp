@@ -1,4 +1,4 @@
-// colour_scale.cpp: ranges, round numbers, opacity, and the names that users type.
+// colour_scale.cpp: ranges, round numbers, opacity, and array names.
 #include "view/colour_scale.h"
 
 #include <doctest/doctest.h>
@@ -24,7 +24,7 @@ TEST_CASE("round_up_nicely gives the next round number") {
   CHECK(round_up_nicely(0) == 1);
 }
 
-TEST_CASE("automatic range leaves out the two per cent of extreme values, on both sides of zero") {
+TEST_CASE("the automatic range excludes the two per cent of extreme values, on both sides of zero") {
   std::vector<float> values(99, -1.9F);
   values.push_back(400);
   const ColourScale scale(RenderArray::kDifference, values, 0);
@@ -38,7 +38,7 @@ TEST_CASE("automatic range leaves out the two per cent of extreme values, on bot
   CHECK(scale.colour(kNan) == kNoValueColour);
 }
 
-TEST_CASE("a given limit is taken as it is, and a displacement starts at zero") {
+TEST_CASE("a given limit is used unchanged, and a displacement starts at zero") {
   const ColourScale scale(RenderArray::kDisplacement, {0.5F, 7, kNan}, 3.3);
   CHECK(scale.low() == 0);
   CHECK(scale.high() == 3.3);
@@ -75,7 +75,7 @@ TEST_CASE("opacity falls linearly from 1 between the two displacements") {
   CHECK(scale.opacity(kNan) == 0.25);
 }
 
-TEST_CASE("array names are read and explained") {
+TEST_CASE("array names are read, and errors list them") {
   CHECK(parse_render_array("sign") == RenderArray::kSign);
   CHECK(std::string(array_name(RenderArray::kDifference)) == "potential_difference");
   CHECK(legend_title(RenderArray::kSource, "mV") == "potential of the source (mV)");
@@ -113,13 +113,13 @@ TEST_CASE("a magnitude is sequential and has no sign") {
   CHECK(scale.colour(3) == sequential_colour(1, kOrangeHue));
 }
 
-TEST_CASE("every name of a quantity is read as what it is written for") {
+TEST_CASE("every array name survives writing and reading") {
   for (const std::string& name : render_array_names()) CHECK(to_string(parse_render_array(name)) == name);
   CHECK(parse_render_array("uncertainty") == RenderArray::kDisplacement);
   CHECK_FALSE(ColourScale(RenderArray::kPlain, {}, 0).has_bar());
 }
 
-TEST_CASE("a see-through surface fades from its own opacity") {
+TEST_CASE("a transparent surface fades from its own opacity") {
   const OpacityScale scale{0.5, 2.5, 0.2, 0.6};
   CHECK(scale.opacity(0) == doctest::Approx(0.6));
   CHECK(scale.opacity(1.5) == doctest::Approx(0.4));

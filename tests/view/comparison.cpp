@@ -1,4 +1,4 @@
-// comparison.cpp: the files of a comparison as pictures take them, and how pictures do without some of them.
+// comparison.cpp: reading a comparison's files for pictures, also with some missing.
 #include "view/comparison_files.h"
 
 #include <doctest/doctest.h>
@@ -39,7 +39,7 @@ const ScratchFolder& made() {
   return scratch;
 }
 
-/// The same in a folder of its own, to be damaged.
+/// A copy in its own folder, to be damaged.
 std::string copied(const ScratchFolder& to) {
   for (const char* name : {"pair.vtp", "pair.json", "source.dx", "target.dx", "source.pqr", "target.pqr"}) {
     std::filesystem::copy_file(made().file(name), to.file(name));
@@ -60,7 +60,7 @@ Scene small(Layout layout = Layout::kTurned) {
   return scene;
 }
 
-/// All that is written in a window.
+/// All text in a window.
 std::set<std::string> texts_of(vtkRenderWindow* window) {
   std::set<std::string> texts;
   vtkRendererCollection* renderers = window->GetRenderers();
@@ -77,7 +77,7 @@ std::set<std::string> texts_of(vtkRenderWindow* window) {
 
 }  // namespace
 
-TEST_CASE("a record names inputs, superposition and trust, also after the folder has moved") {
+TEST_CASE("a record gives inputs, superposition and verdict, also after the folder has moved") {
   const ScratchFolder moved;
   const RunRecord record = read_run_record(copied(moved));
   REQUIRE(record.found);
@@ -90,7 +90,7 @@ TEST_CASE("a record names inputs, superposition and trust, also after the folder
   CHECK(norm(image) == doctest::Approx(2));
 }
 
-TEST_CASE("a record that is none is refused") {
+TEST_CASE("a file that is not a record is refused") {
   const ScratchFolder scratch;
   const std::string vtp = copied(scratch);
   scratch.write("pair.json", "{\"inputs\": []}");
@@ -99,7 +99,7 @@ TEST_CASE("a record that is none is refused") {
   CHECK_THROWS_AS(read_comparison(vtp, {}), FormatError);
 }
 
-TEST_CASE("maps are taken only when they are those of the comparison") {
+TEST_CASE("maps are used only if they are those of the comparison") {
   const ScratchFolder scratch;
   const std::string vtp = copied(scratch);
   CHECK(read_comparison(vtp, {}).maps.complete());
@@ -109,12 +109,12 @@ TEST_CASE("maps are taken only when they are those of the comparison") {
   CHECK(contains(maps.why_not, "source.dx has changed since the comparison"));
   std::filesystem::remove(scratch.file("source.dx"));
   maps = read_comparison(vtp, {}).maps;
-  CHECK(contains(maps.why_not, "source.dx is not there any more"));
+  CHECK(contains(maps.why_not, "source.dx no longer exists"));
   std::filesystem::remove(scratch.file("pair.json"));
-  CHECK(contains(read_comparison(vtp, {}).maps.why_not, "pair.json is not there to name the maps"));
+  CHECK(contains(read_comparison(vtp, {}).maps.why_not, "pair.json is missing, which names the maps"));
 }
 
-TEST_CASE("potentials computed in process have no maps to look up, and a note says so") {
+TEST_CASE("potentials computed in process have no map files, and a note says so") {
   if (!can_draw()) return;
   const ScratchFolder scratch;
   const std::string atoms = espdiff_test::bent_row(0), bent = espdiff_test::bent_row(0.6);
@@ -125,12 +125,12 @@ TEST_CASE("potentials computed in process have no maps to look up, and a note sa
   const auto notes = render_surface(scratch.file("pme.vtp"), scratch.file("pme.png"), small());
   REQUIRE(notes.size() >= 1);
   CHECK(contains(notes[0],
-                 "potentials are drawn between the vertices' values, not from the maps: the potentials were "
+                 "potentials are interpolated between vertices, not looked up in the maps: the potentials were "
                  "computed in process"));
-  CHECK(contains(espdiff_test::read_file(scratch.file("pme.png")), "potentials between the vertices' values"));
+  CHECK(contains(espdiff_test::read_file(scratch.file("pme.png")), "potentials interpolated between vertices"));
 }
 
-TEST_CASE("a picture carries inputs, fingerprints and its scene") {
+TEST_CASE("a picture contains its inputs, their SHA-256 and its scene") {
   if (!can_draw()) return;
   const ScratchFolder scratch;
   Scene scene = small(Layout::kLinked);
@@ -145,7 +145,7 @@ TEST_CASE("a picture carries inputs, fingerprints and its scene") {
   CHECK(contains(png, "potentials of the maps at every pixel"));
 }
 
-TEST_CASE("what a scene needs and a file lacks is named") {
+TEST_CASE("data that a scene needs and a file lacks are named") {
   const ScratchFolder scratch;
   const std::string vtp = copied(scratch);
   const auto message = [&](const Scene& scene) { return message_of([&] { read_comparison(vtp, scene); }); };
@@ -157,7 +157,7 @@ TEST_CASE("what a scene needs and a file lacks is named") {
   scratch.write("target.pqr", espdiff_test::bent_row(2));
   CHECK(contains(message(cartoon), "target.pqr has changed since the comparison"));
   std::filesystem::remove(scratch.file("target.pqr"));
-  CHECK(contains(message(cartoon), "target.pqr is not there any more; compare again, or draw without the molecule"));
+  CHECK(contains(message(cartoon), "target.pqr no longer exists; compare again, or draw without the molecule"));
   std::filesystem::remove(scratch.file("target.dx"));
   CHECK(contains(message(sliced), "slices need the maps: "));
   CHECK_NOTHROW(read_comparison(vtp, linked));
@@ -167,7 +167,7 @@ TEST_CASE("what a scene needs and a file lacks is named") {
   CHECK(contains(message(cartoon), "it names the structures"));
 }
 
-TEST_CASE("the model that was compared is drawn; where the record does not say which, another one is refused") {
+TEST_CASE("the compared model is drawn; without a recorded model, another one is refused") {
   const ScratchFolder scratch;
   // The first model lies 100 A away.
   std::string models = "MODEL        1\n";
@@ -190,7 +190,7 @@ TEST_CASE("the model that was compared is drawn; where the record does not say w
   const ComparisonFiles files = read_comparison(scratch.file("pair.vtp"), scene);
   REQUIRE(files.source_molecule);
   CHECK(files.source_molecule->positions[0].x < 50);
-  // As an earlier version wrote it.
+  // As written by an earlier version.
   std::string json = espdiff_test::read_file(scratch.file("pair.json"));
   const std::size_t at = json.find("\"model\": 2");
   REQUIRE(at != std::string::npos);
@@ -199,7 +199,7 @@ TEST_CASE("the model that was compared is drawn; where the record does not say w
                  "source.pqr: its model is not the one that was compared"));
 }
 
-TEST_CASE("each layout, style and drawing of maps makes a picture of its own") {
+TEST_CASE("each layout, style and drawing of maps makes a different picture") {
   if (!can_draw()) return;
   const ScratchFolder scratch;
   std::vector<std::string> pictures;
@@ -209,7 +209,7 @@ TEST_CASE("each layout, style and drawing of maps makes a picture of its own") {
     change(scene);
     render_surface(made().file("pair.vtp"), scratch.file("one.png"), scene);
     const std::string png = espdiff_test::read_file(scratch.file("one.png"));
-    // The scene in its text differs anyway; the pixels must, too.
+    // The scene in the PNG's text differs anyway; the pixels must differ too.
     const std::string pixels = png.substr(png.find("IDAT"));
     INFO(what);
     CHECK(std::find(pictures.begin(), pictures.end(), pixels) == pictures.end());
@@ -240,7 +240,7 @@ TEST_CASE("each layout, style and drawing of maps makes a picture of its own") {
   draw("zoomed", [](Scene& s) { s.zoom = 2; });
 }
 
-TEST_CASE("a picked point has the values that the engine found there") {
+TEST_CASE("a picked point has the engine's values") {
   const ComparisonFiles files = read_comparison(made().file("pair.vtp"), {});
   const SurfaceFile& surface = files.surface;
   const StartSurface start = superposed_start(surface, files.record);
@@ -248,7 +248,7 @@ TEST_CASE("a picked point has the values that the engine found there") {
   std::size_t n_picked = 0;
   for (std::size_t v = 0; v < surface.positions.size(); v += 37) {
     const Vec3d p = surface.positions[v], n = static_cast<Vec3d>(surface.normals[v]);
-    // From just outside to just inside, so that nothing else is in the way.
+    // From just outside to just inside, so that nothing is in between.
     const auto picked = picker.pick(p + 0.2 * n, p - 0.2 * n, 1);
     if (!picked) continue;
     ++n_picked;
@@ -256,7 +256,7 @@ TEST_CASE("a picked point has the values that the engine found there") {
     CHECK(picked->weights[0] + picked->weights[1] + picked->weights[2] == doctest::Approx(1));
     CHECK(picked->target - picked->source == doctest::Approx(surface.potential_difference[v]).epsilon(0.02));
     CHECK(picked->displacement_A == doctest::Approx(surface.displacement[v]).epsilon(0.05));
-    // Its counterpart on the superposed source.
+    // The same point on the superposed source.
     const Vec3d there = static_cast<Vec3d>(start.positions[v]);
     CHECK(norm(picker.place(*picked, 0) - there) < 0.03);
   }
@@ -283,7 +283,7 @@ TEST_CASE("the superposed source is lit by its own surface's normals, by its tri
   CHECK(mean_cosine < 1 - 1e-6);
 }
 
-TEST_CASE("what is known of a picked point is said in words") {
+TEST_CASE("a picked point is described in text") {
   Scene scene;
   scene.n_labels = 1;
   const ComparisonFiles files = read_comparison(made().file("pair.vtp"), scene);
@@ -303,13 +303,13 @@ TEST_CASE("what is known of a picked point is said in words") {
   CHECK(contains(text(), "trusted here"));
   point.is_corrupt = true;
   CHECK(contains(text(), "corrupt here"));
-  point.has_counterpart = false;
+  point.is_matched = false;
   point.target = std::nanf("");
   CHECK(contains(text(), "without a counterpart on the target"));
   CHECK(contains(text(), "target            no value"));
 }
 
-TEST_CASE("the command line says what is wrong, and leaves nothing") {
+TEST_CASE("the command line reports errors and leaves no file") {
   using espdiff_test::run_espdiff;
   const ScratchFolder scratch;
   const std::string vtp = made().file("pair.vtp"), png = " -o " + scratch.file("out.png");
@@ -326,14 +326,14 @@ TEST_CASE("the command line says what is wrong, and leaves nothing") {
   refused("render " + vtp + png, 1, "DISPLAY is not set", "env -u DISPLAY");
   refused("render " + scratch.file("absent.vtp") + png, 2, "absent.vtp: no such file");
   refused("render " + vtp + png + " --scene " + scratch.file("no.json"), 2, "no.json: no such scene file");
-  refused("render " + vtp + png + " --range wide", 2, "--range wide: give one number, as 5 for -5 to 5, or two");
+  refused("render " + vtp + png + " --range wide", 2, "--range wide: give one number, such as 5 for -5 to 5, or two");
   refused("render " + vtp + png + " --range 3:x", 2, "give one number");
   refused("render " + vtp + png + " --layout round", 2, "round");
   refused("render " + vtp + png + " --morph 2", 2, "a morph goes from 0 (source) to 1 (target)");
   CHECK(scratch.n_files() == 0);
 }
 
-TEST_CASE("a scene that is saved draws the same picture again, and options change it") {
+TEST_CASE("a saved scene draws the same picture again, and options change it") {
   if (!can_draw()) return;
   using espdiff_test::run_espdiff;
   const ScratchFolder scratch;
@@ -361,7 +361,7 @@ TEST_CASE("the length bar follows the camera, and axes show the target's x, y an
   drawn.add_to(window, 1);
   const auto length_of_bar = [&] {
     for (const std::string& text : texts_of(window)) {
-      // The opacity's key has lengths as well, of 0.5 and 3 A.
+      // The opacity key also has lengths, of 0.5 and 3 A.
       if (contains(text, " \xC3\x85") && text != "0.5 \xC3\x85" && text != "3 \xC3\x85") return std::stod(text);
     }
     return 0.0;

@@ -1,4 +1,4 @@
-// decoded_picture.h: the pixels of a PNG that was written.
+// decoded_picture.h: the pixels of a written PNG.
 #pragma once
 
 #include <vtkImageData.h>
@@ -26,7 +26,7 @@ class Picture {
     return static_cast<unsigned char*>(image_->GetScalarPointer(x, y, 0));
   }
 
-  /// How many pixels of a box, in shares of the picture, fulfil a condition on red, green and blue.
+  /// Number of pixels of a box (in fractions of the picture) that satisfy a condition on red, green and blue.
   int count(double left, double bottom, double right, double top,
             const std::function<bool(int, int, int)>& condition) const {
     int n = 0;

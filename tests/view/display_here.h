@@ -1,4 +1,4 @@
-// display_here.h: whether tests can draw, and a way to pretend that they cannot.
+// display_here.h: whether tests can draw, and how to simulate that they cannot.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -10,7 +10,7 @@
 
 namespace espdiff_test {
 
-/// Where nothing can be drawn the test says so and ends.
+/// Ends the test with a message if drawing is impossible.
 inline bool can_draw() {
   const std::string problem = espdiff::display_problem();
   if (!problem.empty()) MESSAGE("SKIPPED: " << problem);

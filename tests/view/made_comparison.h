@@ -15,7 +15,7 @@ struct PointCharge {
   double charge;
 };
 
-/// Potentials of smeared charges on a lattice whose axes are skewed and of unequal spacing.
+/// Potentials of smeared charges on a lattice with skewed axes of unequal spacing.
 inline espdiff::Grid map_of(const std::vector<PointCharge>& charges) {
   espdiff::Grid map;
   map.lattice.size = {33, 27, 24};
@@ -37,7 +37,7 @@ inline espdiff::Grid map_of(const std::vector<PointCharge>& charges) {
   return map;
 }
 
-/// Seven bound atoms in a row; `bend` lifts the last three.
+/// Seven bonded atoms in a row; `bend` lifts the last three.
 inline std::string bent_row(double bend) {
   std::string text;
   for (int i = 0; i < 7; ++i) {
@@ -50,7 +50,7 @@ inline std::string bent_row(double bend) {
   return text;
 }
 
-/// Compares them, and leaves pair.vtp and pair.json in the folder. @returns the path of pair.vtp
+/// Compares them and writes pair.vtp and pair.json to the folder. @returns the path of pair.vtp
 inline std::string compare_made_pair(const ScratchFolder& scratch, const std::string& more = "") {
   scratch.write("source.pqr", bent_row(0));
   scratch.write("target.pqr", bent_row(0.6));

@@ -1,4 +1,4 @@
-// map_drawings.cpp: what is drawn of maps lies where the maps say.
+// map_drawings.cpp: drawings of maps lie at the right positions.
 #include "view/map_drawings.h"
 
 #include <doctest/doctest.h>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kSine = 0.6, kCosine = 0.8;
 
-/// A quarter turn's fifth about z, and a shift.
+/// A rotation by 18 degrees about z, and a translation.
 PlacedMap placed(const Grid& map) {
   PlacedMap result{&map, {}};
   const double turned[9] = {kCosine, -kSine, 0, kSine, kCosine, 0, 0, 0, 1};
@@ -40,14 +40,14 @@ void make_ball(Vec3d centre, double radius, std::vector<Vec3d>& positions, std::
 
 }  // namespace
 
-TEST_CASE("a place goes into the map's frame and back") {
+TEST_CASE("a position is transformed to the map's frame and back") {
   const Grid map = espdiff_test::map_of({});
   const PlacedMap there = placed(map);
   const Vec3d p{3, 4, 5}, back = there.in_map(there.to_frame.apply(p));
   CHECK(norm(back - p) < 1e-12);
 }
 
-TEST_CASE("an isopotential surface is where the map has the value, also on skewed axes") {
+TEST_CASE("an isopotential surface lies where the map has the value, also on skewed axes") {
   const Grid map = espdiff_test::map_of({{{2, 1, 0}, 1}});
   const PlacedMap there = placed(map);
   const auto prop = make_isopotential(there, 6, scale());
@@ -86,7 +86,7 @@ TEST_CASE("field lines of a charge run straight away from it, down the potential
     CHECK(norm(to) > 8);
     CHECK(dot(from, to) / (norm(from) * norm(to)) > 0.97);
     CHECK(potential(line.front()) > potential(line.back()));
-    // One step farther there is no field any more.
+    // One step farther there is no field.
     const Vec3d last = line.back() - line[line.size() - 2];
     CHECK(std::isnan(potential(line.back() + (0.8 / norm(last)) * last)));
   }
@@ -95,7 +95,7 @@ TEST_CASE("field lines of a charge run straight away from it, down the potential
   }
 }
 
-TEST_CASE("a slice covers the map where it is cut, and nothing where it is not") {
+TEST_CASE("a slice covers the part of the plane inside the map only") {
   const Grid map = espdiff_test::map_of({{{2, 1, 0}, 1}});
   const CameraView view{{5, 0, 0}, {0, 0, 1}, {0, 1, 0}, 12};
   CHECK(make_slice({&map, {}}, view, 10, 0.5, scale()) != nullptr);

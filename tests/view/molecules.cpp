@@ -32,7 +32,7 @@ Molecule atoms(const std::vector<std::pair<std::string, Vec3d>>& elements) {
   return molecule;
 }
 
-/// Share of the residues of a chain, in ranges that a PDB file's records give, that have a fold.
+/// Fraction of the residues of a chain, in ranges from a PDB file's records, that have a fold.
 double share(const Molecule& molecule, const std::vector<Fold>& folds, const std::string& path,
              const std::string& record, Fold fold) {
   std::ifstream in(path);
@@ -56,23 +56,23 @@ double share(const Molecule& molecule, const std::vector<Fold>& folds, const std
 
 }  // namespace
 
-TEST_CASE("bonds are found by distance, and hydrogens have one each") {
+TEST_CASE("bonds are found by distance, and each hydrogen has one") {
   const Molecule water = atoms({{"O", {0, 0, 0}}, {"H", {0.96, 0, 0}}, {"H", {-0.24, 0.93, 0}}});
   CHECK(find_bonds(water).size() == 2);
-  // Ethane's carbons, and a third out of reach.
+  // Ethane's carbons, and a third one out of reach.
   CHECK(find_bonds(atoms({{"C", {0, 0, 0}}, {"C", {1.54, 0, 0}}, {"C", {4.4, 0, 0}}})).size() == 1);
-  // Between two oxygens the nearer one has the hydrogen.
+  // Between two oxygens, the nearer one gets the hydrogen.
   const auto shared = find_bonds(atoms({{"O", {0, 0, 0}}, {"H", {1.2, 0, 0}}, {"O", {2.3, 0, 0}}}));
   REQUIRE(shared.size() == 1);
   CHECK(shared[0][0] == 2);
 }
 
-TEST_CASE("helices and strands of triosephosphate isomerase are those of its file") {
+TEST_CASE("helices and strands of triosephosphate isomerase agree with its file") {
   const auto path = espdiff_test::real_input("tim/7tim.pdb");
   if (!path) return;
   const Molecule molecule = read_structure(*path);
   const std::vector<Fold> folds = assign_folds(molecule, backbone_of(molecule));
-  // The file's authors count first and last turns in.
+  // The file's authors include the first and last turns.
   CHECK(share(molecule, folds, *path, "HELIX ", Fold::kHelix) > 0.75);
   CHECK(share(molecule, folds, *path, "SHEET ", Fold::kStrand) > 0.8);
   CHECK(share(molecule, folds, *path, "SHEET ", Fold::kHelix) < 0.02);
@@ -90,7 +90,7 @@ TEST_CASE("ribbons are closed and have unit normals") {
   for (ribbons->GetPolys()->InitTraversal(); ribbons->GetPolys()->GetNextCell(n, corners) != 0;) {
     for (int i = 0; i < 3; ++i) ++edges[{corners[i], corners[(i + 1) % 3]}];
   }
-  // Each edge is run through once in each direction.
+  // Each edge is used once in each direction.
   int n_open = 0;
   for (const auto& [edge, count] : edges) {
     const auto back = edges.find({edge.second, edge.first});
@@ -104,7 +104,7 @@ TEST_CASE("ribbons are closed and have unit normals") {
   }
 }
 
-TEST_CASE("what stands around a protein is told from it") {
+TEST_CASE("ligands, ions and water are distinguished from the protein") {
   const auto path = espdiff_test::real_input("tim/7tim.pdb");
   if (!path) return;
   StructureOptions with_water;
@@ -131,7 +131,7 @@ TEST_CASE("what stands around a protein is told from it") {
   CHECK(make_molecule_actor(Molecule{}, MoleculeStyle::kSticks, 1) == nullptr);
 }
 
-TEST_CASE("the residues that differ most come first, and apart") {
+TEST_CASE("the residues that differ most come first, at a distance from each other") {
   SurfaceFile surface;
   for (int residue = 0; residue < 4; ++residue) {
     for (int i = 0; i < 25; ++i) {
@@ -141,7 +141,7 @@ TEST_CASE("the residues that differ most come first, and apart") {
       surface.potential_difference.push_back(static_cast<float>(residue == 2 ? -5 : residue));
     }
   }
-  // Too few vertices to have a mean, and one too near to a better one.
+  // Too few vertices for a mean, and one too near a better one.
   surface.positions.push_back({50, 0, 0});
   surface.normals.push_back({0, 0, 1});
   surface.residue_index.push_back(9);

@@ -1,4 +1,4 @@
-// orientation.cpp: which way a surface is turned before it is drawn.
+// orientation.cpp: the automatic viewing direction.
 #include "view/orientation.h"
 
 #include <doctest/doctest.h>
@@ -43,7 +43,7 @@ TEST_CASE("vertices without a value do not decide the front") {
   CHECK(choose_orientation(box.positions, box.values, true, 2).toward_viewer.x == doctest::Approx(1));
 }
 
-TEST_CASE("a wide picture lays the longest axis across, and its frame is right-handed") {
+TEST_CASE("a wide picture has the longest axis across, and its frame is right-handed") {
   const Box box(-7);
   const Orientation view = choose_orientation(box.positions, box.values, false, 2);
   CHECK(std::abs(view.right.z) == doctest::Approx(1));
@@ -52,7 +52,7 @@ TEST_CASE("a wide picture lays the longest axis across, and its frame is right-h
   CHECK(dot(across, view.toward_viewer) == doctest::Approx(1));
 }
 
-TEST_CASE("turned views leave room for the widest of them") {
+TEST_CASE("turned views leave room for the widest view") {
   const Box box(-7);
   CHECK(choose_orientation(box.positions, box.values, true, 4).half_width_A == doctest::Approx(std::hypot(1, 2)));
 }

@@ -1,4 +1,4 @@
-// render_surface.cpp: pictures of a sphere of known colours, and every way in which drawing is refused.
+// render_surface.cpp: pictures of a sphere with known colours, and every refusal to draw.
 #include "view/render_surface.h"
 
 #include <doctest/doctest.h>
@@ -36,7 +36,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// What is written on the sphere at a unit vector.
+/// The sphere's values at a unit vector.
 struct Paint {
   std::function<double(Vec3d)> difference = [](Vec3d n) { return 4 * n.x; };
   std::function<double(Vec3d)> displacement = [](Vec3d) { return 0.1; };
@@ -160,7 +160,7 @@ TEST_CASE("each array has its colours") {
   CHECK(sign.count(0, 0.25, 1, 0.9, [](int r, int g, int b) { return b > r + 15 && b > g; }) > 1000);
 }
 
-TEST_CASE("far counterparts and corrupt triangles are paler than what can be trusted") {
+TEST_CASE("large displacements and corrupt triangles are paler than trusted parts") {
   if (!can_draw()) return;
   const ScratchFolder scratch;
   Paint far;
@@ -186,7 +186,7 @@ TEST_CASE("vertices without a value are grey") {
   CHECK(picture.count(0, 0.25, 1, 0.9, [](int r, int g, int b) { return r == g && g == b && r < 200; }) > 1000);
 }
 
-TEST_CASE("drawing again gives the same bytes, with their provenance in them") {
+TEST_CASE("drawing again gives the same bytes, including the provenance") {
   if (!can_draw()) return;
   const ScratchFolder scratch;
   const std::string vtp = write_sphere(scratch.file("sphere.vtp"), {});
@@ -198,7 +198,7 @@ TEST_CASE("drawing again gives the same bytes, with their provenance in them") {
   CHECK(first.find("sphere.vtp") != std::string::npos);
 }
 
-TEST_CASE("without a display drawing is refused, and nothing is left") {
+TEST_CASE("without a display drawing is refused, and no file remains") {
   const ScratchFolder scratch;
   const std::string vtp = write_sphere(scratch.file("sphere.vtp"), {});
   const auto draw_it = [&] { render_surface(vtp, scratch.file("out.png"), small_picture()); };
@@ -215,7 +215,7 @@ TEST_CASE("without a display drawing is refused, and nothing is left") {
   CHECK(scratch.n_files() == 1);
 }
 
-TEST_CASE("what cannot be drawn is refused with the reason") {
+TEST_CASE("invalid surfaces are refused with the reason") {
   const ScratchFolder scratch;
   const std::string vtp = write_sphere(scratch.file("sphere.vtp"), {});
   const std::string png = scratch.file("out.png");

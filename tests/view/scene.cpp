@@ -1,4 +1,4 @@
-// scene.cpp: scene files: what is written is read again, and what cannot be is refused in words.
+// scene.cpp: scene files: writing and reading, and refusals with their messages.
 #include "view/scene.h"
 
 #include <doctest/doctest.h>
@@ -59,7 +59,7 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 
 }  // namespace
 
-TEST_CASE("a scene that was written is read as it was") {
+TEST_CASE("a scene survives writing and reading") {
   const ScratchFolder scratch;
   for (const Scene& scene : {Scene(), unusual_scene()}) {
     const std::string json = scene_json(scene);
@@ -68,7 +68,7 @@ TEST_CASE("a scene that was written is read as it was") {
   CHECK(scene_json(unusual_scene()) != scene_json({}));
 }
 
-TEST_CASE("what a scene file does not say is as before") {
+TEST_CASE("settings missing from a scene file keep their values") {
   const ScratchFolder scratch;
   const Scene scene = read_scene(scratch.write("scene.json", R"({"range": 4, "camera": null})"), unusual_scene());
   CHECK(scene.range.limit == 4);
@@ -77,14 +77,14 @@ TEST_CASE("what a scene file does not say is as before") {
   CHECK(scene.molecule == MoleculeStyle::kSticks);
 }
 
-TEST_CASE("scene files that cannot be are refused with the reason") {
+TEST_CASE("invalid scene files are refused with the reason") {
   const ScratchFolder scratch;
   CHECK(contains(message_of([&] { read_scene(scratch.file("absent.json"), {}); }), "absent.json: no such scene file"));
   CHECK(contains(message_for(scratch, "{\"zoom\": "), "scene.json: not JSON"));
   CHECK(contains(message_for(scratch, "[1]"), "a scene is a JSON object"));
-  CHECK(contains(message_for(scratch, R"({"colour": "sign"})"), "no setting 'colour' in scenes"));
-  CHECK(contains(message_for(scratch, R"({"zoom": "big"})"), "the value of 'zoom' is of the wrong kind"));
-  CHECK(contains(message_for(scratch, R"({"range": [1]})"), "the value of 'range' is of the wrong kind"));
+  CHECK(contains(message_for(scratch, R"({"colour": "sign"})"), "a scene has no setting 'colour'"));
+  CHECK(contains(message_for(scratch, R"({"zoom": "big"})"), "the value of 'zoom' has the wrong type"));
+  CHECK(contains(message_for(scratch, R"({"range": [1]})"), "the value of 'range' has the wrong type"));
   CHECK(contains(message_for(scratch, R"({"layout": "round"})"), "no layout 'round'; use turned, linked or split"));
   CHECK(contains(message_for(scratch, R"({"molecule": "balls"})"),
                  "no molecule style 'balls'; use none, cartoon, sticks or lines"));
@@ -106,7 +106,7 @@ TEST_CASE("values out of range are refused with the range") {
   CHECK(contains(message_for(scratch, R"({"field_lines": -1})"), "use 0 to 2000"));
 }
 
-TEST_CASE("each key of the viewer changes something, and every key is told once") {
+TEST_CASE("each key of the viewer changes something, and the help lists every key once") {
   std::vector<std::string> told;
   for (const ViewerKey& key : viewer_keys()) {
     CHECK_FALSE(key.help.empty());

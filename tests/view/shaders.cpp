@@ -1,5 +1,5 @@
-// shaders.cpp: what the shaders compute, read back from the picture: potentials against the engine's, colours against
-// the host's.
+// shaders.cpp: the shaders' results, read back from the picture: potentials against the engine's, colours against the
+// host's.
 #include <doctest/doctest.h>
 #include <vtkActor.h>
 #include <vtkCamera.h>
@@ -32,8 +32,7 @@ using espdiff_test::ScratchFolder;
 
 namespace {
 
-/// Draws each vertex of a surface as one pixel of its own, with all that belongs to it, and returns the pixels'
-/// colours.
+/// Draws each vertex of a surface, with its attributes, as one pixel and returns the pixels' colours.
 std::vector<Rgb> draw_vertices(vtkPolyData* surface, const SurfaceLook& look, const MapPair& maps) {
   const int n = static_cast<int>(surface->GetNumberOfPoints());
   const int width = 256, height = (n + width - 1) / width;
@@ -80,13 +79,13 @@ std::vector<Rgb> draw_vertices(vtkPolyData* surface, const SurfaceLook& look, co
   return pixels;
 }
 
-/// What kReadBack of surface.frag wrote.
+/// Decodes the output of surface.frag with kReadBack.
 double decoded(Rgb pixel, const ColourScale& scale) {
   const double whole = 65536.0 * pixel.red + 256.0 * pixel.green + pixel.blue;
   return scale.low() + (scale.high() - scale.low()) * whole / 16777215.0;
 }
 
-/// Compares the difference that the fragments found with the engine's, in shares of the potentials' range.
+/// Compares the fragments' difference with the engine's, as a fraction of the potentials' range.
 double worst_share(const std::string& vtp, bool fetches) {
   const ComparisonFiles files = read_comparison(vtp, {});
   INFO(files.maps.why_not);
@@ -108,7 +107,7 @@ double worst_share(const std::string& vtp, bool fetches) {
   look.fetches = fetches;
   look.inside_maps = !fetches && geometry.inside_maps();
   const auto part = geometry.part(SurfacePart::kTrusted);
-  // The values between vertices are taken away, so that only the maps can give them.
+  // Removes the vertices' values, so that only the maps can provide them.
   auto* between = vtkFloatArray::SafeDownCast(part->GetPointData()->GetArray("vertexPotential"));
   between->FillValue(0);
   const std::vector<Rgb> pixels = draw_vertices(part, look, files.maps);
@@ -125,7 +124,7 @@ double worst_share(const std::string& vtp, bool fetches) {
 
 }  // namespace
 
-TEST_CASE("each shader compiles here, and a wrong one is told with the driver's words") {
+TEST_CASE("each shader compiles here, and an error gives the driver's message") {
   if (!can_draw()) return;
   const auto window = make_hidden_window();
   window->SetSize(16, 16);
@@ -149,14 +148,14 @@ TEST_CASE("each shader compiles here, and a wrong one is told with the driver's 
   CHECK(problem.find("nothing") != std::string::npos);
 }
 
-TEST_CASE("every file in shaders/ says in its first line what it is for, and includes what there is") {
+TEST_CASE("every file in shaders/ states its purpose in its first line, and includes existing files") {
   CHECK(embedded_shaders().size() == 5);
   for (const auto& [name, text] : embedded_shaders()) CHECK(text.find("// " + name + ": ") == 0);
   CHECK(shader_text("surface.frag").find("#include") == std::string::npos);
   CHECK_THROWS_AS(shader_text("absent.glsl"), Error);
 }
 
-TEST_CASE("potentials looked up by the shader are the engine's, on skewed lattices") {
+TEST_CASE("potentials looked up by the shader equal the engine's, on skewed lattices") {
   if (!can_draw()) return;
   const ScratchFolder scratch;
   const std::string vtp = espdiff_test::compare_made_pair(scratch);
@@ -164,7 +163,7 @@ TEST_CASE("potentials looked up by the shader are the engine's, on skewed lattic
   CHECK(worst_share(vtp, true) < 1e-5);
 }
 
-TEST_CASE("potentials looked up by the shader are the engine's, on TIM") {
+TEST_CASE("potentials looked up by the shader equal the engine's, on TIM") {
   if (!can_draw()) return;
   const auto folder = espdiff_test::real_input("pair_tim_maps");
   if (!folder) return;
@@ -173,13 +172,13 @@ TEST_CASE("potentials looked up by the shader are the engine's, on TIM") {
       "compare " + *folder + "/scTIM_chainA.pqr " + *folder + "/dTIM_chainA.pqr --quiet -o " + scratch.file("tim") +
       " --source-map " + *folder + "/scTIM_chainA_pot-PE0.dx --target-map " + *folder + "/dTIM_chainA_pot-PE0.dx");
   REQUIRE(run.status == 0);
-  // 38,000 vertices, each a pixel of its own.
+  // 38,000 vertices, each as one pixel.
   const double worst = worst_share(scratch.file("tim.vtp"), false);
   MESSAGE("worst of TIM: ", worst, " of the range");
   CHECK(worst < 1e-3);
 }
 
-TEST_CASE("the shader's colours are the legend's") {
+TEST_CASE("the shader's colours equal the legend's") {
   if (!can_draw()) return;
   constexpr vtkIdType kSteps = 1025;
   vtkNew<vtkPolyData> ramp;
@@ -208,7 +207,7 @@ TEST_CASE("the shader's colours are the legend's") {
     residue->SetValue(i, static_cast<float>(i) - 1);
     normal->SetTuple3(i, 0, 0, 1);
   }
-  // Light from the front adds up to the same for every pixel: white tells how much.
+  // Frontal light scales every pixel alike; white gives the factor.
   const auto draw = [&](const ColourScale& scale) {
     SurfaceLook look;
     look.scale = scale;
@@ -248,7 +247,7 @@ TEST_CASE("the shader's colours are the legend's") {
                 [](std::size_t i) { return static_cast<float>(i) - 1; });
 }
 
-TEST_CASE("the host samples maps in between grid points, and nothing outside") {
+TEST_CASE("the host samples maps between grid points, and gives NaN outside") {
   const ScratchFolder scratch;
   const Grid map = espdiff_test::map_of({{{2, 3, 1}, 1}});
   const LatticeIndex index(map.lattice, map.name);

@@ -37,9 +37,11 @@ TEST_CASE("boundary: the class of each exception") {
   CHECK(outcome([] { throw espdiff::FormatError("a.dx", 3, "no counts"); }) == "FORMAT: a.dx:3: no counts");
   CHECK(outcome([] { throw espdiff::Cancelled(); }) == "CANCELLED: cancelled; nothing was written");
   CHECK(outcome([] { throw std::bad_alloc(); }) ==
-        "MEMORY: not enough memory; take a coarser grid, or close what else uses memory");
-  CHECK(outcome([] { throw std::out_of_range("index 7"); }) == "INTERNAL: index 7");
-  CHECK(outcome([] { throw "text"; }) == "INTERNAL: an exception of unknown type");
+        "MEMORY: not enough memory; use a larger grid-spacing, select fewer atoms, or close other programs");
+  CHECK(outcome([] { throw std::out_of_range("index 7"); }) ==
+        "INTERNAL: internal error: index 7; please report it with the command and, if you can, the input");
+  CHECK(outcome([] { throw "text"; }) ==
+        "INTERNAL: internal error: an exception of unknown type; please report it with the command");
 }
 
 TEST_CASE("boundary: nothing can be thrown through it") {

@@ -1,0 +1,141 @@
+// certificate.cu: measures a mapped mesh against the target's density and surface.
+#include "cuda/certificate/certificate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "cuda/device/spatial_order.h"
+#include "cuda/surface/adjacency.h"
+#include "cuda/surface/density_at_points.h"
+#include "engine/certificate_stage.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+namespace {
+
+/// Vertices processed consecutively: neighbours in the list are neighbours in space, so the previous vertex's triangle
+/// is a good guess.
+constexpr std::size_t kRun = 32;
+
+struct FitSums {
+  double area = 0, corrupt = 0, flipped = 0;
+
+  ESPDIFF_HD FitSums& operator+=(const FitSums& o) {
+    area += o.area;
+    corrupt += o.corrupt;
+    flipped += o.flipped;
+    return *this;
+  }
+};
+
+double mean_umbrella_length(const SurfaceMesh& mesh) {
+  const TopologyView topology = mesh.view();
+  const Vec4f* const x = raw(mesh.positions);
+  const double sum = sum_over<double>(mesh.n_vertices(), [=] ESPDIFF_HD(std::size_t v) {
+    return static_cast<double>(norm(umbrella(topology, x, v).xyz()));
+  });
+  return sum / static_cast<double>(mesh.n_vertices());
+}
+
+}  // namespace
+
+FitReport fit_to_density(const SurfaceMesh& mapped, const AtomCells& target, float isovalue) {
+  const std::size_t n = mapped.n_triangles();
+  const Corners* const corners = raw(mapped.topology->triangles);
+  const Vec4f* const x = raw(mapped.positions);
+  Buffer<Vec4f> centroids(n);
+  Vec4f* const centroid = raw(centroids);
+  for_each_index(n, [=] ESPDIFF_HD(std::size_t t) {
+    const Corners& c = corners[t];
+    centroid[t] = make_vec4((1.0F / 3.0F) * (x[c.v[0]].xyz() + x[c.v[1]].xyz() + x[c.v[2]].xyz()), 0.0F);
+  });
+  Buffer<DensitySample> sampled(n);
+  density_at_points(target, centroids, spatial_order(centroids), n, sampled);
+  const DensitySample* const density = raw(sampled);
+  auto corrupt_flags = std::make_shared<Scalars>();
+  corrupt_flags->values.resize(n);
+  auto flipped_flags = std::make_shared<Scalars>();
+  flipped_flags->values.resize(n);
+  float* const corrupt = raw(corrupt_flags->values);
+  float* const flipped = raw(flipped_flags->values);
+  for_each_index(n, [=] ESPDIFF_HD(std::size_t t) {
+    const Corners& c = corners[t];
+    corrupt[t] = fabsf(density[t].value - isovalue) > kCorruptDensity ? 1.0F : 0.0F;
+    // The density falls outward, so a normal along the gradient is flipped.
+    flipped[t] = dot(twice_area_vector(x, c), density[t].gradient) > 0 ? 1.0F : 0.0F;
+  });
+  const FitSums sums = sum_over<FitSums>(n, [=] ESPDIFF_HD(std::size_t t) {
+    FitSums s;
+    s.area = 0.5 * static_cast<double>(norm(twice_area_vector(x, corners[t])));
+    s.corrupt = corrupt[t] != 0.0F ? s.area : 0;
+    s.flipped = flipped[t] != 0.0F ? s.area : 0;
+    return s;
+  });
+  FitReport report;
+  report.area_A2 = sums.area;
+  report.corrupt_area_fraction = sums.corrupt / sums.area;
+  report.flipped_area_fraction = sums.flipped / sums.area;
+  report.irregularity_A = mean_umbrella_length(mapped);
+  report.corrupt = corrupt_flags;
+  report.flipped = flipped_flags;
+  return report;
+}
+
+DistanceSummary distance_summary(const SurfaceMesh& from, const SurfaceMesh& to, float limit_A) {
+  const TriangleTree tree_of_target = make_triangle_tree(to);
+  const TriangleTreeView tree = tree_of_target.view();
+  Buffer<float> distances(from.n_vertices());
+  const Vec4f* const x = raw(from.positions);
+  float* const distance = raw(distances);
+  const std::size_t n = from.n_vertices();
+  for_each_index((n + kRun - 1) / kRun, [=] ESPDIFF_HD(std::size_t run) {
+    std::uint32_t guess = 0;
+    for (std::size_t v = run * kRun; v < (run + 1) * kRun && v < n; ++v) {
+      const NearestTriangle nearest = nearest_triangle(tree, x[v].xyz(), guess);
+      distance[v] = sqrtf(nearest.squared_distance);
+      guess = nearest.place;
+    }
+  });
+  auto beyond_flags = std::make_shared<Scalars>();
+  beyond_flags->values.resize(from.n_triangles());
+  float* const beyond_limit = raw(beyond_flags->values);
+  const Corners* const corners = raw(from.topology->triangles);
+  for_each_index(from.n_triangles(), [=] ESPDIFF_HD(std::size_t t) {
+    const Corners c = corners[t];
+    const float farthest = larger(distance[c.v[0]], larger(distance[c.v[1]], distance[c.v[2]]));
+    beyond_limit[t] = farthest > limit_A ? 1.0F : 0.0F;
+  });
+  const std::vector<float> weights = to_host(vertex_areas(from, triangle_areas(from), nullptr));
+  const std::vector<float> values = to_host(distances);
+
+  std::vector<std::pair<float, float>> by_distance(values.size());
+  double area = 0, sum = 0, beyond = 0, within = 0;
+  for (std::size_t v = 0; v < values.size(); ++v) {
+    by_distance[v] = {values[v], weights[v]};
+    const double w = static_cast<double>(weights[v]);
+    area += w;
+    sum += w * static_cast<double>(values[v]);
+    if (values[v] > limit_A) {
+      beyond += w;
+    } else {
+      within += w * static_cast<double>(values[v]);
+    }
+  }
+  std::sort(by_distance.begin(), by_distance.end());
+  DistanceSummary summary;
+  summary.mean = sum / area;
+  summary.max = static_cast<double>(by_distance.back().first);
+  summary.area_fraction_beyond_limit = beyond / area;
+  summary.beyond = beyond_flags;
+  summary.mean_within_limit = area > beyond ? within / (area - beyond) : 0;
+  double below = 0;
+  for (const auto& [value, weight] : by_distance) {
+    below += static_cast<double>(weight);
+    summary.p95 = static_cast<double>(value);
+    if (below >= 0.95 * area) break;
+  }
+  return summary;
+}
+
+}  // namespace espdiff::ESPDIFF_BACKEND

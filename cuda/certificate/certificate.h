@@ -1,0 +1,21 @@
+// certificate.h: how well a mapped mesh fits its target: corrupt and flipped triangles, distances in both directions,
+// irregularity.
+#pragma once
+
+#include "cuda/surface/atom_cells.h"
+#include "cuda/surface/mesh.h"
+#include "cuda/surface/triangle_tree.h"
+#include "engine/certificate_stage.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+
+/// A triangle is corrupt if the density at its centroid differs from the isovalue by more than this (thesis section
+/// 3.5.6).
+constexpr float kCorruptDensity = 0.1F;
+
+FitReport fit_to_density(const SurfaceMesh& mapped, const AtomCells& target, float isovalue);
+
+/// Exact distances from the vertices of `from` to the triangles of `to`, weighted by the area at each vertex.
+DistanceSummary distance_summary(const SurfaceMesh& from, const SurfaceMesh& to, float limit_A);
+
+}  // namespace espdiff::ESPDIFF_BACKEND

@@ -1,0 +1,194 @@
+// metrics.cu: area-weighted sums over the mapped mesh, and the residue at each vertex.
+#include "cuda/certificate/metrics.h"
+
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "cuda/surface/adjacency.h"
+#include "engine/certificate_stage.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+namespace {
+
+/// Area-weighted sums over vertices.
+struct Sums {
+  double area = 0, abs_difference = 0, squared_difference = 0, difference = 0, sign_change = 0;
+  double source_source = 0, target_target = 0, source_target = 0, displacement = 0, path_length = 0;
+
+  ESPDIFF_HD Sums& operator+=(const Sums& o) {
+    area += o.area;
+    abs_difference += o.abs_difference;
+    squared_difference += o.squared_difference;
+    difference += o.difference;
+    sign_change += o.sign_change;
+    source_source += o.source_source;
+    target_target += o.target_target;
+    source_target += o.source_target;
+    displacement += o.displacement;
+    path_length += o.path_length;
+    return *this;
+  }
+};
+
+Metrics finish(const Sums& sums) {
+  Metrics m;
+  m.area_A2 = sums.area;
+  m.mean_abs_difference = sums.abs_difference / sums.area;  // 0/0 is NaN: no valid area
+  m.rms_difference = std::sqrt(sums.squared_difference / sums.area);
+  m.mean_signed_difference = sums.difference / sums.area;
+  m.sign_change_area_fraction = sums.sign_change / sums.area;
+  m.hodgkin_index = 2 * sums.source_target / (sums.source_source + sums.target_target);
+  m.carbo_index = sums.source_target / std::sqrt(sums.source_source * sums.target_target);
+  m.mean_displacement_A = sums.displacement / sums.area;
+  m.mean_path_length_A = sums.path_length / sums.area;
+  return m;
+}
+
+void check_sizes(std::size_t n, const Scalars& a, const Scalars& b) {
+  if (a.values.size() != n || b.values.size() != n)
+    throw InputError("compare: needs one potential per vertex of the mapped mesh");
+}
+
+}  // namespace
+
+Metrics compare_potentials(const SurfaceMesh& source, const SurfaceMesh& mapped, const Scalars& source_potential,
+                           const Scalars& target_potential, const Scalars* excluded, const Scalars* path_length) {
+  check_sizes(mapped.n_vertices(), source_potential, target_potential);
+  if (source.topology != mapped.topology) throw InputError("compare: source and mapped mesh differ in topology");
+  const TopologyView topology = mapped.view();
+  const Vec4f* const from = raw(source.positions);
+  const Vec4f* const to = raw(mapped.positions);
+  const float* const a = raw(source_potential.values);
+  const float* const b = raw(target_potential.values);
+  if (excluded != nullptr && excluded->values.size() != mapped.n_triangles()) {
+    throw InputError("compare: the exclusion needs one entry per triangle");
+  }
+  if (path_length != nullptr && path_length->values.size() != mapped.n_vertices())
+    throw InputError("compare: needs one path length per vertex of the mapped mesh");
+  const float* const lengths = path_length != nullptr ? raw(path_length->values) : nullptr;
+  const float* const is_excluded = excluded != nullptr ? raw(excluded->values) : nullptr;
+
+  Buffer<std::uint8_t> included_triangles(topology.n_triangles);
+  std::uint8_t* const included = raw(included_triangles);
+  for_each_index(topology.n_triangles, [=] ESPDIFF_HD(std::size_t t) {
+    bool counts = is_excluded == nullptr || is_excluded[t] == 0.0F;
+    for (int c = 0; c < 3; ++c) {
+      const std::uint32_t v = topology.triangles[t].v[c];
+      counts = counts && is_finite(a[v]) && is_finite(b[v]);
+    }
+    included[t] = counts ? 1 : 0;
+  });
+  const Buffer<float> areas = triangle_areas(mapped);
+  const Buffer<float> weights = vertex_areas(mapped, areas, included);
+  const float* const weight = raw(weights);
+  Metrics metrics = finish(sum_over<Sums>(mapped.n_vertices(), [=] ESPDIFF_HD(std::size_t v) {
+    Sums s;
+    if (!(weight[v] > 0)) return s;
+    const double w = static_cast<double>(weight[v]), pa = static_cast<double>(a[v]), pb = static_cast<double>(b[v]),
+                 d = pb - pa;
+    s.area = w;
+    s.abs_difference = w * fabs(d);
+    s.squared_difference = w * d * d;
+    s.difference = w * d;
+    s.sign_change = (pa < 0 && pb > 0) || (pa > 0 && pb < 0) ? w : 0;
+    s.source_source = w * pa * pa;
+    s.target_target = w * pb * pb;
+    s.source_target = w * pa * pb;
+    s.path_length = lengths != nullptr ? w * static_cast<double>(lengths[v]) : 0.0;
+    s.displacement = w * static_cast<double>(norm(to[v].xyz() - from[v].xyz()));
+    return s;
+  }));
+  if (lengths == nullptr) metrics.mean_path_length_A = std::numeric_limits<double>::quiet_NaN();
+  return metrics;
+}
+
+std::shared_ptr<Scalars> displacement(const SurfaceMesh& a, const SurfaceMesh& b) {
+  if (a.n_vertices() != b.n_vertices()) throw InputError("displacement: the meshes differ in topology");
+  auto result = std::make_shared<Scalars>();
+  result->values.resize(a.n_vertices());
+  const Vec4f* const from = raw(a.positions);
+  const Vec4f* const to = raw(b.positions);
+  float* const out = raw(result->values);
+  for_each_index(a.n_vertices(), [=] ESPDIFF_HD(std::size_t v) { out[v] = norm(to[v].xyz() - from[v].xyz()); });
+  return result;
+}
+
+namespace {
+
+/// Densities by residue at one point. If more residues reach the point than the table holds, the weakest is dropped; it
+/// is near the end of its atoms' reach.
+struct ResidueTally {
+  static constexpr int kCapacity = 64;
+  std::int32_t residue[kCapacity];
+  float density[kCapacity];
+  int n = 0;
+  int last = 0;
+
+  ESPDIFF_INLINE void add(std::int32_t which, float amount) {
+    if (n > 0 && residue[last] == which) {
+      density[last] += amount;
+      return;
+    }
+    int weakest = 0;
+    for (int i = 0; i < n; ++i) {
+      if (residue[i] == which) {
+        density[i] += amount;
+        last = i;
+        return;
+      }
+      if (density[i] < density[weakest]) weakest = i;
+    }
+    if (n < kCapacity) {
+      last = n++;
+    } else if (density[weakest] < amount) {
+      last = weakest;
+    } else {
+      return;
+    }
+    residue[last] = which;
+    density[last] = amount;
+  }
+
+  ESPDIFF_INLINE std::int32_t strongest() const {
+    int best = -1;
+    for (int i = 0; i < n; ++i) {
+      if (best < 0 || density[i] > density[best] || (density[i] == density[best] && residue[i] < residue[best]))
+        best = i;
+    }
+    return best < 0 ? -1 : residue[best];
+  }
+};
+
+ESPDIFF_INLINE std::int32_t residue_at(const AtomCellsView& atoms, Vec3f p) {
+  ResidueTally tally;
+  visit_atom_runs(atoms, p, atoms.max_reach, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t a = begin; a < end; ++a) {
+      const float dx = p.x - atoms.x[a], dy = p.y - atoms.y[a], dz = p.z - atoms.z[a];
+      const float exponent = atoms.exponent[a] * (dx * dx + dy * dy + dz * dz);
+      if (exponent > kCutoffExponent) tally.add(atoms.residue[a], exp_of_negative(exponent));
+    }
+  });
+  return tally.strongest();
+}
+
+}  // namespace
+
+Buffer<std::int32_t> vertex_residues(const SurfaceMesh& mesh, const AtomCells& atoms) {
+  Buffer<std::int32_t> residues(mesh.n_vertices());
+  const AtomCellsView view = atoms.view();
+  const Vec4f* const x = raw(mesh.positions);
+  std::int32_t* const out = raw(residues);
+  for_each_index(mesh.n_vertices(), [=] ESPDIFF_HD(std::size_t v) { out[v] = residue_at(view, x[v].xyz()); });
+  return residues;
+}
+
+double surface_area(const SurfaceMesh& mesh) {
+  const Corners* const corners = raw(mesh.topology->triangles);
+  const Vec4f* const x = raw(mesh.positions);
+  return sum_over<double>(mesh.n_triangles(), [=] ESPDIFF_HD(std::size_t t) {
+    return 0.5 * static_cast<double>(norm(twice_area_vector(x, corners[t])));
+  });
+}
+
+}  // namespace espdiff::ESPDIFF_BACKEND

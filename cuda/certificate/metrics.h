@@ -1,0 +1,22 @@
+// metrics.h: area-weighted differences of two potentials, and counts by vertex.
+#pragma once
+
+#include "cuda/surface/atom_cells.h"
+#include "cuda/surface/mesh.h"
+#include "engine/certificate_stage.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+
+/// See Engine::compare(). `excluded` and `path_length` may be null.
+Metrics compare_potentials(const SurfaceMesh& source, const SurfaceMesh& mapped, const Scalars& source_potential,
+                           const Scalars& target_potential, const Scalars* excluded, const Scalars* path_length);
+
+/// [vertex] |a - b|, Angstrom.
+std::shared_ptr<Scalars> displacement(const SurfaceMesh& a, const SurfaceMesh& b);
+
+/// [vertex] residue with the largest density, the smallest index on ties; -1 where no atom reaches.
+Buffer<std::int32_t> vertex_residues(const SurfaceMesh& mesh, const AtomCells& atoms);
+
+double surface_area(const SurfaceMesh& mesh);
+
+}  // namespace espdiff::ESPDIFF_BACKEND

@@ -1,0 +1,119 @@
+// deform.cu: the force iteration in two passes: umbrella Laplacians, then forces and the move.
+#include "cuda/deform/deform.h"
+
+#include <utility>
+
+#include "base/error.h"
+#include "cuda/deform/deform_iteration.h"
+#include "engine/deform_stage.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+namespace {
+
+/// The eigenvalues of the umbrella operator lie in [-2, 0], so an explicit step along (1 - rho) L - rho L^2 is stable
+/// for every rho if it is below 2 / 4.
+constexpr double kLargestInternalStep = 0.5;
+
+double internal_step(const DeformOptions& o) { return o.sigma * (1 - o.mu) * o.tangential_gain; }
+
+void check_options(const DeformOptions& o) {
+  if (!(o.sigma > 0)) throw InputError("sigma " + std::to_string(o.sigma) + " is not positive; 0.1 is usual");
+  if (!(o.mu >= 0 && o.mu <= 1)) throw InputError("mu " + std::to_string(o.mu) + " is not between 0 and 1");
+  if (!(o.rho >= 0 && o.rho <= 1)) throw InputError("rho " + std::to_string(o.rho) + " is not between 0 and 1");
+  if (!(o.tangential_gain >= 0))
+    throw InputError("the tangential gain, " + std::to_string(o.tangential_gain) +
+                     ", is negative; 1 is the plain iteration");
+  if (internal_step(o) > kLargestInternalStep) {
+    throw InputError("sigma (1 - mu) times the tangential gain is " + std::to_string(internal_step(o)) + ", beyond " +
+                     std::to_string(kLargestInternalStep) + " where the iteration becomes unstable; lower one of them");
+  }
+  if (o.max_iterations < 0)
+    throw InputError("the number of iterations, " + std::to_string(o.max_iterations) + ", is negative");
+  if (!(o.min_displacement_A >= 0))
+    throw InputError("the smallest displacement, " + std::to_string(o.min_displacement_A) + " A, is negative");
+}
+
+}  // namespace
+
+void set_steps(Iteration& it, const DeformOptions& options) {
+  const double internal = internal_step(options);
+  it.step_external = static_cast<float>(options.sigma * options.mu);
+  it.step_tension = static_cast<float>(internal * (1 - options.rho));
+  it.step_rigidity = static_cast<float>(internal * options.rho);
+}
+
+void iterate_one_by_one(DeformState& state, const DeformOptions& options, const std::string& stage,
+                        const Progress& progress, DeformReport& report) {
+  const std::size_t n = state.positions.size();
+  while (report.iterations < options.max_iterations && !report.converged) {
+    Iteration now = state.iteration;
+    now.from = raw(state.positions);
+    now.to = raw(state.moved);
+    for_each_index(n, [=] ESPDIFF_HD(std::size_t v) { take_laplacian(now, v); });
+    for_each_index(n, [=] ESPDIFF_HD(std::size_t v) { move_vertex(now, v); });
+    state.positions.swap(state.moved);
+    ++report.iterations;
+    if (report.iterations % kCheckInterval == 0 || report.iterations == options.max_iterations) {
+      const Vec4f* const x = raw(state.positions);
+      report.mean_displacement_A =
+          sum_over<double>(n, [=] ESPDIFF_HD(std::size_t v) { return static_cast<double>(x[v].w); }) /
+          static_cast<double>(n);
+      report.converged = report.mean_displacement_A < options.min_displacement_A;
+      progress.report(stage, static_cast<double>(report.iterations) / options.max_iterations);
+    }
+  }
+}
+
+std::shared_ptr<SurfaceMesh> deform(const SurfaceMesh& mesh, const SurfaceMesh& rest_mesh, const SurfaceField& field,
+                                    const DeformOptions& options, const std::string& stage, const Progress& progress,
+                                    DeformReport* report) {
+  check_options(options);
+  const std::size_t n = mesh.n_vertices();
+  if (rest_mesh.n_vertices() != n)
+    throw GeometryError("the rest shape has " + std::to_string(rest_mesh.n_vertices()) + " vertices, the mesh " +
+                        std::to_string(n) + "; both must be of one topology");
+  DeformState state;
+  state.positions = mesh.positions;
+  state.moved.resize(n);
+  Buffer<Vec4f> laplacians(n), rest_laplacians(n);
+  Buffer<float> strengths(n), path_lengths(n, 0.0F);
+  Iteration& it = state.iteration;
+  it.topology = mesh.view();
+  it.lattice = field.lattice;
+  it.field = raw(field.values);
+  it.strength = raw(strengths);
+  it.path_length = raw(path_lengths);
+  it.laplacian = raw(laplacians);
+  it.rest = raw(rest_laplacians);
+  it.tricubic = options.interpolation == Interpolation::kTricubic;
+  set_steps(it, options);
+  it.from = raw(state.positions);
+  const Iteration start = it;
+  for_each_index(n, [=] ESPDIFF_HD(std::size_t v) {
+    start.strength[v] = field_at(start, start.from[v].xyz()).w > 0 ? -1.0F : 1.0F;
+  });
+  const Vec4f* const shape = options.rest_shape ? raw(rest_mesh.positions) : nullptr;
+  Vec4f* const rest = raw(rest_laplacians);
+  for_each_index(
+      n, [=] ESPDIFF_HD(std::size_t v) { rest[v] = shape != nullptr ? umbrella(start.topology, shape, v) : Vec4f{}; });
+
+  DeformReport result;
+#if defined(ESPDIFF_BACKEND_CUDA)
+  iterate_in_graphs(state, options, stage, progress, result);
+#else
+  iterate_one_by_one(state, options, stage, progress, result);
+#endif
+  progress.report(stage, 1.0);
+  if (report != nullptr) {
+    auto path_length = std::make_shared<Scalars>();
+    path_length->values = std::move(path_lengths);
+    result.path_length = path_length;
+    *report = result;
+  }
+  auto deformed = std::make_shared<SurfaceMesh>();
+  deformed->topology = mesh.topology;
+  deformed->positions = std::move(state.positions);
+  return deformed;
+}
+
+}  // namespace espdiff::ESPDIFF_BACKEND

@@ -1,0 +1,83 @@
+// deform_iteration.h: one iteration of deform() for one vertex, and the two ways to run many: one by one, or on a GPU
+// as a graph that is launched repeatedly.
+#pragma once
+
+#include "cuda/deform/deform.h"
+#include "cuda/surface/adjacency.h"
+#include "cuda/surface/sample.h"
+#include "engine/deform_stage.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+
+/// Iterations between convergence checks; a check sums over all vertices.
+constexpr int kCheckInterval = 5;
+
+/// Input and output of one iteration.
+struct Iteration {
+  TopologyView topology;
+  CubicLattice lattice;
+  const Vec4f* field;
+  const Vec4f* from;   // [vertex]
+  const Vec4f* rest;   // [vertex] L of the rest shape
+  Vec4f* laplacian;    // [vertex] L of `from` minus L of the rest shape
+  Vec4f* to;           // [vertex] w: distance moved
+  float* path_length;  // [vertex] path length over all iterations
+  float* strength;     // [vertex] s: positive while outside, negative while inside, halved at each crossing
+  float step_external, step_tension, step_rigidity;  // sigma mu, g sigma (1 - mu)(1 - rho), g sigma (1 - mu) rho
+  bool tricubic;
+};
+
+ESPDIFF_INLINE Vec4f field_at(const Iteration& it, Vec3f p) {
+  return it.tricubic ? sample_tricubic(it.lattice, it.field, p) : sample_trilinear(it.lattice, it.field, p);
+}
+
+ESPDIFF_INLINE void move_vertex(const Iteration& it, std::size_t v) {
+  const Vec4f x = it.from[v];
+  const Vec4f laplacian = it.laplacian[v];
+  const Vec4f laplacian_squared = umbrella(it.topology, it.laplacian, v);
+  Vec3f internal = (it.step_tension * laplacian - it.step_rigidity * laplacian_squared).xyz();
+
+  const Vec4f sample = field_at(it, x.xyz());
+  float s = it.strength[v];
+  if ((sample.w > 0) == (s > 0)) {
+    s *= -0.5F;
+    it.strength[v] = s;
+  }
+  const float length = norm(sample.xyz());
+  Vec3f moved = internal;
+  const bool has_neighbours = it.topology.first[v + 1] > it.topology.first[v];
+  if (length > 1e-12F && has_neighbours) {
+    const Vec3f n = (1.0F / length) * sample.xyz();
+    moved = internal + (it.step_external * s - dot(internal, n)) * n;
+  }
+  const float distance = norm(moved);
+  it.path_length[v] += distance;
+  it.to[v] = make_vec4(x.xyz() + moved, distance);
+}
+
+ESPDIFF_INLINE void take_laplacian(const Iteration& it, std::size_t v) {
+  it.laplacian[v] = umbrella(it.topology, it.from, v) - it.rest[v];
+}
+
+/// Sets the steps of the iteration's forces.
+void set_steps(Iteration& it, const DeformOptions& options);
+
+/// State of the iteration: positions, and a buffer for the next ones.
+struct DeformState {
+  Iteration iteration{};  ///< all but `from` and `to`
+  Buffer<Vec4f> positions, moved;
+};
+
+/// Iterates until the mean displacement falls below the limit or the maximum number of iterations is reached. The
+/// result is in `positions`. Reports progress, and may throw Cancelled, at checks.
+void iterate_one_by_one(DeformState& state, const DeformOptions& options, const std::string& stage,
+                        const Progress& progress, DeformReport& report);
+
+#if defined(ESPDIFF_BACKEND_CUDA)
+/// The same bits: rounds of kCheckInterval iterations, each with a check, are recorded once as a CUDA graph. The check
+/// decides on the device; kernels after convergence do nothing, so the host waits only once per graph.
+void iterate_in_graphs(DeformState& state, const DeformOptions& options, const std::string& stage,
+                       const Progress& progress, DeformReport& report);
+#endif
+
+}  // namespace espdiff::ESPDIFF_BACKEND

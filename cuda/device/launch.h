@@ -1,0 +1,74 @@
+// launch.h: launches a stage's work on the device: a loop body per index, and the policy for Thrust's algorithms.
+#pragma once
+
+#include <cstddef>
+
+#include "base/vector.h"
+
+#if defined(ESPDIFF_BACKEND_CUDA)
+#include <thrust/system/cuda/execution_policy.h>
+
+#include "cuda/device/cuda_context.h"
+#else
+#include <thrust/execution_policy.h>
+#include <thrust/for_each.h>
+#include <thrust/iterator/counting_iterator.h>
+#endif
+
+namespace espdiff::ESPDIFF_BACKEND {
+
+// Each target wraps Thrust in its own namespace (THRUST_CUB_WRAPPED_NAMESPACE).
+namespace thrust = THRUST_NS_QUALIFIER;
+
+#if defined(ESPDIFF_BACKEND_CUDA)
+
+/// Small blocks, so that a surface's 40,000 vertices occupy every multiprocessor of a large GPU.
+constexpr unsigned kThreadsPerBlock = 128;
+
+template <typename Body>
+__global__ void __launch_bounds__(kThreadsPerBlock) for_each_kernel(std::size_t n, Body body) {
+  const std::size_t i = static_cast<std::size_t>(blockIdx.x) * kThreadsPerBlock + threadIdx.x;
+  if (i < n) body(i);
+}
+
+/// Calls body(i) for each i in [0, n) in parallel, after all work enqueued before. Returns before it is done.
+/// Deterministic if no call writes what another reads or writes.
+template <typename Body>
+void for_each_index(std::size_t n, Body body) {
+  if (n == 0) return;
+  const std::size_t n_blocks = (n + kThreadsPerBlock - 1) / kThreadsPerBlock;
+  for_each_kernel<<<static_cast<unsigned>(n_blocks), kThreadsPerBlock, 0, CudaContext::current()->stream()>>>(n, body);
+  check_cuda(cudaGetLastError(), "starting a kernel");
+}
+
+/// Allocates the temporary memory of Thrust's algorithms from the engine's pool.
+struct ScratchAllocator {
+  using value_type = char;
+  char* allocate(std::ptrdiff_t n) {
+    return static_cast<char*>(CudaContext::current()->allocate(static_cast<std::size_t>(n)));
+  }
+  void deallocate(char* start, std::size_t) { CudaContext::current()->release(start); }
+};
+
+/// Execution policy for Thrust's algorithms: the engine's stream and pool. The algorithms may return before they are
+/// done.
+inline auto on_device() {
+  static ScratchAllocator scratch;  // has no state
+  return thrust::cuda::par_nosync(scratch).on(CudaContext::current()->stream());
+}
+
+#else
+
+/// Calls body(i) for each i in [0, n) in parallel. Deterministic if no call writes what another reads or writes.
+template <typename Body>
+void for_each_index(std::size_t n, Body body) {
+  if (n == 0) return;
+  thrust::for_each_n(thrust::device, thrust::counting_iterator<std::size_t>(0), n, body);
+}
+
+/// Execution policy for Thrust's algorithms.
+inline auto on_device() { return thrust::device; }
+
+#endif
+
+}  // namespace espdiff::ESPDIFF_BACKEND

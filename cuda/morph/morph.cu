@@ -1,0 +1,196 @@
+// morph.cu: the steps of the morph: advect with the atoms, return to the level set, remove, smooth, split.
+#include "cuda/morph/morph.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "base/error.h"
+#include "base/progress.h"
+#include "cuda/device/spatial_order.h"
+#include "cuda/device/unwrap.h"
+#include "cuda/morph/moving_surface.h"
+#include "cuda/surface/project.h"
+#include "engine/morph_stage.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+namespace {
+
+/// Minimum number of steps if atoms fade or widths change, which moves the surface too.
+constexpr int kStepsOfFading = 24;
+/// Minimum number of steps: flow and level set are followed to second order only.
+constexpr int kLeastSteps = 8;
+/// Rounds of smoothing at the end, after the atoms have stopped.
+constexpr int kLastRounds = 4;
+/// Largest shift of the final projections; the steps end closer to the surface than this.
+constexpr float kLastShift_A = 0.3F;
+
+void check_options(const MorphOptions& o) {
+  if (!(o.max_step_A > 0))
+    throw InputError("the morph's largest step, " + std::to_string(o.max_step_A) +
+                     " A, is not positive; 0.35 is usual");
+  if (!(o.max_edge_A > 0))
+    throw InputError("the morph's longest edge, " + std::to_string(o.max_edge_A) + " A, is not positive");
+  if (!(o.max_stretch > 1))
+    throw InputError("the morph's largest stretch, " + std::to_string(o.max_stretch) + ", is not above 1; 20 is usual");
+}
+
+/// More would take days. An atom that far off is a mistake in the input.
+constexpr int kMostSteps = 100000;
+
+int steps_for(const std::vector<MovingAtom>& atoms, const MorphOptions& options) {
+  double farthest = 0;
+  bool fades = false;
+  for (const MovingAtom& a : atoms) {
+    // On a screw the speed is constant except for the atom's own path.
+    farthest = std::max({farthest, norm(a.velocity_at(0)), norm(a.velocity_at(1))});
+    fades = fades || !a.at_start || !a.at_end || std::abs(a.start_width - a.end_width) > 1e-3;
+  }
+  const double n_steps = std::ceil(farthest / options.max_step_A);
+  if (!(n_steps <= kMostSteps)) {
+    char text[240];
+    std::snprintf(text, sizeof text,
+                  "an atom moves %.6g A from source to target, which takes %.6g steps of %.6g A; %d is the limit; check "
+                  "that both structures are of one molecule and no atom is far off, or allow larger steps",
+                  farthest, n_steps, options.max_step_A, kMostSteps);
+    throw InputError(text);
+  }
+  return std::max(fades ? kStepsOfFading : kLeastSteps, static_cast<int>(n_steps));
+}
+
+std::shared_ptr<Scalars> as_scalars(const Buffer<std::uint8_t>& flags) {
+  auto scalars = std::make_shared<Scalars>();
+  scalars->values.resize(flags.size());
+  const std::uint8_t* const flag = raw(flags);
+  float* const value = raw(scalars->values);
+  for_each_index(flags.size(), [=] ESPDIFF_HD(std::size_t i) { value[i] = static_cast<float>(flag[i]); });
+  return scalars;
+}
+
+/// Path lengths including the final projection.
+std::shared_ptr<Scalars> path_lengths(const MovingSurface& surface, const SurfaceMesh& projected) {
+  auto lengths = std::make_shared<Scalars>();
+  lengths->values.resize(surface.n_vertices());
+  const Vec4f* const before = raw(surface.x);
+  const Vec4f* const after = raw(projected.positions);
+  float* const length = raw(lengths->values);
+  for_each_index(surface.n_vertices(),
+                 [=] ESPDIFF_HD(std::size_t v) { length[v] = before[v].w + norm(after[v].xyz() - before[v].xyz()); });
+  return lengths;
+}
+
+/// The surface at the end of an earlier morph. Its unmatched vertices are those without any remaining triangle.
+MovingSurface resume_surface(const MorphResult& so_far) {
+  const auto& source = unwrap<SurfaceMesh>(so_far.source);
+  const auto& mapped = unwrap<SurfaceMesh>(so_far.mapped);
+  const auto& removed = unwrap<Scalars>(so_far.unmatched);
+  const auto& path_length = unwrap<Scalars>(so_far.path_length);
+  if (mapped.n_vertices() != source.n_vertices() || mapped.n_triangles() != source.n_triangles() ||
+      removed.values.size() != source.n_triangles() || path_length.values.size() != source.n_vertices())
+    throw GeometryError("a morph of " + std::to_string(source.n_vertices()) +
+                        " vertices cannot continue: its meshes, removed triangles and path lengths differ in size");
+  MovingSurface surface = start_surface(source);
+  surface.x = mapped.positions;
+  const MovingSurfaceView s = view_of(surface);
+  const float* const length = raw(path_length.values);
+  const float* const unmatched = raw(removed.values);
+  for_each_index(s.topology.n_triangles, [=] ESPDIFF_HD(std::size_t t) { s.removed[t] = unmatched[t] != 0 ? 1 : 0; });
+  for_each_index(s.topology.n_vertices, [=] ESPDIFF_HD(std::size_t v) {
+    s.x[v].w = length[v];
+    bool any = false;
+    for (std::uint32_t n = s.topology.first[v]; n < s.topology.first[v + 1]; ++n)
+      any = any || s.removed[s.topology.incident[n]] == 0;
+    s.unmatched[v] = any ? 0 : 1;
+  });
+  surface.order = spatial_order(surface.x);
+  return surface;
+}
+
+/// Projects both ends onto their isosurfaces. Vertices of the given mesh keep their positions; added vertices are
+/// midpoints of edges and lie beside the surface.
+MorphResult project_ends(const MovingSurface& surface, const SurfaceMesh& mesh, const AtomCells& source_atoms,
+                         const AtomCells& target_atoms, float isovalue) {
+  SurfaceMesh source, mapped;
+  source.topology = mapped.topology = surface.topology;
+  source.positions = surface.source;
+  mapped.positions = surface.x;
+  auto on_source = project(source, source_atoms, isovalue, kLastShift_A);
+  copy_on_device(raw(on_source->positions), raw(mesh.positions), mesh.n_vertices() * sizeof(Vec4f));
+  MorphResult result;
+  result.source = on_source;
+  const auto on_target = project(mapped, target_atoms, isovalue, kLastShift_A);
+  result.mapped = on_target;
+  result.unmatched = as_scalars(surface.removed);
+  result.path_length = path_lengths(surface, *on_target);
+  const std::uint8_t* const unmatched = raw(surface.unmatched);
+  result.report.n_vertices_unmatched =
+      sum_over<std::size_t>(surface.n_vertices(), [=] ESPDIFF_HD(std::size_t v) { return std::size_t{unmatched[v]}; });
+  return result;
+}
+
+/// Runs all steps. `mesh` is the initial surface on the source.
+MorphResult run_steps(MovingSurface surface, const SurfaceMesh& mesh, const std::vector<MovingAtom>& atoms,
+                      const AtomCells& source_atoms, const AtomCells& target_atoms, const MorphOptions& options,
+                      const std::string& stage, const Progress& progress) {
+  check_options(options);
+  const float isovalue = static_cast<float>(options.isovalue);
+  const float max_edge = static_cast<float>(options.max_edge_A), max_stretch = static_cast<float>(options.max_stretch);
+  const int n_steps = steps_for(atoms, options);
+  std::size_t n_added = 0;
+  return_to_level_set(surface, atoms_at(atoms, 0.0), isovalue);
+  surface.previous = surface.flow;
+  for (int step = 1; step <= n_steps; ++step) {
+    progress.report(stage, static_cast<double>(step - 1) / n_steps);
+    advance(surface, 1.0F / static_cast<float>(n_steps));
+    return_to_level_set(surface, atoms_at(atoms, static_cast<double>(step) / n_steps), isovalue);
+    remove_torn_triangles(surface);
+    smooth_tangentially(surface);
+    n_added += split_long_edges(surface, max_edge, max_stretch);
+  }
+  // The vertices added or moved in the last step lie beside the level set.
+  const MovingAtoms final_atoms = atoms_at(atoms, 1.0);
+  for (int round = 0; round < kLastRounds; ++round) {
+    return_to_level_set(surface, final_atoms, isovalue);
+    remove_torn_triangles(surface);
+    if (round + 1 < kLastRounds) smooth_tangentially(surface);
+  }
+  progress.report(stage, 1.0);
+  MorphResult result = project_ends(surface, mesh, source_atoms, target_atoms, isovalue);
+  result.report.steps = n_steps;
+  result.report.n_vertices_added = n_added;
+  return result;
+}
+
+}  // namespace
+
+MovingSurface start_surface(const SurfaceMesh& mesh) {
+  MovingSurface surface;
+  surface.topology = mesh.topology;
+  surface.source = mesh.positions;
+  surface.x = mesh.positions;
+  Vec4f* const x = raw(surface.x);
+  for_each_index(mesh.n_vertices(), [=] ESPDIFF_HD(std::size_t v) { x[v].w = 0.0F; });
+  surface.flow.assign(mesh.n_vertices(), Vec4f{});
+  surface.previous.assign(mesh.n_vertices(), Vec4f{});
+  surface.gradient.assign(mesh.n_vertices(), Vec4f{});
+  surface.unmatched.assign(mesh.n_vertices(), 0);
+  surface.removed.assign(mesh.n_triangles(), 0);
+  surface.order = spatial_order(surface.x);
+  return surface;
+}
+
+MorphResult morph(const SurfaceMesh& mesh, const std::vector<MovingAtom>& atoms, const AtomCells& source_atoms,
+                  const AtomCells& target_atoms, const MorphOptions& options, const std::string& stage,
+                  const Progress& progress) {
+  return run_steps(start_surface(mesh), mesh, atoms, source_atoms, target_atoms, options, stage, progress);
+}
+
+MorphResult continue_morph(const MorphResult& so_far, const std::vector<MovingAtom>& atoms,
+                           const AtomCells& source_atoms, const AtomCells& target_atoms, const MorphOptions& options,
+                           const std::string& stage, const Progress& progress) {
+  return run_steps(resume_surface(so_far), unwrap<SurfaceMesh>(so_far.source), atoms, source_atoms, target_atoms,
+                   options, stage, progress);
+}
+
+}  // namespace espdiff::ESPDIFF_BACKEND

@@ -1,0 +1,36 @@
+// remove_torn_triangles.cu: finds torn or crushed parts of the surface by comparing normals with the density's
+// gradient.
+#include "cuda/morph/moving_surface.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+
+void remove_torn_triangles(MovingSurface& surface) {
+  const MovingSurfaceView s = view_of(surface);
+  Buffer<std::uint8_t> flipped_flags(surface.removed.size());
+  std::uint8_t* const flipped = raw(flipped_flags);
+  for_each_index(surface.removed.size(), [=] ESPDIFF_HD(std::size_t t) {
+    const Corners c = s.topology.triangles[t];
+    const Vec3f uphill = s.gradient[c.v[0]].xyz() + s.gradient[c.v[1]].xyz() + s.gradient[c.v[2]].xyz();
+    flipped[t] = dot(twice_area_vector(s.x, c), uphill) >= 0 ? 1 : 0;
+  });
+  for_each_index(surface.x.size(), [=] ESPDIFF_HD(std::size_t v) {
+    if (s.unmatched[v] != 0) return;
+    Vec3f normal{};
+    bool any = false;
+    for (std::uint32_t n = s.topology.first[v]; n < s.topology.first[v + 1]; ++n) {
+      const std::uint32_t t = s.topology.incident[n];
+      if (s.removed[t] != 0) continue;
+      any = true;
+      normal += twice_area_vector(s.x, s.topology.triangles[t]);
+    }
+    if (!any || dot(normal, s.gradient[v].xyz()) > 0) s.unmatched[v] = 1;
+  });
+  for_each_index(surface.removed.size(), [=] ESPDIFF_HD(std::size_t t) {
+    if (s.removed[t] != 0) return;
+    const Corners c = s.topology.triangles[t];
+    const bool unmatched = s.unmatched[c.v[0]] != 0 || s.unmatched[c.v[1]] != 0 || s.unmatched[c.v[2]] != 0;
+    if (unmatched || flipped[t] != 0) s.removed[t] = 1;
+  });
+}
+
+}  // namespace espdiff::ESPDIFF_BACKEND

@@ -1,0 +1,104 @@
+// coulomb.cu: Coulomb's law summed over all charges at every point of a lattice, plane by plane.
+#include "cuda/potential/coulomb.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/error.h"
+#include "base/progress.h"
+#include "engine/potential_stage.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+namespace {
+
+/// Nearer than this the points are inside an atom's core, where the bare law means nothing.
+constexpr double kLeastDistance_A = 0.5;
+
+struct Charge {
+  Vec3d position;
+  double charge;
+};
+
+void check(const Lattice& lattice, const CoulombOptions& options) {
+  if (!(options.dielectric > 0) || !std::isfinite(options.dielectric))
+    throw InputError("dielectric constant " + std::to_string(options.dielectric) +
+                     " is not a positive number; 1 is vacuum, 4 r is usual in proteins, 80 is water");
+  check_temperature(options.temperature_K);
+  double n_points = 1;
+  for (const int n : lattice.size) {
+    if (n < 1) throw InputError("a lattice of " + std::to_string(n) + " points along an axis; at least 1 is needed");
+    n_points *= n;
+  }
+  require_grid(n_points, sizeof(float), "a Coulomb potential");
+}
+
+}  // namespace
+
+void check_charges(const std::vector<Vec3d>& positions, const std::vector<float>& charges) {
+  if (positions.size() != charges.size())
+    throw InputError(std::to_string(positions.size()) + " positions but " + std::to_string(charges.size()) +
+                     " charges; give one charge for each atom");
+  bool any = false;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const Vec3d& p = positions[i];
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+      throw InputError("atom " + std::to_string(i + 1) + " has a coordinate that is not finite");
+    if (!std::isfinite(charges[i]))
+      throw InputError("atom " + std::to_string(i + 1) + " has a charge that is not finite");
+    any = any || charges[i] != 0;
+  }
+  if (!any)
+    throw InputError("none of the " + std::to_string(positions.size()) +
+                     " atoms has a charge; take charges from a topology (PSF, prmtop) or a PQR file");
+}
+
+void check_temperature(double temperature_K) {
+  if (temperature_K > 0 && std::isfinite(temperature_K)) return;
+  throw InputError("temperature " + std::to_string(temperature_K) + " K is not a positive number; 300 is usual");
+}
+
+std::shared_ptr<MapGrid> coulomb_potential(const std::vector<Vec3d>& positions, const std::vector<float>& charges,
+                                           const Lattice& lattice, const CoulombOptions& options,
+                                           const Progress& progress) {
+  check_charges(positions, charges);
+  check(lattice, options);
+  auto map = std::make_shared<MapGrid>();
+  map->lattice = lattice;
+  map->unit = PotentialUnit::kKtPerE;
+  set_index_transform(lattice, {}, "the lattice", map->to_index);
+  map->values.resize(lattice.n_points());
+
+  std::vector<Charge> kept;
+  const double scale = coulomb_in_kt(options.temperature_K) / options.dielectric;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (charges[i] != 0) kept.push_back({positions[i], scale * static_cast<double>(charges[i])});
+  }
+  const Buffer<Charge> atoms = to_device(kept);
+  const Charge* const first = raw(atoms);
+  const std::size_t n_atoms = kept.size();
+  const bool by_distance = options.distance_dependent;
+  float* const out = raw(map->values);
+  const std::size_t nx = static_cast<std::size_t>(lattice.size[0]),
+                    plane = nx * static_cast<std::size_t>(lattice.size[1]);
+  const Vec3d a = lattice.step[0], b = lattice.step[1];
+  for (int z = 0; z < lattice.size[2]; ++z) {
+    progress.report("potential", static_cast<double>(z) / lattice.size[2]);
+    const Vec3d corner = lattice.origin + static_cast<double>(z) * lattice.step[2];
+    float* const values = out + plane * static_cast<std::size_t>(z);
+    for_each_index(plane, [=] ESPDIFF_HD(std::size_t i) {
+      const Vec3d p = corner + static_cast<double>(i % nx) * a + static_cast<double>(i / nx) * b;
+      double sum = 0;
+      for (std::size_t n = 0; n < n_atoms; ++n) {
+        const Vec3d d = p - first[n].position;
+        const double square = fmax(dot(d, d), kLeastDistance_A * kLeastDistance_A);
+        sum += first[n].charge / (by_distance ? square : sqrt(square));
+      }
+      values[i] = static_cast<float>(sum);
+    });
+  }
+  progress.report("potential", 1.0);
+  return map;
+}
+
+}  // namespace espdiff::ESPDIFF_BACKEND

@@ -1,0 +1,217 @@
+// pme.cu: smooth particle-mesh Ewald: checks what is asked for, spreads the charges, and convolves the grid.
+#include "cuda/potential/pme.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/error.h"
+#include "base/progress.h"
+#include "cuda/potential/coulomb.h"
+#include "cuda/potential/pmepot_places.h"
+#include "cuda/potential/spread.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr int kLeastCompatibleSize = 8, kMostSize = 4096;
+
+std::string text_of(const Vec3d& v) {
+  return "(" + std::to_string(v.x) + ", " + std::to_string(v.y) + ", " + std::to_string(v.z) + ")";
+}
+bool is_finite(const Vec3d& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+double checked_volume(const PmeCell& cell) {
+  const auto& e = cell.edges;
+  if (!is_finite(cell.centre) || !is_finite(e[0]) || !is_finite(e[1]) || !is_finite(e[2]))
+    throw InputError("the cell has a centre or an edge that is not finite; give twelve numbers in Angstrom");
+  const double volume = dot(e[0], cross(e[1], e[2]));
+  // Flatter than this, the reciprocal edges would be noise.
+  constexpr double kFlat = 1e-6;
+  if (volume > kFlat * norm(e[0]) * norm(e[1]) * norm(e[2])) return volume;
+  throw InputError("the cell's edges " + text_of(e[0]) + ", " + text_of(e[1]) + " and " + text_of(e[2]) +
+                   " span a volume of " + std::to_string(volume) +
+                   " A^3, which must be positive; give three edges that span space, right-handed");
+}
+
+void check_sizes(const PmeOptions& o) {
+  const int least = o.compatible ? kLeastCompatibleSize : o.order;
+  for (const int n : o.size) {
+    if (n >= least && n <= kMostSize) continue;
+    throw InputError("a grid of " + std::to_string(o.size[0]) + " x " + std::to_string(o.size[1]) + " x " +
+                     std::to_string(o.size[2]) + " points: each edge needs " + std::to_string(least) + " (" +
+                     (o.compatible ? std::string("PMEPot's least") : "splines of order " + std::to_string(o.order)) +
+                     ") to " + std::to_string(kMostSize) + "; choose another grid or resolution");
+  }
+  if (o.compatible && o.size[2] % 2 != 0)
+    throw InputError("a grid of " + std::to_string(o.size[2]) +
+                     " points along the third edge: PMEPot takes even numbers only; choose another, or leave out "
+                     "`compatible`");
+}
+
+void check_options(const PmeOptions& o) {
+  if (o.order < kLeastSplineOrder || o.order > kMostSplineOrder)
+    throw InputError("spline order " + std::to_string(o.order) + " is not among 4 to 8; 6 is usual");
+  if (o.compatible && o.order != 4)
+    throw InputError("spline order " + std::to_string(o.order) + " with `compatible`: PMEPot's is 4; leave one out");
+  if (o.compatible && o.smooth_samples)
+    throw InputError("`compatible` values are spline coefficients already; smooth samples are for the other mode");
+  if (!(o.ewald_factor > 0) || !std::isfinite(o.ewald_factor))
+    throw InputError("Ewald factor " + std::to_string(o.ewald_factor) + " 1/A is not a positive number; 0.25 is usual");
+  check_temperature(o.temperature_K);
+  check_sizes(o);
+}
+
+/// Values, modes, scratch and result, for each grid point.
+void check_memory(const PmeOptions& o) {
+  const double per_point = o.precision == Precision::kDouble ? 8 + 9 + 4 : 4 + 5 + 4;
+  const double n_points = static_cast<double>(o.size[0]) * o.size[1] * o.size[2];
+  const double coarser = coarsening_to_fit(n_points, per_point);
+  if (coarser <= 1) return;
+  throw MemoryError("a grid of " + std::to_string(o.size[0]) + " x " + std::to_string(o.size[1]) + " x " +
+                    std::to_string(o.size[2]) + " points " + need_in_words(n_points, per_point) + "; a resolution " +
+                    std::to_string(coarser) + " times as coarse would fit");
+}
+
+/// Rows of the matrix that takes positions to parts of the edges: the reciprocal edges, 1/A.
+std::array<Vec3d, 3> reciprocal_edges(const PmeCell& cell) {
+  const auto& e = cell.edges;
+  const double inverse = 1.0 / dot(e[0], cross(e[1], e[2]));
+  return {inverse * cross(e[1], e[2]), inverse * cross(e[2], e[0]), inverse * cross(e[0], e[1])};
+}
+
+/// Charges in grid coordinates, wrapped into the cell; atoms without charge are left out.
+std::vector<GridCharge> place_charges(const std::vector<Vec3d>& positions, const std::vector<float>& charges,
+                                      const PmeCell& cell, const PmeOptions& options) {
+  const std::array<int, 3>& size = options.size;
+  const std::array<Vec3d, 3> reciprocal = reciprocal_edges(cell);
+  const Vec3d origin = lattice_over(cell, size).origin;
+  const PmepotPlaces pmepot_places(cell, size);
+  std::vector<GridCharge> placed;
+  placed.reserve(positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (charges[i] == 0) continue;
+    GridCharge c{};
+    c.charge = charges[i];
+    const std::array<double, 3> u =
+        options.compatible ? pmepot_places.coordinates(positions[i]) : std::array<double, 3>{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double part = dot(positions[i] - origin, reciprocal[axis]);
+      c.u[axis] = options.compatible ? u[axis] : wrapped(static_cast<double>(size[axis]) * part, size[axis]);
+    }
+    placed.push_back(c);
+  }
+  return placed;
+}
+
+/// Centred B-spline of an order at a whole or half number, by its recursion.
+double centred_spline(int order, double x) {
+  const double from_left = x + 0.5 * order;
+  if (from_left <= 0 || from_left >= order) return 0;
+  if (order == 2) return 1 - std::fabs(x);
+  return (from_left * centred_spline(order - 1, x + 0.5) + (order - from_left) * centred_spline(order - 1, x - 0.5)) /
+         (order - 1);
+}
+
+/// [mode] what undoes the splines along one axis: one over the transform of the centred spline at whole numbers.
+template <typename T>
+Buffer<T> spline_factors(int size, const PmeOptions& options) {
+  std::vector<double> spline(static_cast<std::size_t>(options.order / 2 + 1));
+  for (std::size_t n = 0; n < spline.size(); ++n) spline[n] = centred_spline(options.order, static_cast<double>(n));
+  std::vector<T> factors(static_cast<std::size_t>(size));
+  for (int k = 0; k < size; ++k) {
+    double sum = spline[0];
+    for (std::size_t n = 1; n < spline.size(); ++n)
+      sum += 2 * spline[n] * std::cos(2 * kPi * k * static_cast<double>(n) / size);
+    const double factor = options.compatible || options.smooth_samples ? 1 / (sum * sum) : 1 / sum;
+    const bool at_half_frequency = 2 * k == size && !options.compatible;
+    factors[static_cast<std::size_t>(k)] = static_cast<T>(at_half_frequency ? 0 : factor);
+  }
+  return to_device(factors);
+}
+
+double scale_of(double volume, const PmeOptions& options) {
+  if (options.compatible) {
+    volume = std::trunc(volume);
+    if (volume < 1)
+      throw InputError("the cell's volume is below 1 A^3, which PMEPot truncates to 0; leave out `compatible`");
+  }
+  return coulomb_in_kt(options.temperature_K) / (kPi * volume);
+}
+
+/// The grid's values without the gaps between its slabs.
+template <typename T>
+void copy_values(FourierGrid<T>& grid, const std::array<int, 3>& size, Buffer<float>& values) {
+  const std::size_t slab = static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]),
+                    stride = grid.slab_stride();
+  values.resize(slab * static_cast<std::size_t>(size[2]));
+  const T* const from = grid.values();
+  float* const to = raw(values);
+  for_each_index(values.size(),
+                 [=] ESPDIFF_HD(std::size_t i) { to[i] = static_cast<float>(from[i / slab * stride + i % slab]); });
+}
+
+}  // namespace
+
+template <typename T>
+FourierGrid<T>& PmeSolver::Kept<T>::of_size(std::array<int, 3> wanted) {
+  if (!grid || size != wanted) {
+    grid.reset();
+    grid = make_fourier_grid<T>(wanted);
+    size = wanted;
+  }
+  return *grid;
+}
+
+template <typename T>
+void PmeSolver::solve(Kept<T>& kept, const std::vector<Vec3d>& positions, const std::vector<float>& charges,
+                      const PmeCell& cell, const PmeOptions& options, MapGrid& map, const Progress& progress) {
+  const double volume = checked_volume(cell), scale = scale_of(volume, options);
+  const SortedCharges<T> sorted =
+      sort_charges<T>(place_charges(positions, charges, cell, options), options.size, options.order);
+  FourierGrid<T>& grid = kept.of_size(options.size);
+  progress.report("potential", 0.1);
+#if defined(ESPDIFF_BACKEND_CUDA)
+  spread_by_points(sorted, grid.values(), grid.slab_stride());
+#else
+  spread_by_slabs(sorted, grid.values(), grid.slab_stride());
+#endif
+  progress.report("potential", 0.5);
+  Influence<T> influence{};
+  Buffer<T> factors[3];
+  const std::array<Vec3d, 3> reciprocal = reciprocal_edges(cell);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    factors[axis] = spline_factors<T>(options.size[axis], options);
+    influence.size[axis] = options.size[axis];
+    influence.reciprocal[axis] = static_cast<Vec3<T>>(reciprocal[axis]);
+    influence.spline[axis] = raw(factors[axis]);
+  }
+  influence.exponent = static_cast<T>(-kPi * kPi / (options.ewald_factor * options.ewald_factor));
+  influence.scale = static_cast<T>(scale);
+  grid.convolve(influence);
+  copy_values(grid, options.size, map.values);
+  progress.report("potential", 1.0);
+}
+
+std::shared_ptr<MapGrid> PmeSolver::potential(const std::vector<Vec3d>& positions, const std::vector<float>& charges,
+                                              const PmeCell& cell, const PmeOptions& options,
+                                              const RigidTransform& to_map, const Progress& progress) {
+  check_charges(positions, charges);
+  check_options(options);
+  check_memory(options);
+  auto map = std::make_shared<MapGrid>();
+  if (options.precision == Precision::kDouble) {
+    solve(double_, positions, charges, cell, options, *map, progress);
+  } else {
+    solve(single_, positions, charges, cell, options, *map, progress);
+  }
+  map->lattice = lattice_over(cell, options.size);
+  map->unit = PotentialUnit::kKtPerE;
+  map->periodic = true;
+  map->spline_order = options.smooth_samples ? options.order : 0;
+  set_index_transform(map->lattice, to_map, "the potential", map->to_index);
+  return map;
+}
+
+}  // namespace espdiff::ESPDIFF_BACKEND

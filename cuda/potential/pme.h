@@ -1,0 +1,37 @@
+// pme.h: smooth particle-mesh Ewald: the reciprocal potential of a periodic cell on a grid (see Engine::pme_potential).
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "base/progress.h"
+#include "cuda/potential/fourier.h"
+#include "cuda/surface/sample.h"
+#include "engine/potential_stage.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+
+/// Computes maps, and keeps the plans and workspace of the last size for the next map of that size.
+class PmeSolver {
+ public:
+  std::shared_ptr<MapGrid> potential(const std::vector<Vec3d>& positions, const std::vector<float>& charges,
+                                     const PmeCell& cell, const PmeOptions& options, const RigidTransform& to_map,
+                                     const Progress& progress);
+
+ private:
+  template <typename T>
+  struct Kept {
+    std::array<int, 3> size{};
+    std::unique_ptr<FourierGrid<T>> grid;
+
+    FourierGrid<T>& of_size(std::array<int, 3> wanted);
+  };
+  template <typename T>
+  void solve(Kept<T>& kept, const std::vector<Vec3d>& positions, const std::vector<float>& charges, const PmeCell& cell,
+             const PmeOptions& options, MapGrid& map, const Progress& progress);
+
+  Kept<float> single_;
+  Kept<double> double_;
+};
+
+}  // namespace espdiff::ESPDIFF_BACKEND

@@ -1,0 +1,22 @@
+// components.h: connected components of a mesh.
+#pragma once
+
+#include <vector>
+
+#include "cuda/surface/mesh.h"
+#include "engine/surface_stage.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+
+struct ComponentLabels {
+  Buffer<std::uint32_t> label;  ///< [vertex] component, numbered in order of first vertex
+  std::vector<ComponentSummary> summaries;
+};
+
+ComponentLabels label_components(const SurfaceMesh& mesh);
+
+/// The mesh of the components with `keep` true; vertices and triangles keep their order.
+std::shared_ptr<SurfaceMesh> keep_components(const SurfaceMesh& mesh, const ComponentLabels& labels,
+                                             const std::vector<bool>& keep);
+
+}  // namespace espdiff::ESPDIFF_BACKEND

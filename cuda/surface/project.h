@@ -1,0 +1,14 @@
+// project.h: projection onto the analytic isosurface by Newton's method.
+#pragma once
+
+#include "cuda/surface/atom_cells.h"
+#include "cuda/surface/mesh.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+
+/// Moves each vertex along the density's gradient until the analytic density equals the isovalue to 1e-4. A vertex that
+/// would move farther than `max_shift_A`, or finds no gradient, stays in place.
+std::shared_ptr<SurfaceMesh> project(const SurfaceMesh& mesh, const AtomCells& atoms, float isovalue,
+                                     float max_shift_A);
+
+}  // namespace espdiff::ESPDIFF_BACKEND

@@ -1,0 +1,207 @@
+// sample.cu: potential maps on the device, sampled at a mesh's vertices or on another lattice.
+#include "cuda/surface/sample.h"
+
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "cuda/surface/bspline.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+
+void set_index_transform(const Lattice& lattice, const RigidTransform& to_map, const std::string& name,
+                         double (&to_index)[12]) {
+  const auto& step = lattice.step;
+  const double volume = dot(step[0], cross(step[1], step[2]));
+  if (!(std::fabs(volume) > 0) || !std::isfinite(volume)) throw InputError(name + ": the map's axes do not span space");
+  // Rows of the inverse of the matrix with the steps as columns.
+  const Vec3d inverse[3] = {(1.0 / volume) * cross(step[1], step[2]), (1.0 / volume) * cross(step[2], step[0]),
+                            (1.0 / volume) * cross(step[0], step[1])};
+  const double* const r = to_map.rotation;
+  const Vec3d shift = to_map.translation - lattice.origin;
+  for (int row = 0; row < 3; ++row) {
+    const Vec3d& m = inverse[row];
+    for (int column = 0; column < 3; ++column) {
+      to_index[4 * row + column] = m.x * r[column] + m.y * r[3 + column] + m.z * r[6 + column];
+    }
+    to_index[4 * row + 3] = dot(m, shift);
+  }
+}
+
+std::shared_ptr<MapGrid> make_map(const Grid& map, const RigidTransform& to_map) {
+  auto result = std::make_shared<MapGrid>();
+  result->lattice = map.lattice;
+  result->unit = map.unit;
+  result->values = to_device(map.values);
+  result->periodic = map.periodic;
+  set_index_transform(map.lattice, to_map, map.name, result->to_index);
+  return result;
+}
+
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+/// Kernel view of a map, passed by value.
+struct MapView {
+  const float* values;
+  long size[3];
+  bool periodic;
+  int spline_order;
+  double to_index[12];
+
+  ESPDIFF_INLINE double coordinate(int axis, Vec3d p) const {
+    const double* const row = to_index + 4 * axis;
+    return row[0] * p.x + row[1] * p.y + row[2] * p.z + row[3];
+  }
+};
+
+MapView view_of(const MapGrid& map) {
+  MapView view{raw(map.values), {}, map.periodic, map.spline_order, {}};
+  for (std::size_t axis = 0; axis < 3; ++axis) view.size[axis] = map.lattice.size[axis];
+  for (int i = 0; i < 12; ++i) view.to_index[i] = map.to_index[i];
+  return view;
+}
+
+/// The two points around a coordinate on one axis, and the fraction between them.
+struct Neighbours {
+  long low, high;
+  double part;
+};
+
+/// Returns false outside.
+ESPDIFF_INLINE bool find_neighbours(const MapView& map, int axis, double c, Neighbours& found) {
+  const long size = map.size[axis];
+  if (map.periodic) {
+    if (!(c - c == 0)) return false;
+    const double inside = wrapped(c, static_cast<int>(size));
+    found.low = static_cast<long>(inside);
+    found.high = found.low + 1 < size ? found.low + 1 : 0;
+    found.part = inside - static_cast<double>(found.low);
+    return true;
+  }
+  // A vertex on a map's border is inside despite rounding.
+  constexpr double kSlack = 1e-6;
+  const double last = static_cast<double>(size - 1);
+  if (!(c >= -kSlack && c <= last + kSlack) || size < 2) return false;
+  c = c < 0 ? 0 : c > last ? last : c;
+  found.low = static_cast<long>(c);
+  if (found.low > size - 2) found.low = size - 2;
+  found.high = found.low + 1;
+  found.part = c - static_cast<double>(found.low);
+  return true;
+}
+
+ESPDIFF_INLINE float sample_linear(const MapView& map, const double (&c)[3]) {
+  Neighbours at[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!find_neighbours(map, axis, c[axis], at[axis])) return kNan;
+  }
+  double sum = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const bool up[3] = {(corner & 1) != 0, (corner >> 1 & 1) != 0, corner >> 2 != 0};
+    double weight = up[0] ? at[0].part : 1 - at[0].part;
+    weight *= up[1] ? at[1].part : 1 - at[1].part;
+    weight *= up[2] ? at[2].part : 1 - at[2].part;
+    const long x = up[0] ? at[0].high : at[0].low, y = up[1] ? at[1].high : at[1].low,
+               z = up[2] ? at[2].high : at[2].low;
+    sum += weight * static_cast<double>(map.values[x + map.size[0] * (y + map.size[1] * z)]);
+  }
+  return static_cast<float>(sum);
+}
+
+template <int Order>
+ESPDIFF_INLINE float sample_spline(const MapView& map, const double (&c)[3]) {
+  int base[3];
+  double weight[3][kStoredWeights<Order>];
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(c[axis] - c[axis] == 0)) return kNan;
+    const int size = static_cast<int>(map.size[axis]);
+    const SplinePlace place = spline_place(wrapped(c[axis], size), Order, size);
+    base[axis] = place.base;
+    spline_weights<Order>(place.part, weight[axis]);
+  }
+  double sum = 0;
+  for (int k = 0; k < Order; ++k) {
+    const long z = base[2] + k < map.size[2] ? base[2] + k : base[2] + k - map.size[2];
+    for (int j = 0; j < Order; ++j) {
+      const long y = base[1] + j < map.size[1] ? base[1] + j : base[1] + j - map.size[1];
+      const float* const row = map.values + map.size[0] * (y + map.size[1] * z);
+      double row_sum = 0;
+      for (int i = 0; i < Order; ++i) {
+        const long x = base[0] + i < map.size[0] ? base[0] + i : base[0] + i - map.size[0];
+        row_sum += weight[0][i] * static_cast<double>(row[x]);
+      }
+      sum += weight[2][k] * weight[1][j] * row_sum;
+    }
+  }
+  return static_cast<float>(sum);
+}
+
+ESPDIFF_INLINE float sample_at(const MapView& map, const double (&c)[3]) {
+  switch (map.spline_order) {
+    case 4: return sample_spline<4>(map, c);
+    case 5: return sample_spline<5>(map, c);
+    case 6: return sample_spline<6>(map, c);
+    case 7: return sample_spline<7>(map, c);
+    case 8: return sample_spline<8>(map, c);
+    default: return sample_linear(map, c);
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<Scalars> sample(const MapGrid& map, const SurfaceMesh& mesh) {
+  auto result = std::make_shared<Scalars>();
+  result->values.resize(mesh.n_vertices());
+  const MapView view = view_of(map);
+  const Vec4f* const x = raw(mesh.positions);
+  float* const out = raw(result->values);
+  for_each_index(mesh.n_vertices(), [=] ESPDIFF_HD(std::size_t v) {
+    const Vec3d p = static_cast<Vec3d>(x[v].xyz());
+    const double c[3] = {view.coordinate(0, p), view.coordinate(1, p), view.coordinate(2, p)};
+    out[v] = sample_at(view, c);
+  });
+  return result;
+}
+
+std::shared_ptr<MapGrid> resample(const MapGrid& map, const Lattice& lattice) {
+  for (const int n : lattice.size) {
+    if (n < 1) throw InputError("a lattice of " + std::to_string(n) + " points along an axis needs at least 1");
+  }
+  double n_points = 1;
+  for (const int n : lattice.size) n_points *= n;
+  require_grid(n_points, sizeof(float), "sampling a map");
+  auto result = std::make_shared<MapGrid>();
+  result->lattice = lattice;
+  result->unit = map.unit;
+  set_index_transform(lattice, {}, "the lattice to sample on", result->to_index);
+  result->values.resize(lattice.n_points());
+  const MapView view = view_of(map);
+  float* const out = raw(result->values);
+  const std::size_t nx = static_cast<std::size_t>(lattice.size[0]), ny = static_cast<std::size_t>(lattice.size[1]);
+  const Vec3d origin = lattice.origin, a = lattice.step[0], b = lattice.step[1], d = lattice.step[2];
+  for_each_index(lattice.n_points(), [=] ESPDIFF_HD(std::size_t i) {
+    const Vec3d p = origin + static_cast<double>(i % nx) * a + static_cast<double>(i / nx % ny) * b +
+                    static_cast<double>(i / (nx * ny)) * d;
+    const double c[3] = {view.coordinate(0, p), view.coordinate(1, p), view.coordinate(2, p)};
+    out[i] = sample_at(view, c);
+  });
+  return result;
+}
+
+std::vector<float> point_values(const MapGrid& map) {
+  if (map.spline_order == 0) return to_host(map.values);
+  Buffer<float> values(map.values.size());
+  const MapView view = view_of(map);
+  float* const out = raw(values);
+  const std::size_t nx = static_cast<std::size_t>(view.size[0]), ny = static_cast<std::size_t>(view.size[1]);
+  for_each_index(values.size(), [=] ESPDIFF_HD(std::size_t i) {
+    const double c[3] = {static_cast<double>(i % nx), static_cast<double>(i / nx % ny),
+                         static_cast<double>(i / (nx * ny))};
+    out[i] = sample_at(view, c);
+  });
+  return to_host(values);
+}
+
+}  // namespace espdiff::ESPDIFF_BACKEND

@@ -1,0 +1,43 @@
+// build_surface.h: builds a molecule's surface in the common frame, for every command that needs one.
+#pragma once
+
+#include <vector>
+
+#include "base/progress.h"
+#include "compare/result.h"
+#include "compare/stage_clock.h"
+#include "engine/handles.h"
+#include "engine/surface_stage.h"
+
+namespace espdiff {
+
+struct CompareOptions;
+struct DeformReport;
+struct SurfaceOptions;
+
+/// Largest projection of a vertex onto the analytic surface, in grid spacings; linear interpolation errs by less than a
+/// tenth.
+constexpr double kProjectionShare = 0.5;
+
+/// One molecule's surface in the common frame.
+struct Surface {
+  AtomsPtr atoms;
+  GridPtr density;
+  MeshPtr mesh;                              // without closed cavities, unless the options keep them
+  MeshPtr whole;                             // with closed cavities
+  std::vector<ComponentSummary> components;  // all
+  SurfaceSummary summary;
+};
+
+/// Density, surface, components, projection; adds their times to the clock.
+/// @param to_common the molecule's own frame -> the common frame
+/// @throws InputError (options, radii), GeometryError (no surface), MemoryError, Cancelled
+Surface build_surface(Engine& engine, const Molecule& molecule, const RigidTransform& to_common,
+                      const SurfaceOptions& options, const Progress& progress, StageClock& clock);
+
+/// The surface after regularization on its own density (thesis section 3.5.5).
+/// @param mesh the surface's `mesh` or `whole`
+MeshPtr regularize(Engine& engine, const Surface& surface, const MeshPtr& mesh, const CompareOptions& options,
+                   const Progress& progress, DeformReport* report);
+
+}  // namespace espdiff

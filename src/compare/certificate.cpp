@@ -1,0 +1,105 @@
+// certificate.cpp: the limits of a trustworthy mapping, and the reasons given when they are exceeded.
+#include "compare/certificate.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+
+#include "engine/engine.h"
+
+namespace espdiff {
+namespace {
+
+/// The limits of a trustworthy result.
+struct Limits {
+  static constexpr double kCorruptArea = 1e-3;
+  static constexpr double kFlippedArea = 0.0;
+  static constexpr double kMeanDistance_A = 0.05;
+  static constexpr double kRoundTrip_A = 0.1;
+  static constexpr double kMaxUnmatchedSource = 0.05;
+  static constexpr double kMaxUnmatchedTarget = 0.1;  ///< new surface on the target is no fault of the mapping
+  static constexpr std::size_t kSelfIntersectingPairs = 0;
+};
+
+std::string percent(double fraction) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g %%", 100 * fraction);
+  return text;
+}
+std::string angstrom(double length) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g A", length);
+  return text;
+}
+/// "3 pairs of triangles intersect (limit 0)"
+std::string intersecting_pairs(std::size_t n) {
+  return std::to_string(n) + (n == 1 ? " pair of triangles intersects" : " pairs of triangles intersect") + " (limit " +
+         std::to_string(Limits::kSelfIntersectingPairs) + ")";
+}
+
+}  // namespace
+
+Certificate certify(Engine& engine, const Mapping& mapping, const MeshPtr& target) {
+  Certificate c;
+  c.corrupt_area_fraction = mapping.fit.corrupt_area_fraction;
+  c.flipped_area_fraction = mapping.fit.flipped_area_fraction;
+  c.irregularity_A = mapping.fit.irregularity_A;
+  c.mapped_to_target = mapping.to_target;
+  c.distortion = mapping.distortion;
+  c.target_to_mapped = engine.distances(target, mapping.matched, kMatchLimit_A);
+  c.self_intersecting_pairs = mapping.intersections.n_pairs;
+  const double kept = engine.area(mapping.matched_source) / engine.area(mapping.source);
+  c.unmatched_source = 1 - kept * (1 - c.mapped_to_target.area_fraction_beyond_limit);
+  c.unmatched_target = c.target_to_mapped.area_fraction_beyond_limit;
+  return c;
+}
+
+double same_residue_share(const MappedSurface& s, const std::vector<std::int32_t>& source_residue,
+                          const std::vector<std::int32_t>& target_residue, const std::vector<std::int32_t>& target_of) {
+  double same = 0, all = 0;
+  for (std::size_t t = 0; t < s.triangles.size(); ++t) {
+    if (!s.unmatched.empty() && s.unmatched[t] != 0) continue;
+    const Triangle& v = s.triangles[t];
+    const double area = 0.5 * norm(cross(s.positions[v[1]] - s.positions[v[0]], s.positions[v[2]] - s.positions[v[0]]));
+    for (const std::uint32_t c : v) {
+      if (source_residue[c] < 0 || target_of[static_cast<std::size_t>(source_residue[c])] < 0) continue;
+      all += area / 3;
+      if (target_of[static_cast<std::size_t>(source_residue[c])] == target_residue[c]) same += area / 3;
+    }
+  }
+  return all > 0 ? same / all : std::numeric_limits<double>::quiet_NaN();
+}
+
+void judge(Certificate& c, const CompareResult& result) {
+  const auto refuse = [&](bool bad, const Message& reason) {
+    if (bad) c.reasons.push_back(reason);
+  };
+  refuse(!c.converged, "the mapping did not converge; raise " + option("max-iterations"));
+  refuse(c.corrupt_area_fraction > Limits::kCorruptArea, percent(c.corrupt_area_fraction) +
+                                                             " of the mapped area is corrupt (limit " +
+                                                             percent(Limits::kCorruptArea) + ")");
+  refuse(c.flipped_area_fraction > Limits::kFlippedArea,
+         percent(c.flipped_area_fraction) + " of the mapped area is flipped (limit 0 %)");
+  refuse(c.self_intersecting_pairs > Limits::kSelfIntersectingPairs, intersecting_pairs(c.self_intersecting_pairs));
+  refuse(c.mapped_to_target.mean_within_limit > Limits::kMeanDistance_A,
+         "the mapped surface lies " + angstrom(c.mapped_to_target.mean_within_limit) +
+             " from the target on average (limit " + angstrom(Limits::kMeanDistance_A) + ")");
+  refuse(c.target_to_mapped.mean_within_limit > Limits::kMeanDistance_A,
+         "the target lies " + angstrom(c.target_to_mapped.mean_within_limit) +
+             " from the mapped surface on average (limit " + angstrom(Limits::kMeanDistance_A) + ")");
+  refuse(c.unmatched_source > Limits::kMaxUnmatchedSource,
+         percent(c.unmatched_source) + " of the source's area has no counterpart on the target (limit " +
+             percent(Limits::kMaxUnmatchedSource) + ")");
+  refuse(c.unmatched_target > Limits::kMaxUnmatchedTarget,
+         percent(c.unmatched_target) + " of the target's area has no counterpart on the source (limit " +
+             percent(Limits::kMaxUnmatchedTarget) + ")");
+  refuse(c.round_trip && c.round_trip->mean_A > Limits::kRoundTrip_A,
+         "there and back ends " + angstrom(c.round_trip ? c.round_trip->mean_A : 0) +
+             " from the start on average (limit " + angstrom(Limits::kRoundTrip_A) + ")");
+  const double n = static_cast<double>(result.surface.positions.size());
+  const double outside = static_cast<double>(std::max(result.n_outside_source_map, result.n_outside_target_map));
+  refuse(outside > 0, percent(outside / n) + " of the vertices lie outside a map");
+  c.trustworthy = c.reasons.empty();
+}
+
+}  // namespace espdiff

@@ -1,0 +1,25 @@
+// certificate.h: whether a comparison is trustworthy, and why not.
+#pragma once
+
+#include "compare/mapping.h"
+#include "compare/result.h"
+#include "engine/handles.h"
+
+namespace espdiff {
+
+struct CompareResult;
+struct MappedSurface;
+
+/// Distances in both directions, intersecting triangles, and the fit of the mapped mesh; no verdict yet.
+Certificate certify(Engine& engine, const Mapping& mapping, const MeshPtr& target);
+
+/// Fraction of the area at vertices whose target residue is paired with their source residue; NaN if no residues pair.
+/// @param source_residue, target_residue [vertex] from Engine::vertex_residues()
+/// @param target_of [source residue] from paired_residues()
+double same_residue_share(const MappedSurface& surface, const std::vector<std::int32_t>& source_residue,
+                          const std::vector<std::int32_t>& target_residue, const std::vector<std::int32_t>& target_of);
+
+/// Sets `trustworthy` and `reasons`.
+void judge(Certificate& certificate, const CompareResult& result);
+
+}  // namespace espdiff

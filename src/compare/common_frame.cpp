@@ -1,0 +1,52 @@
+// common_frame.cpp: superposes the whole molecules, then their domains.
+#include "compare/common_frame.h"
+
+#include <limits>
+
+#include "align/superpose.h"
+#include "base/error.h"
+#include "compare/options.h"
+
+namespace espdiff {
+namespace {
+
+CommonFrame superposed(const Molecule& source, const Molecule& target, AlignAtoms atoms, CompareResult& result) {
+  CommonFrame frame;
+  frame.from_source = principal_frame(source.positions);
+  if (atoms == AlignAtoms::kNone) {
+    // As given: the RMSD over the pairs, if any.
+    try {
+      result.pairing = pair_atoms(source, target);
+      result.rmsd_A = rmsd(source.positions, target.positions, result.pairing.pairs);
+    } catch (const InputError&) {
+      result.pairing.method = "none";
+      result.rmsd_A = std::numeric_limits<double>::quiet_NaN();
+    }
+    frame.from_target = frame.from_source;
+    return frame;
+  }
+  result.pairing = pair_atoms(source, target);
+  const auto pairs = select_pairs(result.pairing, source, atoms);
+  const Superposition superposition = superpose(source.positions, target.positions, pairs);
+  result.source_to_target = superposition.transform;
+  result.rmsd_A = superposition.rmsd_A;
+  result.n_superposed_atoms = pairs.size();
+  frame.from_target = compose(frame.from_source, inverse(superposition.transform));
+  return frame;
+}
+
+}  // namespace
+
+CommonFrame align(const Molecule& source, const Molecule& target, const CompareOptions& options,
+                  CompareResult& result) {
+  CommonFrame frame = superposed(source, target, options.align, result);
+  if (options.domains == "none") return frame;
+  const auto pairs =
+      options.align == AlignAtoms::kNone ? result.pairing.pairs : select_pairs(result.pairing, source, options.align);
+  if (pairs.empty()) throw InputError("domains need paired atoms, and none pair; give domains none");
+  result.domains = find_domains(options.domains, source, target, pairs);
+  frame.domains = domain_motions(result.domains, source, frame.from_source, frame.from_target);
+  return frame;
+}
+
+}  // namespace espdiff

@@ -1,0 +1,20 @@
+// common_frame.h: the common frame of a comparison's two molecules.
+#pragma once
+
+#include "compare/domain_motions.h"
+
+namespace espdiff {
+
+/// The common frame of both molecules: the source's principal frame, into which the target is superposed. Grids follow
+/// the axes of the shape itself, so a rigid motion of either input changes only rounding.
+struct CommonFrame {
+  RigidTransform from_source, from_target;  // own frame -> common frame
+  DomainMotions domains{};
+};
+
+/// Pairs atoms, superposes the target, and finds the rigid domains, as the options say.
+/// @param result receives the pairing, the superposition and its RMSD, and the domains
+/// @throws InputError (no pairs where they are needed, domains), GeometryError (too few pairs)
+CommonFrame align(const Molecule& source, const Molecule& target, const CompareOptions& options, CompareResult& result);
+
+}  // namespace espdiff

@@ -1,0 +1,342 @@
+// compare.cpp: the stages of a comparison, in order.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "align/superpose.h"
+#include "base/error.h"
+#include "compare/atom_paths.h"
+#include "compare/build_surface.h"
+#include "compare/certificate.h"
+#include "compare/common_frame.h"
+#include "compare/compare.h"
+#include "compare/domain_motions.h"
+#include "compare/input.h"
+#include "compare/last_step.h"
+#include "compare/map_by_deform.h"
+#include "compare/mapping.h"
+#include "compare/options.h"
+#include "compare/paired_residues.h"
+#include "compare/residue_rows.h"
+#include "compare/result.h"
+#include "compare/round_trip.h"
+#include "compare/series.h"
+#include "compare/side_maps.h"
+#include "engine/certificate_stage.h"
+#include "engine/deform_stage.h"
+#include "engine/engine.h"
+#include "engine/handles.h"
+#include "engine/morph_stage.h"
+
+namespace espdiff {
+
+namespace {
+
+/// [vertex] whether it lies in a matched triangle.
+std::vector<bool> is_matched(const MappedSurface& s) {
+  if (s.unmatched.empty()) return std::vector<bool>(s.positions.size(), true);
+  std::vector<bool> has(s.positions.size(), false);
+  for (std::size_t t = 0; t < s.triangles.size(); ++t) {
+    if (s.unmatched[t] != 0) continue;
+    for (const std::uint32_t v : s.triangles[t]) has[v] = true;
+  }
+  return has;
+}
+
+/// Sets unmatched vertices to NaN.
+void set_unmatched_to_nan(const std::vector<bool>& kept, std::vector<float>& values) {
+  for (std::size_t v = 0; v < values.size(); ++v) {
+    if (!kept[v]) values[v] = std::numeric_limits<float>::quiet_NaN();
+  }
+}
+
+std::vector<Vec3f> rotated(std::vector<Vec3f> normals, const RigidTransform& to_frame) {
+  for (Vec3f& n : normals) n = static_cast<Vec3f>(to_frame.rotate(static_cast<Vec3d>(n)));
+  return normals;
+}
+
+/// @param moved the source, moved by its rigid domains
+void download_surface(Engine& engine, const MeshPtr& source, const AtomsPtr& source_atoms, const MeshPtr& moved,
+                      const MeshPtr& mapped, const AtomsPtr& target_atoms, float isovalue, const CommonFrame& frame,
+                      MappedSurface& surface) {
+  const RigidTransform to_source = inverse(frame.from_source), to_target = inverse(frame.from_target);
+  Mesh mapped_mesh = engine.download_shape(mapped);
+  surface.triangles = std::move(mapped_mesh.triangles);
+  for (const Vec3f& p : mapped_mesh.positions) surface.positions.push_back(to_target.apply(static_cast<Vec3d>(p)));
+  for (const Vec3f& p : engine.download_positions(source))
+    surface.source_positions.push_back(to_source.apply(static_cast<Vec3d>(p)));
+  surface.normals = rotated(engine.level_set_normals(mapped, target_atoms, isovalue), to_target);
+  surface.source_normals = rotated(engine.level_set_normals(source, source_atoms, isovalue), to_source);
+  surface.displacement = engine.download(engine.displacement(moved, mapped));
+}
+
+}  // namespace
+
+/// The stages of a step, and the state kept between steps; all in the common frame, which is the source's.
+struct Series::Steps {
+  Engine& engine;
+  CompareInput source;
+  CompareOptions options;
+  bool prepared = false;
+  Surface surface{};
+  MeshPtr regularized{};
+  DeformReport regularize_report{};
+  PotentialUnit unit = PotentialUnit::kUnknown;  ///< of the source's map
+  GridPtr source_map{};                          ///< made by the first step
+  std::optional<LastStep> last{};                ///< empty if the next step starts from the source
+  std::optional<SeriesState> restored{};
+
+  void prepare(const RigidTransform& to_common, const Progress& progress, StageClock& clock) {
+    if (prepared) return;
+    surface = build_surface(engine, *source.molecule, to_common, options.surface, progress, clock);
+    // The morph keeps closed cavities, since one may open.
+    const MeshPtr& mesh = options.method == Method::kMorph ? surface.whole : surface.mesh;
+    regularized = regularize(engine, surface, mesh, options, progress, &regularize_report);
+    clock.lap("regularize");
+    prepared = true;
+    adopt_restored_state();
+  }
+
+  void adopt_restored_state() {
+    if (!restored) return;
+    last = last_step_of(engine, *restored, regularized, options.method);
+    restored.reset();
+  }
+
+  /// The mapping from the target's surface to the source's, in the same common frame.
+  Mapping map_back(const CompareInput& target, const Surface& target_surface, const CommonFrame& frame,
+                   const AtomPairing& pairing, const Progress& progress) const {
+    std::vector<std::pair<std::string, double>> times;  // the caller's clock has one entry for the whole mapping
+    StageClock clock(times);
+    Steps back{engine, target, options, true, target_surface};
+    const MeshPtr& mesh = options.method == Method::kMorph ? target_surface.whole : target_surface.mesh;
+    back.regularized = espdiff::regularize(engine, target_surface, mesh, options, progress, &back.regularize_report);
+    CompareResult scratch;
+    for (const auto& [s, t] : pairing.pairs) scratch.pairing.pairs.emplace_back(t, s);
+    const CommonFrame reversed{
+        frame.from_target, frame.from_source,
+        inverse(frame.domains, paired_residues(*target.molecule, *source.molecule, scratch.pairing))};
+    Mapping mapping;
+    if (options.method == Method::kMorph) {
+      mapping = mapping_of(back.morph(*source.molecule, surface, reversed, nullptr, scratch, progress, clock));
+    } else {
+      mapping = back.deform(surface, reversed.domains.carry(engine, back.regularized, target_surface.atoms), reversed,
+                            scratch, progress, clock);
+    }
+    back.find_matched(mapping, surface);
+    return mapping;
+  }
+
+  /// @param from the step to continue from; null for the source
+  MorphResult morph(const Molecule& target, const Surface& target_surface, const CommonFrame& frame,
+                    const LastStep* from, CompareResult& result, const Progress& progress, StageClock& clock) const {
+    MorphOptions morph = options.morph;
+    morph.isovalue = options.surface.isovalue;
+    morph.max_edge_A = options.morph_max_edge * options.surface.grid_spacing_A;
+    const auto paths = from != nullptr
+                           ? paths_from(*from, *source.molecule, target, frame.from_target, result.domains, options)
+                           : atom_paths(*source.molecule, target, result.pairing, frame.from_source, frame.from_target,
+                                        frame.domains, options.surface.radius_scale);
+    MorphResult morphed = from != nullptr ? engine.continue_morph(*from->morphed, paths, surface.atoms,
+                                                                  target_surface.atoms, morph, "morph", progress)
+                                          : engine.morph(regularized, paths, surface.atoms, target_surface.atoms, morph,
+                                                         "morph", progress);
+    result.morph_report = morphed.report;
+    result.morph_report.n_vertices_added = engine.n_vertices(morphed.source) - engine.n_vertices(regularized);
+    clock.lap("morph");
+    return morphed;
+  }
+
+  Mapping mapping_of(const MorphResult& morphed) const {
+    Mapping mapping;
+    mapping.source = morphed.source;
+    mapping.mapped = morphed.mapped;
+    mapping.unmatched = engine.download(morphed.unmatched);
+    mapping.path_length = engine.download(morphed.path_length);
+    return mapping;
+  }
+
+  Mapping deform(const Surface& target, const MeshPtr& start, const CommonFrame& frame, CompareResult& result,
+                 const Progress& progress, StageClock& clock) {
+    const FieldPtr field = make_field(engine, surface, target, options, progress, &result.flow_report);
+    clock.lap("field");
+    Mapping mapping = map_by_deform(engine, surface, regularized, target, start, frame.domains, field, options,
+                                    progress, result.deform_report, result.n_vertices_subdivided);
+    clock.lap("deform");
+    return mapping;
+  }
+
+  /// Makes the target's map, null if there is none, and the source's unless it exists already.
+  GridPtr make_maps(const CompareInput& target, const CommonFrame& frame, const Progress& progress) {
+    if (!has_map(target)) return nullptr;
+    const PotentialUnit wanted = common_unit(source, target);
+    const double temperature_K = options.temperature_K;
+    if (source_map == nullptr || wanted != unit) {
+      source_map = device_map(engine, source, inverse(frame.from_source), wanted, temperature_K, progress);
+      unit = wanted;
+    }
+    return device_map(engine, target, inverse(frame.from_target), wanted, temperature_K, progress);
+  }
+
+  /// Samples both potentials and computes the metrics of their difference.
+  void compare_potentials(const CompareInput& target, const GridPtr& target_map, const Mapping& mapping,
+                          const MeshPtr& moved, CompareResult& result) {
+    MappedSurface& s = result.surface;
+    const ScalarsPtr at_source = engine.sample(source_map, mapping.source),
+                     at_target = engine.sample(target_map, mapping.mapped);
+    result.unit = unit;
+    s.potential_source = engine.download(at_source);
+    s.potential_target = engine.download(at_target);
+    const std::vector<bool> kept = is_matched(s);
+    result.n_outside_source_map = count_outside(source, s.potential_source, kept);
+    result.n_outside_target_map = count_outside(target, s.potential_target, kept);
+    set_unmatched_to_nan(kept, s.potential_target);
+    result.has_potential = true;
+    std::vector<float> excluded(s.corrupt.begin(), s.corrupt.end());
+    for (std::size_t t = 0; t < mapping.unmatched.size(); ++t)
+      excluded[t] = std::max(excluded[t], mapping.unmatched[t]);
+    const ScalarsPtr path_length = engine.upload_scalars(mapping.path_length);
+    result.metrics =
+        engine.compare(moved, mapping.mapped, at_source, at_target, engine.upload_scalars(excluded), path_length);
+    result.metrics_all =
+        engine.compare(moved, mapping.mapped, at_source, at_target,
+                       mapping.unmatched.empty() ? nullptr : engine.upload_scalars(mapping.unmatched), path_length);
+  }
+
+  /// Finds the part of the mapping that is matched on the target's surface; drops unmatched closed cavities.
+  void find_matched(Mapping& mapping, const Surface& target_surface) const {
+    find_matched_part(engine, mapping, target_surface.atoms, target_surface.mesh,
+                      static_cast<float>(options.surface.isovalue));
+    if (options.method == Method::kMorph && !options.surface.cavities) drop_closed_cavities(engine, mapping);
+  }
+
+  /// Finds the matched part and certifies it.
+  void check(Mapping& mapping, const Surface& target_surface, CompareResult& result, const Progress& progress,
+             StageClock& clock) const {
+    progress.report("certificate", 0.0);
+    find_matched(mapping, target_surface);
+    result.area_mapped_A2 = mapping.fit.area_A2;
+    result.certificate = certify(engine, mapping, target_surface.mesh);
+    result.certificate.converged = options.method == Method::kMorph || result.deform_report.converged;
+    clock.lap("certificate");
+  }
+
+  /// Fills in the results of the mapping: per-vertex arrays, potentials, metrics, residues, and the verdict.
+  void evaluate(const CompareInput& target, const CommonFrame& frame, const Surface& target_surface,
+                const GridPtr& target_map, const Mapping& mapping, CompareResult& result, const Progress& progress,
+                StageClock& clock) {
+    progress.report("metrics", 0.0);
+    MappedSurface& s = result.surface;
+    const MeshPtr moved = frame.domains.carry(engine, mapping.source, surface.atoms);
+    download_surface(engine, mapping.source, surface.atoms, moved, mapping.mapped, target_surface.atoms,
+                     static_cast<float>(options.surface.isovalue), frame, s);
+    s.unmatched.assign(mapping.unmatched.begin(), mapping.unmatched.end());
+    s.corrupt = to_full_mesh(engine.download(mapping.fit.corrupt), mapping.unmatched);
+    s.path_length = mapping.path_length;
+    const std::vector<bool> kept = is_matched(s);
+    set_unmatched_to_nan(kept, s.displacement);
+    set_unmatched_to_nan(kept, s.path_length);
+    s.residue = engine.vertex_residues(mapping.source, surface.atoms);
+    result.certificate.same_residue_area_fraction =
+        same_residue_share(s, s.residue, engine.vertex_residues(mapping.mapped, target_surface.atoms),
+                           paired_residues(*source.molecule, *target.molecule, result.pairing));
+    if (target_map != nullptr) compare_potentials(target, target_map, mapping, moved, result);
+    result.residues = residue_rows(s, source.molecule->residues.size(), result.has_potential);
+    judge(result.certificate, result);
+    clock.lap("metrics");
+  }
+
+  /// Runs the stages in order; see Series::step().
+  CompareResult step(const CompareInput& target, StartFrom start, const Progress& progress) {
+    CompareResult result;
+    StageClock clock(result.time_ms);
+    check_maps(source, target);  // before any work
+    progress.report("align", 0.0);
+    const CommonFrame frame = align(*source.molecule, *target.molecule, options, result);
+    clock.lap("align");
+    const GridPtr target_map = make_maps(target, frame, progress);
+    if (target_map != nullptr) clock.lap("potential");
+
+    prepare(frame.from_source, progress, clock);
+    const Surface target_surface =
+        build_surface(engine, *target.molecule, frame.from_target, options.surface, progress, clock);
+    result.source_surface = surface.summary;
+    result.target_surface = target_surface.summary;
+    result.regularize_report = regularize_report;
+
+    std::vector<Vec3d> target_atoms =
+        counterparts(*source.molecule, *target.molecule, result.pairing, frame.from_target);
+    const std::optional<LastStep> from = std::exchange(last, std::nullopt);
+    if (start == StartFrom::kPrevious && from && can_continue(*from, *source.molecule, frame, target_atoms))
+      result.start = StartFrom::kPrevious;
+    const LastStep* const before = result.start == StartFrom::kPrevious ? &*from : nullptr;
+    Mapping mapping;
+    MorphResult morphed;
+    if (options.method == Method::kMorph) {
+      morphed = morph(*target.molecule, target_surface, frame, before, result, progress, clock);
+      mapping = mapping_of(morphed);
+    } else {
+      const MeshPtr begin =
+          before != nullptr ? before->mapped : frame.domains.carry(engine, regularized, surface.atoms);
+      mapping = deform(target_surface, begin, frame, result, progress, clock);
+    }
+    check(mapping, target_surface, result, progress, clock);
+    if (options.round_trip) {
+      const Mapping back = map_back(target, target_surface, frame, result.pairing, progress);
+      result.certificate.round_trip = measure_round_trip(engine, mapping, back);
+      clock.lap("round trip");
+    } else {
+      result.certificate.not_checked.emplace_back("round_trip");
+    }
+    evaluate(target, frame, target_surface, target_map, mapping, result, progress, clock);
+    if (options.method == Method::kMorph) {
+      last = after_morph(morphed, *target.molecule, frame.from_target, std::move(target_atoms), before,
+                         result.certificate.unmatched_source);
+    } else if (result.deform_report.converged) {
+      last = after_deform(engine, regularized, mapping.mapped, std::move(target_atoms));
+    }
+    clock.finish();
+    progress.report("metrics", 1.0);
+    return result;
+  }
+};
+
+Series::Series(Engine& engine, const CompareInput& source, const CompareOptions& options)
+    : steps_(new Steps{engine, source, options}) {}
+Series::~Series() = default;
+
+CompareResult Series::step(const CompareInput& target, StartFrom start, const Progress& progress) {
+  try {
+    return steps_->step(target, start, progress);
+  } catch (...) {
+    steps_->last.reset();
+    steps_->restored.reset();
+    throw;
+  }
+}
+
+std::optional<SeriesState> Series::state() const {
+  const Steps& steps = *steps_;
+  if (steps.restored) return steps.restored;
+  if (!steps.last) return std::nullopt;
+  return state_of(steps.engine, *steps.last);
+}
+
+void Series::restore(SeriesState state) {
+  Steps& steps = *steps_;
+  if (state.target.size() != steps.source.molecule->size())
+    throw InputError("the saved state is of a source with " + std::to_string(state.target.size()) +
+                     " atoms, this one has " + std::to_string(steps.source.molecule->size()) +
+                     "; start the series anew");
+  steps.restored = std::move(state);
+  if (steps.prepared) steps.adopt_restored_state();
+}
+
+CompareResult compare(Engine& engine, const CompareInput& source, const CompareInput& target,
+                      const CompareOptions& options, const Progress& progress) {
+  return Series(engine, source, options).step(target, StartFrom::kSource, progress);
+}
+
+}  // namespace espdiff

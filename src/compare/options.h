@@ -1,0 +1,60 @@
+// options.h: all parameters of a comparison.
+#pragma once
+
+#include <string>
+
+#include "align/pair_atoms.h"
+#include "engine/deform_stage.h"
+#include "engine/morph_stage.h"
+
+namespace espdiff {
+
+/// The field that moves the surface in `deform`: the target's density, the distance where the target is far, or
+/// gradient vector flow from the target or from both surfaces.
+enum class FieldKind { kDensity, kDistance, kGvf, kGvf2 };
+FieldKind parse_field_kind(const std::string& text);
+std::string to_string(FieldKind field);
+Interpolation parse_interpolation(const std::string& text);
+
+/// The mapping of the source's surface to the target's: by forces in a field of the target (the thesis), or by
+/// following the level sets of the density while the atoms move.
+enum class Method { kDeform, kMorph };
+Method parse_method(const std::string& text);
+std::string to_string(Method method);
+
+/// Parameters of a molecule's surface.
+struct SurfaceOptions {
+  double grid_spacing_A = 1.0;
+  double radius_scale = 1.0;
+  double isovalue = 0.5;
+  bool cavities = false;  ///< keep closed cavities; removed and counted by default
+  bool project = true;    ///< move vertices onto the analytic isosurface
+};
+
+/// All parameters of a comparison. Defaults are the thesis' values where it has them. Not in the thesis: tangential
+/// gains other than 1, the rest shape, the projection onto the exact isosurface, and the mapping's smaller
+/// min_displacement.
+struct CompareOptions {
+  SurfaceOptions surface;
+  AlignAtoms align = AlignAtoms::kAll;
+  std::string domains = "none";  ///< rigid domains to superpose separately; see check_domains()
+  Method method = Method::kMorph;
+  MorphOptions morph;
+  double morph_max_edge = 1.4;  ///< in grid spacings; sets MorphOptions::max_edge_A
+  FieldKind field = FieldKind::kDistance;
+  double distance_threshold_A = 0.75;
+  VectorFlowOptions flow;
+  bool subdivide = false;  ///< split edges that deform has stretched, and iterate again; see map_by_deform.h
+  DeformOptions regularize{0.1, 0.5, 0.3, 1e-3, 500, Interpolation::kTrilinear, 4, false};
+  DeformOptions deform{0.1, 0.75, 0.3, 1e-3, 3000, Interpolation::kTrilinear, 8, true};
+  /// In grid spacings; they set min_displacement_A. With the thesis' 1e-3 the mapping ends while a few vertices still
+  /// move.
+  double regularize_min_displacement = 1e-3, deform_min_displacement = 5e-4;
+  bool round_trip = false;     ///< also map back, which doubles the time, and measure the round-trip error
+  double temperature_K = 300;  ///< for converting between kT/e and other units
+};
+
+/// The thesis' original iteration, for comparing with its results.
+CompareOptions thesis_options();
+
+}  // namespace espdiff

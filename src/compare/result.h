@@ -1,0 +1,120 @@
+// result.h: the result of a comparison: metrics, certificate, residues and the mapped surface.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "align/pair_atoms.h"
+#include "align/rigid_domains.h"
+#include "base/message.h"
+#include "base/types.h"
+#include "engine/certificate_stage.h"
+#include "engine/deform_stage.h"
+#include "engine/morph_stage.h"
+
+namespace espdiff {
+
+struct SurfaceSummary {
+  std::size_t n_vertices = 0;
+  std::size_t n_triangles = 0;
+  std::size_t n_components = 0;  ///< after removing cavities
+  std::size_t n_cavities_left_out = 0;
+  double area_A2 = 0;
+  double cavity_area_A2 = 0;  ///< of the cavities removed
+};
+
+/// Per-residue averages over the mapped surface, source residues. Area-weighted; NaN if a residue has no valid area.
+struct ResidueRow {
+  std::size_t residue = 0;  ///< index into the source's residues
+  double area_A2 = 0;       ///< of valid mapped surface
+  double mean_abs_difference = 0;
+  double mean_signed_difference = 0;  ///< target - source
+  double mean_source = 0;
+  double mean_target = 0;
+  double sign_change_area_fraction = 0;
+  double mean_displacement_A = 0;
+  double mean_path_length_A = 0;
+};
+
+/// Round-trip error: how far from its start a vertex ends after mapping to the target and back by a second mapping,
+/// made independently from the target. Angstrom, weighted by the source's area.
+struct RoundTrip {
+  double mean_A = 0, p95_A = 0, max_A = 0;
+  double unmatched_target_area_fraction = 0;  ///< of the target's surface, by the mapping back
+};
+
+/// How well the matched part of the mapping fits the target. With the morph, corrupt, flipped and intersecting
+/// triangles become unmatched (see find_matched_part()), so unmatched_source measures its quality. target_to_mapped
+/// covers all of the target's surface; its mean_within_limit excludes unmatched parts.
+struct Certificate {
+  double corrupt_area_fraction = 0;
+  double flipped_area_fraction = 0;
+  double irregularity_A = 0;
+  std::size_t self_intersecting_pairs = 0;  ///< see Engine::self_intersections()
+  DistanceSummary mapped_to_target;
+  DistanceSummary target_to_mapped;
+  /// Fraction of the source's area that the mapping lost or moved farther than 1 A from the target.
+  double unmatched_source = 0;
+  double unmatched_target = 0;  ///< fraction of the target's area farther than 1 A from the mapped surface
+  DistortionReport distortion;
+  std::optional<RoundTrip> round_trip;
+  /// Fraction of the mapped area whose residue on the target (of highest density) is paired with its residue on the
+  /// source; NaN if no residues pair.
+  double same_residue_area_fraction = 0;
+  bool converged = false;
+  bool trustworthy = false;
+  std::vector<Message> reasons;          ///< why not trustworthy
+  std::vector<std::string> not_checked;  ///< names of the checks that were not made
+};
+
+/// Per-vertex arrays of the mapped surface.
+struct MappedSurface {
+  std::vector<Vec3d> positions;         ///< [vertex] in the target's own frame
+  std::vector<Vec3d> source_positions;  ///< [vertex] in the source's own frame (regularized, not superposed)
+  std::vector<Vec3f> normals;           ///< [vertex] outward, of the target's analytic surface; target's frame
+  std::vector<Vec3f> source_normals;    ///< [vertex] of the source's; source's frame
+  std::vector<Triangle> triangles;
+  std::vector<float> potential_source, potential_target;  ///< [vertex]; empty without maps; NaN outside a map
+  /// [vertex] from the superposed source, or with rigid domains from the position its domain moves it to; NaN if
+  /// unmatched
+  std::vector<float> displacement;
+  /// [vertex] path length from the start of the mapping, at least the displacement; NaN if unmatched
+  std::vector<float> path_length;
+  std::vector<std::int32_t> residue;  ///< [vertex] index of the source residue, -1 for none
+  std::vector<std::uint8_t> corrupt;  ///< [triangle]
+  /// [triangle] nonzero if unmatched: the mapped positions there are meaningless; empty if all are matched.
+  std::vector<std::uint8_t> unmatched;
+};
+
+/// Start of a mapping: the source's surface, or the previous target's, which is closer if targets are the frames of a
+/// trajectory.
+enum class StartFrom { kSource, kPrevious };
+
+struct CompareResult {
+  double rmsd_A = 0;
+  AtomPairing pairing;
+  std::size_t n_superposed_atoms = 0;
+  RigidTransform source_to_target;   ///< the superposition
+  std::vector<RigidDomain> domains;  ///< superposed separately; displacements start where their motions end
+  bool has_potential = false;
+  PotentialUnit unit = PotentialUnit::kUnknown;
+  Metrics metrics;                                                 ///< over valid triangles
+  Metrics metrics_all;                                             ///< over all triangles with samples
+  std::size_t n_outside_source_map = 0, n_outside_target_map = 0;  ///< vertices
+  SurfaceSummary source_surface, target_surface;
+  double area_mapped_A2 = 0;
+  Certificate certificate;
+  StartFrom start = StartFrom::kSource;  ///< where the mapping started
+  DeformReport regularize_report, deform_report;
+  VectorFlowReport flow_report;           ///< of the fields gvf and gvf2
+  std::size_t n_vertices_subdivided = 0;  ///< added by deform with `subdivide`
+  MorphReport morph_report;
+  std::vector<ResidueRow> residues;
+  MappedSurface surface;
+  std::vector<std::pair<std::string, double>> time_ms;  ///< stage, in order; "total" last
+};
+
+}  // namespace espdiff

@@ -1,0 +1,57 @@
+// settings.h: every setting of a comparison by name, once for the command line, the Tcl commands and their manuals.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "compare/options.h"
+
+namespace espdiff {
+
+enum class SettingKind { kNumber, kInteger, kBoolean, kChoice, kText };
+
+/// One setting. Its name is the option's: `--grid-spacing 1` on the command line, `-grid-spacing 1` in Tcl.
+struct Setting {
+  std::string name;
+  std::string group;  ///< heading under which manuals list it
+  SettingKind kind = SettingKind::kNumber;
+  std::vector<std::string> choices;  ///< of a choice
+  std::string help;
+  bool of_surface = false;  ///< whether one molecule's surface depends on it
+  /// Sets the value from its text.
+  /// @throws InputError naming the setting, the text and the accepted values
+  std::function<void(CompareOptions&, const std::string&)> set;
+  /// The value as a text that set() accepts.
+  std::function<std::string(const CompareOptions&)> get;
+  std::string unit = "";  ///< "A", "K", "A2": ends the name of its key in OUT.json
+
+  /// Its key in OUT.json: "grid_spacing_A".
+  std::string key() const;
+};
+
+/// All settings, in the order of the manuals.
+const std::vector<Setting>& settings();
+
+/// Every setting's value as text, by name.
+std::vector<std::pair<std::string, std::string>> setting_texts(const CompareOptions& options);
+
+/// @throws InputError if there is none of that name; for an old name the message gives the new one
+const Setting& find_setting(const std::string& name);
+
+/// An old name of a setting, refused with the new one until 1.0.
+struct RenamedSetting {
+  std::string old_name, name;
+};
+const std::vector<RenamedSetting>& renamed_settings();
+
+/// The setting that makes the thesis' original iteration the default of all others.
+constexpr const char* kThesisSetting = "thesis";
+
+/// Options from the given settings; the others keep their defaults, or the thesis' values with `thesis`. The order does
+/// not matter.
+/// @throws InputError as Setting::set, find_setting
+CompareOptions make_options(const std::vector<std::pair<std::string, std::string>>& given);
+
+}  // namespace espdiff

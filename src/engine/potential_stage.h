@@ -1,0 +1,53 @@
+// potential_stage.h: parameters of potentials that an engine computes from charges.
+#pragma once
+
+#include <array>
+
+#include "base/types.h"
+
+namespace espdiff {
+
+/// A periodic cell: `edges` span it, `centre` lies in its middle. Angstrom.
+struct PmeCell {
+  Vec3d centre{};
+  std::array<Vec3d, 3> edges{};
+};
+
+/// Grid points over a cell, symmetric about its centre: (0, 0, 0) lies at centre - sum_i (K_i - 1) / (2 K_i) edge_i,
+/// and steps are edge_i / K_i. The same layout as PMEPot's.
+inline Lattice lattice_over(const PmeCell& cell, const std::array<int, 3>& size) {
+  Lattice lattice;
+  lattice.size = size;
+  lattice.origin = cell.centre;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double n = size[axis];
+    lattice.step[axis] = (1.0 / n) * cell.edges[axis];
+    lattice.origin += (-0.5 * (n - 1) / n) * cell.edges[axis];
+  }
+  return lattice;
+}
+
+enum class Precision { kSingle, kDouble };
+
+/// Parameters of pme_potential().
+struct PmeOptions {
+  std::array<int, 3> size{0, 0, 0};  ///< grid points along each edge
+  double ewald_factor = 0.25;        ///< beta, 1/A: charges are smeared into Gaussians of variance 1 / (2 beta^2)
+  int order = 6;                     ///< of the B-splines, 4 to 8; 4 with `compatible`
+  Precision precision = Precision::kSingle;
+  /// Reproduces VMD's PMEPot 1.0.4: the splines' factor squared, the volume truncated to whole A^3.
+  bool compatible = false;
+  /// Samples of the map use splines of `order` instead of trilinear interpolation, so they are as accurate between grid
+  /// points as on them. Not with `compatible`.
+  bool smooth_samples = false;
+  double temperature_K = 300;
+};
+
+/// Parameters of coulomb_potential().
+struct CoulombOptions {
+  double dielectric = 1;            ///< epsilon, > 0
+  bool distance_dependent = false;  ///< epsilon * r / (1 A) instead of epsilon
+  double temperature_K = 300;
+};
+
+}  // namespace espdiff

@@ -1,0 +1,119 @@
+// matrix.cpp: the order of the pairs, and one series per source.
+#include "matrix/matrix.h"
+
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "base/error.h"
+#include "compare/result.h"
+#include "compare/series.h"
+#include "io/text_cursor.h"
+
+namespace espdiff {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<Metric> make_metrics() {
+  std::vector<Metric> all;
+  for (const Metric& metric : metrics()) {
+    if ((metric.flags & kInMatrix) != 0) all.push_back(metric);
+  }
+  return all;
+}
+
+MatrixCell cell_of(const MatrixPair& pair, const CompareResult& result) {
+  MatrixCell cell;
+  cell.source = pair.first;
+  cell.target = pair.second;
+  for (const Metric& metric : matrix_metrics()) {
+    const double value = value_of(metric, result);
+    cell.values.push_back(std::isfinite(value) ? value : kNan);
+  }
+  cell.converged = result.certificate.converged;
+  cell.trustworthy = result.certificate.trustworthy;
+  for (const Message& reason : result.certificate.reasons) cell.reasons.push_back(reason.plain());
+  return cell;
+}
+
+MatrixCell failed_cell(const MatrixPair& pair, const std::string& error) {
+  MatrixCell cell;
+  cell.source = pair.first;
+  cell.target = pair.second;
+  cell.values.assign(matrix_metrics().size(), kNan);
+  cell.error = error;
+  return cell;
+}
+
+CompareInput input_of(const Variant& variant) {
+  return {&variant.molecule, variant.map ? &*variant.map : nullptr, variant.make_map};
+}
+
+}  // namespace
+
+const std::vector<Metric>& matrix_metrics() {
+  static const std::vector<Metric> all = make_metrics();
+  return all;
+}
+
+std::size_t find_metric(const std::string& name) {
+  std::string list;
+  for (std::size_t i = 0; i < matrix_metrics().size(); ++i) {
+    if (matrix_metrics()[i].name == name) return i;
+    list += (list.empty() ? "" : ", ") + std::string(matrix_metrics()[i].name);
+  }
+  throw InputError("there is no metric '" + name + "'; there are: " + list);
+}
+
+Shard parse_shard(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  long long index = 0, count = 0;
+  if (slash == std::string::npos || !parse_integer(text.substr(0, slash), index) ||
+      !parse_integer(text.substr(slash + 1), count) || count < 1 || index < 1 || index > count || count > 1000000)
+    throw InputError(option("shard") + ": " + in_quotes(text) + " is not i/n with i from 1 to n, such as 2/8");
+  return {static_cast<int>(index), static_cast<int>(count)};
+}
+
+std::vector<MatrixPair> matrix_pairs(std::size_t n_variants, const Shard& shard) {
+  const std::size_t n = n_variants < 2 ? 0 : n_variants * (n_variants - 1);
+  const auto count = static_cast<std::size_t>(shard.count), index = static_cast<std::size_t>(shard.index);
+  std::vector<MatrixPair> pairs;
+  for (std::size_t p = (index - 1) * n / count; p < index * n / count; ++p) {
+    const std::size_t source = p / (n_variants - 1), rest = p % (n_variants - 1);
+    pairs.emplace_back(source, rest < source ? rest : rest + 1);
+  }
+  return pairs;
+}
+
+void compute_pairs(Engine& engine, const std::vector<Variant>& variants, const CompareOptions& options,
+                   const std::vector<MatrixPair>& pairs, bool skip_errors,
+                   const std::function<void(const MatrixCell&)>& done, const Progress& progress) {
+  std::unique_ptr<Series> series;
+  std::size_t prepared = variants.size();
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    const Variant &source = variants.at(pairs[p].first), &target = variants.at(pairs[p].second);
+    const std::string name = source.label + " to " + target.label;
+    // Each pair's stages start at 0 again; the whole run's bar advances by pairs only.
+    const Progress stages([&](const std::string& stage, double) {
+      progress.report(name + ": " + stage, static_cast<double>(p) / static_cast<double>(pairs.size()));
+    });
+    MatrixCell cell;
+    try {
+      if (prepared != pairs[p].first) {
+        series = std::make_unique<Series>(engine, input_of(source), options);
+        prepared = pairs[p].first;
+      }
+      cell = cell_of(pairs[p], series->step(input_of(target), StartFrom::kSource, stages));
+    } catch (const Cancelled&) {
+      throw;
+    } catch (const Error& error) {
+      if (!skip_errors) throw Error(error.error_class(), name + ": " + error.message());
+      cell = failed_cell(pairs[p], error.what());
+    }
+    done(cell);
+  }
+  progress.report("pairs", 1.0);
+}
+
+}  // namespace espdiff

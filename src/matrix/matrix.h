@@ -1,0 +1,56 @@
+// matrix.h: every variant compared with every other one, in both directions.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/handles.h"
+#include "matrix/variants.h"
+#include "report/metrics.h"
+
+namespace espdiff {
+
+struct CompareOptions;
+
+/// The metrics of a matrix, in the order of files.
+const std::vector<Metric>& matrix_metrics();
+/// The position of a metric. @throws InputError listing them
+std::size_t find_metric(const std::string& name);
+
+/// One ordered pair: the source's surface mapped onto the target's.
+struct MatrixCell {
+  std::size_t source = 0, target = 0;  ///< indices of variants
+  std::vector<double> values;          ///< [metric]; NaN if there is none
+  bool converged = false, trustworthy = false;
+  std::vector<std::string> reasons;  ///< why it is not trustworthy
+  std::string error;                 ///< why there are no values
+};
+
+using MatrixPair = std::pair<std::size_t, std::size_t>;  ///< source, target
+
+/// A part of the pairs, for several processes: number `index` of `count`, from 1.
+struct Shard {
+  int index = 1, count = 1;
+};
+/// Reads "2/8". @throws InputError
+Shard parse_shard(const std::string& text);
+
+/// The ordered pairs of n variants without the diagonal, source by source. A shard is a contiguous part of them, so
+/// that one process, or two at a shard's border, prepares each source. Shards differ in size by at most one.
+std::vector<MatrixPair> matrix_pairs(std::size_t n_variants, const Shard& shard = {});
+
+/// Compares pairs in the given order. A source's surface is made and regularized once for consecutive pairs. A target's
+/// surface is made again for each pair, along the axes of the source, as in compare(): a cell has the same bits as
+/// compare() of its pair, in any order and part of the matrix.
+/// @param skip_errors a pair that cannot be compared becomes a cell with the error; otherwise its error is thrown, with
+/// the labels of the pair
+/// @param done        called with each finished cell
+/// @param progress    gets "LABEL to LABEL: stage" and the fraction of `pairs` done
+/// @throws as compare()
+void compute_pairs(Engine& engine, const std::vector<Variant>& variants, const CompareOptions& options,
+                   const std::vector<MatrixPair>& pairs, bool skip_errors,
+                   const std::function<void(const MatrixCell&)>& done, const Progress& progress);
+
+}  // namespace espdiff

@@ -1,0 +1,167 @@
+// matrix_run.cpp: which pairs are left to do, the state file beside the results, and parts put together.
+#include "matrix/matrix_run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <set>
+
+#include "base/error.h"
+#include "io/atomic_file.h"
+#include "io/check_outputs.h"
+#include "matrix/matrix_state.h"
+#include "matrix/write_matrix.h"
+
+namespace espdiff {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// @param may_replace results that exist
+void check_results(const MatrixRun& run, bool may_replace) {
+  if (!run.cluster_by.empty()) find_metric(run.cluster_by);
+  for (const char* ending : {".csv", ".json"}) {
+    if (!may_replace && fs::exists(run.output + ending))
+      throw InputError("the result " + run.output + ending + " exists, of a run that is complete; " +
+                       switched_on("overwrite") + " replaces it");
+    AtomicFile probe(run.output + ending);
+  }
+}
+
+/// What can be refused before the work is refused before the work.
+void check_existing(const MatrixRun& run) {
+  if (run.resume && run.overwrite)
+    throw InputError(option("resume") + " and " + option("overwrite") + " exclude each other; leave one out");
+  const std::string state = state_path(run.output, run.shard);
+  const bool has_state = fs::exists(state);
+  if (!run.overwrite && !run.resume && has_state)
+    throw InputError("the state file " + state + " of an earlier run exists; " + switched_on("resume") +
+                     " goes on with it, " + switched_on("overwrite") + " begins anew");
+  // The results of a shard come with the merge.
+  if (run.shard.count == 1) check_results(run, run.overwrite || (run.resume && has_state));
+}
+
+std::vector<MatrixPair> missing_pairs(const std::vector<MatrixPair>& pairs, const std::vector<MatrixCell>& cells) {
+  std::set<MatrixPair> done;
+  for (const MatrixCell& cell : cells) done.emplace(cell.source, cell.target);
+  std::vector<MatrixPair> missing;
+  for (const MatrixPair& pair : pairs) {
+    if (done.count(pair) == 0) missing.push_back(pair);
+  }
+  return missing;
+}
+
+/// Writes the results of a whole matrix.
+void finish(const MatrixRun& run, Matrix matrix, MatrixReport& report) {
+  report.files = write_matrix(run.output, matrix, metric_to_cluster_by(run, matrix));
+  report.matrix = std::move(matrix);
+}
+
+}  // namespace
+
+std::string in_words(double seconds) {
+  const auto whole = static_cast<long>(std::lround(std::max(0.0, seconds)));
+  if (whole < 90) return std::to_string(whole) + " s";
+  const long minutes = (whole + 30) / 60;
+  if (minutes < 90) return std::to_string(minutes) + " min";
+  return std::to_string(minutes / 60) + " h " + std::to_string(minutes % 60) + " min";
+}
+
+std::string state_path(const std::string& output_prefix, const Shard& shard) {
+  if (shard.count == 1) return output_prefix + ".state";
+  return output_prefix + ".shard-" + std::to_string(shard.index) + "-of-" + std::to_string(shard.count) + ".state";
+}
+
+std::vector<std::string> output_paths(const MatrixRun& run) {
+  std::vector<std::string> paths = {state_path(run.output, run.shard)};
+  if (run.shard.count == 1) paths.insert(paths.end(), {run.output + ".csv", run.output + ".json"});
+  return paths;
+}
+
+MatrixReport run_matrix(Engine& engine, const std::vector<Variant>& variants, const CompareOptions& options,
+                        const MatrixRun& run, const Progress& progress) {
+  std::vector<std::string> inputs;
+  for (const Variant& variant : variants) {
+    for (const InputFile& input : variant.inputs) inputs.push_back(input.path);
+  }
+  check_outputs(inputs, output_paths(run));
+  check_existing(run);
+  const MatrixPlan plan = make_plan(engine, variants, options, run.potential);
+  const std::string path = state_path(run.output, run.shard);
+  MatrixStateContent earlier;
+  MatrixState state =
+      run.resume && fs::exists(path) ? MatrixState::go_on(path, plan, earlier) : MatrixState::begin(path, plan);
+  const std::vector<MatrixPair> pairs = matrix_pairs(variants.size(), run.shard);
+  const std::vector<MatrixPair> missing = missing_pairs(pairs, earlier.cells);
+  MatrixReport report;
+  report.n_pairs = pairs.size();
+  report.n_resumed = pairs.size() - missing.size();
+  report.cut_off = earlier.cut_off;
+
+  std::vector<MatrixCell> cells = std::move(earlier.cells);
+  std::size_t n_done = 0;
+  const Clock::time_point start = Clock::now();
+  const auto left = [&] {
+    if (n_done == 0) return std::string();
+    const double each = seconds_since(start) / static_cast<double>(n_done);
+    return ", " + in_words(each * static_cast<double>(missing.size() - n_done)) + " left";
+  };
+  const Progress counted([&](const std::string& stage, double) {
+    const std::size_t number = std::min(report.n_resumed + n_done + 1, pairs.size());
+    progress.report("pair " + std::to_string(number) + " of " + std::to_string(pairs.size()) + left() + "; " + stage,
+                    static_cast<double>(report.n_resumed + n_done) / static_cast<double>(pairs.size()));
+  });
+  const auto keep = [&](const MatrixCell& cell) {
+    state.add(cell);
+    cells.push_back(cell);
+    ++n_done;
+  };
+  try {
+    compute_pairs(engine, variants, options, missing, run.skip_errors, keep, counted);
+  } catch (const Cancelled&) {
+    throw Error(ErrorClass::kCancelled, "cancelled after " + std::to_string(report.n_resumed + n_done) + " of " +
+                                            std::to_string(pairs.size()) + " pairs, which " + path + " holds; " +
+                                            switched_on("resume") + " goes on");
+  }
+  report.seconds = seconds_since(start);
+  if (run.shard.count > 1) {
+    report.files = {path};
+    return report;
+  }
+  finish(run, assemble(plan, cells, "resume the run"), report);
+  std::error_code ignored;
+  fs::remove(path, ignored);
+  return report;
+}
+
+std::size_t metric_to_cluster_by(const MatrixRun& run, const Matrix& matrix) {
+  return run.cluster_by.empty() ? usual_metric(matrix) : find_metric(run.cluster_by);
+}
+
+MatrixReport merge_matrix(const std::vector<std::string>& state_paths, const MatrixRun& run) {
+  check_outputs(state_paths, {run.output + ".csv", run.output + ".json"});
+  check_results(run, run.overwrite);
+  if (state_paths.empty())
+    throw InputError("no state files were given; a run with " + option("shard") + " writes them");
+  MatrixPlan plan;
+  std::vector<MatrixCell> cells;
+  for (const std::string& path : state_paths) {
+    MatrixStateContent part = read_matrix_state(path);
+    if (cells.empty() && plan.variants.empty()) plan = part.plan;
+    const std::string difference = plan_difference(part.plan, plan);
+    if (!difference.empty())
+      throw InputError(path + ": this is a part of another matrix than " + state_paths.front() + ": " + difference);
+    cells.insert(cells.end(), part.cells.begin(), part.cells.end());
+  }
+  MatrixReport report;
+  report.n_pairs = report.n_resumed = cells.size();
+  finish(run, assemble(plan, cells, "resume the shard that lacks them, or name its state file too"), report);
+  return report;
+}
+
+}  // namespace espdiff

@@ -1,0 +1,57 @@
+// matrix_run.h: a matrix from variants to files: computed, saved as it grows, resumed, and merged from parts.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "matrix/matrix_summary.h"
+
+namespace espdiff {
+
+struct MatrixRun {
+  std::string output;  ///< prefix of OUT.csv, OUT.json and the state file
+  Shard shard;
+  bool resume = false;       ///< continue from the state file, if there is one
+  bool overwrite = false;    ///< start again and replace results and state files
+  bool skip_errors = false;  ///< see compute_pairs()
+  std::string potential;     ///< description, for the results
+  std::string cluster_by;    ///< a metric; empty: usual_metric()
+};
+
+struct MatrixReport {
+  std::size_t n_pairs = 0;         ///< of this run's shard
+  std::size_t n_resumed = 0;       ///< of these, computed before
+  bool cut_off = false;            ///< the state file's last row was incomplete and was computed again
+  double seconds = 0;              ///< for the pairs that were computed
+  std::optional<Matrix> matrix;    ///< complete; absent for a shard
+  std::vector<std::string> files;  ///< written
+};
+
+/// All that a run writes: results, or a shard's state file.
+std::vector<std::string> output_paths(const MatrixRun& run);
+
+/// OUT.state, or OUT.shard-2-of-8.state.
+std::string state_path(const std::string& output_prefix, const Shard& shard);
+
+/// Computes the shard's pairs that the state file lacks and writes each into it. Then, for a whole matrix, writes the
+/// results (write_matrix()) and removes the state file. A shard's state file stays for merge_matrix(). After an error
+/// or a cancellation the state file has all finished cells.
+/// @param progress gets "pair 12 of 342, 3 min left; LABEL to LABEL: stage"
+/// @throws InputError (both resume and overwrite; results or state files exist and neither was asked for; as
+///         make_plan(), MatrixState), and as compute_pairs()
+MatrixReport run_matrix(Engine& engine, const std::vector<Variant>& variants, const CompareOptions& options,
+                        const MatrixRun& run, const Progress& progress);
+
+/// The metric that `run` clusters by. @throws InputError as find_metric()
+std::size_t metric_to_cluster_by(const MatrixRun& run, const Matrix& matrix);
+
+/// Merges the shards' state files and writes the results, the same bytes as from one process.
+/// @throws InputError (parts of different runs, pairs missing, results exist and `overwrite` is not set), and as
+///         read_matrix_state()
+MatrixReport merge_matrix(const std::vector<std::string>& state_paths, const MatrixRun& run);
+
+/// "45 s", "3 min", "1 h 20 min".
+std::string in_words(double seconds);
+
+}  // namespace espdiff

@@ -1,0 +1,64 @@
+// variants.h: the molecules of a matrix by name, group and SHA-256, from files and lists.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/types.h"
+#include "io/read_structure.h"
+#include "report/write_compare.h"
+
+namespace espdiff {
+
+/// One molecule of a matrix and its potential.
+struct Variant {
+  std::string label;              ///< unique
+  std::string group;              ///< empty for none
+  std::vector<InputFile> inputs;  ///< its inputs; roles "structure" and "map"
+  Molecule molecule;
+  std::optional<Grid> map;
+  MapMaker make_map = nullptr;  ///< instead of `map`; in kT/e
+
+  bool has_potential() const { return map || make_map != nullptr; }
+};
+
+/// Where a variant is to be read from.
+struct VariantFiles {
+  std::string structure;
+  int model = 1;
+  std::string map;       ///< empty for none
+  std::string map_unit;  ///< empty: the file says
+  std::string label, group;
+};
+
+/// One variant for each model of each file, labelled by the file's name without folder and ending, and `:MODEL` where a
+/// file has several. Where two files would be labelled alike, both are labelled by their paths.
+/// @throws what count_models() throws
+std::vector<VariantFiles> variants_of_files(const std::vector<std::string>& paths);
+
+/// Reads a list of variants: a table (read_csv()) with a column `structure` and, where wanted, `model` (from 1; without
+/// it every model is a variant), `map`, `unit` (of the map), `label` and `group`. Paths are relative to the list's
+/// folder. Without a label the rules of variants_of_files() hold.
+/// @throws FormatError, IoError (naming the line), and as variants_of_files()
+std::vector<VariantFiles> read_variant_list(const std::string& path);
+
+/// Sets the groups of variants from a table with the columns `label` and `group`.
+/// @throws FormatError, InputError (a label that no variant has, or twice)
+void read_groups(const std::string& path, std::vector<VariantFiles>& variants);
+
+/// @throws InputError naming a label that two variants share, or an empty one, and what to do
+void check_labels(const std::vector<std::string>& labels);
+
+/// Reads structure and map.
+/// @param file the structure's, opened before: variants may be models of one
+/// @param structure its model is the variant's
+/// @throws as read_structure(), read_grid()
+Variant read_variant(const VariantFiles& files, const StructureFile& file, const StructureOptions& structure,
+                     const std::string& map_array);
+
+/// Brings all maps to the unit of the first one.
+/// @throws InputError when some variants have maps and some none, or a unit is unknown and others are not
+void unite_map_units(std::vector<Variant>& variants, double temperature_K);
+
+}  // namespace espdiff

@@ -1,0 +1,118 @@
+// potential.h: from charges to potential maps: the cell, the grid over it, one frame or the average of many.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "align/pair_atoms.h"
+#include "base/progress.h"
+#include "base/unit_cell.h"
+#include "engine/handles.h"
+#include "engine/potential_stage.h"
+#include "potential/running_map.h"
+
+namespace espdiff {
+
+/// pme: smeared charges in a periodic cell. coulomb: point charges, isolated, summed directly.
+enum class PotentialMethod { kPme, kCoulomb };
+/// @throws InputError for anything but pme, coulomb
+PotentialMethod parse_potential_method(const std::string& text);
+
+/// How many points the grid has: `size` where it is not zero, else enough for steps of `resolution_A` at most.
+struct GridChoice {
+  std::array<int, 3> size{0, 0, 0};
+  double resolution_A = 1;
+};
+/// Reads what PMEPot's -grid takes: three numbers of points; one number of points from 8 on; or, below 8, a resolution
+/// in Angstrom.
+/// @throws InputError
+GridChoice parse_grid_choice(const std::string& text);
+/// The order of the B-splines where none is asked for: PMEPot's own in its mode, else that of PmeOptions.
+int usual_order(bool compatible);
+/// Reads a cell: `ox oy oz ax ay az bx by bz cx cy cz` (o the centre), with braces and commas as one likes; PMEPot's
+/// -cell is one of these.
+/// @throws InputError
+PmeCell parse_cell(const std::string& text);
+
+/// How potentials are computed.
+struct PotentialOptions {
+  PotentialMethod method = PotentialMethod::kPme;
+  /// The cell of every frame. Without: the frame's own; without that, or with `pad_A`, a box around the atoms.
+  std::optional<PmeCell> cell;
+  std::optional<double> pad_A;  ///< space on each side of the atoms; 10 A where no cell is known
+  GridChoice grid;
+  PmeOptions pme;  ///< but the grid's size
+  CoulombOptions coulomb;
+  /// Superposes each frame on the first by these atoms (water left out), and samples all maps on the first one's
+  /// lattice: the average then stays with the molecule. In a periodic cell these atoms are put together first where its
+  /// border has cut the molecule (unwrapped()). kNone: frames stay where they are.
+  AlignAtoms align = AlignAtoms::kNone;
+  std::size_t frames_per_block = 1;  ///< for the error bar
+};
+
+/// @throws InputError that says where charges come from, when the molecule has none or all are zero
+void require_charges(const Molecule& molecule);
+
+/// The middle of the box around the atoms, along the coordinate axes. @throws InputError without atoms
+Vec3d middle_of(const std::vector<Vec3d>& positions);
+/// The box around the atoms, wider by `pad_A` on each side, as PMEPot makes it.
+/// @throws InputError (no atoms, a negative pad)
+PmeCell padded_cell(const std::vector<Vec3d>& positions, double pad_A);
+/// Edges from lengths and angles: a along x, b in the x-y plane.
+/// @throws InputError (angles that no cell has)
+PmeCell cell_from(const UnitCell& cell, Vec3d centre);
+
+/// The cell of a frame: as asked for, its own, or a box around its atoms.
+/// @throws InputError
+PmeCell choose_cell(const PotentialOptions& options, const std::vector<Vec3d>& positions,
+                    const std::optional<UnitCell>& own_cell);
+
+/// Points along each edge: as asked for, else the least product of 2, 3, 5 and 7 that makes steps of at most the
+/// resolution; with `compatible` the number that PMEPot takes (even, among those it has in a list, at most 512).
+/// @throws InputError (resolution)
+std::array<int, 3> choose_grid_size(const PmeCell& cell, const GridChoice& choice, bool compatible);
+
+/// Potentials of the frames of one molecule, and their average.
+///
+/// The first frame sets the lattice. With a fixed cell and no superposition every frame is computed on it; else each
+/// frame is computed in its own cell and sampled on it by splines (PmeOptions::smooth_samples). Coulomb sums are
+/// computed on it directly.
+class PotentialSeries {
+ public:
+  /// @throws InputError (options that exclude each other)
+  PotentialSeries(Engine& engine, PotentialOptions options);
+  ~PotentialSeries();
+
+  /// Adds the frame's map to the average, and returns it. A periodic map covers its cell; a superposed one belongs to
+  /// the first frame's coordinates.
+  /// @param own_cell the frame's, where the file has one
+  /// @throws InputError (no charges, other atoms than the first frame's), GeometryError (superposition), and as
+  /// Engine::pme_potential
+  Grid step(const Molecule& frame, const std::optional<UnitCell>& own_cell, const Progress& progress);
+  /// As step(), where the average alone is wanted.
+  void add(const Molecule& frame, const std::optional<UnitCell>& own_cell, const Progress& progress);
+
+  const RunningMap& average() const { return average_; }
+
+ private:
+  struct FirstFrame;
+
+  Grid next_map(const Molecule& frame, const std::optional<UnitCell>& own_cell, const Progress& progress);
+  std::vector<Vec3d> superposed_atoms(const Molecule& frame, const std::optional<UnitCell>& own_cell) const;
+  Grid compute(const std::vector<Vec3d>& positions, const Molecule& frame, const PmeCell& cell,
+               const Progress& progress) const;
+
+  Engine& engine_;
+  PotentialOptions options_;
+  bool one_lattice_;  ///< every frame is computed in the first frame's cell
+  std::unique_ptr<FirstFrame> first_;
+  RunningMap average_;
+};
+
+/// The map of one molecule: a series of one.
+Grid potential_map(Engine& engine, const Molecule& molecule, const PotentialOptions& options, const Progress& progress);
+
+}  // namespace espdiff

@@ -1,0 +1,194 @@
+// compare_json.cpp: a comparison's result as JSON.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "align/rigid_domains.h"
+#include "compare/options.h"
+#include "compare/result.h"
+#include "compare/settings.h"
+#include "report/metrics.h"
+#include "report/write_compare.h"
+
+namespace espdiff {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON has no NaN: what has no value is null.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+const char* name_of(ValueOrigin origin) {
+  switch (origin) {
+    case ValueOrigin::kFile: return "file";
+    case ValueOrigin::kElement: return "element";
+    case ValueOrigin::kVmd: return "vmd";
+    case ValueOrigin::kNone: break;
+  }
+  return "none";
+}
+
+/// Counts stay whole numbers.
+Json number_of(const Metric& metric, double value) {
+  if (metric.unit == MetricUnit::kCount && std::isfinite(value)) return static_cast<long long>(std::llround(value));
+  return number(value);
+}
+
+/// Every metric at its place. What was not checked is null as a whole.
+void add_metrics(Json& json, const CompareResult& result) {
+  for (const Metric& metric : metrics()) {
+    if (!metric.has_result()) continue;
+    const Json::json_pointer pointer(metric.json_pointer());
+    if (is_unchecked(metric, result)) {
+      json[pointer.parent_pointer()] = nullptr;
+    } else {
+      json[pointer] = number_of(metric, value_of(metric, result));
+    }
+  }
+}
+
+void add_verdict(Json& json, const Certificate& c) {
+  json["converged"] = c.converged;
+  json["trustworthy"] = c.trustworthy;
+  json["reasons"] = Json::array();
+  for (const Message& reason : c.reasons) json["reasons"].push_back(reason.plain());
+  json["not_checked"] = c.not_checked;
+}
+
+Json metrics_all_triangles(const CompareResult& result) {
+  Json json;
+  for (const Metric& metric : metrics()) {
+    if (metric.source.of_area != nullptr) json[metric.name] = number(value_over_all_triangles(metric, result));
+  }
+  return json;
+}
+
+Json domains(const Molecule& source, const std::vector<RigidDomain>& all) {
+  Json json = Json::array();
+  for (const RigidDomain& domain : all)
+    json.push_back({{"residues", residue_ranges(source, domain.residues)},
+                    {"n_residues", domain.residues.size()},
+                    {"n_superposed_atoms", domain.n_atoms},
+                    {"rmsd_A", number(domain.rmsd_A)}});
+  return json;
+}
+
+Json superposition(const Molecule& source, const CompareResult& result) {
+  const RigidTransform& t = result.source_to_target;
+  Json rotation = Json::array();
+  for (const double entry : t.rotation) rotation.push_back(number(entry));
+  Json json;
+  json["pairing"] = result.pairing.method;
+  json["n_aligned_residues"] = result.pairing.n_aligned_residues;
+  json["n_substituted_residues"] = result.pairing.n_substituted_residues;
+  json["n_superposed_atoms"] = result.n_superposed_atoms;
+  json["rotation_row_major"] = std::move(rotation);
+  json["translation_A"] = {number(t.translation.x), number(t.translation.y), number(t.translation.z)};
+  json["domains"] = domains(source, result.domains);
+  return json;
+}
+
+Json surface(const SurfaceSummary& s) {
+  return {{"n_vertices", s.n_vertices},     {"n_triangles", s.n_triangles},
+          {"n_components", s.n_components}, {"n_cavities_left_out", s.n_cavities_left_out},
+          {"area_A2", number(s.area_A2)},   {"cavity_area_A2", number(s.cavity_area_A2)}};
+}
+
+/// A setting's value, of the type that its kind says.
+Json typed_value(const Setting& setting, const std::string& text) {
+  switch (setting.kind) {
+    case SettingKind::kNumber:
+    case SettingKind::kInteger: return Json::parse(text);
+    case SettingKind::kBoolean: return text == "1";
+    case SettingKind::kChoice:
+    case SettingKind::kText: break;
+  }
+  return text;
+}
+
+Json vector(const Vec3d& v) { return {number(v.x), number(v.y), number(v.z)}; }
+
+Json recipe(const MapRecipe& r) {
+  const auto& edges = r.cell.edges;
+  return {{"method", "pme"},
+          {"charges_from", r.charges_from},
+          {"n_charges", r.n_charges},
+          {"net_charge", number(r.net_charge)},
+          {"cell_from", r.cell_from},
+          {"cell_centre_A", vector(r.cell.centre)},
+          {"cell_edges_A", {vector(edges[0]), vector(edges[1]), vector(edges[2])}},
+          {"grid", r.pme.size},
+          {"spline_order", r.pme.order},
+          {"ewald_factor", number(r.pme.ewald_factor)},
+          {"compatible", r.pme.compatible},
+          {"precision", r.pme.precision == Precision::kDouble ? "double" : "single"},
+          {"sampling", r.pme.smooth_samples ? "spline" : "trilinear"},
+          {"temperature_K", number(r.pme.temperature_K)}};
+}
+
+Json input_files(const Provenance& provenance) {
+  Json json = Json::array();
+  for (const InputFile& input : provenance.inputs) {
+    json.push_back({{"role", input.role}, {"path", input.path}, {"sha256", input.sha256}});
+    if (input.computed) json.back()["computed"] = recipe(*input.computed);
+    if (!input.read_with) continue;
+    json.back()["model"] = input.read_with->model;
+    json.back()["hetero"] = input.read_with->include_hetero;
+    json.back()["water"] = input.read_with->include_water;
+  }
+  return json;
+}
+
+void add_results(Json& json, const Molecule& source, const CompareResult& result) {
+  json["n_paired_atoms"] = result.pairing.pairs.size();
+  json["potential_unit"] = result.has_potential ? Json(to_string(result.unit)) : Json(nullptr);
+  add_metrics(json, result);
+  add_verdict(json["certificate"], result.certificate);
+  json["metrics_all_triangles"] = metrics_all_triangles(result);
+  json["superposition"] = superposition(source, result);
+  json["n_vertices"] = result.surface.positions.size();
+  json["n_triangles"] = result.surface.triangles.size();
+  json["n_components"] = result.source_surface.n_components;
+  json["n_cavities_left_out"] = {{"source", result.source_surface.n_cavities_left_out},
+                                 {"target", result.target_surface.n_cavities_left_out}};
+  json["n_vertices_outside_map"] = {{"source", result.n_outside_source_map}, {"target", result.n_outside_target_map}};
+  json["surfaces"] = {{"source", surface(result.source_surface)}, {"target", surface(result.target_surface)}};
+  json["start"] = result.start == StartFrom::kPrevious ? "previous" : "source";
+  if (result.flow_report.sweeps > 0) {
+    json["gvf"] = {{"sweeps", result.flow_report.sweeps},
+                   {"residual", number(result.flow_report.residual)},
+                   {"converged", result.flow_report.converged}};
+  }
+  json["n_vertices_added"] =
+      result.morph_report.steps > 0 ? result.morph_report.n_vertices_added : result.n_vertices_subdivided;
+  json["iterations_regularize"] = result.regularize_report.iterations;
+}
+
+}  // namespace
+
+Json options_json(const std::vector<std::pair<std::string, std::string>>& texts) {
+  Json json;
+  for (const auto& [name, text] : texts) {
+    const Setting& setting = find_setting(name);
+    if (name != kThesisSetting) json[setting.key()] = typed_value(setting, text);
+  }
+  return json;
+}
+
+Json compare_json(const Molecule& source, const Molecule& target, const CompareResult& result,
+                  const CompareOptions& options, const Provenance& provenance) {
+  Json json;
+  add_results(json, source, result);
+  json["time_ms"] = Json::object();
+  for (const auto& [stage, ms] : result.time_ms) json["time_ms"][stage] = number(ms);
+  json["device"] = provenance.device;
+  json["device_description"] = provenance.device_description;
+  json["threads"] = provenance.threads;
+  json["radii_origin"] = {{"source", name_of(source.radii_origin)}, {"target", name_of(target.radii_origin)}};
+  json["options"] = options_json(setting_texts(options));
+  json["inputs"] = input_files(provenance);
+  json["command_line"] = provenance.command_line;
+  json["version"] = provenance.version;
+  return json;
+}
+
+}  // namespace espdiff

@@ -1,0 +1,193 @@
+// compare_table.cpp: a comparison's result as a table for a terminal.
+#include <algorithm>
+#include <cstdio>
+
+#include "align/rigid_domains.h"
+#include "compare/result.h"
+#include "report/metrics.h"
+#include "report/write_compare.h"
+
+namespace espdiff {
+namespace {
+
+constexpr std::size_t kLabelWidth = 35, kUnitWidth = 7, kColumnWidth = 14;
+
+std::string counted(std::size_t n, const std::string& noun, const std::string& plural) {
+  return std::to_string(n) + " " + (n == 1 ? noun : plural);
+}
+std::string counted(std::size_t n, const std::string& noun) { return counted(n, noun, noun + "s"); }
+
+std::string left(const std::string& text, std::size_t width) {
+  return text + std::string(text.size() < width ? width - text.size() : 1, ' ');
+}
+
+std::string right(const std::string& text, std::size_t width) {
+  return std::string(text.size() < width ? width - text.size() : 1, ' ') + text;
+}
+
+/// A line of numbers: label, unit, and one column for each value.
+void row(std::ostream& out, const std::string& label, const std::string& unit, const std::vector<std::string>& values) {
+  out << left("  " + label, kLabelWidth) << left(unit, kUnitWidth);
+  for (const std::string& value : values) out << right(value, kColumnWidth);
+  out << '\n';
+}
+
+/// A heading over such lines.
+void heading(std::ostream& out, const std::string& title, const std::vector<std::string>& columns) {
+  out << '\n' << left(title, kLabelWidth + kUnitWidth);
+  for (const std::string& column : columns) out << right(column, kColumnWidth);
+  out << '\n';
+}
+
+/// A line in words.
+void line(std::ostream& out, const std::string& label, const std::string& text) {
+  out << left("  " + label, kLabelWidth) << text << '\n';
+}
+
+/// "1.234 A"
+std::string with_unit(const Metric& metric, double value) {
+  const std::string unit = unit_of(metric, "");
+  return formatted(metric, value) + (unit.empty() ? "" : " " + unit);
+}
+
+void print_superposition(std::ostream& out, const Molecule& source, const CompareResult& result) {
+  const AtomPairing& pairing = result.pairing;
+  out << "Superposition\n";
+  if (pairing.pairs.empty()) {
+    line(out, "Paired atoms", "none; compared where they lie");
+    return;
+  }
+  std::string paired = counted(pairing.pairs.size(), "atom") + ", by " + pairing.method;
+  if (pairing.n_substituted_residues > 0) {
+    paired += " (" + std::to_string(pairing.n_substituted_residues) + " of " +
+              counted(pairing.n_aligned_residues, "residue") + " substituted)";
+  }
+  line(out, "Paired atoms", paired);
+  const std::string over = result.n_superposed_atoms > 0
+                               ? "after superposing " + counted(result.n_superposed_atoms, "atom")
+                               : std::string("where they lie, not superposed");
+  for (const Metric& metric : metrics()) {
+    if (metric.section != MetricSection::kSuperposition) continue;
+    line(out, metric.label, with_unit(metric, value_of(metric, result)) + " " + over);
+  }
+  for (const RigidDomain& domain : result.domains) {
+    char rmsd[32];
+    std::snprintf(rmsd, sizeof rmsd, "%.4g", domain.rmsd_A);
+    line(out, "Rigid domain", std::string(rmsd) + " A, " + residue_ranges(source, domain.residues));
+  }
+}
+
+/// A row for each metric of the section: over the area that is counted and, with potentials, over all of it.
+void print_section(std::ostream& out, const CompareResult& result, MetricSection section) {
+  for (const Metric& metric : metrics()) {
+    if (metric.section != section || !metric.has_result()) continue;
+    std::vector<std::string> values = {formatted(metric, value_of(metric, result))};
+    if (result.has_potential && metric.source.of_area != nullptr)
+      values.push_back(formatted(metric, value_over_all_triangles(metric, result)));
+    row(out, metric.label, unit_of(metric, to_string(result.unit)), values);
+  }
+}
+
+/// The metrics that share a line follow one another.
+void print_lines(std::ostream& out, const CompareResult& result, MetricSection section) {
+  const std::vector<Metric>& all = metrics();
+  for (std::size_t i = 0; i < all.size();) {
+    const Metric& first = all[i];
+    std::vector<std::string> values;
+    const auto shares_line = [&] {
+      return i < all.size() && all[i].section == section && *first.line != '\0' &&
+             std::string(all[i].line) == first.line;
+    };
+    do {
+      const std::string word = *all[i].word != '\0' ? std::string(all[i].word) + " " : std::string();
+      if (all[i].has_result()) values.push_back(word + formatted(all[i], value_of(all[i], result)));
+      ++i;
+    } while (shares_line());
+    if (first.section != section || is_unchecked(first, result)) continue;
+    row(out, *first.line != '\0' ? first.line : first.label, unit_of(first, to_string(result.unit)), values);
+  }
+}
+
+void print_metrics(std::ostream& out, const CompareResult& result) {
+  if (result.has_potential) {
+    heading(out, "Potential (target - source)", {"valid area", "all area"});
+    print_section(out, result, MetricSection::kPotential);
+  } else {
+    heading(out, "Shape (no potentials given)", {"valid area"});
+  }
+  print_section(out, result, MetricSection::kShape);
+}
+
+void print_surfaces(std::ostream& out, const CompareResult& result) {
+  const SurfaceSummary &source = result.source_surface, &target = result.target_surface;
+  out << "\nSurface\n";
+  print_lines(out, result, MetricSection::kSurface);
+  const auto counts = [&](const char* label, std::size_t of_source, std::size_t of_target) {
+    row(out, label, "", {"source " + std::to_string(of_source), "target " + std::to_string(of_target)});
+  };
+  row(out, "Vertices", "",
+      {"source " + std::to_string(source.n_vertices), "target " + std::to_string(target.n_vertices),
+       "mapped " + std::to_string(result.surface.positions.size())});
+  counts("Components", source.n_components, target.n_components);
+  counts("Closed cavities left out", source.n_cavities_left_out, target.n_cavities_left_out);
+  if (result.has_potential)
+    counts("Vertices outside the map", result.n_outside_source_map, result.n_outside_target_map);
+}
+
+void print_mapping(std::ostream& out, const CompareResult& result) {
+  const Certificate& c = result.certificate;
+  const auto n_of = [](int n) { return static_cast<std::size_t>(std::max(n, 0)); };
+  if (result.morph_report.steps > 0) {
+    line(out, "Mapping",
+         "carried by the atoms in " + counted(n_of(result.morph_report.steps), "step") + ", " +
+             counted(result.morph_report.n_vertices_added, "vertex", "vertices") + " added");
+  } else {
+    line(out, "Mapping",
+         std::string(c.converged ? "converged after " : "did not converge in ") +
+             counted(n_of(result.deform_report.iterations), "iteration") +
+             (result.n_vertices_subdivided > 0
+                  ? ", " + counted(result.n_vertices_subdivided, "vertex", "vertices") + " added"
+                  : ""));
+  }
+  if (result.flow_report.sweeps > 0) {
+    line(out, "Gradient vector flow",
+         std::string(result.flow_report.converged ? "converged after " : "did not converge in ") +
+             counted(n_of(result.flow_report.sweeps), "sweep"));
+  }
+}
+
+void print_certificate(std::ostream& out, const CompareResult& result) {
+  out << "\nCertificate\n";
+  print_lines(out, result, MetricSection::kCertificate);
+  print_mapping(out, result);
+  std::string not_checked;
+  for (const std::string& name : result.certificate.not_checked)
+    not_checked += (not_checked.empty() ? "" : ", ") + name;
+  std::replace(not_checked.begin(), not_checked.end(), '_', ' ');
+  if (!not_checked.empty()) line(out, "Not checked", not_checked);
+}
+
+void print_verdict(std::ostream& out, const CompareResult& result, const OptionSpelling& spelling) {
+  const Certificate& c = result.certificate;
+  out << '\n';
+  if (c.trustworthy) {
+    out << "TRUSTWORTHY: the mapping is within every limit that was checked\n";
+  } else {
+    out << "NOT TRUSTWORTHY:\n";
+    for (const Message& reason : c.reasons) out << "  - " << reason.spelled(spelling) << '\n';
+  }
+}
+
+}  // namespace
+
+void print_table(std::ostream& out, const Molecule& source, const Molecule& target, const CompareResult& result,
+                 const OptionSpelling& spelling) {
+  out << "Source  " << source.name << "\nTarget  " << target.name << "\n\n";
+  print_superposition(out, source, result);
+  print_metrics(out, result);
+  print_surfaces(out, result);
+  print_certificate(out, result);
+  print_verdict(out, result, spelling);
+}
+
+}  // namespace espdiff

@@ -1,0 +1,289 @@
+// metrics.cpp: the table of metrics, and how its values are got and written.
+#include "report/metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "base/error.h"
+#include "compare/result.h"
+
+namespace espdiff {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+template <double Certificate::*Member>
+double of_certificate(const CompareResult& result) {
+  return result.certificate.*Member;
+}
+template <DistanceSummary Certificate::*Side, double DistanceSummary::*Member>
+double of_distances(const CompareResult& result) {
+  return result.certificate.*Side.*Member;
+}
+template <double DistortionReport::*Member>
+double of_distortion(const CompareResult& result) {
+  return result.certificate.distortion.*Member;
+}
+template <double RoundTrip::*Member>
+double of_round_trip(const CompareResult& result) {
+  return result.certificate.round_trip ? (*result.certificate.round_trip).*Member : kNan;
+}
+
+double rmsd(const CompareResult& result) { return result.rmsd_A; }
+double source_area(const CompareResult& result) { return result.source_surface.area_A2; }
+double target_area(const CompareResult& result) { return result.target_surface.area_A2; }
+double mapped_area(const CompareResult& result) { return result.area_mapped_A2; }
+double intersecting_pairs(const CompareResult& result) {
+  return static_cast<double>(result.certificate.self_intersecting_pairs);
+}
+double iterations(const CompareResult& result) {
+  return static_cast<double>(result.morph_report.steps > 0 ? result.morph_report.steps
+                                                           : result.deform_report.iterations);
+}
+
+std::vector<Metric> make_metrics() {
+  using S = MetricSection;
+  using U = MetricUnit;
+  using C = Certificate;
+  using D = DistanceSummary;
+  constexpr unsigned kNowhere = 0, kBoth = kInSeries | kInMatrix;
+  return {
+      {"rmsd_A", "RMSD", S::kSuperposition, U::kAngstrom, kBoth, "Of the paired atoms after the superposition", rmsd},
+      {"area_A2",
+       "Area compared",
+       S::kShape,
+       U::kSquareAngstrom,
+       kNowhere,
+       "Area of the mapped surface on which the numbers rest",
+       {&Metrics::area_A2, &ResidueRow::area_A2},
+       "/area_A2/valid"},
+      {"mean_abs_difference",
+       "Mean absolute difference",
+       S::kPotential,
+       U::kPotential,
+       kBoth,
+       "Mean absolute difference of the potentials at corresponding points, weighted by area",
+       {&Metrics::mean_abs_difference, &ResidueRow::mean_abs_difference}},
+      {"rms_difference", "RMS difference", S::kPotential, U::kPotential, kBoth,
+       "Root of the mean squared difference of the potentials", &Metrics::rms_difference},
+      {"mean_signed_difference",
+       "Mean signed difference",
+       S::kPotential,
+       U::kPotential,
+       kBoth | kAntisymmetric,
+       "Mean of target - source, with its sign",
+       {&Metrics::mean_signed_difference, &ResidueRow::mean_signed_difference}},
+      {"mean_source", "Mean potential, source", S::kPotential, U::kPotential, kNowhere,
+       "Mean potential on the source's surface", &ResidueRow::mean_source},
+      {"mean_target", "Mean potential, target", S::kPotential, U::kPotential, kNowhere,
+       "Mean potential at the corresponding points of the target's surface", &ResidueRow::mean_target},
+      {"sign_change_area_fraction",
+       "Area whose sign changes",
+       S::kPotential,
+       U::kFraction,
+       kBoth,
+       "Share of the area where the potential has another sign on the target",
+       {&Metrics::sign_change_area_fraction, &ResidueRow::sign_change_area_fraction}},
+      {"hodgkin_index", "Hodgkin index", S::kPotential, U::kIndex, kBoth,
+       "Similarity of the potentials: 1 same, 0 unrelated, -1 opposite", &Metrics::hodgkin_index},
+      {"carbo_index", "Carbo index", S::kPotential, U::kIndex, kInMatrix,
+       "Similarity of the potentials' patterns, whatever their magnitudes: 1 same, 0 unrelated, -1 opposite",
+       &Metrics::carbo_index},
+      {"mean_displacement_A",
+       "Mean displacement",
+       S::kShape,
+       U::kAngstrom,
+       kBoth,
+       "How far points of the source's surface travel to the target's: the farther, the less certain",
+       {&Metrics::mean_displacement_A, &ResidueRow::mean_displacement_A}},
+      {"mean_path_length_A",
+       "Mean path length",
+       S::kShape,
+       U::kAngstrom,
+       kNowhere,
+       "Length of the points' paths: the more it exceeds the displacement, the less certain",
+       {&Metrics::mean_path_length_A, &ResidueRow::mean_path_length_A}},
+      {"area_source_A2", "Area of the source", S::kSurface, U::kSquareAngstrom, kNowhere, "Surface area of the source",
+       source_area, "/area_A2/source", "Area", "source"},
+      {"area_target_A2", "Area of the target", S::kSurface, U::kSquareAngstrom, kNowhere, "Surface area of the target",
+       target_area, "/area_A2/target", "Area", "target"},
+      {"area_mapped_A2", "Area of the mapped surface", S::kSurface, U::kSquareAngstrom, kBoth,
+       "Area of the source's surface after it was mapped onto the target", mapped_area, "/area_A2/mapped", "Area",
+       "mapped"},
+      {"corrupt_area_fraction", "Corrupt area", S::kCertificate, U::kFraction, kBoth,
+       "Share of the mapped area that does not lie on the target's surface", of_certificate<&C::corrupt_area_fraction>,
+       "/certificate/corrupt_area_fraction"},
+      {"flipped_area_fraction", "Flipped area", S::kCertificate, U::kFraction, kBoth,
+       "Share of the mapped area that is turned inside out", of_certificate<&C::flipped_area_fraction>,
+       "/certificate/flipped_area_fraction"},
+      {"self_intersecting_pairs", "Intersecting pairs of triangles", S::kCertificate, U::kCount, kInMatrix,
+       "Pairs of triangles of the mapped surface that intersect", intersecting_pairs,
+       "/certificate/self_intersecting_pairs"},
+      {"no_counterpart_source", "Unmatched area, source", S::kCertificate, U::kFraction, kBoth,
+       "Share of the source's area that has no place on the target", of_certificate<&C::unmatched_source>,
+       "/certificate/no_counterpart_area_fraction/source", "Unmatched area", "source"},
+      {"no_counterpart_target", "Unmatched area, target", S::kCertificate, U::kFraction, kBoth,
+       "Share of the target's area that nothing was mapped to", of_certificate<&C::unmatched_target>,
+       "/certificate/no_counterpart_area_fraction/target", "Unmatched area", "target"},
+      {"mapped_to_target_mean_A", "Distance of the mapped surface to the target", S::kCertificate, U::kAngstrom,
+       kInMatrix, "Mean distance of the mapped surface to the target's", of_distances<&C::mapped_to_target, &D::mean>,
+       "/certificate/mapped_to_target_A/mean", "Mapped to target", "mean"},
+      {"mapped_to_target_p95_A", "95th percentile of the distance of the mapped surface to the target", S::kCertificate,
+       U::kAngstrom, kNowhere, "95 % of the mapped area lies nearer to the target's surface",
+       of_distances<&C::mapped_to_target, &D::p95>, "/certificate/mapped_to_target_A/p95", "Mapped to target", "95 %"},
+      {"mapped_to_target_max_A", "Greatest distance of the mapped surface to the target", S::kCertificate, U::kAngstrom,
+       kNowhere, "Greatest distance of the mapped surface to the target's", of_distances<&C::mapped_to_target, &D::max>,
+       "/certificate/mapped_to_target_A/max", "Mapped to target", "max"},
+      {"mapped_to_target_mean_within_limit_A", "Distance of the mapped surface to the target, within 1 A",
+       S::kCertificate, U::kAngstrom, kNowhere, "Mean distance to the target's surface of what lies within 1 A",
+       of_distances<&C::mapped_to_target, &D::mean_within_limit>, "/certificate/mapped_to_target_A/mean_within_limit",
+       "  where within 1 A", "mean"},
+      {"target_to_mapped_mean_A", "Distance of the target to the mapped surface", S::kCertificate, U::kAngstrom,
+       kInMatrix, "Mean distance of the target's surface to the mapped one",
+       of_distances<&C::target_to_mapped, &D::mean>, "/certificate/target_to_mapped_A/mean", "Target to mapped",
+       "mean"},
+      {"target_to_mapped_p95_A", "95th percentile of the distance of the target to the mapped surface", S::kCertificate,
+       U::kAngstrom, kNowhere, "95 % of the target's area lies nearer to the mapped surface",
+       of_distances<&C::target_to_mapped, &D::p95>, "/certificate/target_to_mapped_A/p95", "Target to mapped", "95 %"},
+      {"target_to_mapped_max_A", "Greatest distance of the target to the mapped surface", S::kCertificate, U::kAngstrom,
+       kBoth, "Greatest distance of the target's surface to the mapped one",
+       of_distances<&C::target_to_mapped, &D::max>, "/certificate/target_to_mapped_A/max", "Target to mapped", "max"},
+      {"target_to_mapped_mean_within_limit_A", "Distance of the target to the mapped surface, within 1 A",
+       S::kCertificate, U::kAngstrom, kNowhere, "Mean distance to the mapped surface of what lies within 1 A",
+       of_distances<&C::target_to_mapped, &D::mean_within_limit>, "/certificate/target_to_mapped_A/mean_within_limit",
+       "  where within 1 A", "mean"},
+      {"round_trip_mean_A", "Round-trip error", S::kCertificate, U::kAngstrom, kNowhere,
+       "Mean distance from its start at which a point ends that a second mapping takes back",
+       of_round_trip<&RoundTrip::mean_A>, "/certificate/round_trip/mean_A", "Round-trip error", "mean"},
+      {"round_trip_p95_A", "95th percentile of the round-trip error", S::kCertificate, U::kAngstrom, kNowhere,
+       "95 % of the area ends nearer to its start", of_round_trip<&RoundTrip::p95_A>, "/certificate/round_trip/p95_A",
+       "Round-trip error", "95 %"},
+      {"round_trip_max_A", "Greatest round-trip error", S::kCertificate, U::kAngstrom, kNowhere,
+       "Greatest distance from its start at which a point ends", of_round_trip<&RoundTrip::max_A>,
+       "/certificate/round_trip/max_A", "Round-trip error", "max"},
+      {"round_trip_unmatched_target", "Unmatched area of the mapping back", S::kCertificate, U::kFraction, kNowhere,
+       "Share of the target's area that the second mapping did not match",
+       of_round_trip<&RoundTrip::unmatched_target_area_fraction>, "/certificate/round_trip/lost_target_area_fraction",
+       "Unmatched by the way back", "target"},
+      {"area_ratio_p05", "5th percentile of the area ratio", S::kCertificate, U::kIndex, kNowhere,
+       "5 % of the source's area has a smaller ratio of mapped area to source area",
+       of_distortion<&DistortionReport::area_ratio_p05>, "/certificate/area_ratio/p05", "Mapped area / source area",
+       "5 %"},
+      {"area_ratio_median", "Median area ratio", S::kCertificate, U::kIndex, kNowhere,
+       "Median ratio of mapped area to source area", of_distortion<&DistortionReport::area_ratio_median>,
+       "/certificate/area_ratio/median", "Mapped area / source area", "median"},
+      {"area_ratio_p95", "95th percentile of the area ratio", S::kCertificate, U::kIndex, kNowhere,
+       "95 % of the source's area has a smaller ratio of mapped area to source area",
+       of_distortion<&DistortionReport::area_ratio_p95>, "/certificate/area_ratio/p95", "Mapped area / source area",
+       "95 %"},
+      {"symmetric_dirichlet_median", "Median distortion", S::kCertificate, U::kIndex, kNowhere,
+       "Median symmetric Dirichlet energy: 1 where nothing is distorted",
+       of_distortion<&DistortionReport::dirichlet_median>, "/certificate/symmetric_dirichlet/median", "Distortion",
+       "median"},
+      {"symmetric_dirichlet_p95", "95th percentile of the distortion", S::kCertificate, U::kIndex, kNowhere,
+       "95 % of the source's area has a smaller symmetric Dirichlet energy",
+       of_distortion<&DistortionReport::dirichlet_p95>, "/certificate/symmetric_dirichlet/p95", "Distortion", "95 %"},
+      {"same_residue_area_fraction", "Area on the same residue", S::kCertificate, U::kFraction, kInMatrix,
+       "Share of the mapped area whose residue on the target is the one paired with that on the source",
+       of_certificate<&C::same_residue_area_fraction>, "/certificate/same_residue_area_fraction"},
+      {"irregularity_A", "Irregularity", S::kCertificate, U::kAngstrom, kNowhere,
+       "Mean length of the umbrella Laplacian of the mapped mesh", of_certificate<&C::irregularity_A>,
+       "/certificate/irregularity_A"},
+      {"iterations", "Iterations or steps", S::kMapping, U::kCount, kBoth,
+       "Iterations of the deformation, or steps of the morph", iterations},
+  };
+}
+
+std::vector<Metric>& table() {
+  static std::vector<Metric> all = make_metrics();
+  return all;
+}
+
+}  // namespace
+
+const std::vector<Metric>& metrics() { return table(); }
+
+void add_metric(const Metric& metric) {
+  if (find_metric_or_null(metric.name) != nullptr)
+    throw Error(ErrorClass::kInternal, std::string("there is a metric '") + metric.name + "' already");
+  table().push_back(metric);
+}
+
+const Metric* find_metric_or_null(const std::string& name) {
+  const auto found =
+      std::find_if(metrics().begin(), metrics().end(), [&](const Metric& metric) { return metric.name == name; });
+  return found == metrics().end() ? nullptr : &*found;
+}
+
+double value_of(const Metric& metric, const CompareResult& result) {
+  if (metric.source.of_result != nullptr) return metric.source.of_result(result);
+  return counted_metrics(result).*metric.source.of_area;
+}
+
+double value_over_all_triangles(const Metric& metric, const CompareResult& result) {
+  if (metric.source.of_area == nullptr || !result.has_potential) return kNan;
+  return result.metrics_all.*metric.source.of_area;
+}
+
+double value_of(const Metric& metric, const CompareResult& result, const ResidueRow& row) {
+  if (metric.section == MetricSection::kPotential && !result.has_potential) return kNan;
+  return row.*metric.source.of_residue;
+}
+
+bool is_unchecked(const Metric& metric, const CompareResult& result) {
+  const std::string pointer = metric.json_pointer();
+  const auto& names = result.certificate.not_checked;
+  return std::any_of(names.begin(), names.end(),
+                     [&](const std::string& name) { return pointer.rfind("/certificate/" + name + "/", 0) == 0; });
+}
+
+std::string unit_of(const Metric& metric, const std::string& potential_unit) {
+  switch (metric.unit) {
+    case MetricUnit::kPotential: return potential_unit;
+    case MetricUnit::kAngstrom: return "A";
+    case MetricUnit::kSquareAngstrom: return "A^2";
+    case MetricUnit::kFraction:
+    case MetricUnit::kIndex:
+    case MetricUnit::kCount: break;
+  }
+  return "";
+}
+
+ShownUnit shown_unit(const Metric& metric, const std::string& potential_unit) {
+  if (metric.unit == MetricUnit::kFraction) return {"%", 100};
+  return {unit_of(metric, potential_unit), 1};
+}
+
+std::string formatted(const Metric& metric, double value) {
+  if (std::isnan(value)) return "-";
+  const auto written = [](const char* format, double number) {
+    char text[64];
+    std::snprintf(text, sizeof text, format, number);
+    return std::string(text);
+  };
+  switch (metric.unit) {
+    case MetricUnit::kFraction: return written("%.3g", 100 * value) + " %";
+    case MetricUnit::kSquareAngstrom: return written("%.1f", value);
+    case MetricUnit::kCount: return written("%.0f", value);
+    default: return written("%.4g", value);
+  }
+}
+
+Metrics counted_metrics(const CompareResult& result) {
+  if (result.has_potential) return result.metrics;
+  Metrics counted{0, kNan, kNan, kNan, kNan, kNan, kNan, 0, 0};
+  for (const ResidueRow& row : result.residues) {
+    if (!(row.area_A2 > 0)) continue;
+    counted.area_A2 += row.area_A2;
+    counted.mean_displacement_A += row.area_A2 * row.mean_displacement_A;
+    counted.mean_path_length_A += row.area_A2 * row.mean_path_length_A;
+  }
+  const double area = counted.area_A2 > 0 ? counted.area_A2 : kNan;
+  counted.mean_displacement_A /= area;
+  counted.mean_path_length_A /= area;
+  return counted;
+}
+
+}  // namespace espdiff

@@ -1,0 +1,94 @@
+// metrics.h: every number that a comparison gives, once for files, tables, plots, Tcl and the window.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/certificate_stage.h"
+
+namespace espdiff {
+
+struct CompareResult;
+struct ResidueRow;
+
+/// What the values of a metric are in.
+enum class MetricUnit { kPotential, kAngstrom, kSquareAngstrom, kFraction, kIndex, kCount };
+
+/// Heading under which the printed table and the window list a metric. Metrics of kPotential have values only where
+/// potentials were compared.
+enum class MetricSection { kSuperposition, kPotential, kShape, kSurface, kCertificate, kMapping };
+
+/// Properties of a metric, added up.
+enum MetricFlag : unsigned {
+  kInSeries = 1,       ///< a column of a trajectory's CSV file
+  kInMatrix = 2,       ///< a table of a matrix
+  kAntisymmetric = 4,  ///< the value of target to source is its negative; otherwise it should be the same
+};
+
+/// Where the value of a metric comes from: the whole comparison, the row of a residue, or both.
+struct MetricSource {
+  using OfResult = double (*)(const CompareResult&);
+
+  MetricSource(OfResult result) : of_result(result) {}
+  /// Over the area that is counted; the printed table and OUT.json also show it over all triangles.
+  MetricSource(double Metrics::*area, double ResidueRow::*residue = nullptr) : of_area(area), of_residue(residue) {}
+  MetricSource(double ResidueRow::*residue) : of_residue(residue) {}
+
+  OfResult of_result = nullptr;
+  double Metrics::*of_area = nullptr;
+  double ResidueRow::*of_residue = nullptr;
+};
+
+/// One row of the table. Adding one is all that JSON, CSV files, the printed table, plots, Tcl and the window need.
+struct Metric {
+  const char* name;   ///< of columns, and in Tcl: "mean_abs_difference"
+  const char* label;  ///< for axes and tables: "Mean absolute difference"
+  MetricSection section;
+  MetricUnit unit;
+  unsigned flags;
+  const char* help;  ///< one sentence
+  MetricSource source;
+  /// JSON pointer in OUT.json; "/NAME" where it is empty. An entry of `not_checked` nulls the object of that name.
+  const char* json = "";
+  /// Metrics that follow one another with the same line share one in the printed table, told apart by `word`.
+  const char* line = "";
+  const char* word = "";
+
+  bool has_result() const { return source.of_result != nullptr || source.of_area != nullptr; }
+  bool has_residues() const { return source.of_residue != nullptr; }
+  std::string json_pointer() const { return *json != '\0' ? json : std::string("/") + name; }
+};
+
+/// All of them, in the order of files and tables.
+const std::vector<Metric>& metrics();
+/// Adds a row. Before anything is computed or written: columns are fixed from then on.
+/// @throws Error (kInternal) when the name is taken
+void add_metric(const Metric& metric);
+/// Null when there is none of that name.
+const Metric* find_metric_or_null(const std::string& name);
+
+/// The number for the whole comparison; NaN where there is none. The metric has_result().
+double value_of(const Metric& metric, const CompareResult& result);
+/// Over all triangles with samples, corrupt ones included; NaN where there is none.
+double value_over_all_triangles(const Metric& metric, const CompareResult& result);
+/// The number for one residue; NaN where it has no surface that is counted. The metric has_residues().
+double value_of(const Metric& metric, const CompareResult& result, const ResidueRow& row);
+/// Whether the certificate says that this was not checked.
+bool is_unchecked(const Metric& metric, const CompareResult& result);
+
+/// "kT/e", "A", "A^2", or empty for what is a mere number.
+std::string unit_of(const Metric& metric, const std::string& potential_unit);
+/// How people read the values: fractions as percent, lengths in A.
+struct ShownUnit {
+  std::string unit;
+  double factor = 1;
+};
+ShownUnit shown_unit(const Metric& metric, const std::string& potential_unit);
+/// A value with its unit as the printed tables write it: "1.234", "12.3 %", "-" for none.
+std::string formatted(const Metric& metric, double value);
+
+/// The metrics over the counted surface. Without potentials, area, displacement and path length come from the
+/// residues' rows, and the others are NaN.
+Metrics counted_metrics(const CompareResult& result);
+
+}  // namespace espdiff

@@ -1,0 +1,63 @@
+// residue_values.cpp: columns of the residue table by name.
+#include "report/residue_values.h"
+
+#include "base/error.h"
+#include "base/version.h"
+#include "compare/result.h"
+#include "io/atomic_file.h"
+#include "io/write_pdb.h"
+#include "report/metrics.h"
+
+namespace espdiff {
+namespace {
+
+const Metric& find_quantity(const std::string& name) {
+  const Metric* const metric = find_metric_or_null(name);
+  if (metric != nullptr && metric->has_residues()) return *metric;
+  std::string list;
+  for (const std::string& there : residue_quantities()) list += (list.empty() ? "" : ", ") + there;
+  throw InputError("residues have no quantity '" + name + "'; there are: " + list);
+}
+
+}  // namespace
+
+std::vector<std::string> residue_quantities() {
+  std::vector<std::string> names;
+  for (const Metric& metric : metrics()) {
+    if (metric.has_residues()) names.emplace_back(metric.name);
+  }
+  return names;
+}
+
+std::vector<double> residue_values(const CompareResult& result, const std::string& quantity) {
+  const Metric& metric = find_quantity(quantity);
+  if (metric.section == MetricSection::kPotential && !result.has_potential)
+    throw InputError(quantity + " needs potentials, and shapes alone were compared; take mean_displacement_A");
+  std::vector<double> values;
+  for (const ResidueRow& row : result.residues) values.push_back(value_of(metric, result, row));
+  return values;
+}
+
+std::string residue_unit(const CompareResult& result, const std::string& quantity) {
+  return unit_of(find_quantity(quantity), to_string(result.unit));
+}
+
+void write_residue_pdb(AtomicFile& file, const Molecule& source, const CompareResult& result,
+                       const std::string& quantity) {
+  const std::vector<double> of_residue = residue_values(result, quantity);
+  std::vector<double> of_atom;
+  for (const Atom& atom : source.atoms) of_atom.push_back(of_residue.at(static_cast<std::size_t>(atom.residue)));
+  const std::string unit = residue_unit(result, quantity);
+  write_pdb(file.stream(), source, of_atom,
+            {"B FACTOR: " + quantity + (unit.empty() ? "" : " [" + unit + "]") + " OF THE RESIDUE",
+             "OCCUPANCY 0: THE RESIDUE HAS NO SURFACE THAT IS COUNTED", std::string("WRITTEN BY espdiff ") + kVersion});
+}
+
+void write_residue_pdb(const std::string& path, const Molecule& source, const CompareResult& result,
+                       const std::string& quantity) {
+  AtomicFile file(path);
+  write_residue_pdb(file, source, result, quantity);
+  file.commit();
+}
+
+}  // namespace espdiff

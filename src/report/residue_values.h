@@ -1,0 +1,27 @@
+// residue_values.h: what a comparison says of each residue, by name, and as a PDB file that other programs colour by.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/types.h"
+
+namespace espdiff {
+
+struct CompareResult;
+
+/// The quantities of a residue: the names of the metrics that it has.
+std::vector<std::string> residue_quantities();
+
+/// [residue] of the source; NaN where it has no surface that is counted.
+/// @throws InputError (unknown name, with those there are; one of potentials where there are none)
+std::vector<double> residue_values(const CompareResult& result, const std::string& quantity);
+/// "kT/e", "A", or empty.
+std::string residue_unit(const CompareResult& result, const std::string& quantity);
+
+/// Writes the source with the quantity of each atom's residue as B factor (write_pdb()).
+/// @throws as residue_values(), write_pdb(), IoError
+void write_residue_pdb(const std::string& path, const Molecule& source, const CompareResult& result,
+                       const std::string& quantity);
+
+}  // namespace espdiff

@@ -1,0 +1,184 @@
+// write_compare.cpp: the mapped surface and the residues as files; all files of a result at once.
+#include "report/write_compare.h"
+
+#include <deque>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "base/error.h"
+#include "compare/result.h"
+#include "io/atomic_file.h"
+#include "io/sha256.h"
+#include "io/write_csv.h"
+#include "io/write_grid.h"
+#include "io/write_pqr.h"
+#include "io/write_vtp.h"
+#include "report/metrics.h"
+
+namespace espdiff {
+namespace {
+
+/// Per-vertex arrays that the result implies.
+struct DerivedArrays {
+  std::vector<float> difference;
+  std::vector<std::uint8_t> sign_change;
+  std::vector<std::int32_t> residue_number;
+};
+
+/// 1 where the signs differ; zero agrees with anything, and so does what lies outside a map.
+std::uint8_t sign_changes(float a, float b) { return (a < 0 && b > 0) || (a > 0 && b < 0) ? 1 : 0; }
+
+DerivedArrays derive(const Molecule& source, const CompareResult& result) {
+  const MappedSurface& s = result.surface;
+  DerivedArrays arrays;
+  for (const std::int32_t residue : s.residue) {
+    arrays.residue_number.push_back(residue < 0 ? 0 : source.residues.at(static_cast<std::size_t>(residue)).number);
+  }
+  if (!result.has_potential) return arrays;
+  for (std::size_t v = 0; v < s.potential_source.size(); ++v) {
+    const float a = s.potential_source[v], b = s.potential_target.at(v);
+    arrays.difference.push_back(b - a);
+    arrays.sign_change.push_back(sign_changes(a, b));
+  }
+  return arrays;
+}
+
+void write_surface_file(std::ostream& out, const Molecule& source, const CompareResult& result,
+                        const Provenance& provenance) {
+  const MappedSurface& s = result.surface;
+  const DerivedArrays derived = derive(source, result);
+  VtpSurface file;
+  file.points = VtpArray("Points", s.positions);
+  file.triangles = &s.triangles;
+  file.point_arrays = {{"source_position", s.source_positions},
+                       {"displacement", s.displacement},
+                       {"path_length", s.path_length},
+                       {"normal", s.normals},
+                       {"source_normal", s.source_normals},
+                       {"residue_number", derived.residue_number},
+                       {"residue_index", s.residue}};
+  file.active_normals = "normal";
+  file.active_scalars = "displacement";
+  if (result.has_potential) {
+    file.point_arrays.emplace_back("potential_source", s.potential_source);
+    file.point_arrays.emplace_back("potential_target", s.potential_target);
+    file.point_arrays.emplace_back("potential_difference", derived.difference);
+    file.point_arrays.emplace_back("sign_change", derived.sign_change);
+    file.active_scalars = "potential_difference";
+    file.texts.emplace_back("potential_unit", to_string(result.unit));
+  }
+  const std::vector<std::uint8_t> everywhere(s.triangles.size(), 0);
+  file.cell_arrays = {{"corrupt", s.corrupt}, {"no_counterpart", s.unmatched.empty() ? everywhere : s.unmatched}};
+  file.texts.emplace_back("length_unit", "Angstrom");
+  file.texts.emplace_back("written_by", "espdiff " + provenance.version);
+  write_vtp(out, file);
+}
+
+/// "mean_displacement [A]"
+std::string column_of(const Metric& metric, PotentialUnit potential_unit) {
+  const std::string unit = unit_of(metric, to_string(potential_unit));
+  std::string name = metric.name;
+  if (metric.unit == MetricUnit::kAngstrom) name.resize(name.size() - std::string("_A").size());
+  if (metric.unit == MetricUnit::kSquareAngstrom) name.resize(name.size() - std::string("_A2").size());
+  return unit.empty() ? name : name + " [" + unit + "]";
+}
+
+void write_residue_file(std::ostream& out, const Molecule& source, const CompareResult& result) {
+  std::vector<std::string> columns = {"chain", "residue_number", "insertion_code", "residue_name"};
+  for (const Metric& metric : metrics()) {
+    if (metric.has_residues()) columns.push_back(column_of(metric, result.unit));
+  }
+  write_csv_row(out, columns);
+  for (const ResidueRow& row : result.residues) {
+    const Residue& residue = source.residues.at(row.residue);
+    const std::string insertion = residue.insertion_code == ' ' ? "" : std::string(1, residue.insertion_code);
+    std::vector<std::string> cells = {residue.chain, std::to_string(residue.number), insertion, residue.name};
+    for (const Metric& metric : metrics()) {
+      if (metric.has_residues()) cells.push_back(csv_number(value_of(metric, result, row)));
+    }
+    write_csv_row(out, cells);
+  }
+}
+
+}  // namespace
+
+InputFile computed_input(const std::string& role, const ComputedMap& map) {
+  return {role, "pme of " + map.recipe().charges_from, map.fingerprint(), map.recipe()};
+}
+
+namespace {
+
+/// Files that appear together.
+class FileSet {
+ public:
+  std::ostream& add(const std::string& path) { return files_.emplace_back(path).stream(); }
+  std::vector<std::string> commit(AtomicFile* beside = nullptr) {
+    std::vector<AtomicFile*> all;
+    if (beside != nullptr) all.push_back(beside);
+    std::vector<std::string> paths;
+    for (AtomicFile& file : files_) {
+      all.push_back(&file);
+      paths.push_back(file.path());
+    }
+    commit_all(all);
+    return paths;
+  }
+
+ private:
+  std::deque<AtomicFile> files_;
+};
+
+void add_results(FileSet& files, const std::string& output_prefix, const Molecule& source, const Molecule& target,
+                 const CompareResult& result, const CompareOptions& options, const Provenance& provenance) {
+  // A path need not be UTF-8, JSON must be.
+  files.add(output_prefix + ".json") << compare_json(source, target, result, options, provenance)
+                                            .dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
+                                     << '\n';
+  write_surface_file(files.add(output_prefix + ".vtp"), source, result, provenance);
+  write_residue_file(files.add(output_prefix + ".residues.csv"), source, result);
+}
+
+/// Adds a file whose content is the input of this role from now on.
+void keep(FileSet& files, Provenance& provenance, const std::string& role, const std::string& path,
+          const std::string& content) {
+  files.add(path) << content;
+  InputFile kept{role, std::filesystem::path(path).filename().string(), sha256_of(content)};
+  // All that is in it was compared.
+  if (role == "source" || role == "target") kept.read_with = StructureOptions{1, true, true};
+  for (InputFile& input : provenance.inputs) {
+    if (input.role == role) input = kept;
+  }
+}
+
+}  // namespace
+
+void write_compare(const std::string& output_prefix, const Molecule& source, const Molecule& target,
+                   const CompareResult& result, const CompareOptions& options, const Provenance& provenance,
+                   AtomicFile* beside) {
+  FileSet files;
+  add_results(files, output_prefix, source, target, result, options, provenance);
+  files.commit(beside);
+}
+
+std::vector<std::string> write_compare_with_inputs(const std::string& output_prefix, const Molecule& source,
+                                                   const Molecule& target, const CompareResult& result,
+                                                   const CompareOptions& options, Provenance provenance,
+                                                   const KeptInputs& kept) {
+  FileSet files;
+  for (const auto& [role, molecule] : {std::pair("source", &source), std::pair("target", &target)}) {
+    std::ostringstream content;
+    write_pqr(content, *molecule);
+    keep(files, provenance, role, output_prefix + "." + role + ".pqr", content.str());
+  }
+  for (const auto& [role, map] : {std::pair("source_map", kept.source_map), std::pair("target_map", kept.target_map)}) {
+    if (map == nullptr) continue;
+    std::ostringstream content;
+    write_vti(content, *map);
+    keep(files, provenance, role, output_prefix + "." + role + ".vti", content.str());
+  }
+  add_results(files, output_prefix, source, target, result, options, provenance);
+  return files.commit();
+}
+
+}  // namespace espdiff

@@ -1,0 +1,90 @@
+// write_compare.h: a comparison's results as files and as a table for people.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "base/message.h"
+#include "base/types.h"
+#include "base/version.h"
+#include "io/atomic_file.h"
+#include "io/read_structure.h"
+#include "potential/computed_map.h"
+
+namespace espdiff {
+
+struct CompareOptions;
+struct CompareResult;
+
+/// An input by what it was used for: "source", "target", "source_map", "target_map".
+struct InputFile {
+  std::string role;
+  std::string path;    ///< of a computed map: "pme of" whose charges
+  std::string sha256;  ///< of a computed map: of charges, positions, cell and options
+  std::optional<MapRecipe> computed = std::nullopt;
+  /// Of a structure that was read from a file: which of its models and atoms.
+  std::optional<StructureOptions> read_with = std::nullopt;
+};
+/// A computed map as an input.
+InputFile computed_input(const std::string& role, const ComputedMap& map);
+
+/// What a result needs besides numbers to be reproduced.
+struct Provenance {
+  std::string version = kVersion;
+  std::string device;              ///< "cpu" or "cuda"
+  std::string device_description;  ///< "16 OpenMP threads"
+  int threads = 0;                 ///< of the CPU back end; 0 on a device
+  std::vector<InputFile> inputs;
+  std::string command_line;
+};
+
+/// Writes OUT.json (compare_json()), OUT.vtp and OUT.residues.csv; all three appear, or none and older ones stay as
+/// they are.
+///
+/// OUT.vtp: the mapped surface in the target's frame. Point arrays source_position, displacement, path_length, normal,
+/// residue_number (of the source residue; 0 where there is none) and residue_index (row of the table, from 0; -1 where
+/// there is none); with potentials also potential_source, potential_target, potential_difference (target - source) and
+/// sign_change. Outside a map potentials are NaN and sign_change is 0. Cell arrays corrupt, unmatched. Field data:
+/// units. OUT.residues.csv: one row a source residue, in file order; empty fields where a residue has no valid surface.
+/// @param output_prefix OUT; its folder must exist
+/// @param source, target the molecules that `result` compares
+/// @param beside a complete file that gets its name together with them; may be null
+/// @throws IoError (a file cannot be written)
+void write_compare(const std::string& output_prefix, const Molecule& source, const Molecule& target,
+                   const CompareResult& result, const CompareOptions& options, const Provenance& provenance,
+                   AtomicFile* beside = nullptr);
+
+/// What a comparison was made of, to be written beside its results: molecules as they were compared (one model, one
+/// frame, a selection), and the maps that are in no file (null for those that are, or were computed).
+struct KeptInputs {
+  const Grid* source_map = nullptr;
+  const Grid* target_map = nullptr;
+};
+/// As write_compare(), with OUT.source.pqr and OUT.target.pqr and, for maps from memory, OUT.source_map.vti and
+/// OUT.target_map.vti, which OUT.json then names as its inputs, by names that lie beside it: the comparison can be
+/// repeated from these files, and drawn with maps and molecules.
+/// @returns all files written
+/// @throws IoError; InputError (a map with values that are not finite)
+std::vector<std::string> write_compare_with_inputs(const std::string& output_prefix, const Molecule& source,
+                                                   const Molecule& target, const CompareResult& result,
+                                                   const CompareOptions& options, Provenance provenance,
+                                                   const KeptInputs& kept);
+
+/// The content of OUT.json: every metric, the certificate, and what repeats the run.
+/// What has no value (NaN, potentials without maps, what this version does not check) is null. Messages in it name
+/// options without a front end's spelling. Texts need not be UTF-8.
+nlohmann::ordered_json compare_json(const Molecule& source, const Molecule& target, const CompareResult& result,
+                                    const CompareOptions& options, const Provenance& provenance);
+/// Settings as numbers, booleans and texts, by Setting::key(); without `thesis`, which stands for values of others.
+/// @throws InputError as find_setting()
+nlohmann::ordered_json options_json(const std::vector<std::pair<std::string, std::string>>& texts);
+
+/// Prints the main numbers and the certificate for a terminal: at most 100 columns, units with every number.
+/// @param spelling of the options that reasons name
+void print_table(std::ostream& out, const Molecule& source, const Molecule& target, const CompareResult& result,
+                 const OptionSpelling& spelling);
+
+}  // namespace espdiff

@@ -1,0 +1,50 @@
+// frame_files.h: the frames of one molecule in structure files of several models, and the values that their atoms lack.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/types.h"
+#include "io/read_structure.h"
+
+namespace espdiff {
+
+/// Models of PQR, PDB or mmCIF files as frames, numbered from 0 through all files in their order. One file at a time is
+/// kept in memory.
+class FrameFiles {
+ public:
+  /// Reads every file once, to count its models.
+  /// @throws as read_structure(); InputError without a file
+  explicit FrameFiles(std::vector<std::string> paths);
+
+  int n_frames() const { return first_.back(); }
+  const std::vector<std::string>& paths() const { return paths_; }
+  /// "FILE, model N" of a frame, for messages.
+  std::string name(int frame) const;
+
+  /// @param options all but the model
+  /// @throws as read_structure()
+  Molecule read(int frame, StructureOptions options);
+  /// The cell that the frame's file gives it. @throws as StructureFile::unit_cells()
+  std::optional<UnitCell> cell(int frame);
+
+ private:
+  std::size_t file_of(int frame) const;
+  void load(std::size_t file);
+
+  std::vector<std::string> paths_;
+  std::vector<int> first_;  // [file + 1] number of its first frame
+  std::size_t loaded_ = 0;
+  std::unique_ptr<StructureFile> file_;
+  std::optional<std::vector<std::optional<UnitCell>>> cells_;  // of the loaded file
+};
+
+/// Gives a frame without charges and radii of its own (PDB, mmCIF) those of the molecule that it is a frame of (PQR).
+/// Atoms pair by name and residue (pair_atoms()), every atom of both. A frame that has them keeps them.
+/// @param name of the frame, for messages
+/// @throws InputError when atoms are left over on either side, with the first of them
+void take_values(Molecule& frame, const Molecule& molecule, const std::string& name);
+
+}  // namespace espdiff

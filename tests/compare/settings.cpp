@@ -1,0 +1,111 @@
+// settings.cpp: every setting by name: default, accepted values, and refusals.
+#include "compare/settings.h"
+
+#include <doctest/doctest.h>
+
+#include <set>
+
+#include "support/test_data.h"
+
+using espdiff::CompareOptions;
+using espdiff::find_setting;
+using espdiff::make_options;
+using espdiff::Setting;
+using espdiff::SettingKind;
+using espdiff_test::message_of;
+
+TEST_SUITE_BEGIN("settings");
+
+TEST_CASE("each setting accepts its own default and each choice") {
+  std::set<std::string> names;
+  for (const Setting& setting : espdiff::settings()) {
+    INFO(setting.name);
+    CHECK(names.insert(setting.name).second);
+    CHECK_FALSE(setting.help.empty());
+    CompareOptions options;
+    const std::string value = setting.get(options);
+    setting.set(options, value);
+    CHECK(setting.get(options) == value);
+    for (const std::string& choice : setting.choices) {
+      setting.set(options, choice);
+      CHECK(setting.get(options) == choice);
+    }
+    if (setting.kind == SettingKind::kNumber || setting.kind == SettingKind::kInteger) {
+      const bool is_share = setting.help.find("0 to 1") != std::string::npos;
+      const std::string value = is_share ? "0.7" : "7";
+      setting.set(options, value);
+      CHECK(setting.get(options) == value);
+    }
+  }
+  CHECK(names.size() > 20);
+}
+
+TEST_CASE("a setting changes its option") {
+  const CompareOptions o = make_options({{"method", "deform"},
+                                         {"grid-spacing", "0.5"},
+                                         {"regularize-mu", "0.4"},
+                                         {"mu", "0.6"},
+                                         {"field", "density"},
+                                         {"project", "0"},
+                                         {"interpolation", "tricubic"},
+                                         {"max-iterations", "12"}});
+  CHECK(o.surface.grid_spacing_A == 0.5);
+  CHECK(o.regularize.mu == 0.4);
+  CHECK(o.deform.mu == 0.6);
+  CHECK(o.field == espdiff::FieldKind::kDensity);
+  CHECK_FALSE(o.surface.project);
+  CHECK(o.regularize.interpolation == espdiff::Interpolation::kTricubic);
+  CHECK(o.deform.max_iterations == 12);
+}
+
+TEST_CASE("thesis sets the defaults of the others, in any order") {
+  const CompareOptions thesis = espdiff::thesis_options();
+  for (const auto& given : {std::vector<std::pair<std::string, std::string>>{{"thesis", "1"}, {"tangential-gain", "3"}},
+                            {{"tangential-gain", "3"}, {"thesis", "1"}}}) {
+    const CompareOptions o = make_options(given);
+    CHECK(o.deform.tangential_gain == 3);
+    CHECK(o.regularize.tangential_gain == thesis.regularize.tangential_gain);
+    CHECK(o.surface.cavities == thesis.surface.cavities);
+  }
+  CHECK(make_options({{"thesis", "0"}}).surface.project);
+}
+
+TEST_CASE("a refused value is named with the accepted ones") {
+  const auto message = [](const std::string& name, const std::string& value) {
+    return message_of([&] { make_options({{name, value}}); });
+  };
+  CHECK(message("grid-spacing", "0") == "grid-spacing: '0' is not a positive number");
+  CHECK(message("grid-spacing", "1 A") == "grid-spacing: '1 A' is not a positive number");
+  CHECK(message("isovalue", "nan") == "isovalue: 'nan' is not a positive number");
+  CHECK(message("distance-threshold", "-1") == "distance-threshold: '-1' is not a number of 0 or more");
+  CHECK(message("max-iterations", "2.5") == "max-iterations: '2.5' is not a whole number of 0 or more");
+  CHECK(message("cavities", "yes") == "cavities: 'yes' is not 0 or 1");
+  CHECK(message("align", "heavy") == "align: 'heavy' is not all, backbone, ca or none");
+  CHECK(message("field", "gvf3") == "field: 'gvf3' is not density, distance, gvf or gvf2");
+  CHECK(message("gvf-weight", "0") == "gvf-weight: '0' is not a positive number");
+  CHECK(message("gvf-tolerance", "-1") == "gvf-tolerance: '-1' is not a positive number");
+  CHECK(message("gvf-max-sweeps", "many") == "gvf-max-sweeps: 'many' is not a whole number of 0 or more");
+  CHECK(message("subdivide", "yes") == "subdivide: 'yes' is not 0 or 1");
+  CHECK(message("method", "morf") == "method: 'morf' is not morph or deform");
+  CHECK(message("max-stretch", "1") == "max-stretch: '1' is not a number above 1");
+  for (const char* share : {"mu", "rho", "regularize-mu", "regularize-rho"}) {
+    CHECK(message(share, "1.5") == std::string(share) + ": '1.5' is not a number from 0 to 1");
+    CHECK(message(share, "-0.1") == std::string(share) + ": '-0.1' is not a number from 0 to 1");
+  }
+  CHECK(message("sigmas", "1") == "there is no setting 'sigmas'");
+}
+
+TEST_CASE("a setting that the method does not read is refused") {
+  CHECK(message_of([] {
+          make_options({{"mu", "0.5"}});
+        }) ==
+        "mu is a setting of the method deform, and the method is morph; give method deform as well, or leave mu out");
+  CHECK(message_of([] {
+          make_options({{"max-step", "0.5"}, {"method", "deform"}});
+        }) ==
+        "max-step is a setting of the method morph, and the method is deform; give method morph as well, or leave "
+        "max-step out");
+  CHECK(make_options({{"thesis", "1"}, {"mu", "0.5"}}).method == espdiff::Method::kDeform);
+}
+
+TEST_SUITE_END();

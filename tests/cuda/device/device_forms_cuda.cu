@@ -1,0 +1,72 @@
+// device_forms_cuda.cu: the parallel primitives of the CUDA back end, and the device's state around a call.
+#include "cuda/device/device_forms.h"
+#include "engine/select_engine.h"
+
+using namespace espdiff::cuda_backend;
+
+namespace {
+
+/// False without a GPU, after printing a line that says so.
+bool can_run() {
+  const espdiff::BackEndStatus cuda = espdiff::cuda_status();
+  if (!cuda.available) MESSAGE("SKIPPED: cuda: ", cuda.description.plain());
+  return cuda.available;
+}
+
+}  // namespace
+
+TEST_CASE("the primitives of the CUDA back end") {
+  if (!can_run()) return;
+  const auto context = std::make_shared<CudaContext>(0);
+  const CudaContext::Use use(context);
+  forms::check_all();
+  context->synchronize();
+}
+
+TEST_CASE("memory is reused: a second run of the same size leaves as much free as the first") {
+  if (!can_run()) return;
+  const auto context = std::make_shared<CudaContext>(0);
+  const CudaContext::Use use(context);
+  std::size_t after[3], total = 0;
+  for (std::size_t& free : after) {
+    {
+      const Buffer<float> a(10000000, 1.0F), b = a;
+      CHECK(b[9999999] == 1.0F);
+    }
+    REQUIRE(cudaMemGetInfo(&free, &total) == cudaSuccess);
+  }
+  CHECK(after[1] == after[2]);
+}
+
+TEST_CASE("a buffer may outlive its engine's context and be released by any thread's call or none") {
+  if (!can_run()) return;
+  Buffer<float> kept;
+  {
+    const auto context = std::make_shared<CudaContext>(0);
+    const CudaContext::Use use(context);
+    kept = Buffer<float>(1000, 2.0F);
+  }
+  CHECK(kept.size() == 1000);
+}
+
+TEST_CASE("the caller's current device is restored") {
+  if (!can_run()) return;
+  int n = 0, before = 0, after = -1;
+  REQUIRE(cudaGetDeviceCount(&n) == cudaSuccess);
+  if (n < 2) MESSAGE("SKIPPED: one GPU only: it is always the current one");
+  REQUIRE(cudaGetDevice(&before) == cudaSuccess);
+  for (int device = 0; device < n; ++device) {
+    const auto context = std::make_shared<CudaContext>(device);
+    { const CudaContext::Use use(context); }
+    REQUIRE(cudaGetDevice(&after) == cudaSuccess);
+    CHECK(after == before);
+  }
+}
+
+TEST_CASE("too large an allocation: the message says how much was requested, and the engine stays usable") {
+  if (!can_run()) return;
+  const auto context = std::make_shared<CudaContext>(0);
+  const CudaContext::Use use(context);
+  CHECK_THROWS_AS(Buffer<char>(std::size_t{1} << 50), espdiff::MemoryError);
+  CHECK(Buffer<float>(10, 3.0F)[9] == 3.0F);
+}

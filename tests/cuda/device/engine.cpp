@@ -1,0 +1,130 @@
+// engine.cpp: choice and description of a back end; handles that do not fit a stage.
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+#include "cuda/surface/shapes.h"
+#include "engine/engine.h"
+
+using namespace espdiff_test;
+using espdiff::DeviceChoice;
+
+TEST_SUITE_BEGIN("engine");
+
+TEST_CASE("the CPU back end is always available with the requested threads") {
+  CHECK(espdiff::cpu_status().available);
+  CHECK(espdiff::cpu_status().name == "cpu");
+  for (const int n : {1, 2, 4}) {
+    const auto engine = espdiff::select_engine(DeviceChoice::kCpu, n);
+    CHECK(engine->back_end() == "cpu");
+    CHECK(engine->n_threads() == n);
+    CHECK(engine->description().find(std::to_string(n)) == 0);
+  }
+  CHECK(espdiff::select_engine(DeviceChoice::kCpu, 0)->n_threads() == espdiff::available_threads());
+}
+
+TEST_CASE("without a number of threads, OMP_NUM_THREADS is used, otherwise every core") {
+  const char* const before = std::getenv("OMP_NUM_THREADS");
+  const std::string kept = before != nullptr ? before : "";
+  unsetenv("OMP_NUM_THREADS");
+  const int all = espdiff::available_threads();
+  CHECK(all >= 1);
+  using TextAndNumber = std::pair<const char*, int>;
+  for (const TextAndNumber& given : {TextAndNumber{"3", 3}, {"5,2", 5}, {"0", all}, {"many", all}, {"-1", all}}) {
+    setenv("OMP_NUM_THREADS", given.first, 1);
+    CAPTURE(given.first);
+    CHECK(espdiff::available_threads() == given.second);
+    CHECK(espdiff::select_engine(DeviceChoice::kCpu, 0)->n_threads() == given.second);
+    CHECK(espdiff::select_engine(DeviceChoice::kCpu, 2)->n_threads() == 2);
+  }
+  if (before != nullptr)
+    setenv("OMP_NUM_THREADS", kept.c_str(), 1);
+  else
+    unsetenv("OMP_NUM_THREADS");
+}
+
+TEST_CASE("auto uses a GPU if there is one; an explicit cuda without one is an error with a remedy") {
+  const espdiff::BackEndStatus cuda = espdiff::cuda_status();
+  CHECK(cuda.name == "cuda");
+  CHECK(espdiff::select_engine(DeviceChoice::kAuto, 1)->back_end() == (cuda.available ? "cuda" : "cpu"));
+  if (cuda.available) {
+    const auto engine = espdiff::select_engine(DeviceChoice::kCuda, 3);
+    CHECK(engine->n_threads() == 0);
+    CHECK(engine->description().find(cuda.description.plain()) == 0);
+  } else {
+    CHECK_THROWS_AS(espdiff::select_engine(DeviceChoice::kCuda, 0), espdiff::DeviceError);
+    const std::string text = message_of([] { espdiff::select_engine(DeviceChoice::kCuda, 0); });
+    CHECK(text == "device cuda: " + cuda.description.plain());
+    CHECK(text.find("device cpu") != std::string::npos);
+  }
+}
+
+TEST_CASE("an invalid GPU index is an error that says how many GPUs there are") {
+  const std::size_t n = espdiff::cuda_devices().size();
+  const auto select = [&] { espdiff::select_engine({DeviceChoice::kCuda, 999}, 0); };
+  CHECK_THROWS_AS(select(), espdiff::DeviceError);
+  const std::string text = message_of(select);
+  CHECK_MESSAGE(text.find("device cuda:999: ") == 0, text);
+  if (n == 1) CHECK_MESSAGE(text.find("there is 1 GPU, cuda:0") != std::string::npos, text);
+  if (n > 1) CHECK_MESSAGE(text.find("there are " + std::to_string(n) + " GPUs") != std::string::npos, text);
+  if (n == 0) CHECK(text == "device cuda:999: " + espdiff::cuda_status().description.plain());
+}
+
+TEST_CASE("invalid device names and thread counts are refused") {
+  CHECK(espdiff::parse_device("auto") == DeviceChoice::kAuto);
+  CHECK(espdiff::parse_device("cpu") == DeviceChoice::kCpu);
+  CHECK(espdiff::parse_device("cuda") == DeviceChoice::kCuda);
+  CHECK(espdiff::parse_device("cuda:0") == DeviceChoice::kCuda);
+  CHECK(espdiff::parse_device("cuda:12") == espdiff::DeviceRequest(DeviceChoice::kCuda, 12));
+  for (const char* wrong : {"CPU", "", "cuda:", "cuda:x", "cuda:-1", "cuda: 1", "cuda:1 ", "cuda:99999", "cpu:0"})
+    CHECK_THROWS_AS(espdiff::parse_device(wrong), espdiff::InputError);
+  CHECK(message_of([] { espdiff::parse_device("gpu"); }) ==
+        "unknown device 'gpu'; use auto, cpu, cuda, or cuda:N for the GPU of that index");
+  CHECK(message_of([] { espdiff::select_engine(DeviceChoice::kCpu, -2); }) ==
+        "the number of threads, -2, is negative; 0 uses all");
+}
+
+TEST_CASE("a handle of another kind is an internal error, not a crash") {
+  struct Stranger : espdiff::DeviceMesh {};
+  for (const auto& engine : back_ends()) {
+    const auto stranger = std::make_shared<Stranger>();
+    const auto map = engine->upload_map(
+        [] {
+          espdiff::Grid grid;
+          grid.lattice.size = {2, 2, 2};
+          grid.lattice.step = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+          grid.values.assign(8, 1.0F);
+          return grid;
+        }(),
+        {});
+    for (const auto& call :
+         {std::function<void()>([&] { engine->area(stranger); }), std::function<void()>([&] { engine->area(nullptr); }),
+          std::function<void()>([&] { engine->isosurface(map, 0.5F); })}) {
+      try {
+        call();
+        FAIL("nothing was thrown");
+      } catch (const espdiff::Error& error) {
+        CHECK(error.error_class() == espdiff::ErrorClass::kInternal);
+      }
+    }
+  }
+}
+
+TEST_CASE("results outlive the handles that they were made from") {
+  for (const auto& engine : back_ends()) {
+    espdiff::MeshPtr mapped;
+    {
+      const auto atoms = upload(*engine, random_cloud(50, 160));
+      const auto surface = engine->isosurface(engine->density(atoms, 1.0), 0.5F);
+      mapped = engine->project(surface, atoms, 0.5F, 0.5);
+    }
+    CHECK(engine->area(mapped) > 0);
+    CHECK(engine->download(mapped).triangles.size() == engine->n_triangles(mapped));
+  }
+}
+
+TEST_SUITE_END();

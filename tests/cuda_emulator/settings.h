@@ -1,0 +1,25 @@
+// settings.h: how the machine behaves, from the environment variable ESPDIFF_CUDA_EMULATOR, words with commas between them.
+#pragma once
+
+#include <cstddef>
+
+namespace cuda_emulator {
+
+struct Settings {
+  bool check = false;    ///< "check": each access to memory is examined (memory_checks.h)
+  bool reverse = false;  ///< "reverse": the last block, warp and thread goes first, where the order is free
+  bool eager = false;    ///< "eager": what is put into a stream is done at once, instead of when it is waited for
+  bool pools = true;     ///< "no-pools": the device has none
+  int n_devices = 1;     ///< "devices=N"
+  int fill = 0xAB;       ///< "fill=BYTE": what new memory is filled with
+  std::size_t memory = std::size_t{16} << 30;  ///< "memory=MIB": all of a device's
+  bool count = false;                          ///< "count": says at the end what the program asked for
+};
+
+/// Ends the program with a message where a word is not known.
+const Settings& settings();
+
+/// Prints what is wrong, and the kernel that runs, and ends the program.
+[[noreturn]] void fail(const char* format, ...) __attribute__((format(printf, 1, 2)));
+
+}  // namespace cuda_emulator

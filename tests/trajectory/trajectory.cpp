@@ -1,0 +1,298 @@
+// trajectory.cpp: frames row by row: as single comparisons, resumed wherever a run broke off, and what is refused.
+#include "trajectory/trajectory.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include "base/error.h"
+#include "compare/compare.h"
+#include "compare/made_side.h"
+#include "support/test_data.h"
+#include "trajectory/frame_files.h"
+
+using namespace espdiff_test;
+using espdiff::ExistingFile;
+using espdiff::FrameInput;
+using espdiff::Method;
+using espdiff::Progress;
+using espdiff::SeriesCsv;
+using espdiff::SeriesHead;
+using espdiff::SeriesRow;
+using espdiff::StartFrom;
+using espdiff::Trajectory;
+using espdiff::TrajectorySummary;
+
+namespace {
+
+/// A molecule that bends farther in each frame.
+struct Motion {
+  Side source = make_side(1, 0);
+  std::vector<Side> sides;
+  Motion() {
+    for (int frame = 0; frame < 5; ++frame) {
+      Side side = source;
+      for (Vec3d& p : side.molecule.positions) p.z += 0.02 * (frame + 2) * p.x * p.x;
+      side.map = potential_map(side.molecule, 1.0);
+      sides.push_back(std::move(side));
+    }
+  }
+
+  Trajectory run(Method method = Method::kDeform) const {
+    Trajectory t;
+    t.source = source.input();
+    t.reference = "file source.pqr";
+    t.frames = {0, 1, 2, 3, 4};
+    t.frame = [this](int frame) {
+      const Side& side = sides.at(static_cast<std::size_t>(frame));
+      return FrameInput{side.molecule, &side.map, nullptr};
+    };
+    t.options = quick_options();
+    t.options.method = method;
+    t.options.surface.grid_spacing_A = 1.5;
+    t.options.deform.max_iterations = 3000;
+    return t;
+  }
+};
+
+const SeriesHead kHead = {{"espdiff", "1"}, {"frames", "all"}, {"settings", ""}};
+
+struct Runner {
+  std::unique_ptr<espdiff::Engine> engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
+  std::vector<std::string> warnings;
+
+  TrajectorySummary operator()(const Trajectory& run, const std::string& path,
+                               ExistingFile existing = ExistingFile::kRefuse, const Progress& progress = {}) {
+    SeriesCsv file(path, kHead, existing);
+    return compare_frames(*engine, run, file, progress, [this](const std::string& text) { warnings.push_back(text); });
+  }
+
+  /// Ends while frame `last` is computed, its row not written.
+  void interrupted(const Trajectory& run, const std::string& path, int last) {
+    Progress* asked = nullptr;
+    Progress progress([&](const std::string& stage, double) {
+      if (stage.rfind(std::to_string(last) + ":", 0) == 0) asked->request_cancel();
+    });
+    asked = &progress;
+    const std::string expected = "cancelled after " + std::to_string(last) + " of 5 rows; resume goes on with " + path;
+    CHECK(message_of([&] { (*this)(run, path, ExistingFile::kRefuse, progress); }) == expected);
+  }
+};
+
+/// Rows without their times.
+std::vector<std::vector<std::string>> rows_of(const std::string& path) {
+  std::vector<std::vector<std::string>> rows;
+  const SeriesCsv file(path, {}, ExistingFile::kResume);
+  for (const SeriesRow& row : file.rows()) {
+    rows.push_back(row.cells());
+    for (std::size_t i = 0; i < rows.back().size(); ++i) {
+      if (espdiff::series_columns()[i] == "time_ms") rows.back()[i].clear();
+    }
+  }
+  return rows;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("trajectory");
+
+TEST_CASE("a row a frame, with the values of the pair, and what the rows were made with") {
+  const Motion motion;
+  const ScratchFolder folder;
+  Runner runner;
+  Trajectory run = motion.run();
+  run.start = StartFrom::kSource;
+  run.frames = {1, 3};
+  const TrajectorySummary summary = runner(run, folder.file("a.csv"));
+  CHECK(summary.n_frames == 2);
+  CHECK(summary.n_rows == 2);
+  const SeriesCsv file(folder.file("a.csv"), kHead, ExistingFile::kResume);
+  REQUIRE(file.rows().size() == 2);
+  for (const SeriesRow& row : file.rows()) {
+    const auto frame = static_cast<std::size_t>(std::stoi(row["frame"]));
+    const CompareResult alone =
+        compare(*runner.engine, motion.source.input(), motion.sides[frame].input(), run.options, {});
+    CHECK(row["reference_frame"] == "file source.pqr");
+    CHECK(std::stod(row["rmsd_A"]) == alone.rmsd_A);
+    CHECK(std::stod(row["mean_abs_difference"]) == alone.metrics.mean_abs_difference);
+    CHECK(std::stod(row["no_counterpart_target"]) == alone.certificate.unmatched_target);
+    CHECK(row["potential_unit"] == "kT/e");
+    CHECK(row["start"] == "source");
+    CHECK(row["converged"] == (alone.certificate.converged ? "1" : "0"));
+    CHECK(row["iterations"] == std::to_string(alone.deform_report.iterations));
+    CHECK(row["error"].empty());
+  }
+  CHECK(read_file(folder.file("a.csv")).rfind("# espdiff: 1\n# frames: all\n# settings: \nframe,reference_frame,", 0) ==
+        0);
+  CHECK(folder.n_files() == 1);
+}
+
+TEST_CASE("a run that broke off anywhere goes on with the same rows") {
+  const Motion motion;
+  for (const Method method : {Method::kMorph, Method::kDeform}) {
+    CAPTURE(to_string(method));
+    const ScratchFolder folder;
+    Runner runner;
+    const Trajectory run = motion.run(method);
+    const std::string whole = folder.file("whole.csv"), part = folder.file("part.csv"), state = part + ".state";
+    runner(run, whole);
+    const auto expected = rows_of(whole);
+    REQUIRE(expected.size() == 5);
+    CHECK_FALSE(std::filesystem::exists(whole + ".state"));
+    std::string before;
+    for (const int last : {1, 2, 4}) {
+      CAPTURE(last);
+      runner.interrupted(run, part, last);
+      std::ofstream(part, std::ios::app) << last << ",file source.pqr,1.2";  // a row that was being written
+      if (last == 2) {
+        // Between a row and its mapping: the state is that of the row before.
+        const std::string rows = read_file(part), now = read_file(state);
+        std::filesystem::remove(part);
+        runner.interrupted(run, part, 1);
+        std::ofstream(part, std::ios::binary) << rows;
+      }
+      const TrajectorySummary summary = runner(run, part, ExistingFile::kResume);
+      CHECK(summary.n_resumed == static_cast<std::size_t>(last));
+      CHECK(summary.n_rows == 5 - static_cast<std::size_t>(last));
+      CHECK(rows_of(part) == expected);
+      CHECK(runner.warnings.empty());
+      CHECK_FALSE(std::filesystem::exists(state));
+      std::filesystem::remove(part);
+    }
+    // Complete: left as it is.
+    CHECK(runner(run, whole, ExistingFile::kResume).n_rows == 0);
+    CHECK(rows_of(whole) == expected);
+    CHECK(SeriesCsv(whole, kHead, ExistingFile::kResume).rows()[3]["start"] == "previous");
+  }
+}
+
+TEST_CASE("without its mapping a resumed run says so and starts from the source; changed rows are refused") {
+  const Motion motion;
+  const ScratchFolder folder;
+  Runner runner;
+  const Trajectory run = motion.run();
+  const std::string part = folder.file("part.csv"), state = part + ".state";
+  runner.interrupted(run, part, 3);
+  const std::string rows = read_file(part), mapping = read_file(state);
+  std::filesystem::remove(state);
+  runner(run, part, ExistingFile::kResume);
+  REQUIRE(runner.warnings.size() == 1);
+  CHECK(runner.warnings[0].rfind("the mapping of frame 2 is missing, the next one starts from the source: " + state,
+                                 0) == 0);
+  CHECK(SeriesCsv(part, kHead, ExistingFile::kResume).rows()[3]["start"] == "source");
+
+  // The row after the mapping is computed again, and was of something else.
+  folder.write("part.csv", rows);
+  std::filesystem::remove(state);
+  runner.interrupted(run, folder.file("other.csv"), 2);
+  std::filesystem::rename(folder.file("other.csv.state"), state);
+  SeriesCsv file(part, kHead, ExistingFile::kResume);
+  std::vector<std::string> cells = file.rows().back().cells();
+  const std::string line = rows.substr(rows.rfind('\n', rows.size() - 2) + 1);
+  std::string changed = line;
+  changed.replace(changed.find(cells[2]), cells[2].size(), "9.87");
+  folder.write("part.csv", rows.substr(0, rows.size() - line.size()) + changed);
+  CHECK(message_of([&] {
+          runner(run, part, ExistingFile::kResume);
+        }).find("frame 2 now has rmsd_A '" + cells[2] + "' instead of '9.87'") == 0);
+}
+
+TEST_CASE("a frame that fails ends the run and is named, or is a row with the reason") {
+  const Motion motion;
+  const ScratchFolder folder;
+  Runner runner;
+  Trajectory run = motion.run();
+  run.frame = [&motion](int frame) -> FrameInput {
+    if (frame == 1) throw espdiff::IoError("frame1.pqr", "cannot be read, \"gone\"\nfor good");
+    return {motion.sides.at(static_cast<std::size_t>(frame)).molecule, &motion.sides[0].map, nullptr};
+  };
+  CHECK(message_of([&] { runner(run, folder.file("a.csv")); }).rfind("frame 1: frame1.pqr: cannot be read", 0) == 0);
+  CHECK(rows_of(folder.file("a.csv")).size() == 1);
+  run.skip_errors = true;
+  const TrajectorySummary summary = runner(run, folder.file("b.csv"));
+  CHECK(summary.n_rows == 5);
+  CHECK(summary.n_skipped == 1);
+  const SeriesCsv file(folder.file("b.csv"), kHead, ExistingFile::kResume);
+  CHECK(file.rows()[1]["error"] == "frame1.pqr: cannot be read, \"gone\" for good");
+  CHECK(file.rows()[1]["rmsd_A"].empty());
+  CHECK(file.rows()[2]["start"] == "source");
+}
+
+TEST_CASE("another file, or another run's, is refused and left as it is") {
+  const Motion motion;
+  const ScratchFolder folder;
+  Runner runner;
+  Trajectory run = motion.run();
+  run.frames = {0, 1};
+  const std::string path = folder.file("a.csv");
+  runner(run, path);
+  const std::string good = read_file(path);
+  CHECK(message_of([&] { SeriesCsv(path, kHead, ExistingFile::kRefuse); }) ==
+        path + ": the file exists; resume goes on with it, overwrite replaces it");
+  CHECK(message_of([&] {
+          SeriesCsv(path, {{"settings", "mu 0.5"}}, ExistingFile::kResume);
+        }) == path + ": was made with settings '', not with 'mu 0.5'; overwrite begins anew");
+  run.frames = {1, 2};
+  CHECK(message_of([&] { runner(run, path, ExistingFile::kResume); }).find("row 1 is of frame 0, not of 1") !=
+        std::string::npos);
+  run.frames = {0};
+  CHECK(message_of([&] { runner(run, path, ExistingFile::kResume); }).find("row 2 is of frame 1, beyond the run") !=
+        std::string::npos);
+  CHECK(read_file(path) == good);
+  folder.write("a.csv", good + "2,too,few\n");
+  CHECK(message_of([&] { SeriesCsv(path, kHead, ExistingFile::kResume); }).find("a.csv:7: the row has 3 columns") !=
+        std::string::npos);
+  folder.write("a.csv", "a,b\n1,2\n");
+  CHECK(message_of([&] { SeriesCsv(path, kHead, ExistingFile::kResume); }).find("not this version's line of columns") !=
+        std::string::npos);
+  CHECK_THROWS_AS(SeriesCsv(folder.file("absent/a.csv"), kHead, ExistingFile::kRefuse), espdiff::IoError);
+  CHECK(folder.n_files() == 1);
+}
+
+TEST_CASE("frames are numbered through all files") {
+  const ScratchFolder folder;
+  const auto model = [](double x) {
+    return "ATOM 1 CA ALA 1 " + std::to_string(x) + " 0 0 0.5 2.0\nATOM 2 CA ALA 2 3 1 0 -0.5 2.0\n";
+  };
+  std::string two, three;
+  for (int i = 0; i < 2; ++i) two += "MODEL\n" + model(i) + "ENDMDL\n";
+  for (int i = 2; i < 5; ++i)
+    three += "CRYST1   4" + std::to_string(i) + ".000   41.000   42.000  90.00  90.00  90.00\nMODEL\n" + model(i) +
+             "ENDMDL\n";
+  espdiff::FrameFiles files({folder.write("a.pqr", two), folder.write("b.pqr", three)});
+  CHECK(files.n_frames() == 5);
+  for (const int frame : {4, 0, 2, 1, 3}) CHECK(files.read(frame, {}).positions[0].x == frame);
+  CHECK(files.name(3) == folder.file("b.pqr") + ", model 2");
+  CHECK_FALSE(files.cell(1).has_value());
+  CHECK(files.cell(4).value().lengths.x == 44);
+  CHECK_THROWS_AS(espdiff::FrameFiles({}), espdiff::InputError);
+  CHECK_THROWS_AS(espdiff::FrameFiles({folder.file("absent.pdb")}), espdiff::IoError);
+}
+
+TEST_CASE("a frame without values takes those of its atoms in the molecule, in any order") {
+  const Molecule molecule = make_side(1, 0).molecule;
+  Molecule frame = molecule;
+  frame.charges.clear();
+  frame.radii.assign(frame.size(), 1.5F);
+  frame.radii_origin = espdiff::ValueOrigin::kElement;
+  std::swap(frame.atoms[3], frame.atoms[4]);  // of one residue
+  REQUIRE(frame.atoms[3].residue == frame.atoms[4].residue);
+  take_values(frame, molecule, "frames.pdb, model 1");
+  CHECK(frame.charges[3] == molecule.charges[4]);
+  CHECK(frame.radii[4] == molecule.radii[3]);
+  CHECK(frame.charges[20] == molecule.charges[20]);
+  CHECK(frame.radii_origin == molecule.radii_origin);
+
+  Molecule own = molecule;
+  own.charges.assign(own.size(), 0.25F);
+  take_values(own, molecule, "frames.pqr, model 1");
+  CHECK(own.charges[7] == 0.25F);
+
+  Molecule shorter = molecule;
+  shorter.charges.clear();
+  shorter.atoms.pop_back(), shorter.positions.pop_back(), shorter.radii.pop_back();
+  CHECK(message_of([&] { take_values(shorter, molecule, "frames.pdb, model 1"); }) ==
+        "frames.pdb, model 1 has no charges and radii, and cannot take those of molecule.pqr: it lacks OH of TYR A 12 "
+        "(119 and 120 atoms); give frames and source of the same atoms, or frames as PQR");
+}
+
+TEST_SUITE_END();
