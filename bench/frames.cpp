@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/handles.h"
 #include "compare/options.h"
 #include "compare/result.h"
 #include "compare/series.h"
 #include "dcd_frames.h"
 #include "engine/engine.h"
-#include "engine/handles.h"
 #include "engine/select_engine.h"
 #include "pair_row.h"
 

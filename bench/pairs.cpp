@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "compare/options.h"
 #include "compare/settings.h"
 #include "engine/select_engine.h"
 #include "pair_row.h"

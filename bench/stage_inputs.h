@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "base/handles.h"
 #include "base/types.h"
 #include "compare/options.h"
-#include "engine/handles.h"
 #include "engine/select_engine.h"
 #include "marching_cubes_peer.h"
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "engine/handles.h"
+#include "base/handles.h"
 
 namespace espdiff_bench {
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/options.h"
 #include "io/atomic_file.h"
 #include "machine_peak.h"
 #include "renumbered.h"

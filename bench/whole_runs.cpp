@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "compare/options.h"
 #include "io/read_structure.h"
 #include "matrix/matrix.h"
 #include "random_charges.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/handles.h"
+#include "base/handles.h"
 #include "stage_timer.h"
 
 namespace espdiff_bench {

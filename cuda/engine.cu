@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "base/error.h"
+#include "base/handles.h"
 #include "cuda/certificate/certificate.h"
 #include "cuda/certificate/distortion.h"
 #include "cuda/certificate/intersections.h"
@@ -18,16 +19,18 @@
 #include "cuda/deform/fields.h"
 #include "cuda/deform/vector_flow.h"
 #include "cuda/device/spatial_order.h"
+#include "cuda/device/unwrap.h"
 #include "cuda/morph/morph.h"
+#include "cuda/potential/bulk_zero.h"
 #include "cuda/potential/coulomb.h"
 #include "cuda/potential/pme.h"
+#include "cuda/potential/poisson_boltzmann.h"
 #include "cuda/surface/adjacency.h"
 #include "cuda/surface/carry.h"
 #include "cuda/surface/components.h"
 #include "cuda/surface/density.h"
 #include "cuda/surface/density_at_points.h"
 #include "cuda/surface/isosurface.h"
-#include "cuda/device/unwrap.h"
 #include "cuda/surface/level_set_normals.h"
 #include "cuda/surface/project.h"
 #include "cuda/surface/sample.h"
@@ -36,7 +39,6 @@
 #include "engine/certificate_stage.h"
 #include "engine/deform_stage.h"
 #include "engine/engine.h"
-#include "engine/handles.h"
 #include "engine/make_engine.h"
 #include "engine/morph_stage.h"
 #include "engine/potential_stage.h"
@@ -283,9 +285,29 @@ class BackEndEngine : public Engine {
     });
   }
 
+  GridPtr zero_in_bulk(const GridPtr& map, const std::vector<Vec3d>& solute, double distance_A,
+                       BulkZero* report) override {
+    return run([&] { return ESPDIFF_BACKEND::zero_in_bulk(unwrap<MapGrid>(map), solute, distance_A, report); });
+  }
+
+  GridPtr isolated_charges(const std::vector<Vec3d>& positions, const std::vector<float>& charges,
+                           const CoulombOptions& options, const RigidTransform& to_map) override {
+    return run([&] { return ESPDIFF_BACKEND::isolated_charges(positions, charges, options, to_map); });
+  }
+
   GridPtr coulomb_potential(const std::vector<Vec3d>& positions, const std::vector<float>& charges,
                             const Lattice& lattice, const CoulombOptions& options, const Progress& progress) override {
     return run([&] { return ESPDIFF_BACKEND::coulomb_potential(positions, charges, lattice, options, progress); });
+  }
+
+  GridPtr poisson_boltzmann(const std::vector<Vec3d>& positions, const std::vector<float>& radii,
+                            const std::vector<float>& charges, const Lattice& lattice,
+                            const PoissonBoltzmannOptions& options, const RigidTransform& to_map, const GridPtr& start,
+                            const Progress& progress, PoissonBoltzmannReport* report) override {
+    return run([&] {
+      return ESPDIFF_BACKEND::poisson_boltzmann(positions, radii, charges, lattice, options, to_map,
+                                                start ? &unwrap<MapGrid>(start) : nullptr, progress, report);
+    });
   }
 
   Metrics compare(const MeshPtr& source, const MeshPtr& mapped, const ScalarsPtr& source_potential,
@@ -409,6 +431,8 @@ class BackEndEngine : public Engine {
     return run([&] {
       Grid result;
       if (const auto* map = dynamic_cast<const MapGrid*>(grid.get())) {
+        if (map->lattice.n_points() == 0)
+          throw InputError("isolated charges have no lattice of their own; resample them on one");
         result.lattice = map->lattice;
         result.values = point_values(*map);
         result.unit = map->unit;
@@ -433,9 +457,7 @@ class BackEndEngine : public Engine {
   }
 
   std::vector<Vec3f> download_gradient(const FieldPtr& field) override {
-    return run([&] {
-      return host_vectors(unwrap<SurfaceField>(field).values);
-    });
+    return run([&] { return host_vectors(unwrap<SurfaceField>(field).values); });
   }
 
   std::vector<float> density_at(const AtomsPtr& atoms, const std::vector<Vec3f>& points) override {

@@ -16,8 +16,8 @@ namespace eval ::espdiff {
 
     command compare [dict create arguments {source target} options $computing settings all run ::espdiff::compare \
         summary {Maps the surface of the source onto that of the target, compares the potentials at corresponding
-            points, and certifies the mapping. Source and target are endpoints. Without maps only the shapes are
-            compared.} \
+            points, and certifies the mapping. Source and target are endpoints. Without maps the potentials are
+            computed (see Potentials); `map none` compares shapes alone.} \
         returns {a handle, such as comparison1. With -command at once, otherwise when the comparison is done} \
         example {espdiff compare {file wild.pqr map wild.dx} {file mutant.pqr map mutant.dx} -grid-spacing 0.8}]
 
@@ -139,7 +139,8 @@ namespace eval ::espdiff {
             {-frames text 0:1: "begin:step:end, an open end is the last frame; or one frame; `now` and `last` count"}
             {-reference text {frame 0} "What each frame is compared with: {frame N}, previous (the frame before it in\
                 the run), or an endpoint"}
-            {-map text none "Potential of each frame; see Trajectories"}
+            {-map text auto "Potential of each frame; auto computes the usual one, none compares shapes alone; see\
+                Trajectories"}
             {-reference-map text {} "Potential of the reference; without it by the rule of -map for its frame"}
             {-unit text {} "Unit of the maps if they do not say: kT/e, mV, V, kcal/mol/e, kJ/mol/e, hartree/e"}
             {-radii choice vmd "Radii of the molecule: VMD's, or Bondi's by element" {vmd element}}
@@ -210,8 +211,11 @@ namespace eval ::espdiff {
             {-sel text all "Atoms whose charges are included"}
             {-updatesel boolean 0 "Select again in each frame, instead of in the first only"}
             {-frames text now "now, all, last, a frame, begin:end or begin:step:end"}
-            {-method choice pme "pme: particle-mesh Ewald, the smooth part, as PMEPot computes it. coulomb: point\
-                charges, isolated, for small molecules" {pme coulomb}}
+            {-method choice pme "pme: particle-mesh Ewald, as PMEPot computes it. pb: in salt water, by the\
+                Poisson-Boltzmann equation. coulomb: point charges, isolated, for small molecules" {pme pb coulomb}}
+            {-part choice smooth "Of pme: smooth as PMEPot's, or full, with what is near the charges" {smooth full}}
+            {-ionic_strength text {} "Of pb: salt, mol/l (0.15)"}
+            {-spacing text {} "Of pb: distance of the grid's points, Angstrom (0.5)"}
             {-cell text {} "Cell of all frames: {{ox oy oz} {ax ay az} {bx by bz} {cx cy cz}}, o its centre; default:\
                 each frame's own, otherwise a box around the atoms"}
             {-xscfile file {} "Cell of all frames from a NAMD .xsc file"}

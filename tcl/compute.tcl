@@ -21,6 +21,7 @@ namespace eval ::espdiff {
 
     proc compare {options source target} {
         set temporary {}
+        lassign [with_usual_maps [list $source $target]] source target
         set handle [submit temporary {
             core::compare [make_endpoint $source source temporary] [make_endpoint $target target temporary] \
                 [core_options $options]

@@ -2,8 +2,8 @@
 
 namespace eval ::espdiff {
     variable endpoint_keys {
-        file {file model map unit array hetero water}
-        mol {mol frame sel map unit radii}
+        file {file model map because unit array hetero water}
+        mol {mol frame sel map because unit radii}
     }
 
     # Parses an endpoint into a dict and reports its errors. `role` is source, target, ...
@@ -35,7 +35,7 @@ namespace eval ::espdiff {
         } else {
             set result [file_endpoint $endpoint $role]
         }
-        if {[dict exists $endpoint map]} {
+        if {[value_or $endpoint map none] ne "none"} {
             dict set result map [make_map [dict get $endpoint map] $endpoint $role temporary]
         }
         return $result
@@ -66,7 +66,9 @@ namespace eval ::espdiff {
     # PATH ?array A?}, or {mol ID map K}. `unit` and `array` may be in the endpoint or in the map.
     proc make_map {text endpoint role temporary_name} {
         upvar 1 $temporary_name temporary
-        if {[is_pme $text]} { return [pme_map $text $endpoint "$role map"] }
+        if {[is_computed $text]} {
+            return [computed_map $text $endpoint "$role map" [value_or $endpoint because ""]]
+        }
         set map [parse_map $text $endpoint $role]
         foreach key {unit array} {
             if {[dict exists $endpoint $key] && ![dict exists $map $key]} {
@@ -96,7 +98,8 @@ namespace eval ::espdiff {
             return [dict create mol [dict get $endpoint mol] map $text]
         }
         if {[dict exists $endpoint mol]} {
-            fail "$role map: '$text' is not the number of a data set, {file PATH}, {mol ID map K} or pme"
+            fail "$role map: '$text' is not the number of a data set, {file PATH}, {mol ID map K}, none,\
+                pb, pme or coulomb"
         }
         return [dict create file $text]
     }

@@ -33,6 +33,23 @@ namespace eval ::espdiff {
         return [core::models $path]
     }
 
+    # -map auto becomes the potential that is usual for the frames and the reference together; a reference with a map of
+    # its own, or a -reference-map, leaves the frames without.
+    proc usual_run_maps {run_name options_name} {
+        upvar 1 $run_name run $options_name options
+        if {$run(map) ne "auto"} return
+        set run(map) none
+        set endpoints [list $run(endpoint)]
+        set is_endpoint [expr {[lindex $run(reference) 0] ne "frame" && $run(reference) ne "previous"}]
+        if {$is_endpoint} { lappend endpoints $run(reference) }
+        if {$run(reference_map) eq ""} {
+            set chosen [with_usual_maps $endpoints]
+            set run(map) [value_or [lindex $chosen 0] map none]
+            if {$is_endpoint} { set run(reference) [lindex $chosen 1] }
+        }
+        dict set options map $run(map)
+    }
+
     # Checks -map before the run begins, as far as that can be done then: an error at night is an error too late.
     # `run` is the array of trajectory.tcl.
     proc check_frame_maps {run_name} {
@@ -74,7 +91,7 @@ namespace eval ::espdiff {
             }
             return number
         }
-        if {[is_pme $map]} { return endpoint }
+        if {[is_computed $map]} { return endpoint }
         if {[string is list $map] && [llength $map] == 2} {
             switch [lindex $map 0] {
                 volumes {
@@ -86,8 +103,8 @@ namespace eval ::espdiff {
             }
         }
         if {[string is list $map] && [llength $map] % 2 == 0 && [lindex $map 0] in {file mol}} { return endpoint }
-        fail "-map: '$map' is not none, K, {volumes K}, {files PATTERN}, {file PATH}, {mol ID map K}, {command PREFIX}\
-            or pme"
+        fail "-map: '$map' is not none, K, {volumes K}, {files PATTERN}, {file PATH}, {mol ID map K}, {command PREFIX},\
+            pb, pme or coulomb"
     }
 
     # The map of a frame as it is written in an endpoint; empty for none. What a user's command returned for a frame is

@@ -79,8 +79,8 @@ namespace eval ::espdiff {
     }
 
     proc manual_of {name description} {
-        set text "### $name\n\n    [usage $name]\n\n[wrapped [dict get $description summary] {} 120]\n\n"
-        append text "[wrapped "Returns [dict get $description returns]." {} 120]\n\n"
+        set text "### $name\n\n    [usage $name]\n\n[wrapped [dict get $description summary] {} 100]\n\n"
+        append text "[wrapped "Returns [dict get $description returns]." {} 100]\n\n"
         set rows {}
         foreach option [options_of $name] {
             if {![dict get $option setting]} { lappend rows $option }

@@ -32,7 +32,7 @@ namespace eval ::espdiff {
         upvar 1 $temporary_name temporary
         if {![string is list $variants]} { fail "variants: '$variants' is not a list of endpoints" }
         set made {}
-        foreach text $variants {
+        foreach text [usual_variant_maps $variants] {
             set role "variant [expr {[llength $made] + 1}]"
             set variant [split_variant $text $role]
             foreach endpoint [each_state [dict get $variant endpoint] $role] {
@@ -47,6 +47,14 @@ namespace eval ::espdiff {
             fail "variants: there [expr {[llength $made] == 1 ? {is 1} : {are none}}]; a matrix needs two or more"
         }
         return [set_apart $made]
+    }
+
+    # Variants without maps get the potential that is usual for all of them.
+    proc usual_variant_maps {variants} {
+        foreach text $variants {
+            if {![string is list $text] || [llength $text] % 2} { return $variants }
+        }
+        return [with_usual_maps $variants]
     }
 
     # Separates label and group from the endpoint.

@@ -1,28 +1,108 @@
 # potential.tcl: computes potentials from VMD's charges: of one molecule, or averaged over frames.
 
 namespace eval ::espdiff {
-    # Keys of a computed map, as in `map pme` or {pme ?key value ...?}, with the meanings of `espdiff potential`.
-    variable pme_keys {sel cell pad grid ewaldfactor spline compatible precision}
+    # Computed maps: `map pb`, or {pb ?key value ...?}; the keys are those of core::potential_settings.
+    variable potential_kinds {pb pme coulomb}
+    variable potential_settings {}
 
-    proc is_pme {text} { expr {[string is list $text] && [lindex $text 0] eq "pme"} }
+    proc is_computed {text} {
+        variable potential_kinds
+        expr {[string is list $text] && [lindex $text 0] in $potential_kinds}
+    }
 
-    # The core's map of `text` for an endpoint whose coordinates the core has.
-    proc pme_map {text endpoint what} {
-        variable pme_keys
+    # The keys that one kind of potential takes; `sel` and `cell` are of molecules in VMD.
+    proc potential_keys {kind} {
+        variable potential_settings
+        if {$potential_settings eq ""} { set potential_settings [core::potential_settings] }
+        set keys sel
+        if {$kind eq "pme"} { lappend keys cell }
+        foreach setting $potential_settings {
+            if {$kind in [dict get $setting of]} { lappend keys [dict get $setting name] }
+        }
+        return $keys
+    }
+
+    # The core's map of `text` for an endpoint, which the core has the coordinates of. `because` tells why it was chosen.
+    proc computed_map {text endpoint what {because {}}} {
+        set kind [lindex $text 0]
         set keys [lrange $text 1 end]
-        if {[llength $keys] % 2} { fail "$what: '$text' is not pme or {pme ?key value ...?}" }
+        if {[llength $keys] % 2} { fail "$what: '$text' is not $kind or {$kind ?key value ...?}" }
+        set known [potential_keys $kind]
         foreach key [dict keys $keys] {
-            if {$key ni $pme_keys} { fail "$what: [unknown_word key $key $pme_keys]" }
+            if {$key ni $known} { fail "$what: [unknown_word key $key $known]" }
         }
         set map [pme_core_options [dict remove $keys sel]]
-        dict set map pme 1
-        if {[dict exists $endpoint mol]} {
-            set mol [vmd_molecule_id [dict get $endpoint mol] $what]
-            dict set map charges [vmd_charges $mol [value_or $keys sel all] [value_or $endpoint frame now] $what]
-        } elseif {[dict exists $keys sel]} {
-            fail "$what: `sel` selects atoms of a molecule in VMD; of a file all charges count"
+        dict set map kind $kind
+        if {$because ne ""} { dict set map because $because }
+        if {![dict exists $endpoint mol]} {
+            if {[dict exists $keys sel]} {
+                fail "$what: `sel` selects atoms of a molecule in VMD; of a file all charges count"
+            }
+            return $map
         }
+        # pme takes all charges of the cell; the others those of the atoms that have the surface.
+        set mol [vmd_molecule_id [dict get $endpoint mol] $what]
+        if {$kind ne "pme" && ![dict exists $keys sel]} {
+            vmd_charges $mol [value_or $endpoint sel "not water"] [value_or $endpoint frame now] $what
+            return $map
+        }
+        set frame [value_or $endpoint frame now]
+        dict set map charges [vmd_charges $mol [value_or $keys sel all] $frame $what]
+        dict set map radii [vmd_radii $mol [value_or $keys sel all] $frame $what]
+        dict set map water [vmd_has_water $mol [dict get $map charges]]
         return $map
+    }
+
+    # The radii of all atoms, 0 for those that are not selected: a continuum takes their room.
+    proc vmd_radii {mol text frame what} {
+        set all [atomselect $mol all]
+        finally { set radii [$all get radius] } { $all delete }
+        if {$text eq "all"} { return $radii }
+        set selection [atomselect $mol $text frame [vmd_frame $mol $frame $what]]
+        finally {
+            set chosen [lrepeat [llength $radii] 0.0]
+            foreach index [$selection list] { lset chosen $index [lindex $radii $index] }
+        } { $selection delete }
+        return $chosen
+    }
+
+    proc vmd_has_water {mol charges} {
+        set water [atomselect $mol water]
+        finally { set atoms [$water list] } { $water delete }
+        foreach atom $atoms { if {[lindex $charges $atom] != 0} { return 1 } }
+        return 0
+    }
+
+    # What a molecule brings for a potential: {name charges solvent}; see core::usual_potential.
+    proc potential_facts {endpoint role} {
+        if {[dict exists $endpoint file]} {
+            set path [existing_file [dict get $endpoint file] $role]
+            return [dict merge [list name [file tail $path]] \
+                [core::potential_facts $path [value_or $endpoint model 1]]]
+        }
+        set mol [vmd_molecule_id [dict get $endpoint mol] $role]
+        set name [molinfo $mol get name]
+        if {[catch { vmd_charges $mol all now $role } charges]} { return [list name $name charges 0 solvent 0] }
+        set has_cell [expr {min([join [molinfo $mol get {a b c}] ,]) > 1}]
+        return [list name $name charges 1 solvent [expr {$has_cell && [vmd_has_water $mol $charges]}]]
+    }
+
+    # Endpoints, each with the potential that is usual for all of them together where the user named none: `map pb` and
+    # why under `because`. `map none` compares shapes alone.
+    proc with_usual_maps {endpoints} {
+        set facts {}
+        foreach endpoint $endpoints {
+            if {![string is list $endpoint] || [llength $endpoint] % 2 || [dict exists $endpoint map]} {
+                return $endpoints
+            }
+            if {![dict exists $endpoint mol] && ![dict exists $endpoint file]} { return $endpoints }
+            lappend facts [potential_facts $endpoint molecule]
+        }
+        lassign [core::usual_potential $facts] kind because
+        if {$kind eq "none"} { return $endpoints }
+        set result {}
+        foreach endpoint $endpoints { lappend result [dict merge $endpoint [list map $kind because $because]] }
+        return $result
     }
 
     # The core calls a given cell `box`; `cell` is the molecule's own.
@@ -68,6 +148,10 @@ namespace eval ::espdiff {
             set begun [clock milliseconds]
             set done 0
             set charges [vmd_charges $mol [dict get $options sel] [lindex $frames 0] -sel]
+            if {[dict get $options method] eq "pb" && [vmd_has_water $mol $charges]} {
+                fail "espdiff potential: water is selected, and Poisson-Boltzmann has a continuum in its place; give\
+                    -sel {not water}, or -method pme"
+            }
             set maps [dict create mol {} volumes {} files {}]
             foreach frame $frames {
                 if {[dict get $options updatesel]} {
@@ -117,11 +201,16 @@ namespace eval ::espdiff {
             }
             dict set options cell [core::xsc_cell $xsc]
         }
-        foreach key {
-            grid ewaldfactor spline compatible precision pad cell align block method dielectric device threads
-        } {
-            if {[dict get $options $key] ne ""} { dict set core $key [dict get $options $key] }
+        # Of the options of potentials those that the method has; grid and pad lay out coulomb's map too.
+        set method [dict get $options method]
+        set keys [concat {cell align block method device threads} [potential_keys $method]]
+        if {$method eq "coulomb"} { lappend keys grid pad }
+        foreach key $keys {
+            if {[dict exists $options $key] && [dict get $options $key] ne ""} {
+                dict set core $key [dict get $options $key]
+            }
         }
+        dict unset core sel
         return [pme_core_options $core]
     }
 
@@ -129,6 +218,7 @@ namespace eval ::espdiff {
         set name "[molinfo $mol get name], frame $frame"
         set result [dict create name $name coordinates [gettimestep $mol $frame] \
             charges $charges \
+            radii [vmd_radii $mol [dict get $options sel] $frame -sel] \
             cell [molinfo $mol get {a b c alpha beta gamma} frame $frame]]
         if {[dict get $options align] eq "none"} { return $result }
         set all [atomselect $mol all]

@@ -6,13 +6,17 @@
 #include "base/error.h"
 #include "base/version.h"
 #include "commands.h"
+#include "compare/options.h"
 #include "compare/settings.h"
 #include "engine/select_engine.h"
 #include "io/read_dx.h"
 #include "io/read_structure.h"
+#include "io/read_unit_cells.h"
 #include "molfile_bridge.h"
 #include "option_spelling.h"
 #include "plot/colour_map.h"
+#include "potential/choose_potential.h"
+#include "potential/potential_settings.h"
 #include "report/metrics.h"
 #include "tcl_values.h"
 
@@ -91,6 +95,23 @@ Tcl_Obj* list_settings(const Call&) {
   return to_list(all);
 }
 
+/// The options of computed potentials, as list_settings().
+Tcl_Obj* list_potential_settings(const Call&) {
+  const PotentialOptions defaults = make_potential_options(PotentialMethod::kPme, {}, PmeOptions().temperature_K);
+  std::vector<Tcl_Obj*> all;
+  for (const PotentialSetting& setting : potential_settings()) {
+    std::vector<std::string> of;
+    for (const PotentialMethod method : setting.of) of.push_back(to_string(method));
+    all.push_back(to_dict({{"name", to_obj(setting.key)},
+                           {"of", to_list(of)},
+                           {"kind", to_obj(name_of(setting.kind))},
+                           {"choices", to_list(setting.choices)},
+                           {"default", to_obj(setting.get(defaults))},
+                           {"help", to_obj(setting.help)}}));
+  }
+  return to_list(all);
+}
+
 /// Earlier names with the present ones.
 Tcl_Obj* list_renamed(const Call&) {
   Tcl_Obj* const dict = Tcl_NewDictObj();
@@ -151,6 +172,28 @@ Tcl_Obj* list_metrics(const Call&) {
                            {"matrix", to_obj((metric.flags & kInMatrix) != 0)}}));
   }
   return to_list(all);
+}
+
+/// What a file brings for a potential: {charges B solvent B}.
+Tcl_Obj* facts_of_file(const Call& call) {
+  const int model = to_int(call.arguments[1], "model");
+  const Molecule everything = read_structure(call.text(0), {model, true, true});
+  const PotentialFacts facts =
+      potential_facts(everything, read_unit_cells(call.text(0)).at(static_cast<std::size_t>(model - 1)));
+  return to_dict({{"charges", to_obj(facts.has_charges)}, {"solvent", to_obj(facts.has_solvent)}});
+}
+
+/// The rule for molecules whose user named no potential: a list of {name B charges B solvent} each; returns
+/// {kind because}, kind none where shapes alone are compared.
+Tcl_Obj* usual_potential(const Call& call) {
+  std::vector<PotentialFacts> molecules;
+  for (Tcl_Obj* const molecule : to_vector(call.arguments[0], "molecules")) {
+    DictReader reader(molecule, "molecule");
+    PotentialFacts facts{reader.text("name"), reader.boolean("charges", false), reader.boolean("solvent", false)};
+    molecules.push_back(facts);
+  }
+  const PotentialChoice choice = choose_potential("auto", "auto", molecules);
+  return to_list({choice.method ? to_string(*choice.method) : std::string("none"), choice.because});
 }
 
 Tcl_Obj* abi(const Call&) {
@@ -218,6 +261,9 @@ std::vector<Command> about_commands() {
           {"back_ends", 0, 0, "", back_ends},
           {"device", 1, 1, "name", device},
           {"settings", 0, 0, "", list_settings},
+          {"potential_settings", 0, 0, "", list_potential_settings},
+          {"potential_facts", 2, 2, "file model", facts_of_file},
+          {"usual_potential", 1, 1, "molecules", usual_potential},
           {"renamed_settings", 0, 0, "", list_renamed},
           {"metrics", 0, 0, "", list_metrics},
           {"abi", 0, 0, "", abi},

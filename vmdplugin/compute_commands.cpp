@@ -2,6 +2,7 @@
 // it.
 #include "base/error.h"
 #include "commands.h"
+#include "compare/options.h"
 #include "compare/result.h"
 #include "compare/settings.h"
 #include "compare/surface.h"

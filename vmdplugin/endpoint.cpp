@@ -8,7 +8,10 @@
 #include "fingerprint.h"
 #include "io/molecule_builder.h"
 #include "io/read_grid.h"
+#include "io/read_structure.h"
 #include "molfile_bridge.h"
+#include "potential/choose_potential.h"
+#include "potential/potential.h"
 #include "tcl_values.h"
 
 namespace espdiff::vmdplugin {
@@ -107,20 +110,35 @@ void parse_vmd_molecule(DictReader& reader, Endpoint& endpoint) {
 /// @param endpoint_reader of the endpoint that the map is for: its coordinates and cell are the map's
 void parse_map_request(DictReader& reader, DictReader& endpoint_reader, Endpoint& endpoint) {
   MapRequest request;
-  request.options = parse_potential_options(reader);
+  request.method = parse_potential_method(to_string(reader.require("kind")));
+  request.because = reader.text("because");
+  request.given = take_potential_settings(reader);
+  make_potential_options(request.method, request.given, PmeOptions().temperature_K);  // a wrong one is reported at once
+  if (Tcl_Obj* const box = reader.find("box")) {
+    if (request.method != PotentialMethod::kPme)
+      throw InputError(endpoint.role + " map: a cell was given, and only the potential pme has one; leave it out");
+    request.cell = parse_cell(to_string(box));
+  }
   if (Tcl_Obj* const charges = reader.find("charges")) {
-    request.charges =
-        charged_atoms(charges, endpoint_reader.require("coordinates"), endpoint_reader.text("name", endpoint.role));
+    const std::string name = endpoint_reader.text("name", endpoint.role);
+    request.charges = charged_atoms(charges, endpoint_reader.require("coordinates"), name);
+    for (Tcl_Obj* const radius : to_vector(reader.require("radii"), name + ", radii"))
+      request.charges.radii.push_back(static_cast<float>(to_double(radius, name + ", radius")));
+    if (request.charges.radii.size() != request.charges.size())
+      throw InputError(name + ": " + std::to_string(request.charges.radii.size()) + " radii for " +
+                       std::to_string(request.charges.size()) + " atoms");
+    request.surroundings.has_water = reader.boolean("water", false);
     require_charges(request.charges);
   }
-  if (Tcl_Obj* const cell = endpoint_reader.find("cell")) request.cell = parse_unit_cell(cell, endpoint.role + " cell");
+  if (Tcl_Obj* const cell = endpoint_reader.find("cell"))
+    request.surroundings.cell = parse_unit_cell(cell, endpoint.role + " cell");
   reader.finish();
   endpoint.map_request = std::move(request);
 }
 
 void parse_map(Tcl_Obj* description, DictReader& endpoint_reader, Endpoint& endpoint) {
   DictReader reader(description, endpoint.role + " map");
-  if (reader.boolean("pme", false)) return parse_map_request(reader, endpoint_reader, endpoint);
+  if (reader.find("kind") != nullptr) return parse_map_request(reader, endpoint_reader, endpoint);
   endpoint.map_unit = reader.text("unit");
   if (Tcl_Obj* const memory = reader.find("memory")) {
     const std::string name = to_string(memory), label = reader.text("name", name);
@@ -159,19 +177,15 @@ Endpoint parse_endpoint(Tcl_Obj* description, const std::string& role) {
   return endpoint;
 }
 
-PotentialOptions parse_potential_options(DictReader& reader) {
-  PotentialOptions o;
-  o.pme.compatible = reader.boolean("compatible", false);
-  o.grid = parse_grid_choice(reader.text("grid", usual_grid(o.pme.compatible)));
-  o.pme.order = reader.integer("spline", usual_order(o.pme.compatible));
-  o.pme.ewald_factor = reader.number("ewaldfactor", o.pme.ewald_factor);
-  const std::string precision = reader.text("precision", "single");
-  if (precision != "single" && precision != "double")
-    throw InputError("precision: '" + precision + "' is not single or double");
-  o.pme.precision = precision == "double" ? Precision::kDouble : Precision::kSingle;
-  if (Tcl_Obj* const pad = reader.find("pad")) o.pad_A = to_double(pad, "pad");
-  if (Tcl_Obj* const box = reader.find("box")) o.cell = parse_cell(to_string(box));
-  return o;
+GivenPotentialSettings take_potential_settings(DictReader& reader) {
+  GivenPotentialSettings given;
+  for (const PotentialSetting& setting : potential_settings()) {
+    Tcl_Obj* const value = reader.find(setting.key.c_str());
+    if (value == nullptr) continue;
+    const bool is_boolean = setting.kind == SettingKind::kBoolean;
+    given.emplace_back(setting.key, is_boolean ? (to_bool(value, setting.key) ? "1" : "0") : to_string(value));
+  }
+  return given;
 }
 
 std::optional<UnitCell> parse_unit_cell(Tcl_Obj* numbers, const std::string& what) {
@@ -220,6 +234,30 @@ Molecule named_atoms(const std::vector<Tcl_Obj*>& atoms, const std::vector<Vec3d
   return builder.finish();
 }
 
+namespace {
+
+/// The map that was asked for. Of a file that has water in a cell, pme takes both; else what has the surface.
+ComputedMap requested_map(Endpoint& endpoint, double temperature_K) {
+  MapRequest& request = *endpoint.map_request;
+  PotentialOptions options = make_potential_options(request.method, request.given, temperature_K);
+  options.cell = request.cell;
+  options.because = request.because;
+  if (request.charges.size() > 0) {
+    request.surroundings.solute = endpoint.molecule->positions;
+    return {std::move(request.charges), request.surroundings, options};
+  }
+  if (request.method == PotentialMethod::kPme && !endpoint.structure_path.empty() && !options.pad_A) {
+    const int model = endpoint.structure.model;
+    Molecule everything = read_structure(endpoint.structure_path, {model, true, true});
+    const auto cell = read_unit_cells(endpoint.structure_path).at(static_cast<std::size_t>(model - 1));
+    if (options.cell || potential_facts(everything, cell).has_solvent)
+      return {std::move(everything), {cell, {}, false}, options};
+  }
+  return {*endpoint.molecule, request.surroundings, options};
+}
+
+}  // namespace
+
 void load(Endpoint& endpoint, double temperature_K) {
   if (!endpoint.molecule) {
     const StructureFile file(endpoint.structure_path);
@@ -229,10 +267,7 @@ void load(Endpoint& endpoint, double temperature_K) {
   }
   if (endpoint.map || endpoint.computed_map) return;
   if (endpoint.map_request) {
-    MapRequest& request = *endpoint.map_request;
-    request.options.pme.temperature_K = temperature_K;
-    endpoint.computed_map = ComputedMap(request.charges.size() > 0 ? std::move(request.charges) : *endpoint.molecule,
-                                        request.cell, request.options);
+    endpoint.computed_map = requested_map(endpoint, temperature_K);
     endpoint.inputs.push_back(computed_input(endpoint.role + "_map", *endpoint.computed_map));
     return;
   }

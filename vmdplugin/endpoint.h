@@ -7,10 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "base/structure_options.h"
 #include "base/types.h"
 #include "compare/input.h"
 #include "io/read_structure.h"
+#include "potential/computed_map.h"
 #include "potential/potential.h"
+#include "potential/potential_settings.h"
 #include "report/write_compare.h"
 #include "tcl_values.h"
 
@@ -18,9 +21,12 @@ namespace espdiff::vmdplugin {
 
 /// What a map is to be computed of: all charges of a molecule, whatever part of it has the surface.
 struct MapRequest {
-  PotentialOptions options;
-  Molecule charges;  ///< positions and charges only; empty: the endpoint's molecule has them
-  std::optional<UnitCell> cell;
+  PotentialMethod method = PotentialMethod::kPme;
+  GivenPotentialSettings given;
+  std::optional<PmeCell> cell;  ///< given
+  Molecule charges;             ///< positions, charges and radii only; empty: the endpoint's molecule has them
+  ChargeSurroundings surroundings;
+  std::string because;  ///< why this potential, where the user did not ask for it
 };
 
 /// A molecule and its map. What is in files is read by load(), on the worker's thread.
@@ -42,16 +48,16 @@ struct Endpoint {
 ///   atoms LIST coordinates BYTES ?indices LIST? name TEXT radii_origin R charges_origin C ?input TEXT? ?cell LIST?
 ///   ?map MAP?
 /// with MAP: file PATH ?array NAME? ?unit U?, or memory NAME ?unit U?, or
-///   pme 1 ?charges LIST? ?grid G? ?ewaldfactor F? ?spline N? ?pad P? ?box CELL? ?compatible B? ?precision P?
+///   kind pme|pb|coulomb ?charges LIST? ?radii LIST? ?water B? ?box CELL? ?because TEXT? ?KEY VALUE ...?, the keys
+///   those of potential_settings()
 /// A volume in memory is taken: it is gone after. `charges` are those of all atoms in the coordinates, 0 where one does
 /// not count; without them the molecule's own are taken.
 /// @param role "source", "target" or "molecule"
 /// @throws InputError (wrong keys, numbers that do not fit each other, no atoms, radii that add no density)
 Endpoint parse_endpoint(Tcl_Obj* description, const std::string& role);
 
-/// The keys that say how a potential is computed, taken off a dict: see MAP above.
-/// @throws InputError
-PotentialOptions parse_potential_options(DictReader& reader);
+/// The options of potentials among a dict's keys, taken off it.
+GivenPotentialSettings take_potential_settings(DictReader& reader);
 
 /// Six numbers, lengths and angles; nothing where a length is at most 1 A, as VMD says that there is no cell.
 std::optional<UnitCell> parse_unit_cell(Tcl_Obj* numbers, const std::string& what);

@@ -72,7 +72,9 @@ Tcl_Obj* matrix(const Call& call) {
   check_labels(object->labels);
   object->run.potential = "maps";
   for (const Endpoint& endpoint : object->endpoints) {
-    if (endpoint.computed_map) object->run.potential = "pme";
+    if (endpoint.map_request)
+      object->run.potential = potential_in_words(make_potential_options(
+          endpoint.map_request->method, endpoint.map_request->given, object->computation.options.temperature_K));
   }
   object->job = Worker::instance().submit([keep = std::weak_ptr<MatrixObject>(object)](const Progress& progress) {
     const auto alive = keep.lock();

@@ -2,11 +2,13 @@
 // and their average.
 #include <algorithm>
 
+#include "align/pair_atoms.h"
 #include "base/error.h"
 #include "commands.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"
 #include "io/write_grid.h"
+#include "potential/potential.h"
 #include "tcl_values.h"
 #include "volume_store.h"
 
@@ -45,9 +47,9 @@ Tcl_Obj* potential(const Call& call) {
   object->computation.device = reader.text("device", "auto");
   parse_device(object->computation.device);  // a wrong one is told at once
   object->computation.threads = reader.integer("threads", 0);
-  object->potential = parse_potential_options(reader);
-  object->potential.method = parse_potential_method(reader.text("method", "pme"));
-  object->potential.coulomb.dielectric = reader.number("dielectric", object->potential.coulomb.dielectric);
+  const PotentialMethod method = parse_potential_method(reader.text("method", "pme"));
+  object->potential = make_potential_options(method, take_potential_settings(reader), PmeOptions().temperature_K, true);
+  if (Tcl_Obj* const box = reader.find("box")) object->potential.cell = parse_cell(to_string(box));
   object->potential.align = parse_align_atoms(reader.text("align", "none"));
   object->potential.frames_per_block = static_cast<std::size_t>(std::max(1, reader.integer("block", 1)));
   object->keeps_frames = reader.boolean("each", false);
@@ -59,6 +61,10 @@ Tcl_Obj* potential(const Call& call) {
 Molecule frame_of(DictReader& reader, bool named) {
   const std::string name = reader.text("name", "frame");
   Molecule molecule = charged_atoms(reader.require("charges"), reader.require("coordinates"), name);
+  if (Tcl_Obj* const radii = reader.find("radii")) {
+    for (Tcl_Obj* const radius : to_vector(radii, name + ", radii"))
+      molecule.radii.push_back(static_cast<float>(to_double(radius, name + ", radius")));
+  }
   if (!named) {
     reader.find("atoms");
     return molecule;

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "compare/result.h"
+#include "report/potential_json.h"
 
 namespace espdiff::vmdplugin {
 namespace {
@@ -24,7 +25,7 @@ VertexQuantity of_comparison(const std::string& handle, const CompareResult& res
   if (name != "difference" && name != "source" && name != "target" && name != "sign")
     throw InputError("'" + name + "' is not difference, source, target, sign, displacement or path_length");
   require_potentials(handle, name, result.has_potential);
-  const std::string unit = to_string(result.unit);
+  const std::string unit = potential_unit_text(result);
   if (name == "source") return {s.potential_source, unit};
   if (name == "target") return {s.potential_target, unit};
   const bool sign = name == "sign";

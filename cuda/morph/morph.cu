@@ -49,12 +49,14 @@ int steps_for(const std::vector<MovingAtom>& atoms, const MorphOptions& options)
   }
   const double n_steps = std::ceil(farthest / options.max_step_A);
   if (!(n_steps <= kMostSteps)) {
-    char text[240];
+    char text[160];
     std::snprintf(text, sizeof text,
-                  "an atom moves %.6g A from source to target, which takes %.6g steps of %.6g A; %d is the limit; check "
-                  "that both structures are of one molecule and no atom is far off, or allow larger steps",
+                  "an atom moves %.6g A from source to target, which takes %.6g steps of %.6g A; %d is the limit; ",
                   farthest, n_steps, options.max_step_A, kMostSteps);
-    throw InputError(text);
+    throw InputError(text +
+                     Message("check that both structures show one molecule and no atom is far off, or give a "
+                             "larger ") +
+                     option("max-step"));
   }
   return std::max(fades ? kStepsOfFading : kLeastSteps, static_cast<int>(n_steps));
 }

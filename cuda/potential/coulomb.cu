@@ -12,19 +12,14 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// Nearer than this the points are inside an atom's core, where the bare law means nothing.
-constexpr double kLeastDistance_A = 0.5;
-
-struct Charge {
-  Vec3d position;
-  double charge;
-};
-
-void check(const Lattice& lattice, const CoulombOptions& options) {
+void check(const CoulombOptions& options) {
   if (!(options.dielectric > 0) || !std::isfinite(options.dielectric))
     throw InputError("dielectric constant " + std::to_string(options.dielectric) +
                      " is not a positive number; 1 is vacuum, 4 r is usual in proteins, 80 is water");
   check_temperature(options.temperature_K);
+}
+
+void check(const Lattice& lattice) {
   double n_points = 1;
   for (const int n : lattice.size) {
     if (n < 1) throw InputError("a lattice of " + std::to_string(n) + " points along an axis; at least 1 is needed");
@@ -62,22 +57,17 @@ std::shared_ptr<MapGrid> coulomb_potential(const std::vector<Vec3d>& positions, 
                                            const Lattice& lattice, const CoulombOptions& options,
                                            const Progress& progress) {
   check_charges(positions, charges);
-  check(lattice, options);
+  check(options);
+  check(lattice);
   auto map = std::make_shared<MapGrid>();
   map->lattice = lattice;
   map->unit = PotentialUnit::kKtPerE;
   set_index_transform(lattice, {}, "the lattice", map->to_index);
   map->values.resize(lattice.n_points());
 
-  std::vector<Charge> kept;
-  const double scale = coulomb_in_kt(options.temperature_K) / options.dielectric;
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    if (charges[i] != 0) kept.push_back({positions[i], scale * static_cast<double>(charges[i])});
-  }
-  const Buffer<Charge> atoms = to_device(kept);
-  const Charge* const first = raw(atoms);
-  const std::size_t n_atoms = kept.size();
-  const bool by_distance = options.distance_dependent;
+  const ChargeSums sums(positions, charges, coulomb_in_kt(options.temperature_K) / options.dielectric,
+                        options.distance_dependent);
+  const ChargeSumsView view = sums.view();
   float* const out = raw(map->values);
   const std::size_t nx = static_cast<std::size_t>(lattice.size[0]),
                     plane = nx * static_cast<std::size_t>(lattice.size[1]);
@@ -88,16 +78,24 @@ std::shared_ptr<MapGrid> coulomb_potential(const std::vector<Vec3d>& positions, 
     float* const values = out + plane * static_cast<std::size_t>(z);
     for_each_index(plane, [=] ESPDIFF_HD(std::size_t i) {
       const Vec3d p = corner + static_cast<double>(i % nx) * a + static_cast<double>(i / nx) * b;
-      double sum = 0;
-      for (std::size_t n = 0; n < n_atoms; ++n) {
-        const Vec3d d = p - first[n].position;
-        const double square = fmax(dot(d, d), kLeastDistance_A * kLeastDistance_A);
-        sum += first[n].charge / (by_distance ? square : sqrt(square));
-      }
-      values[i] = static_cast<float>(sum);
+      values[i] = static_cast<float>(view.isolated(p));
     });
   }
   progress.report("potential", 1.0);
+  return map;
+}
+
+std::shared_ptr<MapGrid> isolated_charges(const std::vector<Vec3d>& positions, const std::vector<float>& charges,
+                                          const CoulombOptions& options, const RigidTransform& to_map) {
+  check_charges(positions, charges);
+  check(options);
+  auto map = std::make_shared<MapGrid>();
+  // Lattice coordinates are those of the charges' frame, Angstrom.
+  map->lattice.step = {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
+  map->unit = PotentialUnit::kKtPerE;
+  set_index_transform(map->lattice, to_map, "the charges' frame", map->to_index);
+  map->charge_sums = std::make_shared<ChargeSums>(
+      positions, charges, coulomb_in_kt(options.temperature_K) / options.dielectric, options.distance_dependent);
   return map;
 }
 

@@ -57,6 +57,8 @@ void check_options(const PmeOptions& o) {
     throw InputError("spline order " + std::to_string(o.order) + " with `compatible`: PMEPot's is 4; leave one out");
   if (o.compatible && o.smooth_samples)
     throw InputError("`compatible` values are spline coefficients already; smooth samples are for the other mode");
+  if (o.compatible && o.part == PmePart::kFull)
+    throw InputError("the full sum with `compatible`: PMEPot gives the smooth part only; leave one out");
   if (!(o.ewald_factor > 0) || !std::isfinite(o.ewald_factor))
     throw InputError("Ewald factor " + std::to_string(o.ewald_factor) + " 1/A is not a positive number; 0.25 is usual");
   check_temperature(o.temperature_K);
@@ -129,6 +131,27 @@ Buffer<T> spline_factors(int size, const PmeOptions& options) {
     factors[static_cast<std::size_t>(k)] = static_cast<T>(at_half_frequency ? 0 : factor);
   }
   return to_device(factors);
+}
+
+/// What the map lacks of the full sum, and the constant that keeps its mean over the cell at zero: the direct part's
+/// mean, C pi Q / (beta^2 V), which a net charge Q leaves.
+void add_direct_part(const std::vector<Vec3d>& positions, const std::vector<float>& charges, const PmeCell& cell,
+                     const PmeOptions& options, MapGrid& map) {
+  const double coulomb = coulomb_in_kt(options.temperature_K), beta = options.ewald_factor;
+  const std::array<Vec3d, 3> reciprocal = reciprocal_edges(cell);
+  std::vector<PointCharge> parts;
+  double net = 0;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (charges[i] == 0) continue;
+    const Vec3d from_origin = positions[i] - map.lattice.origin;
+    const double q = static_cast<double>(charges[i]);
+    parts.push_back(
+        {{dot(from_origin, reciprocal[0]), dot(from_origin, reciprocal[1]), dot(from_origin, reciprocal[2])},
+         coulomb * q});
+    net += q;
+  }
+  map.charge_sums = std::make_shared<ChargeSums>(std::move(parts), cell.edges, beta);
+  map.zero = coulomb * kPi * net / (beta * beta * dot(cell.edges[0], cross(cell.edges[1], cell.edges[2])));
 }
 
 double scale_of(double volume, const PmeOptions& options) {
@@ -210,6 +233,7 @@ std::shared_ptr<MapGrid> PmeSolver::potential(const std::vector<Vec3d>& position
   map->unit = PotentialUnit::kKtPerE;
   map->periodic = true;
   map->spline_order = options.smooth_samples ? options.order : 0;
+  if (options.part == PmePart::kFull) add_direct_part(positions, charges, cell, options, *map);
   set_index_transform(map->lattice, to_map, "the potential", map->to_index);
   return map;
 }

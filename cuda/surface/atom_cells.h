@@ -3,9 +3,9 @@
 
 #include <array>
 
+#include "base/handles.h"
 #include "cuda/device/device.h"
 #include "cuda/surface/gaussian.h"
-#include "engine/handles.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

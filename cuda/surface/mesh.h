@@ -3,9 +3,9 @@
 
 #include <memory>
 
+#include "base/handles.h"
 #include "base/types.h"
 #include "cuda/device/device.h"
-#include "engine/handles.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 

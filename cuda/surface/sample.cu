@@ -48,6 +48,8 @@ struct MapView {
   long size[3];
   bool periodic;
   int spline_order;
+  double zero;
+  ChargeSumsView sums;
   double to_index[12];
 
   ESPDIFF_INLINE double coordinate(int axis, Vec3d p) const {
@@ -57,7 +59,8 @@ struct MapView {
 };
 
 MapView view_of(const MapGrid& map) {
-  MapView view{raw(map.values), {}, map.periodic, map.spline_order, {}};
+  MapView view{raw(map.values), {}, map.periodic, map.spline_order, map.zero, {}, {}};
+  if (map.charge_sums != nullptr) view.sums = map.charge_sums->view();
   for (std::size_t axis = 0; axis < 3; ++axis) view.size[axis] = map.lattice.size[axis];
   for (int i = 0; i < 12; ++i) view.to_index[i] = map.to_index[i];
   return view;
@@ -149,6 +152,17 @@ ESPDIFF_INLINE float sample_at(const MapView& map, const double (&c)[3]) {
   }
 }
 
+/// Values, charge sums and zero together, at lattice coordinates; of isolated charges these are Angstrom.
+ESPDIFF_INLINE float potential_at(const MapView& map, const double (&c)[3]) {
+  if (map.sums.charges == nullptr) return static_cast<float>(static_cast<double>(sample_at(map, c)) - map.zero);
+  if (map.sums.first == nullptr) return static_cast<float>(map.sums.isolated({c[0], c[1], c[2]}) - map.zero);
+  double parts[3];
+  for (int axis = 0; axis < 3; ++axis) parts[axis] = c[axis] / static_cast<double>(map.size[axis]);
+  const float smooth = sample_at(map, c);
+  if (!(smooth - smooth == 0.0F)) return smooth;
+  return static_cast<float>(static_cast<double>(smooth) + map.sums.direct(parts) - map.zero);
+}
+
 }  // namespace
 
 std::shared_ptr<Scalars> sample(const MapGrid& map, const SurfaceMesh& mesh) {
@@ -160,7 +174,7 @@ std::shared_ptr<Scalars> sample(const MapGrid& map, const SurfaceMesh& mesh) {
   for_each_index(mesh.n_vertices(), [=] ESPDIFF_HD(std::size_t v) {
     const Vec3d p = static_cast<Vec3d>(x[v].xyz());
     const double c[3] = {view.coordinate(0, p), view.coordinate(1, p), view.coordinate(2, p)};
-    out[v] = sample_at(view, c);
+    out[v] = potential_at(view, c);
   });
   return result;
 }
@@ -185,23 +199,39 @@ std::shared_ptr<MapGrid> resample(const MapGrid& map, const Lattice& lattice) {
     const Vec3d p = origin + static_cast<double>(i % nx) * a + static_cast<double>(i / nx % ny) * b +
                     static_cast<double>(i / (nx * ny)) * d;
     const double c[3] = {view.coordinate(0, p), view.coordinate(1, p), view.coordinate(2, p)};
-    out[i] = sample_at(view, c);
+    out[i] = potential_at(view, c);
   });
   return result;
 }
 
-std::vector<float> point_values(const MapGrid& map) {
-  if (map.spline_order == 0) return to_host(map.values);
-  Buffer<float> values(map.values.size());
-  const MapView view = view_of(map);
+namespace {
+
+template <typename SampleAt>
+Buffer<float> at_own_points(const MapGrid& map, SampleAt sample_there) {
+  Buffer<float> values(map.lattice.n_points());
   float* const out = raw(values);
-  const std::size_t nx = static_cast<std::size_t>(view.size[0]), ny = static_cast<std::size_t>(view.size[1]);
+  const std::size_t nx = static_cast<std::size_t>(map.lattice.size[0]),
+                    ny = static_cast<std::size_t>(map.lattice.size[1]);
   for_each_index(values.size(), [=] ESPDIFF_HD(std::size_t i) {
     const double c[3] = {static_cast<double>(i % nx), static_cast<double>(i / nx % ny),
                          static_cast<double>(i / (nx * ny))};
-    out[i] = sample_at(view, c);
+    out[i] = sample_there(c);
   });
-  return to_host(values);
+  return values;
+}
+
+}  // namespace
+
+Buffer<float> lattice_values(const MapGrid& map) {
+  if (map.spline_order == 0) return map.values;
+  const MapView view = view_of(map);
+  return at_own_points(map, [=] ESPDIFF_HD(const double(&c)[3]) { return sample_at(view, c); });
+}
+
+std::vector<float> point_values(const MapGrid& map) {
+  if (map.charge_sums == nullptr && map.zero == 0) return to_host(lattice_values(map));
+  const MapView view = view_of(map);
+  return to_host(at_own_points(map, [=] ESPDIFF_HD(const double(&c)[3]) { return potential_at(view, c); }));
 }
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "cuda/surface/charge_sums.h"
 #include "cuda/surface/grid.h"
 #include "cuda/surface/mesh.h"
 
@@ -19,6 +20,10 @@ struct MapGrid : DeviceGrid {
   /// 0: the values are the map's at the points, interpolated linearly. Otherwise they are coefficients of centred
   /// B-splines of this order; periodic maps only.
   int spline_order = 0;
+  /// Point charges whose potential is added to what the values say: the direct part of Ewald's sum where the map is
+  /// periodic; else isolated charges, whose map has no points (size 0) and is nothing but their sum.
+  std::shared_ptr<const ChargeSums> charge_sums;
+  double zero = 0;  ///< subtracted from every sample, in the map's unit
 };
 
 /// The transform from the common frame to lattice indices, row-major 3 x 4.
@@ -33,7 +38,9 @@ std::shared_ptr<MapGrid> make_map(const Grid& map, const RigidTransform& to_map)
 std::shared_ptr<Scalars> sample(const MapGrid& map, const SurfaceMesh& mesh);
 /// Samples at the points of a lattice in the common frame.
 std::shared_ptr<MapGrid> resample(const MapGrid& map, const Lattice& lattice);
-/// The map's values at its own points.
+/// What the values alone say at the map's own points, without charge sums and zero.
+Buffer<float> lattice_values(const MapGrid& map);
+/// The map's samples at its own points.
 std::vector<float> point_values(const MapGrid& map);
 
 struct CellPosition {

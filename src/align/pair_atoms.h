@@ -6,24 +6,15 @@
 #include <utility>
 #include <vector>
 
+#include "base/pairing.h"
 #include "base/types.h"
 
 namespace espdiff {
-
-/// Which paired atoms the superposition uses.
-enum class AlignAtoms { kAll, kBackbone, kCAlpha, kNone };
 
 /// @throws InputError unless the text is all, backbone, ca or none
 AlignAtoms parse_align_atoms(const std::string& text);
 /// The text that parse_align_atoms() reads.
 std::string to_string(AlignAtoms atoms);
-
-struct AtomPairing {
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;  ///< (source atom, target atom), ascending in the source atom
-  std::string method;                                      ///< "same order" or "sequence alignment"
-  std::size_t n_aligned_residues = 0;
-  std::size_t n_substituted_residues = 0;  ///< aligned, with different names
-};
 
 /// Pairs all atoms. Molecules with the same count, names and residues in the same order pair one to one (chain names
 /// may differ). Otherwise residues are paired by a global alignment of the sequences, chain by chain (pair_residues.h),

@@ -6,17 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "align/pair_atoms.h"
+#include "base/pairing.h"
+#include "base/rigid_domain.h"
+#include "base/types.h"
 
 namespace espdiff {
-
-/// Residues of the source that one rigid motion takes to the target.
-struct RigidDomain {
-  std::vector<std::size_t> residues;  ///< source residues, ascending
-  RigidTransform motion;              ///< source -> target, each in its own frame
-  std::size_t n_atoms = 0;            ///< number of pairs used in the fit
-  double rmsd_A = 0;                  ///< RMSD of these pairs after the motion
-};
 
 /// @throws InputError unless the text is `none`, `chains`, `auto`, or ranges of residues: domains separated by `/`,
 /// each of ranges CHAIN:FIRST-LAST separated by commas, such as 1-29,68-117/30-67. A chain applies to the ranges after

@@ -5,10 +5,12 @@
 #include "cli/spelling.h"
 #include "cli/verbs.h"
 #include "compare/compare.h"
+#include "compare/options.h"
 #include "compare/result.h"
 #include "engine/engine.h"
 #include "io/atomic_file.h"
 #include "io/check_outputs.h"
+#include "io/read_structure.h"
 #include "report/residue_values.h"
 #include "report/write_compare.h"
 
@@ -76,12 +78,27 @@ Side read_side(const Arguments& a, const std::string& role) {
   return side;
 }
 
-void add_map(const Arguments& a, Side& side, double temperature_K, std::vector<InputFile>& inputs) {
-  side.map = given_map(a.maps, side.role, inputs);
-  if (!is_computed(a.maps)) return;
-  const int model = side.role == "source" ? a.source_model : a.target_model;
-  side.computed = computed_map_of_file(a.maps, *side.file, model, side.molecule, temperature_K);
-  inputs.push_back(computed_input(side.role + "_map", *side.computed));
+/// The maps of both sides: given, computed, or none. @returns why there is none, where that was not asked for
+std::string add_maps(const Arguments& a, Side& source, Side& target, double temperature_K,
+                     std::vector<InputFile>& inputs) {
+  if (has_given_maps(a.maps)) {
+    for (Side* side : {&source, &target}) side->map = given_map(a.maps, side->role, inputs);
+    return {};
+  }
+  std::vector<ChargedFile> files;
+  std::vector<PotentialFacts> facts;
+  for (const Side* side : {&source, &target}) {
+    files.push_back(a.maps.potential == "none" ? ChargedFile()
+                                               : read_charged(*side->file, structure_options(a, side->role).model));
+    facts.push_back(potential_facts(files.back().everything, files.back().cell));
+  }
+  const PotentialPlan plan(a.maps, facts, temperature_K);
+  for (Side* side : {&source, &target}) {
+    if (!plan.computes()) continue;
+    side->computed = plan.map_of(side->molecule, files[side == &source ? 0 : 1]);
+    inputs.push_back(computed_input(side->role + "_map", *side->computed));
+  }
+  return plan.because();
 }
 
 int run(const Arguments& a, const Context& context) {
@@ -102,15 +119,14 @@ int run(const Arguments& a, const Context& context) {
   for (const Side* side : {&source, &target})
     provenance.inputs.push_back(
         {side->role, side->path, side->file->sha256(), std::nullopt, structure_options(a, side->role)});
-  for (Side* side : {&source, &target}) {
-    add_map(a, *side, options.temperature_K, provenance.inputs);
-    side->file = nullptr;
-  }
+  const std::string because = add_maps(a, source, target, options.temperature_K, provenance.inputs);
+  source.file = target.file = nullptr;
   const std::unique_ptr<Engine> engine = make_engine(a.device);
   provenance.device = engine->back_end();
   provenance.device_description = engine->description();
   provenance.threads = engine->n_threads();
-  const CompareResult result = compare(*engine, source.input(), target.input(), options, *context.progress);
+  CompareResult result = compare(*engine, source.input(), target.input(), options, *context.progress);
+  if (!result.has_potential) result.shapes_because = because;
   context.progress->report("write", 0.0);
   std::unique_ptr<AtomicFile> pdb;
   if (!a.residue_pdb.empty()) {
@@ -133,7 +149,7 @@ Verb add_compare(CLI::App& app) {
   parser->footer(
       "Maps each point of the source's surface to the corresponding point of the target's, compares the potentials "
       "there, and\n"
-      "certifies the mapping. Without maps only the shapes are compared.\n\n"
+      "certifies the mapping. Without maps the potentials are computed (--potential).\n\n"
       "Example:\n"
       "  espdiff compare wild.pqr mutant.pqr --source-map wild.dx --target-map mutant.dx -o result\n\n"
       "Writes result.json (numbers, certificate, provenance), result.vtp (mapped surface, for ParaView) and "

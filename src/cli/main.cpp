@@ -36,7 +36,7 @@ void open_standard_streams() {
 void start_again_without_spinning(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
   setenv("OMP_WAIT_POLICY", "passive", 1);  // NOLINT(concurrency-mt-unsafe): no other thread exists yet
-  execv("/proc/self/exe", argv);  // returns only without /proc; threads then spin
+  execv("/proc/self/exe", argv);            // returns only without /proc; threads then spin
 }
 
 /// Runs the chosen command; errors become one line on standard error.

@@ -3,7 +3,9 @@
 
 #include <utility>
 
+#include "io/read_structure.h"
 #include "io/write_csv.h"
+#include "potential/potential.h"
 
 namespace espdiff::cli {
 namespace {
@@ -14,23 +16,22 @@ constexpr const char* kGroup = "Potentials";
 
 void add_computed_map_options(CLI::App& p, ComputedMapArguments& a) {
   p.add_option("--potential", a.potential,
-               "Compute the potentials instead of reading maps: pme, from the charges of the atoms")
-      ->check(CLI::IsMember({"pme"}))
-      ->group(kGroup);
-  p.add_option("--pme-cell", a.cell,
-               "Cell of a computed potential. box: 10 A wider than the atoms on each side, ignoring the file's cell. "
-               "own: the file's (CRYST1 of each model), including the charges of water and ions")
-      ->check(CLI::IsMember({"box", "own"}))
+               "The potential that is computed where no maps are given. pb: in salt water, by the Poisson-Boltzmann "
+               "equation. pme: particle-mesh Ewald, in a periodic cell with the water of the file. coulomb: isolated "
+               "charges. auto: pme with explicit water in a periodic cell, pb for other charges. none: compare shapes "
+               "alone")
+      ->check(CLI::IsMember({"auto", "pb", "pme", "coulomb", "none"}))
       ->capture_default_str()
       ->group(kGroup);
-  p.add_option("--pme-grid", a.grid,
-               "Grid of a computed potential: a resolution below 8 A, or numbers of points (see `espdiff potential`)")
-      ->capture_default_str()
-      ->group(kGroup);
-  p.add_option("--ewaldfactor", a.ewald_factor, "Smearing of the charges in a computed potential, 1/A")
+  p.add_option(
+       "--pme-cell", a.cell,
+       "Cell of pme. own: the file's (CRYST1 of each model), where the charges of water and ions count too. "
+       "box: around the atoms, along their principal axes, without water. auto: own where there is water in one")
+      ->check(CLI::IsMember({"auto", "own", "box"}))
       ->capture_default_str()
       ->check(finite_number())
       ->group(kGroup);
+  add_potential_settings(p, a.given, false);
 }
 
 void add_map_options(CLI::App& p, MapArguments& a) {
@@ -48,8 +49,13 @@ void add_map_options(CLI::App& p, MapArguments& a) {
 }
 
 void check_map_options(const MapArguments& a) {
-  if (is_computed(a) && !(a.source_map.empty() && a.target_map.empty()))
-    throw InputError("--potential computes both maps; leave out --source-map and --target-map, or --potential");
+  if (!has_given_maps(a)) return;
+  if (a.potential != "auto")
+    throw InputError(option("potential") + " computes both maps; leave out " + option("source-map") + " and " +
+                     option("target-map") + ", or " + option("potential"));
+  if (!a.given.empty())
+    throw InputError(option(a.given.front().first) +
+                     " is of computed potentials, and maps were given; leave out one of them");
 }
 
 std::optional<Grid> given_map(const MapArguments& a, const std::string& role, std::vector<InputFile>& inputs) {
@@ -61,29 +67,38 @@ std::optional<Grid> given_map(const MapArguments& a, const std::string& role, st
   return std::move(map.grid);
 }
 
-ComputedMap computed_map(const ComputedMapArguments& a, Molecule charges, const std::optional<UnitCell>& cell,
-                         double temperature_K) {
-  PotentialOptions options;
-  options.grid = parse_grid_choice(a.grid);
-  options.pme.ewald_factor = a.ewald_factor;
-  options.pme.temperature_K = temperature_K;
-  if (!takes_own_cell(a)) return {std::move(charges), std::nullopt, options};
-  if (!cell)
-    throw InputError(charges.name +
+ChargedFile read_charged(const StructureFile& file, int model) {
+  return {file.read({model, true, true}), file.unit_cells().at(static_cast<std::size_t>(model - 1))};
+}
+
+PotentialPlan::PotentialPlan(const ComputedMapArguments& a, const std::vector<PotentialFacts>& facts,
+                             double temperature_K) {
+  const PotentialChoice choice = choose_potential(a.potential, a.cell, facts);
+  because_ = choice.because;
+  own_cell_ = choice.method == PotentialMethod::kPme && choice.own_cell;
+  if (!choice.method) {
+    if (!a.given.empty())
+      throw InputError(option(a.given.front().first) + " is of computed potentials, and none is computed" +
+                       (because_.empty() ? "" : ": " + because_));
+    return;
+  }
+  options_ = make_potential_options(*choice.method, a.given, temperature_K);
+  options_->because = because_;
+}
+
+std::string PotentialPlan::in_words() const {
+  if (!options_) return {};
+  const std::string words = potential_in_words(*options_);
+  return options_->method == PotentialMethod::kPme ? words + " cell " + (own_cell_ ? "own" : "box") : words;
+}
+
+ComputedMap PotentialPlan::map_of(const Molecule& molecule, const ChargedFile& all) const {
+  if (!own_cell_) return {molecule, {std::nullopt, molecule.positions, false}, *options_};
+  if (!all.cell)
+    throw InputError(molecule.name +
                      ": there is no cell (a CRYST1 record with edges above 1 A) before the atoms; add one, or take "
                      "--pme-cell box");
-  return {std::move(charges), cell, options};
-}
-
-ComputedMap computed_map_of_file(const ComputedMapArguments& a, const StructureFile& file, int model,
-                                 const Molecule& molecule, double temperature_K) {
-  if (!takes_own_cell(a)) return computed_map(a, molecule, std::nullopt, temperature_K);
-  const auto cell = file.unit_cells().at(static_cast<std::size_t>(model - 1));
-  return computed_map(a, file.read({model, true, true}), cell, temperature_K);
-}
-
-std::string map_in_words(const ComputedMapArguments& a) {
-  return a.potential + ", cell " + a.cell + ", grid " + a.grid + ", Ewald factor " + csv_number(a.ewald_factor);
+  return {all.everything, {all.cell, {}, false}, *options_};
 }
 
 }  // namespace espdiff::cli

@@ -5,18 +5,23 @@
 #include <string>
 #include <vector>
 
+#include "base/structure_options.h"
 #include "cli/options.h"
 #include "io/read_structure.h"
+#include "potential/choose_potential.h"
 #include "potential/computed_map.h"
 #include "report/write_compare.h"
+
+namespace espdiff {
+class StructureFile;
+}
 
 namespace espdiff::cli {
 
 /// Options of potentials computed instead of read.
 struct ComputedMapArguments {
-  std::string potential;  ///< empty: none
-  std::string grid = usual_grid(false), cell = "box";
-  double ewald_factor = PmeOptions().ewald_factor;
+  std::string potential = "auto", cell = "auto";
+  GivenPotentialSettings given;
 };
 void add_computed_map_options(CLI::App& parser, ComputedMapArguments& arguments);
 
@@ -24,26 +29,46 @@ struct MapArguments : ComputedMapArguments {
   std::string source_map, target_map, source_map_unit, target_map_unit, map_array;
 };
 void add_map_options(CLI::App& parser, MapArguments& arguments);
+/// Whether maps are read.
+inline bool has_given_maps(const MapArguments& a) { return !(a.source_map.empty() && a.target_map.empty()); }
 /// @throws InputError (computed and given maps)
 void check_map_options(const MapArguments& arguments);
 
-inline bool is_computed(const ComputedMapArguments& arguments) { return !arguments.potential.empty(); }
-/// Whether to include the charges of water and ions, and use the file's cell.
-inline bool takes_own_cell(const ComputedMapArguments& arguments) { return arguments.cell == "own"; }
-
-/// The given map of a side, "source" or "target"; empty if none was given. Adds to `inputs`.
+/// The file's map of a side, "source" or "target"; nothing where none was given. Adds to `inputs`.
 std::optional<Grid> given_map(const MapArguments& arguments, const std::string& role, std::vector<InputFile>& inputs);
 
-/// The map computed from a molecule's charges.
-/// @param cell of the molecule's file; required with --pme-cell own, ignored otherwise
-/// @throws InputError
-ComputedMap computed_map(const ComputedMapArguments& arguments, Molecule charges, const std::optional<UnitCell>& cell,
-                         double temperature_K);
+/// A file's molecule for a potential: with its water and ions, and its cell.
+struct ChargedFile {
+  Molecule everything;
+  std::optional<UnitCell> cell;
+};
+/// @throws as StructureFile::read(), unit_cells()
+ChargedFile read_charged(const StructureFile& file, int model);
 
-/// The same for one model of a file, `molecule` has its surface atoms.
-ComputedMap computed_map_of_file(const ComputedMapArguments& arguments, const StructureFile& file, int model,
-                                 const Molecule& molecule, double temperature_K);
-/// "pme, cell box, grid 1, Ewald factor 0.25"
-std::string map_in_words(const ComputedMapArguments& arguments);
+/// How the potentials of all sides are computed; nothing where none are.
+class PotentialPlan {
+ public:
+  PotentialPlan() = default;
+  /// @param facts of all molecules. @throws InputError as choose_potential(), make_potential_options()
+  PotentialPlan(const ComputedMapArguments& arguments, const std::vector<PotentialFacts>& facts, double temperature_K);
+
+  bool computes() const { return options_.has_value(); }
+  /// Whether water and ions count, and the cell of their file.
+  bool takes_everything() const { return own_cell_; }
+  /// Why nothing is computed, where that was not asked for.
+  const std::string& because() const { return because_; }
+  /// All that the maps depend on besides the molecules; empty where none are computed.
+  std::string in_words() const;
+
+  /// The map of a molecule with a surface.
+  /// @param everything with water and ions, and its cell; read where takes_everything()
+  /// @throws InputError (no cell), and as ComputedMap
+  ComputedMap map_of(const Molecule& molecule, const ChargedFile& everything) const;
+
+ private:
+  std::optional<PotentialOptions> options_;
+  bool own_cell_ = false;
+  std::string because_;
+};
 
 }  // namespace espdiff::cli

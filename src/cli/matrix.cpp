@@ -1,4 +1,5 @@
 // matrix.cpp: `espdiff matrix VARIANT... -o OUT`.
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 
@@ -6,8 +7,10 @@
 #include "cli/map_options.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
+#include "compare/options.h"
 #include "engine/engine.h"
 #include "io/check_outputs.h"
+#include "io/read_structure.h"
 #include "matrix/matrix_run.h"
 #include "matrix/write_matrix.h"
 
@@ -32,16 +35,37 @@ std::vector<VariantFiles> chosen_variants(const Arguments& a) {
   std::vector<VariantFiles> variants = a.list.empty() ? variants_of_files(a.files) : read_variant_list(a.list);
   if (!a.groups.empty()) read_groups(a.groups, variants);
   for (const VariantFiles& v : variants) {
-    if (is_computed(a.potential) && !v.map.empty())
+    if (a.potential.potential != "auto" && !v.map.empty())
       throw InputError("--potential computes all maps, and the list names one for '" + v.label +
                        "'; leave out one of them");
   }
   return variants;
 }
 
-/// Reads each molecule, and computes its potential, once.
-std::vector<Variant> read_variants(const Arguments& a, const std::vector<VariantFiles>& files, double temperature_K,
-                                   const Progress& progress) {
+bool has_maps(const std::vector<VariantFiles>& files) {
+  return std::any_of(files.begin(), files.end(), [](const VariantFiles& f) { return !f.map.empty(); });
+}
+
+/// The potential of all variants, chosen for all of them together.
+PotentialPlan plan_for(const Arguments& a, const std::vector<VariantFiles>& files, double temperature_K) {
+  if (has_maps(files) || a.potential.potential == "none") return {};
+  std::vector<PotentialFacts> facts;
+  std::unique_ptr<StructureFile> structure;
+  std::string open_path;
+  for (const VariantFiles& file : files) {
+    if (structure == nullptr || open_path != file.structure) {
+      structure = std::make_unique<StructureFile>(file.structure);
+      open_path = file.structure;
+    }
+    const ChargedFile all = read_charged(*structure, file.model);
+    facts.push_back(potential_facts(all.everything, all.cell));
+  }
+  return {a.potential, facts, temperature_K};
+}
+
+/// Each molecule is read, and its potential computed, once.
+std::vector<Variant> read_variants(const Arguments& a, const std::vector<VariantFiles>& files,
+                                   const PotentialPlan& plan, double temperature_K, const Progress& progress) {
   std::vector<Variant> variants;
   std::unique_ptr<StructureFile> structure;  // several models of one follow each other
   std::string open_path;
@@ -53,10 +77,11 @@ std::vector<Variant> read_variants(const Arguments& a, const std::vector<Variant
       open_path = file.structure;
     }
     variants.push_back(read_variant(file, *structure, a.structure, a.map_array));
-    if (is_computed(a.potential))
-      variants.back().make_map =
-          computed_map_of_file(a.potential, *structure, file.model, variants.back().molecule, temperature_K)
-              .maker();
+    if (!plan.computes()) continue;
+    const ChargedFile all = plan.takes_everything() ? read_charged(*structure, file.model) : ChargedFile();
+    const ComputedMap map = plan.map_of(variants.back().molecule, all);
+    variants.back().make_map = map.maker();
+    variants.back().inputs.push_back(computed_input("map", map));
   }
   unite_map_units(variants, temperature_K);
   return variants;
@@ -85,13 +110,14 @@ int run(Arguments& a, const Context& context) {
   const CompareOptions options = make_options(a.settings);
   a.run.shard = parse_shard(a.shard);
   a.run.skip_errors = a.on_error == "skip";
-  a.run.potential = is_computed(a.potential) ? map_in_words(a.potential) : "maps";
   const std::vector<VariantFiles> files = chosen_variants(a);
   std::vector<std::string> inputs = {a.list, a.groups};
   for (const VariantFiles& file : files) inputs.insert(inputs.end(), {file.structure, file.map});
   check_outputs(inputs, output_paths(a.run));
+  const PotentialPlan plan = plan_for(a, files, options.temperature_K);
+  a.run.potential = plan.computes() ? plan.in_words() : "maps";
   const std::unique_ptr<Engine> engine = make_engine(a.device);
-  const std::vector<Variant> variants = read_variants(a, files, options.temperature_K, *context.progress);
+  const std::vector<Variant> variants = read_variants(a, files, plan, options.temperature_K, *context.progress);
   const MatrixReport report = run_matrix(*engine, variants, options, a.run, *context.progress);
   context.progress->report("write", 1.0);
   if (!a.quiet) print_report(a, *engine, report);
@@ -123,7 +149,7 @@ Verb add_matrix(CLI::App& app) {
       "Writes OUT.csv (a row for each ordered pair) and OUT.json (matrices, groups, clusters); `espdiff plot` draws "
       "them.\nA list is a table of comma-separated values whose first row names its columns: structure, and optionally "
       "model, map,\nunit (of the map), label, group. Paths are relative to the list.\n\nExamples:\n"
-      "  espdiff matrix m*.pqr --potential pme -o ubiquitin\n"
+      "  espdiff matrix m*.pqr -o ubiquitin\n"
       "  espdiff matrix --list variants.csv -o variants --resume\n"
       "  espdiff matrix m*.pqr --shard 2/8 -o part      # one of eight processes; then: espdiff merge part.*.state -o "
       "all");

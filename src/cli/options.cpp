@@ -2,10 +2,12 @@
 #include "cli/options.h"
 #include "engine/engine.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
 #include "cli/spelling.h"
+#include "compare/options.h"
 #include "engine/select_engine.h"
 #include "io/read_grid.h"
 #include "io/text_cursor.h"
@@ -126,7 +128,47 @@ void add_settings(CLI::App& parser, GivenSettings& given, bool of_surface_only) 
   }
 }
 
-GridFile read_map(const std::string& path, const std::string& array, const std::string& unit) {
+void add_potential_settings(CLI::App& parser, GivenPotentialSettings& given, bool pmepot_names) {
+  const PotentialOptions defaults = make_potential_options(PotentialMethod::kPme, {}, PmeOptions().temperature_K);
+  for (const PotentialSetting& setting : potential_settings()) {
+    const bool is_pb = setting.of.front() == PotentialMethod::kPoissonBoltzmann;
+    std::string name = pmepot_names && !is_pb ? setting.key : setting.option;
+    std::replace(name.begin(), name.end(), '_', '-');
+    const std::string group = is_pb                                         ? "Poisson-Boltzmann (pb)"
+                              : setting.of.front() == PotentialMethod::kPme ? "Particle-mesh Ewald (pme)"
+                                                                            : "Coulomb's law (coulomb)";
+    const std::string words = pmepot_names && setting.key == "spline" ? "--spline,--order" : "--" + name;
+    const std::string key = setting.option;
+    if (setting.kind == SettingKind::kBoolean) {
+      parser
+          .add_flag_callback(
+              words, [&given, key] { given.emplace_back(key, "1"); }, setting.help)
+          ->group(group);
+      continue;
+    }
+    const auto check = [&setting](const std::string& text) {
+      PotentialOptions scratch;
+      try {
+        setting.set(scratch, text);
+      } catch (const InputError& error) {
+        const std::string message = spelled(error.message()), name_before = "--" + setting.option + ": ";
+        return message.rfind(name_before, 0) == 0 ? message.substr(name_before.size()) : message;
+      }
+      return std::string();
+    };
+    parser
+        .add_option_function<std::string>(
+            words, [&given, key](const std::string& text) { given.emplace_back(key, text); }, setting.help)
+        ->check(CLI::Validator(check, ""))
+        ->type_name(setting.kind == SettingKind::kChoice ? joined(setting.choices, "|")
+                    : setting.kind == SettingKind::kText ? "TEXT"
+                                                         : "NUMBER")
+        ->default_str(setting.get(defaults))
+        ->group(group);
+  }
+}
+
+Grid read_map(const std::string& path, const std::string& array, const std::string& unit) {
   GridOptions options;
   options.array = array;
   GridFile map = read_grid_file(path, options);

@@ -9,11 +9,13 @@
 #include <utility>
 #include <vector>
 
+#include "base/handles.h"
+#include "base/structure_options.h"
 #include "compare/settings.h"
-#include "engine/handles.h"
 #include "io/read_grid.h"
 #include "io/read_structure.h"
 #include "potential/potential.h"
+#include "potential/potential_settings.h"
 
 namespace espdiff::cli {
 
@@ -35,6 +37,10 @@ using GivenSettings = std::vector<std::pair<std::string, std::string>>;
 /// Adds every setting as an option `--name`; a boolean one as a flag, `--no-name` if it is on by default.
 /// @param of_surface_only omits settings that only a mapping uses
 void add_settings(CLI::App& parser, GivenSettings& given, bool of_surface_only);
+
+/// Adds every option of computed potentials, for make_potential_options().
+/// @param pmepot_names of the options of pme: `--grid` as PMEPot has them, not `--pme-grid`
+void add_potential_settings(CLI::App& parser, GivenPotentialSettings& given, bool pmepot_names);
 
 /// Reads a potential map and, unless `unit` is empty, declares its unit.
 GridFile read_map(const std::string& path, const std::string& array, const std::string& unit);

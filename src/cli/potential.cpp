@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "align/pair_atoms.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
 #include "engine/engine.h"
@@ -20,66 +21,39 @@ namespace {
 
 struct Arguments {
   std::string molecule, output, variance, standard_error;
-  std::string method = "pme", frames = "all", averaging = "mean", align = "none", precision = "single";
-  std::string cell, xsc_file, grid = "1";
-  double pad_A = -1;  ///< negative: not given
+  std::string method = "pme", frames = "all", averaging = "mean", align = "none";
+  std::string cell, xsc_file;
+  double temperature_K = PmeOptions().temperature_K;
+  GivenPotentialSettings given;
   std::size_t frames_per_block = 1;
   bool quiet = false;
-  PmeOptions pme;
-  CoulombOptions coulomb;
-  int order = 0;  ///< 0: the mode's own
-  StructureOptions structure{1, true, true};
+  StructureOptions structure{1, true, true};  ///< Poisson-Boltzmann leaves water out
   DeviceArguments device;
 };
 
 void add_cell_options(CLI::App& p, Arguments& a) {
-  const char* const group = "Cell and grid";
+  const char* const group = "Cell";
   p.add_option("--cell", a.cell,
                "Cell of every frame, '{{ox oy oz} {ax ay az} {bx by bz} {cx cy cz}}', o its centre. Default: each "
                "frame's CRYST1 record, centred on the atoms; without it, a box around the atoms")
       ->group(group);
   p.add_option("--xscfile", a.xsc_file, "Cell of every frame from a NAMD .xsc file")->group(group);
-  p.add_option("--pad", a.pad_A, "Use a box around the atoms plus this margin on each side, A (10 if there is no cell)")
-      ->check(finite_number(0))
-      ->group(group);
-  p.add_option("--grid", a.grid, "Resolution below 8 A, or a number of points from 8 on, or three: '80 80 96'")
-      ->capture_default_str()
-      ->group(group);
 }
 
 void add_method_options(CLI::App& p, Arguments& a) {
   const char* const group = "Method";
   p.add_option("--method", a.method,
-               "pme: smeared charges in a periodic cell (particle-mesh Ewald, reciprocal part; mean zero, a net charge "
-               "is neutralized by a uniform background). coulomb: the bare law, isolated, summed directly")
-      ->check(CLI::IsMember({"pme", "coulomb"}))
+               "pme: particle-mesh Ewald in a periodic cell (mean zero; a net charge is neutralized by a uniform "
+               "background). pb: in salt water, by the Poisson-Boltzmann equation. coulomb: the bare law, isolated, "
+               "summed directly")
+      ->check(CLI::IsMember({"pme", "pb", "coulomb"}))
       ->capture_default_str()
       ->group(group);
-  p.add_option("--ewaldfactor", a.pme.ewald_factor, "Smearing of the charges, 1/A: Gaussians of variance 1 / (2 f^2)")
-      ->capture_default_str()
-      ->check(finite_number())
-      ->group(group);
-  p.add_option("--order,--spline", a.order, "Order of the B-splines, 4 to 8 (default 6; 4 with --compatible)")
-      ->group(group);
-  p.add_option("--precision", a.precision, "Precision of the sums")
-      ->check(CLI::IsMember({"single", "double"}))
-      ->capture_default_str()
-      ->group(group);
-  p.add_flag(
-       "--compatible", a.pme.compatible,
-       "Reproduce VMD's PMEPot: its grid sizes, squared spline factor, whole-number volume, one cell for all frames")
-      ->group(group);
-  p.add_option("--temperature", a.pme.temperature_K, "Temperature of kT, K")
+  p.add_option("--temperature", a.temperature_K, "Temperature of kT, K")
       ->capture_default_str()
       ->check(finite_number())
       ->group(group);
-  p.add_option("--dielectric", a.coulomb.dielectric, "Dielectric constant of --method coulomb")
-      ->capture_default_str()
-      ->check(finite_number())
-      ->group(group);
-  p.add_flag("--distance-dependent", a.coulomb.distance_dependent,
-             "Distance-dependent dielectric of --method coulomb: --dielectric times r in A")
-      ->group(group);
+  add_potential_settings(p, a.given, true);
 }
 
 void add_frame_options(CLI::App& p, Arguments& a) {
@@ -106,21 +80,16 @@ void add_frame_options(CLI::App& p, Arguments& a) {
 }
 
 PotentialOptions options_from(const Arguments& a) {
-  PotentialOptions o;
-  o.method = parse_potential_method(a.method);
+  const PotentialMethod method = parse_potential_method(a.method);
+  PotentialOptions o = make_potential_options(method, a.given, a.temperature_K, true);
   if (!a.cell.empty() && !a.xsc_file.empty()) throw InputError("--cell and --xscfile were given; leave one out");
+  if (method == PotentialMethod::kPoissonBoltzmann && !(a.cell.empty() && a.xsc_file.empty()))
+    throw InputError("a cell was given, and --method pb has none; leave it out, or take --method pme");
   if (!a.cell.empty()) o.cell = parse_cell(a.cell);
   if (!a.xsc_file.empty()) {
     const auto [centre, edge_a, edge_b, edge_c] = read_xsc(a.xsc_file);
     o.cell = PmeCell{centre, {edge_a, edge_b, edge_c}};
   }
-  if (a.pad_A >= 0) o.pad_A = a.pad_A;
-  o.grid = parse_grid_choice(a.grid);
-  o.pme = a.pme;
-  o.pme.precision = a.precision == "double" ? Precision::kDouble : Precision::kSingle;
-  o.pme.order = a.order != 0 ? a.order : usual_order(a.pme.compatible);
-  o.coulomb = a.coulomb;
-  o.coulomb.temperature_K = a.pme.temperature_K;
   o.align = parse_align_atoms(a.align);
   o.frames_per_block = a.frames_per_block;
   return o;
@@ -205,6 +174,7 @@ int run(const Arguments& a, const Context& context) {
   for (std::size_t i = 0; i < frames.size(); ++i) {
     StructureOptions structure = a.structure;
     structure.model = frames[i] + 1;
+    if (options.method == PotentialMethod::kPoissonBoltzmann) structure.include_water = false;
     molecule = file.read(structure);
     require_charges(molecule);
     if (!outputs) outputs = std::make_unique<Outputs>(a, frames);

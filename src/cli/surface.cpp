@@ -5,9 +5,11 @@
 #include "cli/options.h"
 #include "cli/verbs.h"
 #include "compare/input.h"
+#include "compare/options.h"
 #include "compare/surface.h"
 #include "engine/engine.h"
 #include "io/check_outputs.h"
+#include "io/read_structure.h"
 #include "io/write_grid.h"
 #include "report/write_surface.h"
 

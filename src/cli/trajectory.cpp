@@ -11,7 +11,9 @@
 #include "base/printable.h"
 #include "cli/map_options.h"
 #include "cli/verbs.h"
+#include "compare/options.h"
 #include "io/check_outputs.h"
+#include "io/read_structure.h"
 #include "io/write_csv.h"
 #include "trajectory/frame_files.h"
 #include "trajectory/frame_range.h"
@@ -68,7 +70,6 @@ std::string described(const std::vector<std::string>& paths) {
 
 /// A map in the Tcl command's words; empty for none.
 std::string map_words(const MapArguments& m, const std::string& path, const std::string& unit) {
-  if (is_computed(m)) return "pme cell " + m.cell + " grid " + m.grid + " ewaldfactor " + csv_number(m.ewald_factor);
   if (path.empty()) return {};
   return "file " + path + (unit.empty() ? "" : " unit " + unit) + (m.map_array.empty() ? "" : " array " + m.map_array);
 }
@@ -78,21 +79,24 @@ StartFrom start_of(const Arguments& a, Method method) {
   return a.start == "previous" ? StartFrom::kPrevious : StartFrom::kSource;
 }
 
-SeriesHead head_of(const Arguments& a, StartFrom start, const std::vector<InputFile>& inputs) {
-  const std::string map = map_words(a.maps, a.maps.target_map, a.maps.target_map_unit);
+/// @param potential the computed potential in words; empty for none
+SeriesHead head_of(const Arguments& a, StartFrom start, const std::string& potential,
+                   const std::vector<InputFile>& inputs) {
+  const std::string map = potential.empty() ? map_words(a.maps, a.maps.target_map, a.maps.target_map_unit) : potential;
   std::string settings;
   for (const auto& [name, value] : a.settings) settings += (settings.empty() ? "" : " ") + name + " " + value;
-  SeriesHead head = {{"espdiff", kVersion},
-                     {"file", described(a.targets)},
-                     {"source_model", std::to_string(a.source_model)},
-                     {"frames", a.frames},
-                     {"reference", "file " + a.source},
-                     {"map", map.empty() ? "none" : map},
-                     {"reference-map", map_words(a.maps, a.maps.source_map, a.maps.source_map_unit)},
-                     {"atoms", std::string(a.structure.include_hetero ? "hetero" : "no hetero") +
-                                   (a.structure.include_water ? ", water" : ", no water")},
-                     {"start", start == StartFrom::kPrevious ? "previous" : "source"},
-                     {"settings", settings}};
+  SeriesHead head = {
+      {"espdiff", kVersion},
+      {"file", described(a.targets)},
+      {"source_model", std::to_string(a.source_model)},
+      {"frames", a.frames},
+      {"reference", "file " + a.source},
+      {"map", map.empty() ? "none" : map},
+      {"reference-map", potential.empty() ? map_words(a.maps, a.maps.source_map, a.maps.source_map_unit) : potential},
+      {"atoms", std::string(a.structure.include_hetero ? "hetero" : "no hetero") +
+                    (a.structure.include_water ? ", water" : ", no water")},
+      {"start", start == StartFrom::kPrevious ? "previous" : "source"},
+      {"settings", settings}};
   for (const InputFile& input : inputs) head.emplace_back(input.role + "_sha256", input.sha256);
   return head;
 }
@@ -100,38 +104,33 @@ SeriesHead head_of(const Arguments& a, StartFrom start, const std::vector<InputF
 /// Source and frames, and how their molecules become a comparison's inputs.
 class Sides {
  public:
-  Sides(const Arguments& a, double temperature_K) : a_(a), temperature_K_(temperature_K), frames_(a.targets) {
+  Sides(const Arguments& a, double temperature_K) : a_(a), frames_(a.targets) {
     const StructureFile file(a.source);
     source_ = file.read(with_model(a.structure));
     inputs_ = {{"source", a.source, file.sha256()}};
     source_map_ = given_map(a.maps, "source", inputs_);
     target_map_ = given_map(a.maps, "target", inputs_);
-    if (!is_computed(a.maps)) return;
-    if (takes_own_cell(a.maps)) {
-      charges_ = file.read(with_model({1, true, true}));
-      const auto cell = file.unit_cells().at(static_cast<std::size_t>(a.source_model - 1));
-      computed_ = computed_map(a.maps, charges_, cell, temperature_K);
-    } else {
-      computed_ = computed_map(a.maps, source_, std::nullopt, temperature_K);
-    }
+    if (has_given_maps(a.maps) || a.maps.potential == "none") return;
+    charges_ = read_charged(file, a.source_model);
+    plan_ = PotentialPlan(a.maps, {potential_facts(charges_.everything, charges_.cell)}, temperature_K);
+    if (!plan_.computes()) return;
+    computed_ = plan_.map_of(source_, charges_);
     inputs_.push_back(computed_input("source_map", *computed_));
   }
 
   int n_frames() const { return frames_.n_frames(); }
   const std::vector<InputFile>& inputs() const { return inputs_; }
+  std::string potential() const { return plan_.in_words(); }
   CompareInput source() const {
     return {&source_, source_map_ ? &*source_map_ : nullptr, computed_ ? computed_->maker() : MapMaker()};
   }
 
   FrameInput frame(int number) {
     FrameInput input{read(number, a_.structure, source_), target_map_ ? &*target_map_ : nullptr, nullptr};
-    if (!is_computed(a_.maps)) return input;
-    if (takes_own_cell(a_.maps)) {
-      Molecule all = read(number, {1, true, true}, charges_);
-      input.make_map = computed_map(a_.maps, std::move(all), frames_.cell(number), temperature_K_).maker();
-    } else {
-      input.make_map = computed_map(a_.maps, input.molecule, std::nullopt, temperature_K_).maker();
-    }
+    if (!plan_.computes()) return input;
+    ChargedFile all;
+    if (plan_.takes_everything()) all = {read(number, {1, true, true}, charges_.everything), frames_.cell(number)};
+    input.make_map = plan_.map_of(input.molecule, all).maker();
     return input;
   }
 
@@ -148,9 +147,10 @@ class Sides {
   }
 
   const Arguments& a_;
-  double temperature_K_;
   FrameFiles frames_;
-  Molecule source_, charges_;  // what has the surface; with --pme-cell own, all that counts for the potential
+  Molecule source_;      // what has the surface
+  ChargedFile charges_;  // with water and ions
+  PotentialPlan plan_;
   std::optional<Grid> source_map_, target_map_;
   std::optional<ComputedMap> computed_;
   std::vector<InputFile> inputs_;
@@ -173,7 +173,7 @@ int run(const Arguments& a, const Context& context) {
   run.frame = [&sides](int number) { return sides.frame(number); };
   run.start = start_of(a, run.options.method);
   run.skip_errors = a.on_error == "skip";
-  SeriesCsv file(a.output, head_of(a, run.start, sides.inputs()),
+  SeriesCsv file(a.output, head_of(a, run.start, sides.potential(), sides.inputs()),
                  a.resume      ? ExistingFile::kResume
                  : a.overwrite ? ExistingFile::kReplace
                                : ExistingFile::kRefuse);
@@ -204,7 +204,7 @@ Verb add_trajectory(CLI::App& app) {
       "Trajectories.\n\n"
       "Examples:\n"
       "  espdiff trajectory closed.pqr frames.pdb -o motion.csv\n"
-      "  espdiff trajectory closed.pqr frames.pdb --potential pme --frames 0:10:end -o motion.csv --resume");
+      "  espdiff trajectory closed.pqr frames.pdb --potential pb --frames 0:10:end -o motion.csv --resume");
   parser->add_option("SOURCE", a->source, "Structure that each frame is compared with: PQR, PDB or mmCIF")->required();
   parser->add_option("FRAMES", a->targets, "Structure files whose models are the frames")->required();
   parser->add_option("-o,--output,--csv", a->output, "CSV file that gets a row for each frame")->required();

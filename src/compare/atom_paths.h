@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "align/pair_atoms.h"
+#include "base/pairing.h"
+#include "base/types.h"
 #include "compare/domain_motions.h"
 #include "engine/morph_stage.h"
 

@@ -106,7 +106,8 @@ SurfaceResult make_surface(Engine& engine, const CompareInput& input, const Comp
   result.residue = engine.vertex_residues(surface.mesh, surface.atoms);
   if (has_map(input)) {
     result.unit = unit_of(input);
-    const GridPtr map = device_map(engine, input, from_common, result.unit, options.temperature_K, progress);
+    const GridPtr map =
+        device_map(engine, input, from_common, nullptr, result.unit, options.temperature_K, progress).map;
     result.potential = engine.download(engine.sample(map, surface.mesh));
     count_outside(input, result.potential);
   }

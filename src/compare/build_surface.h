@@ -3,10 +3,10 @@
 
 #include <vector>
 
+#include "base/handles.h"
 #include "base/progress.h"
 #include "compare/result.h"
 #include "compare/stage_clock.h"
-#include "engine/handles.h"
 #include "engine/surface_stage.h"
 
 namespace espdiff {

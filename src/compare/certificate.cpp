@@ -87,15 +87,15 @@ void judge(Certificate& c, const CompareResult& result) {
   refuse(c.target_to_mapped.mean_within_limit > Limits::kMeanDistance_A,
          "the target lies " + angstrom(c.target_to_mapped.mean_within_limit) +
              " from the mapped surface on average (limit " + angstrom(Limits::kMeanDistance_A) + ")");
-  refuse(c.unmatched_source > Limits::kMaxUnmatchedSource,
-         percent(c.unmatched_source) + " of the source's area has no counterpart on the target (limit " +
-             percent(Limits::kMaxUnmatchedSource) + ")");
-  refuse(c.unmatched_target > Limits::kMaxUnmatchedTarget,
-         percent(c.unmatched_target) + " of the target's area has no counterpart on the source (limit " +
-             percent(Limits::kMaxUnmatchedTarget) + ")");
+  refuse(c.unmatched_source > Limits::kMaxUnmatchedSource, percent(c.unmatched_source) +
+                                                               " of the source's area is unmatched (limit " +
+                                                               percent(Limits::kMaxUnmatchedSource) + ")");
+  refuse(c.unmatched_target > Limits::kMaxUnmatchedTarget, percent(c.unmatched_target) +
+                                                               " of the target's area is unmatched (limit " +
+                                                               percent(Limits::kMaxUnmatchedTarget) + ")");
   refuse(c.round_trip && c.round_trip->mean_A > Limits::kRoundTrip_A,
-         "there and back ends " + angstrom(c.round_trip ? c.round_trip->mean_A : 0) +
-             " from the start on average (limit " + angstrom(Limits::kRoundTrip_A) + ")");
+         "the round-trip error is " + angstrom(c.round_trip ? c.round_trip->mean_A : 0) + " on average (limit " +
+             angstrom(Limits::kRoundTrip_A) + ")");
   const double n = static_cast<double>(result.surface.positions.size());
   const double outside = static_cast<double>(std::max(result.n_outside_source_map, result.n_outside_target_map));
   refuse(outside > 0, percent(outside / n) + " of the vertices lie outside a map");

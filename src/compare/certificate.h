@@ -1,9 +1,9 @@
 // certificate.h: whether a comparison is trustworthy, and why not.
 #pragma once
 
+#include "base/handles.h"
 #include "compare/mapping.h"
 #include "compare/result.h"
-#include "engine/handles.h"
 
 namespace espdiff {
 

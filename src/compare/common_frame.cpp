@@ -3,6 +3,8 @@
 
 #include <limits>
 
+#include "align/pair_atoms.h"
+#include "align/rigid_domains.h"
 #include "align/superpose.h"
 #include "base/error.h"
 #include "compare/options.h"

@@ -7,6 +7,7 @@
 
 #include "align/superpose.h"
 #include "base/error.h"
+#include "base/handles.h"
 #include "compare/atom_paths.h"
 #include "compare/build_surface.h"
 #include "compare/certificate.h"
@@ -22,12 +23,12 @@
 #include "compare/residue_rows.h"
 #include "compare/result.h"
 #include "compare/round_trip.h"
+#include "compare/sample_outside.h"
 #include "compare/series.h"
 #include "compare/side_maps.h"
 #include "engine/certificate_stage.h"
 #include "engine/deform_stage.h"
 #include "engine/engine.h"
-#include "engine/handles.h"
 #include "engine/morph_stage.h"
 
 namespace espdiff {
@@ -84,7 +85,7 @@ struct Series::Steps {
   MeshPtr regularized{};
   DeformReport regularize_report{};
   PotentialUnit unit = PotentialUnit::kUnknown;  ///< of the source's map
-  GridPtr source_map{};                          ///< made by the first step
+  MadeMap source_map{};                          ///< made by the first step
   std::optional<LastStep> last{};                ///< empty if the next step starts from the source
   std::optional<SeriesState> restored{};
 
@@ -168,41 +169,76 @@ struct Series::Steps {
     return mapping;
   }
 
-  /// Makes the target's map, null if there is none, and the source's unless it exists already.
-  GridPtr make_maps(const CompareInput& target, const CommonFrame& frame, const Progress& progress) {
+  /// The target's map, null where there is none; the source's too, unless it is there already.
+  GridPtr make_maps(const CompareInput& target, const CommonFrame& frame, CompareResult& result,
+                    const Progress& progress) {
     if (!has_map(target)) return nullptr;
     const PotentialUnit wanted = common_unit(source, target);
     const double temperature_K = options.temperature_K;
-    if (source_map == nullptr || wanted != unit) {
-      source_map = device_map(engine, source, inverse(frame.from_source), wanted, temperature_K, progress);
+    if (source_map.map == nullptr || wanted != unit) {
+      source_map = device_map(engine, source, inverse(frame.from_source), nullptr, wanted, temperature_K, progress);
       unit = wanted;
     }
-    return device_map(engine, target, inverse(frame.from_target), wanted, temperature_K, progress);
+    if (source.make_map) result.source_recipe = source_map.recipe;
+    // An iteration may start from the source's potential, whatever steps were made before: the bits of a step do not
+    // depend on them.
+    const GridPtr before = source.make_map ? source_map.map : nullptr;
+    MadeMap made = device_map(engine, target, inverse(frame.from_target), before, wanted, temperature_K, progress);
+    if (target.make_map) result.target_recipe = std::move(made.recipe);
+    return made.map;
   }
 
-  /// Samples both potentials and computes the metrics of their difference.
+  /// Both potentials at one distance outside the surfaces, NaN where a vertex does not count; says in `counted` why.
+  std::pair<std::vector<float>, std::vector<float>> sample_both(const CompareInput& target, const GridPtr& target_map,
+                                                                const Mapping& mapping, const AtomsPtr& target_atoms,
+                                                                const std::vector<bool>& kept,
+                                                                OffsetMetrics& counted) const {
+    const float isovalue = static_cast<float>(options.surface.isovalue);
+    OutsideSamples at_source = sample_outside(engine, source_map.map, mapping.source, surface.atoms, isovalue,
+                                              counted.offset_A),
+                   at_target =
+                       sample_outside(engine, target_map, mapping.mapped, target_atoms, isovalue, counted.offset_A);
+    counted.n_outside_source_map = count_outside(source, at_source.values, kept);
+    counted.n_outside_target_map = count_outside(target, at_target.values, kept);
+    for (std::size_t v = 0; v < kept.size(); ++v) {
+      if (at_source.inside[v] != 0) at_source.values[v] = std::numeric_limits<float>::quiet_NaN();
+      if (at_target.inside[v] != 0) at_target.values[v] = std::numeric_limits<float>::quiet_NaN();
+      counted.n_inside_source += kept[v] && at_source.inside[v] != 0 ? 1 : 0;
+      counted.n_inside_target += kept[v] && at_target.inside[v] != 0 ? 1 : 0;
+    }
+    return {std::move(at_source.values), std::move(at_target.values)};
+  }
+
+  /// Samples both potentials and computes the metrics of their difference, at each distance outside the surfaces.
   void compare_potentials(const CompareInput& target, const GridPtr& target_map, const Mapping& mapping,
-                          const MeshPtr& moved, CompareResult& result) {
+                          const MeshPtr& moved, const AtomsPtr& target_atoms, CompareResult& result) {
     MappedSurface& s = result.surface;
-    const ScalarsPtr at_source = engine.sample(source_map, mapping.source),
-                     at_target = engine.sample(target_map, mapping.mapped);
-    result.unit = unit;
-    s.potential_source = engine.download(at_source);
-    s.potential_target = engine.download(at_target);
     const std::vector<bool> kept = is_matched(s);
-    result.n_outside_source_map = count_outside(source, s.potential_source, kept);
-    result.n_outside_target_map = count_outside(target, s.potential_target, kept);
-    set_unmatched_to_nan(kept, s.potential_target);
-    result.has_potential = true;
     std::vector<float> excluded(s.corrupt.begin(), s.corrupt.end());
     for (std::size_t t = 0; t < mapping.unmatched.size(); ++t)
       excluded[t] = std::max(excluded[t], mapping.unmatched[t]);
-    const ScalarsPtr path_length = engine.upload_scalars(mapping.path_length);
-    result.metrics =
-        engine.compare(moved, mapping.mapped, at_source, at_target, engine.upload_scalars(excluded), path_length);
-    result.metrics_all =
-        engine.compare(moved, mapping.mapped, at_source, at_target,
-                       mapping.unmatched.empty() ? nullptr : engine.upload_scalars(mapping.unmatched), path_length);
+    const ScalarsPtr left_out = engine.upload_scalars(excluded),
+                     path_length = engine.upload_scalars(mapping.path_length);
+    result.unit = unit;
+    result.has_potential = true;
+    for (const double offset_A : options.offsets_A) {
+      OffsetMetrics at;
+      at.offset_A = offset_A;
+      auto [of_source, of_target] = sample_both(target, target_map, mapping, target_atoms, kept, at);
+      const ScalarsPtr at_source = engine.upload_scalars(of_source), at_target = engine.upload_scalars(of_target);
+      at.metrics = engine.compare(moved, mapping.mapped, at_source, at_target, left_out, path_length);
+      result.by_offset.push_back(at);
+      if (result.by_offset.size() > 1) continue;
+      result.metrics = at.metrics;
+      result.n_outside_source_map = at.n_outside_source_map;
+      result.n_outside_target_map = at.n_outside_target_map;
+      result.metrics_all =
+          engine.compare(moved, mapping.mapped, at_source, at_target,
+                         mapping.unmatched.empty() ? nullptr : engine.upload_scalars(mapping.unmatched), path_length);
+      s.potential_source = std::move(of_source);
+      s.potential_target = std::move(of_target);
+      set_unmatched_to_nan(kept, s.potential_target);
+    }
   }
 
   /// Finds the part of the mapping that is matched on the target's surface; drops unmatched closed cavities.
@@ -242,7 +278,7 @@ struct Series::Steps {
     result.certificate.same_residue_area_fraction =
         same_residue_share(s, s.residue, engine.vertex_residues(mapping.mapped, target_surface.atoms),
                            paired_residues(*source.molecule, *target.molecule, result.pairing));
-    if (target_map != nullptr) compare_potentials(target, target_map, mapping, moved, result);
+    if (target_map != nullptr) compare_potentials(target, target_map, mapping, moved, target_surface.atoms, result);
     result.residues = residue_rows(s, source.molecule->residues.size(), result.has_potential);
     judge(result.certificate, result);
     clock.lap("metrics");
@@ -256,7 +292,7 @@ struct Series::Steps {
     progress.report("align", 0.0);
     const CommonFrame frame = align(*source.molecule, *target.molecule, options, result);
     clock.lap("align");
-    const GridPtr target_map = make_maps(target, frame, progress);
+    const GridPtr target_map = make_maps(target, frame, result, progress);
     if (target_map != nullptr) clock.lap("potential");
 
     prepare(frame.from_source, progress, clock);

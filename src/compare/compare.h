@@ -1,9 +1,9 @@
 // compare.h: compares one pair of molecules: from atoms and maps to metrics and certificate.
 #pragma once
 
+#include "base/handles.h"
 #include "base/progress.h"
 #include "compare/result.h"
-#include "engine/handles.h"
 
 namespace espdiff {
 

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "align/rigid_domains.h"
+#include "base/pairing.h"
+#include "base/rigid_domain.h"
+#include "base/types.h"
 #include "compare/build_surface.h"
 
 namespace espdiff {

@@ -3,16 +3,25 @@
 
 #include <functional>
 
+#include "base/handles.h"
 #include "base/progress.h"
 #include "base/types.h"
-#include "engine/handles.h"
+#include "compare/map_recipe.h"
 
 namespace espdiff {
 
-/// Makes a potential map on the device when it is needed. Sampling uses the method the map was made for, such as its
-/// splines (PmeOptions::smooth_samples). In kT/e at the comparison's temperature. `to_map` goes from the common frame
-/// into the molecule's own frame, which is the map's.
-using MapMaker = std::function<GridPtr(Engine& engine, const RigidTransform& to_map, const Progress& progress)>;
+/// A potential on the device, and what it was made of.
+struct MadeMap {
+  GridPtr map;
+  MapRecipe recipe;
+};
+
+/// Makes a potential where it is needed, on the device: sampled there in whatever way it was made for, such as by its
+/// splines (PmeOptions::smooth_samples). In kT/e at the comparison's temperature. `to_map` is the way from the common
+/// frame into the molecule's own. `before` is a potential that this one may resemble, in the same common frame, such as
+/// the source's: an iteration may start from it; null where there is none.
+using MapMaker = std::function<MadeMap(Engine& engine, const RigidTransform& to_map, const GridPtr& before,
+                                       const Progress& progress)>;
 
 /// One side of a comparison: a molecule with a given map, a computed map, or none. Without maps on both sides only
 /// shapes are compared.

@@ -5,9 +5,11 @@
 #include <limits>
 #include <utility>
 
+#include "align/pair_atoms.h"
 #include "align/superpose.h"
 #include "base/error.h"
 #include "compare/atom_paths.h"
+#include "compare/options.h"
 #include "compare/paired_residues.h"
 #include "engine/engine.h"
 

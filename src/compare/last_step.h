@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
+#include "base/handles.h"
 #include "compare/common_frame.h"
 #include "compare/options.h"
 #include "compare/series.h"
-#include "engine/handles.h"
 #include "engine/morph_stage.h"
 
 namespace espdiff {

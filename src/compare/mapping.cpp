@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "base/handles.h"
 #include "engine/engine.h"
-#include "engine/handles.h"
 #include "engine/surface_stage.h"
 
 namespace espdiff {

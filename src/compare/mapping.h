@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/handles.h"
 #include "engine/certificate_stage.h"
-#include "engine/handles.h"
 
 namespace espdiff {
 

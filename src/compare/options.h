@@ -2,8 +2,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "align/pair_atoms.h"
+#include "base/pairing.h"
 #include "engine/deform_stage.h"
 #include "engine/morph_stage.h"
 
@@ -50,6 +51,9 @@ struct CompareOptions {
   /// In grid spacings; they set min_displacement_A. With the thesis' 1e-3 the mapping ends while a few vertices still
   /// move.
   double regularize_min_displacement = 1e-3, deform_min_displacement = 5e-4;
+  /// How far outside the surfaces the potentials are read, each along its own surface's normal, Angstrom. The first one
+  /// is what vertices and residues have; metrics are computed for all.
+  std::vector<double> offsets_A{0};
   bool round_trip = false;     ///< also map back, which doubles the time, and measure the round-trip error
   double temperature_K = 300;  ///< for converting between kT/e and other units
 };

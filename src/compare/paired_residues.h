@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "align/pair_atoms.h"
+#include "base/pairing.h"
+#include "base/types.h"
 
 namespace espdiff {
 

@@ -7,10 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "align/pair_atoms.h"
-#include "align/rigid_domains.h"
 #include "base/message.h"
+#include "base/pairing.h"
+#include "base/rigid_domain.h"
 #include "base/types.h"
+#include "compare/map_recipe.h"
 #include "engine/certificate_stage.h"
 #include "engine/deform_stage.h"
 #include "engine/morph_stage.h"
@@ -93,6 +94,15 @@ struct MappedSurface {
 /// trajectory.
 enum class StartFrom { kSource, kPrevious };
 
+/// The metrics at one distance outside the surfaces.
+struct OffsetMetrics {
+  double offset_A = 0;
+  Metrics metrics;  ///< over valid triangles
+  /// Vertices left out since they lie inside the source's, the target's surface there.
+  std::size_t n_inside_source = 0, n_inside_target = 0;
+  std::size_t n_outside_source_map = 0, n_outside_target_map = 0;  ///< vertices
+};
+
 struct CompareResult {
   double rmsd_A = 0;
   AtomPairing pairing;
@@ -100,9 +110,12 @@ struct CompareResult {
   RigidTransform source_to_target;   ///< the superposition
   std::vector<RigidDomain> domains;  ///< superposed separately; displacements start where their motions end
   bool has_potential = false;
+  std::string shapes_because;  ///< why there is none, where nobody asked for shapes alone
   PotentialUnit unit = PotentialUnit::kUnknown;
-  Metrics metrics;                                                 ///< over valid triangles
-  Metrics metrics_all;                                             ///< over all triangles with samples
+  std::vector<OffsetMetrics> by_offset;                   ///< [offset of the options]; empty without potentials
+  std::optional<MapRecipe> source_recipe, target_recipe;  ///< of potentials that were computed
+  Metrics metrics;                                        ///< over valid triangles
+  Metrics metrics_all;                                    ///< over all triangles with samples
   std::size_t n_outside_source_map = 0, n_outside_target_map = 0;  ///< vertices
   SurfaceSummary source_surface, target_surface;
   double area_mapped_A2 = 0;

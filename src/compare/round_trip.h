@@ -1,9 +1,9 @@
 // round_trip.h: the round-trip error of a mapping.
 #pragma once
 
+#include "base/handles.h"
 #include "compare/mapping.h"
 #include "compare/result.h"
-#include "engine/handles.h"
 
 namespace espdiff {
 

@@ -51,8 +51,7 @@ class Series {
   /// target to this one, so the correspondence is composed of small steps. Path lengths add up, split edges stay split,
   /// and lost surface stays unmatched until a step starts from the source again. Triangles that find_matched_part()
   /// removed beyond that concern one target only and are not inherited. A surface that starts from the source again
-  /// takes the correspondence of the direct mapping,
-  /// which may jump.
+  /// takes the correspondence of the direct mapping, which may jump.
   /// @throws as compare()
   CompareResult step(const CompareInput& target, StartFrom start, const Progress& progress);
 

@@ -8,8 +8,10 @@
 #include <locale>
 #include <sstream>
 
+#include "align/pair_atoms.h"
 #include "align/rigid_domains.h"
 #include "base/error.h"
+#include "compare/options.h"
 
 namespace espdiff {
 namespace {
@@ -224,6 +226,42 @@ void add_mapping_settings(std::vector<Setting>& all) {
   all.push_back(thesis);
 }
 
+/// Distances of 0 to 20 A, each once: "0" or "0,1.4,3".
+std::vector<double> parse_offsets(const std::string& name, const std::string& text) {
+  constexpr double kMost_A = 20;
+  const std::string accepted = "a distance of 0 to 20 Angstrom, or a list of some such as 0,1.4,3";
+  std::vector<double> offsets;
+  std::istringstream list(text);
+  for (std::string part; std::getline(list, part, ',');) {
+    double value = 0;
+    if (!parse(part, value) || !std::isfinite(value) || value < 0 || value > kMost_A) refuse(name, text, accepted);
+    if (std::find(offsets.begin(), offsets.end(), value) != offsets.end()) refuse(name, text, accepted + ", each once");
+    offsets.push_back(value);
+  }
+  if (offsets.empty() || text.back() == ',') refuse(name, text, accepted);
+  return offsets;
+}
+
+Setting offset_setting() {
+  Setting offset{
+      "offset",
+      "Potentials",
+      SettingKind::kText,
+      {},
+      "Distance outside both surfaces, along their normals, at which the potentials are read, Angstrom; a list "
+      "such as 0,1.4,3 gives the metrics at each, and vertices and residues have the first",
+      false,
+      nullptr,
+      nullptr};
+  offset.set = [](CompareOptions& o, const std::string& text) { o.offsets_A = parse_offsets("offset", text); };
+  offset.get = [](const CompareOptions& o) {
+    std::string text;
+    for (const double value : o.offsets_A) text += (text.empty() ? "" : ",") + written(value);
+    return text;
+  };
+  return offset;
+}
+
 /// The settings whose key in OUT.json ends with a unit.
 constexpr std::pair<const char*, const char*> kUnits[] = {
     {"grid-spacing", "A"}, {"max-step", "A"}, {"distance-threshold", "A"}, {"gvf-weight", "A2"}, {"temperature", "K"}};
@@ -251,6 +289,7 @@ std::vector<Setting> make_settings() {
   };
   domains.get = [](const CompareOptions& o) { return o.domains; };
   all.push_back(domains);
+  all.push_back(offset_setting());
   all.push_back(number(
       "temperature", "Potentials", kPositive, [](auto& o) -> auto& { return o.temperature_K; },
       "Temperature for converting between kT/e and other units, K"));

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "compare/options.h"
-
 namespace espdiff {
+
+struct CompareOptions;
 
 enum class SettingKind { kNumber, kInteger, kBoolean, kChoice, kText };
 

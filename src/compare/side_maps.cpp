@@ -47,11 +47,11 @@ void check_maps(const CompareInput& source, const CompareInput& target) {
   }
 }
 
-GridPtr device_map(Engine& engine, const CompareInput& side, const RigidTransform& to_map, PotentialUnit unit,
-                   double temperature_K, const Progress& progress) {
-  if (side.make_map) return side.make_map(engine, to_map, progress);
-  if (side.map->unit == unit || unit == PotentialUnit::kUnknown) return engine.upload_map(*side.map, to_map);
-  return engine.upload_map(in_unit(*side.map, unit, temperature_K), to_map);
+MadeMap device_map(Engine& engine, const CompareInput& side, const RigidTransform& to_map, const GridPtr& before,
+                   PotentialUnit unit, double temperature_K, const Progress& progress) {
+  if (side.make_map) return side.make_map(engine, to_map, before, progress);
+  if (side.map->unit == unit || unit == PotentialUnit::kUnknown) return {engine.upload_map(*side.map, to_map), {}};
+  return {engine.upload_map(in_unit(*side.map, unit, temperature_K), to_map), {}};
 }
 
 std::size_t count_outside(const CompareInput& side, const std::vector<float>& samples,

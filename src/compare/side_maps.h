@@ -1,8 +1,8 @@
 // side_maps.h: both sides' potentials on the device, given or computed, in one unit.
 #pragma once
 
+#include "base/handles.h"
 #include "compare/input.h"
-#include "engine/handles.h"
 
 namespace espdiff {
 
@@ -17,12 +17,13 @@ PotentialUnit common_unit(const CompareInput& source, const CompareInput& target
 /// The unit of one side's map.
 PotentialUnit unit_of(const CompareInput& side);
 
-/// The side's map, computed or uploaded, in a unit.
+/// The side's map, computed or uploaded, in a unit; its recipe counts where it was computed.
 /// @param to_map the common frame -> the molecule's own
+/// @param before where a computed one's iteration may start; may be null
 /// @param unit   kUnknown leaves a given map's values as they are
 /// @throws as CompareInput::make_map; InputError (units that cannot be converted)
-GridPtr device_map(Engine& engine, const CompareInput& side, const RigidTransform& to_map, PotentialUnit unit,
-                   double temperature_K, const Progress& progress);
+MadeMap device_map(Engine& engine, const CompareInput& side, const RigidTransform& to_map, const GridPtr& before,
+                   PotentialUnit unit, double temperature_K, const Progress& progress);
 
 /// Number of samples outside the map.
 /// @param counts [sample] whether to include it; empty includes all

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "engine/handles.h"
+#include "base/handles.h"
 
 namespace espdiff {
 

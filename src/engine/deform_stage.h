@@ -1,7 +1,7 @@
 // deform_stage.h: parameters and reports of the force iteration and of gradient vector flow.
 #pragma once
 
-#include "engine/handles.h"
+#include "base/handles.h"
 
 namespace espdiff {
 

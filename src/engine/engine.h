@@ -15,13 +15,14 @@
 #include <string>
 #include <vector>
 
+#include "base/handles.h"
 #include "base/progress.h"
 #include "base/types.h"
-#include "engine/handles.h"
 
 namespace espdiff {
 
 struct ComponentSummary;
+struct BulkZero;
 struct CoulombOptions;
 struct DeformOptions;
 struct DeformReport;
@@ -35,6 +36,8 @@ struct MorphResult;
 struct MovingAtom;
 struct PmeCell;
 struct PmeOptions;
+struct PoissonBoltzmannOptions;
+struct PoissonBoltzmannReport;
 struct SubdivisionResult;
 struct VectorFlowOptions;
 struct VectorFlowReport;
@@ -177,6 +180,11 @@ class Engine {
   /// The map is periodic; its points are lattice_over(cell, size). The same bits for any order of the atoms and any
   /// number of threads. Time grows with atoms * order^3 + K^3 log K.
   ///
+  /// With PmePart::kFull samples have the direct part too, C sum q erfc(beta r) / r over all images within 3.5 / beta
+  /// (the rest is below 1e-6 of a charge's own potential), less its mean C pi Q / (beta^2 V): the potential of point
+  /// charges in a uniform background, whose mean over the cell is zero and which does not depend on beta. Distances
+  /// below 0.5 A count as 0.5 A.
+  ///
   /// @param positions [atom] Angstrom, the map's frame  @param charges [atom] elementary charges
   /// @param to_map    common frame -> the frame of `positions` and of the map
   /// @throws InputError (cell without volume, values that are not finite, no charges, sizes, order, Ewald factor),
@@ -185,14 +193,53 @@ class Engine {
                                 const PmeCell& cell, const PmeOptions& options, const RigidTransform& to_map,
                                 const Progress& progress) = 0;
 
-  /// Coulomb's law summed directly, without cutoff or periodic images, at the points of a lattice: phi(x) = C sum_i q_i
-  /// / (epsilon |x - x_i|) [kT/e], C as in pme_potential(). Distances below 0.5 A count as 0.5 A. A cross-check for
-  /// small systems: time grows with atoms * points. In double precision; bitwise reproducible.
+  /// The same map with its zero in the bulk: the mean over its points that lie farther than a distance from all images
+  /// of the solute's atoms. Where there are none, the zero stays. The mean is that of the smooth part, from which the
+  /// full potential's differs by what the direct part leaves at the border of that region.
+  /// @param map    periodic  @param solute [atom] Angstrom, the map's own frame
+  /// @param report may be null
+  /// @throws InputError (a map that is not periodic, values that are not finite)
+  virtual GridPtr zero_in_bulk(const GridPtr& map, const std::vector<Vec3d>& solute, double distance_A,
+                               BulkZero* report) = 0;
+
+  /// Isolated charges as a map: Coulomb's law as in coulomb_potential(), summed where it is sampled, in double
+  /// precision. It has no points of its own. Time of a sample grows with the number of atoms.
+  /// @param positions [atom] Angstrom  @param to_map common frame -> the frame of `positions`
+  /// @throws InputError (dielectric, values that are not finite, no charges)
+  virtual GridPtr isolated_charges(const std::vector<Vec3d>& positions, const std::vector<float>& charges,
+                                   const CoulombOptions& options, const RigidTransform& to_map) = 0;
+
+  /// Coulomb's law summed directly, without a cutoff and without periodic images, at the points of a lattice:
+  /// phi(x) = C sum_i q_i / (epsilon |x - x_i|) [kT/e], C as in pme_potential(). Distances below 0.5 A count as 0.5 A.
+  /// A cross-check for small systems: time grows with atoms * points. In double precision; the same bits always.
   /// @param positions [atom] Angstrom, the lattice's frame
   /// @throws InputError (dielectric, values that are not finite, no charges, lattice), MemoryError, Cancelled
   virtual GridPtr coulomb_potential(const std::vector<Vec3d>& positions, const std::vector<float>& charges,
                                     const Lattice& lattice, const CoulombOptions& options,
                                     const Progress& progress) = 0;
+
+  /// The potential of charges in a solute of low dielectric, in a solvent with ions, by finite differences; kT/e:
+  ///
+  ///     -div(eps grad phi) + kappa_bar^2 lambda phi = 4 pi C rho,   kappa_bar^2 = 8 pi C c,   C as in pme_potential()
+  ///
+  /// rho in e/A^3, by cubic B-splines; c the number of ions of a kind in a cubic Angstrom of solvent; lambda 1 where
+  /// ions may be, else 0. With `nonlinear` sinh(phi) stands for phi in the ions' term. docs/potentials.md has the
+  /// definitions. The map is not periodic; zero is the potential far away. The same bits for any order of the atoms and
+  /// any number of threads. Time grows with the number of grid points.
+  ///
+  /// @param positions [atom] Angstrom, the map's frame  @param radii [atom] Angstrom; 0 takes no room
+  /// @param charges   [atom] elementary charges
+  /// @param lattice   cubic, along the axes; see poisson_boltzmann_lattice()
+  /// @param to_map    common frame -> the frame of `positions` and of the map
+  /// @param start     where the iteration starts: a potential of this engine in the same frame, such as that of a
+  /// trajectory's frame before, on any lattice; null starts from zero
+  /// @param report    receives how it was come by; may be null
+  /// @throws InputError (parameters, lattice, no charges, charges without radius outside all atoms), MemoryError,
+  ///         ConvergenceError (with the residual), Cancelled
+  virtual GridPtr poisson_boltzmann(const std::vector<Vec3d>& positions, const std::vector<float>& radii,
+                                    const std::vector<float>& charges, const Lattice& lattice,
+                                    const PoissonBoltzmannOptions& options, const RigidTransform& to_map,
+                                    const GridPtr& start, const Progress& progress, PoissonBoltzmannReport* report) = 0;
 
   /// Compares potentials at corresponding vertices.
   /// @param source, mapped  meshes of one topology: each vertex on the source and on the target

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "base/handles.h"
 #include "base/screw.h"
 #include "base/vector.h"
-#include "engine/handles.h"
 
 namespace espdiff {
 

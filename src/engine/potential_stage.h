@@ -7,6 +7,10 @@
 
 namespace espdiff {
 
+/// pme: point or smeared charges in a periodic cell, by particle-mesh Ewald. coulomb: point charges, isolated, summed
+/// directly. pb: charges in a solute of low dielectric in salt water, by the Poisson-Boltzmann equation.
+enum class PotentialMethod { kPme, kCoulomb, kPoissonBoltzmann };
+
 /// A periodic cell: `edges` span it, `centre` lies in its middle. Angstrom.
 struct PmeCell {
   Vec3d centre{};
@@ -29,6 +33,11 @@ inline Lattice lattice_over(const PmeCell& cell, const std::array<int, 3>& size)
 
 enum class Precision { kSingle, kDouble };
 
+/// Which part of Ewald's sum. kSmooth: the reciprocal part, charges smeared into Gaussians, as PMEPot gives it. kFull:
+/// with the direct part, sum q erfc(beta r) / r, which is added where the map is sampled: the potential of point
+/// charges.
+enum class PmePart { kSmooth, kFull };
+
 /// Parameters of pme_potential().
 struct PmeOptions {
   std::array<int, 3> size{0, 0, 0};  ///< grid points along each edge
@@ -40,10 +49,17 @@ struct PmeOptions {
   /// Samples of the map use splines of `order` instead of trilinear interpolation, so they are as accurate between grid
   /// points as on them. Not with `compatible`.
   bool smooth_samples = false;
+  PmePart part = PmePart::kSmooth;  ///< kFull not with `compatible`
   double temperature_K = 300;
 };
 
-/// Parameters of coulomb_potential().
+/// Where the zero of a periodic potential lies, told by zero_in_bulk().
+struct BulkZero {
+  double fraction = 0;    ///< share of the cell's points that lie farther from the solute than the distance
+  double mean_there = 0;  ///< kT/e; mean over them before the zero was moved
+};
+
+/// Parameters of coulomb_potential() and isolated_charges().
 struct CoulombOptions {
   double dielectric = 1;            ///< epsilon, > 0
   bool distance_dependent = false;  ///< epsilon * r / (1 A) instead of epsilon

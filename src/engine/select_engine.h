@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/handles.h"
 #include "base/message.h"
-#include "engine/handles.h"
 
 namespace espdiff {
 

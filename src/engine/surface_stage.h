@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/handles.h"
+#include "base/handles.h"
 
 namespace espdiff {
 

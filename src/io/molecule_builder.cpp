@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/water.h"
+#include "io/read_structure.h"
 
 namespace espdiff {
 namespace {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/structure_options.h"
 #include "base/types.h"
-#include "io/read_structure.h"
 
 namespace espdiff {
 

@@ -12,13 +12,13 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <memory>
 #include <new>
 #include <utility>
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/system_message.h"
 #include "io/file_kind.h"
 #include "io/sha256.h"
 
@@ -29,7 +29,7 @@ constexpr std::size_t kChunk = std::size_t{1} << 18;
 constexpr int kWaitForWriter_ms = 10000;
 
 [[noreturn]] void cannot_read(const std::string& path, const char* remedy) {
-  throw IoError(path, std::string("cannot be read: ") + std::strerror(errno) + "; " + remedy);
+  throw IoError(path, std::string("cannot be read: ") + system_message(errno) + "; " + remedy);
 }
 
 /// A file or pipe that is open for reading.
@@ -74,7 +74,7 @@ class OpenFile {
       const ssize_t n = ::read(descriptor_, buffer + n_read, size - n_read);
       if (n == 0) break;
       if (n > 0) n_read += static_cast<std::size_t>(n);
-      if (n < 0 && errno != EINTR) throw IoError(path_, std::string("reading failed: ") + std::strerror(errno));
+      if (n < 0 && errno != EINTR) throw IoError(path_, std::string("reading failed: ") + system_message(errno));
     }
     return n_read;
   }
@@ -247,7 +247,7 @@ void require_regular_file(const std::string& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) != 0) cannot_read(path, "check the path");
   if (S_ISDIR(status.st_mode)) throw IoError(path, "is a directory; give a file in it");
-  if (!S_ISREG(status.st_mode)) throw IoError(path, "is a pipe or a device; give a file");
+  if (!S_ISREG(status.st_mode)) throw IoError(path, "is a pipe or a device; save its content as a file and give that");
 }
 
 void unify_line_ends(std::string& text) {

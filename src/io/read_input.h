@@ -31,8 +31,8 @@ constexpr std::size_t kMostUnpacked = std::size_t{4} << 30U;
 ///         throws
 FileContent read_input(const std::string& path, const HeadCheck& check_head = {});
 
-/// @throws IoError unless `path` is a regular file, or a link to one. For what is written by espdiff and read back: a
-/// pipe in its place would block.
+/// For files that are read again later, or are written to as well, such as states: a pipe would block, or be empty then.
+/// @throws IoError unless `path` is a regular file (or a link to one)
 void require_regular_file(const std::string& path);
 
 /// Makes newlines of the carriage returns of a text that has no other line ends, so that lines can be counted.

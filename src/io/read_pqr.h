@@ -3,9 +3,9 @@
 
 #include <string>
 
+#include "base/structure_options.h"
 #include "base/types.h"
 #include "io/atom_records.h"
-#include "io/read_structure.h"
 
 namespace espdiff {
 

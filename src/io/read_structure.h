@@ -6,16 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "base/structure_options.h"
 #include "base/types.h"
 #include "base/unit_cell.h"
 
 namespace espdiff {
-
-struct StructureOptions {
-  int model = 1;               ///< which model of a multi-model file, from 1
-  bool include_hetero = true;  ///< HETATM records: ligands, ions
-  bool include_water = false;  ///< HOH, WAT, TIP3 and the like
-};
 
 /// Reads one conformation. The format is found from the content: a PQR, PDB or mmCIF under any name, also packed by
 /// gzip, is read as what it is. Atoms keep file order. Alternate locations: the one of highest mean occupancy in the

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/system_message.h"
+#include "io/read_input.h"
 
 namespace espdiff {
 namespace {
@@ -129,6 +130,7 @@ std::string sha256_of(std::string_view bytes) {
 std::string sha256_of_file(const std::string& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) throw IoError(path, "is a folder, not a file; name a file in it");
+  if (std::filesystem::exists(path, ignored)) require_regular_file(path);
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   if (!in)

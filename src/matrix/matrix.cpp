@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "base/error.h"
+#include "compare/options.h"
 #include "compare/result.h"
 #include "compare/series.h"
 #include "io/text_cursor.h"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/handles.h"
+#include "base/handles.h"
 #include "matrix/variants.h"
 #include "report/metrics.h"
 

@@ -1,10 +1,12 @@
 // matrix_plan.cpp: makes, writes, reads and compares plans.
 #include "matrix/matrix_plan.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/version.h"
+#include "compare/options.h"
 #include "compare/settings.h"
 #include "engine/engine.h"
 
@@ -49,6 +51,11 @@ MatrixPlan make_plan(const Engine& engine, const std::vector<Variant>& variants,
   if (variants.front().has_potential()) {
     plan.potential = potential;
     plan.potential_unit = to_string(variants.front().map ? variants.front().map->unit : PotentialUnit::kKtPerE);
+    const bool vacuum = std::any_of(variants.begin(), variants.end(), [](const Variant& variant) {
+      return std::any_of(variant.inputs.begin(), variant.inputs.end(),
+                         [](const InputFile& input) { return input.computed && is_vacuum(*input.computed); });
+    });
+    if (vacuum) plan.potential_unit += kInVacuum;
   }
   std::vector<std::string> labels;
   for (const Variant& v : variants) {

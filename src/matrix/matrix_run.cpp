@@ -1,4 +1,4 @@
-// matrix_run.cpp: which pairs are left to do, the state file beside the results, and parts put together.
+// matrix_run.cpp: remaining pairs, the state file beside the results, and merging.
 #include "matrix/matrix_run.h"
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "compare/options.h"
 #include "io/atomic_file.h"
 #include "io/check_outputs.h"
 #include "matrix/matrix_state.h"
@@ -22,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// @param may_replace results that exist
+/// @param may_replace whether existing results may be replaced
 void check_results(const MatrixRun& run, bool may_replace) {
   if (!run.cluster_by.empty()) find_metric(run.cluster_by);
   for (const char* ending : {".csv", ".json"}) {
@@ -33,7 +34,7 @@ void check_results(const MatrixRun& run, bool may_replace) {
   }
 }
 
-/// What can be refused before the work is refused before the work.
+/// Refuses bad outputs before the work.
 void check_existing(const MatrixRun& run) {
   if (run.resume && run.overwrite)
     throw InputError(option("resume") + " and " + option("overwrite") + " exclude each other; leave one out");
@@ -42,7 +43,7 @@ void check_existing(const MatrixRun& run) {
   if (!run.overwrite && !run.resume && has_state)
     throw InputError("the state file " + state + " of an earlier run exists; " + switched_on("resume") +
                      " goes on with it, " + switched_on("overwrite") + " begins anew");
-  // The results of a shard come with the merge.
+  // A shard's results come with the merge.
   if (run.shard.count == 1) check_results(run, run.overwrite || (run.resume && has_state));
 }
 
@@ -91,6 +92,9 @@ MatrixReport run_matrix(Engine& engine, const std::vector<Variant>& variants, co
   }
   check_outputs(inputs, output_paths(run));
   check_existing(run);
+  if (options.offsets_A.size() > 1)
+    throw InputError(option("offset") +
+                     ": a list of distances was given, and a matrix has one value of a metric for a pair; give one");
   const MatrixPlan plan = make_plan(engine, variants, options, run.potential);
   const std::string path = state_path(run.output, run.shard);
   MatrixStateContent earlier;

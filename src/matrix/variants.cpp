@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "io/read_csv.h"
 #include "io/read_grid.h"
+#include "io/read_structure.h"
 #include "io/text_cursor.h"
 
 namespace espdiff {

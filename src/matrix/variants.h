@@ -5,11 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "base/structure_options.h"
 #include "base/types.h"
-#include "io/read_structure.h"
 #include "report/write_compare.h"
 
 namespace espdiff {
+
+class StructureFile;
 
 /// One molecule of a matrix and its potential.
 struct Variant {
@@ -23,23 +25,23 @@ struct Variant {
   bool has_potential() const { return map || make_map != nullptr; }
 };
 
-/// Where a variant is to be read from.
+/// Files of a variant.
 struct VariantFiles {
   std::string structure;
   int model = 1;
   std::string map;       ///< empty for none
-  std::string map_unit;  ///< empty: the file says
+  std::string map_unit;  ///< empty: from the file
   std::string label, group;
 };
 
-/// One variant for each model of each file, labelled by the file's name without folder and ending, and `:MODEL` where a
-/// file has several. Where two files would be labelled alike, both are labelled by their paths.
-/// @throws what count_models() throws
+/// One variant for each model of each file, labelled by the file's name without folder and extension, plus `:MODEL` if
+/// a file has several. If two files would get the same label, both are labelled by their paths.
+/// @throws as count_models()
 std::vector<VariantFiles> variants_of_files(const std::vector<std::string>& paths);
 
-/// Reads a list of variants: a table (read_csv()) with a column `structure` and, where wanted, `model` (from 1; without
-/// it every model is a variant), `map`, `unit` (of the map), `label` and `group`. Paths are relative to the list's
-/// folder. Without a label the rules of variants_of_files() hold.
+/// Reads a list of variants: a table (read_csv()) with a column `structure` and optionally `model` (from 1; without it
+/// every model is a variant), `map`, `unit` (of the map), `label` and `group`. Paths are relative to the list's folder.
+/// Missing labels follow the rules of variants_of_files().
 /// @throws FormatError, IoError (naming the line), and as variants_of_files()
 std::vector<VariantFiles> read_variant_list(const std::string& path);
 
@@ -47,18 +49,18 @@ std::vector<VariantFiles> read_variant_list(const std::string& path);
 /// @throws FormatError, InputError (a label that no variant has, or twice)
 void read_groups(const std::string& path, std::vector<VariantFiles>& variants);
 
-/// @throws InputError naming a label that two variants share, or an empty one, and what to do
+/// @throws InputError naming an empty label or one that two variants share, with the remedy
 void check_labels(const std::vector<std::string>& labels);
 
 /// Reads structure and map.
-/// @param file the structure's, opened before: variants may be models of one
+/// @param file the structure's, already opened: variants may be models of one file
 /// @param structure its model is the variant's
 /// @throws as read_structure(), read_grid()
 Variant read_variant(const VariantFiles& files, const StructureFile& file, const StructureOptions& structure,
                      const std::string& map_array);
 
-/// Brings all maps to the unit of the first one.
-/// @throws InputError when some variants have maps and some none, or a unit is unknown and others are not
+/// Converts all maps to the unit of the first one.
+/// @throws InputError if only some variants have maps, or only some units are unknown
 void unite_map_units(std::vector<Variant>& variants, double temperature_K);
 
 }  // namespace espdiff

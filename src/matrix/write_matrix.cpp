@@ -20,7 +20,7 @@ std::string dumped(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// One line for each entry, and for each metric: still readable, and a row of numbers is a row.
+/// One line for each entry, and for each row of a metric's numbers, for readability.
 void write_lines(std::ostream& out, const Json& json, const std::string& indent) {
   out << "{";
   for (const auto& [key, value] : json.items()) {
@@ -98,7 +98,7 @@ Json clustering_json(const Matrix& matrix, const Clustering& clustering) {
           {"order", std::move(order)}};
 }
 
-/// The distances of the pairs, each once.
+/// The distances of all pairs, each once.
 std::vector<double> upper_triangle(const DistanceTable& distances, std::size_t n) {
   std::vector<double> values;
   for (std::size_t i = 0; i < n; ++i) {

@@ -1,4 +1,4 @@
-// write_matrix.h: a matrix as files and as a table for people.
+// write_matrix.h: writes a matrix as files and as a table.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,26 +10,26 @@
 
 namespace espdiff {
 
-/// Writes OUT.csv and OUT.json; both appear, or none and older ones stay as they are. The bytes depend on the matrix
-/// alone: not on times, threads, interruptions, or the number of processes that computed it.
+/// Writes OUT.csv and OUT.json; both appear, or neither, and older ones stay. The bytes depend on the matrix only, not
+/// on times, threads, interruptions, or the number of processes.
 ///
 /// OUT.csv: a row for each ordered pair: source, target, their groups, the unit of potentials, every metric
-/// (matrix_metrics(); empty where there is none), converged, trustworthy (1 or 0), reasons, error.
+/// (matrix_metrics(); empty for missing values), converged, trustworthy (1 or 0), reasons, error.
 /// OUT.json: matrix_json().
-/// @param metric what variants are clustered by
+/// @param metric the metric for clustering
 /// @returns the files' names
 /// @throws IoError
 std::vector<std::string> write_matrix(const std::string& output_prefix, const Matrix& matrix, std::size_t metric);
 
 /// Keys: version, device, potential, potential_unit, options (options_json()), variants (label, group, inputs);
-/// metrics, by name: title, unit, values [source][target], null on the diagonal and where there is none; trustworthy,
+/// metrics, by name: title, unit, values [source][target], null on the diagonal and for missing values; trustworthy,
 /// converged [source][target]; not_trustworthy (source, target, reasons), errors; asymmetry by metric; groups by metric
 /// (absent without groups); clustering (metric, linkage, merges [left, right, distance, number of variants], order);
-/// hodgkin: the clustering by Hodgkin's index and how well its distances follow those of `metric` (null without
+/// hodgkin: the clustering by Hodgkin's index and the correlation of its distances with those of `metric` (null without
 /// potentials).
 nlohmann::ordered_json matrix_json(const Matrix& matrix, std::size_t metric);
 
-/// Prints range, asymmetry, nearest and farthest pair, groups, and what is not trustworthy; at most 100 columns.
+/// Prints range, asymmetry, nearest and farthest pair, groups, and pairs that are not trustworthy; at most 100 columns.
 void print_matrix(std::ostream& out, const Matrix& matrix, std::size_t metric);
 
 }  // namespace espdiff

@@ -9,11 +9,11 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <sstream>
 
 #include "base/error.h"
+#include "base/system_message.h"
 #include "io/atomic_file.h"
 #include "io/text_cursor.h"
 #include "io/write_csv.h"
@@ -55,7 +55,7 @@ class MemoryFile {
   [[noreturn]] void fail() {
     const int error_number = errno;
     if (descriptor_ >= 0) ::close(descriptor_);
-    throw DeviceError(std::string("gnuplot cannot be started: ") + std::strerror(error_number));
+    throw DeviceError(std::string("gnuplot cannot be started: ") + system_message(error_number));
   }
 
   int descriptor_;
@@ -86,7 +86,7 @@ int wait_for_gnuplot(const MemoryFile& script, const MemoryFile& picture, const 
   posix_spawn_file_actions_destroy(&files);
   if (error == ENOENT)
     throw DeviceError("plots are drawn by gnuplot, which is not installed; install it (Debian: gnuplot-nox)");
-  if (error != 0) throw DeviceError(std::string("gnuplot cannot be started: ") + std::strerror(error));
+  if (error != 0) throw DeviceError(std::string("gnuplot cannot be started: ") + system_message(error));
   int status = 0;
   while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) continue;
   return status;

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <utility>
 
+#include "align/pair_atoms.h"
 #include "align/superpose.h"
 #include "align/unwrap.h"
 #include "base/error.h"
 #include "base/water.h"
+#include "compare/map_recipe.h"
 #include "engine/engine.h"
 
 namespace espdiff {
@@ -18,7 +20,7 @@ void check_options(const PotentialOptions& o) {
   if (o.pme.compatible && o.align != AlignAtoms::kNone)
     throw InputError("`compatible` with superposition: PMEPot has none; leave one out");
   if (o.pme.compatible && o.method != PotentialMethod::kPme)
-    throw InputError("`compatible` with method coulomb: it is about PME; leave one out");
+    throw InputError("`compatible` with another potential than pme: it is about PMEPot; leave one out");
   if (o.cell && o.pad_A) throw InputError("a cell and a padding were given; leave one out");
 }
 
@@ -33,7 +35,8 @@ RigidTransform onto(const std::vector<Vec3d>& moving, const std::vector<Vec3d>& 
 PotentialMethod parse_potential_method(const std::string& text) {
   if (text == "pme") return PotentialMethod::kPme;
   if (text == "coulomb") return PotentialMethod::kCoulomb;
-  throw InputError("unknown method '" + text + "' of a potential; use pme or coulomb");
+  if (text == "pb") return PotentialMethod::kPoissonBoltzmann;
+  throw InputError("unknown potential '" + text + "'; use pb, pme or coulomb");
 }
 
 int usual_order(bool compatible) {
@@ -57,6 +60,7 @@ struct PotentialSeries::FirstFrame {
   std::vector<Vec3d> positions;    ///< [one of these] whole
   PmeCell cell;
   Lattice lattice;
+  GridPtr last;  ///< of pb: the last frame's, from which the next one's iteration starts
 };
 
 PotentialSeries::PotentialSeries(Engine& engine, PotentialOptions options)
@@ -87,6 +91,15 @@ Grid PotentialSeries::compute(const std::vector<Vec3d>& positions, const Molecul
     if (is_first) first_->lattice = lattice_over(cell, choose_grid_size(cell, options_.grid, false));
     return engine_.download(
         engine_.coulomb_potential(positions, frame.charges, first_->lattice, options_.coulomb, progress));
+  }
+  if (options_.method == PotentialMethod::kPoissonBoltzmann) {
+    if (frame.radii.size() != positions.size())
+      throw InputError(frame.name + ": Poisson-Boltzmann needs the atoms' radii; give a PQR file");
+    if (is_first)
+      first_->lattice = poisson_boltzmann_lattice(positions, frame.radii, options_.pb_spacing_A, options_.pb_padding_A);
+    first_->last = engine_.poisson_boltzmann(positions, frame.radii, frame.charges, first_->lattice, options_.pb, {},
+                                             first_->last, progress, nullptr);
+    return engine_.download(first_->last);
   }
   PmeOptions pme = options_.pme;
   pme.size = choose_grid_size(cell, options_.grid, pme.compatible);
@@ -141,7 +154,9 @@ Grid PotentialSeries::next_map(const Molecule& frame, const std::optional<UnitCe
   // The image of another cell on this lattice does not repeat with it.
   map.periodic = options_.method == PotentialMethod::kPme && same_lattice(map.lattice, first_->lattice) &&
                  (one_lattice_ || average_.n_frames() == 0);
-  map.name = frame.name + (options_.method == PotentialMethod::kPme ? " (PME)" : " (Coulomb)");
+  map.name = frame.name + (options_.method == PotentialMethod::kPme       ? " (PME)"
+                           : options_.method == PotentialMethod::kCoulomb ? " (Coulomb)"
+                                                                          : " (Poisson-Boltzmann)");
   return map;
 }
 

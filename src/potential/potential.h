@@ -7,18 +7,18 @@
 #include <string>
 #include <vector>
 
-#include "align/pair_atoms.h"
+#include "base/handles.h"
+#include "base/pairing.h"
 #include "base/progress.h"
+#include "base/types.h"
 #include "base/unit_cell.h"
-#include "engine/handles.h"
+#include "engine/poisson_boltzmann.h"
 #include "engine/potential_stage.h"
 #include "potential/running_map.h"
 
 namespace espdiff {
 
-/// pme: smeared charges in a periodic cell. coulomb: point charges, isolated, summed directly.
-enum class PotentialMethod { kPme, kCoulomb };
-/// @throws InputError for anything but pme, coulomb
+/// @throws InputError for anything but pme, coulomb, pb
 PotentialMethod parse_potential_method(const std::string& text);
 
 /// How many points the grid has: `size` where it is not zero, else enough for steps of `resolution_A` at most.
@@ -40,12 +40,16 @@ PmeCell parse_cell(const std::string& text);
 /// How potentials are computed.
 struct PotentialOptions {
   PotentialMethod method = PotentialMethod::kPme;
+  std::string because;  ///< why this one, where it was not asked for; for results to tell
   /// The cell of every frame. Without: the frame's own; without that, or with `pad_A`, a box around the atoms.
   std::optional<PmeCell> cell;
   std::optional<double> pad_A;  ///< space on each side of the atoms; 10 A where no cell is known
   GridChoice grid;
   PmeOptions pme;  ///< but the grid's size
   CoulombOptions coulomb;
+  PoissonBoltzmannOptions pb;
+  double pb_spacing_A = kUsualPbSpacing_A;
+  double pb_padding_A = kUsualPbPadding_A;  ///< of the grid beyond every atom's sphere
   /// Superposes each frame on the first by these atoms (water left out), and samples all maps on the first one's
   /// lattice: the average then stays with the molecule. In a periodic cell these atoms are put together first where its
   /// border has cut the molecule (unwrapped()). kNone: frames stay where they are.

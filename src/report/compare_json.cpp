@@ -7,6 +7,7 @@
 #include "compare/result.h"
 #include "compare/settings.h"
 #include "report/metrics.h"
+#include "report/potential_json.h"
 #include "report/write_compare.h"
 
 namespace espdiff {
@@ -62,6 +63,22 @@ Json metrics_all_triangles(const CompareResult& result) {
   return json;
 }
 
+/// The metrics at each distance outside the surfaces, and what is left out there.
+Json offsets(const CompareResult& result) {
+  Json json = Json::array();
+  for (const OffsetMetrics& at : result.by_offset) {
+    Json entry;
+    entry["offset_A"] = number(at.offset_A);
+    for (const Metric& metric : metrics()) {
+      if (metric.source.of_area != nullptr) entry[metric.name] = number(at.metrics.*metric.source.of_area);
+    }
+    entry["n_vertices_inside"] = {{"source", at.n_inside_source}, {"target", at.n_inside_target}};
+    entry["n_vertices_outside_map"] = {{"source", at.n_outside_source_map}, {"target", at.n_outside_target_map}};
+    json.push_back(std::move(entry));
+  }
+  return json;
+}
+
 Json domains(const Molecule& source, const std::vector<RigidDomain>& all) {
   Json json = Json::array();
   for (const RigidDomain& domain : all)
@@ -96,7 +113,7 @@ Json surface(const SurfaceSummary& s) {
 /// A setting's value, of the type that its kind says.
 Json typed_value(const Setting& setting, const std::string& text) {
   switch (setting.kind) {
-    case SettingKind::kNumber:
+    case SettingKind::kNumber: return Json::parse(text).get<double>();
     case SettingKind::kInteger: return Json::parse(text);
     case SettingKind::kBoolean: return text == "1";
     case SettingKind::kChoice:
@@ -105,31 +122,13 @@ Json typed_value(const Setting& setting, const std::string& text) {
   return text;
 }
 
-Json vector(const Vec3d& v) { return {number(v.x), number(v.y), number(v.z)}; }
-
-Json recipe(const MapRecipe& r) {
-  const auto& edges = r.cell.edges;
-  return {{"method", "pme"},
-          {"charges_from", r.charges_from},
-          {"n_charges", r.n_charges},
-          {"net_charge", number(r.net_charge)},
-          {"cell_from", r.cell_from},
-          {"cell_centre_A", vector(r.cell.centre)},
-          {"cell_edges_A", {vector(edges[0]), vector(edges[1]), vector(edges[2])}},
-          {"grid", r.pme.size},
-          {"spline_order", r.pme.order},
-          {"ewald_factor", number(r.pme.ewald_factor)},
-          {"compatible", r.pme.compatible},
-          {"precision", r.pme.precision == Precision::kDouble ? "double" : "single"},
-          {"sampling", r.pme.smooth_samples ? "spline" : "trilinear"},
-          {"temperature_K", number(r.pme.temperature_K)}};
-}
-
-Json input_files(const Provenance& provenance) {
+/// What a computed map came out like is in the result.
+Json input_files(const Provenance& provenance, const CompareResult& result) {
   Json json = Json::array();
   for (const InputFile& input : provenance.inputs) {
     json.push_back({{"role", input.role}, {"path", input.path}, {"sha256", input.sha256}});
-    if (input.computed) json.back()["computed"] = recipe(*input.computed);
+    const auto& made = input.role == "source_map" ? result.source_recipe : result.target_recipe;
+    if (input.computed) json.back()["computed"] = recipe_json(made ? *made : *input.computed);
     if (!input.read_with) continue;
     json.back()["model"] = input.read_with->model;
     json.back()["hetero"] = input.read_with->include_hetero;
@@ -140,8 +139,10 @@ Json input_files(const Provenance& provenance) {
 
 void add_results(Json& json, const Molecule& source, const CompareResult& result) {
   json["n_paired_atoms"] = result.pairing.pairs.size();
-  json["potential_unit"] = result.has_potential ? Json(to_string(result.unit)) : Json(nullptr);
+  json["potential_unit"] = result.has_potential ? Json(potential_unit_text(result)) : Json(nullptr);
+  json["potential"] = potential_json(result);
   add_metrics(json, result);
+  json["by_offset"] = offsets(result);
   add_verdict(json["certificate"], result.certificate);
   json["metrics_all_triangles"] = metrics_all_triangles(result);
   json["superposition"] = superposition(source, result);
@@ -185,7 +186,7 @@ Json compare_json(const Molecule& source, const Molecule& target, const CompareR
   json["threads"] = provenance.threads;
   json["radii_origin"] = {{"source", name_of(source.radii_origin)}, {"target", name_of(target.radii_origin)}};
   json["options"] = options_json(setting_texts(options));
-  json["inputs"] = input_files(provenance);
+  json["inputs"] = input_files(provenance, result);
   json["command_line"] = provenance.command_line;
   json["version"] = provenance.version;
   return json;

@@ -5,6 +5,7 @@
 #include "align/rigid_domains.h"
 #include "compare/result.h"
 #include "report/metrics.h"
+#include "report/potential_json.h"
 #include "report/write_compare.h"
 
 namespace espdiff {
@@ -108,14 +109,68 @@ void print_lines(std::ostream& out, const CompareResult& result, MetricSection s
   }
 }
 
+std::string number(const char* format, double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+/// Which potential it is that differs, and what to know of it.
+void print_kind_of_potential(std::ostream& out, const CompareResult& result) {
+  const std::string label = potential_label(result);
+  if (label.empty()) return;
+  const auto &source = result.source_recipe, &target = result.target_recipe;
+  const std::string because = source ? source->because : target->because;
+  out << "\nComputed potential\n";
+  line(out, "Kind", label + (because.empty() ? "" : " (" + because + ")"));
+  for (const auto& [side, recipe] : {std::pair("Of the source", &source), std::pair("Of the target", &target)}) {
+    if (!*recipe) continue;
+    const MapRecipe& r = **recipe;
+    std::string text =
+        number("%.4g", r.net_charge) + " e in " + counted(r.n_charges, "charge") + "; zero " + to_string(r.zero);
+    if (r.method == PotentialMethod::kPoissonBoltzmann)
+      text += "; residual " + number("%.1e", r.pb_report.relative_residual) + " after " +
+              counted(static_cast<std::size_t>(std::max(r.pb_report.cycles, 0)), "cycle");
+    line(out, side, text);
+  }
+  for (const std::string& note : potential_notes(source ? &*source : nullptr, target ? &*target : nullptr))
+    line(out, "Note", note);
+}
+
 void print_metrics(std::ostream& out, const CompareResult& result) {
   if (result.has_potential) {
-    heading(out, "Potential (target - source)", {"valid area", "all area"});
+    print_kind_of_potential(out, result);
+    const bool vacuum = potential_unit_text(result) != to_string(result.unit);
+    heading(out, std::string("Potential") + (vacuum ? kInVacuum : "") + " (target - source)",
+            {"valid area", "all area"});
     print_section(out, result, MetricSection::kPotential);
   } else {
-    heading(out, "Shape (no potentials given)", {"valid area"});
+    heading(out, "Shape (no potentials)", {"valid area"});
+    if (!result.shapes_because.empty()) line(out, "Because", result.shapes_because);
   }
   print_section(out, result, MetricSection::kShape);
+}
+
+/// The metrics by distance from the surfaces, unless that is 0 alone.
+void print_offsets(std::ostream& out, const CompareResult& result) {
+  if (result.by_offset.empty() || (result.by_offset.size() == 1 && result.by_offset.front().offset_A == 0)) return;
+  std::vector<std::string> columns, inside, outside;
+  for (const OffsetMetrics& at : result.by_offset) {
+    columns.push_back(number("%.3g", at.offset_A) + " A");
+    inside.push_back(std::to_string(at.n_inside_source + at.n_inside_target));
+    outside.push_back(std::to_string(at.n_outside_source_map + at.n_outside_target_map));
+  }
+  heading(out, "Read outside the surfaces by", columns);
+  for (const Metric& metric : metrics()) {
+    const bool depends = metric.section == MetricSection::kPotential || metric.unit == MetricUnit::kSquareAngstrom;
+    if (!depends || metric.source.of_area == nullptr) continue;
+    std::vector<std::string> values;
+    for (const OffsetMetrics& at : result.by_offset)
+      values.push_back(formatted(metric, at.metrics.*metric.source.of_area));
+    row(out, metric.label, unit_of(metric, to_string(result.unit)), values);
+  }
+  row(out, "Vertices inside, left out", "", inside);
+  row(out, "Vertices outside the maps", "", outside);
 }
 
 void print_surfaces(std::ostream& out, const CompareResult& result) {
@@ -185,6 +240,7 @@ void print_table(std::ostream& out, const Molecule& source, const Molecule& targ
   out << "Source  " << source.name << "\nTarget  " << target.name << "\n\n";
   print_superposition(out, source, result);
   print_metrics(out, result);
+  print_offsets(out, result);
   print_surfaces(out, result);
   print_certificate(out, result);
   print_verdict(out, result, spelling);

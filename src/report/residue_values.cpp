@@ -7,6 +7,7 @@
 #include "io/atomic_file.h"
 #include "io/write_pdb.h"
 #include "report/metrics.h"
+#include "report/potential_json.h"
 
 namespace espdiff {
 namespace {
@@ -39,7 +40,7 @@ std::vector<double> residue_values(const CompareResult& result, const std::strin
 }
 
 std::string residue_unit(const CompareResult& result, const std::string& quantity) {
-  return unit_of(find_quantity(quantity), to_string(result.unit));
+  return unit_of(find_quantity(quantity), potential_unit_text(result));
 }
 
 void write_residue_pdb(AtomicFile& file, const Molecule& source, const CompareResult& result,

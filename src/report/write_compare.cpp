@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "compare/options.h"
 #include "compare/result.h"
 #include "io/atomic_file.h"
 #include "io/sha256.h"
@@ -66,7 +67,9 @@ void write_surface_file(std::ostream& out, const Molecule& source, const Compare
     file.point_arrays.emplace_back("potential_difference", derived.difference);
     file.point_arrays.emplace_back("sign_change", derived.sign_change);
     file.active_scalars = "potential_difference";
-    file.texts.emplace_back("potential_unit", to_string(result.unit));
+    file.texts.emplace_back("potential_unit", potential_unit_text(result));
+    const std::string label = potential_label(result);
+    if (!label.empty()) file.texts.emplace_back("potential", label);
   }
   const std::vector<std::uint8_t> everywhere(s.triangles.size(), 0);
   file.cell_arrays = {{"corrupt", s.corrupt}, {"no_counterpart", s.unmatched.empty() ? everywhere : s.unmatched}};
@@ -76,8 +79,8 @@ void write_surface_file(std::ostream& out, const Molecule& source, const Compare
 }
 
 /// "mean_displacement [A]"
-std::string column_of(const Metric& metric, PotentialUnit potential_unit) {
-  const std::string unit = unit_of(metric, to_string(potential_unit));
+std::string column_of(const Metric& metric, const std::string& potential_unit) {
+  const std::string unit = unit_of(metric, potential_unit);
   std::string name = metric.name;
   if (metric.unit == MetricUnit::kAngstrom) name.resize(name.size() - std::string("_A").size());
   if (metric.unit == MetricUnit::kSquareAngstrom) name.resize(name.size() - std::string("_A2").size());
@@ -87,7 +90,7 @@ std::string column_of(const Metric& metric, PotentialUnit potential_unit) {
 void write_residue_file(std::ostream& out, const Molecule& source, const CompareResult& result) {
   std::vector<std::string> columns = {"chain", "residue_number", "insertion_code", "residue_name"};
   for (const Metric& metric : metrics()) {
-    if (metric.has_residues()) columns.push_back(column_of(metric, result.unit));
+    if (metric.has_residues()) columns.push_back(column_of(metric, potential_unit_text(result)));
   }
   write_csv_row(out, columns);
   for (const ResidueRow& row : result.residues) {
@@ -104,7 +107,7 @@ void write_residue_file(std::ostream& out, const Molecule& source, const Compare
 }  // namespace
 
 InputFile computed_input(const std::string& role, const ComputedMap& map) {
-  return {role, "pme of " + map.recipe().charges_from, map.fingerprint(), map.recipe()};
+  return {role, to_string(map.recipe().method) + " of " + map.recipe().charges_from, map.fingerprint(), map.recipe()};
 }
 
 namespace {

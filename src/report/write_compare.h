@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "base/message.h"
+#include "base/structure_options.h"
 #include "base/types.h"
 #include "base/version.h"
 #include "io/atomic_file.h"
-#include "io/read_structure.h"
 #include "potential/computed_map.h"
 
 namespace espdiff {

@@ -70,6 +70,7 @@ MapPair read_map_pair(const RunRecord& record, const SurfaceFile& surface) {
   if (surface.source_positions.empty()) return without("the file has no source positions");
   if (!record.found) return without(record.path + " is missing, which names the maps");
   if (record.maps_computed) return without("the potentials were computed in process, and there are no map files");
+  if (record.offset_A != 0) return without("the potentials were read outside the surface, not on it");
   if (record.source_map.path.empty() || record.target_map.path.empty()) {
     return without(record.path + " names no maps");
   }

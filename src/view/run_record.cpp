@@ -73,6 +73,10 @@ RunRecord read_run_record(const std::string& vtp_path) {
     const Json& options = json.at("options");
     record.temperature_K = options.at("temperature_K");
     record.method = options.at("method");
+    if (json.contains("by_offset") && !json.at("by_offset").empty())
+      record.offset_A = json.at("by_offset").at(0).at("offset_A");
+    if (json.contains("potential") && json.at("potential").is_object())
+      record.potential = json.at("potential").at("label");
     record.trustworthy = json.at("certificate").at("trustworthy");
     json.at("certificate").at("reasons").get_to(record.reasons);
   } catch (const Json::exception& error) {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "base/structure_options.h"
 #include "base/vector.h"
-#include "io/read_structure.h"
 
 namespace espdiff {
 
@@ -21,6 +21,8 @@ struct RunRecord {
   bool found = false;  ///< false: there is no such file, and nothing below means anything
   std::string path;    ///< of OUT.json
   RecordedInput source, target, source_map, target_map;
+  std::string potential;       ///< the kind that was computed, such as "vacuum (Coulomb)"; empty for given maps
+  double offset_A = 0;         ///< how far outside the surfaces potentials were read
   bool maps_computed = false;  ///< the potentials were computed in process; there are no map files
   RigidTransform source_to_target;
   double temperature_K = 300;

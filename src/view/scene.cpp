@@ -32,7 +32,7 @@ Enum parse_word(const std::array<const char*, Count>& words, const std::string& 
   throw InputError(std::string("no ") + what + " '" + text + "'; use " + allowed);
 }
 
-// How a member's type is written and read; numbers, texts and lists are JSON's own.
+// Writing and reading a member by its type; numbers, texts and lists are JSON's own.
 
 template <typename T>
 Json json_of(const T& value) {

@@ -42,7 +42,7 @@ std::string shader_text(const std::string& name, const std::map<std::string, std
 
 std::string compile_problem(const std::string& text, bool is_vertex_shader) {
   std::string alone = text;
-  // What VTK fills in for opaque surfaces.
+  // The text that VTK inserts for opaque surfaces.
   replace_all(alone, "//VTK::System::Dec", "#version 150");
   replace_all(alone, "//VTK::Output::Dec", "out vec4 fragOutput0;");
   replace_all(alone, "gl_FragData[0]", "fragOutput0");

@@ -4,17 +4,30 @@ namespace eval ::espdiff::gui {
     variable form       ;# what the user entered: form(SIDE,FIELD)
     variable automatic  ;# per side: the potential chosen automatically, until the user changes it
     array set form {}
-    array set automatic {source none target none}
+    array set automatic {source automatic target automatic}
     foreach side {source target} {
         array set form [list $side,kind file $side,mol "" $side,frame now $side,sel "not water" $side,file "" \
-            $side,model 1 $side,map none $side,unit "as the map says"]
+            $side,model 1 $side,map automatic $side,unit "as the map says"]
     }
     unset side
 
     variable units {"as the map says" kT/e mV V kcal/mol/e kJ/mol/e hartree/e}
     variable structure_types {{"Structures" {.pqr .pdb .ent .cif .mmcif .gz}} {"All files" *}}
     variable map_types {{"Potential maps" {.dx .vti .cube .cub .gz}} {"All files" *}}
-    variable computed "computed (PME)"  ;# instead of a map: computed from the charges
+    # In the place of a map: computed from the charges, and what the commands call it.
+    variable computed {automatic "" "Poisson-Boltzmann" pb "PME, explicit water" pme "Coulomb, vacuum" coulomb}
+
+    # Whether a form's potential is computed; also what is typed as {pb ionic_strength 0.05}.
+    proc is_computed_map {text} {
+        variable computed
+        expr {[dict exists $computed $text] || [::espdiff::is_computed $text]}
+    }
+
+    # The commands' word for it; empty for the usual one.
+    proc computed_map_word {text} {
+        variable computed
+        expr {[dict exists $computed $text] ? [dict get $computed $text] : $text}
+    }
 
     proc build_endpoint {path side title} {
         variable form
@@ -75,7 +88,8 @@ namespace eval ::espdiff::gui {
         ttk::combobox $path.map -textvariable ::espdiff::gui::form($side,map) -width 12 \
             -postcommand [list ::espdiff::gui::guard ::espdiff::gui::update_endpoint $side]
         form_row $path 6 Potential $path.map "Electrostatic potential: a data set of the molecule, a map file (DX, VTI,\
-            cube), computed from the charges (particle-mesh Ewald), or none to compare the shapes alone"
+            cube), computed from the charges, or none to compare the shapes alone. Automatic: with explicit water in a\
+            periodic cell PME, for other charges Poisson-Boltzmann. Options may be typed: pb ionic_strength 0.05"
         bind $path.map <<ComboboxSelected>> [list ::espdiff::gui::guard ::espdiff::gui::update_endpoint $side]
         bind $path.map <FocusOut> [list ::espdiff::gui::guard ::espdiff::gui::update_endpoint $side]
         button $path.browse_map ... [list ::espdiff::gui::browse $side map $map_types]
@@ -96,8 +110,9 @@ namespace eval ::espdiff::gui {
         set parent [winfo parent $widget($side,map)]
         foreach name {mol frame frames sel label_mol label_frame label_sel} { show_if $is_molecule $parent.$name }
         foreach name {file browse_file model label_file label_model} { show_if [expr {!$is_molecule}] $parent.$name }
-        if {$is_molecule} { update_molecule $side } else { $widget($side,map) configure -values [list none $computed] }
-        set has_map [expr {[string trim $form($side,map)] ni [list none "" $computed]}]
+        if {$is_molecule} { update_molecule $side } else { $widget($side,map) configure -values [concat none [dict keys $computed]] }
+        set map [string trim $form($side,map)]
+        set has_map [expr {$map ni {none ""} && ![is_computed_map $map]}]
         foreach name {unit label_unit} { show_if $has_map $parent.$name }
         foreach name {file map} { $widget($side,$name) xview end }
     }
@@ -153,7 +168,7 @@ namespace eval ::espdiff::gui {
         variable form
         variable automatic
         set form($side,frame) now
-        if {[number_of $form($side,map)] ne ""} { set form($side,map) none }
+        if {[number_of $form($side,map)] ne ""} { set form($side,map) automatic }
         set automatic($side) $form($side,map)
         set mol [number_of $form($side,mol)]
         if {$mol ne ""} { update_maps $side $mol }
@@ -166,9 +181,9 @@ namespace eval ::espdiff::gui {
         variable widget
         variable computed
         set names [data_set_names $mol]
-        $widget($side,map) configure -values [concat none [list $computed] $names]
+        $widget($side,map) configure -values [concat none [dict keys $computed] $names]
         if {$form($side,map) eq $automatic($side)} {
-            set form($side,map) [expr {[llength $names] > 0 ? [lindex $names 0] : "none"}]
+            set form($side,map) [expr {[llength $names] > 0 ? [lindex $names 0] : "automatic"}]
             set automatic($side) $form($side,map)
         }
     }
@@ -210,8 +225,11 @@ namespace eval ::espdiff::gui {
         set is_molecule [expr {$form($side,kind) eq "mol"}]
         set endpoint [expr {$is_molecule ? [molecule_endpoint $side] : [file_endpoint $side]}]
         set map [string trim $form($side,map)]
-        if {$map in {none ""}} { return $endpoint }
-        if {$map eq $computed} { return [concat $endpoint {map pme}] }
+        if {$map in {none ""}} { return [concat $endpoint {map none}] }
+        if {[is_computed_map $map]} {
+            set word [computed_map_word $map]
+            return [expr {$word eq "" ? $endpoint : [concat $endpoint [list map $word]]}]
+        }
         if {$is_molecule} {
             set number [number_of $map]
             set map [expr {$number eq "" ? [list file $map] : $number}]

@@ -3,7 +3,7 @@
 namespace eval ::espdiff::gui {
     variable form
     array set form {matrix,mol "" matrix,frames now matrix,sel "not water" matrix,label "" matrix,group ""
-        matrix,potential none matrix,output matrix matrix,resume 0}
+        matrix,potential automatic matrix,output matrix matrix,resume 0}
     variable variants {}      ;# dicts: endpoint (without map), label, group, what (a description)
     variable data_set "data set 0 of each"
 
@@ -94,8 +94,8 @@ namespace eval ::espdiff::gui {
         variable computed
         variable data_set
         ttk::combobox $path.potential -textvariable ::espdiff::gui::form(matrix,potential) -state readonly -width 18 \
-            -values [concat none [list $computed] [expr {[in_vmd] ? [list $data_set] : {}}]]
-        form_row $path 0 Potential $path.potential "Of every variant: computed from its charges (particle-mesh Ewald),\
+            -values [concat none [dict keys $computed] [expr {[in_vmd] ? [list $data_set] : {}}]]
+        form_row $path 0 Potential $path.potential "Of every variant: computed from its charges,\
             in VMD the molecule's data set, or none to compare the shapes alone"
         ttk::entry $path.output -textvariable ::espdiff::gui::form(matrix,output) -width 16
         form_row $path 0 "Results" $path.output "Files begin with this: NAME.csv and NAME.json, and NAME.state while\
@@ -229,8 +229,10 @@ namespace eval ::espdiff::gui {
         variable computed
         variable data_set
         set endpoint [dict get $variant endpoint]
-        if {$form(matrix,potential) eq $computed} { return [concat $endpoint {map pme}] }
         if {$form(matrix,potential) eq $data_set} { return [concat $endpoint {map 0}] }
+        if {![dict exists $computed $form(matrix,potential)]} { return [concat $endpoint {map none}] }
+        set word [dict get $computed $form(matrix,potential)]
+        if {$word ne ""} { return [concat $endpoint [list map $word]] }
         return $endpoint
     }
 

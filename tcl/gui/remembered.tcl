@@ -10,7 +10,7 @@ namespace eval ::espdiff::gui {
         residues,falling switch residues,face switch draw,range {auto given} draw,surface {target source}
         draw,color {difference sign source target displacement path_length none}
         draw,corrupt {transparent mark hide} draw,view {single linked}
-        matrix,potential {none "computed (PME)" "data set 0 of each"}
+        matrix,potential {none automatic Poisson-Boltzmann "PME, explicit water" "Coulomb, vacuum" "data set 0 of each"}
         trajectory,against {"the frame" "the frame before"} residues,sort text
     }
     variable remembered_head "# espdiff: settings of the window, version 1"

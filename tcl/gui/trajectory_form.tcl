@@ -3,7 +3,7 @@
 namespace eval ::espdiff::gui {
     variable form
     array set form {trajectory,mol "" trajectory,file "" trajectory,sel "not water" trajectory,frames 0:1:
-        trajectory,against "the frame" trajectory,reference 0 trajectory,map none trajectory,unit "as the map says"
+        trajectory,against "the frame" trajectory,reference 0 trajectory,map automatic trajectory,unit "as the map says"
         trajectory,csv trajectory.csv trajectory,resume 0 trajectory,skip 0
         trajectory,steps 0}
     variable references {"the frame" "the frame before"}
@@ -80,7 +80,7 @@ namespace eval ::espdiff::gui {
         variable units
         ttk::combobox $path.map -textvariable ::espdiff::gui::form(trajectory,map) -width 16 \
             -postcommand {::espdiff::gui::guard ::espdiff::gui::update_trajectory}
-        form_row $path 2 Potential $path.map "Of each frame: computed from the charges (particle-mesh Ewald); a map\
+        form_row $path 2 Potential $path.map "Of each frame: computed from the charges; a map\
             file for each frame, such as map%03d.dx, where %03d stands for the frame's number; a data set or a file\
             for all frames; or none to compare the shapes alone"
         ttk::combobox $path.unit -textvariable ::espdiff::gui::form(trajectory,unit) -values $units -state readonly \
@@ -121,7 +121,7 @@ namespace eval ::espdiff::gui {
         variable computed
         variable references
         variable automatic_trajectory
-        set maps [list none $computed]
+        set maps [concat none [dict keys $computed]]
         if {[in_vmd]} {
             set names [molecule_names]
             $widget(trajectory,mol) configure -values $names
@@ -194,7 +194,7 @@ namespace eval ::espdiff::gui {
         }
         set map [trajectory_map]
         if {$map ne ""} { lappend options -map $map }
-        if {$map ni {"" pme} && $form(trajectory,unit) ne "as the map says"} {
+        if {$map ni {"" none} && ![::espdiff::is_computed $map] && $form(trajectory,unit) ne "as the map says"} {
             lappend options -unit $form(trajectory,unit)
         }
         if {$form(trajectory,skip)} { lappend options -on-error skip }
@@ -202,13 +202,13 @@ namespace eval ::espdiff::gui {
         return $options
     }
 
-    # In the form of -map; empty for none.
+    # In the form of -map; empty for the usual potential.
     proc trajectory_map {} {
         variable form
         variable computed
         set map [string trim $form(trajectory,map)]
-        if {$map in {none ""}} { return "" }
-        if {$map eq $computed} { return pme }
+        if {$map in {none ""}} { return none }
+        if {[is_computed_map $map]} { return [computed_map_word $map] }
         if {[in_vmd] && [number_of $map] ne ""} { return [number_of $map] }
         return [list [expr {[string first % $map] >= 0 ? "files" : "file"}] $map]
     }

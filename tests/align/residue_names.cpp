@@ -57,8 +57,10 @@ TEST_CASE("a residue's kind follows from its name, otherwise from its atoms") {
   made.residue("A", 4, "CA", {"CA"});
   made.residue("A", 5, "HOH", {"O"});
   made.residue("A", 6, "DMS", {"S", "O", "C1", "C2"});
+  made.residue("A", 7, "SPCE", {"OW"});
   const auto kinds = residue_kinds(made.molecule, atoms_of_residues(made.molecule));
   const std::vector<ResidueKind> expected = {ResidueKind::kAminoAcid, ResidueKind::kAminoAcid, ResidueKind::kNucleotide,
-                                             ResidueKind::kOther,     ResidueKind::kWater,     ResidueKind::kOther};
+                                             ResidueKind::kOther,     ResidueKind::kWater,     ResidueKind::kOther,
+                                             ResidueKind::kWater};
   CHECK(kinds == expected);
 }

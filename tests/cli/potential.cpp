@@ -168,7 +168,7 @@ TEST_CASE("compare --potential pme computes both maps; without charges it is ref
   if (lacks_fourier(outcome)) return;
   CHECK_MESSAGE(outcome.status == 0, outcome.err);
   CHECK(contains(outcome.out, "kT/e"));
-  CHECK(contains(read_file(folder.file("out.json")), "\"potential_unit\": \"kT/e\""));
+  CHECK(contains(read_file(folder.file("out.json")), "\"potential_unit\": \"kT/e in vacuum\""));
   // OUT.json tells of the maps what is needed to compute them again.
   const std::string json = read_file(folder.file("out.json"));
   for (const char* part : {"\"role\": \"source_map\"", "\"path\": \"pme of ", "\"n_charges\": 8",
@@ -190,4 +190,66 @@ TEST_CASE("compare --potential pme computes both maps; without charges it is ref
   for (const char* part : {"has no charges", "PQR", "PSF", "prmtop"}) CHECK_MESSAGE(contains(none.err, part), none.err);
   CHECK(run_espdiff(start + "--potential apbs").status == 2);
   CHECK(folder.n_files() == n_before);
+}
+
+TEST_CASE("without maps and with charges Poisson-Boltzmann is computed, and the result says so") {
+  const ScratchFolder folder;
+  const std::string molecule = folder.write("a.pqr", row_of_atoms(8)),
+                    other = folder.write("b.pqr", row_of_atoms(8, 0.2));
+  const std::string start = "compare " + molecule + " " + other + " -o " + folder.file("out") + " --device cpu ";
+  const Outcome usual = run_espdiff(start + "--pb-spacing 1");
+  REQUIRE_MESSAGE(usual.status == 0, usual.err);
+  CHECK(contains(usual.out, "Poisson-Boltzmann, 0.15 mol/l (charges without explicit water in a periodic cell)"));
+  CHECK(contains(usual.out, "mean absolute difference  kT/e "));
+  const std::string json = read_file(folder.file("out.json"));
+  for (const char* part :
+       {"\"path\": \"pb of ", "\"relative_residual\"", "\"cycles\"", "\"spacing_A\": 1.0", "\"zero\": \"far away\"",
+        "\"ionic_strength_M\": 0.15", "\"vacuum\": false", "\"grid\"", "\"dielectric_boundary\": \"molecular\""})
+    CHECK_MESSAGE(contains(json, part), part);
+  const Outcome none = run_espdiff(start + "--potential none");
+  REQUIRE(none.status == 0);
+  CHECK(contains(none.out, "\nShape "));
+  CHECK(contains(read_file(folder.file("out.json")), "\"potential_unit\": null"));
+}
+
+TEST_CASE("vacuum is named wherever its numbers are") {
+  const ScratchFolder folder;
+  const std::string molecule = folder.write("a.pqr", row_of_atoms(8)),
+                    other = folder.write("b.pqr", row_of_atoms(8, 0.2));
+  const Outcome outcome = run_espdiff("compare " + molecule + " " + other + " -o " + folder.file("out") +
+                                      " --device cpu --potential coulomb");
+  REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  CHECK(contains(outcome.out, "vacuum (Coulomb)"));
+  CHECK(contains(outcome.out, "kT/e in vacuum"));
+  CHECK(contains(read_file(folder.file("out.json")), "\"potential_unit\": \"kT/e in vacuum\""));
+  CHECK(contains(read_file(folder.file("out.residues.csv")), "mean_source [kT/e in vacuum]"));
+  CHECK(contains(read_file(folder.file("out.vtp")), "kT/e in vacuum"));
+}
+
+TEST_CASE("options of potentials that cannot be are refused in one line, and nothing is written") {
+  const ScratchFolder folder;
+  const std::string molecule = folder.write("a.pqr", row_of_atoms(8)),
+                    other = folder.write("b.pqr", row_of_atoms(8, 0.2));
+  const std::size_t n_before = folder.n_files();
+  struct Case {
+    std::string arguments, part;
+  };
+  for (const auto& c : std::vector<Case>{
+           {"--ionic-strength -0.1", "--ionic-strength: '-0.1' is not a number of 0 or more"},
+           {"--solute-dielectric 0", "--solute-dielectric: '0' is not a positive number"},
+           {"--solvent-dielectric -2", "--solvent-dielectric: '-2' is not a positive number"},
+           {"--temperature 0", "--temperature"},
+           {"--pb-spacing 0", "--pb-spacing: '0' is not a positive number"},
+           {"--pb-spacing 0.01", "memory"},
+           {"--pb-max-cycles 1", "cycle"},
+           {"--potential pme --ionic-strength 0.1", "ionic-strength is an option of the potential pb"},
+           {"--potential none --dielectric 4", "--dielectric is of computed potentials, and none is computed"},
+           {"--offset -1", "--offset: '-1' is not a distance of 0 to 20 Angstrom"}}) {
+    const Outcome outcome =
+        run_espdiff("compare " + molecule + " " + other + " -o " + folder.file("out") + " --device cpu " + c.arguments);
+    CHECK_MESSAGE(outcome.status != 0, c.arguments);
+    CHECK_MESSAGE(contains(outcome.err, c.part), c.arguments << ": " << outcome.err);
+    CHECK(n_lines(outcome.err) == 1);
+    CHECK(folder.n_files() == n_before);
+  }
 }

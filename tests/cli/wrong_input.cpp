@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "cli/run_espdiff.h"
+#include "io/sha256.h"
 
 using namespace espdiff_test;  // NOLINT: a test
 
@@ -133,6 +134,19 @@ TEST_CASE("an output that cannot be written is found before the work") {
   in.check_refused(in.compare("", "/no/such/folder/out"), 2, "/no/such/folder/out");
   std::filesystem::create_directory(in.folder.file("taken.vtp"));
   in.check_refused(in.compare("", in.folder.file("taken")), 2, "taken.vtp");
+}
+
+TEST_CASE("a structure through a pipe is what a file of it is, hash and all") {
+  const ScratchFolder folder;
+  const std::string text = row_of_atoms(9);
+  const std::string a = folder.write("a.pqr", text), b = folder.write("b.pqr", row_of_atoms(9, 1));
+  const Outcome by_file = run_espdiff("compare " + a + " " + b + " -o " + folder.file("file"));
+  REQUIRE_MESSAGE(by_file.status == 0, by_file.err);
+  const std::string through =
+      "cat " + a + " | sh -c '" ESPDIFF_BINARY " compare /dev/fd/3 " + b + " -q -o " + folder.file("pipe") + " 3<&0'";
+  REQUIRE(std::system(through.c_str()) == 0);
+  CHECK(read_file(folder.file("pipe.residues.csv")) == read_file(folder.file("file.residues.csv")));
+  CHECK(contains(read_file(folder.file("pipe.json")), espdiff::sha256_of(text)));
 }
 
 TEST_CASE("a grid too large for memory") {

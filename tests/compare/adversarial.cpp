@@ -11,6 +11,7 @@
 #include "compare/built_molecule.h"
 #include "compare/compare.h"
 #include "compare/made_side.h"
+#include "compare/options.h"
 
 using namespace espdiff_test;
 using espdiff::compare;
@@ -33,7 +34,7 @@ CompareResult mapped_or_reported(const char* name, const Molecule& source, const
   const CompareResult r = compare(*engine, {&source, nullptr}, {&target, nullptr}, options, {});
   const espdiff::Certificate& c = r.certificate;
   std::printf(
-      "%s: %s; without counterpart %.2f %% of the source, %.2f %% of the target; target to mapped at most %.2f A; "
+      "%s: %s; unmatched %.2f %% of the source, %.2f %% of the target; target to mapped at most %.2f A; "
       "same residue %.1f %%; %zu vertices added, %zu lost\n",
       name, c.trustworthy ? "trustworthy" : "NOT trustworthy", 100 * c.unmatched_source, 100 * c.unmatched_target,
       c.target_to_mapped.max, 100 * c.same_residue_area_fraction, r.morph_report.n_vertices_added,

@@ -13,6 +13,7 @@
 #include "compare/options.h"
 #include "compare/result.h"
 #include "engine/engine.h"
+#include "io/read_structure.h"
 
 using namespace espdiff_test;
 using espdiff::compare;

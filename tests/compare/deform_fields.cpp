@@ -8,8 +8,10 @@
 
 #include "compare/compare.h"
 #include "compare/made_side.h"
+#include "compare/options.h"
 #include "compare/series.h"
 #include "engine/engine.h"
+#include "io/read_structure.h"
 
 using namespace espdiff_test;
 using espdiff::FieldKind;

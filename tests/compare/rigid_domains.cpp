@@ -10,6 +10,7 @@
 #include "compare/built_molecule.h"
 #include "compare/compare.h"
 #include "compare/made_side.h"
+#include "compare/options.h"
 #include "report/metrics.h"
 #include "report/write_compare.h"
 

@@ -3,6 +3,7 @@
 
 #include "compare/compare.h"
 #include "compare/made_side.h"
+#include "compare/options.h"
 #include "io/read_structure.h"
 #include "support/test_data.h"
 

@@ -9,6 +9,7 @@
 #include "compare/built_molecule.h"
 #include "compare/compare.h"
 #include "compare/made_side.h"
+#include "compare/options.h"
 #include "io/sha256.h"
 #include "support/test_data.h"
 #include "trajectory/series_file.h"

@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "compare/options.h"
 #include "support/test_data.h"
 
 using espdiff::CompareOptions;

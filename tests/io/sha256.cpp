@@ -43,5 +43,7 @@ TEST_CASE("what is no file is refused") {
   CHECK_THROWS_AS(sha256_of_file(folder.file("missing")), IoError);
   CHECK(message_of([&] { sha256_of_file(folder.file("missing")); }).find("cannot read: No such file") !=
         std::string::npos);
+  CHECK(message_of([&] { sha256_of_file("/dev/null"); }) ==
+        "/dev/null: is a pipe or a device; save its content as a file and give that");
   CHECK(message_of([&] { sha256_of_file(folder.file("")); }).find("is a folder, not a file") != std::string::npos);
 }

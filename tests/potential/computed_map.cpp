@@ -11,6 +11,9 @@
 #include "compare/made_side.h"
 #include "compare/series.h"
 #include "cuda/potential/ewald_oracle.h"
+#include "potential/choose_potential.h"
+#include "potential/potential.h"
+#include "potential/potential_settings.h"
 #include "report/write_compare.h"
 
 using namespace espdiff_test;
@@ -37,11 +40,16 @@ PotentialOptions grid_of(double resolution_A) {
   return options;
 }
 
-ComputedMap map_of(const Molecule& molecule, double resolution_A = 1) {
-  return {molecule, std::nullopt, grid_of(resolution_A)};
-}
+ComputedMap map_of(const Molecule& molecule, double resolution_A = 1) { return {molecule, {}, grid_of(resolution_A)}; }
 
 CompareInput computed(const Side& side) { return {&side.molecule, nullptr, map_of(side.molecule).maker()}; }
+
+/// The same in the box along the coordinate axes that `espdiff potential` lays.
+CompareInput in_box(const Side& side) {
+  PotentialOptions options = grid_of(1);
+  options.cell = espdiff::padded_cell(side.molecule.positions, 10);
+  return {&side.molecule, nullptr, ComputedMap(side.molecule, {}, options).maker()};
+}
 
 /// The molecule with some of its atoms moved.
 Side other_side() { return make_side(1, 0.3); }
@@ -68,15 +76,15 @@ TEST_CASE("splines on 1 A are nearer to the direct Ewald sum at the surface than
              target_map = espdiff::potential_map(*engine, target.molecule, grid_of(0.5), {});
   const CompareResult linear = compare(*engine, {&source.molecule, &source_map}, {&target.molecule, &target_map},
                                        quick_options(), {}),
-                      spline = compare(*engine, computed(source), computed(target), quick_options(), {});
+                      spline = compare(*engine, in_box(source), in_box(target), quick_options(), {});
   for (const bool is_source : {true, false}) {
     const Molecule& molecule = is_source ? source.molecule : target.molecule;
     const auto& s = spline.surface;
     REQUIRE(hash_of(linear) != hash_of(spline));
     std::vector<Vec3d> points = is_source ? s.source_positions : s.positions;
     points.resize(100);
-    const std::vector<double> exact =
-        direct_ewald({molecule.positions, molecule.charges}, map_of(molecule).recipe().cell, 0.25, points);
+    const std::vector<double> exact = direct_ewald({molecule.positions, molecule.charges},
+                                                   espdiff::padded_cell(molecule.positions, 10), 0.25, points);
     const auto& l = linear.surface;
     const double of_spline = rms_error(is_source ? s.potential_source : s.potential_target, exact),
                  of_linear = rms_error(is_source ? l.potential_source : l.potential_target, exact);
@@ -92,9 +100,10 @@ TEST_CASE("a series makes the source's map once, and gives the same bits as comp
   const auto engine = cpu();
   int n_made = 0;
   CompareInput counted = computed(source);
-  counted.make_map = [&n_made, make = counted.make_map](Engine& e, const auto& to_map, const auto& progress) {
+  counted.make_map = [&n_made, make = counted.make_map](Engine& e, const auto& to_map, const auto& before,
+                                                        const auto& progress) {
     ++n_made;
-    return make(e, to_map, progress);
+    return make(e, to_map, before, progress);
   };
   espdiff::Series series(*engine, counted, quick_options());
   for (const double noise : {0.1, 0.2, 0.3}) {
@@ -148,7 +157,8 @@ TEST_CASE("a result tells of a computed map what is needed to compute it again")
   const Side side = make_side(1, 0);
   PotentialOptions options;
   options.pme.ewald_factor = 0.3;
-  const ComputedMap map(side.molecule, espdiff::UnitCell{{60, 61, 62}, {90, 90, 90}}, options);
+  const espdiff::ChargeSurroundings in_cell{espdiff::UnitCell{{60, 61, 62}, {90, 90, 90}}, {}, false};
+  const ComputedMap map(side.molecule, in_cell, options);
   espdiff::Provenance provenance;
   provenance.inputs = {computed_input("source_map", map)};
   const auto json = compare_json(side.molecule, side.molecule, CompareResult(), {}, provenance);
@@ -166,8 +176,7 @@ TEST_CASE("a result tells of a computed map what is needed to compute it again")
   CHECK(input["computed"]["ewald_factor"] == 0.3);
   CHECK(input["computed"]["sampling"] == "spline");
   // All that the map depends on changes the fingerprint.
-  CHECK(map.fingerprint() ==
-        ComputedMap(side.molecule, espdiff::UnitCell{{60, 61, 62}, {90, 90, 90}}, options).fingerprint());
+  CHECK(map.fingerprint() == ComputedMap(side.molecule, in_cell, options).fingerprint());
   CHECK(map.fingerprint() != map_of(side.molecule).fingerprint());
   Molecule changed = side.molecule;
   changed.charges[0] += 0.1F;
@@ -178,16 +187,97 @@ TEST_CASE("a result tells of a computed map what is needed to compute it again")
 TEST_CASE("what cannot be computed is refused before the surface is made") {
   Molecule molecule = make_side(1, 0).molecule;
   PotentialOptions options;
-  options.method = espdiff::PotentialMethod::kCoulomb;
-  CHECK(message_of([&] { ComputedMap(molecule, std::nullopt, options); }).find("computes potentials by pme") !=
-        std::string::npos);
-  options = {};
   options.cell = espdiff::PmeCell{{}, {Vec3d{50, 0, 0}, Vec3d{0, 50, 0}, Vec3d{0, 0, 50}}};
   options.pad_A = 5;
-  CHECK(message_of([&] { ComputedMap(molecule, std::nullopt, options); }) ==
-        "a cell and a padding were given; leave one out");
+  CHECK(message_of([&] { ComputedMap(molecule, {}, options); }) == "a cell and a padding were given; leave one out");
+  options = {};
+  options.method = espdiff::PotentialMethod::kPoissonBoltzmann;
+  Molecule wet = molecule;
+  wet.residues[0].name = "HOH";
+  CHECK(
+      message_of([&] { ComputedMap(wet, {}, options); }) ==
+      "molecule.pqr: water is among the atoms, and Poisson-Boltzmann has a continuum in its place; leave water out, or "
+      "take the potential pme");
+  wet = molecule;
+  wet.radii.clear();
+  CHECK(message_of([&] { ComputedMap(wet, {}, options); }) ==
+        "molecule.pqr: Poisson-Boltzmann needs the atoms' radii; give a PQR file");
   molecule.charges.clear();
   CHECK(message_of([&] { map_of(molecule); }).find("molecule.pqr: has no charges") == 0);
+}
+
+TEST_CASE("what a reader must know of two potentials") {
+  espdiff::MapRecipe a, b;
+  a.method = b.method = espdiff::PotentialMethod::kPme;
+  a.zero = b.zero = espdiff::ZeroPlace::kCellMean;
+  a.cell = b.cell = espdiff::PmeCell{{}, {Vec3d{50, 0, 0}, Vec3d{0, 50, 0}, Vec3d{0, 0, 50}}};
+  a.has_water = b.has_water = true;
+  CHECK(espdiff::potential_notes(&a, &b).empty());
+  a.net_charge = -3;
+  b.net_charge = -2;
+  CHECK(espdiff::potential_notes(&a, &b) ==
+        std::vector<std::string>{"the net charges differ, -3 and -2 e: each periodic cell is neutralized by a uniform "
+                                 "background of its own, which changes the difference; zero is the mean of the cell"});
+  b = a;
+  b.cell.edges[0].x = 52;
+  CHECK(espdiff::potential_notes(&a, &b) ==
+        std::vector<std::string>{"the periodic cells differ, 125000 and 130000 A^3: the zero, the mean of the cell, "
+                                 "depends on that where the molecule is charged"});
+  b = a;
+  b.zero = espdiff::ZeroPlace::kBulkSolvent;
+  CHECK(espdiff::potential_notes(&a, &b) ==
+        std::vector<std::string>{"zero is the mean of the cell of the source's potential and the bulk solvent of the "
+                                 "target's: the mean signed difference means little"});
+  b = a;
+  a.has_water = b.has_water = false;
+  CHECK(espdiff::potential_label(a) == "vacuum (PME without water, smooth part)");
+  CHECK(espdiff::potential_notes(&a, &b).size() == 1);
+  a.method = b.method = espdiff::PotentialMethod::kPoissonBoltzmann;
+  a.net_charge = b.net_charge = 0.5;
+  CHECK(espdiff::potential_notes(&a, nullptr) ==
+        std::vector<std::string>{"the charges of the source add up to 0.5000 e, which is not a whole number: atoms or "
+                                 "charges may be missing"});
+}
+
+TEST_CASE("which potential is taken where none is named") {
+  using Facts = espdiff::PotentialFacts;
+  const auto kind = [](const std::vector<Facts>& facts) {
+    const espdiff::PotentialChoice choice = espdiff::choose_potential("auto", "auto", facts);
+    return (choice.method ? to_string(*choice.method) : std::string("none")) + (choice.own_cell ? " own" : "") + ": " +
+           choice.because;
+  };
+  const Facts bare{"a.pdb", false, false}, charged{"a.pqr", true, false}, solvated{"b.pqr", true, true};
+  CHECK(kind({charged, charged}) == "pb: charges without explicit water in a periodic cell");
+  CHECK(kind({charged, solvated}) == "pb: charges without explicit water in a periodic cell");
+  CHECK(kind({solvated, solvated}) == "pme own: explicit water in a periodic cell");
+  CHECK(kind({charged, bare}) == "none: a.pdb has no charges");
+  CHECK(!espdiff::choose_potential("none", "auto", {charged, charged}).method);
+  CHECK(message_of([&] { espdiff::choose_potential("pbe", "auto", {charged}); }) ==
+        "unknown potential 'pbe'; use pb, pme or coulomb");
+}
+
+TEST_CASE("options of a potential: each refused with its name, and those that it does not read") {
+  using espdiff::PotentialMethod;
+  const auto refused = [](PotentialMethod method, const std::string& name, const std::string& text) {
+    return message_of([&] { espdiff::make_potential_options(method, {{name, text}}, 300); });
+  };
+  const PotentialMethod pb = PotentialMethod::kPoissonBoltzmann, pme = PotentialMethod::kPme;
+  CHECK(refused(pb, "ionic-strength", "-0.1") == "ionic-strength: '-0.1' is not a number of 0 or more");
+  CHECK(refused(pb, "solute_dielectric", "0") == "solute-dielectric: '0' is not a positive number");
+  CHECK(refused(pb, "dielectric-boundary", "smol") == "dielectric-boundary: 'smol' is not molecular, vdw or gaussian");
+  CHECK(refused(pme, "ionic-strength", "0.1") ==
+        "ionic-strength is an option of the potential pb, and the potential is pme; leave it out, or take the "
+        "potential pb");
+  CHECK(refused(pme, "part", "some") == "pme-part: 'some' is not full or smooth");
+  CHECK(refused(pb, "salt", "0.1").find("a potential has no option 'salt'; there are equation, ionic_strength") == 0);
+  for (const espdiff::PotentialSetting& setting : espdiff::potential_settings()) {
+    // What a setting says of itself it takes.
+    const PotentialOptions defaults = espdiff::make_potential_options(setting.of.front(), {}, 300);
+    const std::string value = setting.get(defaults);
+    PotentialOptions other = defaults;
+    if (!value.empty()) setting.set(other, value);
+    CHECK(setting.get(other) == value);
+  }
 }
 
 TEST_SUITE_END();

@@ -13,6 +13,7 @@
 #include "compare/surface.h"
 #include "cuda/certificate/mesh_checks.h"
 #include "cuda/surface/shapes.h"
+#include "io/read_structure.h"
 
 using namespace espdiff_test;
 using espdiff::Grid;

@@ -58,6 +58,19 @@ test "a click on a point goes to its frame, or calls the user" {
     [lindex $plots 0] quit
 }
 
+test "a plot is written to a file although VMD's TMPDIR names no folder" {
+    # VMD's own start file sets it so where it is unset and there is no /usr/tmp, as on Debian.
+    set before [expr {[info exists env(TMPDIR)] ? $env(TMPDIR) : ""}]
+    set env(TMPDIR) /usr/tmp/no/such/folder
+    set failed [catch { espdiff plot $scratch/t.csv -metrics rmsd_A -file $scratch/rmsd.svg } message]
+    set env(TMPDIR) $before
+    check_equal message [expr {$failed ? $message : ""}] ""
+    set channel [open $scratch/rmsd.svg]
+    set svg [read $channel]
+    close $channel
+    check "the axis" {[string first RMSD $svg] > 0}
+}
+
 test "one variant of a matrix against all others" {
     set matrix [espdiff matrix [list [list mol $mol frames 0:30:90 sel protein]] -output $scratch/m {*}$quick]
     set plots [espdiff plot $matrix -source adk.psf:30]

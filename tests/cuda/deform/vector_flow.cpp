@@ -1,10 +1,12 @@
 // vector_flow.cpp: gradient vector flow: radial around a sphere, the equation itself, convergence, spacings, two
 // surfaces, refusals.
 #include <doctest/doctest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <limits>
 #include <string>
 
@@ -256,6 +258,34 @@ TEST_CASE("gradient vector flow: options out of range are refused with the value
     message(with(nan, 1e-3, 10));
     message(with(0.2, nan, 10));
   }
+}
+
+TEST_CASE("gradient vector flow that would not fit is refused before it begins, and the density that fits is not") {
+  const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 1);
+  const AtomSet atoms = one_gaussian({0, 0, 0}, 10.0);
+  rlimit before{};
+  REQUIRE(getrlimit(RLIMIT_AS, &before) == 0);
+  // 190^3 points: 27 MB of density and 70 MB with its isosurface, but 439 MB of flow.
+  const auto handle = upload(*engine, atoms);
+  const GridPtr density = engine->density(handle, 0.42);
+  const double n_points = static_cast<double>(engine->download(density).values.size());
+  REQUIRE(n_points > 4e6);
+  rlimit narrow = before;
+  double pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  const double room = n_points * 40;
+  narrow.rlim_cur = static_cast<rlim_t>(pages * 4096 + room);
+  REQUIRE(setrlimit(RLIMIT_AS, &narrow) == 0);
+  const std::string flow = message_of([&] { engine->gvf_field(density, nullptr, kIsovalue, {}, {}, nullptr); }),
+                    again = message_of([&] { engine->density(handle, 0.42); }),
+                    finer = message_of([&] { engine->density(handle, 0.1); });
+  setrlimit(RLIMIT_AS, &before);
+  CHECK(flow.find("gradient vector flow on a grid of ") == 0);
+  CHECK(flow.find(" GB are available; a spacing 1.") != std::string::npos);
+  CHECK(again == "(nothing thrown)");
+  CHECK(finer.find("a grid of spacing 0.100000 A") == 0);
+  CHECK(finer.find(" GB of memory, and ") != std::string::npos);
+  CHECK(finer.find(" A would fit") != std::string::npos);
 }
 
 TEST_CASE("gradient vector flow reports progress and stops when cancelled") {

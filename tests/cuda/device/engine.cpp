@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "cuda/surface/shapes.h"
 #include "engine/engine.h"
+#include "engine/morph_stage.h"
 
 using namespace espdiff_test;
 using espdiff::DeviceChoice;
@@ -103,7 +104,12 @@ TEST_CASE("a handle of another kind is an internal error, not a crash") {
         {});
     for (const auto& call :
          {std::function<void()>([&] { engine->area(stranger); }), std::function<void()>([&] { engine->area(nullptr); }),
-          std::function<void()>([&] { engine->isosurface(map, 0.5F); })}) {
+          std::function<void()>([&] { engine->isosurface(map, 0.5F); }), std::function<void()>([&] {
+            const auto atoms = engine->upload_atoms({{0, 0, 0}}, {1.0F}, {0});
+            espdiff::MorphResult so_far;
+            so_far.source = so_far.mapped = stranger;
+            engine->continue_morph(so_far, {}, atoms, atoms, {}, "morph", {});
+          })}) {
       try {
         call();
         FAIL("nothing was thrown");

@@ -291,6 +291,15 @@ TEST_CASE("wrong options and a cancellation") {
     CHECK_THROWS_WITH_AS(with(1, -1, 2), "the morph's longest edge, -1.000000 A, is not positive", espdiff::InputError);
     CHECK_THROWS_WITH_AS(with(1, 1, 1), "the morph's largest stretch, 1.000000, is not above 1; 20 is usual",
                          espdiff::InputError);
+    // More steps than an int holds were once 24 or 8 of them.
+    CHECK_THROWS_WITH_AS(with(1e-12, 1, 2),
+                         "an atom moves 9 A from source to target, which takes 9e+12 steps of 1e-12 A; 100000 is the "
+                         "limit; check that both structures show one molecule and no atom is far off, or give a larger "
+                         "max-step",
+                         espdiff::InputError);
+    Journey far = j;
+    far.ways[0].end = far.ways[0].end + Vec3d{1e10, 0, 0};
+    CHECK(message_of([&] { travel(*engine, far); }).find("an atom moves 1e+10 A from source to target") == 0);
     espdiff::Progress cancelled;
     cancelled.request_cancel();
     const auto source = upload(*engine, j.source), target = upload(*engine, j.target);

@@ -1,0 +1,228 @@
+// poisson_boltzmann.cpp: times the Poisson-Boltzmann potential, beside APBS where it is installed, and says how values
+// at a surface depend on the spacing, as CSV.
+#include <sys/resource.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "dcd_frames.h"
+#include "engine/select_engine.h"
+#include "io/read_structure.h"
+
+namespace {
+
+using espdiff::Lattice;
+using espdiff::Molecule;
+using espdiff::PoissonBoltzmannOptions;
+using espdiff::PoissonBoltzmannReport;
+using espdiff::Vec3d;
+
+const char* const kFkbp = "/usr/share/apbs/examples/FKBP/1d7h-min.pqr";
+
+std::string data_folder() {
+  const char* const given = std::getenv("ESPDIFF_DATA");
+  return given != nullptr ? given : ESPDIFF_SOURCE_DIR "/../shared/data";
+}
+
+bool is_there(const std::string& path) {
+  if (std::filesystem::exists(path)) return true;
+  std::fprintf(stderr, "SKIPPED: %s is absent\n", path.c_str());
+  return false;
+}
+
+struct Seconds {
+  double wall = 0, cpu = 0;
+};
+
+double cpu_seconds(int who) {
+  rusage usage{};
+  getrusage(who, &usage);
+  const auto of = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return of(usage.ru_utime) + of(usage.ru_stime);
+}
+
+/// The least of some repeats, by processor time.
+Seconds timed(int repeats, int who, const std::function<void()>& work) {
+  Seconds best{1e300, 1e300};
+  for (int i = 0; i < repeats; ++i) {
+    const double cpu = cpu_seconds(who);
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double used = cpu_seconds(who) - cpu;
+    if (used < best.cpu) best = {wall, used};
+  }
+  return best;
+}
+
+/// n^3 points over a cube of the given side around the molecule's middle.
+Lattice cube(const Molecule& m, int n, double side) {
+  const double h = side / (n - 1);
+  Lattice lattice = espdiff::poisson_boltzmann_lattice(m.positions, m.radii, h, 0);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    lattice.origin[static_cast<int>(axis)] += 0.5 * h * (lattice.size[axis] - n);
+    lattice.size[axis] = n;
+  }
+  return lattice;
+}
+
+espdiff::GridPtr potential(espdiff::Engine& engine, const Molecule& m, const Lattice& lattice,
+                           PoissonBoltzmannReport* report, const espdiff::GridPtr& start = nullptr,
+                           const PoissonBoltzmannOptions& options = {}) {
+  return engine.poisson_boltzmann(m.positions, m.radii, m.charges, lattice, options, {}, start, {}, report);
+}
+
+void print_row(const char* what, int threads, const Lattice& lattice, const Seconds& t, int cycles) {
+  std::printf("%s,%d,%zu,%.4f,%d,%.3f,%.3f\n", what, threads, lattice.n_points(), lattice.step[0].x, cycles, t.cpu,
+              t.wall);
+  std::fflush(stdout);
+}
+
+/// APBS on the same grid, focusing from one of 1.7 times its extent, without writing the potential.
+Seconds apbs_seconds(const Lattice& lattice, int repeats) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "espdiff-bench-apbs";
+  std::filesystem::create_directories(folder);
+  const double side = lattice.step[0].x * (lattice.size[0] - 1);
+  std::ofstream in(folder / "in.apbs");
+  in << "read\nmol pqr " << kFkbp << "\nend\nelec\nmg-auto\ndime " << lattice.size[0] << " " << lattice.size[0] << " "
+     << lattice.size[0] << "\ncglen " << 1.7 * side << " " << 1.7 * side << " " << 1.7 * side << "\nfglen " << side
+     << " " << side << " " << side
+     << "\ncgcent mol 1\nfgcent mol 1\nmol 1\nlpbe\nbcfl mdh\nion charge 1 conc 0.15 radius 2\nion charge -1 conc 0.15 "
+        "radius 2\npdie 2\nsdie 78.54\nchgm spl2\nsrfm smol\nsrad 1.4\nswin 0.3\nsdens 10\ntemp 300\ncalcenergy "
+        "no\ncalcforce no\nend\nquit\n";
+  in.close();
+  const std::string command = "cd " + folder.string() + " && OMP_NUM_THREADS=1 apbs in.apbs >apbs.log 2>&1";
+  const Seconds seconds = timed(repeats, RUSAGE_CHILDREN, [&] {
+    if (std::system(command.c_str()) != 0) throw espdiff::InputError("apbs failed; see " + folder.string());
+  });
+  std::filesystem::remove_all(folder);
+  return seconds;
+}
+
+constexpr double kFkbpSide_A = 67.2;  // 97 points of 0.7 A
+
+void measure_speed(int repeats) {
+  if (!is_there(kFkbp)) return;
+  const Molecule m = espdiff::read_structure(kFkbp);
+  const Lattice lattice = cube(m, 97, kFkbpSide_A);
+  for (const int threads : {1, 2}) {
+    const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, threads);
+    PoissonBoltzmannReport report;
+    const Seconds t = timed(repeats, RUSAGE_SELF, [&] { potential(*engine, m, lattice, &report); });
+    print_row("fkbp_97", threads, lattice, t, report.cycles);
+  }
+  if (std::system("command -v apbs >/dev/null 2>&1") == 0) {
+    print_row("fkbp_97_apbs", 1, lattice, apbs_seconds(lattice, std::min(repeats, 3)), 0);
+  } else {
+    std::fprintf(stderr, "SKIPPED: apbs is not on PATH\n");
+  }
+}
+
+void measure_sizes(int repeats, int largest) {
+  if (!is_there(kFkbp)) return;
+  const Molecule m = espdiff::read_structure(kFkbp);
+  const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 1);
+  for (const int n : {65, 97, 129, 193, 257}) {
+    if (n > largest) break;
+    const Lattice lattice = cube(m, n, kFkbpSide_A);
+    PoissonBoltzmannReport report;
+    const Seconds t = timed(n > 129 ? 1 : repeats, RUSAGE_SELF, [&] { potential(*engine, m, lattice, &report); });
+    print_row(("fkbp_size_" + std::to_string(n)).c_str(), 1, lattice, t, report.cycles);
+  }
+}
+
+/// Adenylate kinase's frames as they follow each other: from zero, and from the frame before.
+void measure_frames(int n_frames) {
+  const std::string folder = data_folder() + "/traj_adk";
+  if (!is_there(folder + "/adk_open.pqr") || !is_there(folder + "/adk_dims.dcd")) return;
+  const Molecule open = espdiff::read_structure(folder + "/adk_open.pqr");
+  const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 1);
+  const Lattice lattice = espdiff::poisson_boltzmann_lattice(open.positions, open.radii, 0.7, 14);
+  espdiff::GridPtr before;
+  for (int i = 0; i < n_frames; ++i) {
+    const Molecule frame = espdiff_bench::read_frame(open, folder + "/adk_dims.dcd", 40 + i);
+    PoissonBoltzmannReport cold, warm;
+    const Seconds from_zero = timed(1, RUSAGE_SELF, [&] { potential(*engine, frame, lattice, &cold); });
+    print_row("adk_cold", 1, lattice, from_zero, cold.cycles);
+    espdiff::GridPtr now;
+    const Seconds from_before = timed(1, RUSAGE_SELF, [&] { now = potential(*engine, frame, lattice, &warm, before); });
+    if (before) print_row("adk_warm", 1, lattice, from_before, warm.cycles);
+    before = now;
+  }
+}
+
+/// Pairs whose atoms lie in one frame: both potentials on the first one's surface.
+void study_spacing(const std::string& name, const std::string& first, const std::string& second, double finest) {
+  if (!is_there(first) || !is_there(second)) return;
+  const Molecule a = espdiff::read_structure(first), b = espdiff::read_structure(second);
+  const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 0);
+  const auto atoms = engine->upload_atoms(a.positions, a.radii, std::vector<std::int32_t>(a.size(), 0));
+  const auto surface = engine->project(engine->isosurface(engine->density(atoms, 1.0), 0.5F), atoms, 0.5F, 1.0);
+  for (const auto smoothing : {espdiff::DielectricSmoothing::kEdges, espdiff::DielectricSmoothing::kNinePoint}) {
+    for (const double h : {1.0, 0.7, 0.5, 0.35, 0.25}) {
+      if (h < finest) break;
+      PoissonBoltzmannOptions options;
+      options.smoothing = smoothing;
+      const auto on_surface = [&](const Molecule& m) {
+        const Lattice lattice = espdiff::poisson_boltzmann_lattice(a.positions, a.radii, h, 12);
+        return engine->download(engine->sample(potential(*engine, m, lattice, nullptr, nullptr, options), surface));
+      };
+      const std::vector<float> at_a = on_surface(a), at_b = on_surface(b);
+      double squares = 0, differences = 0;
+      for (std::size_t v = 0; v < at_a.size(); ++v) {
+        squares += static_cast<double>(at_a[v]) * static_cast<double>(at_a[v]);
+        differences += std::fabs(static_cast<double>(at_b[v]) - static_cast<double>(at_a[v]));
+      }
+      const double n = static_cast<double>(at_a.size());
+      std::printf("spacing_%s_%s,%.2f,rms %.4f,mean absolute difference %.4f\n", name.c_str(),
+                  smoothing == espdiff::DielectricSmoothing::kEdges ? "edges" : "nine_point", h, std::sqrt(squares / n),
+                  differences / n);
+      std::fflush(stdout);
+    }
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Times the Poisson-Boltzmann potential, beside APBS, and how it depends on the spacing.");
+  int repeats = 5, largest = 257, frames = 4;
+  double finest = 0.25;
+  bool no_study = false;
+  app.add_option("--repeats", repeats, "The least of so many times counts");
+  app.add_option("--largest", largest, "Points along an edge of the largest grid");
+  app.add_option("--frames", frames, "Of adenylate kinase");
+  app.add_option("--finest", finest, "Finest spacing of the study, Angstrom");
+  app.add_flag("--no-study", no_study, "Times alone");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    std::printf("case,threads,points,spacing_A,cycles,cpu_s,wall_s\n");
+    measure_speed(repeats);
+    measure_sizes(repeats, largest);
+    measure_frames(frames);
+    if (no_study) return 0;
+    const std::string data = data_folder();
+    study_spacing("1ajj_ph7_ph2", data + "/pqr_pdb2pqr/1AJJ_pH7_AMBER.pqr", data + "/pqr_pdb2pqr/1AJJ_pH2_AMBER.pqr",
+                  finest);
+    study_spacing("t4l", data + "/pair_t4l_maps/3lzm.pqr", data + "/pair_t4l_maps/181l_fit.pqr", finest);
+    study_spacing("tim", data + "/pair_tim_maps/scTIM_chainA.pqr", data + "/pair_tim_maps/dTIM_chainA.pqr", finest);
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "espdiff_poisson_boltzmann: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,15 @@
+// bulk_zero.h: the zero of a periodic potential moved to its bulk solvent (see Engine::zero_in_bulk).
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "cuda/surface/sample.h"
+#include "engine/potential_stage.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+
+std::shared_ptr<MapGrid> zero_in_bulk(const MapGrid& map, const std::vector<Vec3d>& solute, double distance_A,
+                                      BulkZero* report);
+
+}  // namespace espdiff::ESPDIFF_BACKEND

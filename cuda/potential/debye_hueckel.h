@@ -1,0 +1,25 @@
+// debye_hueckel.h: the sum of all charges' Debye-Hueckel potentials on a grid's border.
+#pragma once
+
+#include <vector>
+
+#include "cuda/potential/pb_atoms.h"
+#include "cuda/surface/grid.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+
+/// What the border's potential depends on.
+struct DebyeHueckel {
+  double scale = 0;  ///< C / eps_solvent, kT A / e^2
+  double kappa = 0;  ///< inverse Debye length
+};
+
+/// Sets the border of `phi` [point] to
+///
+///     phi(x) = scale sum_i q_i exp(-kappa (r - a_i)) / ((1 + kappa a_i) r),   r = |x - x_i|, a_i the atom's radius
+///
+/// (APBS' `mdh`), exact on every `stride`-th point along the edges of a face, cubic in between.
+void set_debye_hueckel_border(const std::vector<PbAtom>& atoms, const CubicLattice& lattice, const DebyeHueckel& law,
+                              Buffer<float>& phi);
+
+}  // namespace espdiff::ESPDIFF_BACKEND

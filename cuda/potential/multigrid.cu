@@ -1,0 +1,282 @@
+// multigrid.cu: kernels of the operator, of Gauss-Seidel sweeps and of the way between grids; the V-cycle.
+#include "cuda/potential/multigrid.h"
+
+#include <algorithm>
+
+namespace espdiff::ESPDIFF_BACKEND {
+namespace {
+
+/// Coefficients as kernels see them.
+struct OperatorView {
+  const float* ex;
+  const float* ey;
+  const float* ez;
+  const float* diagonal;
+  std::size_t row, plane;
+
+  /// sum of eps_f x_q over the six neighbours.
+  ESPDIFF_INLINE float neighbours(const float* x, std::size_t p) const {
+    const float along_x = ex[p] * x[p + 1] + ex[p - 1] * x[p - 1];
+    const float along_y = ey[p] * x[p + row] + ey[p - row] * x[p - row];
+    const float along_z = ez[p] * x[p + plane] + ez[p - plane] * x[p - plane];
+    return along_x + along_y + along_z;
+  }
+};
+
+OperatorView view_of(const GridOperator& a) {
+  return {raw(a.ex), raw(a.ey), raw(a.ez), raw(a.diagonal), a.size.row(), a.size.plane()};
+}
+
+struct AddFaces {
+  static constexpr bool kColoured = false;
+  int colour;
+  OperatorView a;
+  float* diagonal;
+
+  ESPDIFF_INLINE void at(std::size_t p, int) const {
+    const float faces = (a.ex[p] + a.ex[p - 1]) + (a.ey[p] + a.ey[p - a.row]) + (a.ez[p] + a.ez[p - a.plane]);
+    diagonal[p] = diagonal[p] + faces;
+  }
+};
+ESPDIFF_GRID_KERNEL(AddFaces)
+
+struct Apply {
+  static constexpr bool kColoured = false;
+  int colour;
+  OperatorView a;
+  const float* x;
+  float* y;
+
+  ESPDIFF_INLINE void at(std::size_t p, int) const { y[p] = a.diagonal[p] * x[p] - a.neighbours(x, p); }
+};
+ESPDIFF_GRID_KERNEL(Apply)
+
+struct Residual {
+  static constexpr bool kColoured = false;
+  int colour;
+  OperatorView a;
+  const float* x;
+  const float* b;
+  float* r;
+
+  ESPDIFF_INLINE void at(std::size_t p, int) const { r[p] = (b[p] - a.diagonal[p] * x[p]) + a.neighbours(x, p); }
+};
+ESPDIFF_GRID_KERNEL(Residual)
+
+/// The first half of a sweep from zero: points of the colour by their own equation, the others zero.
+struct StartSweep {
+  static constexpr bool kColoured = false;
+  int colour;
+  OperatorView a;
+  const float* b;
+  float* x;
+
+  ESPDIFF_INLINE void at(std::size_t p, int of) const { x[p] = of == colour ? b[p] / a.diagonal[p] : 0.0F; }
+};
+ESPDIFF_GRID_KERNEL(StartSweep)
+
+/// Half a Gauss-Seidel sweep.
+struct HalfSweep {
+  static constexpr bool kColoured = true;
+  int colour;
+  OperatorView a;
+  const float* b;
+  float* x;
+
+  ESPDIFF_INLINE void at(std::size_t p, int of) const {
+    const float solved = (b[p] + a.neighbours(x, p)) / a.diagonal[p];
+    x[p] = of == colour ? solved : x[p];
+  }
+};
+ESPDIFF_GRID_KERNEL(HalfSweep)
+
+constexpr int kRed = 0, kBlack = 1;
+
+void half_sweep(const GridOperator& a, int colour, const Buffer<float>& b, Buffer<float>& x) {
+  run_on_grid(a.size, HalfSweep{colour, view_of(a), raw(b), raw(x)});
+}
+
+/// Points of the next coarser grid along an axis; its last one may lie one step beyond the finer grid's.
+int coarser(int n) { return n / 2 + 1; }
+
+/// b of the coarse grid: half the transpose of trilinear interpolation of r; the half belongs to the doubled spacing.
+void restrict_to(const GridSize& fine, const Buffer<float>& r, const GridSize& coarse, Buffer<float>& b) {
+  const float* const from = raw(r);
+  float* const to = raw(b);
+  const auto row_of = [=] ESPDIFF_HD(std::size_t index) {
+    const int j = static_cast<int>(index % static_cast<std::size_t>(coarse.ny - 2)) + 1,
+              k = static_cast<int>(index / static_cast<std::size_t>(coarse.ny - 2)) + 1;
+    for (int i = 1; i < coarse.nx - 1; ++i) {
+      float sum = 0;
+      for (int dz = -1; dz <= 1; ++dz) {
+        const int z = 2 * k + dz;
+        if (z > fine.nz - 1) continue;
+        for (int dy = -1; dy <= 1; ++dy) {
+          const int y = 2 * j + dy;
+          if (y > fine.ny - 1) continue;
+          const float weight = (dz == 0 ? 1.0F : 0.5F) * (dy == 0 ? 1.0F : 0.5F);
+          const float* const line = from + fine.index(0, y, z);
+          const float right = 2 * i + 1 < fine.nx ? line[2 * i + 1] : 0.0F;
+          sum += weight * (line[2 * i] + 0.5F * (line[2 * i - 1] + right));
+        }
+      }
+      to[coarse.index(i, j, k)] = 0.5F * sum;
+    }
+  };
+  for_each_index(static_cast<std::size_t>(coarse.ny - 2) * static_cast<std::size_t>(coarse.nz - 2), row_of);
+}
+
+/// x += trilinear interpolation of the coarse grid's.
+void add_interpolated(const GridSize& coarse, const Buffer<float>& correction, const GridSize& fine, Buffer<float>& x) {
+  const float* const from = raw(correction);
+  float* const to = raw(x);
+  for_each_index(static_cast<std::size_t>(fine.ny - 2) * static_cast<std::size_t>(fine.nz - 2),
+                 [=] ESPDIFF_HD(std::size_t index) {
+                   const int j = static_cast<int>(index % static_cast<std::size_t>(fine.ny - 2)) + 1,
+                             k = static_cast<int>(index / static_cast<std::size_t>(fine.ny - 2)) + 1;
+                   const int j0 = j / 2, j1 = (j + 1) / 2, k0 = k / 2, k1 = (k + 1) / 2;
+                   const float* const a = from + coarse.index(0, j0, k0);
+                   const float* const b = from + coarse.index(0, j1, k0);
+                   const float* const c = from + coarse.index(0, j0, k1);
+                   const float* const d = from + coarse.index(0, j1, k1);
+                   float* const row = to + fine.index(0, j, k);
+                   for (int i = 1; i < fine.nx - 1; ++i) {
+                     const int i0 = i / 2, i1 = (i + 1) / 2;
+                     row[i] += 0.125F * (((a[i0] + a[i1]) + (b[i0] + b[i1])) + ((c[i0] + c[i1]) + (d[i0] + d[i1])));
+                   }
+                 });
+}
+
+/// Two faces in series.
+ESPDIFF_INLINE float in_series(float a, float b) { return 2.0F * a * b / (a + b); }
+
+struct Step {
+  std::size_t along, side, up;  ///< to the next point along the face's normal, and across it
+};
+
+/// A coarse face: two fine ones in series, averaged over the lines beside by 1/4, 1/8, 1/16.
+ESPDIFF_INLINE float coarse_face(const float* e, const GridSize& fine, int axis, int i, int j, int k) {
+  const int n[3] = {fine.nx, fine.ny, fine.nz};
+  float sum = 0, weights = 0;
+  for (int u = -1; u <= 1; ++u) {
+    for (int v = -1; v <= 1; ++v) {
+      int at[3] = {2 * i, 2 * j, 2 * k};
+      at[(axis + 1) % 3] += u;
+      at[(axis + 2) % 3] += v;
+      bool inside = true;
+      for (int a = 0; a < 3; ++a) inside = inside && at[a] >= 0 && at[a] < n[a];
+      if (!inside || at[axis] > n[axis] - 2) continue;
+      int next[3] = {at[0], at[1], at[2]};
+      if (at[axis] + 1 < n[axis] - 1) ++next[axis];
+      const float weight = (u == 0 ? 2.0F : 1.0F) * (v == 0 ? 2.0F : 1.0F);
+      sum += weight * in_series(e[fine.index(at[0], at[1], at[2])], e[fine.index(next[0], next[1], next[2])]);
+      weights += weight;
+    }
+  }
+  return weights > 0 ? sum / weights : 1.0F;
+}
+
+void coarsen(const GridOperator& fine, GridOperator& coarse) {
+  const GridSize f = fine.size;
+  const GridSize c{coarser(f.nx), coarser(f.ny), coarser(f.nz)};
+  coarse.size = c;
+  for (Buffer<float>* buffer : {&coarse.ex, &coarse.ey, &coarse.ez, &coarse.diagonal}) buffer->resize(c.points());
+  const OperatorView from = view_of(fine);
+  float* const ex = raw(coarse.ex);
+  float* const ey = raw(coarse.ey);
+  float* const ez = raw(coarse.ez);
+  float* const diagonal = raw(coarse.diagonal);
+  for_each_index(c.points(), [=] ESPDIFF_HD(std::size_t p) {
+    const int i = static_cast<int>(p % c.row()), j = static_cast<int>(p / c.row() % static_cast<std::size_t>(c.ny)),
+              k = static_cast<int>(p / c.plane());
+    ex[p] = coarse_face(from.ex, f, 0, i, j, k);
+    ey[p] = coarse_face(from.ey, f, 1, i, j, k);
+    ez[p] = coarse_face(from.ez, f, 2, i, j, k);
+    // What ions add, k, is what the diagonal has beyond the faces; four times it for the doubled spacing.
+    float ions = 0;
+    const bool is_inner = i > 0 && j > 0 && k > 0 && 2 * i < f.nx - 1 && 2 * j < f.ny - 1 && 2 * k < f.nz - 1;
+    if (is_inner) {
+      const std::size_t q = f.index(2 * i, 2 * j, 2 * k);
+      const float faces =
+          (from.ex[q] + from.ex[q - 1]) + (from.ey[q] + from.ey[q - from.row]) + (from.ez[q] + from.ez[q - from.plane]);
+      ions = 4.0F * larger(from.diagonal[q] - faces, 0.0F);
+    }
+    diagonal[p] = ions;
+  });
+  add_faces_to_diagonal(coarse);
+}
+
+}  // namespace
+
+double dot_product(const Buffer<float>& a, const Buffer<float>& b) {
+  const float* const x = raw(a);
+  const float* const y = raw(b);
+  const std::size_t n = a.size(), lanes = LaneSums::kLanes;
+  return sum_over<LaneSums>(
+             (n + lanes - 1) / lanes,
+             [=] ESPDIFF_HD(std::size_t block) {
+               LaneSums term;
+               const std::size_t first = block * lanes;
+               if (first + lanes <= n) {
+                 for (std::size_t lane = 0; lane < lanes; ++lane)
+                   term.sum[lane] = static_cast<double>(x[first + lane]) * static_cast<double>(y[first + lane]);
+               } else {
+                 for (std::size_t lane = 0; first + lane < n; ++lane)
+                   term.sum[lane] = static_cast<double>(x[first + lane]) * static_cast<double>(y[first + lane]);
+               }
+               return term;
+             })
+      .total();
+}
+
+void add_faces_to_diagonal(GridOperator& a) { run_on_grid(a.size, AddFaces{0, view_of(a), raw(a.diagonal)}); }
+void apply_operator(const GridOperator& a, const Buffer<float>& x, Buffer<float>& y) {
+  run_on_grid(a.size, Apply{0, view_of(a), raw(x), raw(y)});
+}
+void operator_residual(const GridOperator& a, const Buffer<float>& x, const Buffer<float>& b, Buffer<float>& r) {
+  run_on_grid(a.size, Residual{0, view_of(a), raw(x), raw(b), raw(r)});
+}
+
+Multigrid::Multigrid(const GridOperator& finest) : finest_(finest) {
+  constexpr int kFewest = 7;
+  const GridOperator* last = &finest;
+  levels_.reserve(16);
+  while (std::min({last->size.nx, last->size.ny, last->size.nz}) >= kFewest) {
+    levels_.emplace_back();
+    Level& level = levels_.back();
+    coarsen(*last, level.on_grid);
+    for (Buffer<float>* buffer : {&level.x, &level.b, &level.r}) buffer->assign(level.on_grid.size.points(), 0.0F);
+    last = &level.on_grid;
+  }
+}
+
+void Multigrid::precondition(const Buffer<float>& r, Buffer<float>& z, Buffer<float>& scratch) {
+  cycle(0, finest_, r, z, scratch);
+}
+
+void Multigrid::cycle(std::size_t depth, const GridOperator& a, const Buffer<float>& b, Buffer<float>& x,
+                      Buffer<float>& r) {
+  run_on_grid(a.size, StartSweep{kRed, view_of(a), raw(b), raw(x)});
+  half_sweep(a, kBlack, b, x);
+  if (depth == levels_.size()) {
+    constexpr int kSweeps = 8;
+    for (int i = 1; i < kSweeps; ++i) {
+      half_sweep(a, kRed, b, x);
+      half_sweep(a, kBlack, b, x);
+    }
+    for (int i = 0; i < kSweeps; ++i) {
+      half_sweep(a, kBlack, b, x);
+      half_sweep(a, kRed, b, x);
+    }
+    return;
+  }
+  Level& next = levels_[depth];
+  operator_residual(a, x, b, r);
+  restrict_to(a.size, r, next.on_grid.size, next.b);
+  cycle(depth + 1, next.on_grid, next.b, next.x, next.r);
+  add_interpolated(next.on_grid.size, next.x, a.size, x);
+  half_sweep(a, kBlack, b, x);
+  half_sweep(a, kRed, b, x);
+}
+
+}  // namespace espdiff::ESPDIFF_BACKEND

@@ -1,0 +1,74 @@
+// poisson_boltzmann.h: what a Poisson-Boltzmann potential is asked for with, and what is told of it.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "base/types.h"
+
+namespace espdiff {
+
+/// Where the solute's dielectric ends and the solvent's begins.
+enum class DielectricBoundary {
+  kMolecular,    ///< the solvent-excluded surface of the probe
+  kVanDerWaals,  ///< the atoms' spheres
+  kGaussian      ///< none: a smooth dielectric (Li et al., J. Chem. Theory Comput. 9, 2126 (2013))
+};
+
+/// How a sharp boundary is laid on a grid.
+enum class DielectricSmoothing {
+  kEdges,     ///< harmonic mean along the way between two grid points, by where the boundary cuts it
+  kNinePoint  ///< harmonic mean of nine samples around its middle, as APBS' `smol`; errs three times as much
+};
+
+/// What holds on the grid's border.
+enum class FarBoundary {
+  kDebyeHueckel,  ///< the sum of all charges' Debye-Hueckel potentials in solvent (APBS' `mdh`)
+  kFocus          ///< the potential on a grid of twice the extent and twice the spacing, with that sum on its border
+};
+
+/// Parameters of Engine::poisson_boltzmann(). The defaults are those of APBS' examples, but for the temperature.
+struct PoissonBoltzmannOptions {
+  double solute_dielectric = 2;
+  double solvent_dielectric = 78.54;
+  double ionic_strength = 0.15;  ///< mol/l of a 1:1 salt
+  double ion_radius_A = 2;       ///< no ions nearer to an atom than its radius and this (Stern layer)
+  double probe_radius_A = 1.4;   ///< of DielectricBoundary::kMolecular
+  double gaussian_sigma = 0.93;  ///< of DielectricBoundary::kGaussian: an atom's Gaussian over its radius
+  double temperature_K = 300;
+  DielectricBoundary dielectric_boundary = DielectricBoundary::kMolecular;
+  DielectricSmoothing smoothing = DielectricSmoothing::kEdges;
+  FarBoundary far_boundary = FarBoundary::kDebyeHueckel;
+  bool nonlinear = false;     ///< sinh(phi) instead of phi for the ions
+  double tolerance = 1e-6;    ///< of the residual's norm, relative to the right-hand side's
+  int max_cycles = 100;       ///< of multigrid-preconditioned conjugate gradients; for each Newton step
+  int max_newton_steps = 50;  ///< of the nonlinear equation
+};
+
+/// How a potential was come by.
+struct PoissonBoltzmannReport {
+  double relative_residual = 0;  ///< |b - A phi| / |b|, computed anew at the end
+  double rounding_residual = 0;  ///< what single precision leaves of it; 0 where that was not what ended the iteration
+  int cycles = 0;                ///< of conjugate gradients, all steps together
+  int newton_steps = 0;          ///< 0 for the linearized equation
+  int levels = 0;                ///< of the multigrid; 0 for the nonlinear equation, which makes it anew each step
+  double bytes_per_point = 0;    ///< of device memory, at the peak
+  double net_charge = 0;         ///< elementary charges
+  std::size_t n_charges = 0;     ///< that are not zero
+  double debye_length_A = 0;     ///< infinite without salt
+};
+
+/// Where none are asked for: at 0.5 A a surface's potentials differ by 1 % from those at 0.25 A, and 12 A of solvent
+/// around the atoms leave 0.1 % of what 24 A give (docs/potentials.md).
+constexpr double kUsualPbSpacing_A = 0.5, kUsualPbPadding_A = 12;
+
+/// A cubic lattice for Engine::poisson_boltzmann() along the axes of the atoms' frame: it reaches `padding_A` beyond
+/// every atom's sphere and is centred on their box. Numbers of points are one more than multiples of eight, so that
+/// the multigrid halves them; the steps are `spacing_A` exactly.
+/// @param radii [atom] Angstrom
+/// @throws InputError (spacing or padding, no atoms, positions that are not finite, more than 2e9 points)
+Lattice poisson_boltzmann_lattice(const std::vector<Vec3d>& positions, const std::vector<float>& radii,
+                                  double spacing_A, double padding_A);
+
+}  // namespace espdiff

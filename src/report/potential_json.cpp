@@ -1,0 +1,121 @@
+// potential_json.cpp: what a result tells of its computed potentials.
+#include "report/potential_json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "compare/result.h"
+
+namespace espdiff {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON has no NaN and no infinity: they are null.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json vector(const Vec3d& v) { return {number(v.x), number(v.y), number(v.z)}; }
+
+const char* name_of(DielectricBoundary boundary) {
+  switch (boundary) {
+    case DielectricBoundary::kMolecular: return "molecular";
+    case DielectricBoundary::kVanDerWaals: return "vdw";
+    case DielectricBoundary::kGaussian: break;
+  }
+  return "gaussian";
+}
+
+void add_pme(Json& json, const MapRecipe& r) {
+  const auto& edges = r.cell.edges;
+  json["part"] = r.pme.part == PmePart::kFull ? "full" : "smooth";
+  json["cell_from"] = r.cell_from;
+  json["cell_centre_A"] = vector(r.cell.centre);
+  json["cell_edges_A"] = {vector(edges[0]), vector(edges[1]), vector(edges[2])};
+  json["grid"] = r.pme.size;
+  json["spline_order"] = r.pme.order;
+  json["ewald_factor"] = number(r.pme.ewald_factor);
+  json["compatible"] = r.pme.compatible;
+  json["precision"] = r.pme.precision == Precision::kDouble ? "double" : "single";
+  json["sampling"] = r.pme.smooth_samples ? "spline" : "trilinear";
+  json["temperature_K"] = number(r.pme.temperature_K);
+  if (r.made) json["bulk_fraction"] = number(r.bulk_fraction);
+}
+
+void add_pb(Json& json, const MapRecipe& r) {
+  const PoissonBoltzmannOptions& o = r.pb;
+  json["equation"] = o.nonlinear ? "nonlinear" : "linear";
+  json["solute_dielectric"] = number(o.solute_dielectric);
+  json["solvent_dielectric"] = number(o.solvent_dielectric);
+  json["ionic_strength_M"] = number(o.ionic_strength_M);
+  json["ion_radius_A"] = number(o.ion_radius_A);
+  json["dielectric_boundary"] = name_of(o.dielectric_boundary);
+  json["dielectric_smoothing"] = o.smoothing == DielectricSmoothing::kEdges ? "edges" : "nine-point";
+  json["probe_radius_A"] = number(o.probe_radius_A);
+  json["gaussian_sigma"] = number(o.gaussian_sigma);
+  json["far_boundary"] = o.far_boundary == FarBoundary::kFocus ? "focus" : "debye-hueckel";
+  json["tolerance"] = number(o.tolerance);
+  json["max_cycles"] = o.max_cycles;
+  json["temperature_K"] = number(o.temperature_K);
+  json["spacing_A"] = number(r.pb_spacing_A);
+  if (!r.made) return;
+  const PoissonBoltzmannReport& report = r.pb_report;
+  json["grid"] = r.pb_lattice.size;
+  json["grid_origin_A"] = vector(r.pb_lattice.origin);
+  json["relative_residual"] = number(report.relative_residual);
+  json["cycles"] = report.cycles;
+  json["newton_steps"] = report.newton_steps;
+  json["levels"] = report.levels;
+  json["bytes_per_point"] = number(report.bytes_per_point);
+  json["debye_length_A"] = number(report.debye_length_A);
+}
+
+const MapRecipe* pointer_to(const std::optional<MapRecipe>& recipe) { return recipe ? &*recipe : nullptr; }
+
+}  // namespace
+
+Json recipe_json(const MapRecipe& r) {
+  Json json;
+  json["method"] = to_string(r.method);
+  json["label"] = potential_label(r);
+  json["charges_from"] = r.charges_from;
+  json["n_charges"] = r.n_charges;
+  json["net_charge"] = number(r.net_charge);
+  json["explicit_water"] = r.has_water;
+  if (r.method == PotentialMethod::kPme) add_pme(json, r);
+  if (r.method == PotentialMethod::kPoissonBoltzmann) add_pb(json, r);
+  if (r.method == PotentialMethod::kCoulomb) {
+    json["dielectric"] = number(r.coulomb.dielectric);
+    json["distance_dependent"] = r.coulomb.distance_dependent;
+    json["temperature_K"] = number(r.coulomb.temperature_K);
+  }
+  json["zero"] = to_string(r.zero);
+  if (r.made) json["subtracted"] = number(r.subtracted);
+  return json;
+}
+
+std::string potential_label(const CompareResult& result) {
+  const auto &a = result.source_recipe, &b = result.target_recipe;
+  if (!a && !b) return {};
+  const std::string source = a ? potential_label(*a) : "a given map", target = b ? potential_label(*b) : "a given map";
+  return source == target ? source : source + " and " + target;
+}
+
+std::string potential_unit_text(const CompareResult& result) {
+  const auto &a = result.source_recipe, &b = result.target_recipe;
+  return to_string(result.unit) + ((a && is_vacuum(*a)) || (b && is_vacuum(*b)) ? kInVacuum : "");
+}
+
+Json potential_json(const CompareResult& result) {
+  const auto &a = result.source_recipe, &b = result.target_recipe;
+  if (!a && !b) return nullptr;
+  Json json;
+  json["label"] = potential_label(result);
+  json["vacuum"] = (a && is_vacuum(*a)) || (b && is_vacuum(*b));
+  json["because"] = a ? a->because : b->because;
+  json["zero"] = {{"source", a ? Json(to_string(a->zero)) : Json(nullptr)},
+                  {"target", b ? Json(to_string(b->zero)) : Json(nullptr)}};
+  json["notes"] = potential_notes(pointer_to(a), pointer_to(b));
+  return json;
+}
+
+}  // namespace espdiff
