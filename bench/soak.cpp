@@ -7,9 +7,12 @@
 #include <string>
 
 #include "base/progress.h"
+#include "compare/input.h"
+#include "compare/options.h"
+#include "compare/result.h"
+#include "engine/engine.h"
 #include "engine/select_engine.h"
-#include "pipeline/compare.h"
-#include "pipeline/write_compare.h"
+#include "report/write_compare.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include "fuzz_file.h"
 #include "io/sha256.h"
-#include "pipeline/matrix_state.h"
+#include "matrix/matrix_state.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string bytes = espdiff_fuzz::bytes_of(data, size);

@@ -1,7 +1,7 @@
 // fuzz_series_state.cpp: the saved mapping of a trajectory; behind a check sum that fits, and as it is.
 #include "fuzz_file.h"
 #include "io/sha256.h"
-#include "pipeline/series_file.h"
+#include "trajectory/series_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::string bytes = espdiff_fuzz::bytes_of(data, size);

@@ -78,7 +78,6 @@ TEST_CASE("kill -9 at any time: a trajectory resumes to the same rows, and nothi
   CHECK_MESSAGE(last.status == 0, last.err);
   CHECK(without_times(read_file(in.folder.file("out.csv"))) == expected);
   const auto files = in.files();
-  CHECK(files.count("out.csv.lock") == 0);
   CHECK(files.count("out.csv.state") == 0);
 }
 

@@ -68,3 +68,21 @@ TEST_CASE("more atoms than are read are refused") {
   CHECK(message_of([&] { espdiff::read_structure(path); }) ==
         path + ": has more than 5000000 atoms, which is the most that are read");
 }
+
+#ifdef ESPDIFF_HAVE_ZLIB
+TEST_CASE("a gzip file that unpacks to more than memory holds is refused") {
+  const ScratchFolder folder;
+  folder.write("a.pqr", row_of_atoms(4));
+  // Many members of one file: 16 MiB of blanks each.
+  const std::string make = "cd " + folder.file("") +
+                           " && head -c 16777216 /dev/zero | tr '\\0' ' ' | gzip -c >one.gz && for i in $(seq 160); do cat "
+                           "one.gz; done >bomb.dx.gz && rm one.gz";
+  REQUIRE(std::system(make.c_str()) == 0);
+  const Outcome outcome = run_espdiff("surface a.pqr --map bomb.dx.gz --device cpu --threads 1 -o out.vtp",
+                                      "cd " + folder.file("") + " && ulimit -v 1500000 &&");
+  CHECK(outcome.status == 1);
+  CHECK_MESSAGE(contains(outcome.err, "espdiff: bomb.dx.gz: needs "), outcome.err);
+  CHECK(n_lines(outcome.err) == 1);
+  CHECK(folder.n_files() == 2);
+}
+#endif
