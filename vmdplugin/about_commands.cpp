@@ -11,7 +11,6 @@
 #include "engine/select_engine.h"
 #include "io/read_dx.h"
 #include "io/read_structure.h"
-#include "io/read_unit_cells.h"
 #include "molfile_bridge.h"
 #include "option_spelling.h"
 #include "plot/colour_map.h"
@@ -177,9 +176,9 @@ Tcl_Obj* list_metrics(const Call&) {
 /// What a file brings for a potential: {charges B solvent B}.
 Tcl_Obj* facts_of_file(const Call& call) {
   const int model = to_int(call.arguments[1], "model");
-  const Molecule everything = read_structure(call.text(0), {model, true, true});
+  const StructureFile file(call.text(0));
   const PotentialFacts facts =
-      potential_facts(everything, read_unit_cells(call.text(0)).at(static_cast<std::size_t>(model - 1)));
+      potential_facts(file.read({model, true, true}), file.unit_cells().at(static_cast<std::size_t>(model - 1)));
   return to_dict({{"charges", to_obj(facts.has_charges)}, {"solvent", to_obj(facts.has_solvent)}});
 }
 

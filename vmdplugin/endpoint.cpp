@@ -248,8 +248,9 @@ ComputedMap requested_map(Endpoint& endpoint, double temperature_K) {
   }
   if (request.method == PotentialMethod::kPme && !endpoint.structure_path.empty() && !options.pad_A) {
     const int model = endpoint.structure.model;
-    Molecule everything = read_structure(endpoint.structure_path, {model, true, true});
-    const auto cell = read_unit_cells(endpoint.structure_path).at(static_cast<std::size_t>(model - 1));
+    const StructureFile file(endpoint.structure_path);
+    Molecule everything = file.read({model, true, true});
+    const auto cell = file.unit_cells().at(static_cast<std::size_t>(model - 1));
     if (options.cell || potential_facts(everything, cell).has_solvent)
       return {std::move(everything), {cell, {}, false}, options};
   }

@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"
+#include "io/read_unit_cells.h"
 #include "io/write_grid.h"
 #include "potential/potential.h"
 #include "tcl_values.h"

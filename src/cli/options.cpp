@@ -168,7 +168,7 @@ void add_potential_settings(CLI::App& parser, GivenPotentialSettings& given, boo
   }
 }
 
-Grid read_map(const std::string& path, const std::string& array, const std::string& unit) {
+GridFile read_map(const std::string& path, const std::string& array, const std::string& unit) {
   GridOptions options;
   options.array = array;
   GridFile map = read_grid_file(path, options);

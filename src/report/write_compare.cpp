@@ -16,6 +16,7 @@
 #include "io/write_pqr.h"
 #include "io/write_vtp.h"
 #include "report/metrics.h"
+#include "report/potential_json.h"
 
 namespace espdiff {
 namespace {
