@@ -73,7 +73,7 @@ bool is_vacuum(const MapRecipe& r) {
 std::string potential_label(const MapRecipe& r) {
   if (r.method == PotentialMethod::kPoissonBoltzmann)
     return std::string(r.pb.nonlinear ? "nonlinear " : "") + "Poisson-Boltzmann, " +
-           written("%.4g", r.pb.ionic_strength_M) + " mol/l";
+           written("%.4g", r.pb.ionic_strength) + " mol/l";
   if (r.method == PotentialMethod::kCoulomb)
     return is_vacuum(r) ? "vacuum (Coulomb)" : "Coulomb, " + of_dielectric(r.coulomb);
   const std::string part = r.pme.part == PmePart::kFull ? "" : ", smooth part";

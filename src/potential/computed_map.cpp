@@ -167,7 +167,7 @@ std::string ComputedMap::fingerprint() const {
     add(hash, charges_->molecule.radii);
     numbers.insert(
         numbers.end(),
-        {o.solute_dielectric, o.solvent_dielectric, o.ionic_strength_M, o.ion_radius_A, o.probe_radius_A,
+        {o.solute_dielectric, o.solvent_dielectric, o.ionic_strength, o.ion_radius_A, o.probe_radius_A,
          o.gaussian_sigma, o.temperature_K, static_cast<double>(o.dielectric_boundary),
          static_cast<double>(o.far_boundary), static_cast<double>(o.smoothing), o.nonlinear ? 1.0 : 0.0, o.tolerance,
          static_cast<double>(o.max_cycles), charges_->options.pb_spacing_A, charges_->options.pb_padding_A});

@@ -99,7 +99,7 @@ void add_pb_settings(std::vector<PotentialSetting>& all) {
       "equation", "pb", kPb, {{"linear", false}, {"nonlinear", true}}, [](auto& o) -> auto& { return o.pb.nonlinear; },
       "The Poisson-Boltzmann equation, linearized or not; nonlinear for nucleic acids and other strong charges"));
   all.push_back(number(
-      "ionic_strength", "ionic-strength", kPb, true, [](auto& o) -> auto& { return o.pb.ionic_strength_M; },
+      "ionic_strength", "ionic-strength", kPb, true, [](auto& o) -> auto& { return o.pb.ionic_strength; },
       "Salt in the solvent, mol/l of singly charged ions; 0 for none"));
   all.push_back(number(
       "ion_radius", "ion-radius", kPb, true, [](auto& o) -> auto& { return o.pb.ion_radius_A; },

@@ -46,7 +46,7 @@ void add_pb(Json& json, const MapRecipe& r) {
   json["equation"] = o.nonlinear ? "nonlinear" : "linear";
   json["solute_dielectric"] = number(o.solute_dielectric);
   json["solvent_dielectric"] = number(o.solvent_dielectric);
-  json["ionic_strength_M"] = number(o.ionic_strength_M);
+  json["ionic_strength_M"] = number(o.ionic_strength);
   json["ion_radius_A"] = number(o.ion_radius_A);
   json["dielectric_boundary"] = name_of(o.dielectric_boundary);
   json["dielectric_smoothing"] = o.smoothing == DielectricSmoothing::kEdges ? "edges" : "nine-point";
