@@ -23,7 +23,7 @@ using espdiff::Molecule;
 
 std::ifstream open(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
-  if (!in) throw IoError(path, system_message(errno));
+  if (!in) throw IoError(path, espdiff::system_message(errno));
   return in;
 }
 

@@ -12,6 +12,8 @@
 
 #include "base/error.h"
 #include "base/handles.h"
+#include "base/progress.h"
+#include "compare/input.h"
 #include "compare/options.h"
 #include "compare/result.h"
 #include "compare/series.h"

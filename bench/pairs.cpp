@@ -11,8 +11,12 @@
 #include <utility>
 #include <vector>
 
+#include "base/progress.h"
+#include "compare/compare.h"
+#include "compare/input.h"
 #include "compare/options.h"
 #include "compare/settings.h"
+#include "engine/engine.h"
 #include "engine/select_engine.h"
 #include "pair_row.h"
 #include "real_pairs.h"

@@ -16,7 +16,9 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/progress.h"
 #include "dcd_frames.h"
+#include "engine/engine.h"
 #include "engine/select_engine.h"
 #include "random_charges.h"
 

@@ -4,7 +4,12 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/progress.h"
 #include "cuda/certificate/mesh_checks.h"
+#include "engine/certificate_stage.h"
+#include "engine/deform_stage.h"
+#include "engine/engine.h"
+#include "engine/surface_stage.h"
 #include "io/read_structure.h"
 #include "real_pairs.h"
 #include "synthetic_protein.h"

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/version.h"
+#include "engine/engine.h"
 
 namespace espdiff_bench {
 namespace {

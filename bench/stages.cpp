@@ -7,7 +7,17 @@
 #include <string>
 #include <vector>
 
+#include "base/progress.h"
+#include "compare/compare.h"
+#include "compare/input.h"
 #include "compare/options.h"
+#include "compare/result.h"
+#include "engine/certificate_stage.h"
+#include "engine/deform_stage.h"
+#include "engine/engine.h"
+#include "engine/morph_stage.h"
+#include "engine/potential_stage.h"
+#include "engine/surface_stage.h"
 #include "io/atomic_file.h"
 #include "machine_peak.h"
 #include "renumbered.h"

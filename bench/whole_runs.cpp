@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/progress.h"
 #include "compare/options.h"
+#include "engine/engine.h"
 #include "io/read_structure.h"
 #include "matrix/matrix.h"
 #include "random_charges.h"

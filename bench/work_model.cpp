@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "engine/engine.h"
+
 namespace espdiff_bench {
 namespace {
 
