@@ -136,12 +136,13 @@ namespace eval ::espdiff {
             {-mol molecule {} "Molecule of VMD whose frames are compared"}
             {-file file {} "Instead of -mol: structure file whose models are the frames, the first one is frame 0"}
             {-sel text "not water" "Atoms of the molecule; chosen once, in the reference frame"}
-            {-frames text 0:1: "begin:step:end, an open end is the last frame; or one frame; `now` and `last` count"}
+            {-frames text all "all, now, a frame, begin:end or begin:step:end, such as 0:10:end; see Frames"}
             {-reference text {frame 0} "What each frame is compared with: {frame N}, previous (the frame before it in\
                 the run), or an endpoint"}
             {-map text auto "Potential of each frame; auto computes the usual one, none compares shapes alone; see\
                 Trajectories"}
-            {-reference-map text {} "Potential of the reference; without it by the rule of -map for its frame"}
+            {-reference-map text {} "Potential of the reference; without it by the rule of -map for its frame, or\
+                computed as the frames' are"}
             {-unit text {} "Unit of the maps if they do not say: kT/e, mV, V, kcal/mol/e, kJ/mol/e, hartree/e"}
             {-radii choice vmd "Radii of the molecule: VMD's, or Bondi's by element" {vmd element}}
             {-start choice auto "Begin each frame's mapping at the source, or at the previous frame's where that is\
@@ -156,7 +157,7 @@ namespace eval ::espdiff {
         summary {Compares each frame with the reference, or with the frame before, and writes a row for each as it is
             done. The reference's surface is computed once. An interrupted run can be resumed.} \
         returns {a dictionary: frames rows skipped resumed csv seconds; with -command a handle, such as trajectory1} \
-        example {espdiff trajectory -mol 0 -frames 0:10: -map {files frame%03d.dx} -csv out.csv}]
+        example {espdiff trajectory -mol 0 -frames 0:10:end -map {files frame%03d.dx} -csv out.csv}]
 
     command matrix [dict create arguments {variants} settings all run ::espdiff::matrix options [concat {
             {-output file required "Prefix of the results OUT.csv and OUT.json, and of the state file"}
@@ -170,12 +171,12 @@ namespace eval ::espdiff {
                 mean_displacement_A"}
         } $computing] \
         summary {Compares many variants, each with each, in both directions. A variant is an endpoint that may have a
-            `label` and a `group`; {mol ID frames BEGIN:STEP:END ...} stands for one variant per frame,
+            `label` and a `group`; {mol ID frames FRAMES ...} stands for one variant per frame,
             {file PATH ...} without `model` for one per model. Each source's surface is regularized, and its
             potential computed, once.} \
         returns {a handle, such as matrix1; `espdiff result` has the content of OUT.json, and pairs, resumed, seconds,
             files} \
-        example {espdiff matrix {{mol 0 frames 0:10: map pme} {file open.pqr map pme group open}} -output adk}]
+        example {espdiff matrix {{mol 0 frames 0:10:end map pme} {file open.pqr map pme group open}} -output adk}]
 
     command plot [dict create arguments {input} settings none run ::espdiff::plot options {
             {-metrics text auto "Names of columns; auto is mean_abs_difference, or without potentials\
@@ -210,7 +211,7 @@ namespace eval ::espdiff {
             {-mol text top "Molecule of VMD"}
             {-sel text all "Atoms whose charges are included"}
             {-updatesel boolean 0 "Select again in each frame, instead of in the first only"}
-            {-frames text now "now, all, last, a frame, begin:end or begin:step:end"}
+            {-frames text now "now, all, a frame, begin:end or begin:step:end; see Frames"}
             {-method choice pme "pme: particle-mesh Ewald, as PMEPot computes it. pb: in salt water, by the\
                 Poisson-Boltzmann equation. coulomb: point charges, isolated, for small molecules" {pme pb coulomb}}
             {-part choice smooth "Of pme: smooth as PMEPot's, or full, with what is near the charges" {smooth full}}

@@ -35,7 +35,7 @@ namespace eval ::espdiff {
         } else {
             set result [file_endpoint $endpoint $role]
         }
-        if {[value_or $endpoint map none] ne "none"} {
+        if {[value_or $endpoint map none] ni {none {}}} {
             dict set result map [make_map [dict get $endpoint map] $endpoint $role temporary]
         }
         return $result

@@ -1,10 +1,10 @@
-# espdiff.tcl: the package: loads the module, registers its file types with VMD, and sources the parts.
+# espdiff.tcl: the package: loads the module, makes its file types known to VMD, and sources the parts.
 package require Tcl 8.5-
 
 namespace eval ::espdiff {
     variable directory [file dirname [file normalize [info script]]]
 
-    # The package is in PREFIX/tcl/espdiffVERSION, the module in PREFIX/molfile.
+    # The package lies in PREFIX/tcl/espdiffVERSION, the module in PREFIX/molfile.
     proc module_path {} {
         variable directory
         if {[info exists ::env(ESPDIFF_MODULE)] && $::env(ESPDIFF_MODULE) ne ""} { return $::env(ESPDIFF_MODULE) }
@@ -26,7 +26,7 @@ namespace eval ::espdiff {
             return -code error -errorcode {ESPDIFF IO} "the module '$path' cannot be loaded ($message); $remedy"
         }
         if {![in_vmd] || [dict get [core::abi] in_vmd]} return
-        # VMD has not loaded it from its plugin folders. Without its file types, maps go through DX files.
+        # VMD has not opened it from its plugin folders. Without its file types maps go through DX files instead.
         if {[catch {plugin dlopen $path; plugin update} message]} {
             vmdcon -warn "espdiff) VMD did not take the file types of '$path' ($message); maps go through DX files"
         }
@@ -36,15 +36,15 @@ namespace eval ::espdiff {
 ::espdiff::load_module
 foreach ::espdiff::part {
     files options metrics commands manual jobs endpoint vmd_molecule vmd_view vmd_volume compute potential
-    draw linked_view highlight legend matrix atoms plot plot_file frame_maps series_csv trajectory trajectory_run view
+    draw linked_view highlight legend matrix atoms plot plot_file frame_maps trajectory trajectory_steps view
     doctor
 } {
     source [file join $::espdiff::directory $::espdiff::part.tcl]
 }
 unset ::espdiff::part
 
-# Called by the entry of VMD's menu, through `vmd_install_extension espdiff espdiff_tk "Analysis/..."` in .vmdrc. VMD
-# expects the path of the window.
+# The entry of VMD's menu calls this, by `vmd_install_extension espdiff espdiff_tk "Analysis/..."` in .vmdrc; VMD wants
+# the path of the window.
 proc espdiff_tk {} { return [espdiff gui] }
 
 package provide espdiff [::espdiff::core::version]

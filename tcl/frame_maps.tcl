@@ -1,53 +1,32 @@
-# frame_maps.tcl: which frames a trajectory's run visits, and the potential map of each.
+# frame_maps.tcl: the potential map of each frame of a trajectory.
 
 namespace eval ::espdiff {
-    # begin:step:end (an open end is the last frame) or one frame, as a list of frames; `n` frames exist.
-    proc parse_frames {text n now where} {
-        set last [expr {$n - 1}]
-        set parts [split $text :]
-        if {[llength $parts] ni {1 3}} {
-            fail "-frames: '$text' is not begin:step:end, such as 0:1: or 10:5:90, or one frame"
-        }
-        if {[llength $parts] == 1} { set parts [list $text 1 $text] }
-        set numbers {}
-        foreach part $parts otherwise [list 0 1 $last] {
-            if {$part in {first now last}} { set part [dict get [dict create first 0 now $now last $last] $part] }
-            if {$part eq ""} { set part $otherwise }
-            if {![string is integer -strict $part]} {
-                fail "-frames: '$part' in '$text' is not a number, first, now or last"
-            }
-            lappend numbers $part
-        }
-        lassign $numbers begin step end
-        if {$step < 1} { fail "-frames: the step in '$text' is $step; 1 or more is needed" }
-        if {$begin < 0 || $end > $last} { fail "-frames: '$text' is not within the frames 0 to $last of $where" }
-        if {$begin > $end} { fail "-frames: '$text' begins after its end" }
-        set frames {}
-        for {set frame $begin} {$frame <= $end} {incr frame $step} { lappend frames $frame }
-        return $frames
+    # A map as the CSV file says it, with its unit where that was given.
+    proc map_in_words {map unit} {
+        if {$unit eq "" || $map in {none {}} || [is_computed $map]} { return $map }
+        return "$map unit $unit"
     }
 
-    # How many models a structure file has.
-    proc number_of_models {path} {
-        if {![file isfile $path]} { fail "-file: there is no file '$path'" IO }
-        return [core::models $path]
-    }
+    # Whether all frames get the same map.
+    proc is_one_map {map mol} { expr {![is_computed $map] && [map_form $map $mol] in {number endpoint}} }
 
     # -map auto becomes the potential that is usual for the frames and the reference together; a reference with a map of
     # its own, or a -reference-map, leaves the frames without.
-    proc usual_run_maps {run_name options_name} {
-        upvar 1 $run_name run $options_name options
+    proc usual_run_maps {run_name} {
+        upvar 1 $run_name run
         if {$run(map) ne "auto"} return
         set run(map) none
         set endpoints [list $run(endpoint)]
         set is_endpoint [expr {[lindex $run(reference) 0] ne "frame" && $run(reference) ne "previous"}]
+        # Frames of a file take the charges of the reference where they have none.
+        if {$is_endpoint && $run(mol) eq ""} { set endpoints {} }
         if {$is_endpoint} { lappend endpoints $run(reference) }
         if {$run(reference_map) eq ""} {
             set chosen [with_usual_maps $endpoints]
-            set run(map) [value_or [lindex $chosen 0] map none]
-            if {$is_endpoint} { set run(reference) [lindex $chosen 1] }
+            set run(map) [value_or [lindex $chosen end] map none]
+            if {$is_endpoint && [dict exists $run(reference) map]} { set run(map) none }
+            set run(because) [value_or [lindex $chosen end] because ""]
         }
-        dict set options map $run(map)
     }
 
     # Checks -map before the run begins, as far as that can be done then: an error at night is an error too late.

@@ -84,8 +84,7 @@ namespace eval ::espdiff {
         if {[dict exists $endpoint frames]} {
             set mol [vmd_molecule_id [dict get $endpoint mol] $role]
             vmd_frame $mol last $role
-            set frames [parse_frames [dict get $endpoint frames] [molinfo $mol get numframes] \
-                [molinfo $mol get frame] "molecule $mol ([molinfo $mol get name])"]
+            set frames [vmd_frames $mol [dict get $endpoint frames] "$role: frames"]
             foreach frame $frames {
                 lappend states [list [dict merge [dict remove $endpoint frames] [list frame $frame]] :$frame]
             }

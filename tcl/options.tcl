@@ -21,7 +21,9 @@ namespace eval ::espdiff {
 
     # Calls the user's command prefix at the top level. A `break` from it reaches the caller's catch.
     proc call_user {prefix args} {
-        catch { uplevel #0 [concat $prefix $args] } result options
+        set code [catch { uplevel #0 [concat $prefix $args] } result options]
+        # What Tcl makes of a `break` in the user's procedure.
+        if {$code == 1 && $result eq {invoked "break" outside of a loop}} { set options {-code 3 -level 0} }
         dict incr options -level
         return -options $options $result
     }

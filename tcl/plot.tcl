@@ -44,19 +44,9 @@ namespace eval ::espdiff {
     }
 
     proc plot_csv {path} {
-        set rows {}
-        set columns {}
-        foreach line [split [plot_read $path] \n] {
-            if {[string trim $line] eq "" || [string match "#*" $line]} continue
-            set cells [csv_cells $line]
-            if {$columns eq ""} { set columns $cells; continue }
-            if {[llength $cells] != [llength $columns]} {
-                fail "espdiff plot: a row of '$path' has [llength $cells] fields instead of [llength $columns]" FORMAT
-            }
-            set row [dict create]
-            foreach column $columns cell $cells { dict set row $column $cell }
-            lappend rows $row
-        }
+        set table [core::read_csv $path]
+        set columns [dict get $table columns]
+        set rows [dict get $table rows]
         if {"frame" ni $columns} {
             fail "espdiff plot: '$path' has no column `frame`; it is not of a trajectory" FORMAT
         }
@@ -68,12 +58,6 @@ namespace eval ::espdiff {
         }
         return [dict create x $x names {} x_title Frame title [file tail $path] rows $rows unit $unit columns $columns \
             files [list $path]]
-    }
-
-    proc plot_read {path} {
-        set channel [open_file $path]
-        fconfigure $channel -encoding utf-8
-        finally { return [read $channel] } { close $channel }
     }
 
     # One variant as the source against all others.

@@ -138,7 +138,7 @@ namespace eval ::espdiff {
         require_vmd "espdiff potential" "outside of it the command line's `espdiff potential` computes maps of files"
         set mol [vmd_molecule_id [dict get $options mol] -mol]
         dict set options mol $mol
-        set frames [potential_frames $mol [dict get $options frames]]
+        set frames [vmd_frames $mol [dict get $options frames] -frames]
         potential_check $options [llength $frames]
         set each [expr {[dict get $options averaging] eq "each"}]
         core::check_outputs [concat [named_files [list mol $mol]] [list [dict get $options xscfile]]] \
@@ -169,15 +169,6 @@ namespace eval ::espdiff {
         } { core::delete $handle }
         return [dict merge [dict create frames [llength $frames]] $maps \
             [dict create seconds [expr {([clock milliseconds] - $begun) / 1000.0}]]]
-    }
-
-    # PMEPot's syntax: now, all, a frame, begin:end or begin:step:end.
-    proc potential_frames {mol text} {
-        vmd_frame $mol last -mol
-        if {$text eq "all"} { set text 0:1: }
-        if {[llength [split $text :]] == 2} { set text [join [linsert [split $text :] 1 1] :] }
-        set n [molinfo $mol get numframes]
-        return [parse_frames $text $n [molinfo $mol get frame] "molecule $mol ([molinfo $mol get name])"]
     }
 
     proc potential_check {options n_frames} {

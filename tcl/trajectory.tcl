@@ -1,33 +1,30 @@
-# trajectory.tcl: each frame of a trajectory against a reference or the frame before it, row by row into a CSV file.
+# trajectory.tcl: a run over the frames of a molecule in VMD, or of a file: what it is, checked before its first frame.
+#
+# The core has the file, its rows and the comparisons (src/trajectory); here is what knows VMD: frames, coordinates, maps,
+# the user's commands, and the event loop.
 
 namespace eval ::espdiff {
     # Each run is an array named by its handle, ::espdiff::trajectory1. What it holds:
-    #   mol, file, endpoint   the molecule, or the file whose models are the frames; the endpoint without frame and map
+    #   mol, file, path       the molecule, or the file whose models are the frames: as it was given, its full name
+    #   endpoint              either, without frame and map
     #   structure             what vmd_structure found, for all frames
-    #   frames, steps         frames of the run; {frame reference} of each step
-    #   map, reference_map, last_map, about       see frame_maps.tcl; what the CSV file says of the run
-    #   series, job, temporary, reference_temporary  handles of the core, and files to delete
-    #   head                  what the file says of itself, as `about`
-    #   position, written     step that is next; rows in the file
-    #   rows, skipped         rows written by this run, and how many of them say why they have no numbers
-    #   replay                rows of the file that are computed again, from the one at `position` on
-    #   state, message, error                     running, done, failed, cancelled; why
-    variable n_trajectories 0
+    #   frames, where         frames of the run; the molecule or file for messages
+    #   reference, map, reference_map, unit, last_map       see frame_maps.tcl
+    #   because               why this potential, where the user named none
+    #   temporary, source_temporary             files to delete after the step, and after the run
+    #   in_step, busy         a frame is being compared; a step is being looked after
+    #   state, message, error running, done, failed, cancelled; why
+    #   told                  the error was thrown where the user waited
+    #   summary, seconds, stage, fraction       how far it is
 
     proc trajectory {options} {
-        variable n_trajectories
-        set handle trajectory[incr n_trajectories]
+        variable slice_ms
+        set handle [begin_trajectory $options]
         upvar #0 ::espdiff::$handle run
-        if {[catch { prepare_run run $options } message error]} {
-            release_run run
-            unset run
-            return -options $error $message
-        }
         if {$run(command) ne ""} {
             after 1 [list ::espdiff::trajectory_poll $handle]
             return $handle
         }
-        variable slice_ms
         while {![trajectory_advance $handle $slice_ms]} {}
         finally {
             trajectory_check $handle
@@ -44,30 +41,32 @@ namespace eval ::espdiff {
     proc is_trajectory {handle} { expr {$handle in [trajectory_handles]} }
 
     # Everything that can be checked before the first frame is checked here.
-    proc prepare_run {run_name options} {
-        upvar 1 $run_name run
-        array set run {series {} job {} temporary {} reference_temporary {} last_map {} position 0 rows 0 skipped 0
-            replay {} head {} written 0 state running message {} error {} busy 0 fraction 0 stage {} structure {}
-            failed 0}
+    proc begin_trajectory {options} {
+        array set run {temporary {} source_temporary {} last_map {} in_step 0 busy 0 state running message {} error {}
+            told 0 fraction 0 stage {} structure {} seconds 0
+            because {}}
         set run(begun) [clock milliseconds]
-        foreach key {mol file map csv start unit command progress callback} { set run($key) [dict get $options $key] }
-        set run(csv) [file normalize $run(csv)]  ;# in the background the working folder may change
+        foreach key {mol file map unit reference command progress callback} { set run($key) [dict get $options $key] }
         set run(reference_map) [dict get $options reference-map]
         set run(on_error) [dict get $options on-error]
-        if {$run(mol) eq "" && $run(file) eq "" || $run(mol) ne "" && $run(file) ne ""} {
+        if {($run(mol) eq "") == ($run(file) eq "")} {
             fail "espdiff trajectory: give one of -mol ID and -file FILE"
         }
         prepare_frames run $options
-        usual_run_maps run options
+        usual_run_maps run
         check_frame_maps run
-        set run(core_options) [core_options $options]
-        if {$run(start) eq "auto"} { set run(start) [usual_start $run(core_options)] }
-        set run(about) [about_run run [dict replace $options start $run(start)]]
-        lassign [csv_open $run(csv) [dict get $options resume] [dict get $options overwrite] $run(about)] \
-            earlier run(head)
-        set run(written) [llength $earlier]
-        set run(resumed) $run(written)
-        go_on_after run $earlier
+        set handle [core::trajectory [trajectory_plan run $options] [core_options $options]]
+        if {[catch {
+            set warning [core::trajectory_warning $handle]
+            if {$warning ne ""} { say $warning }
+            if {$run(reference) ne "previous" && [core::trajectory_next $handle] ne ""} { give_source run $handle }
+            set run(summary) [core::trajectory_summary $handle]
+        } message error]} {
+            core::delete $handle
+            return -options $error $message
+        }
+        array set ::espdiff::$handle [array get run]
+        return $handle
     }
 
     proc prepare_frames {run_name options} {
@@ -80,16 +79,16 @@ namespace eval ::espdiff {
             set n [molinfo $run(mol) get numframes]
             set now [molinfo $run(mol) get frame]
         } else {
-            set run(endpoint) [dict create file $run(file)]
+            set run(path) [existing_file $run(file) -file]
+            set run(endpoint) [dict create file $run(path)]
             set run(where) "'$run(file)'"
-            set n [number_of_models $run(file)]
-            set now 0
+            set n [core::models $run(path)]
+            set now ""
         }
-        set run(frames) [parse_frames [dict get $options frames] $n $now $run(where)]
-        set run(reference) [dict get $options reference]
+        set run(frames) [core::frames -frames [dict get $options frames] $n $now $run(where)]
         set in_frame [lindex $run(frames) 0]
         if {[lindex $run(reference) 0] eq "frame" && [llength $run(reference)] == 2} {
-            set in_frame [parse_frames [lindex $run(reference) 1] $n $now $run(where)]
+            set in_frame [core::frames -reference [lindex $run(reference) 1] $n $now $run(where)]
             if {[llength $in_frame] != 1} { fail "-reference: '$run(reference)' is not {frame N}" }
             set run(reference) [list frame $in_frame]
         } elseif {$run(reference) ne "previous"} {
@@ -98,126 +97,50 @@ namespace eval ::espdiff {
         if {$run(mol) ne ""} {
             set run(structure) [vmd_structure [dict merge $run(endpoint) [list frame $in_frame]] -mol]
         }
-        set run(steps) [steps_of run]
     }
 
-    proc steps_of {run_name} {
+    # The run as the core takes it. What names a file is its full name: in the background the working folder may change.
+    proc trajectory_plan {run_name options} {
         upvar 1 $run_name run
-        set steps {}
-        set before ""
-        set fixed ""
-        if {[lindex $run(reference) 0] eq "frame"} { set fixed [lindex $run(reference) 1] }
-        foreach frame $run(frames) {
-            if {$run(reference) ne "previous"} {
-                lappend steps [list $frame $fixed]
-            } elseif {$before ne ""} {
-                lappend steps [list $frame $before]
-            }
-            set before $frame
+        set plan [dict create csv [file normalize [dict get $options csv]] frames $run(frames) on_error $run(on_error) \
+            reference $run(reference) map [map_in_words $run(map) $run(unit)] \
+            one_map [is_one_map $run(map) $run(mol)]]
+        if {$run(reference_map) ne $run(map)} {
+            dict set plan reference_map [map_in_words $run(reference_map) $run(unit)]
         }
-        if {[llength $steps] == 0} { fail "-reference previous needs two frames or more" }
-        return $steps
-    }
-
-    # What the rows depend on: a file is gone on with only where all of it is the same.
-    proc about_run {run_name options} {
-        upvar 1 $run_name run
-        set about [dict create espdiff [core::version]]
-        if {$run(mol) ne ""} {
-            dict set about molecule "[molinfo $run(mol) get name], [dict get $run(structure) n_atoms] atoms"
-            dict set about sel "[dict get $options sel] ([llength [dict get $run(structure) atoms]] atoms)"
-            dict set about radii [dict get $options radii]
+        foreach key {resume overwrite start} { dict set plan $key [dict get $options $key] }
+        if {[lindex $run(reference) 0] eq "frame"} { dict set plan row_reference [lindex $run(reference) 1] }
+        if {$run(mol) eq ""} {
+            dict set plan file $run(path)
         } else {
-            dict set about file "[file tail $run(file)], [file size $run(file)] bytes"
+            set n_chosen [llength [dict get $run(structure) atoms]]
+            dict set plan molecule [dict create \
+                molecule "[molinfo $run(mol) get name], [dict get $run(structure) n_atoms] atoms" \
+                sel "[dict get $options sel] ($n_chosen atoms)" radii [dict get $options radii]]
         }
-        foreach key {frames reference map reference-map unit start settings} {
-            dict set about $key [dict get $options $key]
-        }
-        return $about
+        return $plan
     }
 
-    # Sets the step to begin with after the rows that the file has.
-    proc go_on_after {run_name earlier} {
-        upvar 1 $run_name run
-        set position 0
-        foreach row $earlier step $run(steps) {
-            if {$row eq ""} break
-            lassign $step frame
-            if {$step eq "" || [dict get $row frame] ne $frame} {
-                set where [expr {$step eq "" ? "beyond the run" : "not of $frame"}]
-                fail "-csv: row [expr {$position + 1}] of '$run(csv)' is of frame [dict get $row frame], $where;\
-                    -overwrite 1 begins anew"
-            }
-            incr position
-        }
-        set run(position) $position
-        if {$position == 0} { file delete [state_file run] }
-        if {$position == [llength $run(steps)]} return
-        if {$run(reference) ne "previous"} { begin_series run }
-        if {$position > 0} { restore_mapping run $earlier }
-    }
-
-    # A mapping that begins at the frame before needs that frame's: each row is followed by a file with it, so that a
-    # resumed run gives the same bits as one that was not interrupted.
-    proc state_file {run_name} {
-        upvar 1 $run_name run
-        return $run(csv).state
-    }
-
-    # What the mapping in that file belongs to: the CSV file's head, and the frame.
-    proc state_fingerprint {run_name frame} {
-        upvar 1 $run_name run
-        return [one_line "frame $frame $run(head)"]
-    }
-
-    # Where mappings begin unless the user says.
-    proc usual_start {core_options} {
-        set usual [expr {[value_or $core_options thesis 0] ? "deform" : "morph"}]
-        expr {[value_or $core_options method $usual] eq "deform" ? "previous" : "source"}
-    }
-
-    proc saves_mappings {run_name} {
-        upvar 1 $run_name run
-        expr {$run(start) eq "previous" && $run(series) ne ""}
-    }
-
-    # Whether the frame after this row's may begin at its mapping; else, and without a row, at the source.
-    proc has_mapping {row} { expr {$row ne "" && [dict get $row error] eq "" && [dict get $row converged]} }
-
-    proc restore_mapping {run_name earlier} {
-        upvar 1 $run_name run
-        set last [lindex $earlier end]
-        if {![saves_mappings run] || ![has_mapping $last]} return
-        if {![catch { restore_mapping_of run $last } reason]} return
-        # An interruption between a row and its mapping leaves the mapping before: that row is then computed again.
-        set before [lindex $earlier end-1]
-        if {![has_mapping $before] || ![catch { restore_mapping_of run $before }]} {
-            set run(replay) [list $last]
-            incr run(position) -1
-            return
-        }
-        set frame [dict get $last frame]
-        say "-resume: the mapping of frame $frame is missing, the next one begins at the source: $reason"
-    }
-
-    proc restore_mapping_of {run_name row} {
-        upvar 1 $run_name run
-        core::series_restore $run(series) [state_file run] [state_fingerprint run [dict get $row frame]]
-    }
-
-    proc begin_series {run_name} {
+    # The source of all frames.
+    proc give_source {run_name handle} {
         upvar 1 $run_name run
         set temporary {}
-        set endpoint $run(reference)
-        if {[lindex $endpoint 0] eq "frame"} {
-            set source [frame_endpoint run [lindex $endpoint 1] reference temporary]
-        } else {
-            if {![dict exists $endpoint map] && $run(reference_map) ne ""} { dict set endpoint map $run(reference_map) }
-            if {![dict exists $endpoint unit] && $run(unit) ne ""} { dict set endpoint unit $run(unit) }
-            set source [make_endpoint $endpoint reference temporary]
+        submit temporary {
+            if {[lindex $run(reference) 0] eq "frame"} {
+                set source [frame_endpoint run [lindex $run(reference) 1] reference temporary]
+            } else {
+                set endpoint $run(reference)
+                set map $run(reference_map)
+                if {$map eq "" && [is_computed $run(map)]} { set map $run(map) }
+                if {![dict exists $endpoint map] && $map ne ""} {
+                    set endpoint [dict merge $endpoint [list map $map because $run(because)]]
+                }
+                if {![dict exists $endpoint unit] && $run(unit) ne ""} { dict set endpoint unit $run(unit) }
+                set source [make_endpoint $endpoint reference temporary]
+            }
+            core::trajectory_source $handle $source
         }
-        set run(reference_temporary) $temporary
-        set run(series) [submit temporary { core::series $source $run(core_options) }]
+        set run(source_temporary) $temporary
     }
 
     # A frame of the trajectory with its map as the core's endpoint.

@@ -1,11 +1,11 @@
-# vmd_molecule.tcl: atoms, coordinates, radii and charges of a VMD molecule, for the core.
+# vmd_molecule.tcl: atoms, coordinates, radii and charges of a molecule that VMD holds, for the core.
 
 namespace eval ::espdiff {
-    # VMD's file types with radii; all others leave VMD's guess by element or name. The second list has the types that
-    # reset that guess when they are added to a molecule.
+    # File types of VMD that carry radii of their own; all others leave VMD's guess by element or name, and those that
+    # set that guess again when they are added to a molecule are in the second list.
     variable types_with_radii {pqr js vsf vtf hoomd lammpstrj}
     variable types_that_guess_radii {pdb webpdb pdbx xyz cube gaussian cpmdlog xsf}
-    # File types with charges. Not Gaussian cube files, whose "charges" are the nuclei's.
+    # File types that carry charges. Gaussian cube files are not among them: their "charges" are the nuclei's.
     variable types_with_charges {
         psf pqr parm parm7 tpr mol2 js mae dms bgf xbgf car mdf pdbx vsf vtf hoomd lammpstrj gaussian gamess cpmdlog
     }
@@ -14,7 +14,7 @@ namespace eval ::espdiff {
         if {![in_vmd]} { fail "$what needs VMD; $remedy" }
     }
 
-    # The id of an existing molecule, or of `top`.
+    # The id of a molecule that exists; `top` counts.
     proc vmd_molecule_id {mol role} {
         require_vmd "$role: a molecule of VMD"
         if {$mol eq "top" && [molinfo num] > 0} { set mol [molinfo top] }
@@ -31,27 +31,23 @@ namespace eval ::espdiff {
         fail "$role: there is no molecule '$mol'; loaded are [join_words $loaded and]"
     }
 
-    # The number of an existing frame from now, first, last or a number from 0.
-    proc vmd_frame {mol frame role} {
+    # What is written of frames as a list of numbers; `what` is the option, for messages.
+    proc vmd_frames {mol text what} {
         set n [molinfo $mol get numframes]
         set name "molecule $mol ([molinfo $mol get name])"
-        if {$n == 0} { fail "$role: $name has no frames; `mol addfile FILE waitfor all $mol` adds coordinates" }
-        switch -- $frame {
-            now { return [molinfo $mol get frame] }
-            first { return 0 }
-            last { return [expr {$n - 1}] }
-        }
-        if {![string is integer -strict $frame]} {
-            fail "$role: frame '$frame' is not a number, now, first or last"
-        }
-        if {$frame < 0 || $frame >= $n} {
-            fail "$role: frame $frame is not among the frames 0 to [expr {$n - 1}] of $name"
-        }
-        return $frame
+        if {$n == 0} { fail "$what: $name has no frames; `mol addfile FILE waitfor all $mol` adds coordinates" }
+        return [core::frames $what $text $n [molinfo $mol get frame] $name]
     }
 
-    # The core's endpoint without coordinates, and their place under `mol`, `n_atoms` and `sel`: the structure is read
-    # once for all frames. The selection is that of the endpoint's frame.
+    # The same of one frame.
+    proc vmd_frame {mol frame role} {
+        set frames [vmd_frames $mol $frame "$role: frame"]
+        if {[llength $frames] != 1} { fail "$role: frame '$frame': one frame is needed, not [llength $frames]" }
+        return [lindex $frames 0]
+    }
+
+    # All of the core's endpoint but the coordinates, and under `mol`, `n_atoms` and `sel` where they are: one look at
+    # the structure serves all frames. The selection is that of the endpoint's frame.
     proc vmd_structure {endpoint role} {
         set mol [vmd_molecule_id [dict get $endpoint mol] $role]
         set name [molinfo $mol get name]
@@ -80,6 +76,8 @@ namespace eval ::espdiff {
     proc vmd_with_frame {structure frame} {
         set mol [dict get $structure mol]
         set name [molinfo $mol get name]
+        set n [molinfo $mol get numframes]
+        if {$frame >= $n} { fail "molecule $mol ($name): frame $frame is not there any more; $n are left" }
         set coordinates [gettimestep $mol $frame]
         if {[string length $coordinates] != 12 * [dict get $structure n_atoms]} {
             fail "molecule $mol ($name): frame $frame has [expr {[string length $coordinates] / 12}] atoms instead of\
@@ -93,7 +91,7 @@ namespace eval ::espdiff {
         return $endpoint
     }
 
-    # The last file with radii counts, because VMD lets it replace those of earlier files.
+    # The last file with radii counts: VMD lets it replace those of files before it.
     proc vmd_radii_origin {mol} {
         variable types_with_radii
         variable types_that_guess_radii
@@ -105,8 +103,8 @@ namespace eval ::espdiff {
         return $origin
     }
 
-    # All-zero charges mean none, because VMD has 0 if a file contains no charges. Nonzero charges without a file that
-    # provides them were set by the user (`$sel set charge`) and are used.
+    # Charges that are all 0 are none: VMD has 0 where a file says nothing. Charges without a file that brings them were
+    # set by the user (`$sel set charge`), and count.
     proc vmd_charges_origin {mol atoms} {
         foreach atom $atoms { if {[lindex $atom 8] != 0} { return file } }
         return none

@@ -177,8 +177,8 @@ Tcl_Obj* list_metrics(const Call&) {
 Tcl_Obj* facts_of_file(const Call& call) {
   const int model = to_int(call.arguments[1], "model");
   const StructureFile file(call.text(0));
-  const PotentialFacts facts =
-      potential_facts(file.read({model, true, true}), file.unit_cells().at(static_cast<std::size_t>(model - 1)));
+  const Molecule everything = file.read({model, true, true});
+  const PotentialFacts facts = potential_facts(everything, file.unit_cells().at(static_cast<std::size_t>(model - 1)));
   return to_dict({{"charges", to_obj(facts.has_charges)}, {"solvent", to_obj(facts.has_solvent)}});
 }
 

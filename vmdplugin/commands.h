@@ -42,6 +42,8 @@ std::unique_ptr<Engine> engine_for(const Computation& computation);
 std::vector<Command> matrix_commands();
 /// potential_commands.cpp: potentials of frames, and their average.
 std::vector<Command> potential_commands();
+/// trajectory_commands.cpp: runs over frames, and tables as text.
+std::vector<Command> trajectory_commands();
 /// drawing_commands.cpp: what came out, as maps and triangles for VMD.
 std::vector<Command> drawing_commands();
 /// plot_commands.cpp: plots as files.

@@ -1,7 +1,8 @@
-// compute_commands.cpp: compare, surface, series: hand work to the worker; status, wait, cancel, delete: watch and end
+// compute_commands.cpp: compare, surface: hand work to the worker; status, wait, cancel, delete: watch and end
 // it.
 #include "base/error.h"
 #include "commands.h"
+#include "compare/compare.h"
 #include "compare/options.h"
 #include "compare/result.h"
 #include "compare/settings.h"
@@ -9,7 +10,6 @@
 #include "engine/engine.h"
 #include "engine/select_engine.h"
 #include "tcl_values.h"
-#include "trajectory/series_file.h"
 
 namespace espdiff::vmdplugin {
 Computation parse_computation(DictReader& reader, bool* regularize) {
@@ -36,79 +36,32 @@ Computation parse_computation(Tcl_Obj* options, bool* regularize) {
   return vmdplugin::parse_computation(reader, regularize);
 }
 
-std::shared_ptr<SeriesObject> make_series(Tcl_Obj* source, const Computation& computation, const std::string& role) {
-  auto series = std::make_shared<SeriesObject>();
-  series->computation = computation;
-  series->source = parse_endpoint(source, role);
-  return series;
-}
-
-/// Runs on the worker's thread, one step after the other.
-void run_step(ComparisonObject& step, StartFrom start, const Progress& progress) {
-  SeriesObject& series = *step.series;
+/// Runs on the worker's thread.
+void run_comparison(ComparisonObject& c, const Progress& progress) {
   progress.report("read", 0.0);
-  if (series.engine == nullptr) series.engine = engine_for(series.computation);
-  const double temperature_K = series.computation.options.temperature_K;
-  load(series.source, temperature_K);
-  load(step.target, temperature_K);
-  if (series.series == nullptr) {
-    series.series = std::make_unique<Series>(*series.engine, input_of(series.source), series.computation.options);
-    if (series.restored) series.series->restore(std::move(*series.restored));
-    series.restored.reset();
-  }
-  step.provenance.device = series.engine->back_end();
-  step.provenance.device_description = series.engine->description();
-  step.provenance.threads = series.engine->n_threads();
-  step.provenance.command_line = series.computation.command_line;
-  step.provenance.inputs = series.source.inputs;
-  step.provenance.inputs.insert(step.provenance.inputs.end(), step.target.inputs.begin(), step.target.inputs.end());
-  step.result = series.series->step(input_of(step.target), start, progress);
+  const std::unique_ptr<Engine> engine = engine_for(c.computation);
+  load(c.source, c.computation.options.temperature_K);
+  load(c.target, c.computation.options.temperature_K);
+  c.provenance.device = engine->back_end();
+  c.provenance.device_description = engine->description();
+  c.provenance.threads = engine->n_threads();
+  c.provenance.command_line = c.computation.command_line;
+  c.provenance.inputs = c.source.inputs;
+  c.provenance.inputs.insert(c.provenance.inputs.end(), c.target.inputs.begin(), c.target.inputs.end());
+  c.result = compare(*engine, input_of(c.source), input_of(c.target), c.computation.options, progress);
 }
 
-/// Submits a step; whoever holds the handle holds the object, the job holds it while it runs.
-Tcl_Obj* submit_step(const Call& call, const std::shared_ptr<SeriesObject>& series, Endpoint target, StartFrom start) {
-  auto step = std::make_shared<ComparisonObject>();
-  step->series = series;
-  step->target = std::move(target);
+/// Whoever holds the handle holds the object, the job holds it while it runs.
+Tcl_Obj* compare_command(const Call& call) {
+  auto object = std::make_shared<ComparisonObject>();
+  object->computation = parse_computation(call.arguments[2], nullptr);
+  object->source = parse_endpoint(call.arguments[0], "source");
+  object->target = parse_endpoint(call.arguments[1], "target");
   // Not owned by its own job, which would keep it alive for ever.
-  step->job =
-      Worker::instance().submit([keep = std::weak_ptr<ComparisonObject>(step), start](const Progress& progress) {
-        if (const auto alive = keep.lock()) run_step(*alive, start, progress);
-      });
-  return to_obj(call.handles.add(step));
-}
-
-Tcl_Obj* compare(const Call& call) {
-  const Computation computation = parse_computation(call.arguments[2], nullptr);
-  const auto series = make_series(call.arguments[0], computation, "source");
-  return submit_step(call, series, parse_endpoint(call.arguments[1], "target"), StartFrom::kSource);
-}
-
-Tcl_Obj* series(const Call& call) {
-  return to_obj(
-      call.handles.add(make_series(call.arguments[0], parse_computation(call.arguments[1], nullptr), "source")));
-}
-
-Tcl_Obj* series_step(const Call& call) {
-  const std::string start = call.text(2);
-  if (start != "source" && start != "previous") throw InputError("start: '" + start + "' is not source or previous");
-  return submit_step(call, call.handles.find_series(call.text(0)), parse_endpoint(call.arguments[1], "target"),
-                     start == "previous" ? StartFrom::kPrevious : StartFrom::kSource);
-}
-
-/// The series of a finished step's handle: its state lies still until the next step is submitted.
-Tcl_Obj* series_save(const Call& call) {
-  const auto series = call.handles.find_series(call.text(0));
-  if (series->series == nullptr) throw InputError(call.text(0) + " has made no step yet; there is nothing to save");
-  const auto state = series->series->state();
-  if (state) write_series_state(call.text(1), *state, call.text(2));
-  return to_obj(state.has_value());
-}
-
-Tcl_Obj* series_restore(const Call& call) {
-  const auto series = call.handles.find_series(call.text(0));
-  series->restored = read_series_state(call.text(1), call.text(2));
-  return nullptr;
+  object->job = Worker::instance().submit([keep = std::weak_ptr<ComparisonObject>(object)](const Progress& progress) {
+    if (const auto alive = keep.lock()) run_comparison(*alive, progress);
+  });
+  return to_obj(call.handles.add(object));
 }
 
 Tcl_Obj* surface(const Call& call) {
@@ -170,12 +123,8 @@ Tcl_Obj* list_handles(const Call& call) { return to_list(call.handles.names()); 
 }  // namespace
 
 std::vector<Command> compute_commands() {
-  return {{"compare", 3, 3, "source target options", compare},
+  return {{"compare", 3, 3, "source target options", compare_command},
           {"surface", 2, 2, "molecule options", surface},
-          {"series", 2, 2, "reference options", series},
-          {"series_step", 3, 3, "series target start", series_step},
-          {"series_save", 3, 3, "series file fingerprint", series_save},
-          {"series_restore", 3, 3, "series file fingerprint", series_restore},
           {"status", 1, 1, "handle", status},
           {"wait", 2, 2, "handle milliseconds", wait},
           {"cancel", 1, 1, "handle", cancel},

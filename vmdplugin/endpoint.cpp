@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <memory>
 
 #include "base/error.h"
 #include "fingerprint.h"
@@ -237,7 +238,8 @@ Molecule named_atoms(const std::vector<Tcl_Obj*>& atoms, const std::vector<Vec3d
 namespace {
 
 /// The map that was asked for. Of a file that has water in a cell, pme takes both; else what has the surface.
-ComputedMap requested_map(Endpoint& endpoint, double temperature_K) {
+/// @param file of the structure; null where it came from memory
+ComputedMap requested_map(Endpoint& endpoint, const StructureFile* file, double temperature_K) {
   MapRequest& request = *endpoint.map_request;
   PotentialOptions options = make_potential_options(request.method, request.given, temperature_K);
   options.cell = request.cell;
@@ -246,11 +248,10 @@ ComputedMap requested_map(Endpoint& endpoint, double temperature_K) {
     request.surroundings.solute = endpoint.molecule->positions;
     return {std::move(request.charges), request.surroundings, options};
   }
-  if (request.method == PotentialMethod::kPme && !endpoint.structure_path.empty() && !options.pad_A) {
+  if (request.method == PotentialMethod::kPme && file != nullptr && !options.pad_A) {
     const int model = endpoint.structure.model;
-    const StructureFile file(endpoint.structure_path);
-    Molecule everything = file.read({model, true, true});
-    const auto cell = file.unit_cells().at(static_cast<std::size_t>(model - 1));
+    Molecule everything = file->read({model, true, true});
+    const auto cell = file->unit_cells().at(static_cast<std::size_t>(model - 1));
     if (options.cell || potential_facts(everything, cell).has_solvent)
       return {std::move(everything), {cell, {}, false}, options};
   }
@@ -260,15 +261,16 @@ ComputedMap requested_map(Endpoint& endpoint, double temperature_K) {
 }  // namespace
 
 void load(Endpoint& endpoint, double temperature_K) {
+  std::unique_ptr<const StructureFile> file;
   if (!endpoint.molecule) {
-    const StructureFile file(endpoint.structure_path);
-    endpoint.molecule = file.read(endpoint.structure);
+    file = std::make_unique<StructureFile>(endpoint.structure_path);
+    endpoint.molecule = file->read(endpoint.structure);
     endpoint.inputs.push_back(
-        {endpoint.role, endpoint.structure_path, file.sha256(), std::nullopt, endpoint.structure});
+        {endpoint.role, endpoint.structure_path, file->sha256(), std::nullopt, endpoint.structure});
   }
   if (endpoint.map || endpoint.computed_map) return;
   if (endpoint.map_request) {
-    endpoint.computed_map = requested_map(endpoint, temperature_K);
+    endpoint.computed_map = requested_map(endpoint, file.get(), temperature_K);
     endpoint.inputs.push_back(computed_input(endpoint.role + "_map", *endpoint.computed_map));
     return;
   }

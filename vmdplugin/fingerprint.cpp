@@ -13,7 +13,8 @@ void add(Sha256& hash, const std::vector<T>& values) {
 }
 
 void add(Sha256& hash, const Vec3d& v) {
-  for (int axis = 0; axis < 3; ++axis) hash.update(&v[axis], sizeof v[axis]);
+  const double members[] = {v.x, v.y, v.z};
+  hash.update(members, sizeof members);
 }
 
 }  // namespace

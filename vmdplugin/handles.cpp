@@ -4,16 +4,6 @@
 namespace espdiff::vmdplugin {
 namespace {
 
-/// A failure that happened in a job, thrown again where Tcl asks for the result.
-[[noreturn]] void throw_again(const Failure& failure) {
-  for (const ErrorClass error_class :
-       {ErrorClass::kInput, ErrorClass::kFormat, ErrorClass::kIo, ErrorClass::kGeometry, ErrorClass::kConvergence,
-        ErrorClass::kDevice, ErrorClass::kMemory, ErrorClass::kCancelled}) {
-    if (failure.error_class == std::string(error_class_name(error_class))) throw Error(error_class, failure.message);
-  }
-  throw Error(ErrorClass::kInternal, failure.message);
-}
-
 /// The object as one of a kind. @throws InputError that names what it is
 template <typename Kind>
 std::shared_ptr<Kind> as(const std::shared_ptr<Object>& object, const std::string& handle, const char* wanted) {
@@ -30,11 +20,22 @@ void stop(const Object& object) {
 
 }  // namespace
 
+Error error_of_class(const std::string& name, const Message& message) {
+  for (const ErrorClass error_class :
+       {ErrorClass::kInput, ErrorClass::kFormat, ErrorClass::kIo, ErrorClass::kGeometry, ErrorClass::kConvergence,
+        ErrorClass::kDevice, ErrorClass::kMemory, ErrorClass::kCancelled}) {
+    if (name == error_class_name(error_class)) return {error_class, message};
+  }
+  return {ErrorClass::kInternal, message};
+}
+
 void require_done(const std::string& handle, const Object& object) {
   if (object.job == nullptr) return;
   if (!object.job->finished())
     throw InputError(handle + " is still being computed; wait for it with `espdiff wait " + handle + "`");
-  if (object.job->status().state != Job::State::kDone) throw_again(object.job->failure());
+  if (object.job->status().state == Job::State::kDone) return;
+  const Failure failure = object.job->failure();
+  throw error_of_class(failure.error_class, failure.message);
 }
 
 Handles::~Handles() {
@@ -71,8 +72,8 @@ std::shared_ptr<MatrixObject> Handles::finished_matrix(const std::string& handle
   return matrix;
 }
 
-std::shared_ptr<SeriesObject> Handles::find_series(const std::string& handle) const {
-  return as<SeriesObject>(find(handle), handle, "series");
+std::shared_ptr<TrajectoryObject> Handles::find_trajectory(const std::string& handle) const {
+  return as<TrajectoryObject>(find(handle), handle, "trajectory");
 }
 
 std::shared_ptr<PotentialObject> Handles::find_potential(const std::string& handle) const {

@@ -1,4 +1,5 @@
-// handles.h: what Tcl holds by name: comparisons, surfaces, series. They belong to the interpreter that made them.
+// handles.h: what Tcl holds by name: comparisons, surfaces, trajectories, ... They belong to the interpreter that made
+// them.
 #pragma once
 
 #include <map>
@@ -8,12 +9,13 @@
 
 #include "compare/options.h"
 #include "compare/result.h"
-#include "compare/series.h"
 #include "compare/surface.h"
 #include "endpoint.h"
 #include "matrix/matrix_run.h"
 #include "potential/potential.h"
 #include "report/write_compare.h"
+#include "trajectory/frame_files.h"
+#include "trajectory/trajectory.h"
 #include "worker.h"
 
 namespace espdiff::vmdplugin {
@@ -33,21 +35,11 @@ struct Object {
   std::shared_ptr<Job> job;  ///< that fills it; null where there is none
 };
 
-/// A source that many targets are compared with; read and prepared by the first step.
-struct SeriesObject : Object {
-  const char* kind() const override { return "series"; }
-  Endpoint source;
-  Computation computation;
-  std::unique_ptr<Engine> engine;       // made, like what follows, by the first step's job
-  std::unique_ptr<Series> series;       // destroyed before the engine
-  std::optional<SeriesState> restored;  ///< what the first step goes on from
-};
-
-/// One pair. A comparison of its own has a series of one.
+/// One pair.
 struct ComparisonObject : Object {
   const char* kind() const override { return "comparison"; }
-  std::shared_ptr<SeriesObject> series;
-  Endpoint target;
+  Computation computation;
+  Endpoint source, target;
   Provenance provenance;
   CompareResult result;
 };
@@ -67,6 +59,19 @@ struct MatrixObject : Object {
   std::vector<std::string> labels, groups;
   MatrixRun run;
   MatrixReport report;
+};
+
+/// Frames compared one after the other; rows in a file.
+struct TrajectoryObject : Object {
+  const char* kind() const override { return "trajectory"; }
+  Computation computation;
+  bool against_previous = false;      ///< each frame with the one before it
+  bool one_map = false;               ///< the target's map is the same for all frames
+  std::unique_ptr<FrameFiles> files;  ///< of a run over a file's models
+  Endpoint source, target;
+  std::unique_ptr<Engine> engine;      // made by the first step's job
+  std::unique_ptr<TrajectoryRun> run;  // destroyed before what it points to
+  std::optional<SeriesRow> row;        ///< that the last step added
 };
 
 /// Potentials of frames, one after the other, and their average.
@@ -92,7 +97,7 @@ class Handles {
   /// An object of one kind, whose job has succeeded.
   /// @throws InputError (another kind; not finished), and the job's own failure
   std::shared_ptr<ComparisonObject> finished_comparison(const std::string& handle) const;
-  std::shared_ptr<SeriesObject> find_series(const std::string& handle) const;
+  std::shared_ptr<TrajectoryObject> find_trajectory(const std::string& handle) const;
   std::shared_ptr<PotentialObject> find_potential(const std::string& handle) const;
   std::shared_ptr<MatrixObject> finished_matrix(const std::string& handle) const;
   /// Cancels its job and waits for it to stop.
@@ -103,6 +108,9 @@ class Handles {
   std::map<std::string, std::shared_ptr<Object>> objects_;
   std::map<std::string, int> last_number_;  ///< by kind
 };
+
+/// An error by the name of its class, such as "INPUT"; of an unknown one an internal error.
+Error error_of_class(const std::string& name, const Message& message);
 
 /// @throws the failure of the object's job; InputError while it is not finished
 void require_done(const std::string& handle, const Object& object);

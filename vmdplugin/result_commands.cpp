@@ -18,9 +18,8 @@ namespace espdiff::vmdplugin {
 namespace {
 
 nlohmann::ordered_json json_of(const ComparisonObject& comparison) {
-  const SeriesObject& series = *comparison.series;
-  return compare_json(*series.source.molecule, *comparison.target.molecule, comparison.result,
-                      series.computation.options, comparison.provenance);
+  return compare_json(*comparison.source.molecule, *comparison.target.molecule, comparison.result,
+                      comparison.computation.options, comparison.provenance);
 }
 
 Tcl_Obj* surface_result(const SurfaceObject& surface) {
@@ -70,7 +69,7 @@ Tcl_Obj* result(const Call& call) {
 
 Tcl_Obj* residues(const Call& call) {
   const auto comparison = call.handles.finished_comparison(call.text(0));
-  const Molecule& source = *comparison->series->source.molecule;
+  const Molecule& source = *comparison->source.molecule;
   std::vector<Tcl_Obj*> rows;
   for (const ResidueRow& row : comparison->result.residues) {
     const Residue& residue = source.residues.at(row.residue);
@@ -101,7 +100,7 @@ Tcl_Obj* table(const Call& call) {
   }
   const auto comparison = call.handles.finished_comparison(call.text(0));
   std::ostringstream out;
-  print_table(out, *comparison->series->source.molecule, *comparison->target.molecule, comparison->result,
+  print_table(out, *comparison->source.molecule, *comparison->target.molecule, comparison->result,
               [&](const NamedOption& option) { return spelled(call.interp, option); });
   return to_obj(out.str());
 }
@@ -135,11 +134,10 @@ Tcl_Obj* export_files(const Call& call) {
     return to_list({prefix + ".vtp"});
   }
   const auto comparison = call.handles.finished_comparison(handle);
-  const SeriesObject& series = *comparison->series;
-  const Endpoint &source = series.source, &target = comparison->target;
+  const Endpoint &source = comparison->source, &target = comparison->target;
   check_outputs(input_paths(*comparison), {prefix + ".json", prefix + ".vtp", prefix + ".residues.csv"});
   if (!to_bool(call.arguments[2], "inputs")) {
-    write_compare(prefix, *source.molecule, *target.molecule, comparison->result, series.computation.options,
+    write_compare(prefix, *source.molecule, *target.molecule, comparison->result, comparison->computation.options,
                   comparison->provenance);
     return to_list({prefix + ".json", prefix + ".vtp", prefix + ".residues.csv"});
   }
@@ -148,7 +146,7 @@ Tcl_Obj* export_files(const Call& call) {
   };
   std::vector<Tcl_Obj*> written;
   for (const std::string& path : write_compare_with_inputs(
-           prefix, *source.molecule, *target.molecule, comparison->result, series.computation.options,
+           prefix, *source.molecule, *target.molecule, comparison->result, comparison->computation.options,
            comparison->provenance, {from_memory(source), from_memory(target)}))
     written.push_back(to_obj(path));
   return to_list(written);
@@ -176,7 +174,7 @@ Tcl_Obj* residue_quantity(const Call& call) {
 Tcl_Obj* residue_pdb(const Call& call) {
   const auto comparison = call.handles.finished_comparison(call.text(0));
   check_outputs(input_paths(*comparison), {call.text(2)});
-  write_residue_pdb(call.text(2), *comparison->series->source.molecule, comparison->result, call.text(1));
+  write_residue_pdb(call.text(2), *comparison->source.molecule, comparison->result, call.text(1));
   return call.arguments[2];
 }
 

@@ -14,8 +14,8 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// Bytes per lattice point of the density and of its isosurface: inside flags, cases, vertex offsets. Fields check their
-/// own memory.
+/// Bytes per lattice point of the density and of its isosurface: inside flags, cases, vertex offsets. Fields check
+/// their own memory.
 constexpr double kBytesPerPoint = 4 + 1 + 1 + 4;
 
 ESPDIFF_INLINE float axis_gaussian(float exponent, float delta) {

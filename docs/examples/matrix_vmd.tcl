@@ -1,7 +1,7 @@
 # matrix_vmd.tcl: frames of a trajectory as a matrix, by VMD's own `parallel for`.
 #
-#     mpirun -n 8 vmd -dispdev text -e matrix_vmd.tcl -args adk.psf adk_dims.dcd 0:10: adk       (a VMD built with MPI)
-#     vmd -dispdev text -e matrix_vmd.tcl -args adk.psf adk_dims.dcd 0:10: adk                    (any VMD: one after another)
+#     mpirun -n 8 vmd -dispdev text -e matrix_vmd.tcl -args adk.psf adk_dims.dcd 0:10:end adk       (a VMD built with MPI)
+#     vmd -dispdev text -e matrix_vmd.tcl -args adk.psf adk_dims.dcd 0:10:end adk                    (any VMD: one after another)
 #
 # Every rank loads the trajectory and computes parts of the matrix; the first one puts them together.
 package require espdiff

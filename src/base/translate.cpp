@@ -16,7 +16,8 @@ Error translated(const std::exception& error) {
                    "cannot be used: " + files->code().message() + "; check the path and its permissions");
   }
   // Lengths beyond what a container can have are asked for where sizes are nonsense or memory would not do anyway.
-  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr || dynamic_cast<const std::length_error*>(&error) != nullptr)
+  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||
+      dynamic_cast<const std::length_error*>(&error) != nullptr)
     return MemoryError("not enough memory; use a larger " + option("grid-spacing") +
                        ", select fewer atoms, or close other programs");
   if (const auto* system = dynamic_cast<const std::system_error*>(&error))

@@ -120,7 +120,7 @@ int run(const Arguments& a, const Context& context) {
     provenance.inputs.push_back(
         {side->role, side->path, side->file->sha256(), std::nullopt, structure_options(a, side->role)});
   const std::string because = add_maps(a, source, target, options.temperature_K, provenance.inputs);
-  for (Side* side : {&source, &target}) side->file.reset();
+  for (Side* side : {&source, &target}) side->file.reset();  // its text is no longer needed
   const std::unique_ptr<Engine> engine = make_engine(a.device);
   provenance.device = engine->back_end();
   provenance.device_description = engine->description();

@@ -60,11 +60,7 @@ int run_verb(const espdiff::cli::Verb& verb, const std::string& command_line) {
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  open_standard_streams();
-  start_again_without_spinning(argv);
+int run(int argc, char** argv) {
   CLI::App app(
       "espdiff shows where and by how much the electrostatic surface potential differs between two states of a "
       "molecule, and how "
@@ -93,4 +89,19 @@ int main(int argc, char** argv) {
       "view or doctor\nTry 'espdiff --help'.\n",
       stderr);
   return 2;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  open_standard_streams();
+  start_again_without_spinning(argv);
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "espdiff: internal error: %s; please report it with the command\n", error.what());
+  } catch (...) {
+    std::fputs("espdiff: internal error: an exception of unknown type; please report it with the command\n", stderr);
+  }
+  return 1;
 }

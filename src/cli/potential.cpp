@@ -58,7 +58,7 @@ void add_method_options(CLI::App& p, Arguments& a) {
 
 void add_frame_options(CLI::App& p, Arguments& a) {
   const char* const group = "Frames";
-  p.add_option("--frames", a.frames, "Models of the file, from 0: all, last, n, begin:end or begin:step:end")
+  p.add_option("--frames", a.frames, "Models of the file, from 0: all, a frame, begin:end or begin:step:end; see `espdiff trajectory`")
       ->capture_default_str()
       ->group(group);
   p.add_option("--averaging", a.averaging, "mean: one map, the mean over frames. each: OUT.0000.dx, OUT.0001.dx, ...")
@@ -162,7 +162,7 @@ int run(const Arguments& a, const Context& context) {
   const auto start = std::chrono::steady_clock::now();
   context.progress->report("read", 0.0);
   const StructureFile file(a.molecule);
-  const std::vector<int> frames = parse_frames(a.frames, file.n_models());
+  const std::vector<int> frames = parse_frames(a.frames, {file.n_models()});
   const std::vector<std::optional<UnitCell>> cells = file.unit_cells();
   if (frames.size() < 2 && !(a.variance.empty() && a.standard_error.empty()))
     throw InputError("--variance and --standard-error need at least 2 frames; there is " +

@@ -22,7 +22,7 @@ void set_range(Scene& scene, const std::string& text) {
 /// Adds an option whose value changes the scene.
 template <typename T>
 CLI::Option* add(CLI::App& parser, SceneArguments& a, const std::string& names, const std::string& help,
-                 std::function<void(Scene&, const T&)> change) {
+                 const std::function<void(Scene&, const T&)>& change) {
   return parser.add_option_function<T>(
       names, [&a, change](const T& value) { a.changes.push_back([=](Scene& s) { change(s, value); }); }, help);
 }

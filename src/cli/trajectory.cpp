@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -17,6 +16,7 @@
 #include "io/write_csv.h"
 #include "trajectory/frame_files.h"
 #include "trajectory/frame_range.h"
+#include "trajectory/series_head.h"
 
 namespace espdiff::cli {
 namespace {
@@ -34,7 +34,9 @@ struct Arguments {
 
 void add_run_options(CLI::App& p, Arguments& a) {
   const char* const group = "Frames";
-  p.add_option("--frames", a.frames, "Frames to compare, from 0: all, last, n, begin:end or begin:step:end")
+  p.add_option("--frames", a.frames,
+               "Frames to compare, from 0: all, a frame, begin:end or begin:step:end, or several of these with commas; "
+               "a frame may also be first, last (or end), or -1 (the last)")
       ->capture_default_str()
       ->group(group);
   p.add_option(
@@ -57,48 +59,31 @@ void add_run_options(CLI::App& p, Arguments& a) {
       ->group("Molecules");
 }
 
-/// "NAME, 123 bytes", as the Tcl command writes it.
-std::string described(const std::vector<std::string>& paths) {
-  std::string text;
-  for (const std::string& path : paths) {
-    const std::filesystem::path file(path);
-    text += (text.empty() ? "" : "; ") + file.filename().string() + ", " +
-            std::to_string(std::filesystem::file_size(file)) + " bytes";
-  }
-  return text;
-}
-
 /// A map in the Tcl command's words; empty for none.
 std::string map_words(const MapArguments& m, const std::string& path, const std::string& unit) {
   if (path.empty()) return {};
   return "file " + path + (unit.empty() ? "" : " unit " + unit) + (m.map_array.empty() ? "" : " array " + m.map_array);
 }
 
-StartFrom start_of(const Arguments& a, Method method) {
-  if (a.start == "auto") return method == Method::kMorph ? StartFrom::kSource : StartFrom::kPrevious;
-  return a.start == "previous" ? StartFrom::kPrevious : StartFrom::kSource;
+std::string reference_words(const Arguments& a) {
+  return "file " + a.source + (a.source_model == 1 ? "" : " model " + std::to_string(a.source_model));
 }
 
 /// @param potential the computed potential in words; empty for none
-SeriesHead head_of(const Arguments& a, StartFrom start, const std::string& potential,
-                   const std::vector<InputFile>& inputs) {
-  const std::string map = potential.empty() ? map_words(a.maps, a.maps.target_map, a.maps.target_map_unit) : potential;
-  std::string settings;
-  for (const auto& [name, value] : a.settings) settings += (settings.empty() ? "" : " ") + name + " " + value;
-  SeriesHead head = {
-      {"espdiff", kVersion},
-      {"file", described(a.targets)},
-      {"source_model", std::to_string(a.source_model)},
-      {"frames", a.frames},
-      {"reference", "file " + a.source},
-      {"map", map.empty() ? "none" : map},
-      {"reference-map", potential.empty() ? map_words(a.maps, a.maps.source_map, a.maps.source_map_unit) : potential},
-      {"atoms", std::string(a.structure.include_hetero ? "hetero" : "no hetero") +
-                    (a.structure.include_water ? ", water" : ", no water")},
-      {"start", start == StartFrom::kPrevious ? "previous" : "source"},
-      {"settings", settings}};
-  for (const InputFile& input : inputs) head.emplace_back(input.role + "_sha256", input.sha256);
-  return head;
+SeriesHead head_of(const Arguments& a, const TrajectoryPlan& plan, const std::string& potential) {
+  SeriesDescription run;
+  run.files = a.targets;
+  run.structure = a.structure;
+  run.frames = plan.frames;
+  run.reference = plan.reference;
+  run.start = plan.start;
+  if (!potential.empty()) {
+    run.map = potential;
+  } else {
+    run.map = map_words(a.maps, a.maps.target_map, a.maps.target_map_unit);
+    run.reference_map = map_words(a.maps, a.maps.source_map, a.maps.source_map_unit);
+  }
+  return series_head(run, plan.options);
 }
 
 /// Source and frames, and how their molecules become a comparison's inputs.
@@ -125,12 +110,14 @@ class Sides {
     return {&source_, source_map_ ? &*source_map_ : nullptr, computed_ ? computed_->maker() : MapMaker()};
   }
 
-  FrameInput frame(int number) {
-    FrameInput input{read(number, a_.structure, source_), target_map_ ? &*target_map_ : nullptr, nullptr};
+  /// A frame, which stays until the next one is asked for.
+  CompareInput frame(int number) {
+    target_ = read(number, a_.structure, source_);
+    CompareInput input{&target_, target_map_ ? &*target_map_ : nullptr, nullptr};
     if (!plan_.computes()) return input;
     ChargedFile all;
     if (plan_.takes_everything()) all = {read(number, {1, true, true}, charges_.everything), frames_.cell(number)};
-    input.make_map = plan_.map_of(input.molecule, all).maker();
+    input.make_map = plan_.map_of(target_, all).maker();
     return input;
   }
 
@@ -148,6 +135,7 @@ class Sides {
 
   const Arguments& a_;
   FrameFiles frames_;
+  Molecule target_;
   Molecule source_;      // what has the surface
   ChargedFile charges_;  // with water and ions
   PotentialPlan plan_;
@@ -163,24 +151,29 @@ int run(const Arguments& a, const Context& context) {
   inputs.insert(inputs.end(), {a.source, a.maps.source_map, a.maps.target_map});
   check_outputs(inputs, {a.output, a.output + ".state"});
   const auto begun = std::chrono::steady_clock::now();
-  Trajectory run;
-  run.options = make_options(a.settings);
+  TrajectoryPlan plan;
+  plan.options = make_options(a.settings);
   context.progress->report("read", 0.0);
-  Sides sides(a, run.options.temperature_K);
-  run.source = sides.source();
-  run.reference = "file " + a.source;
-  run.frames = parse_frames(a.frames, sides.n_frames());
-  run.frame = [&sides](int number) { return sides.frame(number); };
-  run.start = start_of(a, run.options.method);
-  run.skip_errors = a.on_error == "skip";
-  SeriesCsv file(a.output, head_of(a, run.start, sides.potential(), sides.inputs()),
-                 a.resume      ? ExistingFile::kResume
-                 : a.overwrite ? ExistingFile::kReplace
-                               : ExistingFile::kRefuse);
+  Sides sides(a, plan.options.temperature_K);
+  plan.reference = reference_words(a);
+  plan.frames = parse_frames(a.frames, {sides.n_frames()});
+  plan.start = parse_start(a.start, plan.options);
+  plan.skip_errors = a.on_error == "skip";
+  const ExistingFile existing = a.resume      ? ExistingFile::kResume
+                                : a.overwrite ? ExistingFile::kReplace
+                                              : ExistingFile::kRefuse;
   const std::unique_ptr<Engine> engine = make_engine(a.device);
-  const TrajectorySummary summary = compare_frames(*engine, run, file, *context.progress, [](const std::string& text) {
-    std::fprintf(stderr, "espdiff: %s\n", printable(text).c_str());
-  });
+  TrajectoryRun run(plan, SeriesCsv(a.output, head_of(a, plan, sides.potential()), existing));
+  if (!run.warning().empty()) std::fprintf(stderr, "espdiff: %s\n", printable(run.warning()).c_str());
+  run.note_inputs(sides.inputs());
+  while (!run.is_done())
+    run.step(
+        *engine,
+        [&] {
+          return StepInput{sides.source(), sides.frame(run.next().frame), {}};
+        },
+        *context.progress);
+  const TrajectorySummary summary = run.summary();
   if (a.quiet) return 0;
   const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   std::printf("frames         %zu\n", summary.n_frames);

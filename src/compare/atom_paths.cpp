@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <tuple>
 #include <utility>
 
 #include "base/error.h"
 #include "compare/local_rotations.h"
+#include "compare/nearest_point.h"
 #include "compare/paired_residues.h"
 
 namespace espdiff {
@@ -19,6 +21,7 @@ struct Side {
   std::vector<bool> paired;
   std::vector<std::vector<std::size_t>> paired_of_residue;
   std::vector<std::size_t> all_paired;
+  mutable std::optional<NearestPoint> nearest_paired{};  ///< of all; made when it is first asked for
 
   explicit Side(const Molecule& m) : molecule(m), paired(m.size(), false), paired_of_residue(m.residues.size()) {}
 
@@ -30,16 +33,25 @@ struct Side {
 
   std::size_t anchor(std::size_t atom) const {
     const auto& own = paired_of_residue[static_cast<std::size_t>(molecule.atoms[atom].residue)];
-    const auto& candidates = own.empty() ? all_paired : own;
-    std::size_t nearest = candidates.front();
+    if (own.empty()) return nearest_of_all(atom);
+    std::size_t nearest = own.front();
     double least = std::numeric_limits<double>::infinity();
-    for (const std::size_t candidate : candidates) {
+    for (const std::size_t candidate : own) {
       const Vec3d d = molecule.positions[candidate] - molecule.positions[atom];
       if (dot(d, d) >= least) continue;
       least = dot(d, d);
       nearest = candidate;
     }
     return nearest;
+  }
+
+  std::size_t nearest_of_all(std::size_t atom) const {
+    if (!nearest_paired) {
+      std::vector<Vec3d> positions;
+      for (const std::size_t paired_atom : all_paired) positions.push_back(molecule.positions[paired_atom]);
+      nearest_paired.emplace(std::move(positions));
+    }
+    return all_paired[(*nearest_paired)(molecule.positions[atom])];
   }
 };
 
@@ -87,7 +99,7 @@ std::vector<std::pair<std::size_t, std::size_t>> pair_leftovers(const Side& from
 
 std::vector<MovingAtom> atom_paths(const Molecule& source, const Molecule& target, const AtomPairing& pairing,
                                    const RigidTransform& from_source, const RigidTransform& from_target,
-                                   const DomainMotions& domains, double radius_scale) {
+                                   const DomainMotions& domains, double radius_scale, const Progress& progress) {
   if (pairing.pairs.empty())
     throw InputError("the morph needs paired atoms, and none pair; use " + option("method", "deform") +
                      ", which needs none");
@@ -148,7 +160,7 @@ std::vector<MovingAtom> atom_paths(const Molecule& source, const Molecule& targe
     path.at_start = false;
     paths.push_back(path);
   }
-  set_local_rotations(paths);
+  set_local_rotations(paths, progress);
   return paths;
 }
 

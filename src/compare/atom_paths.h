@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/pairing.h"
+#include "base/progress.h"
 #include "base/types.h"
 #include "compare/domain_motions.h"
 #include "engine/morph_stage.h"
@@ -20,6 +21,6 @@ namespace espdiff {
 /// @throws InputError if no atoms pair
 std::vector<MovingAtom> atom_paths(const Molecule& source, const Molecule& target, const AtomPairing& pairing,
                                    const RigidTransform& from_source, const RigidTransform& from_target,
-                                   const DomainMotions& domains, double radius_scale);
+                                   const DomainMotions& domains, double radius_scale, const Progress& progress = {});
 
 }  // namespace espdiff

@@ -136,10 +136,11 @@ struct Series::Steps {
     MorphOptions morph = options.morph;
     morph.isovalue = options.surface.isovalue;
     morph.max_edge_A = options.morph_max_edge * options.surface.grid_spacing_A;
-    const auto paths = from != nullptr
-                           ? paths_from(*from, *source.molecule, target, frame.from_target, result.domains, options)
-                           : atom_paths(*source.molecule, target, result.pairing, frame.from_source, frame.from_target,
-                                        frame.domains, options.surface.radius_scale);
+    const auto paths =
+        from != nullptr
+            ? paths_from(*from, *source.molecule, target, frame.from_target, result.domains, options, progress)
+            : atom_paths(*source.molecule, target, result.pairing, frame.from_source, frame.from_target, frame.domains,
+                         options.surface.radius_scale, progress);
     MorphResult morphed = from != nullptr ? engine.continue_morph(*from->morphed, paths, surface.atoms,
                                                                   target_surface.atoms, morph, "morph", progress)
                                           : engine.morph(regularized, paths, surface.atoms, target_surface.atoms, morph,

@@ -151,7 +151,7 @@ bool can_continue(const LastStep& last, const Molecule& source, const CommonFram
 
 std::vector<MovingAtom> paths_from(const LastStep& last, const Molecule& source, const Molecule& target,
                                    const RigidTransform& from_target, const std::vector<RigidDomain>& domains,
-                                   const CompareOptions& options) {
+                                   const CompareOptions& options, const Progress& progress) {
   const AtomPairing pairing = pair_atoms(last.molecule, target);
   DomainMotions motions;
   if (!domains.empty()) {
@@ -159,7 +159,7 @@ std::vector<MovingAtom> paths_from(const LastStep& last, const Molecule& source,
         options.align == AlignAtoms::kNone ? pairing.pairs : select_pairs(pairing, last.molecule, options.align);
     motions = domain_motions(domains_on(last.molecule, source, target, pairs, domains), last.molecule, {}, from_target);
   }
-  return atom_paths(last.molecule, target, pairing, {}, from_target, motions, options.surface.radius_scale);
+  return atom_paths(last.molecule, target, pairing, {}, from_target, motions, options.surface.radius_scale, progress);
 }
 
 }  // namespace espdiff

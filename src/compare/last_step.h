@@ -47,6 +47,6 @@ bool can_continue(const LastStep& last, const Molecule& source, const CommonFram
 /// @param domains of source and target
 std::vector<MovingAtom> paths_from(const LastStep& last, const Molecule& source, const Molecule& target,
                                    const RigidTransform& from_target, const std::vector<RigidDomain>& domains,
-                                   const CompareOptions& options);
+                                   const CompareOptions& options, const Progress& progress);
 
 }  // namespace espdiff

@@ -89,9 +89,20 @@ struct Neighbourhoods {
 
 }  // namespace
 
-void set_local_rotations(std::vector<MovingAtom>& paths) {
+void set_local_rotations(std::vector<MovingAtom>& paths, const Progress& progress) {
   const Neighbourhoods neighbourhoods(paths);
-  for (std::size_t i = 0; i < paths.size(); ++i) paths[i].own_rotation = neighbourhoods.turn(i);
+  // Each atom's is its own: the same bits at any number of threads. Between blocks there is time to be cancelled.
+  constexpr std::ptrdiff_t kBlock = 4096;
+  const auto n = static_cast<std::ptrdiff_t>(paths.size());
+  for (std::ptrdiff_t begin = 0; begin < n; begin += kBlock) {
+    progress.check_cancelled();
+    const std::ptrdiff_t end = std::min(begin + kBlock, n);
+#pragma omp parallel for schedule(dynamic, 64)
+    for (std::ptrdiff_t i = begin; i < end; ++i) {
+      const auto atom = static_cast<std::size_t>(i);
+      paths[atom].own_rotation = neighbourhoods.turn(atom);
+    }
+  }
 }
 
 }  // namespace espdiff

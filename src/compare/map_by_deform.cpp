@@ -20,8 +20,8 @@ constexpr int kMaxRounds = 8;
 MeshPtr trace_back(Engine& engine, const MeshPtr& source, std::size_t n_old, const AtomsPtr& atoms,
                    const SurfaceOptions& options) {
   std::vector<Vec3f> positions = engine.download_positions(source);
-  const std::vector<Vec3f> projected = engine.download_positions(engine.project(
-      source, atoms, static_cast<float>(options.isovalue), kProjectionShare * options.grid_spacing_A));
+  const std::vector<Vec3f> projected = engine.download_positions(
+      engine.project(source, atoms, static_cast<float>(options.isovalue), kProjectionShare * options.grid_spacing_A));
   std::copy(projected.begin() + static_cast<std::ptrdiff_t>(n_old), projected.end(),
             positions.begin() + static_cast<std::ptrdiff_t>(n_old));
   return engine.with_positions(source, positions);

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "base/types.h"
 #include "base/handles.h"
+#include "base/types.h"
 
 namespace espdiff {
 

@@ -86,12 +86,6 @@ std::string create_sibling(const std::string& path, const std::string& target) {
 /// The name under which the kernel shows an open file.
 std::string descriptor_path(int descriptor) { return "/proc/self/fd/" + std::to_string(descriptor); }
 
-bool is_temporary_of(const std::string& name, const std::string& target_name) {
-  const std::string start = target_name + ".tmp";
-  return name.size() > start.size() && name.compare(0, start.size(), start) == 0 &&
-         name.find_first_not_of("0123456789-", start.size()) == std::string::npos;
-}
-
 }  // namespace
 
 std::string followed_links(const std::string& path) {
@@ -216,16 +210,6 @@ void AtomicFile::forget_previous() {
   previous_.clear();
 }
 
-void check_writable(const std::string& path) { check_target(path, followed_links(path)); }
-
-void remove_stale_temporaries(const std::string& path) {
-  const fs::path target = followed_links(path);
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder_of(target.string()), error)) {
-    if (is_temporary_of(entry.path().filename().string(), target.filename().string())) ::unlink(entry.path().c_str());
-  }
-}
-
 void AtomicFile::commit() { commit_all({this}); }
 
 void commit_all(const std::vector<AtomicFile*>& files) {
@@ -237,6 +221,21 @@ void commit_all(const std::vector<AtomicFile*>& files) {
     throw;
   }
   for (AtomicFile* file : files) file->forget_previous();
+}
+
+void remove_leftovers(const std::string& path) {
+  const fs::path target = followed_links(path);
+  const std::string start = target.filename().string() + ".tmp";
+  std::error_code error;
+  std::vector<fs::path> leftovers;
+  for (fs::directory_iterator at(folder_of(target.string()), error), end; !error && at != end; at.increment(error)) {
+    const std::string name = at->path().filename().string();
+    // sibling() adds a process and a number: digits, a dash, digits.
+    const bool is_ours = name.size() > start.size() && name.compare(0, start.size(), start) == 0 &&
+                         name.find_first_not_of("0123456789-", start.size()) == std::string::npos;
+    if (is_ours) leftovers.push_back(at->path());
+  }
+  for (const fs::path& leftover : leftovers) fs::remove(leftover, error);
 }
 
 }  // namespace espdiff

@@ -57,13 +57,9 @@ class AtomicFile {
 
 void commit_all(const std::vector<AtomicFile*>& files);
 
-/// What AtomicFile refuses before any work is done: see there.
-/// @throws IoError
-void check_writable(const std::string& path);
-
-/// Removes temporary files of AtomicFile that a killed process left beside `path`. Only for who makes sure, by a lock,
-/// that no other process writes this file.
-void remove_stale_temporaries(const std::string& path);
+/// Removes the temporary files beside `path` that killed processes left. Only for who knows that no process is writing
+/// this file now.
+void remove_leftovers(const std::string& path);
 
 /// The file that `path` means once symbolic links are followed; it need not exist.
 std::string followed_links(const std::string& path);

@@ -25,6 +25,7 @@ class CsvReader {
       const std::size_t end = std::min(text_.find('\n', at_), text_.size());
       const std::string_view line = trimmed(text_.substr(at_, end - at_));
       if (!line.empty() && line[0] != '#') return true;
+      if (!line.empty()) comments_.emplace_back(trimmed(line.substr(1)));
       at_ = end + 1;
       ++line_;
     }
@@ -49,6 +50,8 @@ class CsvReader {
   }
 
   long line() const { return line_; }
+  /// Of the lines passed so far.
+  const std::vector<std::string>& comments() const { return comments_; }
 
  private:
   std::string field() {
@@ -88,6 +91,7 @@ class CsvReader {
 
   std::string_view text_;
   const std::string& path_;
+  std::vector<std::string> comments_;
   std::size_t at_ = 0;
   long line_ = 1;
   char separator_ = ',';
@@ -121,14 +125,16 @@ double CsvTable::number(std::size_t row, std::size_t column) const {
   return value;
 }
 
-CsvTable read_csv(const std::string& path) {
-  const std::string text = read_text_file(path);
+CsvTable read_csv(const std::string& path) { return parse_csv(read_text_file(path), path); }
+
+CsvTable parse_csv(const std::string& text, const std::string& path) {
   CsvTable table;
   table.path = path;
   CsvReader reader(text, path);
   if (!reader.next_row())
     throw FormatError(path, 0, "there is no row of column names; the first line that is not a comment holds them");
   reader.choose_separator();
+  table.comments = reader.comments();
   const long first = reader.line();
   table.columns = reader.row();
   for (std::size_t i = 0; i < table.columns.size(); ++i) {

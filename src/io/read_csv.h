@@ -9,6 +9,7 @@ namespace espdiff {
 /// A table as text. Every row has as many fields as there are columns.
 struct CsvTable {
   std::string path;                            ///< for messages
+  std::vector<std::string> comments;           ///< lines above the names that begin with `#`, without it
   std::vector<std::string> columns;            ///< names, in file order
   std::vector<std::vector<std::string>> rows;  ///< [row][column]
   std::vector<long> lines;                     ///< [row] line of the file, from 1
@@ -27,5 +28,8 @@ struct CsvTable {
 /// @throws IoError (missing, unreadable), FormatError (no columns, a name twice, rows of another length, a quote that
 ///         does not end)
 CsvTable read_csv(const std::string& path);
+
+/// The same of a text. @param path for messages
+CsvTable parse_csv(const std::string& text, const std::string& path);
 
 }  // namespace espdiff

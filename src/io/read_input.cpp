@@ -132,7 +132,7 @@ class Unpacker {
         at_padding_ = true;
       }
     }
-    packed_.erase(0, used);
+    packed_.erase(0, at_padding_ ? packed_.size() : used);
   }
 
   /// @throws FormatError when the file ended early
@@ -211,7 +211,8 @@ FileContent read_chunks(const std::string& path, const HeadCheck& check_head) {
     }
     if (n_read == 0) throw InputError(path + ": is empty; give a file with content");
     const bool at_end = n < chunk.size();
-    if (at_end && unpacker != nullptr) unpacker->finish(content);
+    // What a whole beginning tells counts more than that the end is missing.
+    if (at_end && unpacker != nullptr && content.size() < kRecogniseBytes) unpacker->finish(content);
     if (!head_is_checked && (at_end || content.size() >= kRecogniseBytes)) {
       if (content.empty()) throw InputError(path + ": the gzip file is empty inside; give a file with content");
       if (check_head) check_head(std::string_view(content).substr(0, kRecogniseBytes));
@@ -221,6 +222,7 @@ FileContent read_chunks(const std::string& path, const HeadCheck& check_head) {
         content.reserve(file.n_bytes());  // not doubled on the way
       }
     }
+    if (at_end && unpacker != nullptr) unpacker->finish(content);
     if (at_end) break;
     if (content.size() > next_look) {
       // What grows without a known end does so by doubling: old and new are there at once.

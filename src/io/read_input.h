@@ -31,7 +31,8 @@ constexpr std::size_t kMostUnpacked = std::size_t{4} << 30U;
 ///         throws
 FileContent read_input(const std::string& path, const HeadCheck& check_head = {});
 
-/// For files that are read again later, or are written to as well, such as states: a pipe would block, or be empty then.
+/// For files that are read again later, or are written to as well, such as states: a pipe would block, or be empty
+/// then.
 /// @throws IoError unless `path` is a regular file (or a link to one)
 void require_regular_file(const std::string& path);
 

@@ -145,7 +145,7 @@ MatrixState::MatrixState(std::string path, std::string sum) : path_(std::move(pa
     ::close(descriptor_);
     throw IoError(path_, "another process is writing this state file; wait for it, or name another output");
   }
-  remove_stale_temporaries(path_);
+  remove_leftovers(path_);
 }
 
 MatrixState::MatrixState(MatrixState&& other) noexcept

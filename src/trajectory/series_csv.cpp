@@ -1,71 +1,28 @@
-// series_csv.cpp: rows of a trajectory as text, and back.
+// series_csv.cpp: head and rows of a trajectory as text under a lock, and back.
 #include "trajectory/series_csv.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
-#include <cstdio>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "base/error.h"
 #include "compare/options.h"
 #include "io/atomic_file.h"
+#include "io/read_csv.h"
+#include "io/read_input.h"
 #include "io/sha256.h"
+#include "io/text_cursor.h"
 #include "io/write_csv.h"
-#include "report/metrics.h"
-#include "report/write_compare.h"
 
 namespace espdiff {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-/// A column, and where its value stands in OUT.json; "" where it is in none.
-struct Column {
-  std::string name, pointer;
-};
-
-/// The metrics of a series stand between what names the row and how it came about, those of the mapping after them;
-/// the potential's unit before the first metric of potentials.
-std::vector<Column> make_columns() {
-  std::vector<Column> all = {{"frame", ""}, {"reference_frame", ""}}, of_mapping;
-  bool has_unit = false;
-  for (const Metric& metric : metrics()) {
-    if ((metric.flags & kInSeries) == 0) continue;
-    const bool is_of_potential = metric.section == MetricSection::kPotential;
-    if (is_of_potential && !has_unit) all.push_back({"potential_unit", "/potential_unit"});
-    has_unit = has_unit || is_of_potential;
-    (metric.section == MetricSection::kMapping ? of_mapping : all).push_back({metric.name, metric.json_pointer()});
-  }
-  const auto add = [&all](const std::vector<Column>& more) { all.insert(all.end(), more.begin(), more.end()); };
-  add({{"converged", "/certificate/converged"}, {"trustworthy", "/certificate/trustworthy"}, {"start", "/start"}});
-  add(of_mapping);
-  add({{"time_ms", "/time_ms/total"}, {"reasons", "/certificate/reasons"}, {"error", ""}});
-  return all;
-}
-
-const std::vector<Column>& columns() {
-  static const std::vector<Column> all = make_columns();
-  return all;
-}
-
-/// A row is a line: what is not complete can be told by its end.
-std::string one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-  return text;
-}
-
-std::string cell_of(const Json& value) {
-  if (value.is_null()) return {};
-  if (value.is_boolean()) return value.get<bool>() ? "1" : "0";
-  if (value.is_string()) return one_line(value.get<std::string>());
-  if (!value.is_array()) return value.dump();
-  std::string text;
-  for (const Json& element : value) text += (text.empty() ? "" : "; ") + cell_of(element);
-  return text;
-}
 
 std::string line_of(const std::vector<std::string>& cells) {
   std::ostringstream line;
@@ -73,121 +30,121 @@ std::string line_of(const std::vector<std::string>& cells) {
   return line.str();
 }
 
-/// The cells of a line; none where a quote is not closed.
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells(1);
-  bool is_quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const char c = line[i];
-    if (c == '"') {
-      const bool is_doubled = is_quoted && i + 1 < line.size() && line[i + 1] == '"';
-      if (is_doubled) cells.back() += line[++i];
-      if (!is_doubled) is_quoted = !is_quoted;
-    } else if (c == ',' && !is_quoted) {
-      cells.emplace_back();
-    } else {
-      cells.back() += c;
-    }
-  }
-  if (is_quoted) cells.clear();
-  return cells;
-}
-
-std::size_t index_of(const std::string& column) {
-  const auto& names = series_columns();
-  const auto found = std::find(names.begin(), names.end(), column);
-  if (found == names.end()) throw Error(ErrorClass::kInternal, "a trajectory's rows have no column '" + column + "'");
-  return static_cast<std::size_t>(found - names.begin());
-}
-
 bool has_content(const std::string& path) {
   std::error_code ignored;
   return std::filesystem::exists(path, ignored) && std::filesystem::file_size(path, ignored) != 0;
 }
 
+/// Whether the open file is still the one of that name: another run may have removed it before it was locked.
+bool is_file_named(int descriptor, const std::string& path) {
+  struct stat open_file {};
+  struct stat named {};
+  return ::fstat(descriptor, &open_file) == 0 && ::stat(path.c_str(), &named) == 0 &&
+         open_file.st_ino == named.st_ino && open_file.st_dev == named.st_dev;
+}
+
+/// Every file begins with this.
+constexpr const char* kFirstWords = "# espdiff: ";
+
+/// As it is read back.
+std::string head_text(const std::string& text) { return std::string(trimmed(one_line(text))); }
+
+auto find(const SeriesHead& head, const std::string& name) {
+  return std::find_if(head.begin(), head.end(), [&](const auto& entry) { return entry.first == name; });
+}
+
+bool has_comments_only(const std::string& lines) {
+  std::istringstream in(lines);
+  for (std::string line; std::getline(in, line);) {
+    if (line.rfind('#', 0) != 0) return false;
+  }
+  return true;
+}
+
 }  // namespace
-
-const std::vector<std::string>& series_columns() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const Column& column : columns()) all.push_back(column.name);
-    return all;
-  }();
-  return names;
-}
-
-SeriesRow::SeriesRow(int frame, const std::string& reference, const Molecule& source, const Molecule& target,
-                     const CompareResult& result, const CompareOptions& options) {
-  const Json json = compare_json(source, target, result, options, {});
-  for (const Column& column : columns())
-    cells_.push_back(column.pointer.empty() ? std::string() : cell_of(json.at(Json::json_pointer(column.pointer))));
-  at("frame") = std::to_string(frame);
-  at("reference_frame") = one_line(reference);
-}
-
-SeriesRow::SeriesRow(int frame, const std::string& reference, const std::string& error)
-    : cells_(series_columns().size()) {
-  at("frame") = std::to_string(frame);
-  at("reference_frame") = one_line(reference);
-  at("error") = one_line(error);
-}
-
-const std::string& SeriesRow::operator[](const std::string& column) const { return cells_.at(index_of(column)); }
-std::string& SeriesRow::at(const std::string& column) { return cells_.at(index_of(column)); }
 
 SeriesCsv::SeriesCsv(std::string path, SeriesHead head, ExistingFile existing)
     : path_(std::move(path)), head_(std::move(head)) {
-  for (auto& entry : head_) entry.second = one_line(entry.second);
-  if (!has_content(path_) || existing == ExistingFile::kReplace) {
-    AtomicFile probe(path_);  // what cannot be written is better found before the first frame
-    replace_ = true;
-    return;
-  }
-  if (existing == ExistingFile::kRefuse)
+  for (auto& entry : head_) entry.second = head_text(entry.second);
+  if (has_content(path_) && existing == ExistingFile::kRefuse)
     throw IoError(path_, "the file exists; " + switched_on("resume") + " goes on with it, " + switched_on("overwrite") +
                              " replaces it");
-  read_rows();
+  { const AtomicFile probe(path_); }  // what cannot be written is better found before the first frame
+  open_and_lock();
+  try {
+    if (existing == ExistingFile::kResume && has_content(path_)) read_rows();
+  } catch (...) {
+    ::close(descriptor_);
+    throw;
+  }
 }
 
-void SeriesCsv::check_head(const std::string& name, const std::string& text) const {
-  const auto found = std::find_if(head_.begin(), head_.end(), [&](const auto& entry) { return entry.first == name; });
-  if (found == head_.end() || found->second == text) return;
-  throw InputError(path_ + ": was made with " + name + " '" + text + "', not with '" + found->second + "'; " +
-                   switched_on("overwrite") + " begins anew");
+void SeriesCsv::open_and_lock() {
+  for (;;) {
+    is_new_ = !std::filesystem::exists(path_);
+    descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) throw IoError(path_, std::string("cannot be written: ") + std::strerror(errno));
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      ::close(descriptor_);
+      throw IoError(path_, "another run is writing this file; wait for its end, or name another output");
+    }
+    if (is_file_named(descriptor_, path_)) return;
+    ::close(descriptor_);
+  }
+}
+
+SeriesCsv::SeriesCsv(SeriesCsv&& other) noexcept
+    : path_(std::move(other.path_)),
+      head_(std::move(other.head_)),
+      rows_(std::move(other.rows_)),
+      descriptor_(other.descriptor_),
+      has_head_(other.has_head_),
+      is_new_(other.is_new_) {
+  other.descriptor_ = -1;
+}
+
+SeriesCsv::~SeriesCsv() {
+  if (descriptor_ < 0) return;
+  if (is_new_ && !has_head_) ::unlink(path_.c_str());
+  ::close(descriptor_);
 }
 
 void SeriesCsv::read_rows() {
-  std::ifstream in(path_, std::ios::binary);
-  if (!in) throw IoError(path_, "cannot be read");
-  const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  bool has_columns = false;
-  std::size_t start = 0;
-  long number = 1;
-  // A last line without an end was being written when the run broke off.
-  for (std::size_t end; (end = text.find('\n', start)) != std::string::npos; start = end + 1, ++number) {
-    const std::string line = text.substr(start, end - start);
-    const std::size_t colon = line.find(": ");
-    if (line.rfind("# ", 0) == 0 && (colon != std::string::npos || line.back() == ':')) {
-      const bool has_text = colon != std::string::npos;
-      check_head(line.substr(2, (has_text ? colon : line.size() - 1) - 2), has_text ? line.substr(colon + 2) : "");
-    } else if (!has_columns) {
-      if (line + "\n" != line_of(series_columns()))
-        throw FormatError(path_, number, "this is not this version's line of columns; give another file");
-      has_columns = true;
-    } else {
-      std::vector<std::string> cells = cells_of(line);
-      if (cells.size() != series_columns().size())
-        throw FormatError(path_, number,
-                          "the row has " + std::to_string(cells.size()) + " columns instead of " +
-                              std::to_string(series_columns().size()));
-      rows_.emplace_back(std::move(cells));
-    }
+  const std::string text = read_text_file(path_);
+  // What follows the last line end was being written when the run broke off.
+  const std::string complete = text.substr(0, text.rfind('\n') + 1);
+  if (text.rfind(kFirstWords, 0) == 0 && has_comments_only(complete)) return;  // nothing but a part of the head
+  const CsvTable table = parse_csv(complete, path_);
+  if (table.columns != series_columns())
+    throw FormatError(path_, static_cast<long>(table.comments.size()) + 1,
+                      "this is not this version's line of columns; give another file");
+  SeriesHead in_file;
+  for (const std::string& comment : table.comments) {
+    const std::size_t colon = std::min(comment.find(':'), comment.size());
+    const std::string name = comment.substr(0, colon),
+                      value = colon + 2 < comment.size() ? comment.substr(colon + 2) : "";
+    const auto wanted = find(head_, name);
+    if (wanted != head_.end()) check_same(name, value, wanted->second);
+    in_file.emplace_back(name, value);
   }
-  replace_ = !has_columns;
-  if (replace_ || start == text.size()) return;
-  AtomicFile shortened(path_);
-  shortened.stream() << text.substr(0, start);
-  shortened.commit();
+  head_ = std::move(in_file);
+  for (const auto& cells : table.rows) rows_.emplace_back(cells);
+  has_head_ = true;
+  if (complete.size() < text.size() && ::ftruncate(descriptor_, static_cast<off_t>(complete.size())) != 0)
+    throw IoError(path_, std::string("the incomplete last row cannot be removed: ") + std::strerror(errno));
+}
+
+void SeriesCsv::check_same(const std::string& name, const std::string& in_file, const std::string& now) const {
+  if (in_file == now) return;
+  throw InputError(path_ + ": was made with " + name + " '" + in_file + "', not with '" + now + "'; " +
+                   switched_on("overwrite") + " begins anew");
+}
+
+void SeriesCsv::note(const std::string& name, const std::string& text) {
+  const std::string now = head_text(text);
+  const auto known = find(head_, name);
+  if (known != head_.end()) return check_same(name, known->second, now);
+  if (!has_head_) head_.emplace_back(name, now);
 }
 
 std::string SeriesCsv::fingerprint() const {
@@ -196,25 +153,27 @@ std::string SeriesCsv::fingerprint() const {
   return sha256_of(text);
 }
 
-void SeriesCsv::append(const std::string& text) const {
-  std::ofstream out(path_, std::ios::binary | std::ios::app);
-  out << text;
-  out.close();
-  if (!out)
-    throw IoError(path_, "cannot be written; is the disk full? " + switched_on("resume") +
-                             " goes on after the last complete row");
+void SeriesCsv::write(const std::string& text) {
+  for (std::size_t written = 0; written < text.size();) {
+    const ssize_t n = ::write(descriptor_, text.data() + written, text.size() - written);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0)
+      throw IoError(path_, std::string("a row cannot be written: ") + std::strerror(errno) + "; " +
+                               switched_on("resume") + " goes on after the last complete row");
+    written += static_cast<std::size_t>(n);
+  }
 }
 
 void SeriesCsv::add(const SeriesRow& row) {
-  if (replace_) {
-    AtomicFile file(path_);
-    for (const auto& [name, text] : head_) file.stream() << "# " << name << ": " << text << '\n';
-    file.stream() << line_of(series_columns()) << line_of(row.cells());
-    file.commit();
-    replace_ = false;
-  } else {
-    append(line_of(row.cells()));
+  std::string text;
+  if (!has_head_) {
+    for (const auto& [name, value] : head_) text += "# " + name + ": " + value + "\n";
+    text += line_of(series_columns());
+    if (::ftruncate(descriptor_, 0) != 0)
+      throw IoError(path_, std::string("the file cannot be replaced: ") + std::strerror(errno));
+    has_head_ = true;
   }
+  write(text + line_of(row.cells()));
   rows_.push_back(row);
 }
 

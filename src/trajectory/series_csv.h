@@ -1,43 +1,13 @@
-// series_csv.h: the CSV file of a trajectory: one row a frame, written as it is done, and read back to go on. The Tcl
-// command writes and reads the same (tcl/series_csv.tcl).
+// series_csv.h: the CSV file of a trajectory: one row a frame, written as it is done, and read back to be resumed.
 #pragma once
 
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "base/types.h"
+#include "trajectory/series_row.h"
 
 namespace espdiff {
-
-struct CompareOptions;
-struct CompareResult;
-
-/// Names of the columns, in order.
-const std::vector<std::string>& series_columns();
-
-/// One frame, by column; what has no value is empty. Numbers have all their digits.
-class SeriesRow {
- public:
-  /// What a comparison gave; values are those of OUT.json (compare_json()).
-  SeriesRow(int frame, const std::string& reference, const Molecule& source, const Molecule& target,
-            const CompareResult& result, const CompareOptions& options);
-  /// Why a frame has no numbers.
-  SeriesRow(int frame, const std::string& reference, const std::string& error);
-  /// @param cells one a column
-  explicit SeriesRow(std::vector<std::string> cells) : cells_(std::move(cells)) {}
-
-  const std::string& operator[](const std::string& column) const;
-  const std::vector<std::string>& cells() const { return cells_; }
-
-  /// Whether the mapping of the frame after may begin at this one's.
-  bool has_mapping() const { return (*this)["error"].empty() && (*this)["converged"] == "1"; }
-
- private:
-  std::string& at(const std::string& column);
-
-  std::vector<std::string> cells_;
-};
 
 /// What the rows depend on, by name; each stands in the file as `# NAME: TEXT`.
 using SeriesHead = std::vector<std::pair<std::string, std::string>>;
@@ -45,13 +15,18 @@ using SeriesHead = std::vector<std::pair<std::string, std::string>>;
 /// How to treat a file that is there already.
 enum class ExistingFile { kRefuse, kResume, kReplace };
 
-/// The file. It is there from its first row on; every row is on disk when add() returns.
+/// The file, locked: one run at a time writes it. It is empty until its first row; every row is in the file when add()
+/// returns, whatever happens to the process then.
 class SeriesCsv {
  public:
   /// @param head what this run's rows depend on. To be resumed, a file must say the same wherever it names the same.
-  /// @throws IoError (the file exists, or cannot be written), FormatError (another file, a damaged line),
-  ///         InputError (made with something else; says what)
+  /// @throws IoError (the file exists, cannot be written, or another run is writing it), FormatError (another file, a
+  ///         damaged line), InputError (made with something else; says what)
   SeriesCsv(std::string path, SeriesHead head, ExistingFile existing);
+  SeriesCsv(SeriesCsv&& other) noexcept;
+  SeriesCsv& operator=(SeriesCsv&&) = delete;
+  /// Removes a file that got no row.
+  ~SeriesCsv();
 
   const std::string& path() const { return path_; }
   /// Rows in the file: those of an earlier run, and those added.
@@ -59,18 +34,24 @@ class SeriesCsv {
   /// Of what the rows depend on.
   std::string fingerprint() const;
 
+  /// Adds to the head what is known only after the file was opened; a file that is resumed must say the same.
+  /// @throws InputError (it says something else)
+  void note(const std::string& name, const std::string& text);
   /// @throws IoError
   void add(const SeriesRow& row);
 
  private:
+  void open_and_lock();
   void read_rows();
-  void check_head(const std::string& name, const std::string& text) const;
-  void append(const std::string& text) const;
+  void check_same(const std::string& name, const std::string& in_file, const std::string& now) const;
+  void write(const std::string& text);
 
   std::string path_;
   SeriesHead head_;
   std::vector<SeriesRow> rows_;
-  bool replace_ = false;
+  int descriptor_ = -1;
+  bool has_head_ = false;  ///< the file begins with this run's head
+  bool is_new_ = false;    ///< it was not there
 };
 
 }  // namespace espdiff

@@ -1,9 +1,10 @@
-// series_file.cpp: the state of a series as a file.
+// series_file.cpp: the state of a series as CBOR (RFC 8949): its arrays as byte strings, the rest by name.
 #include "trajectory/series_file.h"
 
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "base/error.h"
@@ -13,160 +14,147 @@
 namespace espdiff {
 namespace {
 
-constexpr const char* kTag = "espdiff series state 2\n";
-constexpr const char* kAnyTag = "espdiff series state ";
-constexpr std::size_t kHashDigits = 64;
+using Json = nlohmann::json;
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr const char* kFormat = "espdiff series state";
+constexpr int kVersion = 3;
 
 template <typename T>
-void append(std::string& bytes, const T* values, std::size_t n) {
-  bytes.append(reinterpret_cast<const char*>(values), n * sizeof(T));
+Json binary(const std::vector<T>& values) {
+  Bytes bytes(values.size() * sizeof(T));
+  if (!bytes.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
+  return Json::binary(std::move(bytes));
 }
 
 template <typename T>
-void append_counted(std::string& bytes, const T& values) {
-  const std::uint64_t n = values.size();
-  append(bytes, &n, 1);
-  append(bytes, values.data(), values.size());
+std::vector<T> array_of(const Json& json) {
+  const Bytes& bytes = json.get_binary();
+  if (bytes.size() % sizeof(T) != 0) throw std::out_of_range("array");
+  std::vector<T> values(bytes.size() / sizeof(T));
+  if (!values.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
+  return values;
 }
 
 /// What a later step needs of a molecule: what pairs its atoms, and where they are.
-void append_molecule(std::string& bytes, const Molecule& molecule) {
-  append_counted(bytes, molecule.name);
-  append_counted(bytes, molecule.positions);
-  append_counted(bytes, molecule.radii);
-  for (const Atom& atom : molecule.atoms) {
-    append_counted(bytes, atom.name);
-    append_counted(bytes, atom.element);
-    const std::int32_t numbers[] = {atom.residue, atom.hetero ? 1 : 0};
-    append(bytes, numbers, 2);
-  }
-  const std::uint64_t n_residues = molecule.residues.size();
-  append(bytes, &n_residues, 1);
-  for (const Residue& residue : molecule.residues) {
-    append_counted(bytes, residue.name);
-    append_counted(bytes, residue.chain);
-    append(bytes, &residue.number, 1);
-    append(bytes, &residue.insertion_code, 1);
-  }
+Json molecule_json(const Molecule& molecule) {
+  Json atoms = Json::array(), residues = Json::array();
+  for (const Atom& a : molecule.atoms) atoms.push_back({a.name, a.element, a.residue, a.hetero});
+  for (const Residue& r : molecule.residues)
+    residues.push_back({r.name, r.chain, r.number, static_cast<int>(r.insertion_code)});
+  return {{"name", molecule.name},
+          {"positions", binary(molecule.positions)},
+          {"radii", binary(molecule.radii)},
+          {"atoms", std::move(atoms)},
+          {"residues", std::move(residues)}};
 }
 
-/// Takes values off the front of what is left of a file.
-class Reader {
- public:
-  Reader(const std::string& path, const std::string& bytes) : path_(path), bytes_(bytes) {}
-
-  template <typename T>
-  std::vector<T> take(std::size_t n) {
-    if (n > (bytes_.size() - at_) / sizeof(T)) throw damaged(path_);
-    std::vector<T> values(n);
-    if (n > 0) std::memcpy(values.data(), bytes_.data() + at_, n * sizeof(T));
-    at_ += n * sizeof(T);
-    return values;
-  }
-  std::size_t take_count() { return static_cast<std::size_t>(take<std::uint64_t>(1)[0]); }
-  template <typename T>
-  std::vector<T> take_counted() {
-    return take<T>(take_count());
-  }
-  std::string take_text() {
-    const std::vector<char> text = take_counted<char>();
-    return {text.begin(), text.end()};
-  }
-  bool at_end() const { return at_ == bytes_.size(); }
-
-  static FormatError damaged(const std::string& path) {
-    return FormatError(path, 0, "the saved state is damaged or cut off; delete it, and the run starts from the source");
-  }
-
- private:
-  const std::string& path_;
-  const std::string& bytes_;
-  std::size_t at_ = 0;
-};
-
-Molecule take_molecule(Reader& reader) {
+Molecule molecule_of(const Json& json) {
   Molecule molecule;
-  molecule.name = reader.take_text();
-  molecule.positions = reader.take_counted<Vec3d>();
-  molecule.radii = reader.take_counted<float>();
-  for (std::size_t i = 0; i < molecule.size(); ++i) {
+  json.at("name").get_to(molecule.name);
+  molecule.positions = array_of<Vec3d>(json.at("positions"));
+  molecule.radii = array_of<float>(json.at("radii"));
+  for (const Json& a : json.at("atoms")) {
     Atom atom;
-    atom.name = reader.take_text();
-    atom.element = reader.take_text();
-    const auto numbers = reader.take<std::int32_t>(2);
-    atom.residue = numbers[0];
-    atom.hetero = numbers[1] != 0;
+    a.at(0).get_to(atom.name);
+    a.at(1).get_to(atom.element);
+    a.at(2).get_to(atom.residue);
+    a.at(3).get_to(atom.hetero);
     molecule.atoms.push_back(std::move(atom));
   }
-  for (std::size_t n = reader.take_count(); n > 0; --n) {
+  for (const Json& r : json.at("residues")) {
     Residue residue;
-    residue.name = reader.take_text();
-    residue.chain = reader.take_text();
-    residue.number = reader.take<std::int32_t>(1)[0];
-    residue.insertion_code = reader.take<char>(1)[0];
+    r.at(0).get_to(residue.name);
+    r.at(1).get_to(residue.chain);
+    r.at(2).get_to(residue.number);
+    residue.insertion_code = static_cast<char>(r.at(3).get<int>());
     molecule.residues.push_back(std::move(residue));
   }
   return molecule;
 }
 
+Json state_json(const SeriesState& state) {
+  Json json = {{"mapped", binary(state.mapped)}, {"target", binary(state.target)}};
+  if (state.morph)
+    json["morph"] = {{"source", binary(state.morph->source)},
+                     {"triangles", binary(state.morph->triangles)},
+                     {"unmatched", binary(state.morph->unmatched)},
+                     {"path_length", binary(state.morph->path_length)},
+                     {"target", molecule_json(state.morph->target)},
+                     {"unmatched_share", state.morph->unmatched_share},
+                     {"unmatched_share_at_start", state.morph->unmatched_share_at_start}};
+  return json;
+}
+
+SeriesState state_of(const Json& json) {
+  SeriesState state;
+  state.mapped = array_of<Vec3f>(json.at("mapped"));
+  state.target = array_of<Vec3d>(json.at("target"));
+  const auto morph = json.find("morph");
+  if (morph == json.end()) return state;
+  state.morph = SeriesState::Morph{array_of<Vec3f>(morph->at("source")),
+                                   array_of<Triangle>(morph->at("triangles")),
+                                   array_of<float>(morph->at("unmatched")),
+                                   array_of<float>(morph->at("path_length")),
+                                   molecule_of(morph->at("target")),
+                                   morph->at("unmatched_share").get<double>(),
+                                   morph->at("unmatched_share_at_start").get<double>()};
+  return state;
+}
+
+std::string hash_of(const Bytes& bytes) {
+  Sha256 hash;
+  hash.update(bytes.data(), bytes.size());
+  return hash.finish();
+}
+
+FormatError damaged(const std::string& path) {
+  return FormatError(path, 0, "the saved state is damaged or cut off; delete it, and the run starts from the source");
+}
+
+std::string read_all(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw IoError(path, "cannot be read; without it the run starts from the source");
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
 }  // namespace
 
 void write_series_state(const std::string& path, const SeriesState& state, const std::string& fingerprint) {
-  std::string bytes = kTag + fingerprint + '\n';
-  append_counted(bytes, state.mapped);
-  append_counted(bytes, state.target);
-  bytes += state.morph ? 'm' : 'd';
-  if (state.morph) {
-    append_counted(bytes, state.morph->source);
-    append_counted(bytes, state.morph->triangles);
-    append_counted(bytes, state.morph->unmatched);
-    append_counted(bytes, state.morph->path_length);
-    append_molecule(bytes, state.morph->target);
-    append(bytes, &state.morph->unmatched_share, 1);
-    append(bytes, &state.morph->unmatched_share_at_start, 1);
-  }
+  Bytes content = Json::to_cbor(state_json(state));
+  const std::string hash = hash_of(content);
+  const Bytes bytes = Json::to_cbor({{"format", kFormat},
+                                     {"version", kVersion},
+                                     {"fingerprint", fingerprint},
+                                     {"sha256", hash},
+                                     {"state", Json::binary(std::move(content))}});
   AtomicFile file(path);
-  file.stream() << bytes << sha256_of(bytes);
+  file.stream().write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   file.commit();
 }
 
 SeriesState read_series_state(const std::string& path, const std::string& fingerprint) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw IoError(path, "cannot be read; without it the run starts from the source");
-  std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  if (bytes.size() < kHashDigits) throw Reader::damaged(path);
-  const std::string hash = bytes.substr(bytes.size() - kHashDigits);
-  bytes.resize(bytes.size() - kHashDigits);
-  if (sha256_of(bytes) != hash || bytes.compare(0, std::strlen(kAnyTag), kAnyTag) != 0) throw Reader::damaged(path);
-  if (bytes.compare(0, std::strlen(kTag), kTag) != 0)
-    throw FormatError(path, 0,
-                      "the saved state was written by another version of espdiff; delete it, and the run starts from "
-                      "the source");
-
-  const std::size_t line = std::strlen(kTag), end = bytes.find('\n', line);
-  if (end == std::string::npos) throw Reader::damaged(path);
-  const std::string found = bytes.substr(line, end - line);
-  if (found != fingerprint)
-    throw InputError(path + ": the saved state is of another run (" + found + " instead of " + fingerprint +
-                     "); delete it, and the run starts from the source");
-  const std::string rest = bytes.substr(end + 1);
-  Reader reader(path, rest);
-  SeriesState state;
-  state.mapped = reader.take_counted<Vec3f>();
-  state.target = reader.take_counted<Vec3d>();
-  if (reader.take<char>(1)[0] == 'm') {
-    SeriesState::Morph morph;
-    morph.source = reader.take_counted<Vec3f>();
-    morph.triangles = reader.take_counted<Triangle>();
-    morph.unmatched = reader.take_counted<float>();
-    morph.path_length = reader.take_counted<float>();
-    morph.target = take_molecule(reader);
-    morph.unmatched_share = reader.take<double>(1)[0];
-    morph.unmatched_share_at_start = reader.take<double>(1)[0];
-    state.morph = std::move(morph);
+  const std::string bytes = read_all(path);
+  const FormatError other_version(path, 0,
+                                  "the saved state was written by another version of espdiff; delete it, and the run "
+                                  "starts from the source");
+  if (bytes.rfind(kFormat, 0) == 0) throw other_version;  // versions 1 and 2 began with these words
+  try {
+    const Json json = Json::from_cbor(bytes);
+    if (json.at("format") != kFormat) throw damaged(path);
+    if (json.at("version") != kVersion) throw other_version;
+    const auto found = json.at("fingerprint").get<std::string>();
+    if (found != fingerprint)
+      throw InputError(path + ": the saved state is of another run (" + found + " instead of " + fingerprint +
+                       "); delete it, and the run starts from the source");
+    const Bytes& content = json.at("state").get_binary();
+    if (hash_of(content) != json.at("sha256")) throw damaged(path);
+    return state_of(Json::from_cbor(content));
+  } catch (const nlohmann::json::exception&) {
+    throw damaged(path);
+  } catch (const std::out_of_range&) {
+    throw damaged(path);
   }
-  if (!reader.at_end()) throw Reader::damaged(path);
-  return state;
 }
 
 }  // namespace espdiff

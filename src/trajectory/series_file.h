@@ -8,8 +8,8 @@
 namespace espdiff {
 
 /// Writes the state in place of an older one; the file is complete or as it was before.
-/// Binary, in the machine's own number format: a tag with the format's version, the fingerprint, each array after its
-/// count, and the SHA-256 of all that. By the morph it takes about 60 bytes a vertex and 80 an atom.
+/// CBOR: the format's name and version, the fingerprint, and the state with its SHA-256. Arrays are byte strings in the
+/// machine's own number format. By the morph it takes about 60 bytes a vertex and 50 an atom.
 /// @param fingerprint what the state belongs to, in one line: read_series_state() wants the same
 /// @throws IoError
 void write_series_state(const std::string& path, const SeriesState& state, const std::string& fingerprint);

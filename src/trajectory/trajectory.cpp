@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <optional>
 #include <utility>
 
-#include "base/error.h"
+#include "io/atomic_file.h"
 #include "io/text_cursor.h"
 #include "trajectory/series_file.h"
 
@@ -22,140 +21,197 @@ bool same_cell(const std::string& then, const std::string& now) {
   return parse_number(then, a) && parse_number(now, b) && std::fabs(a - b) <= kRelative * std::fabs(a) + kAbsolute;
 }
 
-class Run {
- public:
-  Run(Engine& engine, const Trajectory& run, SeriesCsv& file, const Progress& progress)
-      : run_(run), file_(file), outer_(progress), series_(engine, run.source, run.options) {}
-
-  TrajectorySummary go(const std::function<void(const std::string&)>& warn) {
-    if (run_.options.offsets_A.size() > 1)
-      throw InputError(option("offset") +
-                       ": a list of distances was given, and a trajectory has one row for a frame; give one");
-    summary_.n_frames = run_.frames.size();
-    summary_.n_resumed = file_.rows().size();
-    check_earlier_rows();
-    position_ = file_.rows().size();
-    if (position_ == 0) remove_state();
-    if (position_ > 0 && position_ < run_.frames.size()) restore_mapping(warn);
-    for (; position_ < run_.frames.size(); ++position_) step();
-    remove_state();
-    return summary_;
-  }
-
- private:
-  std::string state_path() const { return file_.path() + ".state"; }
-  void remove_state() const { std::remove(state_path().c_str()); }
-  std::string state_fingerprint(const std::string& frame) const { return "frame " + frame + " " + file_.fingerprint(); }
-
-  bool saves_mappings() const { return run_.start == StartFrom::kPrevious; }
-
-  void check_earlier_rows() const {
-    const auto& rows = file_.rows();
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const bool is_beyond = i >= run_.frames.size();
-      if (!is_beyond && rows[i]["frame"] == std::to_string(run_.frames[i])) continue;
-      throw InputError(file_.path() + ": row " + std::to_string(i + 1) + " is of frame " + rows[i]["frame"] + ", " +
-                       (is_beyond ? std::string("beyond the run") : "not of " + std::to_string(run_.frames[i])) + "; " +
-                       switched_on("overwrite") + " begins anew");
+std::vector<TrajectoryStep> steps_of(const TrajectoryPlan& plan) {
+  std::vector<TrajectoryStep> steps;
+  std::optional<int> previous;
+  for (const int frame : plan.frames) {
+    if (!plan.against_previous) {
+      steps.push_back({frame, std::nullopt, plan.reference});
+    } else if (previous) {
+      steps.push_back({frame, previous, std::to_string(*previous)});
     }
+    previous = frame;
   }
+  if (steps.empty())
+    throw InputError(plan.against_previous ? option("reference", "previous") + " needs two frames or more"
+                                           : Message("there are no frames to compare"));
+  return steps;
+}
 
-  void restore_mapping_of(const SeriesRow& row) {
-    series_.restore(read_series_state(state_path(), state_fingerprint(row["frame"])));
+/// What goes wrong with a frame, but for a cancellation.
+template <typename Work>
+std::optional<Error> error_of(Work work) {
+  try {
+    work();
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const Error& error) {
+    return error;
   }
+  return std::nullopt;
+}
 
-  void restore_mapping(const std::function<void(const std::string&)>& warn) {
-    const auto& rows = file_.rows();
-    if (!saves_mappings() || !rows.back().has_mapping()) return;
-    std::string reason;
-    try {
-      return restore_mapping_of(rows.back());
-    } catch (const Error& error) {
-      reason = error.what();
-    }
-    // Interrupted between a row and its mapping, the state is that of the row before: the last one is computed again.
-    try {
-      if (rows.size() < 2 || !rows[rows.size() - 2].has_mapping()) throw InputError("there is no mapping before it");
-      restore_mapping_of(rows[rows.size() - 2]);
-      --position_;
-    } catch (const Error&) {
-      warn("the mapping of frame " + rows.back()["frame"] +
-           " is missing, the next one starts from the source: " + reason);
-    }
-  }
-
-  void step() {
-    const int frame = run_.frames[position_];
-    try {
-      end_step(compare_frame(frame));
-    } catch (const Cancelled&) {
-      throw Error(ErrorClass::kCancelled, "cancelled after " + std::to_string(file_.rows().size()) + " of " +
-                                              std::to_string(run_.frames.size()) + " rows; " + switched_on("resume") +
-                                              " goes on with " + file_.path());
-    }
-  }
-
-  /// After a frame without numbers from the source, as a run does that is resumed there.
-  StartFrom start_of_step() const {
-    const bool follows_error = position_ > 0 && !file_.rows()[position_ - 1]["error"].empty();
-    return follows_error ? StartFrom::kSource : run_.start;
-  }
-
-  SeriesRow compare_frame(int frame) {
-    // The share is the whole run's; each stage of a frame begins at 0 again.
-    const double n = static_cast<double>(run_.frames.size());
-    const Progress inner([&](const std::string& stage, double fraction) {
-      share_ = std::max(share_, (static_cast<double>(position_) + fraction) / n);
-      outer_.report(std::to_string(frame) + ": " + stage, share_);
-    });
-    inner.report("read", 0.0);
-    try {
-      const FrameInput input = run_.frame(frame);
-      const CompareResult result = series_.step({&input.molecule, input.map, input.make_map}, start_of_step(), inner);
-      return {frame, run_.reference, *run_.source.molecule, input.molecule, result, run_.options};
-    } catch (const Cancelled&) {
-      throw;
-    } catch (const Error& error) {
-      if (!run_.skip_errors)
-        throw Error(error.error_class(), "frame " + std::to_string(frame) + ": " + error.message());
-      ++summary_.n_skipped;
-      return {frame, run_.reference, error.what()};
-    }
-  }
-
-  void end_step(const SeriesRow& row) {
-    if (position_ < file_.rows().size()) return compare_again(row);
-    file_.add(row);
-    ++summary_.n_rows;
-    if (!saves_mappings() || !row["error"].empty()) return;
-    if (const auto state = series_.state()) write_series_state(state_path(), *state, state_fingerprint(row["frame"]));
-  }
-
-  /// A row that is computed again must come out as it stands, or the rows would not belong together.
-  void compare_again(const SeriesRow& row) const {
-    const SeriesRow& earlier = file_.rows()[position_];
-    for (const char* column : {"rmsd_A", "mean_displacement_A", "mean_abs_difference"}) {
-      if (same_cell(earlier[column], row[column])) continue;
-      throw InputError("frame " + row["frame"] + " now has " + column + " '" + row[column] + "' instead of '" +
-                       earlier[column] + "' in " + file_.path() + ": its input has changed; " +
-                       switched_on("overwrite") + " begins anew");
-    }
-  }
-
-  const Trajectory& run_;
-  SeriesCsv& file_;
-  const Progress& outer_;
-  Series series_;
-  TrajectorySummary summary_;
-  std::size_t position_ = 0;
-  double share_ = 0;
-};
+std::string in_front(int frame) { return "frame " + std::to_string(frame) + ": "; }
 
 }  // namespace
 
-TrajectorySummary compare_frames(Engine& engine, const Trajectory& run, SeriesCsv& file, const Progress& progress,
-                                 const std::function<void(const std::string&)>& warn) {
-  return Run(engine, run, file, progress).go(warn);
+StartFrom usual_start(const CompareOptions& options) {
+  return options.method == Method::kMorph ? StartFrom::kSource : StartFrom::kPrevious;
+}
+
+StartFrom parse_start(const std::string& text, const CompareOptions& options) {
+  if (text == "auto") return usual_start(options);
+  if (text == "previous") return StartFrom::kPrevious;
+  if (text == "source") return StartFrom::kSource;
+  throw InputError("start: '" + text + "' is not auto, previous or source");
+}
+
+TrajectoryRun::TrajectoryRun(TrajectoryPlan plan, SeriesCsv file)
+    : plan_(std::move(plan)), file_(std::move(file)), steps_(steps_of(plan_)) {
+  if (plan_.options.offsets_A.size() > 1)
+    throw InputError(option("offset") +
+                     ": a list of distances was given, and a trajectory has one row for a frame; give one");
+  check_earlier_rows();
+  position_ = n_resumed_ = file_.rows().size();
+  remove_leftovers(state_path());  // what a killed run was writing; nobody else is, since the file is locked
+  if (position_ == 0 || is_done()) {
+    remove_state();
+  } else {
+    restore_mapping();
+  }
+}
+
+TrajectorySummary TrajectoryRun::summary() const {
+  return {steps_.size(), file_.rows().size() - n_resumed_, n_skipped_, n_resumed_};
+}
+
+void TrajectoryRun::check_earlier_rows() const {
+  const auto& rows = file_.rows();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const bool is_beyond = i >= steps_.size();
+    if (!is_beyond && rows[i]["frame"] == std::to_string(steps_[i].frame)) continue;
+    throw InputError(file_.path() + ": row " + std::to_string(i + 1) + " is of frame " + rows[i]["frame"] + ", " +
+                     (is_beyond ? std::string("beyond the run") : "not of " + std::to_string(steps_[i].frame)) + "; " +
+                     switched_on("overwrite") + " begins anew");
+  }
+}
+
+bool TrajectoryRun::keeps_mappings() const { return plan_.start == StartFrom::kPrevious && !plan_.against_previous; }
+
+void TrajectoryRun::remove_state() const { std::remove(state_path().c_str()); }
+
+std::string TrajectoryRun::state_fingerprint(const std::string& frame) const {
+  return "frame " + frame + " " + file_.fingerprint();
+}
+
+SeriesState TrajectoryRun::read_mapping_of(const SeriesRow& row) const {
+  return read_series_state(state_path(), state_fingerprint(row["frame"]));
+}
+
+void TrajectoryRun::restore_mapping() {
+  const auto& rows = file_.rows();
+  if (!keeps_mappings() || !rows.back().has_mapping()) return;
+  std::string reason;
+  try {
+    restored_ = read_mapping_of(rows.back());
+    return;
+  } catch (const Error& error) {
+    reason = error.what();
+  }
+  // Interrupted between a row and its mapping, the state is that of the row before: the last one is computed again.
+  try {
+    if (rows.size() < 2 || !rows[rows.size() - 2].has_mapping()) throw InputError("there is no mapping before it");
+    restored_ = read_mapping_of(rows[rows.size() - 2]);
+    --position_;
+  } catch (const Error&) {
+    warning_ =
+        "the mapping of frame " + rows.back()["frame"] + " is missing, the next one starts from the source: " + reason;
+  }
+}
+
+void TrajectoryRun::note_inputs(const std::vector<InputFile>& inputs) {
+  if (plan_.against_previous) return;
+  for (const InputFile& input : inputs) file_.note(input.role + "_sha256", input.sha256);
+}
+
+Error TrajectoryRun::cancelled() const {
+  return {ErrorClass::kCancelled, "cancelled after " + std::to_string(file_.rows().size()) + " of " +
+                                      std::to_string(steps_.size()) + " rows; " + switched_on("resume") +
+                                      " goes on with " + file_.path()};
+}
+
+const SeriesRow* TrajectoryRun::step(Engine& engine, const std::function<StepInput()>& read, const Progress& progress) {
+  // The share is the whole run's; each stage of a frame begins at 0 again.
+  const Progress inner([&](const std::string& stage, double fraction) {
+    share_ = std::max(share_, (static_cast<double>(position_) + fraction) / static_cast<double>(steps_.size()));
+    progress.report(in_front(next().frame) + stage, share_);
+  });
+  try {
+    StepInput input;
+    const auto unread = error_of([&] {
+      inner.report("read", 0.0);
+      input = read();
+    });
+    if (unread) return skip(*unread);
+    note_inputs(input.inputs);
+    std::optional<SeriesRow> row;
+    const auto failed = error_of([&] { row = compare(engine, input, inner); });
+    return failed ? skip(*failed) : end_step(*row);
+  } catch (const Cancelled&) {
+    throw cancelled();
+  }
+}
+
+const SeriesRow* TrajectoryRun::skip(const Error& why) {
+  const TrajectoryStep& step = next();
+  if (!plan_.skip_errors) throw Error(why.error_class(), in_front(step.frame) + why.message());
+  ++n_skipped_;
+  return end_step({step.frame, step.reference, why.what()});
+}
+
+/// After a frame without numbers from the source, as a run does that is resumed there.
+StartFrom TrajectoryRun::start_of_step() const {
+  const bool follows_error = position_ > 0 && !file_.rows()[position_ - 1]["error"].empty();
+  return follows_error || plan_.against_previous ? StartFrom::kSource : plan_.start;
+}
+
+SeriesRow TrajectoryRun::compare(Engine& engine, const StepInput& input, const Progress& progress) {
+  if (series_ == nullptr || plan_.against_previous)
+    series_ = std::make_unique<Series>(engine, input.source, plan_.options);
+  if (restored_) series_->restore(std::move(*restored_));
+  restored_.reset();
+  const CompareResult result = series_->step(input.target, start_of_step(), progress);
+  return {next().frame, next().reference, *input.source.molecule, *input.target.molecule, result, plan_.options};
+}
+
+/// The row is in the file before its mapping is, and both before the next step begins.
+const SeriesRow* TrajectoryRun::end_step(const SeriesRow& row) {
+  const bool is_there = position_ < file_.rows().size(), is_last = position_ + 1 == steps_.size();
+  if (is_there) {
+    compare_again(row);
+  } else {
+    file_.add(row);
+    const auto state =
+        keeps_mappings() && !is_last && row["error"].empty() ? series_->state() : std::optional<SeriesState>();
+    if (state) write_series_state(state_path(), *state, state_fingerprint(row["frame"]));
+  }
+  ++position_;
+  if (is_last) {
+    remove_state();
+    series_.reset();
+  }
+  return is_there ? nullptr : &file_.rows().back();
+}
+
+/// A row that is computed again must come out as it stands, or the rows would not belong together.
+void TrajectoryRun::compare_again(const SeriesRow& row) const {
+  const SeriesRow& earlier = file_.rows()[position_];
+  for (const char* column : {"rmsd_A", "mean_displacement_A", "mean_abs_difference"}) {
+    if (same_cell(earlier[column], row[column])) continue;
+    throw InputError("frame " + row["frame"] + " now has " + column + " '" + row[column] + "' instead of '" +
+                     earlier[column] + "' in " + file_.path() + ": its input has changed; " + switched_on("overwrite") +
+                     " begins anew");
+  }
 }
 
 }  // namespace espdiff

@@ -60,7 +60,8 @@ namespace eval ::espdiff::gui {
         ttk::entry $path.sel -textvariable ::espdiff::gui::form(matrix,sel) -width 14
         button $path.add "Add molecule" ::espdiff::gui::add_molecule
         tip $path.mol "A molecule that is loaded in VMD"
-        tip $path.frames "Frames: now, a number from 0, or begin:step:end, such as 0:10: for every tenth"
+        tip $path.frames "Frames: now, all, a number from 0, begin:end or begin:step:end, such as\
+            0:10:end for every tenth"
         tip $path.sel "VMD selection of the atoms of the surface, such as: protein"
         ttk::label $path.frames_label -text frames
         ttk::label $path.sel_label -text atoms
@@ -155,9 +156,7 @@ namespace eval ::espdiff::gui {
         set mol [number_of $form(matrix,mol)]
         if {$mol eq ""} { error "no molecule is chosen; load one into VMD" }
         set name [file rootname [molinfo $mol get name]]
-        set frames [::espdiff::parse_frames [string trim $form(matrix,frames)] [molinfo $mol get numframes] \
-            [molinfo $mol get frame] "molecule $form(matrix,mol)"]
-        foreach frame $frames {
+        foreach frame [::espdiff::vmd_frames $mol [string trim $form(matrix,frames)] Frames] {
             set endpoint [list mol $mol frame $frame]
             if {$form(matrix,sel) ne "not water"} { lappend endpoint sel $form(matrix,sel) }
             set label [expr {[molinfo $mol get numframes] == 1 ? $name : "$name:$frame"}]
@@ -176,7 +175,7 @@ namespace eval ::espdiff::gui {
     proc add_files {paths} {
         foreach path $paths {
             set name [file rootname [file tail $path]]
-            set n [::espdiff::number_of_models $path]
+            set n [::espdiff::core::models [::espdiff::existing_file $path variants]]
             for {set model 1} {$model <= $n} {incr model} {
                 add_variant [expr {$n == 1 ? [list file $path] : [list file $path model $model]}] \
                     [expr {$n == 1 ? $name : "$name:$model"}] \

@@ -285,9 +285,9 @@ namespace eval ::espdiff::gui {
         variable residue_rows
         set rows [sorted_residues]
         set columns [dict keys [lindex $rows 0]]
-        set text "# [side_titles], potentials in [potential_unit]\n[::espdiff::csv_line $columns]\n"
-        foreach row $rows { append text [::espdiff::csv_line [dict values $row]]\n }
-        write_whole_file $path $text
+        set lines [list $columns]
+        foreach row $rows { lappend lines [dict values $row] }
+        write_whole_file $path "# [side_titles], potentials in [potential_unit]\n[::espdiff::core::csv_text $lines]"
         tell_in residues "Written: $path ([llength $rows] residues)"
     }
 

@@ -2,7 +2,7 @@
 
 namespace eval ::espdiff::gui {
     variable form
-    array set form {trajectory,mol "" trajectory,file "" trajectory,sel "not water" trajectory,frames 0:1:
+    array set form {trajectory,mol "" trajectory,file "" trajectory,sel "not water" trajectory,frames all
         trajectory,against "the frame" trajectory,reference 0 trajectory,map automatic trajectory,unit "as the map says"
         trajectory,csv trajectory.csv trajectory,resume 0 trajectory,skip 0
         trajectory,steps 0}
@@ -56,7 +56,8 @@ namespace eval ::espdiff::gui {
         variable widget
         variable references
         ttk::entry $path.frames -textvariable ::espdiff::gui::form(trajectory,frames) -width 16
-        form_row $path 1 Frames $path.frames "begin:step:end, such as 0:10: for every tenth up to the last one"
+        form_row $path 1 Frames $path.frames "all, a frame, begin:end or begin:step:end, such as 0:10:end for every\
+            tenth up to the last one"
         ttk::frame $path.against
         ttk::combobox $path.against.what -textvariable ::espdiff::gui::form(trajectory,against) -state readonly \
             -width 13 -values $references

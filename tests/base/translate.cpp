@@ -50,8 +50,8 @@ TEST_CASE("lack of memory is told with a remedy, also where a container says it"
 }
 
 TEST_CASE("a thread that cannot be made, and mistakes of ours") {
-  const Error threads = translation_of(
-      [] { throw std::system_error(std::make_error_code(std::errc::resource_unavailable_try_again)); });
+  const Error threads =
+      translation_of([] { throw std::system_error(std::make_error_code(std::errc::resource_unavailable_try_again)); });
   CHECK(threads.error_class() == ErrorClass::kDevice);
   CHECK(std::string(threads.what()).find("the system refused: Resource temporarily unavailable; close") == 0);
   const Error mistake = translation_of([] { std::vector<int>().at(3) = 1; });

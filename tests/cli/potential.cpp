@@ -130,7 +130,7 @@ TEST_CASE("potential: wrong input gives one line and leaves nothing") {
   };
   for (const Case& c : {Case{no_charge, "every atom has charge 0, and a potential needs them; give a PQR file"},
                         {plain, "has no charges"},
-                        {molecule + " --frames 2", "not among the 2 that there are"},
+                        {molecule + " --frames 2", "frame 2 is not among the frames 0 to 1"},
                         {molecule + " --cell '0 0 0'", "has 3 numbers; give twelve"},
                         {molecule + " --cell '0 0 0 10 0 0 0 10 0 0 0 -10'", "must be positive"},
                         {molecule + " --cell '0 0 0 10 0 0 20 0 0 0 0 10'", "span a volume of 0.000000"},

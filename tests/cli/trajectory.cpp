@@ -1,5 +1,8 @@
 // trajectory.cpp: `espdiff trajectory`: frames of files, values taken from the source, computed potentials, resuming.
 #include <doctest/doctest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -148,6 +151,52 @@ TEST_CASE("trajectory: maps of files, resuming, replacing") {
   CHECK(folder.n_files() == 5);
 }
 
+namespace {
+
+/// A run of its own, which goes on while the test looks at its file.
+pid_t start_run(const std::string& arguments) {
+  const pid_t child = ::fork();
+  if (child != 0) return child;
+  const std::string command = "exec " ESPDIFF_BINARY " trajectory " + arguments + " >/dev/null 2>&1 </dev/null";
+  ::execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
+  ::_exit(127);
+}
+
+/// Waits until the file has a row, or the run has ended.
+bool gets_row(const std::string& csv, pid_t run) {
+  while (::waitpid(run, nullptr, WNOHANG) == 0) {
+    std::error_code ignored;
+    if (std::filesystem::exists(csv, ignored) && contains(read_file(csv), "\n0,")) return true;
+    ::usleep(2000);
+  }
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("trajectory: two processes on one file; a killed run goes on to the same bytes and leaves nothing") {
+  const ScratchFolder folder;
+  const std::string source = folder.write("a.pqr", pqr()), frames = folder.write("f.pdb", pdb_models(0, 6)),
+                    csv = folder.file("a.csv"), whole = folder.file("whole.csv");
+  const std::string start = source + " " + frames + " --device cpu --start previous --grid-spacing 0.5 -q -o ";
+  CHECK(run_espdiff("trajectory " + start + whole).status == 0);
+  const pid_t first = start_run(start + csv);
+  REQUIRE(gets_row(csv, first));
+  ::kill(first, SIGSTOP);
+  for (const char* how : {"", " --resume", " --overwrite"}) {
+    const Outcome second = run_espdiff("trajectory " + start + csv + how);
+    CHECK(second.status == 2);
+    CHECK(n_lines(second.err) == 1);
+    if (*how != '\0') CHECK(contains(second.err, csv + ": another run is writing this file; wait for its end"));
+  }
+  ::kill(first, SIGKILL);
+  ::waitpid(first, nullptr, 0);
+  folder.write("a.csv.state.tmp4711-0", "what the killed run was writing");
+  CHECK(run_espdiff("trajectory " + start + csv + " --resume").status == 0);
+  CHECK(read_file(csv) == read_file(whole));
+  CHECK(folder.n_files() == 4);
+}
+
 TEST_CASE("trajectory: wrong input gives one line and leaves nothing") {
   const ScratchFolder folder;
   const std::string source = folder.write("a.pqr", pqr()), frames = folder.write("f.pdb", pdb_models(0, 2)),
@@ -159,7 +208,7 @@ TEST_CASE("trajectory: wrong input gives one line and leaves nothing") {
     const char* expected;
   };
   for (const Case& c :
-       {Case{source + " " + frames + " --frames 2", "not among the 2 that there are"},
+       {Case{source + " " + frames + " --frames 2", "--frames '2': frame 2 is not among the frames 0 to 1"},
         {source + " " + fewer + " --potential pme", "it lacks CA of ALA A 12 (11 and 12 atoms)"},
         {source + " " + fewer, "frame 0: "},
         {bare + " " + frames + " --potential pme", "has no charges, and a potential needs them"},

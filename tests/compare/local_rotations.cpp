@@ -1,5 +1,6 @@
 // local_rotations.cpp: neighbourhoods that rotate as a whole, that have too few atoms, and the reverse path.
 #include <doctest/doctest.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -129,6 +130,28 @@ TEST_CASE("rotations of collinear, few or fading atoms are damped") {
   for (std::size_t i = 0; i < n; ++i) CHECK(with_fading[i].own_rotation == all[i].own_rotation);
   CHECK(norm(with_fading[n].own_rotation - all[0].own_rotation) < 1e-12);
   CHECK(norm(with_fading[n + 1].own_rotation) == 0);
+}
+
+TEST_CASE("rotations have the same bits at any number of threads, and can be cancelled") {
+  std::vector<MovingAtom> one = packed(30, 6);
+  const Screw screw = turn_by(0.6);
+  for (std::size_t i = 0; i < one.size(); ++i) one[i].end = screw.apply(one[i].start, i % 3 == 0 ? 0.5 : 1);
+  REQUIRE(one.size() > 3 * 4096);
+  std::vector<MovingAtom> many = one;
+  const int n_threads = omp_get_max_threads();
+  omp_set_num_threads(1);
+  set_local_rotations(one);
+  for (const int n : {2, 4}) {
+    omp_set_num_threads(n);
+    set_local_rotations(many);
+    bool is_same = true;
+    for (std::size_t i = 0; i < one.size(); ++i) is_same = is_same && many[i].own_rotation == one[i].own_rotation;
+    CHECK_MESSAGE(is_same, n);
+  }
+  omp_set_num_threads(n_threads);
+  espdiff::Progress cancelled;
+  cancelled.request_cancel();
+  CHECK_THROWS_AS(set_local_rotations(many, cancelled), espdiff::Cancelled);
 }
 
 TEST_SUITE_END();

@@ -43,7 +43,8 @@ struct Count {
   std::size_t launches = 0, graphs = 0, allocations = 0, waits = 0;
   ~Count() {
     if (!settings().count) return;
-    std::fprintf(stderr, "cuda_emulator: %zu kernels and %zu graphs launched, %zu allocations, %zu times waited for a stream\n",
+    std::fprintf(stderr,
+                 "cuda_emulator: %zu kernels and %zu graphs launched, %zu allocations, %zu times waited for a stream\n",
                  launches, graphs, allocations, waits);
   }
 };

@@ -37,8 +37,10 @@ Settings read_settings() {
     else if (name == "memory")
       settings.memory = static_cast<std::size_t>(value) << 20;
     else
-      fail("ESPDIFF_CUDA_EMULATOR: '%s' is none of check, reverse, eager, no-pools, count, devices=N, fill=BYTE, memory=MIB",
-           word.c_str());
+      fail(
+          "ESPDIFF_CUDA_EMULATOR: '%s' is none of check, reverse, eager, no-pools, count, devices=N, fill=BYTE, "
+          "memory=MIB",
+          word.c_str());
   }
   return settings;
 }

@@ -1,4 +1,5 @@
-// settings.h: how the machine behaves, from the environment variable ESPDIFF_CUDA_EMULATOR, words with commas between them.
+// settings.h: how the machine behaves, from the environment variable ESPDIFF_CUDA_EMULATOR, words with commas between
+// them.
 #pragma once
 
 #include <cstddef>

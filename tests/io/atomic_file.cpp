@@ -106,7 +106,7 @@ TEST_CASE("what a killed process left beside a file is removed, and nothing else
   folder.write("out.csv.tmp123-0", "x");
   for (const char* other : {"out.csv.tmp", "out.csv.tmpx", "out.csv.old1-2", "another.csv.tmp1-1"})
     folder.write(other, "");
-  remove_stale_temporaries(path);
+  remove_leftovers(path);
   CHECK_FALSE(std::filesystem::exists(folder.file("out.csv.tmp123-0")));
   CHECK(folder.n_files() == 5);
 }

@@ -61,6 +61,7 @@ TEST_CASE("elements: ligands and cofactors") {
 }
 
 TEST_CASE("elements: water by its residue names") {
-  for (const char* name : {"HOH", "WAT", "TIP3", "SOL", "DOD", "TIP2", "TP5", "SPCE", "OH2"}) CHECK_MESSAGE(is_water_name(name), name);
+  for (const char* name : {"HOH", "WAT", "TIP3", "SOL", "DOD", "TIP2", "TP5", "SPCE", "OH2"})
+    CHECK_MESSAGE(is_water_name(name), name);
   for (const char* name : {"", "ALA", "HO", "SO4"}) CHECK_FALSE_MESSAGE(is_water_name(name), name);
 }

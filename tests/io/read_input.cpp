@@ -1,4 +1,5 @@
-// read_input.cpp: whole files, plain and by gzip, from disk and through pipes, with their hash; and what cannot be read.
+// read_input.cpp: whole files, plain and by gzip, from disk and through pipes, with their hash; and what cannot be
+// read.
 #include "io/read_input.h"
 
 #if defined(ESPDIFF_HAVE_ZLIB)

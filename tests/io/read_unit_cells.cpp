@@ -1,6 +1,9 @@
 // read_unit_cells.cpp: CRYST1 records of models, and NAMD's .xsc files.
 #include "io/read_unit_cells.h"
 
+#include <cstdio>
+#include <ctime>
+
 #include "base/error.h"
 #include "io/read_structure.h"
 #include "support/test_data.h"
@@ -23,8 +26,8 @@ TEST_CASE("unit cells: each model has the last CRYST1 before it; none and dummie
   const std::string first = cryst1("   42.439   42.500   43.125 109.47  90.00  80.50"),
                     second = cryst1("   50.000   51.000   52.000  90.00  90.00  90.00"),
                     dummy = cryst1("    1.000    1.000    1.000  90.00  90.00  90.00");
-  const auto cells = cells_of(
-      scratch.write("a.pqr", first + kAtom + "END\n" + second + kAtom + "END\n" + dummy + kAtom + "END\n"));
+  const auto cells =
+      cells_of(scratch.write("a.pqr", first + kAtom + "END\n" + second + kAtom + "END\n" + dummy + kAtom + "END\n"));
   REQUIRE(cells.size() == 3);
   REQUIRE(cells[0].has_value());
   CHECK(cells[0]->lengths == Vec3d{42.439, 42.5, 43.125});
@@ -41,6 +44,28 @@ TEST_CASE("unit cells: each model has the last CRYST1 before it; none and dummie
   CHECK(message_of([&] {
           cells_of(scratch.write("d.pqr", "CRYST1   42.439\n" + std::string(kAtom)));
         }).find("d.pqr:1: the CRYST1 record's length is ''") != std::string::npos);
+}
+
+TEST_CASE("unit cells: four times the frames take about four times as long, not sixteen") {
+  const ScratchFolder scratch;
+  const auto seconds_for = [&](int n_frames) {
+    std::string text;
+    for (int i = 0; i < n_frames; ++i) {
+      char lengths[32];
+      std::snprintf(lengths, sizeof lengths, "%9.3f", 40.0 + i % 1000);
+      text += cryst1((lengths + std::string("   51.000   52.000  90.00  90.00  90.00")).c_str()) + kAtom + "END\n";
+    }
+    const std::string path = scratch.write("many.pqr", text);
+    const std::clock_t begun = std::clock();  // processor time, which other programs do not add to
+    const auto cells = read_unit_cells(path);
+    const double seconds = static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
+    REQUIRE(cells.size() == static_cast<std::size_t>(n_frames));
+    CHECK(cells[1234]->lengths.x == 40 + 234);
+    CHECK(cells.back()->lengths.x == 40 + (n_frames - 1) % 1000);
+    return seconds;
+  };
+  const double fewer = seconds_for(10000);
+  CHECK(seconds_for(40000) < 8 * fewer + 0.05);
 }
 
 TEST_CASE("unit cells: a NAMD .xsc file, and one that lacks a column") {

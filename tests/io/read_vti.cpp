@@ -191,12 +191,14 @@ TEST_CASE("list_vti_scalars: names of arrays with one number a point, in file or
 
   CapturedOutput output(scratch.file("output"));
   const std::string cut = scratch.write("c.vti", good.substr(0, good.size() - 20));
-  CHECK(message_of([&] { list_vti_scalars(VtkXmlFile(cut, kImageData)); }).find("c.vti: the VTI file is cut short") != std::string::npos);
+  CHECK(message_of([&] { list_vti_scalars(VtkXmlFile(cut, kImageData)); }).find("c.vti: the VTI file is cut short") !=
+        std::string::npos);
   const std::string broken = scratch.write("d.vti", replaced(good, "</PointData>", "</PointDatum>"));
   CHECK(message_of([&] {
           list_vti_scalars(VtkXmlFile(broken, kImageData));
         }).find("d.vti:5: damaged XML: <PointData> of line 5 ends with </PointDatum>") != std::string::npos);
-  CHECK(message_of([&] { list_vti_scalars(VtkXmlFile(scratch.file("absent.vti"), kImageData)); }).find("absent.vti") != std::string::npos);
+  CHECK(message_of([&] { list_vti_scalars(VtkXmlFile(scratch.file("absent.vti"), kImageData)); }).find("absent.vti") !=
+        std::string::npos);
   CHECK(output.text() == "");
 }
 

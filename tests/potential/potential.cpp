@@ -10,7 +10,6 @@
 #include "compare/made_side.h"
 #include "cuda/potential/ewald_oracle.h"
 #include "engine/engine.h"
-#include "trajectory/frame_range.h"
 
 using namespace espdiff_test;
 using espdiff::GridChoice;
@@ -103,21 +102,6 @@ TEST_CASE("cells from lengths and angles, and around atoms") {
   CHECK(box.edges[1] == Vec3d{0, 24, 0});
   CHECK_THROWS_AS(espdiff::padded_cell({{0, 0, 0}}, -1), espdiff::InputError);
   CHECK_THROWS_AS(espdiff::padded_cell({}, 10), espdiff::InputError);
-}
-
-TEST_CASE("frames are named as PMEPot names them") {
-  using espdiff::parse_frames;
-  CHECK(parse_frames("all", 3) == std::vector<int>{0, 1, 2});
-  CHECK(parse_frames("last", 3) == std::vector<int>{2});
-  CHECK(parse_frames("1", 3) == std::vector<int>{1});
-  CHECK(parse_frames("-1", 3) == std::vector<int>{2});
-  CHECK(parse_frames("1:end", 4) == std::vector<int>{1, 2, 3});
-  CHECK(parse_frames("0:2:5", 6) == std::vector<int>{0, 2, 4});
-  for (const char* wrong : {"3", "-4", "2:1", "0:0:2", "0:-1:2", "a", "", "0:1:2:3", "0:x"}) {
-    CAPTURE(wrong);
-    CHECK_THROWS_AS(parse_frames(wrong, 3), espdiff::InputError);
-  }
-  CHECK(message_of([] { parse_frames("7", 3); }).find("not among the 3 that there are, 0 to 2") != std::string::npos);
 }
 
 TEST_CASE("a molecule without charges is refused with where charges come from") {

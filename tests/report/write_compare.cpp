@@ -322,6 +322,6 @@ TEST_CASE("the table gives the verdict with its reasons, and units") {
 
   result.has_potential = false;
   table = table_of(result);
-  CHECK(table.find("Shape  ") != std::string::npos);
+  CHECK(table.find("Shape (no potentials)") != std::string::npos);
   CHECK(table.find("kT/e") == std::string::npos);
 }

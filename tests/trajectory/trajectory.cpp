@@ -12,14 +12,15 @@
 
 using namespace espdiff_test;
 using espdiff::ExistingFile;
-using espdiff::FrameInput;
 using espdiff::Method;
 using espdiff::Progress;
 using espdiff::SeriesCsv;
 using espdiff::SeriesHead;
 using espdiff::SeriesRow;
 using espdiff::StartFrom;
-using espdiff::Trajectory;
+using espdiff::StepInput;
+using espdiff::TrajectoryPlan;
+using espdiff::TrajectoryRun;
 using espdiff::TrajectorySummary;
 
 namespace {
@@ -37,57 +38,62 @@ struct Motion {
     }
   }
 
-  Trajectory run(Method method = Method::kDeform) const {
-    Trajectory t;
-    t.source = source.input();
-    t.reference = "file source.pqr";
-    t.frames = {0, 1, 2, 3, 4};
-    t.frame = [this](int frame) {
-      const Side& side = sides.at(static_cast<std::size_t>(frame));
-      return FrameInput{side.molecule, &side.map, nullptr};
-    };
-    t.options = quick_options();
-    t.options.method = method;
-    t.options.surface.grid_spacing_A = 1.5;
-    t.options.deform.max_iterations = 3000;
-    return t;
+  TrajectoryPlan plan(Method method = Method::kDeform) const {
+    TrajectoryPlan plan;
+    plan.reference = "file source.pqr";
+    plan.frames = {0, 1, 2, 3, 4};
+    plan.options = quick_options();
+    plan.options.method = method;
+    plan.options.surface.grid_spacing_A = 1.5;
+    plan.options.deform.max_iterations = 3000;
+    return plan;
   }
+  const Side& side(int frame) const { return sides.at(static_cast<std::size_t>(frame)); }
 };
 
 const SeriesHead kHead = {{"espdiff", "1"}, {"frames", "all"}, {"settings", ""}};
 
 struct Runner {
+  const Motion& motion;
   std::unique_ptr<espdiff::Engine> engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings{};
+  std::function<StepInput(int frame)> read = [this](int frame) {
+    return StepInput{motion.source.input(), motion.side(frame).input(), {}};
+  };
 
-  TrajectorySummary operator()(const Trajectory& run, const std::string& path,
+  TrajectorySummary operator()(const TrajectoryPlan& plan, const std::string& path,
                                ExistingFile existing = ExistingFile::kRefuse, const Progress& progress = {}) {
-    SeriesCsv file(path, kHead, existing);
-    return compare_frames(*engine, run, file, progress, [this](const std::string& text) { warnings.push_back(text); });
+    TrajectoryRun run(plan, SeriesCsv(path, kHead, existing));
+    if (!run.warning().empty()) warnings.push_back(run.warning());
+    while (!run.is_done()) {
+      run.step(
+          *engine,
+          [&] {
+            StepInput input = read(run.next().frame);
+            if (run.next().previous) input.source = motion.side(*run.next().previous).input();
+            return input;
+          },
+          progress);
+    }
+    return run.summary();
   }
 
   /// Ends while frame `last` is computed, its row not written.
-  void interrupted(const Trajectory& run, const std::string& path, int last) {
+  void interrupted(const TrajectoryPlan& plan, const std::string& path, int last) {
     Progress* asked = nullptr;
     Progress progress([&](const std::string& stage, double) {
-      if (stage.rfind(std::to_string(last) + ":", 0) == 0) asked->request_cancel();
+      if (stage.rfind("frame " + std::to_string(last) + ":", 0) == 0) asked->request_cancel();
     });
     asked = &progress;
     const std::string expected = "cancelled after " + std::to_string(last) + " of 5 rows; resume goes on with " + path;
-    CHECK(message_of([&] { (*this)(run, path, ExistingFile::kRefuse, progress); }) == expected);
+    CHECK(message_of([&] { (*this)(plan, path, ExistingFile::kRefuse, progress); }) == expected);
   }
 };
 
-/// Rows without their times.
 std::vector<std::vector<std::string>> rows_of(const std::string& path) {
   std::vector<std::vector<std::string>> rows;
   const SeriesCsv file(path, {}, ExistingFile::kResume);
-  for (const SeriesRow& row : file.rows()) {
-    rows.push_back(row.cells());
-    for (std::size_t i = 0; i < rows.back().size(); ++i) {
-      if (espdiff::series_columns()[i] == "time_ms") rows.back()[i].clear();
-    }
-  }
+  for (const SeriesRow& row : file.rows()) rows.push_back(row.cells());
   return rows;
 }
 
@@ -98,8 +104,8 @@ TEST_SUITE_BEGIN("trajectory");
 TEST_CASE("a row a frame, with the values of the pair, and what the rows were made with") {
   const Motion motion;
   const ScratchFolder folder;
-  Runner runner;
-  Trajectory run = motion.run();
+  Runner runner{motion};
+  TrajectoryPlan run = motion.plan();
   run.start = StartFrom::kSource;
   run.frames = {1, 3};
   const TrajectorySummary summary = runner(run, folder.file("a.csv"));
@@ -131,17 +137,18 @@ TEST_CASE("a run that broke off anywhere goes on with the same rows") {
   for (const Method method : {Method::kMorph, Method::kDeform}) {
     CAPTURE(to_string(method));
     const ScratchFolder folder;
-    Runner runner;
-    const Trajectory run = motion.run(method);
+    Runner runner{motion};
+    const TrajectoryPlan run = motion.plan(method);
     const std::string whole = folder.file("whole.csv"), part = folder.file("part.csv"), state = part + ".state";
     runner(run, whole);
-    const auto expected = rows_of(whole);
-    REQUIRE(expected.size() == 5);
+    REQUIRE(rows_of(whole).size() == 5);
+    const std::string expected = read_file(whole);
     CHECK_FALSE(std::filesystem::exists(whole + ".state"));
     std::string before;
     for (const int last : {1, 2, 4}) {
       CAPTURE(last);
       runner.interrupted(run, part, last);
+      std::ofstream(state + ".tmp123-4") << "what a killed run was writing";
       std::ofstream(part, std::ios::app) << last << ",file source.pqr,1.2";  // a row that was being written
       if (last == 2) {
         // Between a row and its mapping: the state is that of the row before.
@@ -153,14 +160,15 @@ TEST_CASE("a run that broke off anywhere goes on with the same rows") {
       const TrajectorySummary summary = runner(run, part, ExistingFile::kResume);
       CHECK(summary.n_resumed == static_cast<std::size_t>(last));
       CHECK(summary.n_rows == 5 - static_cast<std::size_t>(last));
-      CHECK(rows_of(part) == expected);
+      CHECK(read_file(part) == expected);
       CHECK(runner.warnings.empty());
       CHECK_FALSE(std::filesystem::exists(state));
+      CHECK_FALSE(std::filesystem::exists(state + ".tmp123-4"));
       std::filesystem::remove(part);
     }
     // Complete: left as it is.
     CHECK(runner(run, whole, ExistingFile::kResume).n_rows == 0);
-    CHECK(rows_of(whole) == expected);
+    CHECK(read_file(whole) == expected);
     CHECK(SeriesCsv(whole, kHead, ExistingFile::kResume).rows()[3]["start"] == "previous");
   }
 }
@@ -168,8 +176,8 @@ TEST_CASE("a run that broke off anywhere goes on with the same rows") {
 TEST_CASE("without its mapping a resumed run says so and starts from the source; changed rows are refused") {
   const Motion motion;
   const ScratchFolder folder;
-  Runner runner;
-  const Trajectory run = motion.run();
+  Runner runner{motion};
+  const TrajectoryPlan run = motion.plan();
   const std::string part = folder.file("part.csv"), state = part + ".state";
   runner.interrupted(run, part, 3);
   const std::string rows = read_file(part), mapping = read_file(state);
@@ -185,8 +193,7 @@ TEST_CASE("without its mapping a resumed run says so and starts from the source;
   std::filesystem::remove(state);
   runner.interrupted(run, folder.file("other.csv"), 2);
   std::filesystem::rename(folder.file("other.csv.state"), state);
-  SeriesCsv file(part, kHead, ExistingFile::kResume);
-  std::vector<std::string> cells = file.rows().back().cells();
+  const std::vector<std::string> cells = rows_of(part).back();
   const std::string line = rows.substr(rows.rfind('\n', rows.size() - 2) + 1);
   std::string changed = line;
   changed.replace(changed.find(cells[2]), cells[2].size(), "9.87");
@@ -199,11 +206,11 @@ TEST_CASE("without its mapping a resumed run says so and starts from the source;
 TEST_CASE("a frame that fails ends the run and is named, or is a row with the reason") {
   const Motion motion;
   const ScratchFolder folder;
-  Runner runner;
-  Trajectory run = motion.run();
-  run.frame = [&motion](int frame) -> FrameInput {
+  Runner runner{motion};
+  TrajectoryPlan run = motion.plan();
+  runner.read = [&motion](int frame) {
     if (frame == 1) throw espdiff::IoError("frame1.pqr", "cannot be read, \"gone\"\nfor good");
-    return {motion.sides.at(static_cast<std::size_t>(frame)).molecule, &motion.sides[0].map, nullptr};
+    return StepInput{motion.source.input(), motion.side(frame).input(), {}};
   };
   CHECK(message_of([&] { runner(run, folder.file("a.csv")); }).rfind("frame 1: frame1.pqr: cannot be read", 0) == 0);
   CHECK(rows_of(folder.file("a.csv")).size() == 1);
@@ -217,20 +224,36 @@ TEST_CASE("a frame that fails ends the run and is named, or is a row with the re
   CHECK(file.rows()[2]["start"] == "source");
 }
 
-TEST_CASE("another file, or another run's, is refused and left as it is") {
+TEST_CASE("each frame against the one before") {
   const Motion motion;
   const ScratchFolder folder;
-  Runner runner;
-  Trajectory run = motion.run();
+  Runner runner{motion};
+  TrajectoryPlan run = motion.plan(Method::kMorph);
+  run.against_previous = true;
+  run.frames = {0, 2, 3};
+  CHECK(runner(run, folder.file("a.csv")).n_frames == 2);
+  const SeriesCsv file(folder.file("a.csv"), kHead, ExistingFile::kResume);
+  REQUIRE(file.rows().size() == 2);
+  CHECK(file.rows()[0]["frame"] == "2");
+  CHECK(file.rows()[0]["reference_frame"] == "0");
+  CHECK(file.rows()[1]["reference_frame"] == "2");
+  const CompareResult alone = compare(*runner.engine, motion.side(2).input(), motion.side(3).input(), run.options, {});
+  CHECK(std::stod(file.rows()[1]["mean_abs_difference"]) == alone.metrics.mean_abs_difference);
+  run.frames = {2};
+  CHECK(message_of([&] { TrajectoryRun(run, SeriesCsv(folder.file("b.csv"), kHead, ExistingFile::kRefuse)); }) ==
+        "reference previous needs two frames or more");
+  CHECK(folder.n_files() == 1);
+}
+
+TEST_CASE("a file with rows of other frames is refused and left as it is") {
+  const Motion motion;
+  const ScratchFolder folder;
+  Runner runner{motion};
+  TrajectoryPlan run = motion.plan();
   run.frames = {0, 1};
   const std::string path = folder.file("a.csv");
   runner(run, path);
   const std::string good = read_file(path);
-  CHECK(message_of([&] { SeriesCsv(path, kHead, ExistingFile::kRefuse); }) ==
-        path + ": the file exists; resume goes on with it, overwrite replaces it");
-  CHECK(message_of([&] {
-          SeriesCsv(path, {{"settings", "mu 0.5"}}, ExistingFile::kResume);
-        }) == path + ": was made with settings '', not with 'mu 0.5'; overwrite begins anew");
   run.frames = {1, 2};
   CHECK(message_of([&] { runner(run, path, ExistingFile::kResume); }).find("row 1 is of frame 0, not of 1") !=
         std::string::npos);
@@ -238,14 +261,25 @@ TEST_CASE("another file, or another run's, is refused and left as it is") {
   CHECK(message_of([&] { runner(run, path, ExistingFile::kResume); }).find("row 2 is of frame 1, beyond the run") !=
         std::string::npos);
   CHECK(read_file(path) == good);
-  folder.write("a.csv", good + "2,too,few\n");
-  CHECK(message_of([&] { SeriesCsv(path, kHead, ExistingFile::kResume); }).find("a.csv:7: the row has 3 columns") !=
-        std::string::npos);
-  folder.write("a.csv", "a,b\n1,2\n");
-  CHECK(message_of([&] { SeriesCsv(path, kHead, ExistingFile::kResume); }).find("not this version's line of columns") !=
-        std::string::npos);
-  CHECK_THROWS_AS(SeriesCsv(folder.file("absent/a.csv"), kHead, ExistingFile::kRefuse), espdiff::IoError);
   CHECK(folder.n_files() == 1);
+}
+
+TEST_CASE("an input that all rows depend on has to be the same when a run is resumed, errors skipped or not") {
+  const Motion motion;
+  const ScratchFolder folder;
+  Runner runner{motion};
+  TrajectoryPlan run = motion.plan();
+  run.skip_errors = true;
+  const std::string path = folder.file("a.csv");
+  std::string sha256 = "abc";
+  runner.read = [&](int frame) {
+    return StepInput{motion.source.input(), motion.side(frame).input(), {{"source", "s.pqr", sha256}}};
+  };
+  runner.interrupted(run, path, 2);
+  sha256 = "def";
+  CHECK(message_of([&] { runner(run, path, ExistingFile::kResume); }).find("was made with source_sha256 'abc'") !=
+        std::string::npos);
+  CHECK(rows_of(path).size() == 2);
 }
 
 TEST_CASE("frames are numbered through all files") {

@@ -5,7 +5,7 @@ package require espdiff
 set mol [mol new [input traj_adk/adk.psf] type psf waitfor all]
 mol addfile [input traj_adk/adk_dims.dcd] type dcd waitfor all $mol
 set quick {-grid-spacing 2}
-espdiff trajectory -mol $mol -frames 0:30: -sel protein -csv $scratch/t.csv {*}$quick
+espdiff trajectory -mol $mol -frames 0:30:end -sel protein -csv $scratch/t.csv {*}$quick
 
 # All texts on the canvas of a plot.
 proc texts {plot} {

@@ -11,20 +11,11 @@ proc read_rows {path} {
     return [lrange $rows 1 end]
 }
 
-# Without the time that it took.
-proc without_time {path} {
-    set channel [open $path]
-    set lines [split [string trim [read $channel]] \n]
+proc read_bytes {path} {
+    set channel [open $path rb]
+    set bytes [read $channel]
     close $channel
-    set column -1
-    set result {}
-    foreach line $lines {
-        if {[string match "#*" $line]} continue
-        set fields [split $line ,]
-        if {$column < 0} { set column [lsearch -glob $fields time_ms*] }
-        lappend result [lreplace $fields $column $column]
-    }
-    return $result
+    return $bytes
 }
 
 set mol [mol new [input traj_adk/adk.psf] type psf waitfor all]
@@ -58,12 +49,92 @@ foreach start {source previous} {
         puts -nonewline $channel "44,0,1.2"
         close $channel
         espdiff trajectory {*}$parts -resume 1
-        check_equal rows [without_time $scratch/parts.csv] [without_time $scratch/whole.csv]
+        check "the same bytes" {[read_bytes $scratch/parts.csv] eq [read_bytes $scratch/whole.csv]}
         check "starts" {[regexp ",previous," [read_rows $scratch/whole.csv]] == ($start eq "previous")}
         check "no state is left" {[llength [glob -nocomplain $scratch/parts.csv?*]] == 0}
-        check_refused {espdiff trajectory {*}$parts} {ESPDIFF IO} "-resume 1" "-overwrite 1"
+        check_refused {espdiff trajectory {*}$parts} {ESPDIFF IO} "-resume" "-overwrite"
         check_refused {espdiff trajectory {*}$parts -resume 1 -isovalue 0.6} {ESPDIFF INPUT} "isovalue"
     }
+}
+
+# Models whose coordinates are the same numbers in single and in double precision: VMD keeps the former.
+proc write_exact_models {path n} {
+    set channel [open $path w]
+    for {set model 0} {$model < $n} {incr model} {
+        puts $channel [format "MODEL     %4d" [expr {$model + 1}]]
+        for {set i 0} {$i < 24} {incr i} {
+            set bend [expr {0.125 * ($i * $i * $model / 48)}]
+            puts $channel [format "ATOM  %5d  %-3s ALA A%4d    %8.3f%8.3f%8.3f  1.00  0.00           %s" [expr {$i + 1}] \
+                [lindex {N CA C O} [expr {$i % 4}]] [expr {$i / 4 + 1}] [expr {1.25 * $i}] \
+                [expr {0.875 * ($i % 2) + $bend}] [expr {0.375 * ($i % 3)}] [lindex {N C C O} [expr {$i % 4}]]]
+        }
+        puts $channel ENDMDL
+    }
+    puts $channel END
+    close $channel
+}
+
+# Beside a trajectory in memory VMD may be too large to be forked by `exec`.
+proc command_line {args} {
+    set process [::espdiff::core::start_program [list $::env(ESPDIFF) {*}$args] $::scratch/line.log]
+    while {[set status [::espdiff::core::program_state $process]] eq "running"} { after 20 }
+    check_equal "status of $args" $status 0
+}
+
+test "a file's models: the same bytes from the command line, from the file here, the same rows from its molecule" {
+    set models $scratch/models.pdb
+    write_exact_models $models 5
+    foreach {arguments there} {
+        {-frames all} {}
+        {-frames 0:2:end -start previous} {--frames 0:2:4 --start previous}
+        {-frames now,2,-1 -method deform} {--frames 0,2,4 --method deform}
+    } {
+        command_line trajectory $models $models --device cpu {*}$there -q -o $scratch/line.csv --overwrite
+        set m [mol new $models type pdb waitfor all]
+        animate goto 0
+        espdiff trajectory -mol $m -radii element -reference [list file $models] {*}$arguments \
+            -csv $scratch/molecule.csv -overwrite 1
+        mol delete $m
+        check "the same rows: $arguments" {[read_rows $scratch/molecule.csv] eq [read_rows $scratch/line.csv]}
+        check "rows: $arguments" {[llength [read_rows $scratch/line.csv]] >= 3}
+        if {[string match *now* $arguments]} continue
+        espdiff trajectory -file $models -reference [list file $models] {*}$arguments -csv $scratch/models.csv -overwrite 1
+        check "the same bytes: $arguments" {[read_bytes $scratch/models.csv] eq [read_bytes $scratch/line.csv]}
+    }
+}
+
+test "frames that are deleted during a run in the background: our words, told once" {
+    set ::background {}
+    proc background_error {message options} { lappend ::background $message }
+    interp bgerror {} background_error
+    set m [mol new [input nmr/1l2y.pdb] type pdb waitfor all]
+    proc delete_frames {frame row} { if {$frame == 1} { animate delete beg 2 end -1 $::m } }
+    set h [espdiff trajectory -mol $m -radii element -csv $scratch/deleted.csv -grid-spacing 2 -command list \
+        -callback delete_frames]
+    check_refused {espdiff wait $h} {ESPDIFF INPUT} "frame 2" "is not there any more; 2 are left"
+    set ::waited 0
+    after 300 { set ::waited 1 }
+    vwait ::waited
+    check_equal "nothing reaches the background error handler" $::background {}
+    espdiff delete $h
+    # An error of the user's own that `wait` threw is not told again either.
+    animate delete all $m
+    mol addfile [input nmr/1l2y.pdb] type pdb waitfor all $m
+    proc fails {frame row} { error "mine" {} {MY CODE} }
+    set h [espdiff trajectory -mol $m -radii element -csv $scratch/mine.csv -grid-spacing 2 -command list -callback fails]
+    check_refused {espdiff wait $h} {MY CODE} mine
+    set ::waited 0
+    after 300 { set ::waited 1 }
+    vwait ::waited
+    check_equal "nor of the user's" $::background {}
+    espdiff delete $h
+    mol delete $m
+}
+
+test "`map none` as `-map none`" {
+    set single [espdiff compare [list mol $mol frame 0 map none] [list mol $mol frame 1 map none] -grid-spacing 2]
+    check_equal "no potential" [espdiff result $single mean_abs_difference] {}
+    espdiff delete $single
 }
 
 test "against the frame before" {

@@ -113,7 +113,7 @@ test "AdK's trajectory: rows come, and the plot with them" {
     pause 100
     tab trajectory
     check "the trajectory is chosen" {[string match "$adk: adk*" $::espdiff::gui::form(trajectory,mol)]}
-    form trajectory,sel protein trajectory,frames 0:30: trajectory,map $::espdiff::gui::computed \
+    form trajectory,sel protein trajectory,frames 0:30:end trajectory,map $::espdiff::gui::computed \
         trajectory,csv $scratch/adk.csv
     press trajectory,run
     wait_until {[llength $::espdiff::gui::trajectory_rows] == 2}
@@ -163,13 +163,13 @@ test "the plot as a picture, beside a trajectory in memory" {
 }
 
 test "a run that is cancelled keeps its rows, and is gone on with" {
-    form trajectory,csv $scratch/again.csv trajectory,frames 0:10:
+    form trajectory,csv $scratch/again.csv trajectory,frames 0:10:end
     press trajectory,run
     wait_until {[llength $::espdiff::gui::trajectory_rows] == 1}
     event generate $window <Escape>
     wait_until {$::espdiff::gui::trajectory_running eq ""}
     check "stopped" {[string match "Stopped: the file has 1 rows*" [[widget trajectory,message] cget -text]]}
-    form trajectory,resume 1 trajectory,frames 0:10:
+    form trajectory,resume 1 trajectory,frames 0:10:end
     press trajectory,run
     wait_until {[llength $::espdiff::gui::trajectory_rows] == 2}
     press trajectory,cancel
@@ -246,7 +246,7 @@ test "opened again, in its home the settings" {
     check "kept" {[file exists $file]}
     espdiff gui
     update
-    check_equal frames $::espdiff::gui::form(trajectory,frames) 0:10:
+    check_equal frames $::espdiff::gui::form(trajectory,frames) 0:10:end
     form trajectory,frames 5:5:
     set ::vmd_quit 1  ;# as VMD does before it ends
     set channel [open $file]

@@ -17,7 +17,7 @@ std::string outcome(Body body) {
         body();
         return "returned";
       },
-      [](const Failure& failure) { return std::string(failure.error_class) + ": " + failure.message; });
+      [](const Failure& failure) { return std::string(failure.error_class) + ": " + failure.message.plain(); });
 }
 
 }  // namespace

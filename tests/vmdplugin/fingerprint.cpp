@@ -43,7 +43,10 @@ TEST_CASE("fingerprint: each part of a map counts") {
   const Placed a(0);
   const std::string all = fingerprint(*a.map);
   for (const auto& change : {+[](Grid& g) { g.values[1] = 6; }, +[](Grid& g) { g.lattice.origin.y = 0; },
-                             +[](Grid& g) { g.lattice.step[2].x = 1; }, +[](Grid& g) { g.lattice.size = {1, 2, 1}; }}) {
+                             +[](Grid& g) { g.lattice.step[2].x = 1; },
+                             +[](Grid& g) {
+                               g.lattice.size = {1, 2, 1};
+                             }}) {
     Grid changed = *a.map;
     change(changed);
     CHECK(fingerprint(changed) != all);

@@ -1,0 +1,62 @@
+// series_head.cpp: a run's description as names and texts.
+#include "trajectory/series_head.h"
+
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/version.h"
+#include "compare/settings.h"
+#include "io/sha256.h"
+#include "trajectory/frame_range.h"
+
+namespace espdiff {
+namespace {
+
+/// "NAME, 123 bytes"
+std::string described(const std::string& path) {
+  std::error_code error;
+  const auto n_bytes = std::filesystem::file_size(path, error);
+  if (error) throw IoError(path, "its size cannot be read: " + error.message());
+  return std::filesystem::path(path).filename().string() + ", " + std::to_string(n_bytes) + " bytes";
+}
+
+template <typename Text>
+std::string joined(const std::vector<std::string>& paths, Text text) {
+  std::string all;
+  for (const std::string& path : paths) all += (all.empty() ? "" : "; ") + text(path);
+  return all;
+}
+
+/// Settings that are not at their defaults: however they were given, the same rows have the same text.
+std::string settings_in_words(const CompareOptions& options) {
+  const CompareOptions usual;
+  std::string text;
+  for (const Setting& setting : settings()) {
+    const std::string value = setting.get(options);
+    if (value != setting.get(usual)) text += (text.empty() ? "" : " ") + setting.name + " " + value;
+  }
+  return text;
+}
+
+}  // namespace
+
+SeriesHead series_head(const SeriesDescription& run, const CompareOptions& options) {
+  SeriesHead head = {{"espdiff", kVersion}};
+  if (run.files.empty()) {
+    head.insert(head.end(), run.molecule.begin(), run.molecule.end());
+  } else {
+    head.emplace_back("file", joined(run.files, described));
+    head.emplace_back("atoms", std::string(run.structure.include_hetero ? "hetero" : "no hetero") +
+                                   (run.structure.include_water ? ", water" : ", no water"));
+  }
+  head.emplace_back("frames", frames_in_words(run.frames));
+  head.emplace_back("reference", run.reference);
+  head.emplace_back("map", run.map.empty() ? "none" : run.map);
+  head.emplace_back("reference-map", run.reference_map);
+  head.emplace_back("start", run.start == StartFrom::kPrevious ? "previous" : "source");
+  head.emplace_back("settings", settings_in_words(options));
+  if (!run.files.empty()) head.emplace_back("file_sha256", joined(run.files, sha256_of_file));
+  return head;
+}
+
+}  // namespace espdiff

@@ -1,0 +1,98 @@
+// series_row.cpp: the table of columns, and rows from results.
+#include "trajectory/series_row.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "report/metrics.h"
+#include "report/write_compare.h"
+
+namespace espdiff {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A column, and where its value stands in OUT.json; "" where it is in none.
+struct Column {
+  std::string name, pointer;
+};
+
+/// The metrics of a series stand between what names the row and how it came about, those of the mapping after them;
+/// the potential's unit before the first metric of potentials.
+std::vector<Column> make_columns() {
+  std::vector<Column> all = {{"frame", ""}, {"reference_frame", ""}}, of_mapping;
+  bool has_unit = false;
+  for (const Metric& metric : metrics()) {
+    if ((metric.flags & kInSeries) == 0) continue;
+    const bool is_of_potential = metric.section == MetricSection::kPotential;
+    if (is_of_potential && !has_unit) all.push_back({"potential_unit", "/potential_unit"});
+    has_unit = has_unit || is_of_potential;
+    (metric.section == MetricSection::kMapping ? of_mapping : all).push_back({metric.name, metric.json_pointer()});
+  }
+  const auto add = [&all](const std::vector<Column>& more) { all.insert(all.end(), more.begin(), more.end()); };
+  add({{"converged", "/certificate/converged"}, {"trustworthy", "/certificate/trustworthy"}, {"start", "/start"}});
+  add(of_mapping);
+  add({{"reasons", "/certificate/reasons"}, {"error", ""}});
+  return all;
+}
+
+const std::vector<Column>& columns() {
+  static const std::vector<Column> all = make_columns();
+  return all;
+}
+
+std::string cell_of(const Json& value) {
+  if (value.is_null()) return {};
+  if (value.is_boolean()) return value.get<bool>() ? "1" : "0";
+  if (value.is_string()) return one_line(value.get<std::string>());
+  if (!value.is_array()) return value.dump();
+  std::string text;
+  for (const Json& element : value) text += (text.empty() ? "" : "; ") + cell_of(element);
+  return text;
+}
+
+std::size_t index_of(const std::string& column) {
+  const auto& names = series_columns();
+  const auto found = std::find(names.begin(), names.end(), column);
+  if (found == names.end()) throw Error(ErrorClass::kInternal, "a trajectory's rows have no column '" + column + "'");
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+}  // namespace
+
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return text;
+}
+
+const std::vector<std::string>& series_columns() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const Column& column : columns()) all.push_back(column.name);
+    return all;
+  }();
+  return names;
+}
+
+SeriesRow::SeriesRow(int frame, const std::string& reference, const Molecule& source, const Molecule& target,
+                     const CompareResult& result, const CompareOptions& options) {
+  const Json json = compare_json(source, target, result, options, {});
+  for (const Column& column : columns())
+    cells_.push_back(column.pointer.empty() ? std::string() : cell_of(json.at(Json::json_pointer(column.pointer))));
+  at("frame") = std::to_string(frame);
+  at("reference_frame") = one_line(reference);
+}
+
+SeriesRow::SeriesRow(int frame, const std::string& reference, const std::string& error)
+    : cells_(series_columns().size()) {
+  at("frame") = std::to_string(frame);
+  at("reference_frame") = one_line(reference);
+  at("error") = one_line(error);
+}
+
+const std::string& SeriesRow::operator[](const std::string& column) const { return cells_.at(index_of(column)); }
+std::string& SeriesRow::at(const std::string& column) { return cells_.at(index_of(column)); }
+
+}  // namespace espdiff

@@ -1,0 +1,256 @@
+// trajectory_commands.cpp: trajectory, trajectory_next, trajectory_step, ...: a run over frames, which Tcl drives frame
+// by frame; frames, read_csv, csv_text: ranges of frames and tables as text.
+#include <sstream>
+
+#include "base/error.h"
+#include "commands.h"
+#include "engine/engine.h"
+#include "io/read_csv.h"
+#include "io/write_csv.h"
+#include "potential/potential.h"
+#include "potential/potential_settings.h"
+#include "tcl_values.h"
+#include "trajectory/frame_range.h"
+#include "trajectory/series_head.h"
+
+namespace espdiff::vmdplugin {
+namespace {
+
+ExistingFile existing_file(DictReader& reader) {
+  const bool resume = reader.boolean("resume", false), overwrite = reader.boolean("overwrite", false);
+  if (resume && overwrite)
+    throw InputError(switched_on("resume") + " and " + switched_on("overwrite") + " exclude each other");
+  return resume ? ExistingFile::kResume : overwrite ? ExistingFile::kReplace : ExistingFile::kRefuse;
+}
+
+SeriesHead pairs_of(Tcl_Obj* list, const std::string& what) {
+  SeriesHead pairs;
+  const std::vector<Tcl_Obj*> words = to_vector(list, what);
+  for (std::size_t i = 0; i + 1 < words.size(); i += 2)
+    pairs.emplace_back(to_string(words[i]), to_string(words[i + 1]));
+  return pairs;
+}
+
+/// A computed potential in the words of the core, whatever was given of it; other maps as they are.
+std::string map_in_words(Tcl_Obj* map, double temperature_K) {
+  const std::vector<Tcl_Obj*> words = to_vector(map, "map");
+  const std::string kind = words.empty() ? std::string() : to_string(words[0]);
+  if (kind != "pb" && kind != "pme" && kind != "coulomb") return to_string(map);
+  GivenPotentialSettings given;
+  std::string others;  // which atoms, which cell
+  for (std::size_t i = 1; i + 1 < words.size(); i += 2) {
+    const std::string key = to_string(words[i]), value = to_string(words[i + 1]);
+    if (key == "sel" || key == "cell") {
+      others += " " + key + " " + value;
+    } else {
+      given.emplace_back(key, value);
+    }
+  }
+  return potential_in_words(make_potential_options(parse_potential_method(kind), given, temperature_K)) + others;
+}
+
+SeriesDescription parse_description(DictReader& reader, double temperature_K) {
+  SeriesDescription run;
+  if (Tcl_Obj* const file = reader.find("file")) run.files = {to_string(file)};
+  if (Tcl_Obj* const molecule = reader.find("molecule")) run.molecule = pairs_of(molecule, "molecule");
+  for (Tcl_Obj* const frame : to_vector(reader.require("frames"), "frames"))
+    run.frames.push_back(to_int(frame, "frames"));
+  run.reference = to_string(reader.require("reference"));
+  if (Tcl_Obj* const map = reader.find("map")) run.map = map_in_words(map, temperature_K);
+  if (Tcl_Obj* const map = reader.find("reference_map")) run.reference_map = map_in_words(map, temperature_K);
+  return run;
+}
+
+/// PLAN: csv FILE ?resume B? ?overwrite B? frames LIST reference TEXT ?row_reference TEXT? ?map TEXT?
+/// ?reference_map TEXT? ?one_map B? ?start S? ?on_error E? and file PATH or molecule {NAME TEXT ...}, lines of the
+/// head.
+Tcl_Obj* trajectory(const Call& call) {
+  auto object = std::make_shared<TrajectoryObject>();
+  DictReader options(call.arguments[1], "options");
+  object->computation = parse_computation(options, nullptr);
+  DictReader reader(call.arguments[0], "plan");
+  const std::string csv = to_string(reader.require("csv"));
+  const ExistingFile existing = existing_file(reader);
+  SeriesDescription run = parse_description(reader, object->computation.options.temperature_K);
+  TrajectoryPlan plan;
+  plan.options = object->computation.options;
+  plan.frames = run.frames;
+  plan.against_previous = run.reference == "previous";
+  plan.reference = reader.text("row_reference", run.reference);
+  plan.start = run.start = parse_start(reader.text("start", "auto"), plan.options);
+  plan.skip_errors = reader.text("on_error", "stop") == "skip";
+  object->one_map = reader.boolean("one_map", false);
+  object->against_previous = plan.against_previous;
+  reader.finish();
+  const SeriesHead head = series_head(run, plan.options);
+  object->run = std::make_unique<TrajectoryRun>(std::move(plan), SeriesCsv(csv, head, existing));
+  if (!run.files.empty()) object->files = std::make_unique<FrameFiles>(run.files);
+  return to_obj(call.handles.add(object));
+}
+
+/// The run of a handle, between two steps.
+std::shared_ptr<TrajectoryObject> resting(const Call& call) {
+  auto object = call.handles.find_trajectory(call.text(0));
+  if (object->job != nullptr && !object->job->finished())
+    throw InputError(call.text(0) + " is still comparing a frame; wait for it");
+  return object;
+}
+
+/// {frame N reference R previous P}: the step to do. P is the frame that it is compared with, of a run against the
+/// frame before. Empty when all is done.
+Tcl_Obj* trajectory_next(const Call& call) {
+  const auto object = resting(call);
+  if (object->run->is_done()) return Tcl_NewObj();
+  const TrajectoryStep& step = object->run->next();
+  return to_dict({{"frame", to_obj(step.frame)},
+                  {"reference", to_obj(step.reference)},
+                  {"previous", step.previous ? to_obj(*step.previous) : Tcl_NewObj()}});
+}
+
+/// The source of all frames.
+Tcl_Obj* trajectory_source(const Call& call) {
+  resting(call)->source = parse_endpoint(call.arguments[1], "source");
+  return nullptr;
+}
+
+/// Reads what is in files, frames of the run's file through its one open text.
+void load_side(TrajectoryObject& object, Endpoint& side, std::optional<int> frame) {
+  if (frame && object.files != nullptr && !side.molecule) {
+    Molecule molecule = object.files->read(*frame, side.structure);
+    const std::string name = object.files->name(*frame);
+    const bool has_values = object.source.molecule && !object.source.molecule->charges.empty();
+    if (has_values && &side != &object.source) take_values(molecule, *object.source.molecule, name);
+    molecule.name = name;
+    side.molecule = std::move(molecule);
+  }
+  load(side, object.computation.options.temperature_K);
+}
+
+/// What all rows depend on: the source, and a map that serves all frames.
+std::vector<InputFile> common_inputs(const TrajectoryObject& object) {
+  std::vector<InputFile> inputs = object.source.inputs;
+  for (const InputFile& input : object.target.inputs) {
+    if (object.one_map && input.role == "target_map") inputs.push_back(input);
+  }
+  return inputs;
+}
+
+/// Runs on the worker's thread: what is read, compared and written of one frame.
+void run_step(TrajectoryObject& object, const Progress& progress) {
+  object.row.reset();
+  TrajectoryRun& run = *object.run;
+  if (object.engine == nullptr) object.engine = engine_for(object.computation);
+  // Without the source of all frames nothing can be compared: no matter for -on-error skip.
+  if (!object.against_previous) load_side(object, object.source, std::nullopt);
+  const auto read = [&] {
+    const TrajectoryStep& step = run.next();
+    if (object.against_previous) load_side(object, object.source, step.previous);
+    load_side(object, object.target, step.frame);
+    return StepInput{input_of(object.source), input_of(object.target), common_inputs(object)};
+  };
+  if (const SeriesRow* const row = run.step(*object.engine, read, progress)) object.row = *row;
+}
+
+/// The sides of a frame: TARGET, and SOURCE of a run against the frame before.
+Tcl_Obj* trajectory_step(const Call& call) {
+  const auto object = resting(call);
+  if (object->against_previous != (call.arguments.size() > 2))
+    throw InputError("a source is given for each frame of a run against the frame before, and no other");
+  object->target = parse_endpoint(call.arguments[1], "target");
+  if (object->against_previous) object->source = parse_endpoint(call.arguments[2], "source");
+  object->job = Worker::instance().submit([keep = std::weak_ptr<TrajectoryObject>(object)](const Progress& progress) {
+    if (const auto alive = keep.lock()) run_step(*alive, progress);
+  });
+  return nullptr;
+}
+
+/// The next frame cannot be had, for the reason MESSAGE of errorcode {ESPDIFF CLASS}: a row that says so, or an error.
+Tcl_Obj* trajectory_skip(const Call& call) {
+  const auto object = resting(call);
+  object->row.reset();
+  if (const SeriesRow* const row = object->run->skip(error_of_class(call.text(2), call.text(1)))) object->row = *row;
+  return nullptr;
+}
+
+/// The row that the last step added, by column; empty where it was there.
+Tcl_Obj* trajectory_row(const Call& call) {
+  const auto object = resting(call);
+  Tcl_Obj* const dict = Tcl_NewDictObj();
+  if (!object->row) return dict;
+  for (const std::string& column : series_columns())
+    Tcl_DictObjPut(nullptr, dict, to_obj(column), to_obj((*object->row)[column]));
+  return dict;
+}
+
+Tcl_Obj* trajectory_columns(const Call&) { return to_list(series_columns()); }
+
+Tcl_Obj* trajectory_summary(const Call& call) {
+  const auto object = resting(call);
+  const TrajectorySummary s = object->run->summary();
+  return to_dict({{"frames", to_obj(s.n_frames)},
+                  {"rows", to_obj(s.n_rows)},
+                  {"skipped", to_obj(s.n_skipped)},
+                  {"resumed", to_obj(s.n_resumed)},
+                  {"csv", to_obj(object->run->file().path())}});
+}
+
+/// Why the first mapping of a resumed run starts from the source; empty usually.
+Tcl_Obj* trajectory_warning(const Call& call) { return to_obj(resting(call)->run->warning()); }
+
+/// Ends the run between two frames: the error of a cancelled run.
+Tcl_Obj* trajectory_cancelled(const Call& call) { throw resting(call)->run->cancelled(); }
+
+/// OPTION TEXT N NOW OF: a list of frames; NOW is empty where there is no such frame.
+Tcl_Obj* frames(const Call& call) {
+  FrameSet set;
+  set.what = call.text(0);
+  set.n_frames = to_int(call.arguments[2], "number of frames");
+  if (!call.text(3).empty()) set.now = to_int(call.arguments[3], "now");
+  set.of = call.text(4);
+  std::vector<Tcl_Obj*> all;
+  for (const int frame : parse_frames(call.text(1), set)) all.push_back(to_obj(frame));
+  return to_list(all);
+}
+
+/// {columns LIST rows LIST}, each row a dict by column.
+Tcl_Obj* read_table(const Call& call) {
+  const CsvTable table = read_csv(call.text(0));
+  std::vector<Tcl_Obj*> rows;
+  for (const auto& cells : table.rows) {
+    rows.push_back(Tcl_NewDictObj());
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      Tcl_DictObjPut(nullptr, rows.back(), to_obj(table.columns[i]), to_obj(cells[i]));
+  }
+  return to_dict({{"columns", to_list(table.columns)}, {"rows", to_list(rows)}});
+}
+
+/// Rows, each a list of fields, as the text of a CSV file.
+Tcl_Obj* csv_text(const Call& call) {
+  std::ostringstream text;
+  for (Tcl_Obj* const row : to_vector(call.arguments[0], "rows")) {
+    std::vector<std::string> fields;
+    for (Tcl_Obj* const field : to_vector(row, "row")) fields.push_back(to_string(field));
+    write_csv_row(text, fields);
+  }
+  return to_obj(text.str());
+}
+
+}  // namespace
+
+std::vector<Command> trajectory_commands() {
+  return {{"trajectory", 2, 2, "plan options", trajectory},
+          {"trajectory_source", 2, 2, "handle source", trajectory_source},
+          {"trajectory_next", 1, 1, "handle", trajectory_next},
+          {"trajectory_step", 2, 3, "handle target ?source?", trajectory_step},
+          {"trajectory_skip", 3, 3, "handle message class", trajectory_skip},
+          {"trajectory_row", 1, 1, "handle", trajectory_row},
+          {"trajectory_columns", 0, 0, "", trajectory_columns},
+          {"trajectory_summary", 1, 1, "handle", trajectory_summary},
+          {"trajectory_warning", 1, 1, "handle", trajectory_warning},
+          {"trajectory_cancelled", 1, 1, "handle", trajectory_cancelled},
+          {"frames", 5, 5, "option text number now of", frames},
+          {"read_csv", 1, 1, "file", read_table},
+          {"csv_text", 1, 1, "rows", csv_text}};
+}
+
+}  // namespace espdiff::vmdplugin
