@@ -12,7 +12,7 @@ namespace eval ::espdiff {
             if {![string is list $words] || [llength $words] % 2} continue
             foreach {key value} $words {
                 switch -- $key {
-                    file { lappend paths {*}$value }
+                    file { lappend paths $value }
                     map { lappend paths {*}[named_files $value] }
                     mol {
                         if {[in_vmd] && ![catch { molinfo $value get filename } names]} {
