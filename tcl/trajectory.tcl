@@ -95,7 +95,8 @@ namespace eval ::espdiff {
             if {[llength $in_frame] != 1} { fail "-reference: '$run(reference)' is not {frame N}" }
             set run(reference) [list frame $in_frame]
         } elseif {$run(reference) ne "previous"} {
-            parse_endpoint $run(reference) -reference
+            set endpoint [parse_endpoint $run(reference) -reference]
+            if {[dict exists $endpoint file]} { existing_file [dict get $endpoint file] reference }
         }
         if {$run(mol) ne ""} {
             set run(structure) [vmd_structure [dict merge $run(endpoint) [list frame $in_frame]] -mol]

@@ -118,8 +118,10 @@ ComputedMap::ComputedMap(Molecule charges, ChargeSurroundings surroundings, cons
   r.has_water = surroundings.has_water;
   for (std::size_t i = 0; i < charges.atoms.size(); ++i)
     r.has_water = r.has_water || (charges.charges[i] != 0 && is_water(charges, i));
-  for (std::size_t i = 0; i < charges.atoms.size() && surroundings.solute.empty(); ++i) {
-    if (!is_water(charges, i)) all->solute.push_back(charges.positions[i]);
+  if (all->solute.empty()) {
+    for (std::size_t i = 0; i < charges.atoms.size(); ++i) {
+      if (!is_water(charges, i)) all->solute.push_back(charges.positions[i]);
+    }
   }
   r.pme = options.pme;
   r.pme.smooth_samples = !options.pme.compatible;
