@@ -108,7 +108,7 @@ TEST_CASE("PQR: charges and radii that no atom has are refused with file and lin
 }
 
 TEST_CASE("cells of a file whose first model is empty") {
-  const auto cells = read_unit_cells(corpus("empty_model_cryst1.pqr"));
+  const auto cells = StructureFile(corpus("empty_model_cryst1.pqr")).unit_cells();
   REQUIRE(cells.size() == 2);
   CHECK_FALSE(cells[0].has_value());
   REQUIRE(cells[1].has_value());
