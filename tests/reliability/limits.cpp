@@ -13,7 +13,8 @@ TEST_CASE("little memory: every run ends with 0, or with 1 or 2 and one line, an
   folder.write("a.pqr", row_of_atoms(40));
   folder.write("b.pqr", row_of_atoms(40, 0.2));
   const std::string verbs[] = {"compare a.pqr b.pqr --grid-spacing 0.3 -o out",
-                               "surface a.pqr --grid-spacing 0.2 -o out.vtp", "potential a.pqr --grid 0.25 -o out.dx"};
+                               "surface a.pqr --grid-spacing 0.2 -o out.vtp",
+                               "surface a.pqr --grid-spacing 0.02 -o out.vtp", "potential a.pqr --grid 0.25 -o out.dx"};
   int n_refused = 0;
   for (const std::string& verb : verbs) {
     for (int megabytes = 300; megabytes <= 1500; megabytes += 150) {
@@ -75,8 +76,9 @@ TEST_CASE("a gzip file that unpacks to more than memory holds is refused") {
   folder.write("a.pqr", row_of_atoms(4));
   // Many members of one file: 16 MiB of blanks each.
   const std::string make = "cd " + folder.file("") +
-                           " && head -c 16777216 /dev/zero | tr '\\0' ' ' | gzip -c >one.gz && for i in $(seq 160); do cat "
-                           "one.gz; done >bomb.dx.gz && rm one.gz";
+                           " && printf 'object 1 class gridpositions counts 900 900 900\\n' | gzip -c >bomb.dx.gz && "
+                           "head -c 16777216 /dev/zero | tr '\\0' ' ' | gzip -c >one.gz && for i in $(seq 160); do cat "
+                           "one.gz; done >>bomb.dx.gz && rm one.gz";
   REQUIRE(std::system(make.c_str()) == 0);
   const Outcome outcome = run_espdiff("surface a.pqr --map bomb.dx.gz --device cpu --threads 1 -o out.vtp",
                                       "cd " + folder.file("") + " && ulimit -v 1500000 &&");
