@@ -58,7 +58,8 @@ void add_method_options(CLI::App& p, Arguments& a) {
 
 void add_frame_options(CLI::App& p, Arguments& a) {
   const char* const group = "Frames";
-  p.add_option("--frames", a.frames, "Models of the file, from 0: all, a frame, begin:end or begin:step:end; see `espdiff trajectory`")
+  p.add_option("--frames", a.frames,
+               "Models of the file, from 0: all, a frame, begin:end or begin:step:end; see `espdiff trajectory`")
       ->capture_default_str()
       ->group(group);
   p.add_option("--averaging", a.averaging, "mean: one map, the mean over frames. each: OUT.0000.dx, OUT.0001.dx, ...")
