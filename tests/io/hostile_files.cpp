@@ -6,8 +6,8 @@
 
 #include "base/error.h"
 #include "base/printable.h"
-#include "io/read_input.h"
 #include "io/read_grid.h"
+#include "io/read_input.h"
 #include "io/read_structure.h"
 #include "io/read_vtp.h"
 #include "io/sha256.h"
