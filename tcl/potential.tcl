@@ -141,6 +141,8 @@ namespace eval ::espdiff {
         set frames [vmd_frames $mol [dict get $options frames] -frames]
         potential_check $options [llength $frames]
         set each [expr {[dict get $options averaging] eq "each"}]
+        core::check_outputs [concat [named_files [list mol $mol]] [list [dict get $options xscfile]]] \
+            [list [dict get $options dxfile]]
         set handle [core::potential [dict merge [potential_core_options $options] [list each $each]]]
         finally {
             set begun [clock milliseconds]

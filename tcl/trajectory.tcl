@@ -55,6 +55,9 @@ namespace eval ::espdiff {
         prepare_frames run $options
         usual_run_maps run
         check_frame_maps run
+        set csv [dict get $options csv]
+        core::check_outputs [named_files [list file $run(file) mol $run(mol) map $run(map)] $run(reference) \
+            $run(reference_map)] [list $csv $csv.state]
         set handle [core::trajectory [trajectory_plan run $options] [core_options $options]]
         if {[catch {
             set warning [core::trajectory_warning $handle]
