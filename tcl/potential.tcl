@@ -96,7 +96,9 @@ namespace eval ::espdiff {
                 return $endpoints
             }
             if {![dict exists $endpoint mol] && ![dict exists $endpoint file]} { return $endpoints }
-            lappend facts [potential_facts $endpoint molecule]
+            # What cannot be read is refused where it is read, by its role.
+            if {[catch { potential_facts $endpoint molecule } fact]} { return $endpoints }
+            lappend facts $fact
         }
         lassign [core::usual_potential $facts] kind because
         if {$kind eq "none"} { return $endpoints }
