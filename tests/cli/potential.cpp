@@ -142,7 +142,7 @@ TEST_CASE("potential: wrong input gives one line and leaves nothing") {
                         {molecule + " --compatible --order 6", "PMEPot's is 4"},
                         {molecule + " --compatible --align ca", "`compatible` with superposition"},
                         {molecule + " --cell '0 0 0 9 0 0 0 9 0 0 0 9' --pad 3", "a cell and a padding"},
-                        {molecule + " --method coulomb --dielectric 0", "dielectric constant 0.000000"},
+                        {molecule + " --method coulomb --dielectric 0", "--dielectric: '0' is not a positive number"},
                         {molecule + " --variance " + folder.file("v.dx") + " --frames 0", "need at least 2 frames"},
                         {folder.file("absent.pqr"), "absent.pqr"}}) {
     const Outcome outcome = run_espdiff("potential " + c.arguments + " --device cpu -o " + folder.file("m.dx"));
