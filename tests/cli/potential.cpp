@@ -239,7 +239,7 @@ TEST_CASE("options of potentials that cannot be are refused in one line, and not
            {"--solvent-dielectric -2", "--solvent-dielectric: '-2' is not a positive number"},
            {"--temperature 0", "--temperature"},
            {"--pb-spacing 0", "--pb-spacing: '0' is not a positive number"},
-           {"--pb-spacing 0.01", "memory"},
+           {"--pb-spacing 0.01", "has more than 2e9 points"},
            {"--pb-max-cycles 1", "cycle"},
            {"--potential pme --ionic-strength 0.1", "ionic-strength is an option of the potential pb"},
            {"--potential none --dielectric 4", "--dielectric is of computed potentials, and none is computed"},
