@@ -35,7 +35,7 @@ namespace eval ::espdiff {
 
 ::espdiff::load_module
 foreach ::espdiff::part {
-    options metrics commands manual jobs endpoint vmd_molecule vmd_view vmd_volume compute potential
+    files options metrics commands manual jobs endpoint vmd_molecule vmd_view vmd_volume compute potential
     draw linked_view highlight legend matrix atoms plot plot_file frame_maps trajectory trajectory_steps view
     doctor
 } {

@@ -56,7 +56,8 @@ namespace eval ::espdiff {
             lappend x [dict get $row frame]
             if {[value_or $row potential_unit ""] ne ""} { set unit [dict get $row potential_unit] }
         }
-        return [dict create x $x names {} x_title Frame title [file tail $path] rows $rows unit $unit columns $columns]
+        return [dict create x $x names {} x_title Frame title [file tail $path] rows $rows unit $unit columns $columns \
+            files [list $path]]
     }
 
     # One variant as the source against all others.

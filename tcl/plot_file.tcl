@@ -17,6 +17,7 @@ namespace eval ::espdiff {
             dict lappend plot trustworthy [expr {[value_or $row trustworthy 1] ne "0"}]
         }
         foreach column [plot_metrics $table $options] { dict lappend plot series [plot_line $table $column] }
+        core::check_outputs [value_or $table files {}] [list [file normalize [dict get $options file]]]
         return [core::plot_lines [file normalize [dict get $options file]] $plot]
     }
 

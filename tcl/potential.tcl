@@ -83,7 +83,8 @@ namespace eval ::espdiff {
         set mol [vmd_molecule_id [dict get $endpoint mol] $role]
         set name [molinfo $mol get name]
         if {[catch { vmd_charges $mol all now $role } charges]} { return [list name $name charges 0 solvent 0] }
-        set has_cell [expr {min([join [molinfo $mol get {a b c}] ,]) > 1}]
+        lassign [molinfo $mol get {a b c}] a b c
+        set has_cell [expr {min($a, $b, $c) > 1}]
         return [list name $name charges 1 solvent [expr {$has_cell && [vmd_has_water $mol $charges]}]]
     }
 
@@ -143,6 +144,8 @@ namespace eval ::espdiff {
         set frames [vmd_frames $mol [dict get $options frames] -frames]
         potential_check $options [llength $frames]
         set each [expr {[dict get $options averaging] eq "each"}]
+        core::check_outputs [concat [named_files [list mol $mol]] [list [dict get $options xscfile]]] \
+            [list [dict get $options dxfile]]
         set handle [core::potential [dict merge [potential_core_options $options] [list each $each]]]
         finally {
             set begun [clock milliseconds]

@@ -55,6 +55,9 @@ namespace eval ::espdiff {
         prepare_frames run $options
         usual_run_maps run
         check_frame_maps run
+        set csv [dict get $options csv]
+        core::check_outputs [named_files [list file $run(file) mol $run(mol) map $run(map)] $run(reference) \
+            $run(reference_map)] [list $csv $csv.state]
         set handle [core::trajectory [trajectory_plan run $options] [core_options $options]]
         if {[catch {
             set warning [core::trajectory_warning $handle]
@@ -92,7 +95,8 @@ namespace eval ::espdiff {
             if {[llength $in_frame] != 1} { fail "-reference: '$run(reference)' is not {frame N}" }
             set run(reference) [list frame $in_frame]
         } elseif {$run(reference) ne "previous"} {
-            parse_endpoint $run(reference) -reference
+            set endpoint [parse_endpoint $run(reference) -reference]
+            if {[dict exists $endpoint file]} { existing_file [dict get $endpoint file] reference }
         }
         if {$run(mol) ne ""} {
             set run(structure) [vmd_structure [dict merge $run(endpoint) [list frame $in_frame]] -mol]

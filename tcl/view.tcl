@@ -84,7 +84,7 @@ namespace eval ::espdiff {
             return 1
         }
         set words "it ended with status $state and gave no reason"
-        if {![catch { open $log } channel]} {
+        if {![catch { open_file $log } channel]} {
             set text [string trim [read $channel]]
             close $channel
             if {![regexp -line {^espdiff: (.*)$} $text all words] && $text ne ""} {

@@ -69,7 +69,7 @@ namespace eval ::espdiff {
         }
         for {set i 0} {$i < 100} {incr i} {
             set path [file join $folder espdiff-[pid]-[format %08x [expr {int(rand() * 0x7fffffff)}]]$extension]
-            if {![catch { open $path {WRONLY CREAT EXCL} 0600 } channel]} {
+            if {![catch { open_file $path {WRONLY CREAT EXCL} 0600 } channel]} {
                 close $channel
                 return $path
             }

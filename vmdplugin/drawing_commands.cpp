@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "commands.h"
 #include "graphics_draw.h"
+#include "io/check_outputs.h"
 #include "io/write_grid.h"
 #include "report/difference_map.h"
 #include "tcl_values.h"
@@ -162,6 +163,10 @@ Grid quantity_map(const Call& call) {
 
 Tcl_Obj* write_map(const Call& call) {
   const std::string path = call.text(3);
+  std::vector<std::string> inputs;
+  for (const InputFile& input : call.handles.finished_comparison(call.text(0))->provenance.inputs)
+    inputs.push_back(input.path);
+  check_outputs(inputs, {path});
   write_dx(path, quantity_map(call));
   return to_obj(path);
 }

@@ -5,6 +5,7 @@
 #include "commands.h"
 #include "compare/result.h"
 #include "compare/surface.h"
+#include "io/check_outputs.h"
 #include "matrix/write_matrix.h"
 #include "option_spelling.h"
 #include "report/metrics.h"
@@ -116,16 +117,25 @@ Tcl_Obj* range(const Call& call) {
                   {"n_nan", to_obj(range.n_nan)}});
 }
 
+/// The files that a comparison was made of; empty where something came from memory.
+std::vector<std::string> input_paths(const ComparisonObject& comparison) {
+  std::vector<std::string> paths;
+  for (const InputFile& input : comparison.provenance.inputs) paths.push_back(input.path);
+  return paths;
+}
+
 Tcl_Obj* export_files(const Call& call) {
   const std::string handle = call.text(0), prefix = call.text(1);
   const auto object = call.handles.find(handle);
   if (const auto* surface = dynamic_cast<const SurfaceObject*>(object.get())) {
     require_done(handle, *surface);
+    check_outputs({surface->molecule.structure_path, surface->molecule.map_path}, {prefix + ".vtp"});
     write_surface(prefix + ".vtp", *surface->molecule.molecule, surface->result, surface->result.unit);
     return to_list({prefix + ".vtp"});
   }
   const auto comparison = call.handles.finished_comparison(handle);
   const Endpoint &source = comparison->source, &target = comparison->target;
+  check_outputs(input_paths(*comparison), {prefix + ".json", prefix + ".vtp", prefix + ".residues.csv"});
   if (!to_bool(call.arguments[2], "inputs")) {
     write_compare(prefix, *source.molecule, *target.molecule, comparison->result, comparison->computation.options,
                   comparison->provenance);
@@ -142,6 +152,17 @@ Tcl_Obj* export_files(const Call& call) {
   return to_list(written);
 }
 
+/// For what Tcl knows the names of.
+Tcl_Obj* check_output_files(const Call& call) {
+  std::vector<std::string> lists[2];
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (Tcl_Obj* const path : to_vector(call.arguments[i], i == 0 ? "inputs" : "outputs"))
+      lists[i].push_back(to_string(path));
+  }
+  check_outputs(lists[0], lists[1]);
+  return nullptr;
+}
+
 /// The values of a quantity by residue; in the order of residues().
 Tcl_Obj* residue_quantity(const Call& call) {
   const auto comparison = call.handles.finished_comparison(call.text(0));
@@ -152,6 +173,7 @@ Tcl_Obj* residue_quantity(const Call& call) {
 
 Tcl_Obj* residue_pdb(const Call& call) {
   const auto comparison = call.handles.finished_comparison(call.text(0));
+  check_outputs(input_paths(*comparison), {call.text(2)});
   write_residue_pdb(call.text(2), *comparison->source.molecule, comparison->result, call.text(1));
   return call.arguments[2];
 }
@@ -165,6 +187,7 @@ std::vector<Command> result_commands() {
           {"residue_pdb", 3, 3, "handle quantity file", residue_pdb},
           {"table", 1, 1, "handle", table},
           {"range", 2, 2, "handle quantity", range},
+          {"check_outputs", 2, 2, "inputs outputs", check_output_files},
           {"export", 3, 3, "handle prefix inputs", export_files}};
 }
 

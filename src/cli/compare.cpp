@@ -9,6 +9,7 @@
 #include "compare/result.h"
 #include "engine/engine.h"
 #include "io/atomic_file.h"
+#include "io/check_outputs.h"
 #include "io/read_structure.h"
 #include "report/residue_values.h"
 #include "report/write_compare.h"
@@ -103,6 +104,8 @@ std::string add_maps(const Arguments& a, Side& source, Side& target, double temp
 int run(const Arguments& a, const Context& context) {
   check_map_options(a.maps);
   const CompareOptions options = make_options(a.settings);
+  check_outputs({a.source, a.target, a.maps.source_map, a.maps.target_map},
+                {a.output + ".json", a.output + ".vtp", a.output + ".residues.csv", a.residue_pdb});
   // An unwritable output is found before the work.
   for (const char* suffix : {".json", ".vtp", ".residues.csv"}) AtomicFile probe(a.output + suffix);
   if (!a.residue_pdb.empty()) AtomicFile probe(a.residue_pdb);
@@ -125,11 +128,13 @@ int run(const Arguments& a, const Context& context) {
   CompareResult result = compare(*engine, source.input(), target.input(), options, *context.progress);
   if (!result.has_potential) result.shapes_because = because;
   context.progress->report("write", 0.0);
-  write_compare(a.output, source.molecule, target.molecule, result, options, provenance);
+  std::unique_ptr<AtomicFile> pdb;
   if (!a.residue_pdb.empty()) {
+    pdb = std::make_unique<AtomicFile>(a.residue_pdb);
     const std::string usual = result.has_potential ? "mean_abs_difference" : "mean_displacement_A";
-    write_residue_pdb(a.residue_pdb, source.molecule, result, a.residue_quantity.empty() ? usual : a.residue_quantity);
+    write_residue_pdb(*pdb, source.molecule, result, a.residue_quantity.empty() ? usual : a.residue_quantity);
   }
+  write_compare(a.output, source.molecule, target.molecule, result, options, provenance, pdb.get());
   context.progress->report("write", 1.0);
   if (!a.quiet) print_table(std::cout, source.molecule, target.molecule, result, spelled_option);
   return 0;

@@ -1,4 +1,5 @@
 // main.cpp: parses the command line, runs the command, and turns errors into one line and an exit status.
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/printable.h"
 #include "base/translate.h"
 #include "base/version.h"
 #include "cli/spelling.h"
@@ -20,6 +22,13 @@ std::string joined(int argc, char** argv) {
   std::string line = "espdiff";
   for (int i = 1; i < argc; ++i) line += std::string(" ") + argv[i];
   return line;
+}
+
+/// Where a standard stream is closed, the next file that is opened gets its number, and what is printed its content.
+void open_standard_streams() {
+  for (int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(descriptor, F_GETFD) < 0 && open("/dev/null", O_RDWR) != descriptor) std::_Exit(1);
+  }
 }
 
 /// Sets OMP_WAIT_POLICY=passive and restarts the program. OpenMP threads spin while they wait unless told otherwise
@@ -35,7 +44,7 @@ int run_verb(const espdiff::cli::Verb& verb, const std::string& command_line) {
   espdiff::cli::TerminalProgress terminal;
   const auto fail = [&](const char* message, int status) {
     terminal.clear();
-    std::fprintf(stderr, "espdiff: %s\n", message);
+    std::fprintf(stderr, "espdiff: %s\n", espdiff::printable(message).c_str());
     return status;
   };
   try {
@@ -68,7 +77,8 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    std::fprintf(stderr, "espdiff: %s\nTry 'espdiff --help' or 'espdiff VERB --help'.\n", error.what());
+    std::fprintf(stderr, "espdiff: %s\nTry 'espdiff --help' or 'espdiff VERB --help'.\n",
+                 espdiff::printable(error.what()).c_str());
     return 2;
   }
   for (const auto& verb : verbs) {
@@ -84,6 +94,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  open_standard_streams();
   start_again_without_spinning(argv);
   try {
     return run(argc, argv);

@@ -9,6 +9,7 @@
 #include "cli/verbs.h"
 #include "compare/options.h"
 #include "engine/engine.h"
+#include "io/check_outputs.h"
 #include "io/read_structure.h"
 #include "matrix/matrix_run.h"
 #include "matrix/write_matrix.h"
@@ -110,6 +111,9 @@ int run(Arguments& a, const Context& context) {
   a.run.shard = parse_shard(a.shard);
   a.run.skip_errors = a.on_error == "skip";
   const std::vector<VariantFiles> files = chosen_variants(a);
+  std::vector<std::string> inputs = {a.list, a.groups};
+  for (const VariantFiles& file : files) inputs.insert(inputs.end(), {file.structure, file.map});
+  check_outputs(inputs, output_paths(a.run));
   const PotentialPlan plan = plan_for(a, files, options.temperature_K);
   a.run.potential = plan.computes() ? plan.in_words() : "maps";
   const std::unique_ptr<Engine> engine = make_engine(a.device);

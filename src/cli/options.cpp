@@ -3,12 +3,14 @@
 #include "engine/engine.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "cli/spelling.h"
 #include "compare/options.h"
 #include "engine/select_engine.h"
 #include "io/read_grid.h"
+#include "io/text_cursor.h"
 #include "io/write_csv.h"
 
 namespace espdiff::cli {
@@ -22,26 +24,44 @@ std::string joined(const std::vector<std::string>& words, const char* between) {
 
 }  // namespace
 
+CLI::Validator checked_by(const std::function<void(const std::string&)>& check) {
+  return CLI::Validator(
+      [check](const std::string& text) {
+        try {
+          check(text);
+        } catch (const InputError& error) {
+          return spelled(error.message());
+        }
+        return std::string();
+      },
+      "");
+}
+
+CLI::Validator finite_number(double least) {
+  return checked_by([least](const std::string& text) {
+    double value = 0;
+    if (parse_number(text, value) && value >= least) return;
+    throw InputError(in_quotes(text) + " is not a finite number" +
+                     (std::isfinite(least) ? " of " + csv_number(least) + " or more" : ""));
+  });
+}
+
 void add_device_options(CLI::App& parser, DeviceArguments& arguments) {
-  const auto check = [](const std::string& text) {
-    try {
-      parse_device(text);
-    } catch (const InputError& error) {
-      return spelled(error.message());
-    }
-    return std::string();
-  };
   parser
       .add_option("--device", arguments.device,
                   "Where to compute: auto takes a GPU if one works; doctor lists the GPUs")
-      ->check(CLI::Validator(check, ""))
+      ->check(checked_by([](const std::string& text) { parse_device(text); }))
       ->type_name("auto|cpu|cuda|cuda:N")
       ->capture_default_str()
       ->group("Computation");
   parser
       .add_option("--threads", arguments.threads,
                   "CPU threads; 0 takes OMP_NUM_THREADS, otherwise all. The result does not depend on it")
-      ->check(CLI::NonNegativeNumber)
+      ->check(checked_by([](const std::string& text) {
+        long long n = -1;
+        if (!parse_integer(text, n)) throw InputError(in_quotes(text) + " is no whole number");
+        check_threads(n);
+      }))
       ->capture_default_str()
       ->group("Computation");
 }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -16,6 +18,11 @@
 #include "potential/potential_settings.h"
 
 namespace espdiff::cli {
+
+/// An option whose text passes when `check` throws no InputError, whose words become the message.
+CLI::Validator checked_by(const std::function<void(const std::string&)>& check);
+/// An option that takes finite numbers from `least` on.
+CLI::Validator finite_number(double least = -std::numeric_limits<double>::infinity());
 
 struct DeviceArguments {
   std::string device = "auto";

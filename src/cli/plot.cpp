@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "cli/verbs.h"
+#include "io/check_outputs.h"
 #include "io/read_csv.h"
 #include "io/text_cursor.h"
 #include "matrix/read_matrix.h"
@@ -157,6 +158,7 @@ LinePlot along_table(const Arguments& a, const CsvTable& table) {
 
 int run(const Arguments& a, const Context&) {
   const PictureFormat format = picture_format(a.output);
+  check_outputs({a.input}, {a.output});
   const bool is_json = lower_case(a.input).size() > 5 && lower_case(a.input).substr(a.input.size() - 5) == ".json";
   if (is_json && a.source.empty()) {
     if (a.normalize || a.both_ways) throw InputError("--normalize and --both-ways are for lines; name one --source");

@@ -9,6 +9,7 @@
 #include "cli/options.h"
 #include "cli/verbs.h"
 #include "engine/engine.h"
+#include "io/check_outputs.h"
 #include "io/read_structure.h"
 #include "io/read_unit_cells.h"
 #include "io/write_grid.h"
@@ -48,13 +49,17 @@ void add_method_options(CLI::App& p, Arguments& a) {
       ->check(CLI::IsMember({"pme", "pb", "coulomb"}))
       ->capture_default_str()
       ->group(group);
-  p.add_option("--temperature", a.temperature_K, "Temperature of kT, K")->capture_default_str()->group(group);
+  p.add_option("--temperature", a.temperature_K, "Temperature of kT, K")
+      ->capture_default_str()
+      ->check(finite_number())
+      ->group(group);
   add_potential_settings(p, a.given, true);
 }
 
 void add_frame_options(CLI::App& p, Arguments& a) {
   const char* const group = "Frames";
-  p.add_option("--frames", a.frames, "Models of the file, from 0: all, a frame, begin:end or begin:step:end; see `espdiff trajectory`")
+  p.add_option("--frames", a.frames,
+               "Models of the file, from 0: all, a frame, begin:end or begin:step:end; see `espdiff trajectory`")
       ->capture_default_str()
       ->group(group);
   p.add_option("--averaging", a.averaging, "mean: one map, the mean over frames. each: OUT.0000.dx, OUT.0001.dx, ...")
@@ -104,12 +109,15 @@ std::string numbered(const std::string& path, int frame) {
 class Outputs {
  public:
   Outputs(const Arguments& a, const std::vector<int>& frames) : each_(a.averaging == "each") {
-    if (!each_) open(a.output);
-    for (std::size_t i = 0; each_ && i < frames.size(); ++i) open(numbered(a.output, frames[i]));
-    n_maps_ = files_.size();
+    std::vector<std::string> paths;
+    if (!each_) paths.push_back(a.output);
+    for (std::size_t i = 0; each_ && i < frames.size(); ++i) paths.push_back(numbered(a.output, frames[i]));
+    n_maps_ = paths.size();
     for (const std::string* path : {&a.variance, &a.standard_error}) {
-      if (!path->empty()) open(*path);
+      if (!path->empty()) paths.push_back(*path);
     }
+    check_outputs({a.molecule, a.xsc_file}, paths);
+    for (const std::string& path : paths) open(path);
   }
 
   void write_frame(std::size_t number, const Grid& map) {

@@ -3,7 +3,9 @@
 #if defined(ESPDIFF_HAVE_VTK)
 #include <cstdio>
 
+#include "base/printable.h"
 #include "cli/scene_options.h"
+#include "io/check_outputs.h"
 #include "view/render_surface.h"
 #endif
 
@@ -19,9 +21,11 @@ struct Arguments {
 
 int run(Arguments& a, const Context& context) {
   const Scene scene = scene_of(a.scene);
+  check_outputs({a.input, a.scene.scene_file}, {a.output, a.scene.saved_scene});
+  const std::unique_ptr<AtomicFile> saved = saved_scene_of(a.scene, scene);
   context.progress->report("render", 0.0);
-  for (const std::string& note : render_surface(a.input, a.output, scene)) {
-    std::fprintf(stderr, "espdiff: note: %s\n", note.c_str());
+  for (const std::string& note : render_surface(a.input, a.output, scene, saved.get())) {
+    std::fprintf(stderr, "espdiff: note: %s\n", printable(note).c_str());
   }
   return 0;
 }

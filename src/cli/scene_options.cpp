@@ -127,12 +127,14 @@ Scene scene_of(const SceneArguments& a, const Scene& defaults) {
   if (!a.scene_file.empty()) scene = read_scene(a.scene_file, scene);
   for (const auto& change : a.changes) change(scene);
   check(scene);
-  if (!a.saved_scene.empty()) {
-    AtomicFile file(a.saved_scene);
-    file.stream() << scene_json(scene) << '\n';
-    file.commit();
-  }
   return scene;
+}
+
+std::unique_ptr<AtomicFile> saved_scene_of(const SceneArguments& a, const Scene& scene) {
+  if (a.saved_scene.empty()) return nullptr;
+  auto file = std::make_unique<AtomicFile>(a.saved_scene);
+  file->stream() << scene_json(scene) << '\n';
+  return file;
 }
 
 }  // namespace espdiff::cli

@@ -3,9 +3,11 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "io/atomic_file.h"
 #include "view/scene.h"
 
 namespace espdiff::cli {
@@ -18,8 +20,12 @@ struct SceneArguments {
 
 void add_scene_options(CLI::App& parser, SceneArguments& arguments);
 
-/// Defaults, then the scene file, then the options. Writes `saved_scene` if requested.
+/// Defaults, then the scene file, then the options.
 /// @throws IoError, FormatError, InputError
 Scene scene_of(const SceneArguments& arguments, const Scene& defaults = {});
+
+/// The scene as the file `saved_scene`, for the caller to commit; null where it is not asked for.
+/// @throws IoError
+std::unique_ptr<AtomicFile> saved_scene_of(const SceneArguments& arguments, const Scene& scene);
 
 }  // namespace espdiff::cli

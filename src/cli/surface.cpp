@@ -8,6 +8,7 @@
 #include "compare/options.h"
 #include "compare/surface.h"
 #include "engine/engine.h"
+#include "io/check_outputs.h"
 #include "io/read_structure.h"
 #include "io/write_grid.h"
 #include "report/write_surface.h"
@@ -39,6 +40,11 @@ void print_summary(const SurfaceResult& result) {
 
 int run(const Arguments& a, const Context& context) {
   const CompareOptions options = make_options(a.settings);
+  check_outputs({a.molecule, a.map}, {a.output, a.density});
+  // Outputs that cannot be written are better found before the work than after it.
+  AtomicFile surface(a.output);
+  std::unique_ptr<AtomicFile> density;
+  if (!a.density.empty()) density = std::make_unique<AtomicFile>(a.density);
   context.progress->report("read", 0.0);
   const Molecule molecule = read_structure(a.molecule, a.structure);
   CompareInput input{&molecule, nullptr};
@@ -49,8 +55,13 @@ int run(const Arguments& a, const Context& context) {
   }
   const std::unique_ptr<Engine> engine = make_engine(a.device);
   const SurfaceResult result = make_surface(*engine, input, options, a.regularize, *context.progress);
-  write_surface(a.output, molecule, result, result.unit);
-  if (!a.density.empty()) write_dx(a.density, make_density(*engine, molecule, options.surface));
+  write_surface(surface, molecule, result, result.unit);
+  std::vector<AtomicFile*> files = {&surface};
+  if (density != nullptr) {
+    write_dx(*density, make_density(*engine, molecule, options.surface));
+    files.push_back(density.get());
+  }
+  commit_all(files);
   context.progress->report("write", 1.0);
   if (!a.quiet) print_summary(result);
   return 0;

@@ -17,6 +17,18 @@ extern "C" void on_interrupt(int) {
   if (interruptible != nullptr) interruptible->request_cancel();
 }
 
+/// A closed terminal ends a run as Ctrl-C does; under nohup the signal is ignored, and stays so.
+constexpr int kCancelling[] = {SIGINT, SIGTERM, SIGHUP};
+
+void set_handler(int signal, void (*handler)(int)) {
+  struct sigaction action {
+  }, before{};
+  if (sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) return;
+  action.sa_handler = handler;  // no SA_RESTART: a call that blocks returns
+  sigemptyset(&action.sa_mask);
+  sigaction(signal, &action, nullptr);
+}
+
 constexpr int kBarWidth = 30;
 constexpr std::chrono::milliseconds kRedrawInterval{50};
 
@@ -26,14 +38,14 @@ TerminalProgress::TerminalProgress()
     : is_terminal_(isatty(STDERR_FILENO) != 0),
       progress_([this](const std::string& stage, double fraction) { draw(stage, fraction); }) {
   interruptible = &progress_;
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
+  for (const int signal : kCancelling) set_handler(signal, on_interrupt);
+  // A reader that is gone and a file at its limit of size are errors of write(), which are told and tidied up after.
+  for (const int signal : {SIGPIPE, SIGXFSZ}) set_handler(signal, SIG_IGN);
 }
 
 TerminalProgress::~TerminalProgress() {
   clear();
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  for (const int signal : kCancelling) set_handler(signal, SIG_DFL);
   interruptible = nullptr;
 }
 

@@ -8,8 +8,8 @@
 
 namespace espdiff::cli {
 
-/// Draws one line, rewritten in place, if standard error is a terminal; otherwise nothing. While it lives, SIGINT and
-/// SIGTERM cancel.
+/// Draws one line, rewritten in place, if standard error is a terminal; otherwise nothing. While it lives, SIGINT,
+/// SIGTERM and SIGHUP cancel, unless they were ignored before; SIGPIPE and SIGXFSZ are ignored from then on.
 class TerminalProgress {
  public:
   TerminalProgress();

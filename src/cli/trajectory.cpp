@@ -7,9 +7,11 @@
 #include <optional>
 #include <utility>
 
+#include "base/printable.h"
 #include "cli/map_options.h"
 #include "cli/verbs.h"
 #include "compare/options.h"
+#include "io/check_outputs.h"
 #include "io/read_structure.h"
 #include "io/write_csv.h"
 #include "trajectory/frame_files.h"
@@ -145,6 +147,9 @@ class Sides {
 int run(const Arguments& a, const Context& context) {
   check_map_options(a.maps);
   if (a.resume && a.overwrite) throw InputError("--resume and --overwrite exclude each other");
+  std::vector<std::string> inputs = a.targets;
+  inputs.insert(inputs.end(), {a.source, a.maps.source_map, a.maps.target_map});
+  check_outputs(inputs, {a.output, a.output + ".state"});
   const auto begun = std::chrono::steady_clock::now();
   TrajectoryPlan plan;
   plan.options = make_options(a.settings);
@@ -159,7 +164,7 @@ int run(const Arguments& a, const Context& context) {
                                               : ExistingFile::kRefuse;
   const std::unique_ptr<Engine> engine = make_engine(a.device);
   TrajectoryRun run(plan, SeriesCsv(a.output, head_of(a, plan, sides.potential()), existing));
-  if (!run.warning().empty()) std::fprintf(stderr, "espdiff: %s\n", run.warning().c_str());
+  if (!run.warning().empty()) std::fprintf(stderr, "espdiff: %s\n", printable(run.warning()).c_str());
   run.note_inputs(sides.inputs());
   while (!run.is_done())
     run.step(

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "cli/scene_options.h"
+#include "io/check_outputs.h"
 #include "view/viewer.h"
 #endif
 
@@ -24,6 +25,8 @@ int run(Arguments& a, const Context&) {
   window.height = 860;
   const Scene scene = scene_of(a.scene, window);
   if (a.prefix.empty()) a.prefix = std::filesystem::path(a.input).stem().string() + "-view";
+  check_outputs({a.input, a.scene.scene_file}, {a.scene.saved_scene});
+  if (const auto saved = saved_scene_of(a.scene, scene)) saved->commit();
   run_viewer(a.input, scene, a.prefix);
   return 0;
 }

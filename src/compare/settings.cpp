@@ -150,8 +150,8 @@ void add_iteration_settings(std::vector<Setting>& all, const std::string& prefix
 
 void add_morph_settings(std::vector<Setting>& all) {
   all.push_back(number(
-      "max-step", kMorphGroup, kPositive, [](auto& o) -> auto& { return o.morph.max_step_A; },
-      "Maximum movement of an atom per step, Angstrom"));
+      "max-step", kMorphGroup, Range{0.001, true, "a number of 0.001 or more"},
+      [](auto& o) -> auto& { return o.morph.max_step_A; }, "Maximum movement of an atom per step, Angstrom"));
   all.push_back(number(
       "max-edge", kMorphGroup, kPositive, [](auto& o) -> auto& { return o.morph_max_edge; },
       "Split edges longer than this many grid spacings"));

@@ -62,13 +62,18 @@ DeviceRequest parse_device(const std::string& text) {
   throw InputError("unknown device '" + text + "'; use auto, cpu, cuda, or cuda:N for the GPU of that index");
 }
 
+void check_threads(long long n_threads) {
+  if (n_threads >= 0 && n_threads <= kMostThreads) return;
+  throw InputError("the number of threads, " + std::to_string(n_threads) + ", is not between 0 (all) and " +
+                   std::to_string(kMostThreads));
+}
+
 int available_threads() {
   // Like OpenMP: the first number of a list, for the outermost team. Read here because the engine sets the number of
   // threads itself.
-  constexpr long kMost = 4096;
   const char* const text = std::getenv("OMP_NUM_THREADS");
   const long wanted = text != nullptr ? std::strtol(text, nullptr, 10) : 0;
-  if (wanted > 0 && wanted <= kMost) return static_cast<int>(wanted);
+  if (wanted > 0 && wanted <= kMostThreads) return static_cast<int>(wanted);
   return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
@@ -110,8 +115,7 @@ BackEndStatus cuda_fourier_status() {
 }
 
 std::unique_ptr<Engine> select_engine(const DeviceRequest& device, int n_threads) {
-  if (n_threads < 0)
-    throw InputError("the number of threads, " + std::to_string(n_threads) + ", is negative; 0 uses all");
+  check_threads(n_threads);
 #if defined(ESPDIFF_HAVE_CUDA)
   if (device_status(device).name != "cpu") return cuda_backend::make_engine(device.index);
 #else

@@ -33,6 +33,11 @@ struct BackEndStatus {
   bool available = false;
   Message description;  ///< the device, or the reason for none and the remedy
 };
+/// More threads than any machine has cores only cost time, and the runtime's own limit ends the process.
+constexpr int kMostThreads = 1024;
+/// @throws InputError unless the number is 0 (all) to kMostThreads
+void check_threads(long long n_threads);
+
 /// Default number of CPU threads: OMP_NUM_THREADS, which batch systems set, otherwise all cores available to the
 /// process.
 int available_threads();
@@ -50,7 +55,7 @@ BackEndStatus cuda_fourier_status();
 
 /// Makes an engine.
 /// @param n_threads CPU threads; 0 means available_threads(). A GPU ignores it.
-/// @throws DeviceError if the requested GPU is absent or does not work; InputError if n_threads is negative
+/// @throws DeviceError if the requested GPU is absent or does not work; InputError as check_threads()
 std::unique_ptr<Engine> select_engine(const DeviceRequest& device, int n_threads);
 
 }  // namespace espdiff

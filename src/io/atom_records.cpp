@@ -29,9 +29,9 @@ class ModelSplitter {
  public:
   explicit ModelSplitter(const std::string& path) : path_(path) {}
 
-  void add(std::string_view line, long number) {
+  void add(std::string_view line, long number, bool has_end) {
     switch (record_of(line)) {
-      case Record::kAtom: add_atom({line, number}); break;
+      case Record::kAtom: add_atom({line, number, has_end}); break;
       case Record::kModel:
         models_.emplace_back();
         has_model_records_ = is_open_ = is_inside_ = true;
@@ -136,7 +136,7 @@ std::vector<AtomModel> split_models(std::string_view text, const std::string& pa
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     std::string_view line = text.substr(begin, end - begin);
     while (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-    splitter.add(line, ++number);
+    splitter.add(line, ++number, end < text.size());
     begin = end + 1;
   }
   return splitter.finish();
@@ -144,6 +144,7 @@ std::vector<AtomModel> split_models(std::string_view text, const std::string& pa
 
 const AtomModel& pick_model(const std::vector<AtomModel>& models, int number, const std::string& path) {
   if (number < 1 || static_cast<std::size_t>(number) > models.size()) {
+    if (models.empty()) throw InputError(path + ": has no models; give a structure with atoms");
     throw InputError(path + ": model " + std::to_string(number) + " was asked for, but the file has models 1 to " +
                      std::to_string(models.size()));
   }

@@ -11,6 +11,7 @@ namespace espdiff {
 struct AtomLine {
   std::string_view text;  ///< points into the file's text
   long number = 0;        ///< in the file, from 1
+  bool has_end = true;    ///< false: the file ends here, without a line end; it may have been cut
 
   bool is_hetatm() const { return text[0] == 'H' || text[0] == 'h'; }
 };

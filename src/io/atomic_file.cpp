@@ -2,6 +2,7 @@
 #include "io/atomic_file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -40,21 +41,12 @@ std::string with_remedy(int error_number) {
   }
 }
 
-/// The file that `path` means once symbolic links are followed.
-std::string follow_links(const std::string& path) {
-  fs::path current = path;
-  std::error_code error;
-  for (int depth = 0; depth < 40 && fs::is_symlink(fs::symlink_status(current, error)); ++depth) {
-    const fs::path next = fs::read_symlink(current, error);
-    if (error) break;
-    current = next.is_absolute() ? next : current.parent_path() / next;
-  }
-  return current.string();
-}
-
 /// Refuses what no rename can replace, before any work is done.
 void check_target(const std::string& path, const std::string& target) {
   if (path.empty()) throw IoError("(empty name)", "cannot write to a file without a name; name the output");
+  constexpr std::size_t kLongestName = 255 - 30;  // less what a temporary name has besides
+  if (fs::path(target).filename().string().size() > kLongestName)
+    throw IoError(path, "cannot write: " + with_remedy(ENAMETOOLONG));
   std::error_code error;
   const fs::file_status status = fs::status(target, error);
   if (fs::is_directory(status)) throw IoError(path, "cannot write: this is a folder; name a file in it");
@@ -91,12 +83,50 @@ std::string create_sibling(const std::string& path, const std::string& target) {
   }
 }
 
+/// The name under which the kernel shows an open file.
+std::string descriptor_path(int descriptor) { return "/proc/self/fd/" + std::to_string(descriptor); }
+
 }  // namespace
 
-AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), target_(follow_links(path_)) {
+std::string followed_links(const std::string& path) {
+  fs::path current = path;
+  std::error_code error;
+  for (int depth = 0; depth < 40 && fs::is_symlink(fs::symlink_status(current, error)); ++depth) {
+    const fs::path next = fs::read_symlink(current, error);
+    if (error) break;
+    current = next.is_absolute() ? next : current.parent_path() / next;
+  }
+  return current.string();
+}
+
+AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), target_(followed_links(path_)) {
   check_target(path_, target_);
-  temporary_ = create_sibling(path_, target_);
   stream_.imbue(std::locale::classic());
+  open_unnamed();
+  if (unnamed_ < 0) open_named();
+}
+
+AtomicFile::~AtomicFile() {
+  stream_.close();
+  if (unnamed_ >= 0) ::close(unnamed_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+/// Leaves `unnamed_` below 0 where the file system or a system without /proc cannot do it.
+void AtomicFile::open_unnamed() {
+#if defined(O_TMPFILE)
+  unnamed_ = ::open(folder_of(target_).c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
+  if (unnamed_ < 0) return;
+  stream_.open(descriptor_path(unnamed_), std::ios::binary);
+  if (stream_) return;
+  stream_.clear();
+  ::close(unnamed_);
+  unnamed_ = -1;
+#endif
+}
+
+void AtomicFile::open_named() {
+  temporary_ = create_sibling(path_, target_);
   errno = 0;
   stream_.open(temporary_, std::ios::binary | std::ios::trunc);
   if (stream_) return;
@@ -105,9 +135,29 @@ AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), target_(follo
   throw IoError(path_, "cannot write: " + with_remedy(error_number));
 }
 
-AtomicFile::~AtomicFile() {
-  stream_.close();
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+/// The permissions of an older file.
+void AtomicFile::keep_mode() const {
+  struct stat older {};
+  if (::stat(target_.c_str(), &older) != 0) return;
+  const std::string file = unnamed_ >= 0 ? descriptor_path(unnamed_) : temporary_;
+  constexpr mode_t kPermissions = 0777;
+  ::chmod(file.c_str(), older.st_mode & kPermissions);
+}
+
+/// A file without a name gets a temporary one, which a rename can turn into the target's.
+void AtomicFile::name_temporary() {
+  if (unnamed_ < 0) return;
+  std::string name;
+  do {
+    name = sibling(target_, "tmp");
+    if (::linkat(AT_FDCWD, descriptor_path(unnamed_).c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) {
+      temporary_ = name;
+      ::close(unnamed_);
+      unnamed_ = -1;
+      return;
+    }
+  } while (errno == EEXIST);
+  throw IoError(path_, "not written: " + with_remedy(errno));
 }
 
 /// Brings everything to the file system; a write that failed earlier shows here at the latest.
@@ -127,6 +177,8 @@ void AtomicFile::rename_to_target() {
   std::error_code error;
   if (fs::is_directory(target_, error))
     throw IoError(path_, "not written: this has become a folder; choose another name");
+  keep_mode();
+  name_temporary();
   if (fs::exists(target_, error)) {
     // A second link keeps the older file; where the file system has no links, it steps aside.
     std::string aside = sibling(target_, "old");
@@ -172,7 +224,7 @@ void commit_all(const std::vector<AtomicFile*>& files) {
 }
 
 void remove_leftovers(const std::string& path) {
-  const fs::path target = follow_links(path);
+  const fs::path target = followed_links(path);
   const std::string start = target.filename().string() + ".tmp";
   std::error_code error;
   std::vector<fs::path> leftovers;

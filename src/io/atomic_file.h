@@ -8,9 +8,10 @@
 
 namespace espdiff {
 
-/// Writes to a temporary file beside `path` and renames it at the end, so that a crash, a full disk or a cancelled run
-/// leaves an older file of this name as it was. A symbolic link is followed, not replaced. Numbers are written in the C
-/// locale.
+/// Writes to a temporary file in the folder of `path` and gives it its name at the end, so that a crash, a full disk or
+/// a cancelled run leaves an older file of this name as it was. Where the file system can (O_TMPFILE: ext4, xfs, btrfs,
+/// tmpfs), the temporary file has no name until then, and a killed process leaves nothing. A symbolic link is followed,
+/// not replaced; the new file has the permissions of the older one. Numbers are written in the C locale.
 class AtomicFile {
  public:
   /// Opens the temporary file.
@@ -36,6 +37,10 @@ class AtomicFile {
   friend void commit_all(const std::vector<AtomicFile*>& files);
 
  private:
+  void open_unnamed();
+  void open_named();
+  void keep_mode() const;
+  void name_temporary();
   void finish();
   void rename_to_target();
   void restore_target();
@@ -43,7 +48,8 @@ class AtomicFile {
 
   std::string path_;       // as given, for messages
   std::string target_;     // with symbolic links followed
-  std::string temporary_;  // empty once renamed or removed
+  std::string temporary_;  // empty once renamed or removed, and while the file has no name
+  int unnamed_ = -1;       // descriptor of a file without a name
   std::string previous_;   // an older file of this name, aside until all are committed; empty without one
   std::ofstream stream_;
   bool renamed_ = false;
@@ -54,5 +60,8 @@ void commit_all(const std::vector<AtomicFile*>& files);
 /// Removes the temporary files beside `path` that killed processes left. Only for who knows that no process is writing
 /// this file now.
 void remove_leftovers(const std::string& path);
+
+/// The file that `path` means once symbolic links are followed; it need not exist.
+std::string followed_links(const std::string& path);
 
 }  // namespace espdiff

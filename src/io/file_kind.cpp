@@ -72,7 +72,8 @@ FileKind recognise_first_line(std::string_view line) {
   if (starts_with(lower, "data_")) return FileKind::kMmcif;
   if (starts_with(line, "{")) return FileKind::kMmjson;
   if (starts_with(line, "@<TRIPOS>")) return FileKind::kMol2;
-  if (starts_with(lower, "object ") && contains(lower, "class")) return FileKind::kDx;
+  if (starts_with(lower, "object") && contains(" \t", lower.substr(6, 1)) && lower.size() > 6)
+    return FileKind::kDx;  // its other words may stand on the next lines
   if (is_atom_line(line) || is_pdb_record(line)) return FileKind::kAtomRecords;
   return FileKind::kUnknownText;
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <functional>
 #include <utility>
 
 #include "base/error.h"
@@ -16,6 +18,12 @@ namespace {
 template <std::size_t N>
 bool is_one_of(const std::string& name, const std::array<const char*, N>& names) {
   return std::any_of(names.begin(), names.end(), [&](const char* other) { return name == other; });
+}
+
+std::string shown(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
 }
 
 std::string element_of(const AtomEntry& entry) {
@@ -69,6 +77,27 @@ std::int32_t MoleculeBuilder::find_residue(const AtomEntry& entry) {
   return found->second;
 }
 
+/// Two atoms of one name and residue at one place are one atom, written twice.
+void MoleculeBuilder::refuse_double(const AtomEntry& entry) {
+  std::size_t place = 0;
+  for (int axis = 0; axis < 3; ++axis) place = 31 * place + std::hash<double>()(entry.position[axis]);
+  const auto [begin, end] = at_place_.equal_range(place);
+  for (auto at = begin; at != end; ++at) {
+    const auto& [line, index] = at->second;
+    const Atom& other = molecule_.atoms[index];
+    const Residue& residue = molecule_.residues[static_cast<std::size_t>(other.residue)];
+    if (!(molecule_.positions[index] == entry.position) || other.name != entry.name ||
+        residue.name != entry.residue_name || residue.chain != entry.chain || residue.number != entry.residue_number ||
+        residue.insertion_code != entry.insertion_code)
+      continue;
+    throw FormatError(path_, entry.line,
+                      "atom '" + entry.name + "' of " + entry.residue_name + " " +
+                          std::to_string(entry.residue_number) + " is the one of line " + std::to_string(line) +
+                          " again, at the same place; its charge would count twice: remove one of them");
+  }
+  at_place_.emplace(place, std::pair(entry.line, molecule_.atoms.size()));
+}
+
 void MoleculeBuilder::append(const AtomEntry& entry, const std::string& element, float radius) {
   constexpr double kFarthest = 1e6;
   for (int axis = 0; axis < 3; ++axis) {
@@ -78,6 +107,9 @@ void MoleculeBuilder::append(const AtomEntry& entry, const std::string& element,
                       std::string(1, "xyz"[axis]) + " coordinate of atom '" + entry.name + "' is " + std::to_string(x) +
                           "; a number of Angstrom between -1e6 and 1e6 was expected");
   }
+  if (molecule_.atoms.size() == kMostAtoms)
+    throw InputError(path_ + ": has more than " + std::to_string(kMostAtoms) +
+                     " atoms, which is the most that are read");
   const std::int32_t residue = find_residue(entry);
   residue_atoms_[static_cast<std::size_t>(residue)].push_back(molecule_.atoms.size());
   molecule_.atoms.push_back({entry.name, element, residue, entry.hetero});
@@ -92,14 +124,23 @@ void MoleculeBuilder::add(const AtomEntry& entry) {
 }
 
 void MoleculeBuilder::add(const AtomEntry& entry, double charge, double radius) {
-  if (!std::isfinite(charge) || !std::isfinite(radius)) {
-    throw FormatError(path_, entry.line, "charge or radius of atom '" + entry.name + "' is not a finite number");
+  constexpr double kLargestCharge = 1e6, kLargestRadius_A = 1000;
+  if (!(std::abs(charge) <= kLargestCharge)) {
+    throw FormatError(path_, entry.line,
+                      "charge of atom '" + entry.name + "' is " + shown(charge) +
+                          "; elementary charges between -1e6 and 1e6 were expected");
+  }
+  if (!(radius <= kLargestRadius_A)) {
+    throw FormatError(
+        path_, entry.line,
+        "radius of atom '" + entry.name + "' is " + shown(radius) + "; at most 1000 Angstrom were expected");
   }
   if (radius < 0) {
     throw FormatError(path_, entry.line,
                       "radius of atom '" + entry.name + "' is " + std::to_string(radius) +
                           "; 0 or more was expected (are charge and radius swapped?)");
   }
+  refuse_double(entry);
   append(entry, element_of(entry), static_cast<float>(radius));
   molecule_.charges.push_back(static_cast<float>(charge));
   molecule_.radii_origin = ValueOrigin::kFile;

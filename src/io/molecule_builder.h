@@ -4,12 +4,16 @@
 #include <cstddef>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "base/structure_options.h"
 #include "base/types.h"
 
 namespace espdiff {
+
+/// Atoms of a molecule at most: beyond it lattices and surfaces no longer fit into a workstation's memory.
+constexpr std::size_t kMostAtoms = 5'000'000;
 
 /// One atom as a file gives it.
 struct AtomEntry {
@@ -40,7 +44,8 @@ class MoleculeBuilder {
   /// Adds an atom with the radius of its element. @throws FormatError (coordinates not finite or beyond 10^6 Angstrom)
   void add(const AtomEntry& entry);
 
-  /// Adds an atom with charge and radius from the file. @throws FormatError (also: not finite, radius negative)
+  /// Adds an atom with charge and radius from the file. @throws FormatError (also: out of range; an atom of the same
+  /// name, residue and place is there, so that its charge would count twice)
   void add(const AtomEntry& entry, double charge, double radius);
 
   /// @throws InputError when no atom is left, with the numbers that the options dropped
@@ -48,6 +53,7 @@ class MoleculeBuilder {
 
  private:
   std::int32_t find_residue(const AtomEntry& entry);
+  void refuse_double(const AtomEntry& entry);
   void append(const AtomEntry& entry, const std::string& element, float radius);
 
   std::string path_;
@@ -55,6 +61,8 @@ class MoleculeBuilder {
   Molecule molecule_;
   std::vector<std::vector<std::size_t>> residue_atoms_;           // [residue][] atom indices
   std::unordered_map<std::string, std::int32_t> latest_residue_;  // by identity
+  /// [place] lines and indices of the atoms there, of files with charges.
+  std::unordered_multimap<std::size_t, std::pair<long, std::size_t>> at_place_;
   std::size_t n_water_ = 0, n_hetero_ = 0;
 };
 

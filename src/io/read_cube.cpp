@@ -112,7 +112,7 @@ void read_values(TextCursor& cursor, const CubeHeader& header, Grid& grid) {
       for (int k = 0; k < nz; ++k) {
         for (std::size_t volume = 0; volume < header.n_volumes; ++volume, ++n_read) {
           float value = 0;
-          if (!cursor.try_value(value)) fail_at_value(cursor, n_read, n_promised);
+          if (!cursor.try_column_value(value)) fail_at_value(cursor, n_read, n_promised);
           if (volume == 0) grid.values[static_cast<std::size_t>(i + column * (j + row * k))] = value;
         }
       }

@@ -2,6 +2,7 @@
 #include "io/read_dx.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <vector>
 
@@ -34,7 +35,7 @@ class DxReader {
     if (keyword[0] == '#') {
       note_unit(cursor_.rest_of_line());
     } else if (keyword == "object") {
-      return read_object(split_words(cursor_.rest_of_line()));
+      return read_object(object_words());
     } else if (keyword == "origin") {
       grid_.lattice.origin = read_vector("origin");
     } else if (keyword == "delta") {
@@ -46,6 +47,46 @@ class DxReader {
       cursor_.fail("OpenDX header has " + in_quotes(keyword) + "; object, origin, delta or a comment was expected");
     }
     return false;
+  }
+
+  /// The words of an object, which may go on on the next lines.
+  Words object_words() {
+    constexpr int kMostLines = 20;
+    Words words = split_words(cursor_.rest_of_line());
+    for (int n = 0; n < kMostLines && goes_on(words); ++n) {
+      const Words more = split_words(cursor_.rest_of_line());
+      words.insert(words.end(), more.begin(), more.end());
+    }
+    return words;
+  }
+
+  /// Whether the next line belongs to an object: it lacks its class, counts or "data follows", and no other part
+  /// begins.
+  bool goes_on(const Words& words) {
+    const std::string kind = lower_case(word_after(words, "class")), next = next_word_ahead();
+    for (const char* other : {"", "origin", "delta", "object", "attribute", "component", "end"}) {
+      if (next == other) return false;
+    }
+    if (next[0] == '#') return false;
+    double number = 0;
+    const std::string last = words.empty() ? std::string() : lower_case(words.back());
+    const bool wants_number = last == "counts" || last == "rank" || last == "shape" || last == "items";
+    if (kind == "gridpositions" || kind == "gridconnections") {
+      const auto counts = std::find_if(words.begin(), words.end(), [](auto w) { return lower_case(w) == "counts"; });
+      return words.end() - counts < 4;
+    }
+    if (kind == "array") return !has_word(words, "follows") && (wants_number || !parse_number(next, number));
+    return kind.empty() && !parse_number(next, number);
+  }
+
+  /// Without moving on, also of the place that errors name.
+  std::string next_word_ahead() const {
+    TextCursor ahead = cursor_;
+    return lower_case(ahead.next_word());
+  }
+
+  static bool has_word(const Words& words, std::string_view wanted) {
+    return std::any_of(words.begin(), words.end(), [&](auto word) { return lower_case(word) == wanted; });
   }
 
   bool read_object(const Words& words) {
@@ -202,6 +243,8 @@ PotentialUnit find_potential_unit(std::string_view text) {
 PotentialUnit potential_unit_of_file(const std::string& path) {
   constexpr int kMostLines = 100;
   constexpr std::size_t kMostCharacters = 200;
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return PotentialUnit::kUnknown;  // a pipe could block
   std::ifstream in(path);
   std::string line;
   for (int n = 0; n < kMostLines && std::getline(in, line); ++n) {

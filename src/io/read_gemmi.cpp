@@ -7,6 +7,7 @@
 #include <gemmi/cif.hpp>    // for read_memory
 #include <gemmi/mmcif.hpp>  // for make_structure
 #include <gemmi/pdb.hpp>    // for read_pdb_from_memory
+#include <limits>
 #include <new>
 #include <set>
 #include <string_view>
@@ -176,8 +177,7 @@ long row_line(const std::string& text, const gemmi::cif::Item& item, std::size_t
 }
 
 void check_atom_site(const std::string& path, const std::string& text, gemmi::cif::Block& block) {
-  for (const char* column : {"id", "type_symbol", "label_alt_id", "label_asym_id", "Cartn_x", "Cartn_y", "Cartn_z",
-                             "occupancy", "B_iso_or_equiv", "auth_seq_id"}) {
+  for (const char* column : {"id", "type_symbol", "label_asym_id", "Cartn_x", "Cartn_y", "Cartn_z", "auth_seq_id"}) {
     if (!block.find_values(std::string("_atom_site.") + column)) {
       throw InputError(path + ": mmCIF without the column _atom_site." + column +
                        (block.items.empty() ? " (no atoms at all)" : "") +
@@ -196,10 +196,52 @@ void check_atom_site(const std::string& path, const std::string& text, gemmi::ci
   }
 }
 
+/// Columns that gemmi insists on and we can do without.
+void add_missing_columns(gemmi::cif::Block& block) {
+  for (const auto& [column, value] : {std::pair("label_alt_id", "."), {"occupancy", "1"}, {"B_iso_or_equiv", "0"}}) {
+    const std::string tag = std::string("_atom_site.") + column;
+    if (block.find_values(tag)) continue;
+    gemmi::cif::Item& first = block.items.front();
+    if (first.type != gemmi::cif::ItemType::Loop) {
+      block.items.emplace_back(tag, value);  // one atom, as pairs of tag and value
+      continue;
+    }
+    const std::size_t width = first.loop.tags.size();
+    std::vector<std::string> values;
+    values.reserve(first.loop.values.size() / width * (width + 1));
+    for (std::size_t i = 0; i < first.loop.values.size(); ++i) {
+      values.push_back(std::move(first.loop.values[i]));
+      if ((i + 1) % width == 0) values.emplace_back(value);
+    }
+    first.loop.values = std::move(values);
+    first.loop.tags.push_back(tag);
+  }
+}
+
+/// A residue's number, with an insertion code behind it perhaps; or unknown, as of water.
+void check_residue_numbers(const std::string& path, const std::string& text, gemmi::cif::Block& block) {
+  gemmi::cif::Column column = block.find_values("_atom_site.auth_seq_id");
+  for (int row = 0; row < column.length(); ++row) {
+    const std::string& value = column[row];
+    if (gemmi::cif::is_null(value)) continue;
+    const std::string raw = gemmi::cif::as_string(value);
+    const bool has_code = !raw.empty() && (raw.back() < '0' || raw.back() > '9');
+    long long number = 0;
+    if (parse_integer(std::string_view(raw).substr(0, raw.size() - (has_code ? 1 : 0)), number) &&
+        std::abs(number) <= std::numeric_limits<int>::max())
+      continue;
+    throw FormatError(path, row_line(text, block.items.front(), static_cast<std::size_t>(row), value),
+                      "_atom_site.auth_seq_id of atom " + std::to_string(row + 1) + " is " + in_quotes(value) +
+                          "; an integer below 2^31 in size was expected");
+  }
+}
+
 gemmi::Structure parse_mmcif(const std::string& path, const std::string& text) {
   gemmi::cif::Document document = parse_atom_site(path, text);
   if (document.blocks.empty()) throw InputError(path + ": CIF without a data block; give an mmCIF with coordinates");
   check_atom_site(path, text, document.blocks.front());
+  check_residue_numbers(path, text, document.blocks.front());
+  add_missing_columns(document.blocks.front());
   return call_gemmi(path, "the mmCIF cannot be read: ", [&] { return gemmi::make_structure(document); });
 }
 
@@ -228,8 +270,9 @@ Molecule read_mmcif(const std::string& path, const std::string& text, const Stru
   const gemmi::Structure structure = parse_mmcif(path, text);
   const int n_models = static_cast<int>(structure.models.size());
   if (options.model < 1 || options.model > n_models) {
-    throw InputError(path + ": model " + std::to_string(options.model) +
-                     " was asked for, but the file has models 1 to " + std::to_string(n_models));
+    throw InputError(n_models == 0 ? path + ": has no atoms; give a structure with atoms"
+                                   : path + ": model " + std::to_string(options.model) +
+                                         " was asked for, but the file has models 1 to " + std::to_string(n_models));
   }
   MoleculeBuilder builder(path, options);
   for (const ChosenAtom& chosen : choose_conformation(structure.models[static_cast<std::size_t>(options.model) - 1])) {

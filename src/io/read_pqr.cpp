@@ -155,6 +155,24 @@ PqrAtom read_atom(const std::string& path, const AtomLine& line) {
           "parted by blanks");
 }
 
+/// Digits behind the point of the line's last word.
+std::size_t last_decimals(std::string_view line) {
+  const std::string_view word = split_words(line).back();
+  const std::size_t point = word.find('.');
+  return point == std::string_view::npos ? 0 : word.size() - point - 1;
+}
+
+/// A file that was cut within its last number reads as another number.
+void check_last_line(const std::string& path, const AtomModel& model) {
+  if (model.size() < 2 || model.back().has_end) return;
+  const std::size_t before = last_decimals(model[model.size() - 2].text), last = last_decimals(model.back().text);
+  if (last >= before) return;
+  throw FormatError(path, model.back().number,
+                    "the file ends within this line, and its last number has " + std::to_string(last) +
+                        " decimals instead of " + std::to_string(before) +
+                        ": it seems to be cut; fetch it again, or end the line if it is whole");
+}
+
 }  // namespace
 
 Molecule read_pqr(const std::string& path, const AtomModel& model, const StructureOptions& options) {
@@ -166,6 +184,7 @@ Molecule read_pqr(const std::string& path, const AtomModel& model, const Structu
     atom.entry.line = line.number;
     builder.add(atom.entry, atom.charge, atom.radius);
   }
+  check_last_line(path, model);
   return builder.finish();
 }
 

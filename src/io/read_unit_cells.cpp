@@ -53,6 +53,10 @@ std::vector<std::optional<UnitCell>> read_unit_cells(std::string_view text, cons
   std::optional<UnitCell> cell;
   std::size_t next = 0;  // models and lines are both in the order of the file
   for (const AtomModel& model : models) {
+    if (model.empty()) {  // a model without atoms has none
+      cells.emplace_back();
+      continue;
+    }
     for (; next < lines.size() && lines[next].number < model.front().number; ++next) cell = lines[next].cell;
     cells.push_back(cell);
   }

@@ -148,6 +148,51 @@ bool TextCursor::try_value(float& value) {
   return true;
 }
 
+namespace {
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_sign(char c) { return c == '+' || c == '-'; }
+
+std::size_t digits_from(std::string_view text, std::size_t at) {
+  std::size_t n = 0;
+  while (at + n < text.size() && is_digit(text[at + n])) ++n;
+  return n;
+}
+
+/// The length of the number that a word begins with, and the same in a form that parse_number() knows.
+std::size_t first_number(std::string_view word, std::string& number) {
+  std::size_t end = !word.empty() && is_sign(word[0]) ? 1 : 0;
+  end += digits_from(word, end);
+  if (end < word.size() && word[end] == '.') end += 1 + digits_from(word, end + 1);
+  number = word.substr(0, end);
+  if (end < word.size() && std::string_view("eEdD").find(word[end]) != std::string_view::npos) {
+    const std::size_t sign = end + 1 < word.size() && is_sign(word[end + 1]) ? 1 : 0;
+    const std::size_t n = digits_from(word, end + 1 + sign);
+    number += "e" + std::string(word.substr(end + 1, sign + n));
+    end += 1 + sign + n;
+  } else if (end < word.size() && is_sign(word[end]) && digits_from(word, end + 1) == 3 &&
+             (end + 4 == word.size() || is_sign(word[end + 4]))) {
+    number += "e" + std::string(word.substr(end, 4));
+    end += 4;
+  }
+  return end;
+}
+
+}  // namespace
+
+bool TextCursor::try_column_value(float& value) {
+  if (try_value(value)) return true;
+  const std::string_view word = peek_word();
+  std::string number;
+  const std::size_t length = first_number(word, number);
+  double parsed = 0;
+  if (length == 0 || (length < word.size() && !is_sign(word[length])) || !parse_number(number, parsed)) return false;
+  if (std::abs(parsed) > static_cast<double>(std::numeric_limits<float>::max())) return false;
+  value = static_cast<float>(parsed);
+  position_ = mark_ + length;
+  return true;
+}
+
 double TextCursor::next_number(const char* what) {
   double value = 0;
   if (!try_number(value)) {

@@ -57,6 +57,11 @@ class TextCursor {
   /// As try_number(), for grid values: numbers beyond the range of float are refused, those too small become 0.
   bool try_value(float& value);
 
+  /// As try_value(), of numbers in columns that may touch, as Fortran writes them: a number also ends where a sign
+  /// begins the next ("-0.12E-01-0.34E-02"), and three digits behind a sign are an exponent without its letter
+  /// ("0.5643-102").
+  bool try_column_value(float& value);
+
   std::size_t n_bytes_left() const { return text_.size() - position_; }
 
   /// Line of the word or line read last, from 1.

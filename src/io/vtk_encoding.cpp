@@ -100,6 +100,8 @@ bool append_unpacked(std::string_view packed, std::uint64_t n, std::string& byte
 bool append_unpacked(std::string_view, std::uint64_t, std::string&) { return false; }
 #endif
 
+constexpr std::uint64_t kMostOfAnyLength = 1'000'000;
+
 /// Sizes of the blocks of an array.
 struct Blocks {
   std::uint64_t whole = 0;            // bytes of each block but perhaps the last, unpacked
@@ -107,7 +109,8 @@ struct Blocks {
   std::vector<std::uint64_t> packed;  // bytes of each block in the file
 };
 
-Blocks read_blocks(EncodedText& text, const VtkEncoding& encoding, std::uint64_t n_bytes) {
+/// @param n_bytes expected; of kAnyLength set to what the file says
+Blocks read_blocks(EncodedText& text, const VtkEncoding& encoding, std::uint64_t& n_bytes) {
   const std::size_t width = encoding.long_headers ? 8 : 4;
   std::string storage;
   const auto number = [&](std::string_view bytes, std::size_t i) {
@@ -115,13 +118,15 @@ Blocks read_blocks(EncodedText& text, const VtkEncoding& encoding, std::uint64_t
   };
   const std::string_view head = text.peek(3 * width, storage);
   const std::uint64_t n_blocks = number(head, 0), whole = number(head, 1), partial = number(head, 2);
-  if (n_blocks == 0 || n_blocks > text.most_bytes() / width || whole == 0 ||
-      whole > n_bytes + (std::uint64_t{1} << 32U) || partial > whole)
+  const std::uint64_t most = n_bytes == kAnyLength ? kMostOfAnyLength : n_bytes;
+  if (n_blocks == 0 || n_blocks > text.most_bytes() / width || whole == 0 || whole > most + (std::uint64_t{1} << 32U) ||
+      partial > whole)
     text.fail("has a damaged table of blocks: " + std::to_string(n_blocks) + " blocks of " + std::to_string(whole) +
               " bytes, the last of " + std::to_string(partial) + " (is header_type the one that it was written with?)");
   Blocks blocks;
   blocks.whole = whole;
   blocks.last = partial == 0 ? whole : partial;
+  if (n_bytes == kAnyLength && n_blocks <= kMostOfAnyLength / whole + 1) n_bytes = (n_blocks - 1) * whole + blocks.last;
   // In doubles, since the product of two numbers of a file may be anything.
   const double total =
       static_cast<double>(n_blocks - 1) * static_cast<double>(whole) + static_cast<double>(blocks.last);
@@ -192,6 +197,7 @@ std::string_view decode_array(std::string_view encoded, bool is_base64, const Vt
     // Length and values are one stream.
     const std::size_t width = encoding.long_headers ? 8 : 4;
     const std::uint64_t length = load_unsigned(text.peek(width, storage).data(), width, encoding.big_endian);
+    if (n_bytes == kAnyLength && length <= kMostOfAnyLength) n_bytes = length;
     if (length != n_bytes)
       text.fail("has " + std::to_string(length) + " bytes, but its type and the number of points ask for " +
                 std::to_string(n_bytes));

@@ -264,7 +264,10 @@ std::string VtkXmlFile::read_text(const XmlElement& array) const {
   constexpr std::size_t kLongest = 10'000;
   std::string text;
   const std::string* const format = array.attribute("format");
-  if (format != nullptr && *format != "ascii") return text;  // lengths of texts are not in the head
+  if (format != nullptr && *format != "ascii") {
+    const std::string_view bytes = binary_bytes(array, kAnyLength, text);
+    return std::string(bytes.substr(0, std::min({bytes.find('\0'), bytes.size(), kLongest})));
+  }
   TextCursor cursor(array.text, path_);
   while (!cursor.at_end() && text.size() < kLongest) {
     const std::string_view word = cursor.next_word();

@@ -129,10 +129,14 @@ bool ends_with(const std::string& text, const std::string& end) {
 
 }  // namespace
 
-void write_dx(const std::string& path, const Grid& grid) {
-  check_grid(path, grid);
-  AtomicFile file(path);
+void write_dx(AtomicFile& file, const Grid& grid) {
+  check_grid(file.path(), grid);
   write_dx_content(file.stream(), grid);
+}
+
+void write_dx(const std::string& path, const Grid& grid) {
+  AtomicFile file(path);
+  write_dx(file, grid);
   file.commit();
 }
 

@@ -14,6 +14,9 @@ namespace espdiff {
 /// @throws InputError (number of values and lattice differ, values not finite), IoError
 void write_dx(const std::string& path, const Grid& grid);
 
+/// The same without giving the file its name: the caller commits.
+void write_dx(AtomicFile& file, const Grid& grid);
+
 /// Writes `grid` as VTK XML image data: Float32 scalars "potential", appended as they lie in memory, the unit as the
 /// field "unit". Axes that are skewed or turned are in the Direction matrix (VTK 9).
 /// @throws as write_dx()

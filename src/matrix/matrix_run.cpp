@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "compare/options.h"
 #include "io/atomic_file.h"
+#include "io/check_outputs.h"
 #include "matrix/matrix_state.h"
 #include "matrix/write_matrix.h"
 
@@ -34,7 +35,7 @@ void check_results(const MatrixRun& run, bool may_replace) {
 }
 
 /// Refuses bad outputs before the work.
-void check_outputs(const MatrixRun& run) {
+void check_existing(const MatrixRun& run) {
   if (run.resume && run.overwrite)
     throw InputError(option("resume") + " and " + option("overwrite") + " exclude each other; leave one out");
   const std::string state = state_path(run.output, run.shard);
@@ -77,9 +78,20 @@ std::string state_path(const std::string& output_prefix, const Shard& shard) {
   return output_prefix + ".shard-" + std::to_string(shard.index) + "-of-" + std::to_string(shard.count) + ".state";
 }
 
+std::vector<std::string> output_paths(const MatrixRun& run) {
+  std::vector<std::string> paths = {state_path(run.output, run.shard)};
+  if (run.shard.count == 1) paths.insert(paths.end(), {run.output + ".csv", run.output + ".json"});
+  return paths;
+}
+
 MatrixReport run_matrix(Engine& engine, const std::vector<Variant>& variants, const CompareOptions& options,
                         const MatrixRun& run, const Progress& progress) {
-  check_outputs(run);
+  std::vector<std::string> inputs;
+  for (const Variant& variant : variants) {
+    for (const InputFile& input : variant.inputs) inputs.push_back(input.path);
+  }
+  check_outputs(inputs, output_paths(run));
+  check_existing(run);
   if (options.offsets_A.size() > 1)
     throw InputError(option("offset") +
                      ": a list of distances was given, and a matrix has one value of a metric for a pair; give one");
@@ -136,6 +148,7 @@ std::size_t metric_to_cluster_by(const MatrixRun& run, const Matrix& matrix) {
 }
 
 MatrixReport merge_matrix(const std::vector<std::string>& state_paths, const MatrixRun& run) {
+  check_outputs(state_paths, {run.output + ".csv", run.output + ".json"});
   check_results(run, run.overwrite);
   if (state_paths.empty())
     throw InputError("no state files were given; a run with " + option("shard") + " writes them");

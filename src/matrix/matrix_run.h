@@ -28,6 +28,9 @@ struct MatrixReport {
   std::vector<std::string> files;  ///< written
 };
 
+/// All that a run writes: results, or a shard's state file.
+std::vector<std::string> output_paths(const MatrixRun& run);
+
 /// OUT.state, or OUT.shard-2-of-8.state.
 std::string state_path(const std::string& output_prefix, const Shard& shard);
 

@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "base/system_message.h"
 #include "io/atomic_file.h"
+#include "io/read_input.h"
 #include "io/sha256.h"
 
 namespace espdiff {
@@ -99,6 +100,7 @@ class LineReader {
 };
 
 std::string read_all(const std::string& path) {
+  require_regular_file(path);
   std::ifstream in(path, std::ios::binary);
   if (!in) throw IoError(path, "the state file cannot be read");
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
@@ -143,6 +145,7 @@ MatrixState::MatrixState(std::string path, std::string sum) : path_(std::move(pa
     ::close(descriptor_);
     throw IoError(path_, "another process is writing this state file; wait for it, or name another output");
   }
+  remove_leftovers(path_);
 }
 
 MatrixState::MatrixState(MatrixState&& other) noexcept

@@ -107,7 +107,6 @@ ComputedMap::ComputedMap(Molecule charges, ChargeSurroundings surroundings, cons
   require_charges(charges);
   auto all = std::make_shared<Charges>();
   all->options = options;
-  const bool knows_solute = !surroundings.solute.empty();
   all->solute = std::move(surroundings.solute);
   MapRecipe& r = all->recipe;
   r.method = options.method;
@@ -119,8 +118,10 @@ ComputedMap::ComputedMap(Molecule charges, ChargeSurroundings surroundings, cons
   r.has_water = surroundings.has_water;
   for (std::size_t i = 0; i < charges.atoms.size(); ++i)
     r.has_water = r.has_water || (charges.charges[i] != 0 && is_water(charges, i));
-  for (std::size_t i = 0; i < charges.atoms.size() && !knows_solute; ++i) {
-    if (!is_water(charges, i)) all->solute.push_back(charges.positions[i]);
+  if (all->solute.empty()) {
+    for (std::size_t i = 0; i < charges.atoms.size(); ++i) {
+      if (!is_water(charges, i)) all->solute.push_back(charges.positions[i]);
+    }
   }
   r.pme = options.pme;
   r.pme.smooth_samples = !options.pme.compatible;

@@ -43,16 +43,21 @@ std::string residue_unit(const CompareResult& result, const std::string& quantit
   return unit_of(find_quantity(quantity), potential_unit_text(result));
 }
 
-void write_residue_pdb(const std::string& path, const Molecule& source, const CompareResult& result,
+void write_residue_pdb(AtomicFile& file, const Molecule& source, const CompareResult& result,
                        const std::string& quantity) {
   const std::vector<double> of_residue = residue_values(result, quantity);
   std::vector<double> of_atom;
   for (const Atom& atom : source.atoms) of_atom.push_back(of_residue.at(static_cast<std::size_t>(atom.residue)));
   const std::string unit = residue_unit(result, quantity);
-  AtomicFile file(path);
   write_pdb(file.stream(), source, of_atom,
             {"B FACTOR: " + quantity + (unit.empty() ? "" : " [" + unit + "]") + " OF THE RESIDUE",
              "OCCUPANCY 0: THE RESIDUE HAS NO SURFACE THAT IS COUNTED", std::string("WRITTEN BY espdiff ") + kVersion});
+}
+
+void write_residue_pdb(const std::string& path, const Molecule& source, const CompareResult& result,
+                       const std::string& quantity) {
+  AtomicFile file(path);
+  write_residue_pdb(file, source, result, quantity);
   file.commit();
 }
 

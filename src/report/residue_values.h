@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/types.h"
+#include "io/atomic_file.h"
 
 namespace espdiff {
 
@@ -21,6 +22,9 @@ std::string residue_unit(const CompareResult& result, const std::string& quantit
 
 /// Writes the source with the quantity of each atom's residue as B factor (write_pdb()).
 /// @throws as residue_values(), write_pdb(), IoError
+/// The first form leaves it to the caller to commit.
+void write_residue_pdb(AtomicFile& file, const Molecule& source, const CompareResult& result,
+                       const std::string& quantity);
 void write_residue_pdb(const std::string& path, const Molecule& source, const CompareResult& result,
                        const std::string& quantity);
 

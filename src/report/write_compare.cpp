@@ -117,8 +117,9 @@ namespace {
 class FileSet {
  public:
   std::ostream& add(const std::string& path) { return files_.emplace_back(path).stream(); }
-  std::vector<std::string> commit() {
+  std::vector<std::string> commit(AtomicFile* beside = nullptr) {
     std::vector<AtomicFile*> all;
+    if (beside != nullptr) all.push_back(beside);
     std::vector<std::string> paths;
     for (AtomicFile& file : files_) {
       all.push_back(&file);
@@ -157,10 +158,11 @@ void keep(FileSet& files, Provenance& provenance, const std::string& role, const
 }  // namespace
 
 void write_compare(const std::string& output_prefix, const Molecule& source, const Molecule& target,
-                   const CompareResult& result, const CompareOptions& options, const Provenance& provenance) {
+                   const CompareResult& result, const CompareOptions& options, const Provenance& provenance,
+                   AtomicFile* beside) {
   FileSet files;
   add_results(files, output_prefix, source, target, result, options, provenance);
-  files.commit();
+  files.commit(beside);
 }
 
 std::vector<std::string> write_compare_with_inputs(const std::string& output_prefix, const Molecule& source,

@@ -11,6 +11,7 @@
 #include "base/structure_options.h"
 #include "base/types.h"
 #include "base/version.h"
+#include "io/atomic_file.h"
 #include "potential/computed_map.h"
 
 namespace espdiff {
@@ -50,9 +51,11 @@ struct Provenance {
 /// units. OUT.residues.csv: one row a source residue, in file order; empty fields where a residue has no valid surface.
 /// @param output_prefix OUT; its folder must exist
 /// @param source, target the molecules that `result` compares
+/// @param beside a complete file that gets its name together with them; may be null
 /// @throws IoError (a file cannot be written)
 void write_compare(const std::string& output_prefix, const Molecule& source, const Molecule& target,
-                   const CompareResult& result, const CompareOptions& options, const Provenance& provenance);
+                   const CompareResult& result, const CompareOptions& options, const Provenance& provenance,
+                   AtomicFile* beside = nullptr);
 
 /// What a comparison was made of, to be written beside its results: molecules as they were compared (one model, one
 /// frame, a selection), and the maps that are in no file (null for those that are, or were computed).

@@ -7,7 +7,7 @@
 
 namespace espdiff {
 
-void write_surface(const std::string& path, const Molecule& molecule, const SurfaceResult& result, PotentialUnit unit) {
+void write_surface(AtomicFile& file, const Molecule& molecule, const SurfaceResult& result, PotentialUnit unit) {
   std::vector<std::int32_t> residue_numbers;
   for (const std::int32_t residue : result.residue) {
     residue_numbers.push_back(residue >= 0 ? molecule.residues[static_cast<std::size_t>(residue)].number : 0);
@@ -25,8 +25,12 @@ void write_surface(const std::string& path, const Molecule& molecule, const Surf
     surface.active_scalars = "potential";
     surface.texts = {{"potential_unit", to_string(unit)}};
   }
-  AtomicFile file(path);
   write_vtp(file.stream(), surface);
+}
+
+void write_surface(const std::string& path, const Molecule& molecule, const SurfaceResult& result, PotentialUnit unit) {
+  AtomicFile file(path);
+  write_surface(file, molecule, result, unit);
   file.commit();
 }
 

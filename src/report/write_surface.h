@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/types.h"
+#include "io/atomic_file.h"
 
 namespace espdiff {
 
@@ -13,6 +14,8 @@ struct SurfaceResult;
 /// the map).
 /// @param unit of the potential
 /// @throws IoError; then nothing is written
+/// The first form leaves it to the caller to commit.
+void write_surface(AtomicFile& file, const Molecule& molecule, const SurfaceResult& result, PotentialUnit unit);
 void write_surface(const std::string& path, const Molecule& molecule, const SurfaceResult& result, PotentialUnit unit);
 
 }  // namespace espdiff

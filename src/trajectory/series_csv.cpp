@@ -8,11 +8,11 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <sstream>
 
 #include "base/error.h"
+#include "base/system_message.h"
 #include "compare/options.h"
 #include "io/atomic_file.h"
 #include "io/read_csv.h"
@@ -83,7 +83,7 @@ void SeriesCsv::open_and_lock() {
   for (;;) {
     is_new_ = !std::filesystem::exists(path_);
     descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-    if (descriptor_ < 0) throw IoError(path_, std::string("cannot be written: ") + std::strerror(errno));
+    if (descriptor_ < 0) throw IoError(path_, std::string("cannot be written: ") + system_message(errno));
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       ::close(descriptor_);
       throw IoError(path_, "another run is writing this file; wait for its end, or name another output");
@@ -131,7 +131,7 @@ void SeriesCsv::read_rows() {
   for (const auto& cells : table.rows) rows_.emplace_back(cells);
   has_head_ = true;
   if (complete.size() < text.size() && ::ftruncate(descriptor_, static_cast<off_t>(complete.size())) != 0)
-    throw IoError(path_, std::string("the incomplete last row cannot be removed: ") + std::strerror(errno));
+    throw IoError(path_, std::string("the incomplete last row cannot be removed: ") + system_message(errno));
 }
 
 void SeriesCsv::check_same(const std::string& name, const std::string& in_file, const std::string& now) const {
@@ -158,7 +158,7 @@ void SeriesCsv::write(const std::string& text) {
     const ssize_t n = ::write(descriptor_, text.data() + written, text.size() - written);
     if (n < 0 && errno == EINTR) continue;
     if (n < 0)
-      throw IoError(path_, std::string("a row cannot be written: ") + std::strerror(errno) + "; " +
+      throw IoError(path_, std::string("a row cannot be written: ") + system_message(errno) + "; " +
                                switched_on("resume") + " goes on after the last complete row");
     written += static_cast<std::size_t>(n);
   }
@@ -170,7 +170,7 @@ void SeriesCsv::add(const SeriesRow& row) {
     for (const auto& [name, value] : head_) text += "# " + name + ": " + value + "\n";
     text += line_of(series_columns());
     if (::ftruncate(descriptor_, 0) != 0)
-      throw IoError(path_, std::string("the file cannot be replaced: ") + std::strerror(errno));
+      throw IoError(path_, std::string("the file cannot be replaced: ") + system_message(errno));
     has_head_ = true;
   }
   write(text + line_of(row.cells()));

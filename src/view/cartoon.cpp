@@ -50,7 +50,8 @@ class Strip {
     for (int s = 0; s < n_sections; ++s) add_section(s, points, normals, colours);
     for (int s = 0; s + 1 < n_sections; ++s) {
       for (int k = 0; k < kCorners; ++k) {
-        const vtkIdType a = first + s * kCorners + k, b = first + s * kCorners + (k + 1) % kCorners;
+        const vtkIdType section = first + vtkIdType{s} * kCorners;
+        const vtkIdType a = section + k, b = section + (k + 1) % kCorners;
         cells->InsertNextCell({a, b, a + kCorners});
         cells->InsertNextCell({b, b + kCorners, a + kCorners});
       }

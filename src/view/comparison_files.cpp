@@ -76,6 +76,11 @@ void read_molecules(ComparisonFiles& files, const Scene& scene) {
 
 }  // namespace
 
+std::vector<std::string> files_of(const ComparisonFiles& files) {
+  const RunRecord& r = files.record;
+  return {files.surface.path, r.path, r.source.path, r.target.path, r.source_map.path, r.target_map.path};
+}
+
 bool shows_potentials(const Scene& scene) {
   return scene.layout != Layout::kTurned ||
          (scene.array != RenderArray::kDisplacement && scene.array != RenderArray::kResidue &&

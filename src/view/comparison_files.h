@@ -31,6 +31,9 @@ ComparisonFiles read_comparison(const std::string& vtp_path, const Scene& scene)
 /// @throws as read_comparison()
 void read_missing_files(ComparisonFiles& files, const Scene& scene);
 
+/// Every file that a comparison is read from; pictures must not replace them.
+std::vector<std::string> files_of(const ComparisonFiles& files);
+
 /// Whether a scene's pixels show potentials, which are better looked up in the maps.
 bool shows_potentials(const Scene& scene);
 

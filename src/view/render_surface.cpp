@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/version.h"
 #include "io/atomic_file.h"
+#include "io/check_outputs.h"
 #include "view/comparison_files.h"
 #include "view/comparison_scene.h"
 #include "view/picture.h"
@@ -73,13 +74,15 @@ std::vector<std::string> notes_on(const ComparisonFiles& files, const Scene& sce
 
 }  // namespace
 
-std::vector<std::string> render_surface(const std::string& vtp_path, const std::string& png_path, const Scene& scene) {
+std::vector<std::string> render_surface(const std::string& vtp_path, const std::string& png_path, const Scene& scene,
+                                        AtomicFile* beside) {
   check(scene);
-  return render_comparison(read_comparison(vtp_path, scene), png_path, scene);
+  return render_comparison(read_comparison(vtp_path, scene), png_path, scene, beside);
 }
 
 std::vector<std::string> render_comparison(const ComparisonFiles& files, const std::string& png_path,
-                                           const Scene& scene) {
+                                           const Scene& scene, AtomicFile* beside) {
+  check_outputs(files_of(files), {png_path, beside != nullptr ? beside->path() : std::string()});
   AtomicFile file(png_path);  // before drawing, to find an unwritable output early
   ComparisonScene drawn(files, scene);
   const vtkSmartPointer<vtkRenderWindow> window = make_hidden_window();
@@ -96,7 +99,9 @@ std::vector<std::string> render_comparison(const ComparisonFiles& files, const s
                               {"Scene", scene_json(scene)}};
   const std::string png = encode_png(image, texts, png_path);
   file.stream().write(png.data(), static_cast<std::streamsize>(png.size()));
-  file.commit();
+  std::vector<AtomicFile*> all = {&file};
+  if (beside != nullptr) all.push_back(beside);
+  commit_all(all);
   return notes_on(files, scene);
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "io/atomic_file.h"
 #include "view/scene.h"
 
 namespace espdiff {
@@ -15,16 +16,18 @@ namespace espdiff {
 /// side is in front. The PNG contains its provenance as text (Title, Software, Source, Description, Inputs, Scene) and
 /// replaces `png_path` only when complete.
 /// @returns notes for the user: why values are not looked up, or that the result is not trustworthy
-/// @throws InputError (scene out of range; array missing or without a value; OUT.json missing although needed), IoError
-/// (file missing, output unwritable), FormatError (a file is damaged or of another kind), DeviceError (no X display;
-/// says how to get one)
-/// Cost: about 2 s at the default size by software OpenGL. Same machine and OpenGL driver: same pixels.
-std::vector<std::string> render_surface(const std::string& vtp_path, const std::string& png_path, const Scene& scene);
+/// @throws InputError (the picture would replace a file of the comparison; scene out of range; array missing or without
+/// a value; OUT.json missing although needed), IoError (file missing, output unwritable), FormatError (a file is
+/// damaged or of another kind), DeviceError (no X display; says how to get one) Cost: about 2 s at the default size by
+/// software OpenGL. Same machine and OpenGL driver: same pixels. `beside`, where given, is complete and gets its name
+/// together with the picture.
+std::vector<std::string> render_surface(const std::string& vtp_path, const std::string& png_path, const Scene& scene,
+                                        AtomicFile* beside = nullptr);
 
 struct ComparisonFiles;
 
 /// The same for files already read.
 std::vector<std::string> render_comparison(const ComparisonFiles& files, const std::string& png_path,
-                                           const Scene& scene);
+                                           const Scene& scene, AtomicFile* beside = nullptr);
 
 }  // namespace espdiff

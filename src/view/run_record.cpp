@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "io/read_input.h"
 #include "io/sha256.h"
 
 namespace espdiff {
@@ -41,6 +42,12 @@ void read_inputs(const Json& inputs, const fs::path& folder, RunRecord& record) 
   }
 }
 
+/// Where it is no JSON; of another JSON there is nothing that a user could do.
+std::string detail_of(const Json::exception& error) {
+  const auto* parsing = dynamic_cast<const nlohmann::json::parse_error*>(&error);
+  return parsing != nullptr ? " (no JSON at byte " + std::to_string(parsing->byte) + ")" : std::string();
+}
+
 void read_superposition(const Json& json, RigidTransform& transform) {
   const auto& rotation = json.at("rotation_row_major");
   for (std::size_t i = 0; i < 9; ++i) transform.rotation[i] = rotation.at(i);
@@ -54,6 +61,9 @@ RunRecord read_run_record(const std::string& vtp_path) {
   RunRecord record;
   const fs::path path = fs::path(vtp_path).replace_extension(".json");
   record.path = path.string();
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) return record;
+  require_regular_file(record.path);
   std::ifstream in(path);
   if (!in) return record;
   try {
@@ -71,8 +81,8 @@ RunRecord read_run_record(const std::string& vtp_path) {
     json.at("certificate").at("reasons").get_to(record.reasons);
   } catch (const Json::exception& error) {
     throw FormatError(record.path, 0,
-                      std::string("not a record that `espdiff compare` wrote (") + error.what() +
-                          "); compare again, or move it away to draw the surface alone");
+                      std::string("not a record that `espdiff compare` wrote") + detail_of(error) +
+                          "; compare again, or move it away to draw the surface alone");
   }
   record.found = true;
   return record;

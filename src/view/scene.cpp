@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "io/read_input.h"
 
 namespace espdiff {
 namespace {
@@ -178,6 +180,8 @@ std::string scene_json(const Scene& scene) {
 }
 
 Scene read_scene(const std::string& path, const Scene& defaults) {
+  std::error_code ignored;
+  if (std::filesystem::exists(path, ignored)) require_regular_file(path);
   std::ifstream in(path);
   if (!in) throw IoError(path, "no such scene file; " + option("save-scene", "FILE") + " writes one");
   Scene scene = defaults;
@@ -193,7 +197,8 @@ Scene read_scene(const std::string& path, const Scene& defaults) {
       }
     }
   } catch (const nlohmann::json::parse_error& error) {
-    throw FormatError(path, 0, std::string("not JSON: ") + error.what());
+    throw FormatError(path, 0,
+                      "no JSON at byte " + std::to_string(error.byte) + "; `--save-scene FILE` shows what a scene is");
   } catch (const nlohmann::json::exception&) {
     throw FormatError(
         path, 0,

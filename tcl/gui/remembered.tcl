@@ -109,7 +109,7 @@ namespace eval ::espdiff::gui {
     }
 
     proc read_whole_file {path} {
-        set channel [::open $path r]
+        set channel [::espdiff::open_file $path]
         fconfigure $channel -encoding utf-8
         ::espdiff::finally { return [read $channel] } { close $channel }
     }
@@ -118,7 +118,7 @@ namespace eval ::espdiff::gui {
     proc write_whole_file {path text} {
         set new $path.[pid].new
         if {[catch {
-            set channel [::open $new w]
+            set channel [::espdiff::open_file $new w]
             fconfigure $channel -encoding utf-8 -translation lf
             puts -nonewline $channel $text
             close $channel

@@ -43,10 +43,13 @@ namespace eval ::espdiff::gui {
     proc how_loaded {mol} {
         set lines {}
         foreach path [lindex [molinfo $mol get filename] 0] {
-            lappend lines "#   mol [expr {[llength $lines] == 0 ? "new" : "addfile"}] [list $path] waitfor all"
+            lappend lines "#   mol [expr {[llength $lines] == 0 ? "new" : "addfile"}] [comment_word $path] waitfor all"
         }
         return "# Molecule $mol was loaded by\n[join $lines \n]"
     }
+
+    # A word within a comment, which a newline in a file's name would end.
+    proc comment_word {word} { return [string map {\n \\n \r \\r} [list $word]] }
 
     # A script that repeats the actions in the window: the shown comparison with its drawing, the trajectory, the
     # matrix.

@@ -1,11 +1,16 @@
 // hostile_files.cpp: files that once crashed or hung a reader, or were believed: each is refused in one line, or read
 // right.
-#include <cmath>
+#include <sys/stat.h>
+
+#include <algorithm>
 
 #include "base/error.h"
+#include "base/printable.h"
 #include "io/read_grid.h"
+#include "io/read_input.h"
 #include "io/read_structure.h"
 #include "io/read_vtp.h"
+#include "io/sha256.h"
 #include "io/write_vtp.h"
 #include "support/test_data.h"
 
@@ -58,6 +63,111 @@ TEST_CASE("hostile VTI: nonsense that VTK's reader believes is refused") {
                  ":9: array 'potential' has 2048 bytes, but its type and the number of points ask for 512"));
   CHECK(contains(refusal_of_map("vti_extent_other_than_data_accepted.vti"),
                  ":9: array 'potential' has 2048 bytes, but its type and the number of points ask for 560"));
+}
+
+TEST_CASE("hostile structures: numbers that mean something else than they say") {
+  const auto refused = [](const std::string& name) {
+    return refusal(corpus(name), [](const std::string& path) { read_structure(path); });
+  };
+  CHECK(contains(refused("pqr_doubled_atoms.pqr"),
+                 ":6: atom 'N' of ALA 1 is the one of line 1 again, at the same place"));
+  CHECK(contains(refused("pqr_radius_1e300.pqr"), ":14: radius of atom 'C4' is 1e+300; at most 1000 Angstrom"));
+  CHECK(contains(refused("pqr_cut_in_radius.pqr"), ":5: "));
+#ifdef ESPDIFF_HAVE_GEMMI
+  CHECK(contains(refused("cif_resid_overflow.cif"),
+                 ": _atom_site.auth_seq_id of atom 1 is '4294967301'; an integer below"));
+#endif
+  CHECK(refused("ala.pqr") == "");
+}
+
+TEST_CASE("PQR: a file that ends within its last number is not believed") {
+  const ScratchFolder scratch;
+  const std::string whole = read_file(corpus("ala.pqr"));
+  const auto message = [&](const std::string& text) {
+    return refusal(scratch.write("a.pqr", text), [](const std::string& path) { read_structure(path); });
+  };
+  REQUIRE(whole.substr(whole.size() - 7) == "1.7000\n");
+  CHECK(message(whole) == "");
+  CHECK(message(whole.substr(0, whole.size() - 1)) == "");  // no line end, and nothing is missing
+  for (std::size_t n = 2; n < 7; ++n) {
+    CAPTURE(n);
+    CHECK(contains(message(whole.substr(0, whole.size() - n)), ":5: "));
+  }
+  CHECK(contains(message(whole.substr(0, whole.size() - 5)),
+                 "its last number has 0 decimals instead of 4: it seems to be cut; fetch it again, or end the line"));
+}
+
+TEST_CASE("PQR: charges and radii that no atom has are refused with file and line") {
+  const ScratchFolder scratch;
+  const auto message = [&](const std::string& charge) {
+    const std::string text = "ATOM 1 N ALA 1 0 0 0 " + charge + " 1.5\n";
+    return refusal(scratch.write("a.pqr", text), [](const std::string& path) { read_structure(path); });
+  };
+  CHECK(message("1e39") == ":1: charge of atom 'N' is 1e+39; elementary charges between -1e6 and 1e6 were expected");
+  CHECK(message("-2") == "");
+}
+
+TEST_CASE("cells of a file whose first model is empty") {
+  const auto cells = StructureFile(corpus("empty_model_cryst1.pqr")).unit_cells();
+  REQUIRE(cells.size() == 2);
+  CHECK_FALSE(cells[0].has_value());
+  REQUIRE(cells[1].has_value());
+  CHECK(cells[1]->lengths.x == 60);
+}
+
+#ifdef ESPDIFF_HAVE_GEMMI
+TEST_CASE("mmCIF without occupancies, alternate locations or B factors is read") {
+  const ScratchFolder scratch;
+  const std::string head =
+      "data_X\nloop_\n_atom_site.id\n_atom_site.type_symbol\n_atom_site.label_atom_id\n_atom_site.label_comp_id\n"
+      "_atom_site.label_asym_id\n_atom_site.auth_seq_id\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n";
+  const Molecule m = read_structure(scratch.write("a.cif", head + "1 N N ALA A 7 1 2 3\n2 C CA ALA A 7 2 2 3\n"));
+  REQUIRE(m.size() == 2);
+  CHECK(m.residues[0].number == 7);
+  CHECK(m.positions[1] == Vec3d{2, 2, 3});
+  // One atom may stand as pairs of tag and value.
+  const Molecule one = read_structure(scratch.write(
+      "b.cif",
+      "data_X\n_atom_site.id 1\n_atom_site.type_symbol N\n_atom_site.label_atom_id N\n_atom_site.label_comp_id ALA\n"
+      "_atom_site.label_asym_id A\n_atom_site.auth_seq_id 7\n_atom_site.Cartn_x 1\n_atom_site.Cartn_y 2\n"
+      "_atom_site.Cartn_z 3\n"));
+  CHECK(one.size() == 1);
+}
+#endif
+
+TEST_CASE("cube: numbers that touch are parted as Fortran wrote them") {
+  const ScratchFolder scratch;
+  const std::string head = "t\nu\n0 0 0 0\n2 1 0 0\n2 0 1 0\n2 0 0 1\n";
+  const Grid grid = read_grid(scratch.write(
+      "a.cube", head + "-0.12345E-01-0.22345E-01 0.32345E-01 0.42345-102\n-0.52345-101-0.62345E+01 7.5-8.25\n"));
+  const std::vector<float> expected = {-0.012345F, -0.022345F, 0.032345F, 0, 0, -6.2345F, 7.5F, -8.25F};
+  const std::size_t x_fastest[] = {0, 4, 2, 6, 1, 5, 3, 7};  // the file has z fastest
+  for (std::size_t i = 0; i < 8; ++i) CHECK(grid.values[i] == expected[x_fastest[i]]);
+  CHECK(contains(
+      refusal(scratch.write("b.cube", head + "1 2 3 4 5 6 7 8..5\n"), [](const std::string& path) { read_grid(path); }),
+      "value 8 is '8..5'"));
+}
+
+TEST_CASE("DX: words may stand on several lines, and tabs between them") {
+  const ScratchFolder scratch;
+  const Grid grid = read_grid(scratch.write(
+      "a.dx",
+      "object\t1\tclass\ngridpositions\n  counts 2\n2 2\norigin 0 0 0\ndelta 1 0 0\ndelta 0 1 0\ndelta 0 0 1\n"
+      "object 2 class gridconnections\ncounts 2 2 2\nobject 3 class array type double\nrank 0 items\n8 data "
+      "follows\n1 2 3 4 5 6 7 8\nattribute \"dep\" string \"positions\"\n"));
+  CHECK(grid.values == std::vector<float>{1, 5, 3, 7, 2, 6, 4, 8});
+}
+
+TEST_CASE("what espdiff wrote itself is read from files only: a pipe in its place would block") {
+  const ScratchFolder scratch;
+  const std::string pipe = scratch.file("pipe");
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK(refusal(pipe, [](const std::string& path) { sha256_of_file(path); }) ==
+        ": is a pipe or a device; save its content as a file and give that");
+}
+
+TEST_CASE("names with control characters do not reach the terminal") {
+  CHECK(printable("a\nb\x1b[31m\xc2\x9b.pqr: \xc3\x85 is fine") == "a?b?[31m??.pqr: \xc3\x85 is fine");
 }
 
 namespace {

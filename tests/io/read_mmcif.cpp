@@ -80,7 +80,7 @@ TEST_CASE("read_mmcif: bad syntax, no atoms, missing columns, missing model") {
   without.replace(without.find("auth_seq_id"), 11, "auth_seq_ix");
   CHECK(error(without).find("a.cif: mmCIF without the column _atom_site.auth_seq_id;") == 0);
   CHECK(error(kHead + "ATOM 1 N N . ALA A ? 1.0 2.0 3.0 1.0 5 7a1b X 1\n") ==
-        "a.cif: the mmCIF cannot be read: not an integer: 7a");
+        "a.cif:20: _atom_site.auth_seq_id of atom 1 is '7a1b'; an integer below 2^31 in size was expected");
   StructureOptions options;
   options.model = 3;
   CHECK(message_of([&] {

@@ -57,7 +57,7 @@ TEST_CASE("unit cells: four times the frames take about four times as long, not 
     }
     const std::string path = scratch.write("many.pqr", text);
     const std::clock_t begun = std::clock();  // processor time, which other programs do not add to
-    const auto cells = read_unit_cells(path);
+    const auto cells = cells_of(path);
     const double seconds = static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
     REQUIRE(cells.size() == static_cast<std::size_t>(n_frames));
     CHECK(cells[1234]->lengths.x == 40 + 234);

@@ -83,7 +83,8 @@ TEST_CASE("a molecule differs from its own copy, rigidly turned, by less than 1 
     for (const PotentialMethod method : kMethods) {
       const CompareResult result = compared(*engine, molecule, turned(molecule, ++seed), options_of(method));
       const double rms = rms_of(result.surface.potential_source);
-      MESSAGE(std::string(name), ", ", to_string(method), ": ", result.metrics.mean_abs_difference, " of ", rms, " kT/e");
+      MESSAGE(std::string(name), ", ", to_string(method), ": ", result.metrics.mean_abs_difference, " of ", rms,
+              " kT/e");
       CAPTURE(name);
       CHECK(result.metrics.rms_difference < 0.01 * rms);
       CHECK(std::fabs(result.metrics.mean_signed_difference) < 0.01 * rms);

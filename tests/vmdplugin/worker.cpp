@@ -56,7 +56,7 @@ TEST_CASE("a job reports its stage, and what it throws") {
   const auto failing = Worker::instance().submit([](const Progress&) { throw espdiff::InputError("no atoms"); });
   failing->wait();
   CHECK(failing->status().state == Job::State::kFailed);
-  CHECK(failing->failure().message == "no atoms");
+  CHECK(failing->failure().message.plain() == "no atoms");
   const auto foreign = Worker::instance().submit([](const Progress&) { throw 7; });
   foreign->wait();
   CHECK(std::string(foreign->failure().error_class) == "INTERNAL");

@@ -7,6 +7,7 @@
 
 #include "cuda/surface/shapes.h"
 #include "engine/engine.h"
+#include "engine/poisson_boltzmann.h"
 
 namespace espdiff_test {
 

@@ -1,0 +1,107 @@
+// own_inputs.cpp: no verb replaces what it reads, and no two outputs have one name; all is as before, and exit is 2.
+#include <map>
+
+#include "cli/run_espdiff.h"
+
+using namespace espdiff_test;  // NOLINT: a test
+
+namespace {
+
+/// A folder of inputs whose content must not change.
+struct Inputs {
+  ScratchFolder folder;
+  std::map<std::string, std::string> before;
+
+  Inputs() {
+    folder.write("a.pqr", row_of_atoms(6));
+    folder.write("b.pqr", row_of_atoms(6, 0.2));
+    folder.write("a.dx", constant_dx(17, 3.0, 1.0));
+    folder.write("r.json", row_of_atoms(6));  // a structure under a name that a result would have
+    folder.write("r.residues.csv", row_of_atoms(6));
+    folder.write("t.csv", "frame,rmsd_A\n0,1\n1,2\n");
+    folder.write("list.csv", "structure\na.pqr\nb.pqr\n");
+    std::filesystem::create_symlink("a.pqr", folder.file("link.pqr"));
+    std::filesystem::create_hard_link(folder.file("a.pqr"), folder.file("hard.pqr"));
+    for (const auto& entry : std::filesystem::directory_iterator(folder.file("")))
+      before[entry.path().string()] = read_file(entry.path().string());
+  }
+
+  void check_refused(const std::string& arguments, const std::string& expected) {
+    CAPTURE(arguments);
+    const Outcome outcome = run_espdiff(arguments, "cd " + folder.file("") + " &&");
+    CHECK_MESSAGE(outcome.status == 2, outcome.err);
+    CHECK_MESSAGE(contains(outcome.err, "espdiff: " + expected), outcome.err);
+    CHECK(n_lines(outcome.err) == 1);
+    CHECK(folder.n_files() == before.size());
+    for (const auto& [path, content] : before) CHECK(read_file(path) == content);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("an output that is an input is refused by every verb") {
+  Inputs in;
+  const std::string replaces = "an output would replace an input: ";
+  in.check_refused("surface a.pqr -o a.pqr --device cpu", replaces + "'a.pqr'");
+  in.check_refused("surface a.pqr -o link.pqr --device cpu", replaces + "'link.pqr' and 'a.pqr', which are one file");
+  in.check_refused("surface a.pqr -o hard.pqr --device cpu", replaces + "'hard.pqr' and 'a.pqr'");
+  in.check_refused("surface a.pqr --map a.dx -o s.vtp --density a.dx --device cpu", replaces + "'a.dx'");
+  in.check_refused("compare a.pqr b.pqr -o r2 --residue-pdb a.pqr --device cpu", replaces + "'a.pqr'");
+  in.check_refused("compare r.json b.pqr -o r --device cpu", replaces + "'r.json'");
+  in.check_refused("compare a.pqr r.residues.csv -o ./r --device cpu",
+                   replaces + "'./r.residues.csv' and 'r.residues.csv'");
+  in.check_refused("potential a.pqr -o a.pqr --device cpu", replaces + "'a.pqr'");
+  in.check_refused("trajectory a.pqr b.pqr -o b.pqr --overwrite --device cpu", replaces + "'b.pqr'");
+  in.check_refused("trajectory t.csv a.pqr -o t.csv --overwrite --device cpu", replaces + "'t.csv'");
+  in.check_refused("matrix a.pqr r.json -o r --overwrite --device cpu", replaces + "'r.json'");
+  in.check_refused("matrix --list list.csv -o list --overwrite --device cpu", replaces + "'list.csv'");
+  in.folder.write("p.svg", "frame,rmsd_A\n0,1\n1,2\n");
+  in.before[in.folder.file("p.svg")] = read_file(in.folder.file("p.svg"));
+  in.check_refused("plot p.svg --metric rmsd_A -o p.svg", replaces + "'p.svg'");
+  in.check_refused("render a.dx -o a.dx", "");
+}
+
+TEST_CASE("two outputs of one name are refused") {
+  Inputs in;
+  const std::string twice = "two outputs would have one name: ";
+  in.check_refused("surface a.pqr -o d --density d --device cpu", twice + "'d'");
+  in.check_refused("surface a.pqr -o d.vtp --density ./d.vtp --device cpu", twice + "'d.vtp' and './d.vtp'");
+  in.check_refused("potential a.pqr --frames 0 -o c.dx --variance c.dx --device cpu", "");
+  in.folder.write("two.pqr", "MODEL 1\n" + row_of_atoms(6) + "ENDMDL\nMODEL 2\n" + row_of_atoms(6, 0.1) + "ENDMDL\n");
+  in.before[in.folder.file("two.pqr")] = read_file(in.folder.file("two.pqr"));
+  in.check_refused("potential two.pqr -o c.dx --variance c.dx --device cpu --pad 5 --grid 4", twice + "'c.dx'");
+  in.check_refused("compare a.pqr b.pqr -o r2 --residue-pdb r2.vtp --device cpu", twice + "'r2.vtp'");
+}
+
+TEST_CASE("outputs appear together: one that cannot be written leaves none") {
+  Inputs in;
+  in.check_refused("surface a.pqr -o d.vtp --density no/x.dx --device cpu", "no/x.dx: cannot write: the folder no");
+}
+
+TEST_CASE("numbers that mean nothing are refused in our words") {
+  Inputs in;
+  const auto refused = [&](const std::string& arguments, const std::string& expected) {
+    const Outcome outcome = run_espdiff(arguments, "cd " + in.folder.file("") + " &&");
+    CHECK_MESSAGE(outcome.status == 2, outcome.err);
+    CHECK_MESSAGE(contains(outcome.err, expected), outcome.err);
+    CHECK(outcome.err.size() < 300);
+  };
+  refused("potential a.pqr -o o.dx --pad nan", "--pad: 'nan' is not a number of 0 or more");
+  refused("compare a.pqr b.pqr -o o --max-step 1e-12", "0.001 or more");
+  refused("surface a.pqr -o o.vtp --threads 10000", "the number of threads, 10000, is not between 0 (all) and 1024");
+  refused("surface a.pqr -o o.vtp --threads 2147483647", "is not between 0 (all) and 1024");
+  refused("surface a.pqr -o o.vtp --threads -1", "the number of threads, -1, is not between");
+}
+
+TEST_CASE("a plot needs no folder for temporary files and does not read the user's own settings of gnuplot") {
+  Inputs in;
+  in.folder.write(".gnuplot", "set title 'MINE'\nexit\n");
+  const std::string where = "cd " + in.folder.file("") + " && HOME=" + in.folder.file("") + " TMPDIR=/nowhere/at/all";
+  const Outcome outcome = run_espdiff("plot t.csv --metric rmsd_A -o p.svg", where);
+  if (contains(outcome.err, "not installed")) {
+    MESSAGE("SKIPPED: gnuplot is not installed");
+    return;
+  }
+  CHECK_MESSAGE(outcome.status == 0, outcome.err);
+  CHECK_FALSE(contains(read_file(in.folder.file("p.svg")), "MINE"));
+}

@@ -1,0 +1,54 @@
+// fuzz_file.h: hands bytes to a reader as a file, and ends the process for whatever is not one line of ours.
+#pragma once
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "base/error.h"
+#include "base/printable.h"
+
+namespace espdiff_fuzz {
+
+/// A file in memory that keeps its name from one input to the next.
+class MemoryFile {
+ public:
+  MemoryFile() : descriptor_(memfd_create("fuzz", 0)), path_("/proc/self/fd/" + std::to_string(descriptor_)) {}
+
+  const std::string& path() const { return path_; }
+  void set(const std::string& bytes) {
+    if (ftruncate(descriptor_, 0) != 0) std::abort();
+    if (pwrite(descriptor_, bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) std::abort();
+  }
+
+ private:
+  int descriptor_;
+  std::string path_;
+};
+
+/// Reads `bytes` through a file. Errors of ours must name the file; that they are one line is made sure of where they
+/// are shown (printable()).
+template <typename Read>
+int read_as_file(const std::string& bytes, Read read) {
+  static MemoryFile file;
+  file.set(bytes);
+  try {
+    read(file.path());
+  } catch (const espdiff::Error& error) {
+    const std::string message = espdiff::printable(error.what());
+    if (message.find(file.path()) != std::string::npos) return 0;
+    std::fprintf(stderr, "does not name the file: %s\n", message.c_str());
+    std::abort();
+  }
+  return 0;
+}
+
+inline std::string bytes_of(const std::uint8_t* data, std::size_t size) {
+  return {reinterpret_cast<const char*>(data), size};
+}
+
+}  // namespace espdiff_fuzz

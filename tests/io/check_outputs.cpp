@@ -1,0 +1,46 @@
+// check_outputs.cpp: an output that is an input, by whatever name, is refused; so are two outputs of one name.
+#include "io/check_outputs.h"
+
+#include <unistd.h>
+
+#include "base/error.h"
+#include "support/test_data.h"
+
+using namespace espdiff;
+using namespace espdiff_test;
+
+TEST_CASE("is_same_file: links of both kinds, ways through folders, and names that do not exist yet") {
+  const ScratchFolder folder;
+  const std::string a = folder.write("a", "x"), b = folder.write("b", "x");
+  std::filesystem::create_symlink("a", folder.file("soft"));
+  std::filesystem::create_hard_link(a, folder.file("hard"));
+  std::filesystem::create_directory(folder.file("sub"));
+  std::filesystem::create_directory_symlink(folder.file(""), folder.file("sub/up"));
+  std::filesystem::create_symlink("new", folder.file("dangling"));
+  CHECK(is_same_file(a, a));
+  CHECK_FALSE(is_same_file(a, b));
+  for (const char* name : {"soft", "hard", "./a", "sub/../a", "sub/up/a"}) CHECK(is_same_file(a, folder.file(name)));
+  CHECK(is_same_file(folder.file("new"), folder.file("sub/../new")));
+  CHECK(is_same_file(folder.file("new"), folder.file("dangling")));
+  CHECK_FALSE(is_same_file(folder.file("new"), folder.file("newer")));
+  CHECK_FALSE(is_same_file(folder.file("no/new"), folder.file("new")));
+  CHECK_FALSE(is_same_file("/dev/null", a));
+}
+
+TEST_CASE("check_outputs names both files") {
+  const ScratchFolder folder;
+  const std::string a = folder.write("a", "x"), out = folder.file("out"), other = folder.file("./out");
+  CHECK_NOTHROW(check_outputs({a, "", "absent"}, {out, "", ""}));
+  CHECK(message_of([&] {
+          check_outputs({a}, {out, a});
+        }) == "an output would replace an input: '" + a + "'; choose another name for the output");
+  const std::string link = folder.file("link");
+  std::filesystem::create_symlink("a", link);
+  CHECK(message_of([&] { check_outputs({a}, {link}); }) ==
+        "an output would replace an input: '" + link + "' and '" + a +
+            "', which are one file; choose another name for the output");
+  CHECK(message_of([&] {
+          check_outputs({}, {out, other});
+        }) == "two outputs would have one name: '" + out + "' and '" + other +
+                  "', which are one file; choose another for one of them");
+}

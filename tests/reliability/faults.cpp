@@ -1,0 +1,175 @@
+// faults.cpp: kills, signals, full disks, closed streams and second runs: what is promised of them is kept.
+#include <doctest/doctest.h>
+
+#include <random>
+#include <set>
+#include <sstream>
+
+#include "cli/run_espdiff.h"
+
+using namespace espdiff_test;  // NOLINT: a test
+
+namespace {
+
+/// A source and three frames, small enough for a run of a second.
+struct Frames {
+  ScratchFolder folder;
+  Frames() {
+    folder.write("a.pqr", row_of_atoms(5));
+    std::string frames;
+    for (int i = 0; i < 6; ++i)
+      frames += "MODEL " + std::to_string(i + 1) + "\n" + row_of_atoms(5, 0.1 * i) + "ENDMDL\n";
+    folder.write("frames.pqr", frames);
+    for (int i = 0; i < 4; ++i) folder.write("m" + std::to_string(i) + ".pqr", row_of_atoms(5, 0.2 * i));
+  }
+  Outcome run(const std::string& arguments, const std::string& before = "") const {
+    return run_espdiff(arguments + " --device cpu --threads 1 -q", "cd " + folder.file("") + " && " + before);
+  }
+  std::set<std::string> files() const {
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.file("")))
+      names.insert(entry.path().filename().string());
+    return names;
+  }
+};
+
+const char* const kTrajectory = "trajectory a.pqr frames.pqr --start previous --grid-spacing 1.5 -o ";
+const char* const kMatrix = "matrix m0.pqr m1.pqr m2.pqr m3.pqr --grid-spacing 1.5 -o ";
+
+/// The columns and rows, without the header.
+std::string rows_of(const std::string& csv) {
+  std::istringstream lines(csv);
+  std::string rows;
+  for (std::string line; std::getline(lines, line);) {
+    if (line[0] != '#') rows += line + '\n';
+  }
+  return rows;
+}
+
+bool is_one_line_of_ours(const std::string& text) { return text.rfind("espdiff: ", 0) == 0 && n_lines(text) == 1; }
+
+}  // namespace
+
+TEST_CASE("kill -9 at any time: a trajectory resumes to the same bytes, and nothing is left") {
+  const Frames in;
+  REQUIRE(in.run(std::string(kTrajectory) + "whole.csv").status == 0);
+  const std::string expected = read_file(in.folder.file("whole.csv"));
+  std::mt19937 random(42);
+  int n_killed = 0;
+  for (int i = 0; i < 12; ++i) {
+    char delay[32];
+    std::snprintf(delay, sizeof delay, "%.3f", 0.02 + 0.4 * static_cast<double>(random()) / 4294967296.0);
+    const Outcome outcome =
+        in.run(std::string(kTrajectory) + "out.csv --resume", std::string("timeout -s KILL ") + delay);
+    n_killed += outcome.status != 0 ? 1 : 0;
+    for (const std::string& name : in.files()) CHECK_MESSAGE(!contains(name, ".tmp"), name);
+  }
+  MESSAGE("killed ", n_killed, " of 12");
+  CHECK(n_killed > 0);
+  const Outcome last = in.run(std::string(kTrajectory) + "out.csv --resume");
+  CHECK_MESSAGE(last.status == 0, last.err);
+  CHECK(read_file(in.folder.file("out.csv")) == expected);
+  const auto files = in.files();
+  CHECK(files.count("out.csv.state") == 0);
+}
+
+TEST_CASE("kill -9 at any time: a matrix resumes to the same bytes, and nothing is left") {
+  const Frames in;
+  REQUIRE(in.run(std::string(kMatrix) + "whole").status == 0);
+  std::mt19937 random(7);
+  for (int i = 0; i < 12; ++i) {
+    char delay[32];
+    std::snprintf(delay, sizeof delay, "%.3f", 0.02 + 0.4 * static_cast<double>(random()) / 4294967296.0);
+    in.run(std::string(kMatrix) + "out --resume", std::string("timeout -s KILL ") + delay);
+    if (std::filesystem::exists(in.folder.file("out.csv"))) break;
+  }
+  if (!std::filesystem::exists(in.folder.file("out.csv"))) {
+    const Outcome last = in.run(std::string(kMatrix) + "out --resume");
+    CHECK_MESSAGE(last.status == 0, last.err);
+  }
+  for (const char* ending : {".csv", ".json"})
+    CHECK(read_file(in.folder.file(std::string("out") + ending)) ==
+          read_file(in.folder.file(std::string("whole") + ending)));
+  for (const std::string& name : in.files()) {
+    CHECK_MESSAGE(!contains(name, ".tmp"), name);
+    CHECK_MESSAGE(!contains(name, ".state"), name);
+  }
+}
+
+TEST_CASE("signals that can be caught end a run with one line and leave nothing half written") {
+  const Frames in;
+  for (const char* signal : {"INT", "TERM", "HUP"}) {
+    CAPTURE(signal);
+    const auto before = in.files();
+    const Outcome outcome =
+        in.run("compare a.pqr m3.pqr --grid-spacing 0.1 -o out", "timeout -s " + std::string(signal) + " 0.3");
+    CHECK_MESSAGE(is_one_line_of_ours(outcome.err), outcome.err);
+    CHECK(contains(outcome.err, "cancelled; nothing was written"));
+    CHECK(in.files() == before);
+  }
+}
+
+TEST_CASE("a disk that is full, and a file at its limit of size, leave nothing") {
+  const Frames in;
+  const auto before = in.files();
+  for (const char* verb :
+       {"surface a.pqr -o out.vtp", "compare a.pqr m1.pqr -o out", "potential a.pqr --pad 5 -o out.dx"}) {
+    CAPTURE(verb);
+    const Outcome outcome = in.run(verb, "ulimit -f 4 &&");
+    CHECK(outcome.status == 2);
+    CHECK_MESSAGE(is_one_line_of_ours(outcome.err), outcome.err);
+    CHECK(contains(outcome.err, "not written: "));
+    CHECK(in.files() == before);
+  }
+  if (std::filesystem::exists("/dev/full")) {
+    const Outcome outcome = in.run("surface a.pqr -o out.vtp", "exec >/dev/full;");
+    CHECK(outcome.status == 0);
+  }
+}
+
+TEST_CASE("closed standard streams are not taken for outputs") {
+  const Frames in;
+  REQUIRE(in.run("compare a.pqr m1.pqr --grid-spacing 1.5 -o good").status == 0);
+  const std::string base = "compare a.pqr m1.pqr --grid-spacing 1.5 --device cpu --threads 1 -o ";
+  for (const char* closed : {"<&-", ">&-", "2>&-", "<&- >&- 2>&-"}) {
+    CAPTURE(closed);
+    const std::string command = "cd " + in.folder.file("") + " && " ESPDIFF_BINARY " " + base + "out " + closed;
+    CHECK(std::system(command.c_str()) == 0);
+    CHECK(read_file(in.folder.file("out.vtp")) == read_file(in.folder.file("good.vtp")));
+    CHECK(read_file(in.folder.file("out.residues.csv")) == read_file(in.folder.file("good.residues.csv")));
+  }
+}
+
+TEST_CASE("a reader that goes away does not end a run, nor leave half of it") {
+  const Frames in;
+  const std::string command = "cd " + in.folder.file("") +
+                              " && { " ESPDIFF_BINARY
+                              " compare a.pqr m1.pqr --grid-spacing 1.5 --device cpu -o out; echo $? >status; } | true";
+  std::system(command.c_str());
+  CHECK(read_file(in.folder.file("status")) == "0\n");
+  CHECK(in.files().count("out.json") == 1);
+}
+
+TEST_CASE("two runs on one output: one is refused, and the other's file is its own") {
+  const Frames in;
+  const std::string run =
+      std::string(ESPDIFF_BINARY) + " " + kTrajectory + "out.csv --resume --device cpu --threads 1 -q";
+  const std::string command = "cd " + in.folder.file("") + " && (" + run + " 2>err1; echo $? >status1) & cd " +
+                              in.folder.file("") + " && " + run + " 2>err2; echo $? >status2; wait";
+  std::system(("bash -c '" + command + "'").c_str());
+  const std::string statuses = read_file(in.folder.file("status1")) + read_file(in.folder.file("status2"));
+  const std::string errors = read_file(in.folder.file("err1")) + read_file(in.folder.file("err2"));
+  const std::string csv = rows_of(read_file(in.folder.file("out.csv")));
+  CHECK(n_lines(csv) == 7);  // the columns and six frames, whoever wrote them
+  if (statuses != "0\n0\n") {
+    CHECK((statuses == "0\n2\n" || statuses == "2\n0\n"));
+    CHECK(contains(errors, "another run is writing this file"));
+  }  // else the second began when the first had ended
+}
+
+TEST_CASE("what no permission allows is told before the work") {
+  const Frames in;
+  const Outcome outcome = in.run("surface a.pqr -o /proc/out.vtp");
+  CHECK(outcome.status == 2);
+  CHECK_MESSAGE(is_one_line_of_ours(outcome.err), outcome.err);
+}
