@@ -83,7 +83,8 @@ namespace eval ::espdiff {
         set mol [vmd_molecule_id [dict get $endpoint mol] $role]
         set name [molinfo $mol get name]
         if {[catch { vmd_charges $mol all now $role } charges]} { return [list name $name charges 0 solvent 0] }
-        set has_cell [expr {[::tcl::mathfunc::min {*}[molinfo $mol get {a b c}]] > 1}]
+        lassign [molinfo $mol get {a b c}] a b c
+        set has_cell [expr {min($a, $b, $c) > 1}]
         return [list name $name charges 1 solvent [expr {$has_cell && [vmd_has_water $mol $charges]}]]
     }
 
@@ -96,7 +97,9 @@ namespace eval ::espdiff {
                 return $endpoints
             }
             if {![dict exists $endpoint mol] && ![dict exists $endpoint file]} { return $endpoints }
-            lappend facts [potential_facts $endpoint molecule]
+            # What cannot be read is refused where it is read, by its role.
+            if {[catch { potential_facts $endpoint molecule } fact]} { return $endpoints }
+            lappend facts $fact
         }
         lassign [core::usual_potential $facts] kind because
         if {$kind eq "none"} { return $endpoints }

@@ -88,8 +88,7 @@ PotentialPlan::PotentialPlan(const ComputedMapArguments& a, const std::vector<Po
 
 std::string PotentialPlan::in_words() const {
   if (!options_) return {};
-  const std::string words = potential_in_words(*options_);
-  return options_->method == PotentialMethod::kPme ? words + (own_cell_ ? " cell own" : "") : words;
+  return potential_in_words(*options_) + (own_cell_ ? " cell own" : "");
 }
 
 ComputedMap PotentialPlan::map_of(const Molecule& molecule, const ChargedFile& all) const {
