@@ -29,7 +29,6 @@ void add_computed_map_options(CLI::App& p, ComputedMapArguments& a) {
        "box: around the atoms, along their principal axes, without water. auto: own where there is water in one")
       ->check(CLI::IsMember({"auto", "own", "box"}))
       ->capture_default_str()
-      ->check(finite_number())
       ->group(kGroup);
   add_potential_settings(p, a.given, false);
 }

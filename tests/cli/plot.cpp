@@ -43,7 +43,7 @@ TEST_CASE("a matrix as heat map, and one of its variants against all") {
                                     "--both-ways -o " + svg);
   REQUIRE_MESSAGE(lines.status == 0, lines.err);
   text = read_file(svg);
-  for (const char* word : {"m1 against all others", "RMSD (\u00C5)", "Area without counterpart, source (%)", "Variant"})
+  for (const char* word : {"m1 against all others", "RMSD (\u00C5)", "Unmatched area, source (%)", "Variant"})
     CHECK_MESSAGE(contains(text, word), std::string(word), text);
 }
 
