@@ -198,7 +198,7 @@ Scene read_scene(const std::string& path, const Scene& defaults) {
     }
   } catch (const nlohmann::json::parse_error& error) {
     throw FormatError(path, 0,
-                      "no JSON at byte " + std::to_string(error.byte) + "; " + option("save-scene", "FILE") +
+                      "not JSON at byte " + std::to_string(error.byte) + "; " + option("save-scene", "FILE") +
                           " shows what a scene is");
   } catch (const nlohmann::json::exception&) {
     throw FormatError(

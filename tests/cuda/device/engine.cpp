@@ -86,7 +86,7 @@ TEST_CASE("invalid device names and thread counts are refused") {
   CHECK(message_of([] { espdiff::parse_device("gpu"); }) ==
         "unknown device 'gpu'; use auto, cpu, cuda, or cuda:N for the GPU of that index");
   CHECK(message_of([] { espdiff::select_engine(DeviceChoice::kCpu, -2); }) ==
-        "the number of threads, -2, is negative; 0 uses all");
+        "the number of threads, -2, is not between 0 (all) and 1024");
 }
 
 TEST_CASE("a handle of another kind is an internal error, not a crash") {
