@@ -16,7 +16,8 @@ void set_range(Scene& scene, const std::string& text) {
   const bool are_numbers = scene.range.given_ends ? parse_number(words.substr(0, colon), scene.range.low) &&
                                                         parse_number(words.substr(colon + 1), scene.range.high)
                                                   : parse_number(words, scene.range.limit);
-  if (!are_numbers) throw InputError("--range " + text + ": give one number, such as 5 for -5 to 5, or two, such as -8:2");
+  if (!are_numbers)
+    throw InputError("--range " + text + ": give one number, such as 5 for -5 to 5, or two, such as -8:2");
 }
 
 /// Adds an option whose value changes the scene.

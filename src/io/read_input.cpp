@@ -26,7 +26,7 @@ namespace espdiff {
 namespace {
 
 constexpr std::size_t kChunk = std::size_t{1} << 18;
-constexpr int kWaitForWriter_ms = 10000;
+constexpr int kWaitForWriterMs = 10000;
 
 [[noreturn]] void cannot_read(const std::string& path, const char* remedy) {
   throw IoError(path, std::string("cannot be read: ") + system_message(errno) + "; " + remedy);
@@ -83,7 +83,7 @@ class OpenFile {
   void wait_for_writer() {
     pollfd pipe{descriptor_, POLLIN, 0};
     // Nothing within this time: either nobody writes, or who does has not begun. Reading tells which.
-    if (poll(&pipe, 1, kWaitForWriter_ms) == 0) {
+    if (poll(&pipe, 1, kWaitForWriterMs) == 0) {
       const ssize_t n = ::read(descriptor_, &first_, 1);
       if (n == 0) throw IoError(path_, "is a pipe that nobody writes into; start what writes, or give a file");
       has_first_ = n == 1;
