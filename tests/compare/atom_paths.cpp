@@ -54,7 +54,7 @@ double seconds_for(std::size_t n) {
 TEST_SUITE_BEGIN("compare");
 
 TEST_CASE("an unpaired atom shrinks into the nearest paired one, the first of several") {
-  constexpr std::size_t n = 60;
+  const std::size_t n = 60;
   const Molecule source = row(n, 5), target = row(n, -5);
   const std::vector<MovingAtom> paths = atom_paths(source, target, first_half(n), {}, {}, {}, 1.0);
   REQUIRE(paths.size() == 3 * n);

@@ -94,8 +94,8 @@ TEST_CASE("a molecule differs from its own copy, rigidly turned, by less than 1 
 
 TEST_CASE("turning source or target in its file changes no metric by more than 1 %") {
   const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
-  for (const auto& [first, second] : kPairs) {
-    const auto source_path = real_input(first), target_path = real_input(second);
+  for (const auto& pair : kPairs) {
+    const auto source_path = real_input(pair.first), target_path = real_input(pair.second);
     if (!source_path || !target_path) return;
     const Molecule source = espdiff::read_structure(*source_path, {}),
                    target = espdiff::read_structure(*target_path, {});
@@ -106,7 +106,7 @@ TEST_CASE("turning source or target in its file changes no metric by more than 1
         const CompareResult other = of_source ? compared(*engine, turned(source, 91), target, options)
                                               : compared(*engine, source, turned(target, 92), options);
         const espdiff::Metrics& m = other.metrics;
-        CAPTURE(first);
+        CAPTURE(pair.first);
         CAPTURE(to_string(method));
         CAPTURE(of_source);
         CHECK(m.mean_abs_difference == doctest::Approx(plain.mean_abs_difference).epsilon(0.01));
