@@ -79,7 +79,7 @@ test "what is misused is refused with what to do" {
     set mol [mol new [input ubq/ubq.pdb] type pdb waitfor all]
     set ok [list mol $mol]
     check_refused {espdiff compare [list mol $mol frame 5] $ok} {ESPDIFF INPUT} "frame 5" "0 to 0"
-    check_refused {espdiff compare [list mol $mol frame soon] $ok} {ESPDIFF INPUT} "now, first or last"
+    check_refused {espdiff compare [list mol $mol frame soon] $ok} {ESPDIFF INPUT} "all, first, now, last (or end), a number from 0"
     check_refused {espdiff compare [list mol $mol sel "resname XYZ"] $ok} {ESPDIFF INPUT} "holds no atoms"
     check_refused {espdiff compare [list mol $mol sel "resid and ("] $ok} {ESPDIFF INPUT} "not understood"
     check_refused {espdiff compare [list mol $mol map 0] $ok} {ESPDIFF INPUT} "map"
