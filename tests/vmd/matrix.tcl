@@ -28,7 +28,7 @@ test "frames of a molecule, each with each, with computed potentials" {
         [list mol $mol frame 97 sel protein map {pme grid 2}] {*}$quick]
     check_equal "a cell is the comparison" [lindex [espdiff result $matrix metrics rms_difference values] 1 3] \
         [espdiff result $single rms_difference]
-    check "unit" {[espdiff result $matrix potential_unit] eq "kT/e"}
+    check "unit" {[espdiff result $matrix potential_unit] eq "kT/e in vacuum"}
 }
 
 test "parts by VMD's parallel for, merged: the same bytes" {
@@ -60,7 +60,7 @@ test "residues' values in the user field of a frame, beta, and a PDB file" {
     set pair [espdiff compare [list mol $mol frame 0 sel protein map {pme grid 2}] \
         [list mol $mol frame 20 sel protein map {pme grid 2}] {*}$quick]
     set said [espdiff atoms $pair -quantity mean_signed_difference -field user2 -frame 5]
-    check_equal unit [dict get $said unit] kT/e
+    check_equal unit [dict get $said unit] "kT/e in vacuum"
     check_equal molecule [dict get $said mol] $mol
     set n 0
     foreach residue [espdiff residues $pair] {
