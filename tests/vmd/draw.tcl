@@ -125,7 +125,7 @@ test "the source's side is drawn where the source is" {
 }
 
 test "shapes alone have a displacement and no difference" {
-    set shapes [espdiff compare [list mol $source] [list mol $target] -grid-spacing 1.5]
+    set shapes [espdiff compare [list mol $source map none] [list mol $target map none] -grid-spacing 1.5]
     check_refused {espdiff draw $shapes -color difference} {ESPDIFF INPUT} "no potentials"
     espdiff draw $shapes
     espdiff delete $shapes
