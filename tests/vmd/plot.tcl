@@ -5,7 +5,7 @@ package require espdiff
 set mol [mol new [input traj_adk/adk.psf] type psf waitfor all]
 mol addfile [input traj_adk/adk_dims.dcd] type dcd waitfor all $mol
 set quick {-grid-spacing 2}
-espdiff trajectory -mol $mol -frames 0:30:end -sel protein -csv $scratch/t.csv {*}$quick
+espdiff trajectory -mol $mol -frames 0:30:end -sel protein -map none -csv $scratch/t.csv {*}$quick
 
 # All texts on the canvas of a plot.
 proc texts {plot} {
@@ -72,7 +72,7 @@ test "a plot is written to a file although VMD's TMPDIR names no folder" {
 }
 
 test "one variant of a matrix against all others" {
-    set matrix [espdiff matrix [list [list mol $mol frames 0:30:90 sel protein]] -output $scratch/m {*}$quick]
+    set matrix [espdiff matrix [list [list mol $mol frames 0:30:90 sel protein map none]] -output $scratch/m {*}$quick]
     set plots [espdiff plot $matrix -source adk.psf:30]
     set found [texts [lindex $plots 0]]
     check "title" {"adk.psf:30 against all others" in $found}
