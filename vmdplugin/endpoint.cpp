@@ -9,10 +9,11 @@
 #include "fingerprint.h"
 #include "io/molecule_builder.h"
 #include "io/read_grid.h"
-#include "io/read_structure.h"
+#include "io/structure_file.h"
 #include "molfile_bridge.h"
 #include "potential/choose_potential.h"
 #include "potential/potential.h"
+#include "report/provenance.h"
 #include "tcl_values.h"
 
 namespace espdiff::vmdplugin {
@@ -265,8 +266,7 @@ void load(Endpoint& endpoint, double temperature_K) {
   if (!endpoint.molecule) {
     file = std::make_unique<StructureFile>(endpoint.structure_path);
     endpoint.molecule = file->read(endpoint.structure);
-    endpoint.inputs.push_back(
-        {endpoint.role, endpoint.structure_path, file->sha256(), std::nullopt, endpoint.structure});
+    endpoint.inputs.push_back({endpoint.role, endpoint.structure_path, file->sha256(), nullptr, endpoint.structure});
   }
   if (endpoint.map || endpoint.computed_map) return;
   if (endpoint.map_request) {

@@ -9,6 +9,7 @@
 #include "io/read_input.h"
 #include "io/read_pqr.h"
 #include "io/read_unit_cells.h"
+#include "io/structure_file.h"
 #ifdef ESPDIFF_HAVE_GEMMI
 #include "io/read_gemmi.h"
 #endif

@@ -10,6 +10,7 @@
 #include "io/read_csv.h"
 #include "io/read_grid.h"
 #include "io/read_structure.h"
+#include "io/structure_file.h"
 #include "io/text_cursor.h"
 
 namespace espdiff {

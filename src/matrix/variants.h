@@ -7,7 +7,8 @@
 
 #include "base/structure_options.h"
 #include "base/types.h"
-#include "report/write_compare.h"
+#include "compare/input.h"
+#include "report/provenance.h"
 
 namespace espdiff {
 

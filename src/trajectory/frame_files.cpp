@@ -6,7 +6,7 @@
 
 #include "align/pair_atoms.h"
 #include "base/error.h"
-#include "io/read_structure.h"
+#include "io/structure_file.h"
 
 namespace espdiff {
 namespace {

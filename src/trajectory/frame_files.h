@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/types.h"
-#include "io/read_structure.h"
+#include "io/structure_file.h"
 
 namespace espdiff {
 

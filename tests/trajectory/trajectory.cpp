@@ -7,6 +7,8 @@
 #include "base/error.h"
 #include "compare/compare.h"
 #include "compare/made_side.h"
+#include "engine/engine.h"
+#include "engine/select_engine.h"
 #include "support/test_data.h"
 #include "trajectory/frame_files.h"
 
