@@ -273,8 +273,7 @@ void load(Endpoint& endpoint, double temperature_K) {
       endpoint.everything =
           Everything{file.read({model, true, true}), file.unit_cells().at(static_cast<std::size_t>(model - 1))};
     }
-    endpoint.inputs.push_back(
-        {endpoint.role, endpoint.structure_path, file.sha256(), nullptr, endpoint.structure});
+    endpoint.inputs.push_back({endpoint.role, endpoint.structure_path, file.sha256(), nullptr, endpoint.structure});
   }
   if (endpoint.map || endpoint.computed_map) return;
   if (endpoint.map_request) {
