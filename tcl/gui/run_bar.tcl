@@ -50,7 +50,9 @@ namespace eval ::espdiff::gui {
     # One line or several, selectable; errors are red and also go to the console.
     proc show_message {text {kind note}} {
         variable widget
-        if {$kind eq "error"} { tell_console $text }
+        variable error_shown
+        unset -nocomplain error_shown(pair)
+        if {$kind eq "error"} { tell_console $text; set error_shown(pair) 1 }
         if {![info exists widget(message)] || ![winfo exists $widget(message)]} return
         $widget(message) configure -state normal
         $widget(message) delete 1.0 end
@@ -181,7 +183,10 @@ namespace eval ::espdiff::gui {
     proc abandon_run {} {
         variable running
         set handle $running
+        if {$handle eq ""} return
         end_run
-        if {$handle ne "" && $handle in [espdiff handles]} { espdiff delete $handle }
+        forget $handle
+        show_message "Cancelled: the window was closed."
+        if {$handle in [espdiff handles]} { espdiff delete $handle }
     }
 }
