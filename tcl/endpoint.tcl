@@ -13,13 +13,15 @@ namespace eval ::espdiff {
             fail "$role: '$text' is not {mol ID ?frame N? ?sel TEXT? ?map K?} or {file PATH ?map PATH?}"
         }
         set endpoint [dict create {*}$text]
+        if {![dict exists $endpoint mol] && ![dict exists $endpoint file]} {
+            fail "$role: neither `mol ID` (a molecule in VMD) nor `file PATH` is in '$text'"
+        }
         set form [expr {[dict exists $endpoint mol] ? "mol" : "file"}]
         foreach key [dict keys $endpoint] {
             if {$key ni [dict get $endpoint_keys $form]} {
                 fail "$role: [unknown_word key $key [dict get $endpoint_keys $form]]"
             }
         }
-        if {![dict exists $endpoint $form]} { fail "$role: neither `mol ID` nor `file PATH` is in '$text'" }
         return $endpoint
     }
 
