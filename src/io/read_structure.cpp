@@ -73,6 +73,11 @@ StructureFile::~StructureFile() = default;
 
 const std::string& StructureFile::sha256() const { return parsed_->file.sha256; }
 
+void StructureFile::require_unchanged(const std::string& before) const {
+  if (before.empty() || before == sha256()) return;
+  throw IoError(parsed_->file.path, "the file was changed while it was in use; start again");
+}
+
 int StructureFile::n_models() const {
   if (!parsed_->is_mmcif) return static_cast<int>(parsed_->models.size());
 #ifdef ESPDIFF_HAVE_GEMMI

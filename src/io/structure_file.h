@@ -24,6 +24,10 @@ class StructureFile {
 
   /// Of the file as it was read.
   const std::string& sha256() const;
+  /// For a file that is read again, such as frames too large to be kept: results tell of one content only.
+  /// @param sha256 of the earlier reading; empty passes
+  /// @throws IoError (the content is another one)
+  void require_unchanged(const std::string& sha256) const;
   int n_models() const;
   /// The cell of each model, see read_unit_cells(); none of an mmCIF file.
   /// @throws FormatError (a CRYST1 record that cannot be read)
