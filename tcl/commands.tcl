@@ -35,7 +35,7 @@ namespace eval ::espdiff {
 
     command residues [dict create arguments {handle} options {} settings none run ::espdiff::residues \
         summary {The comparison by residue of the source, over the mapped surface.} \
-        returns "a list of dictionaries: index chain number insertion name [metric_names residues]" \
+        returns "a list of dictionaries: index chain number insertion name target_name (of its partner, or empty) [metric_names residues]" \
         example {foreach residue [espdiff residues comparison1] { puts [dict get $residue mean_abs_difference] }}]
 
     command table [dict create arguments {handle} options {} settings none run ::espdiff::table_of \
@@ -153,6 +153,7 @@ namespace eval ::espdiff {
                 computed as the frames' are"}
             {-unit text {} "Unit of the maps if they do not say: kT/e, mV, V, kcal/mol/e, kJ/mol/e, hartree/e"}
             {-radii choice vmd "Radii of the molecule: VMD's, or Bondi's by element" {vmd element}}
+            {-whole boolean 0 "Make molecules whole that their periodic cell cuts; otherwise they are refused"}
             {-start choice auto "Begin each frame's mapping at the source, or at the previous frame's where that is\
                 nearer: small steps; auto: source by -method morph, previous by deform; see Trajectories"\
                 {auto previous source}}

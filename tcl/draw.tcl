@@ -107,8 +107,8 @@ namespace eval ::espdiff {
             set how [dict get {fade grey transparent transparent} [dict get $options uncertain]]
             lappend words "$how: uncertain, moved by [format %.3g [dict get $options uncertainty-limit]] A or more"
         }
-        if {[dict get $options surface] eq "source" \
-            && [dict get [core::result $handle] certificate no_counterpart_area_fraction source] > 0} {
+        set side [expr {[dict get $options surface] eq "mapped" ? "target" : "source"}]
+        if {[dict get [core::result $handle] certificate no_counterpart_area_fraction $side] > 0} {
             lappend words "hatched: no counterpart"
         }
         return [join $words "; "]
@@ -184,6 +184,13 @@ namespace eval ::espdiff {
             with_color_scale [faded_colors [dict get $plan colors] $faded] {
                 set n [core::triangles $handle $mol $core]
                 build_list $mol
+            }
+            if {[dict exists $band hatches] && [dict get $core surface] eq "mapped"} {
+                with_color_scale [faded_colors {} 1] {
+                    # Its stripes only: the rest is covered by the mapped surface.
+                    incr n [core::triangles $handle $mol [dict merge $core {surface uncovered limit 0 from 1e8}]]
+                    build_list $mol
+                }
             }
             if {$n == 0 && $what ne ""} {
                 mol delete $mol

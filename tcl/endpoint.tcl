@@ -3,7 +3,7 @@
 namespace eval ::espdiff {
     variable endpoint_keys {
         file {file model map because unit array hetero water}
-        mol {mol frame sel map because unit radii}
+        mol {mol frame sel map because unit radii whole}
     }
 
     # Parses an endpoint into a dict and reports its errors. `role` is source, target, ...

@@ -27,6 +27,22 @@ std::vector<Vec3f> single_precision(const std::vector<Vec3d>& positions) {
   return result;
 }
 
+/// The target's surface that nothing was mapped to, a little below itself: where the mapped surface reaches over its
+/// border, the mapped surface is seen.
+DrawnSurface drawn_uncovered(const UncoveredSurface& surface) {
+  constexpr float kBelow_A = 0.1F;
+  DrawnSurface drawn;
+  drawn.positions = single_precision(surface.positions);
+  for (std::size_t v = 0; v < drawn.positions.size(); ++v)
+    drawn.positions[v] = drawn.positions[v] - kBelow_A * surface.normals[v];
+  drawn.normals = surface.normals;
+  drawn.triangles = &surface.triangles;
+  drawn.unmatched = &surface.uncovered;
+  drawn.has_unmatched_positions = true;
+  drawn.border = 0.01F;  // beyond the border of the mapped surface
+  return drawn;
+}
+
 DrawnSurface drawn_surface(const std::string& handle, const Object& object, const std::string& which) {
   require_done(handle, object);
   DrawnSurface drawn;
@@ -46,9 +62,10 @@ DrawnSurface drawn_surface(const std::string& handle, const Object& object, cons
     drawn.positions = single_precision(s.source_positions);
     drawn.normals = s.source_normals;
     drawn.has_unmatched_positions = true;
-  } else {
-    throw InputError("surface: '" + which + "' is not mapped or source");
+  } else if (which != "uncovered") {
+    throw InputError("surface: '" + which + "' is not mapped, source or uncovered");
   }
+  if (which == "uncovered") return drawn_uncovered(comparison->result.uncovered);
   drawn.triangles = &s.triangles;
   drawn.corrupt = s.corrupt;
   drawn.unmatched = &s.unmatched;

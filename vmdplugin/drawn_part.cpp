@@ -42,7 +42,7 @@ class PartCutter {
 
   CutPart cut() {
     // Where unmatched triangles cannot be drawn, the line lies within the matched ones.
-    const float border = surface_.has_unmatched_positions ? 0.5F : 0.2F;
+    const float border = surface_.has_unmatched_positions ? surface_.border : 0.2F;
     for (std::size_t t = 0; t < surface_.triangles->size(); ++t) {
       const Triangle& corners = (*surface_.triangles)[t];
       const Polygon triangle(corners.begin(), corners.end());

@@ -17,7 +17,8 @@ struct DrawnSurface {
   std::vector<std::uint8_t> corrupt;                     ///< [triangle] empty where nothing was mapped
   const std::vector<std::uint8_t>* unmatched = nullptr;  ///< [triangle] null or empty for none
   bool has_unmatched_positions = false;                  ///< whether unmatched triangles can be drawn
-  const std::vector<float>* uncertainty = nullptr;       ///< [vertex] null where nothing was mapped
+  float border = 0.5F;  ///< share of unmatched triangles around the line at which the unmatched part begins
+  const std::vector<float>* uncertainty = nullptr;  ///< [vertex] null where nothing was mapped
 };
 
 /// What one call of `triangles` draws.

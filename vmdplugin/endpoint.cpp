@@ -16,6 +16,7 @@
 #include "potential/potential.h"
 #include "report/provenance.h"
 #include "tcl_values.h"
+#include "whole_molecule.h"
 
 namespace espdiff::vmdplugin {
 namespace {
@@ -107,7 +108,13 @@ void parse_vmd_molecule(DictReader& reader, Endpoint& endpoint) {
     throw InputError(name +
                      ": every radius is 0, so that there is no surface; load a file with radii (PQR), set them "
                      "(`$sel set radius`), or take `radii element`");
-  endpoint.inputs.push_back({endpoint.role, reader.text("input", name), fingerprint(*endpoint.molecule)});
+  std::string input = reader.text("input", name);
+  const bool whole = reader.boolean("whole", false);
+  if (Tcl_Obj* const numbers = reader.find("cell")) {
+    const std::optional<UnitCell> cell = parse_unit_cell(numbers, endpoint.role + " cell");
+    if (cell && make_whole(*endpoint.molecule, *cell, whole, endpoint.role) > 0) input += " whole 1";
+  }
+  endpoint.inputs.push_back({endpoint.role, input, fingerprint(*endpoint.molecule)});
 }
 
 /// @param endpoint_reader of the endpoint that the map is for: its coordinates and cell are the map's

@@ -280,6 +280,9 @@ struct Series::Steps {
     result.certificate.same_residue_area_fraction =
         same_residue_share(s, s.residue, engine.vertex_residues(mapping.mapped, target_surface.atoms),
                            paired_residues(*source.molecule, *target.molecule, result.pairing));
+    result.uncovered =
+        uncovered_surface(engine.download(target_surface.mesh),
+                          engine.download(result.certificate.target_to_mapped.beyond), inverse(frame.from_target));
     if (target_map != nullptr) compare_potentials(target, target_map, mapping, moved, target_surface.atoms, result);
     result.residues = residue_rows(s, source.molecule->residues.size(), result.has_potential);
     judge(result.certificate, result);

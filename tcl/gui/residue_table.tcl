@@ -5,11 +5,12 @@ namespace eval ::espdiff::gui {
     variable residue_rows {}    ;# its `espdiff residues`
     variable highlighted ""     ;# handle with a highlight in VMD
     variable form
-    array set form {residues,sort mean_abs_difference residues,falling 1 residues,face 1}
+    array set form {residues,sort share residues,falling 1 residues,face 1 residues,least 0}
 
-    # Key of `espdiff residues`, heading, whether it needs potentials, decimals, factor.
+    # Key of `espdiff residues`, or share: area times |difference|, of the sum over all residues. Heading, whether it needs potentials, decimals, factor.
     variable residue_columns {
         residue Residue 0 "" 1
+        share "Share, %" 1 1 100
         mean_abs_difference "|Diff.|" 1 2 1
         mean_signed_difference Diff. 1 2 1
         mean_source Source 1 2 1
@@ -31,7 +32,15 @@ namespace eval ::espdiff::gui {
             -command {::espdiff::gui::guard ::espdiff::gui::fill_residues}
         ttk::label $path.top.by -text "Sorted by"
         tip $path.top.sort "Same as a click on a heading"
-        pack $path.top.by $path.top.sort $path.top.falling -side left -padx {0 6}
+        ttk::label $path.top.from -text "Area from"
+        ttk::spinbox $path.top.least -textvariable ::espdiff::gui::form(residues,least) -width 4 -from 0 -to 200 \
+            -increment 5 -command {::espdiff::gui::guard_in residues ::espdiff::gui::fill_residues}
+        ttk::label $path.top.unit -text "\u00c5\u00b2"
+        bind $path.top.least <Return> {::espdiff::gui::guard_in residues ::espdiff::gui::fill_residues; break}
+        bind $path.top.least <FocusOut> {::espdiff::gui::guard_in residues ::espdiff::gui::fill_residues}
+        tip $path.top.least "Residues with less surface are left out: their means say little"
+        pack $path.top.by $path.top.sort $path.top.falling $path.top.from $path.top.least $path.top.unit -side left \
+            -padx {0 6}
         ttk::frame $path.list
         set columns {}
         foreach {key heading of_potentials decimals factor} $residue_columns { lappend columns $key }
@@ -97,7 +106,7 @@ namespace eval ::espdiff::gui {
             set chosen [chosen_residues]
             remove_highlight
             set residues_of $shown
-            set residue_rows [expr {$shown eq "" ? {} : [espdiff residues $shown]}]
+            set residue_rows [expr {$shown eq "" ? {} : [with_shares [espdiff residues $shown]]}]
             $widget(residues,table) selection set {}
             tell_in residues [residue_hint]
             fill_residues
@@ -106,6 +115,22 @@ namespace eval ::espdiff::gui {
         $widget(residues,title) configure -text [expr {$shown eq "" ? "No comparison yet" : $chosen_result}]
         set_enabled [expr {$shown ne ""}] $widget(residues,clear) $widget(residues,atoms) $widget(residues,uncolor) $widget(residues,export) \
             $widget(residues,sort) $widget(residues,falling)
+    }
+
+    # Rows with their share of the sum of |difference| times area; empty without potentials.
+    proc with_shares {rows} {
+        set sum 0.0
+        foreach row $rows {
+            if {[dict get $row mean_abs_difference] eq ""} continue
+            set sum [expr {$sum + [dict get $row area_A2] * [dict get $row mean_abs_difference]}]
+        }
+        set result {}
+        foreach row $rows {
+            set value [dict get $row mean_abs_difference]
+            if {$value ne "" && $sum > 0} { set value [expr {[dict get $row area_A2] * $value / $sum}] }
+            lappend result [dict set row share $value]
+        }
+        return $result
     }
 
     # The selected residues: the structure that they belong to, and their names with chain and number.
@@ -146,7 +171,7 @@ namespace eval ::espdiff::gui {
         variable shown
         if {$shown eq ""} { return "Compare two states in the tab Pair; their residues are listed here." }
         set unit [potential_unit]
-        set text "Means over each residue's share of the surface"
+        set text "Means over each residue's part of the surface; Share is its part of the sum of |Diff.| times area"
         if {$unit ne ""} {
             append text "; potentials in $unit. Diff. is target - source, Sign the share of the area whose sign\
                 changes"
@@ -172,7 +197,10 @@ namespace eval ::espdiff::gui {
         variable residue_rows
         set with {}
         set without {}
+        set least [string trim $form(residues,least)]
+        if {![::espdiff::is_number $least]} { error "Area from: '$least' is not a number" }
         foreach row $residue_rows {
+            if {$least > 0 && ([dict get $row area_A2] eq "" || [dict get $row area_A2] < $least)} continue
             set value [residue_number $row $form(residues,sort)]
             if {$value eq ""} { lappend without $row } else { lappend with [list $value $row] }
         }
@@ -182,10 +210,13 @@ namespace eval ::espdiff::gui {
         return [concat $rows $without]
     }
 
+    # "A:TRP90", and "A:TRP90 \u2192 SER" where it is mutated.
     proc residue_name {row} {
         set name "[dict get $row name][dict get $row number][dict get $row insertion]"
-        if {[dict get $row chain] in {"" X " "}} { return $name }
-        return "[dict get $row chain]:$name"
+        if {[dict get $row chain] ni {"" X " "}} { set name "[dict get $row chain]:$name" }
+        set other [dict get $row target_name]
+        if {$other ni [list "" [dict get $row name]]} { append name " \u2192 $other" }
+        return $name
     }
 
     # Fills the rows in order; selected rows stay selected.
@@ -231,13 +262,15 @@ namespace eval ::espdiff::gui {
             lappend visible $key
             lappend titles $heading
         }
-        if {$form(residues,sort) ni $visible} { set form(residues,sort) mean_displacement_A }
+        if {$form(residues,sort) ni $visible} {
+            set form(residues,sort) [expr {$has_potentials ? "share" : "mean_displacement_A"}]
+        }
         set table $widget(residues,table)
         $table configure -displaycolumns $visible
         foreach key $visible title $titles {
             if {$key eq $form(residues,sort)} { append title " [expr {$form(residues,falling) ? "\u25be" : "\u25b4"}]" }
             $table heading $key -text $title
-            set least [expr {$key eq "residue" ? 96 : 66}]
+            set least [expr {$key eq "residue" ? 124 : 58}]
             $table column $key -width [expr {max($least, 10 + [font measure [heading_font] $title])}]
         }
         $widget(residues,sort) configure -values $titles
@@ -307,7 +340,7 @@ namespace eval ::espdiff::gui {
         variable form
         variable shown
         set quantity $form(residues,sort)
-        if {$quantity in {residue area_A2}} { error "sort by the column that should colour the atoms" }
+        if {$quantity in {residue area_A2 share}} { error "sort by the column that should colour the atoms" }
         set molecules {}
         foreach {side mol} [displayed_sides $shown] {
             set words [list -quantity $quantity -mol $side -show 1]
