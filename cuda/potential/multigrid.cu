@@ -87,6 +87,15 @@ struct ExactResidual {
 };
 ESPDIFF_GRID_KERNEL(ExactResidual)
 
+struct Clear {
+  static constexpr bool kColoured = false;
+  int colour;
+  float* x;
+
+  ESPDIFF_INLINE void at(std::size_t p, int) const { x[p] = 0.0F; }
+};
+ESPDIFF_GRID_KERNEL(Clear)
+
 /// The first half of a sweep from zero: points of the colour by their own equation, the others zero.
 struct StartSweep {
   static constexpr bool kColoured = false;
@@ -261,6 +270,8 @@ void exact_residual(const GridOperator& a, const Buffer<float>& x, const Buffer<
                     Buffer<float>& r) {
   run_on_grid(a.size, ExactResidual{0, view_of(a), raw(x), raw(low), raw(b), raw(r)});
 }
+
+void clear_inner(const GridSize& size, Buffer<float>& x) { run_on_grid(size, Clear{0, raw(x)}); }
 
 void add_parts(Buffer<float>& x, Buffer<float>& low) {
   float* const high = raw(x);

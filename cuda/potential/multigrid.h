@@ -31,6 +31,8 @@ void apply_operator(const GridOperator& on_grid, const Buffer<float>& x, Buffer<
 /// r = b - A (x + low) at inner points, summed in double precision.
 void exact_residual(const GridOperator& on_grid, const Buffer<float>& x, const Buffer<float>& low,
                     const Buffer<float>& b, Buffer<float>& r);
+/// Sets the inner points to zero; the border keeps its values.
+void clear_inner(const GridSize& size, Buffer<float>& x);
 /// Moves from `low` to x what single precision holds: x + low stays the same number, to about 14 digits.
 void add_parts(Buffer<float>& x, Buffer<float>& low);
 

@@ -79,6 +79,12 @@ NewtonReport newton(GridOperator& on_grid, const Buffer<float>& k, const Buffer<
   double norm = nonlinear_residual(on_grid, k, x, b, {x, low}, residual);
   SolverReport& told = report.solver;
   told.start_residual = norm / options.norm;
+  if (!(norm <= options.norm)) {
+    // A start with a strong potential where ions are now: sinh makes it far worse than zero.
+    clear_inner(on_grid.size, x);
+    set_jacobian(on_grid, k, x);
+    norm = nonlinear_residual(on_grid, k, x, b, {x, low}, residual);
+  }
   for (;;) {
     told.relative_residual = norm / options.norm;
     told.converged = told.relative_residual <= options.tolerance;

@@ -18,7 +18,7 @@ struct NewtonReport {
 /// @param on_grid  its diagonal is overwritten in each step
 /// @param k        [point] as GridOperator has it
 /// @param options  max_cycles is the limit of each step
-/// @param x        [point] start and result, with its border
+/// @param x        [point] start and result, with its border; a start worse than zero is replaced by zero
 NewtonReport newton(GridOperator& on_grid, const Buffer<float>& k, const Buffer<float>& b, const SolverOptions& options,
                     int max_steps, SolverWork& work, Buffer<float>& x, const std::function<void(double)>& step);
 
