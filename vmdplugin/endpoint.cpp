@@ -9,10 +9,11 @@
 #include "fingerprint.h"
 #include "io/molecule_builder.h"
 #include "io/read_grid.h"
-#include "io/read_structure.h"
+#include "io/structure_file.h"
 #include "molfile_bridge.h"
 #include "potential/choose_potential.h"
 #include "potential/potential.h"
+#include "report/provenance.h"
 #include "tcl_values.h"
 
 namespace espdiff::vmdplugin {
@@ -272,8 +273,7 @@ void load(Endpoint& endpoint, double temperature_K) {
       endpoint.everything =
           Everything{file.read({model, true, true}), file.unit_cells().at(static_cast<std::size_t>(model - 1))};
     }
-    endpoint.inputs.push_back(
-        {endpoint.role, endpoint.structure_path, file.sha256(), std::nullopt, endpoint.structure});
+    endpoint.inputs.push_back({endpoint.role, endpoint.structure_path, file.sha256(), nullptr, endpoint.structure});
   }
   if (endpoint.map || endpoint.computed_map) return;
   if (endpoint.map_request) {

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "io/read_structure.h"
+#include "io/structure_file.h"
 #include "io/write_csv.h"
 #include "potential/potential.h"
 

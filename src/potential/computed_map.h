@@ -13,6 +13,8 @@
 
 namespace espdiff {
 
+struct MapRecipe;
+
 /// Surroundings of the charges.
 struct ChargeSurroundings {
   std::optional<UnitCell> cell;  ///< the molecule's own, if it has one

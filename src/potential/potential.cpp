@@ -1,5 +1,6 @@
 // potential.cpp: computes the potentials of a molecule's frames in one common frame, and averages them.
 #include "potential/potential.h"
+#include "potential/potential_series.h"
 
 #include <algorithm>
 #include <cmath>
