@@ -26,7 +26,7 @@ namespace eval ::espdiff::gui {
         variable residues_of -  ;# no handle: the table is new
         ttk::frame $path.top
         ttk::label $path.title -anchor w -width 28 -font [bold_font]
-        ttk::combobox $path.top.sort -state readonly -width 15
+        ttk::combobox $path.top.sort -state readonly -width 12
         bind $path.top.sort <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::sort_as_chosen}
         ttk::checkbutton $path.top.falling -text "largest first" -variable ::espdiff::gui::form(residues,falling) \
             -command {::espdiff::gui::guard ::espdiff::gui::fill_residues}
@@ -270,7 +270,7 @@ namespace eval ::espdiff::gui {
         foreach key $visible title $titles {
             if {$key eq $form(residues,sort)} { append title " [expr {$form(residues,falling) ? "\u25be" : "\u25b4"}]" }
             $table heading $key -text $title
-            set least [expr {$key eq "residue" ? 124 : 58}]
+            set least [expr {$key eq "residue" ? 96 : 50}]
             $table column $key -width [expr {max($least, 10 + [font measure [heading_font] $title])}]
         }
         $widget(residues,sort) configure -values $titles
