@@ -340,7 +340,8 @@ namespace eval ::espdiff::gui {
         variable form
         variable shown
         set quantity $form(residues,sort)
-        if {$quantity in {residue area_A2 share}} { error "sort by the column that should colour the atoms" }
+        if {$quantity eq "share"} { set quantity mean_abs_difference }
+        if {$quantity in {residue area_A2}} { error "sort by the column that should colour the atoms" }
         set molecules {}
         foreach {side mol} [displayed_sides $shown] {
             set words [list -quantity $quantity -mol $side -show 1]
