@@ -73,6 +73,7 @@ namespace eval ::espdiff::gui {
         set options [trajectory_options]
         set settings [setting_options]
         tell_in trajectory ""
+        set ::espdiff::gui::trajectory_begun [clock milliseconds]
         set trajectory_running [espdiff trajectory {*}$options {*}$output {*}$settings \
             -callback ::espdiff::gui::add_row -progress ::espdiff::gui::trajectory_progress \
             -command ::espdiff::gui::finish_trajectory]
@@ -112,7 +113,8 @@ namespace eval ::espdiff::gui {
         if {[regexp {^frame (\d+): (.*)$} $stage -> frame step]} {
             set stage "Frame $frame: [string tolower [stage_words $step] 0 0]..."
         }
-        tell_in trajectory $stage
+        variable trajectory_begun
+        tell_in trajectory $stage[time_left $trajectory_begun $fraction]
     }
 
     proc cancel_trajectory {} {
