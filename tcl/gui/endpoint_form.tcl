@@ -100,7 +100,7 @@ namespace eval ::espdiff::gui {
             not"
         # In the place of the unit: what the automatic choice is, and why. The row is never empty, so that nothing below
         # moves.
-        ttk::label $path.choice -foreground gray40 -anchor w -width 10
+        tip [ttk::label $path.choice -foreground gray40 -anchor w -width 10] ""
         grid $path.choice -row 7 -column 0 -columnspan 3 -sticky ew -pady 2
         grid rowconfigure $path 7 -minsize [expr {[winfo reqheight $path.unit] + 4}]
         foreach name {map browse_map unit choice} { set widget($side,$name) $path.$name }
@@ -120,7 +120,9 @@ namespace eval ::espdiff::gui {
         set has_map [expr {$map ni {none ""} && ![is_computed_map $map]}]
         foreach name {unit label_unit} { show_if $has_map $parent.$name }
         show_if [expr {!$has_map}] $parent.choice
-        $widget($side,choice) configure -text [expr {$map eq "automatic" ? [automatic_choice] : ""}]
+        set choice [expr {$map eq "automatic" ? [automatic_choice] : ""}]
+        $widget($side,choice) configure -text $choice
+        set ::espdiff::gui::tips($widget($side,choice)) $choice
         foreach name {file map} { $widget($side,$name) xview end }
     }
 

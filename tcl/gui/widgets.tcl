@@ -73,7 +73,7 @@ namespace eval ::espdiff::gui {
         variable window
         variable tips
         hide_tip
-        if {![winfo exists $path]} return
+        if {![winfo exists $path] || $tips($path) eq ""} return
         toplevel $window.tip
         wm overrideredirect $window.tip 1
         pack [ttk::label $window.tip.text -text $tips($path) -wraplength 320 -padding 4 -background #ffffe0 \
