@@ -43,7 +43,7 @@ namespace eval ::espdiff::gui {
         build_numbers $path.numbers 3 10 [shown_metrics {superposition shape surface}]
         grid columnconfigure $path.numbers {1 4} -weight 1
         grid columnconfigure $path.numbers 2 -minsize 16
-        pack $path.top $path.origin $path.verdict $path.numbers -fill x -pady {0 4}
+        pack $path.top $path.verdict $path.numbers -fill x -pady {0 4}
         foreach name {list view table export delete} { set widget(result,$name) $path.top.$name }
     }
 
@@ -157,6 +157,11 @@ namespace eval ::espdiff::gui {
         if {$chosen_result eq "" || $shown eq ""} { set chosen_result [lindex $names 0] }
         set shown [lindex [split $chosen_result :] 0]
         $widget(result,origin) configure -text [origin_of $shown]
+        if {$shown eq ""} {
+            pack forget $widget(result,origin)
+        } else {
+            pack $widget(result,origin) -before $widget(verdict) -fill x -pady {0 4}
+        }
         show_verdict
         show_numbers
         set_enabled [expr {$shown ne ""}] $widget(result,list) $widget(result,view) $widget(result,table) \
