@@ -177,9 +177,10 @@ namespace eval ::espdiff::gui {
     # to tell.
     proc time_left {begun fraction} {
         set elapsed [expr {([clock milliseconds] - $begun) / 1000.0}]
-        if {$elapsed < 3 || $fraction < 0.05 || $fraction >= 1} { return "" }
+        if {$elapsed < 5 || $fraction < 0.05 || $fraction >= 1} { return "" }
         set left [expr {$elapsed * (1 - $fraction) / $fraction}]
-        if {$left < 90} { return ", about [expr {max(1, round($left))}] s left" }
+        if {$left < 5} { return "" }
+        if {$left < 90} { return ", about [expr {round($left)}] s left" }
         if {$left < 5400} { return ", about [expr {round($left / 60)}] min left" }
         return ", about [format %.1f [expr {$left / 3600}]] h left"
     }
