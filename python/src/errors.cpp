@@ -34,7 +34,7 @@ const std::array<PythonError, 9> kErrors = {{
 // Immortal, as Python's own exceptions are: errors may be translated until the interpreter ends.
 std::array<PyObject*, kErrors.size()> made{};
 
-/// "--grid-spacing 1" of the command line is grid_spacing=1 in Python.
+/// The option grid-spacing of the command line is grid_spacing=1 in Python.
 std::string spelled(const NamedOption& option) {
   std::string name = option.name;
   for (char& c : name) c = c == '-' ? '_' : c;
