@@ -26,6 +26,7 @@
 #include "compare/sample_outside.h"
 #include "compare/series.h"
 #include "compare/side_maps.h"
+#include "compare/slip.h"
 #include "engine/certificate_stage.h"
 #include "engine/deform_stage.h"
 #include "engine/engine.h"
@@ -121,7 +122,8 @@ struct Series::Steps {
         inverse(frame.domains, paired_residues(*target.molecule, *source.molecule, scratch.pairing))};
     Mapping mapping;
     if (options.method == Method::kMorph) {
-      mapping = mapping_of(back.morph(*source.molecule, surface, reversed, nullptr, scratch, progress, clock));
+      const auto paths = back.paths_to(*source.molecule, reversed, scratch.pairing, progress);
+      mapping = mapping_of(back.morph(*source.molecule, surface, reversed, paths, nullptr, scratch, progress, clock));
     } else {
       mapping = back.deform(surface, reversed.domains.carry(engine, back.regularized, target_surface.atoms), reversed,
                             scratch, progress, clock);
@@ -130,21 +132,31 @@ struct Series::Steps {
     return mapping;
   }
 
+  /// The paths of all atoms from the source to a target; see atom_paths().
+  std::vector<MovingAtom> paths_to(const Molecule& target, const CommonFrame& frame, const AtomPairing& pairing,
+                                   const Progress& progress) const {
+    return atom_paths(*source.molecule, target, pairing, frame.from_source, frame.from_target, frame.domains,
+                      options.surface.radius_scale, progress);
+  }
+
+  /// @param paths of paths_to()
   /// @param from the step to continue from; null for the source
   MorphResult morph(const Molecule& target, const Surface& target_surface, const CommonFrame& frame,
-                    const LastStep* from, CompareResult& result, const Progress& progress, StageClock& clock) const {
+                    const std::vector<MovingAtom>& paths, const LastStep* from, CompareResult& result,
+                    const Progress& progress, StageClock& clock) const {
     MorphOptions morph = options.morph;
     morph.isovalue = options.surface.isovalue;
     morph.max_edge_A = options.morph_max_edge * options.surface.grid_spacing_A;
-    const auto paths =
-        from != nullptr
-            ? paths_from(*from, *source.molecule, target, frame.from_target, result.domains, options, progress)
-            : atom_paths(*source.molecule, target, result.pairing, frame.from_source, frame.from_target, frame.domains,
-                         options.surface.radius_scale, progress);
-    MorphResult morphed = from != nullptr ? engine.continue_morph(*from->morphed, paths, surface.atoms,
-                                                                  target_surface.atoms, morph, "morph", progress)
-                                          : engine.morph(regularized, paths, surface.atoms, target_surface.atoms, morph,
-                                                         "morph", progress);
+    MorphResult morphed;
+    if (from != nullptr) {
+      const auto step_paths =
+          paths_from(*from, *source.molecule, target, frame.from_target, result.domains, options, progress);
+      morphed = engine.continue_morph(*from->morphed, step_paths, surface.atoms, target_surface.atoms, morph, "morph",
+                                      progress);
+    } else {
+      morphed =
+          engine.morph(regularized, paths, surface.atoms, target_surface.atoms, morph, "morph", progress);
+    }
     result.morph_report = morphed.report;
     result.morph_report.n_vertices_added = engine.n_vertices(morphed.source) - engine.n_vertices(regularized);
     clock.lap("morph");
@@ -236,6 +248,12 @@ struct Series::Steps {
       result.metrics_all =
           engine.compare(moved, mapping.mapped, at_source, at_target,
                          mapping.unmatched.empty() ? nullptr : engine.upload_scalars(mapping.unmatched), path_length);
+      if (!s.slip.empty()) {
+        std::vector<float> slipped = slipped_triangles(s);
+        for (std::size_t t = 0; t < slipped.size(); ++t) slipped[t] = std::max(slipped[t], excluded[t]);
+        result.metrics_without_slip =
+            engine.compare(moved, mapping.mapped, at_source, at_target, engine.upload_scalars(slipped), path_length);
+      }
       s.potential_source = std::move(of_source);
       s.potential_target = std::move(of_target);
       set_unmatched_to_nan(kept, s.potential_target);
@@ -260,10 +278,23 @@ struct Series::Steps {
     clock.lap("certificate");
   }
 
+  /// Slip by vertex and over the area.
+  void measure_slip(const Mapping& mapping, const MeshPtr& target, const std::vector<MovingAtom>& paths,
+                    const std::vector<bool>& kept, CompareResult& result) const {
+    if (paths.empty()) {
+      result.certificate.not_checked.emplace_back("slip");
+      return;
+    }
+    MappedSurface& s = result.surface;
+    s.slip = engine.slip(mapping.source, mapping.mapped, target, paths);
+    set_unmatched_to_nan(kept, s.slip);
+    result.certificate.slip = summarize_slip(s, matched_areas(s));
+  }
+
   /// Fills in the results of the mapping: per-vertex arrays, potentials, metrics, residues, and the verdict.
   void evaluate(const CompareInput& target, const CommonFrame& frame, const Surface& target_surface,
-                const GridPtr& target_map, const Mapping& mapping, CompareResult& result, const Progress& progress,
-                StageClock& clock) {
+                const GridPtr& target_map, const Mapping& mapping, const std::vector<MovingAtom>& paths,
+                CompareResult& result, const Progress& progress, StageClock& clock) {
     progress.report("metrics", 0.0);
     MappedSurface& s = result.surface;
     const MeshPtr moved = frame.domains.carry(engine, mapping.source, surface.atoms);
@@ -276,6 +307,7 @@ struct Series::Steps {
     set_unmatched_to_nan(kept, s.displacement);
     set_unmatched_to_nan(kept, s.path_length);
     s.residue = engine.vertex_residues(mapping.source, surface.atoms);
+    measure_slip(mapping, target_surface.mesh, paths, kept, result);
     result.certificate.same_residue_area_fraction =
         same_residue_share(s, s.residue, engine.vertex_residues(mapping.mapped, target_surface.atoms),
                            paired_residues(*source.molecule, *target.molecule, result.pairing));
@@ -311,8 +343,13 @@ struct Series::Steps {
     const LastStep* const before = result.start == StartFrom::kPrevious ? &*from : nullptr;
     Mapping mapping;
     MorphResult morphed;
+    // deform needs no pairs; the morph says what it misses.
+    const bool has_paths = options.method == Method::kMorph || !result.pairing.pairs.empty();
+    const std::vector<MovingAtom> paths =
+        has_paths ? paths_to(*target.molecule, frame, result.pairing, progress) : std::vector<MovingAtom>();
+    clock.lap("atom paths");
     if (options.method == Method::kMorph) {
-      morphed = morph(*target.molecule, target_surface, frame, before, result, progress, clock);
+      morphed = morph(*target.molecule, target_surface, frame, paths, before, result, progress, clock);
       mapping = mapping_of(morphed);
     } else {
       const MeshPtr begin =
@@ -327,7 +364,7 @@ struct Series::Steps {
     } else {
       result.certificate.not_checked.emplace_back("round_trip");
     }
-    evaluate(target, frame, target_surface, target_map, mapping, result, progress, clock);
+    evaluate(target, frame, target_surface, target_map, mapping, paths, result, progress, clock);
     if (options.method == Method::kMorph) {
       last = after_morph(morphed, *target.molecule, frame.from_target, std::move(target_atoms), before,
                          result.certificate.unmatched_source);

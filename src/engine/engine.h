@@ -283,6 +283,18 @@ class Engine {
   /// @throws GeometryError if the topologies differ in size
   virtual DistortionReport distortion(const MeshPtr& source, const MeshPtr& mapped, double limit) = 0;
 
+  /// [vertex] slip of a mapping, Angstrom: the distance of a mapped point from the place to which its own atoms carried
+  /// it. The source's atoms near the vertex, weighted by their density there, carry it along their paths, with the
+  /// rotations of their surroundings. The place is the nearest one on the target's surface that belongs to the pairs of
+  /// these atoms (those with at least 5 % of the density); a point of the target's surface belongs to the pair with the
+  /// largest density there. If the pairs have no surface on the target, it is the carried position itself.
+  /// NaN where most of the density is of atoms that belong to no pair.
+  /// @param source, mapped meshes of one topology  @param target the target's surface
+  /// @param atoms the paths of all atoms, see MovingAtom::pair
+  /// @throws GeometryError if the topologies differ in size
+  virtual std::vector<float> slip(const MeshPtr& source, const MeshPtr& mapped, const MeshPtr& target,
+                                  const std::vector<MovingAtom>& atoms) = 0;
+
   /// [vertex] index of the residue with the largest density at the vertex; -1 where no atom reaches.
   virtual std::vector<std::int32_t> vertex_residues(const MeshPtr& mesh, const AtomsPtr& atoms) = 0;
   /// [vertex] |a - b| for two meshes of one topology, Angstrom.
