@@ -9,6 +9,7 @@
 #include "align/pair_residues.h"
 #include "align/residue_names.h"
 #include "base/error.h"
+#include "base/residue_label.h"
 
 namespace espdiff {
 namespace {
@@ -109,12 +110,6 @@ void pair_residue_atoms(const ResidueView& source, std::size_t a, const ResidueV
     if (same == target_groups.end() || (substituted && !is_shared_by_all(stem, source.kinds[a]))) continue;
     pair_stem(atoms, same->second, pairs);
   }
-}
-
-std::string residue_label(const Residue& residue) {
-  std::string label = residue.name + " " + std::to_string(residue.number);
-  if (residue.insertion_code != ' ') label += residue.insertion_code;
-  return residue.chain.empty() ? label : label + " of chain " + residue.chain;
 }
 
 std::string atom_label(const Molecule& molecule, std::size_t i) {

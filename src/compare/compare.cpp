@@ -19,6 +19,7 @@
 #include "compare/map_by_deform.h"
 #include "compare/mapping.h"
 #include "compare/options.h"
+#include "compare/own_potentials.h"
 #include "compare/paired_residues.h"
 #include "compare/residue_rows.h"
 #include "compare/result.h"
@@ -278,6 +279,30 @@ struct Series::Steps {
     clock.lap("certificate");
   }
 
+  /// [residue] one side's potentials on its own surface, at the first of the offsets.
+  std::vector<double> own_of(const GridPtr& map, const MeshPtr& mesh, const AtomsPtr& atoms,
+                             const Molecule& molecule) const {
+    const OutsideSamples samples = sample_outside(
+        engine, map, mesh, atoms, static_cast<float>(options.surface.isovalue), options.offsets_A.front());
+    return own_potentials(engine.download_shape(mesh), engine.vertex_residues(mesh, atoms), samples.values,
+                          molecule.residues.size());
+  }
+
+  /// Each residue's difference from its potentials on its own surfaces, and how the mapped differences agree.
+  void check_against_own(const CompareInput& target, const GridPtr& target_map, const Mapping& mapping,
+                         const Surface& target_surface, const std::vector<std::int32_t>& target_of,
+                         CompareResult& result) const {
+    if (target_map == nullptr || result.pairing.pairs.empty()) {
+      for (ResidueRow& row : result.residues) row.own_difference = std::numeric_limits<double>::quiet_NaN();
+      result.certificate.not_checked.emplace_back("residues");
+      return;
+    }
+    const std::vector<double> own = own_of(source_map.map, mapping.source, surface.atoms, *source.molecule);
+    set_own_differences(result.residues, own,
+                        own_of(target_map, target_surface.mesh, target_surface.atoms, *target.molecule), target_of);
+    result.certificate.residues = check_residues(result.residues, own);
+  }
+
   /// Slip by vertex and over the area.
   void measure_slip(const Mapping& mapping, const MeshPtr& target, const std::vector<MovingAtom>& paths,
                     const std::vector<bool>& kept, CompareResult& result) const {
@@ -308,12 +333,13 @@ struct Series::Steps {
     set_unmatched_to_nan(kept, s.path_length);
     s.residue = engine.vertex_residues(mapping.source, surface.atoms);
     measure_slip(mapping, target_surface.mesh, paths, kept, result);
-    result.certificate.same_residue_area_fraction =
-        same_residue_share(s, s.residue, engine.vertex_residues(mapping.mapped, target_surface.atoms),
-                           paired_residues(*source.molecule, *target.molecule, result.pairing));
+    const std::vector<std::int32_t> target_of = paired_residues(*source.molecule, *target.molecule, result.pairing);
+    result.certificate.same_residue_area_fraction = same_residue_share(
+        s, s.residue, engine.vertex_residues(mapping.mapped, target_surface.atoms), target_of);
     if (target_map != nullptr) compare_potentials(target, target_map, mapping, moved, target_surface.atoms, result);
     result.residues = residue_rows(s, source.molecule->residues.size(), result.has_potential);
-    judge(result.certificate, result);
+    check_against_own(target, target_map, mapping, target_surface, target_of, result);
+    judge(result, *source.molecule);
     clock.lap("metrics");
   }
 

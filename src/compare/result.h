@@ -40,6 +40,7 @@ struct ResidueRow {
   double mean_path_length_A = 0;
   double mean_slip_A = 0;            ///< NaN if no atom of the residue has a partner
   double slip_area_fraction = 0;     ///< farther than kLargeSlip_A
+  double own_difference = 0;         ///< of the residue's potentials on its own surfaces; see set_own_differences()
 };
 
 /// Slip beyond these is medium, and large: a side chain's width, and the distance between neighbouring residues.
@@ -50,6 +51,14 @@ struct SlipSummary {
   double mean_A = 0, median_A = 0, p95_A = 0, max_A = 0;
   double medium_area_fraction = 0, large_area_fraction = 0;  ///< beyond kMediumSlip_A, kLargeSlip_A
   double unpaired_area_fraction = 0;                         ///< of atoms without a partner, so without a slip
+};
+
+/// The differences by residue against those of each residue's potentials on its own surfaces, which need no mapping.
+struct ResidueCheck {
+  double correlation = 0;    ///< NaN if it is not defined
+  double rms_error = 0;      ///< of the mapped differences, in the unit of the potential
+  double rms_potential = 0;  ///< of the source's own potentials
+  std::size_t n_residues = 0;
 };
 
 /// Round-trip error: how far from its start a vertex ends after mapping to the target and back by a second mapping,
@@ -74,7 +83,8 @@ struct Certificate {
   double unmatched_target = 0;  ///< fraction of the target's area farther than 1 A from the mapped surface
   DistortionReport distortion;
   std::optional<RoundTrip> round_trip;
-  std::optional<SlipSummary> slip;  ///< empty if no atoms pair
+  std::optional<SlipSummary> slip;       ///< empty if no atoms pair
+  std::optional<ResidueCheck> residues;  ///< empty without potentials or pairs
   /// Fraction of the mapped area whose residue on the target (of highest density) is paired with its residue on the
   /// source; NaN if no residues pair.
   double same_residue_area_fraction = 0;

@@ -31,6 +31,10 @@ double of_round_trip(const CompareResult& result) {
   return result.certificate.round_trip ? (*result.certificate.round_trip).*Member : kNan;
 }
 
+double residue_correlation(const CompareResult& result) {
+  return result.certificate.residues ? result.certificate.residues->correlation : kNan;
+}
+
 template <double SlipSummary::*Member>
 double of_slip(const CompareResult& result) {
   return result.certificate.slip ? (*result.certificate.slip).*Member : kNan;
@@ -84,6 +88,9 @@ std::vector<Metric> make_metrics() {
        "Mean potential on the source's surface", &ResidueRow::mean_source},
       {"mean_target", "Mean potential, target", S::kPotential, U::kPotential, kNowhere,
        "Mean potential at the corresponding points of the target's surface", &ResidueRow::mean_target},
+      {"own_difference", "Difference on its own surface", S::kPotential, U::kPotential, kNowhere,
+       "The residue's mean potential on the target's own surface minus that on the source's, without a mapping",
+       &ResidueRow::own_difference},
       {"sign_change_area_fraction",
        "Area whose sign changes",
        S::kPotential,
@@ -184,6 +191,9 @@ std::vector<Metric> make_metrics() {
       {"slip_unpaired", "Mapped area without partners", S::kCertificate, U::kFraction, kNowhere,
        "Share of the mapped area whose atoms have no partner, so that its slip is not known",
        of_slip<&SlipSummary::unpaired_area_fraction>, "/certificate/slip/unpaired_area_fraction"},
+      {"residue_correlation", "Residue correlation", S::kCertificate, U::kIndex, kBoth,
+       "Correlation of the residues' mean differences with those of their potentials on their own surfaces",
+       residue_correlation, "/certificate/residues/correlation"},
       {"round_trip_mean_A", "Round-trip error", S::kCertificate, U::kAngstrom, kNowhere,
        "Mean distance from its start at which a point ends that a second mapping takes back",
        of_round_trip<&RoundTrip::mean_A>, "/certificate/round_trip/mean_A", "Round-trip error", "mean"},
