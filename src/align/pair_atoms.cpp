@@ -192,12 +192,17 @@ std::string to_string(AlignAtoms atoms) {
   return "none";
 }
 
-AtomPairing pair_atoms(const Molecule& source, const Molecule& target) {
-  if (source.size() >= kMinPairs && same_order(source, target)) return pair_in_order(source);
+AtomPairing pair_atoms(const Molecule& source, const Molecule& target, PairOthers others) {
+  const bool in_order = source.size() >= kMinPairs && same_order(source, target);
+  if (in_order && others == PairOthers::kByNumber) return pair_in_order(source);
   const ResidueView source_view(source), target_view(target);
-  const IndexPairs residues = pair_residues(source_view, target_view);
+  if (in_order && order_holds(source_view, target_view)) return pair_in_order(source);
+  ResiduePairing by_residues = pair_residues(source_view, target_view, others);
+  const IndexPairs& residues = by_residues.pairs;
   AtomPairing pairing;
-  pairing.method = "sequence alignment";
+  pairing.method = by_residues.by_names ? "names of residues" : "sequence alignment";
+  pairing.moved = std::move(by_residues.moved);
+  pairing.exchanged_chains = std::move(by_residues.exchanged_chains);
   pairing.n_aligned_residues = residues.size();
   for (const auto& [a, b] : residues) {
     const bool substituted = !same_residue_name(source.residues[a].name, target.residues[b].name);

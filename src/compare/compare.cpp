@@ -15,6 +15,7 @@
 #include "compare/compare.h"
 #include "compare/domain_motions.h"
 #include "compare/input.h"
+#include "compare/input_warnings.h"
 #include "compare/last_step.h"
 #include "compare/map_by_deform.h"
 #include "compare/mapping.h"
@@ -336,7 +337,10 @@ struct Series::Steps {
     const std::vector<std::int32_t> target_of = paired_residues(*source.molecule, *target.molecule, result.pairing);
     result.certificate.same_residue_area_fraction = same_residue_share(
         s, s.residue, engine.vertex_residues(mapping.mapped, target_surface.atoms), target_of);
-    if (target_map != nullptr) compare_potentials(target, target_map, mapping, moved, target_surface.atoms, result);
+    if (target_map != nullptr) {
+      compare_potentials(target, target_map, mapping, moved, target_surface.atoms, result);
+      result.certificate.outside_maps = share_outside(s, matched_areas(s));
+    }
     result.residues = residue_rows(s, source.molecule->residues.size(), result.has_potential);
     check_against_own(target, target_map, mapping, target_surface, target_of, result);
     judge(result, *source.molecule);
@@ -350,6 +354,7 @@ struct Series::Steps {
     check_maps(source, target);  // before any work
     progress.report("align", 0.0);
     const CommonFrame frame = align(*source.molecule, *target.molecule, options, result);
+    result.warnings = input_warnings(*source.molecule, *target.molecule, result);
     clock.lap("align");
     const GridPtr target_map = make_maps(target, frame, result, progress);
     if (target_map != nullptr) clock.lap("potential");

@@ -88,6 +88,7 @@ struct Certificate {
   /// Fraction of the mapped area whose residue on the target (of highest density) is paired with its residue on the
   /// source; NaN if no residues pair.
   double same_residue_area_fraction = 0;
+  double outside_maps = 0;  ///< fraction of the mapped area at vertices outside a map
   bool converged = false;
   bool trustworthy = false;
   std::vector<Message> reasons;          ///< why not trustworthy
@@ -127,7 +128,14 @@ struct OffsetMetrics {
   std::size_t n_outside_source_map = 0, n_outside_target_map = 0;  ///< vertices
 };
 
+/// Something about the inputs that a reader must know before the numbers.
+struct Warning {
+  Message text;
+  bool refuses = false;  ///< whether no result of these inputs is trustworthy
+};
+
 struct CompareResult {
+  std::vector<Warning> warnings;
   double rmsd_A = 0;
   AtomPairing pairing;
   std::size_t n_superposed_atoms = 0;

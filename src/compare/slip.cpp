@@ -19,6 +19,15 @@ std::vector<double> matched_areas(const MappedSurface& s) {
   return areas;
 }
 
+double share_outside(const MappedSurface& surface, const std::vector<double>& areas) {
+  double all = 0, outside = 0;
+  for (std::size_t v = 0; v < areas.size(); ++v) {
+    all += areas[v];
+    if (std::isnan(surface.potential_source[v]) || std::isnan(surface.potential_target[v])) outside += areas[v];
+  }
+  return all > 0 ? outside / all : 0;
+}
+
 SlipSummary summarize_slip(const MappedSurface& surface, const std::vector<double>& areas) {
   std::vector<std::pair<double, double>> by_slip;
   double all = 0, known = 0, sum = 0;

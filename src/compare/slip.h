@@ -11,6 +11,10 @@ namespace espdiff {
 /// [vertex] a third of the area of each matched triangle at the vertex.
 std::vector<double> matched_areas(const MappedSurface& surface);
 
+/// The fraction of the area at vertices without a potential on either side.
+/// @param areas from matched_areas()
+double share_outside(const MappedSurface& surface, const std::vector<double>& areas);
+
 /// @param areas from matched_areas()
 SlipSummary summarize_slip(const MappedSurface& surface, const std::vector<double>& areas);
 

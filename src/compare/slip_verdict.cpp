@@ -1,11 +1,11 @@
 // slip_verdict.cpp: the limits of the slip, over the whole area and by its parts.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 
 #include "align/residue_names.h"
 #include "base/residue_label.h"
+#include "compare/short_numbers.h"
 #include "compare/slip.h"
 
 namespace espdiff {
@@ -37,15 +37,7 @@ struct Part {
   }
 };
 
-std::string text(const char* format, double value) {
-  char written[32];
-  std::snprintf(written, sizeof written, format, value);
-  return written;
-}
-std::string percent(double share) { return text("%.3g %%", 100 * share); }
-std::string angstrom(double length) { return text("%.3g A", length); }
-
-/// " (most at ARG 72 of chain A, 8.3 A)"
+/// "; most at ARG 72 of chain A (8.3 A)"
 std::string most_at(const std::vector<std::string>& residues) {
   std::string names;
   for (std::size_t k = 0; k < std::min(kMostNamed, residues.size()); ++k) names += (k == 0 ? "" : ", ") + residues[k];

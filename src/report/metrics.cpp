@@ -35,6 +35,10 @@ double residue_correlation(const CompareResult& result) {
   return result.certificate.residues ? result.certificate.residues->correlation : kNan;
 }
 
+double outside_maps(const CompareResult& result) {
+  return result.has_potential ? result.certificate.outside_maps : kNan;
+}
+
 template <double SlipSummary::*Member>
 double of_slip(const CompareResult& result) {
   return result.certificate.slip ? (*result.certificate.slip).*Member : kNan;
@@ -194,6 +198,9 @@ std::vector<Metric> make_metrics() {
       {"residue_correlation", "Residue correlation", S::kCertificate, U::kIndex, kBoth,
        "Correlation of the residues' mean differences with those of their potentials on their own surfaces",
        residue_correlation, "/certificate/residues/correlation"},
+      {"outside_maps", "Area outside the maps", S::kCertificate, U::kFraction, kBoth,
+       "Share of the mapped area that lies outside a map and is in no number", outside_maps,
+       "/certificate/outside_maps_area_fraction"},
       {"round_trip_mean_A", "Round-trip error", S::kCertificate, U::kAngstrom, kNowhere,
        "Mean distance from its start at which a point ends that a second mapping takes back",
        of_round_trip<&RoundTrip::mean_A>, "/certificate/round_trip/mean_A", "Round-trip error", "mean"},
@@ -265,6 +272,11 @@ double value_of(const Metric& metric, const CompareResult& result) {
 double value_over_all_triangles(const Metric& metric, const CompareResult& result) {
   if (metric.source.of_area == nullptr || !result.has_potential) return kNan;
   return result.metrics_all.*metric.source.of_area;
+}
+
+double value_without_slip(const Metric& metric, const CompareResult& result) {
+  if (metric.source.of_area == nullptr || !result.has_potential || !result.certificate.slip) return kNan;
+  return result.metrics_without_slip.*metric.source.of_area;
 }
 
 double value_of(const Metric& metric, const CompareResult& result, const ResidueRow& row) {
