@@ -267,6 +267,7 @@ std::vector<Warning> input_warnings(const Molecule& source, const Molecule& targ
   check_chains("source", source_view, warnings);
   check_chains("target", target_view, warnings);
   check_chirality(source_view, target_view, result.pairing, warnings);
+  check_register(source_view, target_view, result, warnings);
   check_rmsd(source, target, result, warnings);
   check_arrangement(source, target, result, warnings);
   check_ligands(source_view, result, warnings);
