@@ -10,6 +10,7 @@
 #include "option_spelling.h"
 #include "report/metrics.h"
 #include "report/residue_values.h"
+#include "report/write_compare.h"
 #include "report/write_surface.h"
 #include "tcl_values.h"
 #include "vertex_quantity.h"

@@ -10,7 +10,8 @@
 #include "engine/engine.h"
 #include "io/atomic_file.h"
 #include "io/check_outputs.h"
-#include "io/read_structure.h"
+#include "io/structure_file.h"
+#include "report/provenance.h"
 #include "report/residue_values.h"
 #include "report/write_compare.h"
 
@@ -118,7 +119,7 @@ int run(const Arguments& a, const Context& context) {
   provenance.command_line = context.command_line;
   for (const Side* side : {&source, &target})
     provenance.inputs.push_back(
-        {side->role, side->path, side->file->sha256(), std::nullopt, structure_options(a, side->role)});
+        {side->role, side->path, side->file->sha256(), nullptr, structure_options(a, side->role)});
   const std::string because = add_maps(a, source, target, options.temperature_K, provenance.inputs);
   for (Side* side : {&source, &target}) side->file.reset();  // its text is no longer needed
   const std::unique_ptr<Engine> engine = make_engine(a.device);

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "io/read_structure.h"
+#include "io/structure_file.h"
 #include "io/write_csv.h"
 #include "potential/potential.h"
 
@@ -75,6 +75,9 @@ PotentialPlan::PotentialPlan(const ComputedMapArguments& a, const std::vector<Po
   const PotentialChoice choice = choose_potential(a.potential, a.cell, facts);
   because_ = choice.because;
   own_cell_ = choice.method == PotentialMethod::kPme && choice.own_cell;
+  const bool usual_cell = choose_potential(a.potential, "auto", facts).own_cell;
+  if (choice.method == PotentialMethod::kPme && choice.own_cell != usual_cell)
+    unusual_cell_ = choice.own_cell ? " cell own" : " cell box";
   if (!choice.method) {
     if (!a.given.empty())
       throw InputError(option(a.given.front().first) + " is of computed potentials, and none is computed" +
@@ -87,7 +90,7 @@ PotentialPlan::PotentialPlan(const ComputedMapArguments& a, const std::vector<Po
 
 std::string PotentialPlan::in_words() const {
   if (!options_) return {};
-  return potential_in_words(*options_) + (own_cell_ ? " cell own" : "");
+  return potential_in_words(*options_) + unusual_cell_;
 }
 
 ComputedMap PotentialPlan::map_of(const Molecule& molecule, const ChargedFile& all) const {

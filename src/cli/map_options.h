@@ -7,10 +7,10 @@
 
 #include "base/structure_options.h"
 #include "cli/options.h"
-#include "io/read_structure.h"
+#include "io/structure_file.h"
 #include "potential/choose_potential.h"
 #include "potential/computed_map.h"
-#include "report/write_compare.h"
+#include "report/provenance.h"
 
 namespace espdiff {
 class StructureFile;
@@ -68,6 +68,7 @@ class PotentialPlan {
  private:
   std::optional<PotentialOptions> options_;
   bool own_cell_ = false;
+  std::string unusual_cell_;  ///< in words, where the user chose another cell than `auto` takes
   std::string because_;
 };
 

@@ -13,7 +13,6 @@
 #include "base/structure_options.h"
 #include "compare/settings.h"
 #include "io/read_grid.h"
-#include "io/read_structure.h"
 #include "potential/potential.h"
 #include "potential/potential_settings.h"
 
@@ -39,8 +38,8 @@ using GivenSettings = std::vector<std::pair<std::string, std::string>>;
 void add_settings(CLI::App& parser, GivenSettings& given, bool of_surface_only);
 
 /// Adds every option of computed potentials, for make_potential_options().
-/// @param pmepot_names of the options of pme: `--grid` as PMEPot has them, not `--pme-grid`
-void add_potential_settings(CLI::App& parser, GivenPotentialSettings& given, bool pmepot_names);
+/// @param of_maps by the names of `espdiff potential`: `--grid` as PMEPot has it, not `--pme-grid`
+void add_potential_settings(CLI::App& parser, GivenPotentialSettings& given, bool of_maps);
 
 /// Reads a potential map and, unless `unit` is empty, declares its unit.
 GridFile read_map(const std::string& path, const std::string& array, const std::string& unit);

@@ -8,6 +8,7 @@
 #include "compare/settings.h"
 #include "report/metrics.h"
 #include "report/potential_json.h"
+#include "report/provenance.h"
 #include "report/write_compare.h"
 
 namespace espdiff {

@@ -61,6 +61,7 @@ void add_pb(Json& json, const MapRecipe& r) {
   const PoissonBoltzmannReport& report = r.pb_report;
   json["grid"] = r.pb_lattice.size;
   json["grid_origin_A"] = vector(r.pb_lattice.origin);
+  json["start_residual"] = number(report.start_residual);
   json["relative_residual"] = number(report.relative_residual);
   json["cycles"] = report.cycles;
   json["newton_steps"] = report.newton_steps;
@@ -68,8 +69,6 @@ void add_pb(Json& json, const MapRecipe& r) {
   json["bytes_per_point"] = number(report.bytes_per_point);
   json["debye_length_A"] = number(report.debye_length_A);
 }
-
-const MapRecipe* pointer_to(const std::optional<MapRecipe>& recipe) { return recipe ? &*recipe : nullptr; }
 
 }  // namespace
 
@@ -114,7 +113,7 @@ Json potential_json(const CompareResult& result) {
   json["because"] = a ? a->because : b->because;
   json["zero"] = {{"source", a ? Json(to_string(a->zero)) : Json(nullptr)},
                   {"target", b ? Json(to_string(b->zero)) : Json(nullptr)}};
-  json["notes"] = potential_notes(pointer_to(a), pointer_to(b));
+  json["notes"] = potential_notes(a.get(), b.get());
   return json;
 }
 
