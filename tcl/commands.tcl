@@ -51,7 +51,8 @@ namespace eval ::espdiff {
         returns {the files written} example {espdiff export comparison1 wild_mutant}]
 
     command map [dict create arguments {handle} settings none run ::espdiff::map options {
-            {-quantity choice difference "Quantity of the map" {difference source target sign displacement path_length}}
+            {-quantity choice difference "Quantity of the map" {difference source target sign slip
+                displacement path_length}}
             {-spacing positive 1.0 "Distance of the lattice's points, Angstrom"}
             {-mol molecule {} "Add the map to this molecule of VMD, for `Color Volume` and Isosurface representations"}
             {-file file {} "Write the map to this DX file"}
@@ -90,16 +91,17 @@ namespace eval ::espdiff {
         example {espdiff highlight comparison1 {88 113}}]
 
     command draw [dict create arguments {handle} settings none run ::espdiff::draw options {
-            {-color choice auto "Quantity shown; auto is difference (for a surface, potential), or displacement without\
-                potentials. difference: target - source, red negative, white 0, blue positive; sign: blue became\
+            {-color choice auto "Quantity shown; auto is difference (for a surface, potential), or slip without\
+                potentials. slip: distance of each point from where its own atoms went; difference: target - source, red negative, white 0, blue positive; sign: blue became\
                 positive, red became negative; potential is for surfaces; path_length: length of each point's path,\
                 at least its displacement"
-                {auto difference sign source target potential displacement path_length none}}
+                {auto difference sign source target potential slip displacement path_length none}}
             {-range range auto "Values at the ends of the colour scale; auto is symmetric about 0 and covers 98 % of\
                 the surface's points on each side"}
-            {-transparency choice uncertainty "uncertainty: the larger the displacement, the more transparent"
-                {uncertainty none}}
-            {-uncertainty-limit positive 2.0 "Displacement at which the surface is most transparent, Angstrom; below\
+            {-transparency choice uncertainty "uncertainty: the larger the slip, the more transparent; displacement:\
+                the same by the displacement"
+                {uncertainty displacement none}}
+            {-uncertainty-limit positive 2.0 "Slip or displacement at which the surface is most transparent, Angstrom; below\
                 half of it nothing is transparent"}
             {-corrupt choice transparent "Parts off the target's surface: most transparent, marked in yellow (then\
                 also points outside a map), or not drawn" {transparent mark hide}}

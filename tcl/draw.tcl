@@ -4,7 +4,7 @@ namespace eval ::espdiff {
     # By handle: molecules (ids of the graphics molecules, the legend's last).
     variable drawings [dict create]
 
-    # Steps of displacement, from 0 to the limit, and their opacity. VMD does not sort triangles: with GLSL it blends
+    # Steps of uncertainty, from 0 to the limit, and their opacity. VMD does not sort triangles: with GLSL it blends
     # triangles of opacity 0.5 or less in list order, without writing depths, and draws the others as if opaque. So no
     # opacity lies between 0.5 and 1. Steps of one opacity share a graphics molecule.
     variable opacities {1.0 1.0 1.0 0.5 0.35 0.2}
@@ -14,7 +14,7 @@ namespace eval ::espdiff {
         diverging  {{0.78 0.08 0.10} {0.88 0.88 0.88} {0.10 0.22 0.78}}
         sequential {{0.88 0.88 0.88} {0.98 0.62 0.20} {0.45 0.05 0.05}}
     }
-    variable lengths {displacement path_length}  ;# quantities that start at 0
+    variable lengths {slip displacement path_length}  ;# quantities that start at 0
     variable scale_method RWB  ;# VMD's colour scale whose colours are replaced temporarily
 
     variable plain_color 2    ;# gray: no quantity, and points outside a map
@@ -60,7 +60,8 @@ namespace eval ::espdiff {
         set plain [expr {$corrupt eq "plain" ? $marked_color : $plain_color}]
         set side [expr {[dict get $options surface] eq "mapped" ? "target" : "source"}]
         set core [dict create color $color low [dict get $range low] high [dict get $range high] corrupt $corrupt \
-            plain $plain surface [dict get $options surface]]
+            plain $plain surface [dict get $options surface] uncertainty [expr {
+                [dict get $options transparency] eq "displacement" ? "displacement" : "slip"}]]
         return [dict merge $range [dict create handle $handle color $color core $core \
             colors [dict get $scales [expr {$color in $lengths ? "sequential" : "diverging"}]] \
             legend [expr {[dict get $options legend] && $color ne "none"}] beside [molecule_of $handle $side] \
@@ -72,7 +73,7 @@ namespace eval ::espdiff {
         if {$color eq "auto"} {
             set color [expr {$is_surface ? "potential" : "difference"}]
             if {![catch { core::range $handle $color }]} { return $color }
-            return [expr {$is_surface ? "none" : "displacement"}]
+            return [expr {$is_surface ? "none" : [catch { core::range $handle slip }] ? "displacement" : "slip"}]
         }
         if {$color ne "none"} { core::range $handle $color }  ;# the core reports quantities that the handle lacks
         return $color
@@ -92,7 +93,7 @@ namespace eval ::espdiff {
         return [dict create low [expr {$color in $lengths ? 0 : -$high}] high $high unit $unit]
     }
 
-    # For each graphics molecule, its opacity and steps of displacement.
+    # For each graphics molecule, its opacity and steps of uncertainty.
     proc opacity_levels {options is_surface} {
         variable opacities
         if {$is_surface} { return {1.0 0} }
@@ -109,7 +110,7 @@ namespace eval ::espdiff {
     proc number_of_bins {options is_surface} {
         variable opacities
         if {$is_surface} { return 1 }
-        if {[dict get $options transparency] eq "uncertainty"} { return [llength $opacities] }
+        if {[dict get $options transparency] ne "none"} { return [llength $opacities] }
         expr {[dict get $options corrupt] eq "transparent" ? 2 : 1}
     }
 
@@ -118,7 +119,7 @@ namespace eval ::espdiff {
     proc draw_levels {handle plan molecules_name} {
         upvar 1 $molecules_name molecules
         set levels [dict get $plan levels]
-        # Without uncertainty the limit exceeds any displacement, and the second step holds the corrupt parts.
+        # Without transparency the limit exceeds any slip, and the second step holds the corrupt parts.
         set limit [expr {[dict get $plan n_bins] > 2 ? [dict get $plan limit] : 1e9}]
         dict for {opacity bins} $levels {
             set name "espdiff $handle [dict get $plan color]"

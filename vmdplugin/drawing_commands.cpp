@@ -24,7 +24,7 @@ struct DrawnSurface {
   const std::vector<Triangle>* triangles = nullptr;
   std::vector<std::uint8_t> corrupt;                    ///< [triangle] empty where nothing was mapped
   const std::vector<std::uint8_t>* left_out = nullptr;  ///< [triangle] not part of the surface; null or empty for none
-  const std::vector<float>* displacement = nullptr;
+  const std::vector<float>* uncertainty = nullptr;  ///< [vertex] Angstrom: slip, or displacement
 };
 
 std::vector<Vec3f> single_precision(const std::vector<Vec3d>& positions) {
@@ -34,7 +34,8 @@ std::vector<Vec3f> single_precision(const std::vector<Vec3d>& positions) {
   return result;
 }
 
-DrawnSurface drawn_surface(const std::string& handle, const Object& object, const std::string& which) {
+DrawnSurface drawn_surface(const std::string& handle, const Object& object, const std::string& which,
+                           const std::string& uncertainty) {
   require_done(handle, object);
   DrawnSurface drawn;
   if (const auto* surface = dynamic_cast<const SurfaceObject*>(&object)) {
@@ -60,7 +61,7 @@ DrawnSurface drawn_surface(const std::string& handle, const Object& object, cons
     throw InputError("surface: '" + which + "' is not mapped or source");
   }
   drawn.triangles = &s.triangles;
-  drawn.displacement = &s.displacement;
+  drawn.uncertainty = uncertainty == "slip" && !s.slip.empty() ? &s.slip : &s.displacement;
   return drawn;
 }
 
@@ -82,15 +83,14 @@ std::vector<int> colours_of(const std::vector<float>& values, double low, double
 /// Which triangles are drawn in one go: those of one level of uncertainty, so that each level can have an opacity.
 struct OpacityBin {
   int bin, n_bins;
-  double limit_A;  ///< displacement at which the last bin begins, times n / (n - 1)
+  double limit_A;  ///< uncertainty at which the last bin begins, times n / (n - 1)
 };
 
 int bin_of(const DrawnSurface& surface, std::size_t t, const OpacityBin& opacity) {
-  if (surface.displacement == nullptr) return 0;
-  double displacement = 0;
-  for (const std::uint32_t v : (*surface.triangles)[t])
-    displacement += static_cast<double>((*surface.displacement)[v]) / 3;
-  const double share = displacement / opacity.limit_A;
+  if (surface.uncertainty == nullptr) return 0;
+  double mean = 0;
+  for (const std::uint32_t v : (*surface.triangles)[t]) mean += static_cast<double>((*surface.uncertainty)[v]) / 3;
+  const double share = mean / opacity.limit_A;
   return std::isfinite(share) ? static_cast<int>(std::min(share, 1.0) * opacity.n_bins) : opacity.n_bins;
 }
 
@@ -125,7 +125,7 @@ Tcl_Obj* triangles(const Call& call) {
   const std::string color = reader.text("color", "none"), corrupt = reader.text("corrupt", "normal");
   if (corrupt != "normal" && corrupt != "plain" && corrupt != "bin" && corrupt != "skip")
     throw InputError("corrupt: '" + corrupt + "' is not normal, plain, bin or skip");
-  const DrawnSurface surface = drawn_surface(handle, *object, reader.text("surface", "mapped"));
+  const DrawnSurface surface = drawn_surface(handle, *object, reader.text("surface", "mapped"), reader.text("uncertainty", "slip"));
   const double low = reader.number("low", -1), high = reader.number("high", 1);
   if (!(high > low))
     throw InputError("range: " + std::to_string(low) + " to " + std::to_string(high) +
@@ -155,7 +155,7 @@ Grid quantity_map(const Call& call) {
   const auto comparison = call.handles.finished_comparison(handle);
   const VertexQuantity quantity = vertex_quantity(handle, *comparison, name);
   Grid map = surface_quantity_map(comparison->result.surface, quantity.values, to_double(call.arguments[2], "spacing"));
-  map.unit = name == "displacement" || name == "path_length" || name == "sign" ? PotentialUnit::kUnknown
+  map.unit = name == "displacement" || name == "slip" || name == "path_length" || name == "sign" ? PotentialUnit::kUnknown
                                                                                : comparison->result.unit;
   map.name = "espdiff " + name + (quantity.unit.empty() ? "" : " (" + quantity.unit + ")");
   return map;

@@ -22,8 +22,12 @@ VertexQuantity of_comparison(const std::string& handle, const CompareResult& res
   const MappedSurface& s = result.surface;
   if (name == "displacement") return {s.displacement, "A"};
   if (name == "path_length") return {s.path_length, "A"};
+  if (name == "slip") {
+    if (s.slip.empty()) throw InputError(handle + " has no slip, since no atoms pair; take displacement");
+    return {s.slip, "A"};
+  }
   if (name != "difference" && name != "source" && name != "target" && name != "sign")
-    throw InputError("'" + name + "' is not difference, source, target, sign, displacement or path_length");
+    throw InputError("'" + name + "' is not difference, source, target, sign, slip, displacement or path_length");
   require_potentials(handle, name, result.has_potential);
   const std::string unit = potential_unit_text(result);
   if (name == "source") return {s.potential_source, unit};

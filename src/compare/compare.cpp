@@ -19,6 +19,7 @@
 #include "compare/last_step.h"
 #include "compare/map_by_deform.h"
 #include "compare/map_recipe.h"
+#include "compare/map_warnings.h"
 #include "compare/mapping.h"
 #include "compare/options.h"
 #include "compare/own_potentials.h"
@@ -276,7 +277,9 @@ struct Series::Steps {
     progress.report("certificate", 0.0);
     find_matched(mapping, target_surface);
     result.area_mapped_A2 = mapping.fit.area_A2;
+    std::vector<std::string> not_checked = std::move(result.certificate.not_checked);
     result.certificate = certify(engine, mapping, target_surface.mesh);
+    result.certificate.not_checked = std::move(not_checked);
     result.certificate.converged = options.method == Method::kMorph || result.deform_report.converged;
     clock.lap("certificate");
   }
@@ -348,6 +351,12 @@ struct Series::Steps {
     clock.lap("metrics");
   }
 
+  void check_given_maps(const CompareInput& target, CompareResult& result) const {
+    bool checked = true;
+    for (Warning& warning : map_warnings(source, target, checked)) result.warnings.push_back(std::move(warning));
+    if (!checked) result.certificate.not_checked.emplace_back("maps_fit_molecules");
+  }
+
   /// Runs the stages in order; see Series::step().
   CompareResult step(const CompareInput& target, StartFrom start, const Progress& progress) {
     CompareResult result;
@@ -356,6 +365,7 @@ struct Series::Steps {
     progress.report("align", 0.0);
     const CommonFrame frame = align(*source.molecule, *target.molecule, options, result);
     result.warnings = input_warnings(*source.molecule, *target.molecule, result);
+    check_given_maps(target, result);
     clock.lap("align");
     const GridPtr target_map = make_maps(target, frame, result, progress);
     if (target_map != nullptr) clock.lap("potential");

@@ -18,7 +18,7 @@ weighted by area. The mapping has a direction: Swap exchanges the sides. Rest th
 Table shows all numbers, Export writes them with the surface.
 
 4. Draw colours the surface in VMD's window. Difference is target - source: red where it became more negative, blue
-where more positive. Parts with a large displacement are transparent: their values are less certain. "Side by side"
+where more positive. Parts with a large slip are transparent: their values are less certain. "Side by side"
 draws source, target and difference in three views that the mouse rotates together; Undraw restores VMD's view.
 
 5. Residues lists the means over each residue's part of the surface; click a heading to sort. Selected rows are
