@@ -251,7 +251,7 @@ class Engine {
                           const ScalarsPtr& path_length = nullptr) = 0;
 
   virtual FitReport fit(const MeshPtr& mapped, const AtomsPtr& target_atoms, float isovalue) = 0;
-  /// Exact distances from the vertices of `from` to the triangles of `to`.
+  /// Exact distances from the corners and centroids of `from` to the triangles of `to`.
   virtual DistanceSummary distances(const MeshPtr& from, const MeshPtr& to, double limit_A) = 0;
   /// Pairs of intersecting triangles, as CGAL's Polygon_mesh_processing::self_intersections counts them:
   /// - two triangles without a shared vertex that have a point in common, touching included;

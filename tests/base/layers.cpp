@@ -32,11 +32,13 @@ const Rooms kAllowed = {
     {"potential", {"base", "align", "engine", "io", "compare"}},
     {"plot", {"base", "io"}},
     {"view", {"base", "io", "plot"}},
+    {"verify", {"base", "io"}},
     {"report", {"base", "align", "engine", "io", "compare", "potential"}},
     {"trajectory", {"base", "align", "engine", "io", "compare", "potential", "report"}},
     {"matrix", {"base", "align", "engine", "io", "compare", "potential", "report"}},
     {"cli",
-     {"base", "align", "engine", "io", "compare", "potential", "plot", "view", "report", "trajectory", "matrix"}},
+     {"base", "align", "engine", "io", "compare", "potential", "plot", "view", "verify", "report", "trajectory",
+      "matrix"}},
     {"vmdplugin", {"base", "align", "engine", "io", "compare", "potential", "plot", "report", "trajectory", "matrix"}},
 };
 

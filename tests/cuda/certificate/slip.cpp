@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "cuda/surface/back_ends.h"
-#include "cuda/surface/oracles.h"
+#include "cuda/surface/shapes.h"
 #include "engine/engine.h"
 #include "engine/morph_stage.h"
 
