@@ -76,7 +76,8 @@ namespace eval ::espdiff {
         upvar 1 $run_name run
         if {$run(mol) ne ""} {
             set run(mol) [vmd_molecule_id $run(mol) -mol]
-            set run(endpoint) [dict create mol $run(mol) sel [dict get $options sel] radii [dict get $options radii]]
+            set run(endpoint) [dict create mol $run(mol) sel [dict get $options sel] radii [dict get $options radii] \
+                whole [dict get $options whole]]
             set run(where) "molecule $run(mol) ([molinfo $run(mol) get name])"
             vmd_frame $run(mol) last -mol
             set n [molinfo $run(mol) get numframes]

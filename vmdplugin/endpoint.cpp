@@ -2,6 +2,7 @@
 #include "endpoint.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <memory>
 
@@ -15,6 +16,7 @@
 #include "potential/potential.h"
 #include "report/provenance.h"
 #include "tcl_values.h"
+#include "whole_molecule.h"
 
 namespace espdiff::vmdplugin {
 namespace {
@@ -106,7 +108,13 @@ void parse_vmd_molecule(DictReader& reader, Endpoint& endpoint) {
     throw InputError(name +
                      ": every radius is 0, so that there is no surface; load a file with radii (PQR), set them "
                      "(`$sel set radius`), or take `radii element`");
-  endpoint.inputs.push_back({endpoint.role, reader.text("input", name), fingerprint(*endpoint.molecule)});
+  std::string input = reader.text("input", name);
+  const bool whole = reader.boolean("whole", false);
+  if (Tcl_Obj* const numbers = reader.find("cell")) {
+    const std::optional<UnitCell> cell = parse_unit_cell(numbers, endpoint.role + " cell");
+    if (cell && make_whole(*endpoint.molecule, *cell, whole, endpoint.role) > 0) input += " whole 1";
+  }
+  endpoint.inputs.push_back({endpoint.role, input, fingerprint(*endpoint.molecule)});
 }
 
 /// @param endpoint_reader of the endpoint that the map is for: its coordinates and cell are the map's
@@ -138,6 +146,21 @@ void parse_map_request(DictReader& reader, DictReader& endpoint_reader, Endpoint
   endpoint.map_request = std::move(request);
 }
 
+/// Whether a lattice repeats with the cell: its points cover each edge once, as those of PME's maps do. A lattice that
+/// ends at the cell's border has a point more.
+bool covers_cell(const Lattice& lattice, const UnitCell& cell) {
+  constexpr double kDegree = 3.14159265358979323846 / 180;
+  const auto edge = [&](std::size_t axis) { return static_cast<double>(lattice.size[axis]) * lattice.step[axis]; };
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (std::fabs(norm(edge(axis)) - cell.lengths[static_cast<int>(axis)]) > 0.3 * norm(lattice.step[axis]))
+      return false;
+    const Vec3d b = edge((axis + 1) % 3), c = edge((axis + 2) % 3);
+    const double cosine = dot(b, c) / (norm(b) * norm(c));
+    if (std::fabs(cosine - std::cos(kDegree * cell.angles[static_cast<int>(axis)])) > 0.01) return false;
+  }
+  return true;
+}
+
 void parse_map(Tcl_Obj* description, DictReader& endpoint_reader, Endpoint& endpoint) {
   DictReader reader(description, endpoint.role + " map");
   if (reader.find("kind") != nullptr) return parse_map_request(reader, endpoint_reader, endpoint);
@@ -149,6 +172,10 @@ void parse_map(Tcl_Obj* description, DictReader& endpoint_reader, Endpoint& endp
     if (!endpoint.map) throw InputError(endpoint.role + " map: no volume named '" + name + "' is in memory");
     endpoint.map->name = label;
     if (!endpoint.map_unit.empty()) endpoint.map->unit = parse_potential_unit(endpoint.map_unit);
+    if (Tcl_Obj* const numbers = endpoint_reader.find("cell")) {
+      const std::optional<UnitCell> cell = parse_unit_cell(numbers, endpoint.role + " cell");
+      if (cell && covers_cell(endpoint.map->lattice, *cell)) endpoint.map->periodic = true;
+    }
     endpoint.inputs.push_back({endpoint.role + "_map", label, fingerprint(*endpoint.map)});
     return;
   }

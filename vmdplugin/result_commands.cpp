@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "commands.h"
+#include "compare/paired_residues.h"
 #include "compare/result.h"
 #include "compare/surface.h"
 #include "io/check_outputs.h"
@@ -70,9 +71,14 @@ Tcl_Obj* result(const Call& call) {
   return to_obj(json);
 }
 
+std::string name_of_partner(const Molecule& target, std::int32_t residue) {
+  return residue < 0 ? "" : target.residues[static_cast<std::size_t>(residue)].name;
+}
+
 Tcl_Obj* residues(const Call& call) {
   const auto comparison = call.handles.finished_comparison(call.text(0));
-  const Molecule& source = *comparison->source.molecule;
+  const Molecule &source = *comparison->source.molecule, &target = *comparison->target.molecule;
+  const std::vector<std::int32_t> partner = paired_residues(source, target, comparison->result.pairing);
   std::vector<Tcl_Obj*> rows;
   for (const ResidueRow& row : comparison->result.residues) {
     const Residue& residue = source.residues.at(row.residue);
@@ -81,7 +87,8 @@ Tcl_Obj* residues(const Call& call) {
                                    {"chain", to_obj(residue.chain)},
                                    {"number", to_obj(static_cast<int>(residue.number))},
                                    {"insertion", to_obj(insertion)},
-                                   {"name", to_obj(residue.name)}});
+                                   {"name", to_obj(residue.name)},
+                                   {"target_name", to_obj(name_of_partner(target, partner[row.residue]))}});
     for (const Metric& metric : metrics()) {
       if (metric.has_residues())
         Tcl_DictObjPut(nullptr, dict, to_obj(metric.name), to_obj(value_of(metric, comparison->result, row)));

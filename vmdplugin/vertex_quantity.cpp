@@ -55,6 +55,10 @@ VertexQuantity vertex_quantity(const std::string& handle, const Object& object, 
   return {surface->result.potential, to_string(surface->result.unit)};
 }
 
+const std::vector<float>& vertex_uncertainty(const MappedSurface& surface) {
+  return surface.slip.empty() ? surface.displacement : surface.slip;
+}
+
 QuantityRange range_of(const std::vector<float>& values) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   std::vector<float> sorted;

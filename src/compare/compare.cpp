@@ -341,6 +341,9 @@ struct Series::Steps {
     const std::vector<std::int32_t> target_of = paired_residues(*source.molecule, *target.molecule, result.pairing);
     result.certificate.same_residue_area_fraction = same_residue_share(
         s, s.residue, engine.vertex_residues(mapping.mapped, target_surface.atoms), target_of);
+    result.uncovered =
+        uncovered_surface(engine.download(target_surface.mesh),
+                          engine.download(result.certificate.target_to_mapped.beyond), inverse(frame.from_target));
     if (target_map != nullptr) {
       compare_potentials(target, target_map, mapping, moved, target_surface.atoms, result);
       result.certificate.outside_maps = share_outside(s, matched_areas(s));

@@ -1,4 +1,4 @@
-// frame_files.cpp: which file a frame is in, and charges and radii for its atoms.
+// frame_files.cpp: finds the file of a frame; completes charges and radii.
 #include "trajectory/frame_files.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ std::string name_of(const Molecule& molecule, std::size_t atom) {
          std::to_string(residue.number);
 }
 
-/// The first atom that is in no pair.
+/// The first atom without a partner.
 template <typename AtomOf>
 std::string first_unpaired(const Molecule& molecule, const AtomPairing& pairing, AtomOf atom_of) {
   std::vector<bool> is_paired(molecule.size(), false);
@@ -46,7 +46,7 @@ std::size_t FrameFiles::file_of(int frame) const {
 
 void FrameFiles::load(std::size_t file) {
   if (file_ != nullptr && loaded_ == file) return;
-  file_ = nullptr;  // the old text first
+  file_ = nullptr;  // frees the old text first
   cells_.reset();
   file_ = std::make_unique<StructureFile>(paths_[file]);
   if (file < sha256_.size()) file_->require_unchanged(sha256_[file]);

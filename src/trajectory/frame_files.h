@@ -1,4 +1,4 @@
-// frame_files.h: the frames of one molecule in structure files of several models, and the values that their atoms lack.
+// frame_files.h: models of structure files as frames; charges and radii for frames that lack them.
 #pragma once
 
 #include <memory>
@@ -11,8 +11,7 @@
 
 namespace espdiff {
 
-/// Models of PQR, PDB or mmCIF files as frames, numbered from 0 through all files in their order. One file at a time is
-/// kept in memory.
+/// Models of PQR, PDB or mmCIF files as frames, numbered from 0 through all files. One file at a time is in memory.
 class FrameFiles {
  public:
   /// Reads every file, to count its models. A file that is read again must have the same content.
@@ -24,7 +23,7 @@ class FrameFiles {
   /// "FILE, model N" of a frame, for messages.
   std::string name(int frame) const;
 
-  /// @param options all but the model
+  /// @param options the model is ignored
   /// @throws as read_structure(); IoError (the file was changed since)
   Molecule read(int frame, StructureOptions options);
   /// The cell that the frame's file gives it. @throws as StructureFile::unit_cells()
@@ -42,10 +41,10 @@ class FrameFiles {
   std::optional<std::vector<std::optional<UnitCell>>> cells_;  // of the loaded file
 };
 
-/// Gives a frame without charges and radii of its own (PDB, mmCIF) those of the molecule that it is a frame of (PQR).
-/// Atoms pair by name and residue (pair_atoms()), every atom of both. A frame that has them keeps them.
+/// Copies charges and radii from the molecule (PQR) to a frame without them (PDB, mmCIF). Atoms are paired by name and
+/// residue (pair_atoms()); every atom of both must have a partner. A frame that has values keeps them.
 /// @param name of the frame, for messages
-/// @throws InputError when atoms are left over on either side, with the first of them
+/// @throws InputError if an atom has no partner; names the first one
 void take_values(Molecule& frame, const Molecule& molecule, const std::string& name);
 
 }  // namespace espdiff

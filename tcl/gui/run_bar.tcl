@@ -50,7 +50,9 @@ namespace eval ::espdiff::gui {
     # One line or several, selectable; errors are red and also go to the console.
     proc show_message {text {kind note}} {
         variable widget
-        if {$kind eq "error"} { tell_console $text }
+        variable error_shown
+        unset -nocomplain error_shown(pair)
+        if {$kind eq "error"} { tell_console $text; set error_shown(pair) 1 }
         if {![info exists widget(message)] || ![winfo exists $widget(message)]} return
         $widget(message) configure -state normal
         $widget(message) delete 1.0 end
@@ -75,7 +77,24 @@ namespace eval ::espdiff::gui {
         variable running
         if {$running ne ""} return
         show_message ""
-        start_compare [endpoint source] [endpoint target] [setting_options]
+        set source [endpoint source]
+        set target [endpoint target]
+        if {![catch { start_compare $source $target [setting_options] } message options]} return
+        if {![offer_whole $message]} { return -options $options $message }
+        foreach side {source target} {
+            if {[dict exists [set $side] mol]} { lappend $side whole 1 }
+        }
+        start_compare $source $target [setting_options]
+    }
+
+    # A molecule that its periodic cell cuts: asks whether to put it together.
+    proc offer_whole {message} {
+        variable window
+        if {![string match "*is cut by its periodic cell*" $message]} { return 0 }
+        set answer [tk_messageBox -parent $window -type yesno -icon question -title "Surface Potential Comparison" \
+            -message "A molecule is cut by its periodic cell." -detail "[lindex [split $message ";"] 0].\n\nMake the\
+            molecules whole, and compare them? Their atoms in VMD stay where they are."]
+        expr {$answer eq "yes"}
     }
 
     # Compares in the background; returns the handle.
@@ -181,7 +200,10 @@ namespace eval ::espdiff::gui {
     proc abandon_run {} {
         variable running
         set handle $running
+        if {$handle eq ""} return
         end_run
-        if {$handle ne "" && $handle in [espdiff handles]} { espdiff delete $handle }
+        forget $handle
+        show_message "Cancelled: the window was closed."
+        if {$handle in [espdiff handles]} { espdiff delete $handle }
     }
 }

@@ -169,6 +169,7 @@ namespace eval ::espdiff::gui {
         $widget(settings_toggle) configure \
             -text "$arrow Settings[expr {$n == 0 ? " (all at their defaults)" : " ($n changed)"}]"
         show_preset
+        clear_error pair
     }
 
     proc forget_settings {} { trace remove variable ::espdiff::gui::setting write ::espdiff::gui::count_changes }
