@@ -122,7 +122,8 @@ ESPDIFF_INLINE Vec3f nearer(Vec3f p, Vec3f a, Vec3f b) { return dot(p - b, p - b
 ESPDIFF_INLINE Vec3f nearest_on_triangle(Vec3f p, Vec3f a, Vec3f b, Vec3f c) {
   const Vec3f n = cross(b - a, c - a);
   const float nn = dot(n, n);
-  if (nn > 0 && dot(cross(b - a, p - a), n) >= 0 && dot(cross(c - b, p - b), n) >= 0 && dot(cross(a - c, p - c), n) >= 0)
+  if (nn > 0 && dot(cross(b - a, p - a), n) >= 0 && dot(cross(c - b, p - b), n) >= 0 &&
+      dot(cross(a - c, p - c), n) >= 0)
     return p - (dot(p - a, n) / nn) * n;
   return nearer(p, nearest_on_segment(p, a, b), nearer(p, nearest_on_segment(p, b, c), nearest_on_segment(p, c, a)));
 }

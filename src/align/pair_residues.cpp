@@ -362,8 +362,7 @@ IndexPairs pair_by_names(const ResidueView& source, const ResidueView& target) {
 
 std::size_t n_same_names(const ResidueView& source, const ResidueView& target, const IndexPairs& pairs) {
   return static_cast<std::size_t>(std::count_if(pairs.begin(), pairs.end(), [&](const auto& pair) {
-    return same_residue_name(source.molecule->residues[pair.first].name,
-                             target.molecule->residues[pair.second].name);
+    return same_residue_name(source.molecule->residues[pair.first].name, target.molecule->residues[pair.second].name);
   }));
 }
 

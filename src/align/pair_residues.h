@@ -25,7 +25,7 @@ struct ResidueView {
 /// Pairs of residues: (source residue, target residue), ascending in the source residue; each residue at most once.
 struct ResiduePairing {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  bool by_names = false;             ///< by chain, number and name, since the files list them in different orders
+  bool by_names = false;              ///< by chain, number and name, since the files list them in different orders
   std::vector<MovedResidue> moved{};  ///< see pair_by_place()
   std::vector<std::pair<std::string, std::string>> exchanged_chains{};
 };

@@ -48,9 +48,10 @@ Verb add_verify(CLI::App& app) {
 Verb add_verify(CLI::App& app) {
   CLI::App* parser = app.add_subcommand("verify", "Recompute a result from its files (not in this build)");
   parser->allow_extras();
-  return {parser, [](const Context&) -> int {
-            throw InputError("this build cannot verify: VTK 9 was not found when it was configured (Debian: libvtk9-dev)");
-          }};
+  return {
+      parser, [](const Context&) -> int {
+        throw InputError("this build cannot verify: VTK 9 was not found when it was configured (Debian: libvtk9-dev)");
+      }};
 }
 
 #endif

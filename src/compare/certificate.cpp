@@ -107,10 +107,10 @@ void judge(CompareResult& result, const Molecule& source) {
          "the round-trip error is " + angstrom(c.round_trip ? c.round_trip->mean_A : 0) + " on average (limit " +
              angstrom(Limits::kRoundTrip_A) + ")");
   for (const Message& reason : slip_reasons(result, source)) c.reasons.push_back(reason);
-  refuse(disagrees(c.residues),
-         "the differences by residue correlate by " + two_digits(c.residues ? c.residues->correlation : 0) +
-             " with those of each residue's potentials on its own surfaces (limit " +
-             two_digits(Limits::kResidueCorrelation) + ")");
+  refuse(disagrees(c.residues), "the differences by residue correlate by " +
+                                    two_digits(c.residues ? c.residues->correlation : 0) +
+                                    " with those of each residue's potentials on its own surfaces (limit " +
+                                    two_digits(Limits::kResidueCorrelation) + ")");
   refuse(c.outside_maps > Limits::kMaxOutsideMaps, percent(c.outside_maps) +
                                                        " of the mapped area lies outside a map (limit " +
                                                        percent(Limits::kMaxOutsideMaps) + ")");

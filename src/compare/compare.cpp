@@ -158,8 +158,7 @@ struct Series::Steps {
       morphed = engine.continue_morph(*from->morphed, step_paths, surface.atoms, target_surface.atoms, morph, "morph",
                                       progress);
     } else {
-      morphed =
-          engine.morph(regularized, paths, surface.atoms, target_surface.atoms, morph, "morph", progress);
+      morphed = engine.morph(regularized, paths, surface.atoms, target_surface.atoms, morph, "morph", progress);
     }
     result.morph_report = morphed.report;
     result.morph_report.n_vertices_added = engine.n_vertices(morphed.source) - engine.n_vertices(regularized);
@@ -339,8 +338,8 @@ struct Series::Steps {
     s.residue = engine.vertex_residues(mapping.source, surface.atoms);
     measure_slip(mapping, target_surface.mesh, paths, kept, result);
     const std::vector<std::int32_t> target_of = paired_residues(*source.molecule, *target.molecule, result.pairing);
-    result.certificate.same_residue_area_fraction = same_residue_share(
-        s, s.residue, engine.vertex_residues(mapping.mapped, target_surface.atoms), target_of);
+    result.certificate.same_residue_area_fraction =
+        same_residue_share(s, s.residue, engine.vertex_residues(mapping.mapped, target_surface.atoms), target_of);
     result.uncovered =
         uncovered_surface(engine.download(target_surface.mesh),
                           engine.download(result.certificate.target_to_mapped.beyond), inverse(frame.from_target));

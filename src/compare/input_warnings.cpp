@@ -73,8 +73,9 @@ void check_chains(const char* role, const ResidueView& view, std::vector<Warning
   }
   if (n == 0) return;
   warnings.push_back({std::string("the ") + role + " is broken in " + std::to_string(n) +
-                          (n == 1 ? " place" : " places") + ", where neighbours lie farther apart than a chain reaches: " +
-                          examples + "; if it crosses the border of a periodic cell, make it whole first",
+                          (n == 1 ? " place" : " places") +
+                          ", where neighbours lie farther apart than a chain reaches: " + examples +
+                          "; if it crosses the border of a periodic cell, make it whole first",
                       true});
 }
 
@@ -231,9 +232,8 @@ void check_ligands(const ResidueView& source, const CompareResult& result, std::
 }
 
 double hydrogen_share(const Molecule& molecule) {
-  const auto n = std::count_if(molecule.atoms.begin(), molecule.atoms.end(), [](const Atom& atom) {
-    return atom.element == "H" || atom.element == "D";
-  });
+  const auto n = std::count_if(molecule.atoms.begin(), molecule.atoms.end(),
+                               [](const Atom& atom) { return atom.element == "H" || atom.element == "D"; });
   return static_cast<double>(n) / static_cast<double>(std::max<std::size_t>(1, molecule.atoms.size()));
 }
 

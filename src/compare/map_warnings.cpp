@@ -51,7 +51,8 @@ class MapSampler {
         at[axis] = upper ? high[axis] : low[axis];
         weight *= upper ? share[axis] : 1 - share[axis];
       }
-      const auto nx = static_cast<std::size_t>(map_.lattice.size[0]), ny = static_cast<std::size_t>(map_.lattice.size[1]);
+      const auto nx = static_cast<std::size_t>(map_.lattice.size[0]),
+                 ny = static_cast<std::size_t>(map_.lattice.size[1]);
       if (weight != 0) sum += weight * static_cast<double>(map_.values[at[0] + nx * (at[1] + ny * at[2])]);
     }
     return sum;
@@ -108,8 +109,7 @@ std::vector<Warning> map_warnings(const CompareInput& source, const CompareInput
     if (!(correlation < kLeastCorrelation)) continue;
     warnings.push_back({std::string("the map of the ") + role + " does not belong to it: its values at the atoms " +
                             "correlate with the charges by " + two_digits(correlation) + " (limit " +
-                            two_digits(kLeastCorrelation) +
-                            "); give the map that was computed for these coordinates",
+                            two_digits(kLeastCorrelation) + "); give the map that was computed for these coordinates",
                         true});
   }
   return warnings;

@@ -34,9 +34,9 @@ struct ResidueRow {
   double sign_change_area_fraction = 0;
   double mean_displacement_A = 0;
   double mean_path_length_A = 0;
-  double mean_slip_A = 0;            ///< NaN if no atom of the residue has a partner
-  double slip_area_fraction = 0;     ///< farther than kLargeSlip_A
-  double own_difference = 0;         ///< of the residue's potentials on its own surfaces; see set_own_differences()
+  double mean_slip_A = 0;         ///< NaN if no atom of the residue has a partner
+  double slip_area_fraction = 0;  ///< farther than kLargeSlip_A
+  double own_difference = 0;      ///< of the residue's potentials on its own surfaces; see set_own_differences()
 };
 
 /// Slip beyond these is medium, and large: a side chain's width, and the distance between neighbouring residues.
@@ -140,7 +140,7 @@ struct CompareResult {
   std::shared_ptr<const MapRecipe> source_recipe, target_recipe;  ///< of potentials that were computed, otherwise null
   Metrics metrics;                                                ///< over valid triangles
   Metrics metrics_all;                                            ///< over all triangles with samples
-  Metrics metrics_without_slip;                                   ///< over valid triangles of a slip within kMediumSlip_A
+  Metrics metrics_without_slip;  ///< over valid triangles of a slip within kMediumSlip_A
   std::size_t n_outside_source_map = 0, n_outside_target_map = 0;  ///< vertices
   SurfaceSummary source_surface, target_surface;
   double area_mapped_A2 = 0;

@@ -44,8 +44,7 @@ std::string most_at(const std::vector<std::string>& residues) {
   return names.empty() ? names : "; most at " + names;
 }
 
-std::vector<Part> parts_of(const CompareResult& result, const Molecule& source,
-                           const std::vector<ResidueKind>& kinds) {
+std::vector<Part> parts_of(const CompareResult& result, const Molecule& source, const std::vector<ResidueKind>& kinds) {
   std::map<std::string, Part> chains;
   std::vector<Part> parts;
   for (const ResidueRow& row : result.residues) {

@@ -5,8 +5,8 @@
 #include <vtkDoubleArray.h>
 #include <vtkFlyingEdges3D.h>
 #include <vtkGenericCell.h>
-#include <vtkImageData.h>
 #include <vtkIdList.h>
+#include <vtkImageData.h>
 #include <vtkMassProperties.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -127,8 +127,8 @@ vtkSmartPointer<vtkPolyData> GaussianAtoms::surface(double isovalue, double spac
     for (int z = low[2]; z <= high[2]; ++z) {
       for (int y = low[1]; y <= high[1]; ++y) {
         for (int x = low[0]; x <= high[0]; ++x) {
-          const Vec3d d = Vec3d{origin[0] + spacing_A * x, origin[1] + spacing_A * y, origin[2] + spacing_A * z} -
-                          positions_[i];
+          const Vec3d d =
+              Vec3d{origin[0] + spacing_A * x, origin[1] + spacing_A * y, origin[2] + spacing_A * z} - positions_[i];
           if (dot(d, d) <= reach * reach) {
             const auto n = [](int k) { return static_cast<std::size_t>(k); };
             values[n(x) + n(size[0]) * (n(y) + n(size[1]) * n(z))] += std::exp(-dot(d, d) / (2 * s2));

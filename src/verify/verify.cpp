@@ -15,8 +15,8 @@
 
 #include "base/error.h"
 #include "io/read_grid.h"
-#include "io/structure_file.h"
 #include "io/read_vtp.h"
+#include "io/structure_file.h"
 #include "verify/target_surface.h"
 
 namespace espdiff {
@@ -89,9 +89,11 @@ class Verifier {
     target_surface();
     maps();
     result_.not_recomputed = {"certificate/self_intersecting_pairs (the tests count them with CGAL)",
-                              "certificate/irregularity_A", "certificate/dirichlet_energy",
+                              "certificate/irregularity_A",
+                              "certificate/dirichlet_energy",
                               "certificate/same_residue_area_fraction and slip at the vertices (they need the pairs)",
-                              "certificate/round_trip", "mean_path_length_A (its path is in no file)"};
+                              "certificate/round_trip",
+                              "mean_path_length_A (its path is in no file)"};
     return std::move(result_);
   }
 

@@ -147,7 +147,8 @@ std::function<Vec3d(const Vec3d&)> by(const Vec3d& shift) {
 
 /// Exchanges the names of two chains; `sorted` also lists the first name first, as programs do.
 Molecule exchanged(Molecule molecule, const std::string& a, const std::string& b, bool sorted) {
-  for (Residue& residue : molecule.residues) residue.chain = residue.chain == a ? b : residue.chain == b ? a : residue.chain;
+  for (Residue& residue : molecule.residues)
+    residue.chain = residue.chain == a ? b : residue.chain == b ? a : residue.chain;
   if (!sorted) return molecule;
   std::vector<std::size_t> order(molecule.residues.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -171,8 +172,8 @@ struct Maker {
                        return pair;
                      }});
   }
-  void pair(const std::string& name, const std::string& reason, const std::string& a, int model_a,
-            const std::string& b, int model_b) {
+  void pair(const std::string& name, const std::string& reason, const std::string& a, int model_a, const std::string& b,
+            int model_b) {
     const std::string source = folder + "/" + a, target = folder + "/" + b;
     cases.push_back({name, reason, {source, target}, [=] {
                        return MoleculePair{read(source, model_a), read(target, model_b)};
@@ -191,9 +192,10 @@ void add_broken(Maker& maker) {
   for (const int n : {1, 5})
     maker.plant(std::to_string(n) + (n == 1 ? " residue" : " residues") + " 60 A away", "broken", "t4l/181L.pdb",
                 [n](MoleculePair& pair) {
-                  move(pair.second,
-                       [n](const Residue& residue) { return residue.number >= 20 && residue.number < 20 + n; },
-                       by({60, 0, 0}));
+                  move(
+                      pair.second,
+                      [n](const Residue& residue) { return residue.number >= 20 && residue.number < 20 + n; },
+                      by({60, 0, 0}));
                 });
 }
 
@@ -207,8 +209,9 @@ void add_registers(Maker& maker) {
 }
 
 void add_moved_parts(Maker& maker) {
-  maker.plant("ligand at a far site", "the ligand BNZ", "t4l/181L.pdb",
-              [](MoleculePair& pair) { move(pair.second, named("BNZ"), by({0, 0, 25})); });
+  maker.plant("ligand at a far site", "the ligand BNZ", "t4l/181L.pdb", [](MoleculePair& pair) {
+    move(pair.second, named("BNZ"), by({0, 0, 25}));
+  });
   maker.plant("cofactor at a far site", "the ligand AP5", "pairs/1ake.pdb", [](MoleculePair& pair) {
     for (Molecule* molecule : {&pair.first, &pair.second}) {
       std::vector<std::size_t> kept;
@@ -247,7 +250,8 @@ void add_right_pairs(Maker& maker) {
   maker.plant("residues in another order", "", "t4l/181L.pdb", [](MoleculePair& pair) {
     std::vector<std::size_t> order(pair.second.residues.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [](std::size_t a, std::size_t b) { return a * 37 % 101 < b * 37 % 101; });
+    std::stable_sort(order.begin(), order.end(),
+                     [](std::size_t a, std::size_t b) { return a * 37 % 101 < b * 37 % 101; });
     pair.second = reordered(pair.second, order);
   });
   maker.plant("exchanged chlorides", "", "t4l/181L.pdb", [](MoleculePair& pair) {
@@ -289,8 +293,7 @@ std::vector<PlantedCase> easy_pairs(const std::string& folder) {
   maker.pair("3LZM/181L with hydrogens", "", "pair_t4l_maps/3lzm.pqr", 1, "pair_t4l_maps/181l_fit.pqr", 1);
   maker.pair("TIM sc/d", "", "pair_tim_maps/scTIM_chainA.pqr", 1, "pair_tim_maps/dTIM_chainA.pqr", 1);
   for (const auto& [a, b] : {std::pair("2", "7"), std::pair("14", "7"), std::pair("2", "14"), std::pair("7", "2")})
-    maker.pair(std::string("1AJJ pH ") + a + "/" + b, "",
-               std::string("pqr_pdb2pqr/1AJJ_pH") + a + "_AMBER.pqr", 1,
+    maker.pair(std::string("1AJJ pH ") + a + "/" + b, "", std::string("pqr_pdb2pqr/1AJJ_pH") + a + "_AMBER.pqr", 1,
                std::string("pqr_pdb2pqr/1AJJ_pH") + b + "_AMBER.pqr", 1);
   for (int model = 2; model <= 38; ++model)
     maker.pair("1L2Y 1/" + std::to_string(model), "", "nmr/1l2y.pdb", 1, "nmr/1l2y.pdb", model);

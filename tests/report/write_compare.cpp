@@ -61,10 +61,9 @@ CompareResult made_result() {
   result.certificate.not_checked = {"something_else"};
   result.regularize_report.iterations = 17;
   result.deform_report.iterations = 42;
-  result.residues = {
-      {0, 6, 1, -1, 2, 1, 0.5, 1, 2, 0.25, 0, -1.5},
-      {1, 4, 2, 2, 0, 2, 0, 1.5, 3, 3.5, 0.5, 2.5},
-      {2, 0, kNan, kNan, kNan, kNan, kNan, kNan, kNan, kNan, kNan, kNan}};
+  result.residues = {{0, 6, 1, -1, 2, 1, 0.5, 1, 2, 0.25, 0, -1.5},
+                     {1, 4, 2, 2, 0, 2, 0, 1.5, 3, 3.5, 0.5, 2.5},
+                     {2, 0, kNan, kNan, kNan, kNan, kNan, kNan, kNan, kNan, kNan, kNan}};
   MappedSurface& s = result.surface;
   s.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   s.source_positions = {{5, 0, 0}, {6, 0, 0}, {5, 1, 0}, {5, 0, 1}};
