@@ -1,4 +1,4 @@
-// endpoint.cpp: descriptions of molecules and maps in Tcl become ours.
+// endpoint.cpp: converts Tcl's descriptions of molecules and maps.
 #include "endpoint.h"
 
 #include <algorithm>
@@ -59,10 +59,10 @@ VmdAtom atom_of(Tcl_Obj* description, const std::string& what) {
   atom.entry.residue_number = to_int(fields[2], what + ", resid");
   const std::string insertion = to_string(fields[3]), chain = to_string(fields[4]), segment = to_string(fields[5]);
   atom.entry.insertion_code = insertion.empty() ? ' ' : insertion[0];
-  // VMD calls the chain of files without chains "X"; their segments tell more.
+  // VMD calls a missing chain "X"; then the segment identifies the chain.
   const bool has_chain = !chain.empty() && chain != " " && chain != "X";
   atom.entry.chain = has_chain || segment.empty() ? chain : segment;
-  // Where no file says, VMD calls the element "X"; then the name tells.
+  // VMD calls an unknown element "X"; then it follows from the atom's name.
   atom.entry.element = to_string(fields[6]) == "X" ? "" : to_string(fields[6]);
   atom.radius = to_double(fields[7], what + ", radius");
   atom.charge = to_double(fields[8], what + ", charge");
@@ -117,13 +117,13 @@ void parse_vmd_molecule(DictReader& reader, Endpoint& endpoint) {
   endpoint.inputs.push_back({endpoint.role, input, fingerprint(*endpoint.molecule)});
 }
 
-/// @param endpoint_reader of the endpoint that the map is for: its coordinates and cell are the map's
+/// @param endpoint_reader of the map's endpoint, which has the coordinates and the cell
 void parse_map_request(DictReader& reader, DictReader& endpoint_reader, Endpoint& endpoint) {
   MapRequest request;
   request.method = parse_potential_method(to_string(reader.require("kind")));
   request.because = reader.text("because");
   request.given = take_potential_settings(reader);
-  make_potential_options(request.method, request.given, PmeOptions().temperature_K);  // a wrong one is reported at once
+  make_potential_options(request.method, request.given, PmeOptions().temperature_K);  // reports a wrong one at once
   if (Tcl_Obj* const box = reader.find("box")) {
     if (request.method != PotentialMethod::kPme)
       throw InputError(endpoint.role + " map: a cell was given, and only the potential pme has one; leave it out");
@@ -183,7 +183,7 @@ void parse_map(Tcl_Obj* description, DictReader& endpoint_reader, Endpoint& endp
   endpoint.map_array = reader.text("array");
   reader.find("name");
   reader.finish();
-  if (!endpoint.map_unit.empty()) parse_potential_unit(endpoint.map_unit);  // a wrong one is told at once
+  if (!endpoint.map_unit.empty()) parse_potential_unit(endpoint.map_unit);  // reports a wrong one at once
 }
 
 }  // namespace
@@ -265,7 +265,7 @@ Molecule named_atoms(const std::vector<Tcl_Obj*>& atoms, const std::vector<Vec3d
 
 namespace {
 
-/// The map that was asked for. Of a file that has water in a cell, pme takes both; else what has the surface.
+/// The requested map. For a file with water in a cell, pme takes all of it; otherwise the endpoint's atoms.
 ComputedMap requested_map(Endpoint& endpoint, double temperature_K) {
   MapRequest& request = *endpoint.map_request;
   PotentialOptions options = make_potential_options(request.method, request.given, temperature_K);

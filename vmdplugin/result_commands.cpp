@@ -1,4 +1,4 @@
-// result_commands.cpp: result, residues, table, range, export: what came out, as values and as files.
+// result_commands.cpp: result, residues, table, range, export: results as values and as files.
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -37,7 +37,7 @@ Tcl_Obj* surface_result(const SurfaceObject& surface) {
                   {"time_ms", times}});
 }
 
-/// The results' JSON, of a shard without matrix; and how the run went.
+/// The result as JSON with the run's statistics; a shard has no matrix.
 Tcl_Obj* matrix_result(const MatrixObject& object) {
   const MatrixReport& report = object.report;
   Tcl_Obj* const dict = report.matrix
@@ -127,7 +127,7 @@ Tcl_Obj* range(const Call& call) {
                   {"n_nan", to_obj(range.n_nan)}});
 }
 
-/// The files that a comparison was made of; empty where something came from memory.
+/// Paths of a comparison's input files; empty for inputs from memory.
 std::vector<std::string> input_paths(const ComparisonObject& comparison) {
   std::vector<std::string> paths;
   for (const InputFile& input : comparison.provenance.inputs) paths.push_back(input.path);
@@ -162,7 +162,7 @@ Tcl_Obj* export_files(const Call& call) {
   return to_list(written);
 }
 
-/// For what Tcl knows the names of.
+/// Names of metrics that Tcl offers.
 Tcl_Obj* check_output_files(const Call& call) {
   std::vector<std::string> lists[2];
   for (std::size_t i = 0; i < 2; ++i) {

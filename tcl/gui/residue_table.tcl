@@ -10,14 +10,14 @@ namespace eval ::espdiff::gui {
     # Key of `espdiff residues`, or share: area times |difference|, of the sum over all residues. Heading, whether it needs potentials, decimals, factor.
     variable residue_columns {
         residue Residue 0 "" 1
-        share "Share, %" 1 1 100
+        share "Share %" 1 1 100
         mean_abs_difference "|Diff.|" 1 2 1
         mean_signed_difference Diff. 1 2 1
         mean_source Source 1 2 1
         mean_target Target 1 2 1
-        sign_change_area_fraction "Sign, %" 1 0 100
-        mean_displacement_A "Moved, \u00c5" 0 2 1
-        area_A2 "Area, \u00c5\u00b2" 0 1 1
+        sign_change_area_fraction "Sign %" 1 0 100
+        mean_displacement_A "Moved \u00c5" 0 2 1
+        area_A2 "Area \u00c5\u00b2" 0 1 1
     }
 
     proc build_residues {path} {
@@ -44,7 +44,7 @@ namespace eval ::espdiff::gui {
         ttk::frame $path.list
         set columns {}
         foreach {key heading of_potentials decimals factor} $residue_columns { lappend columns $key }
-        ttk::treeview $path.list.table -columns $columns -show headings -height 18 -selectmode extended \
+        ttk::treeview $path.list.table -columns $columns -show headings -height 18 -selectmode extended -style Espdiff.Treeview \
             -yscrollcommand [list $path.list.scroll set]
         foreach {key heading of_potentials decimals factor} $residue_columns {
             $path.list.table heading $key -command [list ::espdiff::gui::guard ::espdiff::gui::sort_by $key]
@@ -210,12 +210,12 @@ namespace eval ::espdiff::gui {
         return [concat $rows $without]
     }
 
-    # "A:TRP90", and "A:TRP90 \u2192 SER" where it is mutated.
+    # "A:TRP90", and "A:TRP90\u2192SER" where it is mutated.
     proc residue_name {row} {
         set name "[dict get $row name][dict get $row number][dict get $row insertion]"
         if {[dict get $row chain] ni {"" X " "}} { set name "[dict get $row chain]:$name" }
         set other [dict get $row target_name]
-        if {$other ni [list "" [dict get $row name]]} { append name " \u2192 $other" }
+        if {$other ni [list "" [dict get $row name]]} { append name "\u2192$other" }
         return $name
     }
 
@@ -270,8 +270,9 @@ namespace eval ::espdiff::gui {
         foreach key $visible title $titles {
             if {$key eq $form(residues,sort)} { append title " [expr {$form(residues,falling) ? "\u25be" : "\u25b4"}]" }
             $table heading $key -text $title
-            set least [expr {$key eq "residue" ? 96 : 50}]
-            $table column $key -width [expr {max($least, 10 + [font measure [heading_font] $title])}]
+            # Wide enough for a mutation: A:LYS199 -> GLY.
+            set least [font measure TkDefaultFont [expr {$key eq "residue" ? "A:WWW1999\u2192GLY" : "-99.99 "}]]
+            $table column $key -width [expr {max($least, [font measure [heading_font] "$title "])}]
         }
         $widget(residues,sort) configure -values $titles
         $widget(residues,sort) set [lindex $titles [lsearch -exact $visible $form(residues,sort)]]

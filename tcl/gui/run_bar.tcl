@@ -2,6 +2,7 @@
 
 namespace eval ::espdiff::gui {
     variable running ""   ;# handle of this window's running computation
+    variable run_begun 0  ;# clock milliseconds
     variable watch_id ""  ;# the `after` script that notices its deletion
 
     # Stages in order: name, text, start and end on the bar. The surfaces' stages come twice; the bar does not go back.
@@ -103,6 +104,7 @@ namespace eval ::espdiff::gui {
         if {$running ne ""} { error "a comparison is running; wait for it, or cancel it" }
         set running [espdiff compare $source $target {*}$settings \
             -progress ::espdiff::gui::show_progress -command {::espdiff::gui::guard ::espdiff::gui::finish}]
+        set ::espdiff::gui::run_begun [clock milliseconds]
         remember_compare $running $source $target $settings
         save_settings
         show_running 1
@@ -136,12 +138,13 @@ namespace eval ::espdiff::gui {
     proc show_progress {stage fraction} {
         variable widget
         variable stages
+        variable run_begun
         if {![info exists widget(bar)] || [$widget(cancel) instate disabled]} return
         foreach {name words begin end} $stages {
             if {$name ne $stage} continue
             set share [expr {$begin + $fraction * ($end - $begin)}]
             $widget(bar) configure -value [expr {max($share, [$widget(bar) cget -value])}]
-            show_message "$words..."
+            show_message "$words...[time_left $run_begun [expr {[$widget(bar) cget -value] / 100.0}]]"
         }
     }
 

@@ -73,7 +73,7 @@ namespace eval ::espdiff::gui {
         variable window
         variable tips
         hide_tip
-        if {![winfo exists $path]} return
+        if {![winfo exists $path] || $tips($path) eq ""} return
         toplevel $window.tip
         wm overrideredirect $window.tip 1
         pack [ttk::label $window.tip.text -text $tips($path) -wraplength 320 -padding 4 -background #ffffe0 \
@@ -171,6 +171,18 @@ namespace eval ::espdiff::gui {
         if {abs($value) < 1e-9} { set text 0 }
         if {$unit eq ""} { return $text }
         return "$text $unit"
+    }
+
+    # ", about 2 min left" from when a run began (clock milliseconds) and the fraction done; empty while it is too early
+    # to tell.
+    proc time_left {begun fraction} {
+        set elapsed [expr {([clock milliseconds] - $begun) / 1000.0}]
+        if {$elapsed < 5 || $fraction < 0.05 || $fraction >= 1} { return "" }
+        set left [expr {$elapsed * (1 - $fraction) / $fraction}]
+        if {$left < 5} { return "" }
+        if {$left < 90} { return ", about [expr {round($left)}] s left" }
+        if {$left < 5400} { return ", about [expr {round($left / 60)}] min left" }
+        return ", about [format %.1f [expr {$left / 3600}]] h left"
     }
 
     proc bold_font {} {

@@ -48,6 +48,7 @@ namespace eval ::espdiff::gui {
         variable window
         # VMD gives some widgets a smaller font; here all have the same.
         option add *Espdiff*font TkDefaultFont interactive
+        style_for_screen
         toplevel $window -class Espdiff
         wm withdraw $window
         wm title $window "Surface Potential Comparison"
@@ -75,8 +76,25 @@ namespace eval ::espdiff::gui {
         update_molecules
         show_results
         keep_wheel_from_changing_values $window
+        fit_screen
         wm deiconify $window
         focus $::espdiff::gui::widget(compare)
+    }
+
+    # Ttk's rows and arrows have fixed sizes in pixels, which are too small for large fonts.
+    proc style_for_screen {} {
+        ttk::style configure Espdiff.Treeview -rowheight [expr {[font metrics TkDefaultFont -linespace] + 4}]
+        if {[tk scaling] < 1.6} return
+        set size [expr {round(9 * [tk scaling])}]
+        foreach style {TCombobox TSpinbox TScrollbar} { ttk::style configure $style -arrowsize $size }
+    }
+
+    # On a small screen the window is lower than it asks for; its page scrolls.
+    proc fit_screen {} {
+        variable window
+        update idletasks
+        set most [expr {[winfo screenheight $window] - 60}]
+        if {[winfo reqheight $window] > $most} { wm geometry $window [winfo reqwidth $window]x$most }
     }
 
     proc build_pair {outer} {

@@ -19,6 +19,35 @@ test "compared as the menu's window offers it" {
     check "a result" {$first ne ""}
 }
 
+test "the result says what it came from, whatever the form says now" {
+    tab pair
+    set origin [[widget result,origin] cget -text]
+    check "source: $origin" {[string match "Source $source: scTIM_chainA.pqr, frame 0, atoms*potential: data set 0*" $origin]}
+    form target,frame 7 target,map none
+    check_equal "the same" [[widget result,origin] cget -text] $origin
+    form target,frame now
+}
+
+test "Potential: automatic is explained, and nothing below moves" {
+    ::espdiff::gui::update_endpoint target
+    set y [winfo rooty [widget settings_toggle]]
+    foreach choice {automatic none "0: dTIM_chainA_pot-PE0.dx" automatic} {
+        form target,map $choice
+        ::espdiff::gui::update_endpoint target
+        update
+        check_equal "$choice: y" [winfo rooty [widget settings_toggle]] $y
+    }
+    check "said: [[widget target,choice] cget -text]" {[string match "Poisson-Boltzmann: *" [[widget target,choice] cget -text]]}
+    form target,map "0: dTIM_chainA_pot-PE0.dx"
+    ::espdiff::gui::update_endpoint target
+}
+
+test "the time left is told once it can be" {
+    check_equal early [::espdiff::gui::time_left [clock milliseconds] 0.5] ""
+    check_equal half [::espdiff::gui::time_left [expr {[clock milliseconds] - 30000}] 0.5] ", about 30 s left"
+    check_equal minutes [::espdiff::gui::time_left [expr {[clock milliseconds] - 30000}] 0.1] ", about 5 min left"
+}
+
 test "the close button ends runs, removes the highlight and saves the settings" {
     tab residues
     [widget residues,table] selection set [lindex [[widget residues,table] children {}] 0]

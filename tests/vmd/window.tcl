@@ -46,6 +46,8 @@ test "drawn, side by side, and undrawn" {
 test "a residue is highlighted in VMD, and not any more" {
     tab residues
     set table [widget residues,table]
+    check_equal "sorted by" $::espdiff::gui::form(residues,sort) share
+    ::espdiff::gui::sort_by mean_abs_difference
     set first [lindex [$table children {}] 0]
     set values {}
     foreach item [$table children {}] { lappend values [$table set $item mean_abs_difference] }
@@ -133,6 +135,20 @@ test "the plot as a picture, beside a trajectory in memory" {
     set svg [read $channel]
     close $channel
     foreach text {"Mean absolute difference" kT/e Frame} { check $text {[string first $text $svg] > 0} }
+}
+
+test "a running mean over the points, and the plot as it is seen" {
+    check_equal means [::espdiff::gui::running_mean {1 2 "" 6 9} 3] {1.5 1.5 4.0 7.5 7.5}
+    form trajectory,smooth 3
+    ::espdiff::gui::draw_trajectory
+    check_equal line [llength [[widget trajectory,plot] find withtag mean]] 1
+    ::espdiff::gui::save_plot_as $scratch/adk.ps
+    check "a file" {[file size $scratch/adk.ps] > 3000}
+    form trajectory,smooth none
+    ::espdiff::gui::guard_in trajectory ::espdiff::gui::draw_trajectory
+    check "told" {[string match "Mean over: 'none'*" [[widget trajectory,message] cget -text]]}
+    form trajectory,smooth 1
+    ::espdiff::gui::draw_trajectory
 }
 
 test "a run that is cancelled keeps its rows, and is gone on with" {
