@@ -84,7 +84,8 @@ void print_section(std::ostream& out, const CompareResult& result, MetricSection
     if (metric.section != section || !metric.has_result()) continue;
     std::vector<std::string> values = {formatted(metric, value_of(metric, result))};
     if (result.has_potential && metric.source.of_area != nullptr)
-      values.push_back(formatted(metric, value_over_all_triangles(metric, result)));
+      values.insert(values.end(), {formatted(metric, value_over_all_triangles(metric, result)),
+                                   formatted(metric, value_without_slip(metric, result))});
     row(out, metric.label, unit_of(metric, to_string(result.unit)), values);
   }
 }
@@ -142,7 +143,7 @@ void print_metrics(std::ostream& out, const CompareResult& result) {
     print_kind_of_potential(out, result);
     const bool vacuum = potential_unit_text(result) != to_string(result.unit);
     heading(out, std::string("Potential") + (vacuum ? kInVacuum : "") + " (target - source)",
-            {"valid area", "all area"});
+            {"valid area", "all area", "without slip"});
     print_section(out, result, MetricSection::kPotential);
   } else {
     heading(out, "Shape (no potentials)", {"valid area"});
@@ -222,6 +223,12 @@ void print_certificate(std::ostream& out, const CompareResult& result) {
   if (!not_checked.empty()) line(out, "Not checked", not_checked);
 }
 
+void print_warnings(std::ostream& out, const CompareResult& result, const OptionSpelling& spelling) {
+  if (result.warnings.empty()) return;
+  out << "\nWarnings\n";
+  for (const Warning& warning : result.warnings) out << "  - " << warning.text.spelled(spelling) << '\n';
+}
+
 void print_verdict(std::ostream& out, const CompareResult& result, const OptionSpelling& spelling) {
   const Certificate& c = result.certificate;
   out << '\n';
@@ -243,6 +250,7 @@ void print_table(std::ostream& out, const Molecule& source, const Molecule& targ
   print_offsets(out, result);
   print_surfaces(out, result);
   print_certificate(out, result);
+  print_warnings(out, result, spelling);
   print_verdict(out, result, spelling);
 }
 

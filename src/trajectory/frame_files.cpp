@@ -74,7 +74,7 @@ std::optional<UnitCell> FrameFiles::cell(int frame) {
 
 void take_values(Molecule& frame, const Molecule& molecule, const std::string& name) {
   if (!frame.charges.empty()) return;
-  const AtomPairing pairing = pair_atoms(molecule, frame);
+  const AtomPairing pairing = pair_atoms(molecule, frame, PairOthers::kByNumber);
   if (pairing.pairs.size() != frame.size() || pairing.pairs.size() != molecule.size()) {
     const std::string missing = first_unpaired(molecule, pairing, [](const auto& pair) { return pair.first; });
     const std::string extra = first_unpaired(frame, pairing, [](const auto& pair) { return pair.second; });
