@@ -16,7 +16,7 @@ set other [mol new [input ubq/ubq.pqr] type pqr waitfor all]
 
 test "100 comparisons: memory stays flat" {
     for {set i 0} {$i < 100} {incr i} {
-        espdiff delete [espdiff compare [list mol $mol] [list mol $other] -grid-spacing 1.2]
+        espdiff delete [espdiff compare [list mol $mol map none] [list mol $other map none] -grid-spacing 1.2]
         if {$i == 19} { set early [resident] }
     }
     set late [resident]
@@ -28,7 +28,7 @@ test "cancelled at 60 random moments: always an end, and the next comparison wor
     expr {srand(7)}
     array set states {}
     for {set i 0} {$i < 60} {incr i} {
-        set handle [espdiff compare [list mol $mol] [list mol $other] -command list]
+        set handle [espdiff compare [list mol $mol map none] [list mol $other map none] -command list]
         after [expr {int(rand() * 400)}]
         espdiff cancel $handle
         if {$i % 3 == 0} { espdiff delete $handle; continue }
@@ -40,13 +40,13 @@ test "cancelled at 60 random moments: always an end, and the next comparison wor
         espdiff delete $handle
     }
     note "    [array get states]"
-    check_equal "the next one" [espdiff result [espdiff compare [list mol $mol] [list mol $other]] certificate converged] 1
+    check_equal "the next one" [espdiff result [espdiff compare [list mol $mol map none] [list mol $other map none]] certificate converged] 1
     espdiff delete all
 }
 
 test "break from -progress cancels, and says so" {
     proc stop {stage fraction} { if {$stage eq "deform"} { return -code break } }
-    check_refused {espdiff compare [list mol $mol] [list mol $other] -progress stop -method deform -min-displacement 0} \
+    check_refused {espdiff compare [list mol $mol map none] [list mol $other map none] -progress stop -method deform -min-displacement 0} \
         {ESPDIFF CANCELLED} "cancelled"
 }
 
@@ -54,7 +54,7 @@ test "in the background VMD goes on, and the command is called at the end" {
     set ::ticks 0
     proc tick {} { incr ::ticks; after 10 tick }
     tick
-    espdiff compare [list mol $mol] [list mol $other] -grid-spacing 0.7 -command {set ::finished}
+    espdiff compare [list mol $mol map none] [list mol $other map none] -grid-spacing 0.7 -command {set ::finished}
     vwait ::finished
     after cancel tick
     check "VMD served events meanwhile" {$::ticks > 10}
@@ -63,6 +63,6 @@ test "in the background VMD goes on, and the command is called at the end" {
 }
 
 # VMD is left while this runs: run_in_vmd sees whether it ends.
-espdiff compare [list mol $mol] [list mol $other] -grid-spacing 0.4 -method deform -min-displacement 0 -command list
+espdiff compare [list mol $mol map none] [list mol $other map none] -grid-spacing 0.4 -method deform -min-displacement 0 -command list
 after 300
 finish
