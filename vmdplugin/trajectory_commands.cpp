@@ -8,6 +8,7 @@
 #include "io/write_csv.h"
 #include "potential/potential.h"
 #include "potential/potential_settings.h"
+#include "prepare/take_charges.h"
 #include "tcl_values.h"
 #include "trajectory/frame_range.h"
 #include "trajectory/series_head.h"

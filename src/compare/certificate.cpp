@@ -70,7 +70,7 @@ double same_residue_share(const MappedSurface& s, const std::vector<std::int32_t
   return all > 0 ? same / all : std::numeric_limits<double>::quiet_NaN();
 }
 
-void judge(Certificate& c, const CompareResult& result) {
+void judge(Certificate& c, const CompareResult& result, std::size_t n_vertices) {
   const auto refuse = [&](bool bad, const Message& reason) {
     if (bad) c.reasons.push_back(reason);
   };
@@ -96,7 +96,7 @@ void judge(Certificate& c, const CompareResult& result) {
   refuse(c.round_trip && c.round_trip->mean_A > Limits::kRoundTrip_A,
          "the round-trip error is " + angstrom(c.round_trip ? c.round_trip->mean_A : 0) + " on average (limit " +
              angstrom(Limits::kRoundTrip_A) + ")");
-  const double n = static_cast<double>(result.surface.positions.size());
+  const double n = static_cast<double>(std::max<std::size_t>(n_vertices, 1));
   const double outside = static_cast<double>(std::max(result.n_outside_source_map, result.n_outside_target_map));
   refuse(outside > 0, percent(outside / n) + " of the vertices lie outside a map");
   c.trustworthy = c.reasons.empty();

@@ -20,6 +20,7 @@ double same_residue_share(const MappedSurface& surface, const std::vector<std::i
                           const std::vector<std::int32_t>& target_residue, const std::vector<std::int32_t>& target_of);
 
 /// Sets `trustworthy` and `reasons`.
-void judge(Certificate& certificate, const CompareResult& result);
+/// @param n_vertices of the surface that the result's vertices outside a map are counted on
+void judge(Certificate& certificate, const CompareResult& result, std::size_t n_vertices);
 
 }  // namespace espdiff

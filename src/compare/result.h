@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "align/compared_chains.h"
+#include "align/protonation.h"
 #include "base/message.h"
 #include "base/pairing.h"
 #include "base/rigid_domain.h"
@@ -106,6 +109,14 @@ struct OffsetMetrics {
 struct CompareResult {
   double rmsd_A = 0;
   AtomPairing pairing;
+  std::vector<ComparedChains> chains;  ///< which were compared with which
+  /// Chains that repeat one sequence, by name.
+  std::vector<std::vector<std::string>> source_copies, target_copies;
+  /// Between charged molecules: residues whose protonation makes a difference by itself.
+  std::vector<ProtonationDifference> protonation;
+  std::vector<Message> warnings;  ///< what to know of the input; a trustworthy mapping may have some
+  /// Lines of the printed table on where charges and radii came from: label, text.
+  std::vector<std::pair<std::string, std::string>> input_lines;
   std::size_t n_superposed_atoms = 0;
   RigidTransform source_to_target;   ///< the superposition
   std::vector<RigidDomain> domains;  ///< superposed separately; displacements start where their motions end
@@ -128,6 +139,9 @@ struct CompareResult {
   std::vector<ResidueRow> residues;
   MappedSurface surface;
   std::vector<std::pair<std::string, double>> time_ms;  ///< stage, in order; "total" last
+  /// The same numbers, certificate and residues of the region alone, without vertices; null without a region. Its RMSD
+  /// is that of its atoms after the whole superposition. The round trip is not measured for it.
+  std::shared_ptr<CompareResult> region{};
 };
 
 }  // namespace espdiff

@@ -1,6 +1,8 @@
 // write_pqr.cpp: the words of each line.
 #include "io/write_pqr.h"
 
+#include <charconv>
+
 #include "base/error.h"
 #include "io/write_csv.h"
 
@@ -16,6 +18,12 @@ std::string word(const std::string& name) {
 }
 
 std::string number(double value) { return csv_number(value, 9); }
+
+/// The shortest text that reads back as the same value: a charge of 0.33 is written as such.
+std::string number(float value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
 
 }  // namespace
 
@@ -33,8 +41,7 @@ void write_pqr(std::ostream& out, const Molecule& molecule) {
     out << ' ' << residue.number;
     if (residue.insertion_code != ' ') out << residue.insertion_code;
     out << ' ' << number(p.x) << ' ' << number(p.y) << ' ' << number(p.z) << ' '
-        << number(molecule.charges.empty() ? 0.0 : static_cast<double>(molecule.charges[i])) << ' '
-        << number(static_cast<double>(molecule.radii[i])) << '\n';
+        << number(molecule.charges.empty() ? 0.0F : molecule.charges[i]) << ' ' << number(molecule.radii[i]) << '\n';
   }
   out << "END\n";
 }

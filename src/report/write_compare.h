@@ -13,6 +13,7 @@
 #include "base/version.h"
 #include "io/atomic_file.h"
 #include "potential/computed_map.h"
+#include "prepare/preparation.h"
 
 namespace espdiff {
 
@@ -38,7 +39,16 @@ struct Provenance {
   std::string device_description;  ///< "16 OpenMP threads"
   int threads = 0;                 ///< of the CPU back end; 0 on a device
   std::vector<InputFile> inputs;
+  std::vector<std::pair<std::string, Preparation>> preparations;  ///< "source" or "target", and what PDB2PQR did
   std::string command_line;
+};
+
+/// A file written beside the results that is the input of a role from then on; the original input stays listed under
+/// ROLE_file.
+struct KeptFile {
+  std::string role;
+  std::string ending;  ///< behind the prefix: ".source.pqr"
+  std::string content;
 };
 
 /// Writes OUT.json (compare_json()), OUT.vtp and OUT.residues.csv; all three appear, or none and older ones stay as
@@ -51,11 +61,12 @@ struct Provenance {
 /// units. OUT.residues.csv: one row a source residue, in file order; empty fields where a residue has no valid surface.
 /// @param output_prefix OUT; its folder must exist
 /// @param source, target the molecules that `result` compares
+/// @param kept   further files, see kept_structure()
 /// @param beside a complete file that gets its name together with them; may be null
 /// @throws IoError (a file cannot be written)
 void write_compare(const std::string& output_prefix, const Molecule& source, const Molecule& target,
-                   const CompareResult& result, const CompareOptions& options, const Provenance& provenance,
-                   AtomicFile* beside = nullptr);
+                   const CompareResult& result, const CompareOptions& options, Provenance provenance,
+                   const std::vector<KeptFile>& kept = {}, AtomicFile* beside = nullptr);
 
 /// What a comparison was made of, to be written beside its results: molecules as they were compared (one model, one
 /// frame, a selection), and the maps that are in no file (null for those that are, or were computed).

@@ -1,9 +1,10 @@
-// frame_files.h: the frames of one molecule in structure files of several models, and the values that their atoms lack.
+// frame_files.h: the frames of one molecule in structure files of several models.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/types.h"
@@ -24,6 +25,9 @@ class FrameFiles {
   /// "FILE, model N" of a frame, for messages.
   std::string name(int frame) const;
 
+  /// The file of a frame, which stays until another frame is asked for, and the frame's model in it.
+  /// @throws as StructureFile
+  std::pair<const StructureFile*, int> file_of_frame(int frame);
   /// @param options all but the model
   /// @throws as read_structure()
   Molecule read(int frame, StructureOptions options);
@@ -40,11 +44,5 @@ class FrameFiles {
   std::unique_ptr<StructureFile> file_;
   std::optional<std::vector<std::optional<UnitCell>>> cells_;  // of the loaded file
 };
-
-/// Gives a frame without charges and radii of its own (PDB, mmCIF) those of the molecule that it is a frame of (PQR).
-/// Atoms pair by name and residue (pair_atoms()), every atom of both. A frame that has them keeps them.
-/// @param name of the frame, for messages
-/// @throws InputError when atoms are left over on either side, with the first of them
-void take_values(Molecule& frame, const Molecule& molecule, const std::string& name);
 
 }  // namespace espdiff

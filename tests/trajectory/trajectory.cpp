@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "compare/compare.h"
 #include "compare/made_side.h"
+#include "prepare/take_charges.h"
 #include "support/test_data.h"
 #include "trajectory/frame_files.h"
 

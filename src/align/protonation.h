@@ -1,0 +1,39 @@
+// protonation.h: the protonation states of residues, from the hydrogens they have.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/types.h"
+
+namespace espdiff {
+
+/// The state of a titratable residue by its Amber name: ASP or ASH, GLU or GLH, HID, HIE or HIP, LYS or LYN, CYS, CYM or
+/// CYX (in a disulfide), TYR or TYM, ARG or AR0.
+/// @returns [residue] empty for other residues, and for those without hydrogens
+std::vector<std::string> protonation_states(const Molecule& molecule);
+
+/// What a state means, for messages: "protonated", "neutral", "with its hydrogen on ND1"; empty for the usual state
+/// at pH 7.
+std::string describe_protonation(const std::string& state);
+
+/// "HIS 31 of chain A"; the state's name is not the residue's.
+std::string residue_in_words(const Residue& residue);
+
+/// Two paired residues of one kind in different states, or a chain's end in one molecule only.
+struct ProtonationDifference {
+  std::size_t source = 0, target = 0;  ///< residues
+  std::string source_state, target_state;  ///< "ASP", "ASH"; "N-terminus", "C-terminus" or "within the chain"
+};
+
+/// Compares the states of paired residues; ends with charged groups (H2 and H3, OXT) count too. Substituted residues,
+/// and molecules without hydrogens, are not compared.
+/// @param target_of [source residue] its partner, -1 for none
+std::vector<ProtonationDifference> protonation_differences(const Molecule& source, const Molecule& target,
+                                                           const std::vector<std::int32_t>& target_of);
+
+/// "HIS 31 of chain A: HIP in the source, HIE in the target".
+std::string in_words(const ProtonationDifference& difference, const Molecule& source);
+
+}  // namespace espdiff
