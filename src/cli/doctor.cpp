@@ -10,6 +10,7 @@
 #include "cli/verbs.h"
 #include "engine/select_engine.h"
 #include "io/run_program.h"
+#include "prepare/pdb2pqr.h"
 #if defined(ESPDIFF_HAVE_VTK)
 #include "view/display.h"
 #endif
@@ -61,6 +62,9 @@ int run() {
   const std::string gnuplot = find_program("gnuplot");
   line("plot", !gnuplot.empty(),
        !gnuplot.empty() ? gnuplot : "no program `gnuplot` on PATH, which draws plots (Debian: gnuplot-nox)");
+  const std::string pdb2pqr = find_pdb2pqr();
+  line("prepare", !pdb2pqr.empty(),
+       !pdb2pqr.empty() ? pdb2pqr : std::string("no program `pdb2pqr30` on PATH, which assigns charges; ") + kPdb2pqrRemedy);
   const std::string module = vmd_module();
   line("vmd module", !module.empty(),
        !module.empty()
