@@ -214,20 +214,9 @@ namespace eval ::espdiff {
             {-frames text now "now, all, a frame, begin:end or begin:step:end; see Frames"}
             {-method choice pme "pme: particle-mesh Ewald, as PMEPot computes it. pb: in salt water, by the\
                 Poisson-Boltzmann equation. coulomb: point charges, isolated, for small molecules" {pme pb coulomb}}
-            {-part choice smooth "Of pme: smooth as PMEPot's, or full, with what is near the charges" {smooth full}}
-            {-ionic_strength text {} "Of pb: salt, mol/l (0.15)"}
-            {-spacing text {} "Of pb: distance of the grid's points, Angstrom (0.5)"}
             {-cell text {} "Cell of all frames: {{ox oy oz} {ax ay az} {bx by bz} {cx cy cz}}, o its centre; default:\
                 each frame's own, otherwise a box around the atoms"}
             {-xscfile file {} "Cell of all frames from a NAMD .xsc file"}
-            {-pad text {} "Use a box around the atoms plus this margin on each side, Angstrom (10 if there is no cell)"}
-            {-grid text 1.0 "Resolution in Angstrom if below 8, otherwise the number of points along each edge, or\
-                {na nb nc}"}
-            {-ewaldfactor positive 0.25 "Smearing of the charges, 1/A"}
-            {-spline text {} "Order of the B-splines, 4 to 8 (6; 4 with -compatible)"}
-            {-compatible boolean 0 "Reproduce PMEPot's numbers: its grid, its splines' factor, its truncated volume"}
-            {-precision choice single "Precision of the computation" {single double}}
-            {-dielectric positive 1.0 "Dielectric constant of -method coulomb"}
             {-align choice none "Superpose each frame on the first by these atoms; the average then follows the\
                 molecule" {none all backbone ca}}
             {-averaging choice mean "mean: one map, the mean over the frames; each: a map for each frame, FILE.0000.dx\

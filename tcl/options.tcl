@@ -97,6 +97,7 @@ namespace eval ::espdiff {
             lappend options [dict create name $word kind $kind default $default help $help choices $choices \
                 group {} setting 0]
         }
+        if {$name eq "potential"} { set options [concat $options [potential_options]] }
         set wanted [dict get $description settings]
         if {$wanted eq "none"} { return $options }
         foreach setting [core::settings] {

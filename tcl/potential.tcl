@@ -22,6 +22,28 @@ namespace eval ::espdiff {
         return $keys
     }
 
+    # The options of `espdiff potential` that the core's table has: {name key} pairs. They have the command line's names.
+    proc potential_option_keys {} {
+        set pairs {}
+        foreach setting [core::potential_settings] {
+            dict set pairs [dict get $setting map_option] [dict get $setting name]
+        }
+        return $pairs
+    }
+
+    # Their rows for options_of. What is not given is left to the core, since one default may depend on another option.
+    proc potential_options {} {
+        set rows {}
+        foreach setting [core::potential_settings] {
+            set default [dict get $setting map_default]
+            set help "Of [join_words [dict get $setting of]]: [dict get $setting help]"
+            if {$default ne ""} { append help " ($default)" }
+            lappend rows [dict create name -[dict get $setting map_option] kind [dict get $setting kind] default {} \
+                help $help choices [dict get $setting choices] group {} setting 0]
+        }
+        return $rows
+    }
+
     # The core's map of `text` for an endpoint, which the core has the coordinates of. `because` tells why it was chosen.
     proc computed_map {text endpoint what {because {}}} {
         set kind [lindex $text 0]
@@ -195,16 +217,11 @@ namespace eval ::espdiff {
             }
             dict set options cell [core::xsc_cell $xsc]
         }
-        # Of the options of potentials those that the method has; grid and pad lay out coulomb's map too.
-        set method [dict get $options method]
-        set keys [concat {cell align block method device threads} [potential_keys $method]]
-        if {$method eq "coulomb"} { lappend keys grid pad }
-        foreach key $keys {
-            if {[dict exists $options $key] && [dict get $options $key] ne ""} {
-                dict set core $key [dict get $options $key]
-            }
+        foreach key {cell align block method device threads} { dict set core $key [dict get $options $key] }
+        if {[dict get $core cell] eq ""} { dict unset core cell }
+        dict for {option key} [potential_option_keys] {
+            if {[dict get $options $option] ne ""} { dict set core $key [dict get $options $option] }
         }
-        dict unset core sel
         return [pme_core_options $core]
     }
 

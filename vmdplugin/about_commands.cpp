@@ -96,7 +96,9 @@ Tcl_Obj* list_settings(const Call&) {
 
 /// The options of computed potentials, as list_settings().
 Tcl_Obj* list_potential_settings(const Call&) {
-  const PotentialOptions defaults = make_potential_options(PotentialMethod::kPme, {}, PmeOptions().temperature_K);
+  const double temperature_K = PmeOptions().temperature_K;
+  const PotentialOptions defaults = make_potential_options(PotentialMethod::kPme, {}, temperature_K),
+                         map_defaults = make_potential_options(PotentialMethod::kPme, {}, temperature_K, true);
   std::vector<Tcl_Obj*> all;
   for (const PotentialSetting& setting : potential_settings()) {
     std::vector<std::string> of;
@@ -106,6 +108,8 @@ Tcl_Obj* list_potential_settings(const Call&) {
                            {"kind", to_obj(name_of(setting.kind))},
                            {"choices", to_list(setting.choices)},
                            {"default", to_obj(setting.get(defaults))},
+                           {"map_option", to_obj(setting.map_option())},
+                           {"map_default", to_obj(setting.get(map_defaults))},
                            {"help", to_obj(setting.help)}}));
   }
   return to_list(all);

@@ -238,8 +238,7 @@ Molecule named_atoms(const std::vector<Tcl_Obj*>& atoms, const std::vector<Vec3d
 namespace {
 
 /// The map that was asked for. Of a file that has water in a cell, pme takes both; else what has the surface.
-/// @param file of the structure; null where it came from memory
-ComputedMap requested_map(Endpoint& endpoint, const StructureFile* file, double temperature_K) {
+ComputedMap requested_map(Endpoint& endpoint, double temperature_K) {
   MapRequest& request = *endpoint.map_request;
   PotentialOptions options = make_potential_options(request.method, request.given, temperature_K);
   options.cell = request.cell;
@@ -248,29 +247,37 @@ ComputedMap requested_map(Endpoint& endpoint, const StructureFile* file, double 
     request.surroundings.solute = endpoint.molecule->positions;
     return {std::move(request.charges), request.surroundings, options};
   }
-  if (request.method == PotentialMethod::kPme && file != nullptr && !options.pad_A) {
-    const int model = endpoint.structure.model;
-    Molecule everything = file->read({model, true, true});
-    const auto cell = file->unit_cells().at(static_cast<std::size_t>(model - 1));
-    if (options.cell || potential_facts(everything, cell).has_solvent)
-      return {std::move(everything), {cell, {}, false}, options};
+  if (endpoint.everything) {
+    const auto& [everything, cell] = *endpoint.everything;
+    if (options.cell || potential_facts(everything, cell).has_solvent) return {everything, {cell, {}, false}, options};
   }
   return {*endpoint.molecule, request.surroundings, options};
 }
 
 }  // namespace
 
+bool wants_everything(const Endpoint& endpoint) {
+  if (!endpoint.map_request || endpoint.map_request->charges.size() > 0) return false;
+  const GivenPotentialSettings& given = endpoint.map_request->given;
+  const bool is_padded = std::any_of(given.begin(), given.end(), [](const auto& g) { return g.first == "pad"; });
+  return endpoint.map_request->method == PotentialMethod::kPme && !is_padded;
+}
+
 void load(Endpoint& endpoint, double temperature_K) {
-  std::unique_ptr<const StructureFile> file;
   if (!endpoint.molecule) {
-    file = std::make_unique<StructureFile>(endpoint.structure_path);
-    endpoint.molecule = file->read(endpoint.structure);
+    const StructureFile file(endpoint.structure_path);
+    endpoint.molecule = file.read(endpoint.structure);
+    if (wants_everything(endpoint)) {
+      const int model = endpoint.structure.model;
+      endpoint.everything =
+          Everything{file.read({model, true, true}), file.unit_cells().at(static_cast<std::size_t>(model - 1))};
+    }
     endpoint.inputs.push_back(
-        {endpoint.role, endpoint.structure_path, file->sha256(), std::nullopt, endpoint.structure});
+        {endpoint.role, endpoint.structure_path, file.sha256(), std::nullopt, endpoint.structure});
   }
   if (endpoint.map || endpoint.computed_map) return;
   if (endpoint.map_request) {
-    endpoint.computed_map = requested_map(endpoint, file.get(), temperature_K);
+    endpoint.computed_map = requested_map(endpoint, temperature_K);
     endpoint.inputs.push_back(computed_input(endpoint.role + "_map", *endpoint.computed_map));
     return;
   }

@@ -29,6 +29,12 @@ struct MapRequest {
   std::string because;  ///< why this potential, where the user did not ask for it
 };
 
+/// All that a structure file has, with water and ions, and its cell.
+struct Everything {
+  Molecule molecule;
+  std::optional<UnitCell> cell;
+};
+
 /// A molecule and its map. What is in files is read by load(), on the worker's thread.
 struct Endpoint {
   std::string structure_path;  ///< empty: the molecule came from memory
@@ -38,6 +44,7 @@ struct Endpoint {
   std::optional<Molecule> molecule;
   std::optional<Grid> map;
   std::optional<MapRequest> map_request;
+  std::optional<Everything> everything;     ///< where wants_everything()
   std::optional<ComputedMap> computed_map;  ///< of the request
   std::vector<InputFile> inputs;            ///< provenance; roles begin with the endpoint's ("source", "source_map")
   std::string role;
@@ -69,6 +76,9 @@ Molecule charged_atoms(Tcl_Obj* charges, Tcl_Obj* coordinates, const std::string
 /// Names and residues of atoms, one description each as in `atoms` above, at the positions given.
 /// @throws InputError (numbers that do not fit each other)
 Molecule named_atoms(const std::vector<Tcl_Obj*>& atoms, const std::vector<Vec3d>& positions, const std::string& name);
+
+/// Whether the map that was asked for depends on all that the structure's file has: pme takes water in a cell.
+bool wants_everything(const Endpoint& endpoint);
 
 /// Reads the files that are not read yet, and notes the fingerprints of all inputs.
 /// @param temperature_K of the kT in a computed map's unit

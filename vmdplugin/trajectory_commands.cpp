@@ -113,15 +113,27 @@ Tcl_Obj* trajectory_source(const Call& call) {
   return nullptr;
 }
 
+/// A frame of the run's file, with the values that it lacks from `source`; null where there are none.
+Molecule read_frame(TrajectoryObject& object, int frame, const StructureOptions& options, const Molecule* source) {
+  Molecule molecule = object.files->read(frame, options);
+  molecule.name = object.files->name(frame);
+  const std::string name = molecule.name;
+  if (source != nullptr && !source->charges.empty()) take_values(molecule, *source, name);
+  molecule.name = name;
+  return molecule;
+}
+
 /// Reads what is in files, frames of the run's file through its one open text.
 void load_side(TrajectoryObject& object, Endpoint& side, std::optional<int> frame) {
   if (frame && object.files != nullptr && !side.molecule) {
-    Molecule molecule = object.files->read(*frame, side.structure);
-    const std::string name = object.files->name(*frame);
-    const bool has_values = object.source.molecule && !object.source.molecule->charges.empty();
-    if (has_values && &side != &object.source) take_values(molecule, *object.source.molecule, name);
-    molecule.name = name;
-    side.molecule = std::move(molecule);
+    const Endpoint* const source = &side != &object.source ? &object.source : nullptr;
+    side.molecule = read_frame(object, *frame, side.structure,
+                               source != nullptr && source->molecule ? &*source->molecule : nullptr);
+    if (wants_everything(side))
+      side.everything =
+          Everything{read_frame(object, *frame, {1, true, true},
+                                source != nullptr && source->everything ? &source->everything->molecule : nullptr),
+                     object.files->cell(*frame)};
   }
   load(side, object.computation.options.temperature_K);
 }

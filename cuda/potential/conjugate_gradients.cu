@@ -1,4 +1,4 @@
-// conjugate_gradients.cu: the iteration and its updates.
+// conjugate_gradients.cu: the iteration, its updates, and restarts from the true residual.
 #include "cuda/potential/conjugate_gradients.h"
 
 #include <cmath>
@@ -25,8 +25,7 @@ void turn(float beta, const Buffer<float>& z, Buffer<float>& p) {
   for_each_index(p.size(), [=] ESPDIFF_HD(std::size_t i) { to[i] = from[i] + beta * to[i]; });
 }
 
-/// Conjugate gradients from the residual in work.r, until the residual that they carry along is small enough, which is
-/// returned.
+/// Conjugate gradients from the residual in work.r until the recursion's residual is below the tolerance. @returns it
 double iterate(const GridOperator& a, Multigrid& preconditioner, const SolverOptions& options, SolverReport& report,
                SolverWork& work, Buffer<float>& x, const std::function<void(double)>& step) {
   double rz_before = 0, residual = report.relative_residual;
@@ -41,7 +40,7 @@ double iterate(const GridOperator& a, Multigrid& preconditioner, const SolverOpt
     rz_before = rz;
     apply_operator(a, work.p, work.scratch);
     const double curvature = dot_product(work.p, work.scratch);
-    if (!(curvature > 0) || !(rz > 0)) break;  // rounding has eaten the direction
+    if (!(curvature > 0) || !(rz > 0)) break;  // the direction is rounding noise
     advance(static_cast<float>(rz / curvature), work.p, work.scratch, x, work.r);
     residual = std::sqrt(dot_product(work.r, work.r)) / options.norm;
     ++report.cycles;
@@ -52,33 +51,24 @@ double iterate(const GridOperator& a, Multigrid& preconditioner, const SolverOpt
 
 }  // namespace
 
-double rounding_residual(const GridOperator& a, const Buffer<float>& x) {
-  constexpr double kHalfUnit = 5.9604645e-8;  // 2^-24
-  const float* const diagonal = raw(a.diagonal);
-  const float* const value = raw(x);
-  return kHalfUnit * std::sqrt(sum_over<double>(x.size(), [=] ESPDIFF_HD(std::size_t i) {
-           const double term = static_cast<double>(diagonal[i]) * static_cast<double>(value[i]);
-           return term * term;
-         }));
-}
-
 SolverReport conjugate_gradients(const GridOperator& a, Multigrid& preconditioner, const Buffer<float>& b,
                                  const SolverOptions& options, SolverWork& work, Buffer<float>& x,
                                  const std::function<void(double)>& step) {
   SolverReport report;
-  double carried = 1e300;
-  constexpr int kMostStarts = 4;
-  for (int start = 0; start < kMostStarts; ++start) {
-    operator_residual(a, x, b, work.r);
+  work.low.assign(x.size(), 0.0F);
+  constexpr int kMostRestarts = 6;
+  for (int restart = 0;; ++restart) {
+    exact_residual(a, x, work.low, b, work.r);
     report.relative_residual = std::sqrt(dot_product(work.r, work.r)) / options.norm;
+    if (restart == 0) report.start_residual = report.relative_residual;
     report.converged = report.relative_residual <= options.tolerance;
-    if (!report.converged && carried <= options.tolerance) {
-      report.rounding = rounding_residual(a, x) / options.norm;
-      report.converged = report.relative_residual <= options.tolerance + kRoundings * report.rounding;
-    }
-    if (report.converged || report.cycles >= options.max_cycles || !std::isfinite(report.relative_residual)) break;
-    carried = iterate(a, preconditioner, options, report, work, x, step);
+    const bool is_over = report.cycles >= options.max_cycles || restart == kMostRestarts;
+    if (report.converged || is_over || !std::isfinite(report.relative_residual)) break;
+    // The first pass finds x itself, the others what rounding left of it.
+    if (restart > 1) add_parts(x, work.low);
+    iterate(a, preconditioner, options, report, work, restart == 0 ? x : work.low, step);
   }
+  add_parts(x, work.low);
   return report;
 }
 

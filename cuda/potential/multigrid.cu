@@ -63,6 +63,30 @@ struct Residual {
 };
 ESPDIFF_GRID_KERNEL(Residual)
 
+/// The same for x in two parts, in double precision: float products are exact there.
+struct ExactResidual {
+  static constexpr bool kColoured = false;
+  int colour;
+  OperatorView a;
+  const float* x;
+  const float* low;
+  const float* b;
+  float* r;
+
+  ESPDIFF_INLINE double whole(std::size_t p) const { return static_cast<double>(x[p]) + static_cast<double>(low[p]); }
+  ESPDIFF_INLINE double term(const float* e, std::size_t face, std::size_t p) const {
+    return static_cast<double>(e[face]) * whole(p);
+  }
+  ESPDIFF_INLINE void at(std::size_t p, int) const {
+    const double along_x = term(a.ex, p, p + 1) + term(a.ex, p - 1, p - 1);
+    const double along_y = term(a.ey, p, p + a.row) + term(a.ey, p - a.row, p - a.row);
+    const double along_z = term(a.ez, p, p + a.plane) + term(a.ez, p - a.plane, p - a.plane);
+    const double own = static_cast<double>(b[p]) - static_cast<double>(a.diagonal[p]) * whole(p);
+    r[p] = static_cast<float>(own + (along_x + along_y + along_z));
+  }
+};
+ESPDIFF_GRID_KERNEL(ExactResidual)
+
 /// The first half of a sweep from zero: points of the colour by their own equation, the others zero.
 struct StartSweep {
   static constexpr bool kColoured = false;
@@ -233,8 +257,19 @@ void add_faces_to_diagonal(GridOperator& a) { run_on_grid(a.size, AddFaces{0, vi
 void apply_operator(const GridOperator& a, const Buffer<float>& x, Buffer<float>& y) {
   run_on_grid(a.size, Apply{0, view_of(a), raw(x), raw(y)});
 }
-void operator_residual(const GridOperator& a, const Buffer<float>& x, const Buffer<float>& b, Buffer<float>& r) {
-  run_on_grid(a.size, Residual{0, view_of(a), raw(x), raw(b), raw(r)});
+void exact_residual(const GridOperator& a, const Buffer<float>& x, const Buffer<float>& low, const Buffer<float>& b,
+                    Buffer<float>& r) {
+  run_on_grid(a.size, ExactResidual{0, view_of(a), raw(x), raw(low), raw(b), raw(r)});
+}
+
+void add_parts(Buffer<float>& x, Buffer<float>& low) {
+  float* const high = raw(x);
+  float* const rest = raw(low);
+  for_each_index(x.size(), [=] ESPDIFF_HD(std::size_t p) {
+    const double whole = static_cast<double>(high[p]) + static_cast<double>(rest[p]);
+    high[p] = static_cast<float>(whole);
+    rest[p] = static_cast<float>(whole - static_cast<double>(high[p]));
+  });
 }
 
 Multigrid::Multigrid(const GridOperator& finest) : finest_(finest) {
@@ -271,7 +306,7 @@ void Multigrid::cycle(std::size_t depth, const GridOperator& a, const Buffer<flo
     return;
   }
   Level& next = levels_[depth];
-  operator_residual(a, x, b, r);
+  run_on_grid(a.size, Residual{0, view_of(a), raw(x), raw(b), raw(r)});
   restrict_to(a.size, r, next.on_grid.size, next.b);
   cycle(depth + 1, next.on_grid, next.b, next.x, next.r);
   add_interpolated(next.on_grid.size, next.x, a.size, x);

@@ -28,8 +28,11 @@ struct GridOperator {
 void add_faces_to_diagonal(GridOperator& on_grid);
 /// y = A x at inner points; the border of y is left alone. `x` counts with its border.
 void apply_operator(const GridOperator& on_grid, const Buffer<float>& x, Buffer<float>& y);
-/// r = b - A x at inner points.
-void operator_residual(const GridOperator& on_grid, const Buffer<float>& x, const Buffer<float>& b, Buffer<float>& r);
+/// r = b - A (x + low) at inner points, summed in double precision.
+void exact_residual(const GridOperator& on_grid, const Buffer<float>& x, const Buffer<float>& low,
+                    const Buffer<float>& b, Buffer<float>& r);
+/// Moves from `low` to x what single precision holds: x + low stays the same number, to about 14 digits.
+void add_parts(Buffer<float>& x, Buffer<float>& low);
 
 class Multigrid {
  public:

@@ -24,13 +24,20 @@ void set_jacobian(GridOperator& on_grid, const Buffer<float>& k, const Buffer<fl
   add_faces_to_diagonal(on_grid);
 }
 
-/// r = b - faces - k sinh(x), from r as the linear operator with the Jacobian's diagonal left it.
+/// x in two parts; see SolverWork.
+struct TwoParts {
+  const Buffer<float>& high;
+  const Buffer<float>& low;
+};
+
+/// r = b - faces - k sinh(x). The operator has the diagonal of the Jacobian at `jacobian_at`. @returns |r|
 double nonlinear_residual(const GridOperator& on_grid, const Buffer<float>& k, const Buffer<float>& jacobian_at,
-                          const Buffer<float>& b, const Buffer<float>& x, Buffer<float>& r) {
-  operator_residual(on_grid, x, b, r);
+                          const Buffer<float>& b, const TwoParts& x, Buffer<float>& r) {
+  exact_residual(on_grid, x.high, x.low, b, r);
   const float* const ions = raw(k);
   const float* const at = raw(jacobian_at);
-  const float* const value = raw(x);
+  const float* const value = raw(x.high);
+  const float* const rest = raw(x.low);
   const GridSize size = on_grid.size;
   float* const residual = raw(r);
   for_each_index(r.size(), [=] ESPDIFF_HD(std::size_t p) {
@@ -40,17 +47,26 @@ double nonlinear_residual(const GridOperator& on_grid, const Buffer<float>& k, c
               plane = static_cast<int>(p / size.plane());
     const bool is_inner = i > 0 && j > 0 && plane > 0 && i < size.nx - 1 && j < size.ny - 1 && plane < size.nz - 1;
     // The operator took k cosh(at) x for the ions' term.
-    if (is_inner) residual[p] += ions[p] * (coshf(cut(at[p])) * value[p] - sinhf(cut(value[p])));
+    const float cosine = coshf(cut(at[p]));
+    const float excess = cosine * value[p] - sinhf(cut(value[p]));
+    if (is_inner) residual[p] += ions[p] * (excess + (cosine - coshf(cut(value[p]))) * rest[p]);
   });
   return std::sqrt(dot_product(r, r));
 }
 
-/// to = x + part * way.
-void go(const Buffer<float>& x, float part, const Buffer<float>& way, Buffer<float>& to) {
-  const float* const from = raw(x);
+/// to = x + part * way, in two parts.
+void go(const TwoParts& x, float part, const Buffer<float>& way, Buffer<float>& to, Buffer<float>& to_low) {
+  const float* const from = raw(x.high);
+  const float* const from_low = raw(x.low);
   const float* const along = raw(way);
   float* const out = raw(to);
-  for_each_index(x.size(), [=] ESPDIFF_HD(std::size_t p) { out[p] = from[p] + part * along[p]; });
+  float* const out_low = raw(to_low);
+  for_each_index(to.size(), [=] ESPDIFF_HD(std::size_t p) {
+    const double whole = static_cast<double>(from[p]) + static_cast<double>(from_low[p]) +
+                         static_cast<double>(part) * static_cast<double>(along[p]);
+    out[p] = static_cast<float>(whole);
+    out_low[p] = static_cast<float>(whole - static_cast<double>(out[p]));
+  });
 }
 
 }  // namespace
@@ -58,11 +74,12 @@ void go(const Buffer<float>& x, float part, const Buffer<float>& way, Buffer<flo
 NewtonReport newton(GridOperator& on_grid, const Buffer<float>& k, const Buffer<float>& b, const SolverOptions& options,
                     int max_steps, SolverWork& work, Buffer<float>& x, const std::function<void(double)>& step) {
   NewtonReport report;
-  Buffer<float> residual(x.size(), 0.0F), way(x.size(), 0.0F);
+  Buffer<float> residual(x.size(), 0.0F), way(x.size(), 0.0F), low(x.size(), 0.0F);
   set_jacobian(on_grid, k, x);
-  double norm = nonlinear_residual(on_grid, k, x, b, x, residual);
+  double norm = nonlinear_residual(on_grid, k, x, b, {x, low}, residual);
+  SolverReport& told = report.solver;
+  told.start_residual = norm / options.norm;
   for (;;) {
-    SolverReport& told = report.solver;
     told.relative_residual = norm / options.norm;
     told.converged = told.relative_residual <= options.tolerance;
     if (told.converged || report.steps >= max_steps || !std::isfinite(norm)) return report;
@@ -74,24 +91,19 @@ NewtonReport newton(GridOperator& on_grid, const Buffer<float>& k, const Buffer<
     told.cycles += conjugate_gradients(on_grid, multigrid, residual, inner, work, way, [](double) {}).cycles;
     ++report.steps;
     double part = 1, next = 0;
-    int halvings = 0;
-    for (;; part *= 0.5, ++halvings) {
-      go(x, static_cast<float>(part), way, work.z);
-      next = nonlinear_residual(on_grid, k, x, b, work.z, work.scratch);
+    for (int halvings = 0;; part *= 0.5, ++halvings) {
+      go({x, low}, static_cast<float>(part), way, work.z, work.p);
+      next = nonlinear_residual(on_grid, k, x, b, {work.z, work.p}, work.scratch);
       if (next < norm * (1 - 1e-4 * part) || halvings == kMostHalvings) break;
     }
-    if (!(next < norm)) {
-      // No part of the way helps: what is left is rounding, or the end.
-      told.rounding = rounding_residual(on_grid, x) / options.norm;
-      told.converged = told.relative_residual <= options.tolerance + kRoundings * told.rounding;
-      return report;
-    }
+    if (!(next < norm)) return report;  // no part of the way helps
     x = work.z;
-    // The border of z is the one of x, which CG expects to be zero.
+    low = work.p;
+    // The border of z is the one of x, which conjugate gradients expect to be zero.
     work.z.assign(x.size(), 0.0F);
     work.scratch.assign(x.size(), 0.0F);
     set_jacobian(on_grid, k, x);
-    norm = nonlinear_residual(on_grid, k, x, b, x, residual);
+    norm = nonlinear_residual(on_grid, k, x, b, {x, low}, residual);
     step(norm / options.norm);
   }
 }

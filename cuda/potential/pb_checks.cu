@@ -1,11 +1,11 @@
 // pb_checks.cu: checks of a Poisson-Boltzmann problem's atoms, options and grid.
 #include "cuda/potential/pb_checks.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "base/error.h"
+#include "cuda/device/memory.h"
 #include "cuda/potential/coulomb.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
@@ -107,10 +107,13 @@ CubicLattice checked_pb_lattice(const Lattice& lattice, const std::vector<Vec3d>
                          " A of its border; use a larger padding");
     }
   }
-  const double limit = std::min(available_bytes() / pb_bytes_per_point(options), 2.0e9);
-  if (n_points > limit)
-    throw MemoryError("a grid of " + size + " points is more than memory holds (" + text_of(limit) +
-                      " points); a spacing of " + text_of(h * std::cbrt(n_points / limit)) + " A would fit");
+  const double per_point = pb_bytes_per_point(options), coarser = coarsening_to_fit(n_points, per_point);
+  if (coarser > 1) {
+    char fits[32];
+    std::snprintf(fits, sizeof fits, "%.2f", std::ceil(100 * h * coarser) / 100);
+    throw MemoryError("a grid of " + size + " points " + need_in_words(n_points, per_point) + "; a spacing of " + fits +
+                      " A would fit");
+  }
   return result;
 }
 

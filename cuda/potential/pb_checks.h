@@ -8,11 +8,11 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
-/// Device memory for each grid point: four coefficients, six vectors of the solver, and the coarse grids (28 bytes for
-/// each of their points, of which there are a seventh as many); for the nonlinear equation three vectors more; for
-/// focusing, and for a start, a map more.
+/// Bytes of device memory for each grid point: four coefficients, x, b and the five arrays of the solver; coarse grids
+/// (28 bytes for each of their points, a seventh as many); for the nonlinear equation four arrays more; a map to start
+/// from or to focus from.
 inline double pb_bytes_per_point(const PoissonBoltzmannOptions& options) {
-  return 4 * 4 + 6 * 4 + 4 + (options.nonlinear ? 3 * 4 : 0) + 4;
+  return 4 * 4 + 7 * 4 + 4 + (options.nonlinear ? 4 * 4 : 0) + 4;
 }
 
 /// @throws InputError (numbers of values, values that are not finite, no charges, a negative radius, a charge without

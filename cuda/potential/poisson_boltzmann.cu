@@ -176,7 +176,7 @@ void solve(const Problem& problem, const CubicLattice& lattice, Buffer<float>& p
     solved = conjugate_gradients(on_grid, multigrid, b, solver, work, phi, step);
   }
   report.relative_residual = solved.relative_residual;
-  report.rounding_residual = solved.rounding;
+  report.start_residual = solved.start_residual;
   report.cycles = solved.cycles;
   if (!solved.converged) throw_not_converged(options, solved, report.newton_steps);
 }

@@ -95,6 +95,9 @@ PotentialPlan::PotentialPlan(const ComputedMapArguments& a, const std::vector<Po
   if (!choice.method && !because_.empty() && find_pdb2pqr().empty())
     because_ += std::string(", and PDB2PQR, which assigns some, is not there; ") + kPdb2pqrRemedy;
   own_cell_ = choice.method == PotentialMethod::kPme && choice.own_cell;
+  const bool usual_cell = choose_potential(a.potential, "auto", facts).own_cell;
+  if (choice.method == PotentialMethod::kPme && choice.own_cell != usual_cell)
+    unusual_cell_ = choice.own_cell ? " cell own" : " cell box";
   if (!choice.method) {
     if (!a.given.empty())
       throw InputError(option(a.given.front().first) + " is of computed potentials, and none is computed" +
@@ -107,7 +110,7 @@ PotentialPlan::PotentialPlan(const ComputedMapArguments& a, const std::vector<Po
 
 std::string PotentialPlan::in_words() const {
   if (!options_) return {};
-  return potential_in_words(*options_) + (own_cell_ ? " cell own" : "");
+  return potential_in_words(*options_) + unusual_cell_;
 }
 
 ComputedMap PotentialPlan::map_of(const LoadedState& state) const {

@@ -69,6 +69,7 @@ class PotentialPlan {
  private:
   std::optional<PotentialOptions> options_;
   bool own_cell_ = false;
+  std::string unusual_cell_;  ///< in words, where the user chose another cell than `auto` takes
   std::string because_;
 };
 

@@ -153,16 +153,15 @@ void add_settings(CLI::App& parser, GivenSettings& given, SettingsFor what) {
   }
 }
 
-void add_potential_settings(CLI::App& parser, GivenPotentialSettings& given, bool pmepot_names) {
+void add_potential_settings(CLI::App& parser, GivenPotentialSettings& given, bool of_maps) {
   const PotentialOptions defaults = make_potential_options(PotentialMethod::kPme, {}, PmeOptions().temperature_K);
   for (const PotentialSetting& setting : potential_settings()) {
     const bool is_pb = setting.of.front() == PotentialMethod::kPoissonBoltzmann;
-    std::string name = pmepot_names && !is_pb ? setting.key : setting.option;
-    std::replace(name.begin(), name.end(), '_', '-');
+    const std::string name = of_maps ? setting.map_option() : setting.option;
     const std::string group = is_pb                                         ? "Poisson-Boltzmann (pb)"
                               : setting.of.front() == PotentialMethod::kPme ? "Particle-mesh Ewald (pme)"
                                                                             : "Coulomb's law (coulomb)";
-    const std::string words = pmepot_names && setting.key == "spline" ? "--spline,--order" : "--" + name;
+    const std::string words = of_maps && setting.key == "spline" ? "--spline,--order" : "--" + name;
     const std::string key = setting.option;
     if (setting.kind == SettingKind::kBoolean) {
       parser

@@ -46,8 +46,8 @@ enum class SettingsFor {
 void add_settings(CLI::App& parser, GivenSettings& given, SettingsFor what);
 
 /// Adds every option of computed potentials, for make_potential_options().
-/// @param pmepot_names of the options of pme: `--grid` as PMEPot has them, not `--pme-grid`
-void add_potential_settings(CLI::App& parser, GivenPotentialSettings& given, bool pmepot_names);
+/// @param of_maps by the names of `espdiff potential`: `--grid` as PMEPot has it, not `--pme-grid`
+void add_potential_settings(CLI::App& parser, GivenPotentialSettings& given, bool of_maps);
 
 /// Reads a potential map and, unless `unit` is empty, declares its unit.
 GridFile read_map(const std::string& path, const std::string& array, const std::string& unit);

@@ -48,8 +48,8 @@ struct PoissonBoltzmannOptions {
 
 /// How a potential was come by.
 struct PoissonBoltzmannReport {
-  double relative_residual = 0;  ///< |b - A phi| / |b|, computed anew at the end
-  double rounding_residual = 0;  ///< what single precision leaves of it; 0 where that was not what ended the iteration
+  double start_residual = 0;     ///< |b - A phi| / |b| of the start
+  double relative_residual = 0;  ///< the same at the end, in double precision; never above the tolerance
   int cycles = 0;                ///< of conjugate gradients, all steps together
   int newton_steps = 0;          ///< 0 for the linearized equation
   int levels = 0;                ///< of the multigrid; 0 for the nonlinear equation, which makes it anew each step

@@ -97,8 +97,14 @@ MadeMap ComputedMap::Charges::poisson_boltzmann(Engine& engine, const RigidTrans
   const std::vector<Vec3d> positions = moved(molecule.positions, inverse(to_map));
   r.pb_lattice =
       on_multiples(poisson_boltzmann_lattice(positions, molecule.radii, options.pb_spacing_A, options.pb_padding_A));
-  made.map = engine.poisson_boltzmann(positions, molecule.radii, molecule.charges, r.pb_lattice, r.pb, {}, before,
-                                      progress, &r.pb_report);
+  try {
+    made.map = engine.poisson_boltzmann(positions, molecule.radii, molecule.charges, r.pb_lattice, r.pb, {}, before,
+                                        progress, &r.pb_report);
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const Error& error) {  // the engine knows no names
+    throw Error(error.error_class(), molecule.name + ": " + error.message());
+  }
   return made;
 }
 

@@ -205,6 +205,12 @@ bool reads(const PotentialSetting& setting, PotentialMethod method) {
 
 }  // namespace
 
+std::string PotentialSetting::map_option() const {
+  std::string name = of.front() == PotentialMethod::kPoissonBoltzmann ? option : key;
+  std::replace(name.begin(), name.end(), '_', '-');
+  return name;
+}
+
 const std::vector<PotentialSetting>& potential_settings() {
   static const std::vector<PotentialSetting> all = [] {
     std::vector<PotentialSetting> made;

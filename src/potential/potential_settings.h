@@ -14,7 +14,7 @@ namespace espdiff {
 
 /// One option of potentials.
 struct PotentialSetting {
-  /// In Tcl, `{map {pb KEY VALUE}}`, and with dashes the option of `espdiff potential`.
+  /// In Tcl, `{map {pb KEY VALUE}}`.
   std::string key;
   /// The option of the verbs that compare, without dashes before it: there `grid` could be the surface's.
   std::string option;
@@ -27,6 +27,9 @@ struct PotentialSetting {
   std::function<void(PotentialOptions&, const std::string&)> set;
   /// The value as text that set() takes; empty where none is set.
   std::function<std::string(const PotentialOptions&)> get;
+
+  /// The option of `espdiff potential`, without dashes before it: PMEPot's name where PMEPot has one.
+  std::string map_option() const;
 };
 
 /// All of them, in the order in which manuals list them.

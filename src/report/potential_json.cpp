@@ -61,6 +61,7 @@ void add_pb(Json& json, const MapRecipe& r) {
   const PoissonBoltzmannReport& report = r.pb_report;
   json["grid"] = r.pb_lattice.size;
   json["grid_origin_A"] = vector(r.pb_lattice.origin);
+  json["start_residual"] = number(report.start_residual);
   json["relative_residual"] = number(report.relative_residual);
   json["cycles"] = report.cycles;
   json["newton_steps"] = report.newton_steps;

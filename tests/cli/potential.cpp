@@ -225,6 +225,44 @@ TEST_CASE("vacuum is named wherever its numbers are") {
   CHECK(contains(read_file(folder.file("out.residues.csv")), "mean_source [kT/e in vacuum]"));
 }
 
+TEST_CASE("a molecule that Poisson-Boltzmann cannot take is refused by one line that says what to do") {
+  const ScratchFolder folder;
+  // Another charge and radius for the last atom, at the end of the text.
+  const auto atoms = [&](const std::string& name, const std::string& charge_and_radius) {
+    std::string text = row_of_atoms(8);
+    text.resize(text.size() - 16);
+    return folder.write(name, text + " " + charge_and_radius + "\n");
+  };
+  const std::string molecule = folder.write("a.pqr", row_of_atoms(8)), bare = atoms("bare.pqr", "0.5000 0.0000"),
+                    fraction = atoms("fraction.pqr", "0.3000 1.8000"), out = folder.file("out");
+  const std::string other = folder.write("b.pqr", row_of_atoms(8, 0.2)), end = " --device cpu -q -o " + out;
+  const std::size_t n_before = folder.n_files();
+  const auto refused = [&](const std::string& arguments, int status, const std::string& spacing = "1") {
+    const Outcome outcome = run_espdiff("compare " + molecule + " " + arguments + end + " --pb-spacing " + spacing);
+    CHECK(outcome.status == status);
+    CHECK(folder.n_files() == n_before);
+    return outcome.err;
+  };
+  CHECK(refused(bare, 2) ==
+        "espdiff: " + bare +
+            ": atom 8 has a charge of 0.5 and a radius of 0, and lies in no other atom: its charge would "
+            "be bare in the solvent; give it a radius\n");
+  CHECK(contains(
+      refused(other + " --pb-max-cycles 1", 1),
+      "espdiff: " + molecule + ": the Poisson-Boltzmann equation did not converge: the relative residual is "));
+  CHECK(contains(refused(other + " --pb-max-cycles 1", 1),
+                 " after 1 cycles, 1e-06 is asked for; allow more cycles, or a larger tolerance\n"));
+  const std::string too_large = refused(other, 1, "0.03");
+  CHECK(contains(too_large, "espdiff: " + molecule + ": a grid of "));
+  CHECK(contains(too_large, " points needs "));
+  CHECK(contains(too_large, " A would fit\n"));
+  // A sum of charges that is not whole is a note, not an error.
+  const Outcome noted = run_espdiff("compare " + molecule + " " + fraction + end + " --pb-spacing 1");
+  REQUIRE_MESSAGE(noted.status == 0, noted.err);
+  CHECK(contains(read_file(out + ".json"), "the charges of the target add up to "));
+  CHECK(contains(read_file(out + ".json"), " e, which is not a whole number: atoms or charges may be missing"));
+}
+
 TEST_CASE("options of potentials that cannot be are refused in one line, and nothing is written") {
   const ScratchFolder folder;
   const std::string molecule = folder.write("a.pqr", row_of_atoms(8)),
@@ -237,10 +275,13 @@ TEST_CASE("options of potentials that cannot be are refused in one line, and not
            {"--ionic-strength -0.1", "--ionic-strength: '-0.1' is not a number of 0 or more"},
            {"--solute-dielectric 0", "--solute-dielectric: '0' is not a positive number"},
            {"--solvent-dielectric -2", "--solvent-dielectric: '-2' is not a positive number"},
-           {"--temperature 0", "--temperature"},
+           {"--temperature 0", "--temperature: '0' is not a positive number"},
+           {"--temperature -5", "--temperature: '-5' is not a positive number"},
+           {"--solute-dielectric nan", "--solute-dielectric: 'nan' is not a positive number"},
+           {"--potential coulomb --dielectric 0", "--dielectric: '0' is not a positive number"},
            {"--pb-spacing 0", "--pb-spacing: '0' is not a positive number"},
            {"--pb-spacing 0.01", "has more than 2e9 points"},
-           {"--pb-max-cycles 1", "cycle"},
+           {"--pb-max-cycles 0", "--pb-max-cycles: '0' is not a whole number of 1 or more"},
            {"--potential pme --ionic-strength 0.1", "ionic-strength is an option of the potential pb"},
            {"--potential none --dielectric 4", "--dielectric is of computed potentials, and none is computed"},
            {"--offset -1", "--offset: '-1' is not a distance of 0 to 20 Angstrom"}}) {

@@ -148,6 +148,35 @@ test "a cell from a NAMD file is the same cell given" {
     check_refused {espdiff potential -mol $ubq -xscfile $scratch/none.xsc} {ESPDIFF IO} "none.xsc"
 }
 
+test "every option of Poisson-Boltzmann's table, as the command line has it" {
+    set molecule [mol new [input pqr_pdb2pqr/1AJJ_pH7_AMBER.pqr] type pqr waitfor all]
+    set options {-ionic-strength 0.05 -solute-dielectric 4 -dielectric-boundary vdw -pb-spacing 1.5 -pb-padding 8
+        -far-boundary focus}
+    espdiff potential -mol $molecule -method pb {*}$options -loadmol none -dxfile $scratch/vmd.dx
+    set words {}
+    foreach {option value} $options { lappend words -$option $value }
+    exec $env(ESPDIFF) potential [input pqr_pdb2pqr/1AJJ_pH7_AMBER.pqr] --method pb {*}$words -q -o $scratch/program.dx
+    set lists {}
+    foreach name {vmd program} {
+        set channel [open $scratch/$name.dx]
+        set values {}
+        while {[gets $channel line] >= 0} { if {[regexp {^[-0-9]} $line]} { lappend values {*}$line } }
+        close $channel
+        lappend lists $values
+    }
+    check "values" {[llength [lindex $lists 0]] > 1000}
+    # VMD has single precision coordinates.
+    check "the same map" {[largest_difference {*}$lists] < 1e-3 * [largest [lindex $lists 0]]}
+    check_refused {espdiff potential -mol $molecule -method pb -loadmol none -dxfile $scratch/x.dx -ionic-strength -1} \
+        {ESPDIFF INPUT} "'-1' is not a number of 0 or more"
+    check_refused {espdiff potential -mol $molecule -method pb -loadmol none -dxfile $scratch/x.dx -ewaldfactor 0.3} \
+        {ESPDIFF INPUT} "is an option of the potential pme, and the potential is pb"
+    check_refused {espdiff potential -mol $molecule -method pb -ionic_strength 0.1} {ESPDIFF INPUT} \
+        "did you mean -ionic-strength?"
+    check_equal "nothing was written" [glob -nocomplain $scratch/x.dx*] {}
+    mol delete $molecule
+}
+
 test "what cannot be computed is refused with what to do" {
     set bare [mol new [input ubq/ubq.pdb] type pdb waitfor all]
     check_refused {espdiff potential -mol $bare} {ESPDIFF INPUT} "have no charges" "PSF"

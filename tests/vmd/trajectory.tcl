@@ -103,6 +103,35 @@ test "a file's models: the same bytes from the command line, from the file here,
     }
 }
 
+test "computed potentials: the same bytes from the command line and from here, also in a periodic cell" {
+    set channel [open [input pqr_pdb2pqr/1AJJ_pH7_AMBER.pqr]]
+    set atoms [regexp -all -inline -line {^ATOM.*$} [read $channel]]
+    close $channel
+    # Water, so that the cell is taken.
+    for {set i 0} {$i < 3} {incr i} {
+        foreach {name charge radius dx} {OW -0.834 1.77 0 HW1 0.417 0.6 0.76 HW2 0.417 0.6 -0.76} {
+            lappend atoms [format "ATOM  %5d %-4s HOH   %3d    %8.3f%8.3f%8.3f %7.4f %6.4f" [expr {[llength $atoms] + 1}] \
+                $name [expr {900 + $i}] [expr {4 * $i + $dx}] -30.0 [expr {$dx ? 0.59 : 0}] $charge $radius]
+        }
+    }
+    set file $scratch/wet.pqr
+    set channel [open $file w]
+    puts $channel "CRYST1   60.000   60.000   60.000  90.00  90.00  90.00 P 1           1"
+    puts $channel [join $atoms \n]
+    close $channel
+    foreach {map there} {
+        auto {}
+        pme {--potential pme}
+        {pme ewaldfactor 0.3} {--potential pme --ewaldfactor 0.3 --pme-cell own}
+        {pb spacing 1.5} {--potential pb --pb-spacing 1.5}
+    } {
+        command_line trajectory $file $file --device cpu --grid-spacing 2 {*}$there -q -o $scratch/line.csv --overwrite
+        espdiff trajectory -file $file -reference [list file $file] -map $map -grid-spacing 2 -csv $scratch/here.csv \
+            -overwrite 1
+        check_equal "the same bytes: $map" [read_bytes $scratch/here.csv] [read_bytes $scratch/line.csv]
+    }
+}
+
 test "frames that are deleted during a run in the background: our words, told once" {
     set ::background {}
     proc background_error {message options} { lappend ::background $message }
