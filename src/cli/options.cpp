@@ -102,8 +102,7 @@ bool has_setting(const Setting& setting, SettingsFor what) {
     case SettingsFor::kSurface: return setting.of_surface;
     case SettingsFor::kPreparation: break;
   }
-  if (of_side || setting.name == "radii" || setting.name == "same-protonation") return false;
-  return setting.group == kStructureGroup || setting.group == kChargeGroup;
+  return is_of_preparation(setting);
 }
 
 }  // namespace

@@ -133,30 +133,18 @@ class Sides {
     return options;
   }
 
-  /// A frame without charges takes the source's where it has the same atoms. Other ones are prepared like the source,
-  /// with its protonation states.
   LoadedState read(int number) {
     const auto [file, model] = frames_.file_of_frame(number);
-    StateRequest request{a_.structure, StateRole::kTarget};
-    request.structure.model = model;
-    request.wants_charges = false;
-    LoadedState state = load_state(*file, request, options_, progress_);
     const std::string name = frames_.name(number);
-    if (!source_.molecule.charges.empty()) {
-      if (source_.preparation && !has_same_atoms(state.molecule, source_.molecule)) {
-        InputOptions options = options_;
-        options.charges.same_protonation = true;
-        request.source = &source_.molecule;
-        state.preparation = charge_molecule(state.molecule, options, request, state.charge_files, progress_);
-      } else {
-        take_values(state.molecule, source_.molecule, name);
-      }
-    }
+    StructureOptions structure = a_.structure;
+    structure.model = model;
+    LoadedState state = load_frame(*file, structure, name, source_.molecule, source_.preparation.has_value(), options_,
+                                   progress_);
     if (plan_.takes_everything() && state.everything.size() == 0) {
       state.everything = file->read({model, true, true});
       if (!source_.everything.charges.empty()) take_values(state.everything, source_.everything, name);
+      state.everything.name = name;
     }
-    state.molecule.name = state.everything.name = name;
     return state;
   }
 

@@ -187,6 +187,12 @@ void add_input_settings(std::vector<Setting>& all) {
   add_region_rows(all);
 }
 
+bool is_of_preparation(const Setting& setting) {
+  const bool of_side = setting.name.rfind("source-", 0) == 0 || setting.name.rfind("target-", 0) == 0;
+  if (of_side || setting.name == "radii" || setting.name == "same-protonation") return false;
+  return setting.group == kStructureGroup || setting.group == kChargeGroup;
+}
+
 void check_input_options(const InputOptions& o) {
   const auto both = [](const char* a, const char* b) {
     throw InputError(option(a) + " and " + option(b) + " were given; leave one of them out");

@@ -106,6 +106,12 @@ struct OffsetMetrics {
   std::size_t n_outside_source_map = 0, n_outside_target_map = 0;  ///< vertices
 };
 
+/// Something about the inputs that a reader must know before the numbers.
+struct Warning {
+  Message text;
+  bool refuses = false;  ///< whether no result of these inputs is trustworthy
+};
+
 struct CompareResult {
   double rmsd_A = 0;
   AtomPairing pairing;
@@ -114,7 +120,7 @@ struct CompareResult {
   std::vector<std::vector<std::string>> source_copies, target_copies;
   /// Between charged molecules: residues whose protonation makes a difference by itself.
   std::vector<ProtonationDifference> protonation;
-  std::vector<Message> warnings;  ///< what to know of the input; a trustworthy mapping may have some
+  std::vector<Warning> warnings;
   /// Lines of the printed table on where charges and radii came from: label, text.
   std::vector<std::pair<std::string, std::string>> input_lines;
   std::size_t n_superposed_atoms = 0;

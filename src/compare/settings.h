@@ -38,6 +38,9 @@ constexpr const char* kStructureGroup = "Structures";
 constexpr const char* kChargeGroup = "Charges";
 constexpr const char* kRegionGroup = "Region";
 
+/// Whether one molecule's preparation depends on a setting: which atoms, and how they get charges.
+bool is_of_preparation(const Setting& setting);
+
 /// All settings, in the order of the manuals.
 const std::vector<Setting>& settings();
 

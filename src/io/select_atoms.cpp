@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "base/error.h"
 #include "base/water.h"
@@ -156,6 +157,13 @@ Molecule keep_atoms(const Molecule& molecule, const std::vector<bool>& keep) {
     if (!molecule.charges.empty()) kept.charges.push_back(molecule.charges[i]);
   }
   return kept;
+}
+
+Molecule without_repeated_atoms(const Molecule& molecule) {
+  std::set<std::pair<std::int32_t, std::string>> seen;
+  std::vector<bool> keep;
+  for (const Atom& atom : molecule.atoms) keep.push_back(seen.emplace(atom.residue, atom.name).second);
+  return keep_atoms(molecule, keep);
 }
 
 }  // namespace espdiff

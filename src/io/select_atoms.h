@@ -27,4 +27,7 @@ std::string describe_chains(const Molecule& molecule);
 /// The molecule without the other atoms, and without residues that have none left.
 Molecule keep_atoms(const Molecule& molecule, const std::vector<bool>& keep);
 
+/// The molecule with the first atom of each name in a residue: VMD loads all alternate locations of a file.
+Molecule without_repeated_atoms(const Molecule& molecule);
+
 }  // namespace espdiff

@@ -142,6 +142,24 @@ LoadedState load_state(const StructureFile& file, const StateRequest& request, c
   return state;
 }
 
+LoadedState load_frame(const StructureFile& file, const StructureOptions& structure, const std::string& name,
+                       const Molecule& source, bool source_is_prepared, const InputOptions& options,
+                       const Progress& progress) {
+  StateRequest request{structure, StateRole::kTarget, false, true, &source};
+  LoadedState state = load_state(file, request, options, progress);
+  state.molecule.name = name;
+  if (source.charges.empty() || is_charged(state.molecule)) return state;
+  if (source_is_prepared && !has_same_atoms(state.molecule, source)) {
+    InputOptions like_source = options;
+    like_source.charges.same_protonation = true;
+    state.preparation = charge_molecule(state.molecule, like_source, request, state.charge_files, progress);
+  } else {
+    take_values(state.molecule, source, name);
+  }
+  state.molecule.name = name;
+  return state;
+}
+
 void check_left_out(const InputOptions& options, const std::vector<const LoadedState*>& states) {
   if (options.leave_out.empty()) return;
   const bool some = std::any_of(states.begin(), states.end(), [](const LoadedState* s) { return s->n_left_out > 0; });

@@ -64,6 +64,14 @@ LoadedState load_state(const StructureFile& file, const StateRequest& request, c
 std::optional<Preparation> charge_molecule(Molecule& molecule, const InputOptions& options, const StateRequest& request,
                                            std::vector<ChargeFile>& files, const Progress& progress);
 
+/// Loads a frame of a series. A frame without charges takes the source's where it has the same atoms. If PDB2PQR
+/// prepared the source, other frames are prepared like it, with its protonation states.
+/// @param name of the frame, for messages
+/// @throws as load_state(), take_values()
+LoadedState load_frame(const StructureFile& file, const StructureOptions& structure, const std::string& name,
+                       const Molecule& source, bool source_is_prepared, const InputOptions& options,
+                       const Progress& progress);
+
 /// @throws InputError when leave_out dropped no atom of any state
 void check_left_out(const InputOptions& options, const std::vector<const LoadedState*>& states);
 

@@ -6,7 +6,6 @@
 #include "align/pair_residues.h"
 #include "base/error.h"
 #include "io/select_atoms.h"
-#include "prepare/load_state.h"
 
 namespace espdiff {
 namespace {
@@ -34,32 +33,30 @@ std::vector<std::uint8_t> region_within(const Molecule& molecule, const Molecule
   return region;
 }
 
-std::vector<std::uint8_t> region_residues(const LoadedState& source, const LoadedState& target,
-                                          const InputOptions& options) {
+std::vector<std::uint8_t> region_residues(const Molecule& source, const Molecule& whole_source, const Molecule& target,
+                                          const Molecule& whole_target, const InputOptions& options) {
   if (!options.has_region()) return {};
-  const Molecule& molecule = source.molecule;
   if (!options.region.empty()) {
-    const std::vector<bool> selected = select_some_atoms(molecule, options.region, "region");
-    std::vector<std::uint8_t> region(molecule.residues.size(), 0);
+    const std::vector<bool> selected = select_some_atoms(source, options.region, "region");
+    std::vector<std::uint8_t> region(source.residues.size(), 0);
     for (std::size_t i = 0; i < selected.size(); ++i) {
-      if (selected[i]) region[static_cast<std::size_t>(molecule.atoms[i].residue)] = 1;
+      if (selected[i]) region[static_cast<std::size_t>(source.atoms[i].residue)] = 1;
     }
     return region;
   }
-  std::vector<bool> near_to = select_atoms(source.whole, options.region_of, "of");
+  std::vector<bool> near_to = select_atoms(whole_source, options.region_of, "of");
   std::vector<std::uint8_t> region;
   if (std::find(near_to.begin(), near_to.end(), true) != near_to.end()) {
-    region = region_within(molecule, source.whole, near_to, options.region_within_A);
+    region = region_within(source, whole_source, near_to, options.region_within_A);
   } else {
-    near_to = select_atoms(target.whole, options.region_of, "of");
+    near_to = select_atoms(whole_target, options.region_of, "of");
     if (std::find(near_to.begin(), near_to.end(), true) == near_to.end())
-      throw InputError(option("of", options.region_of) + " selects no atom of either file; " + source.whole.name +
-                       " has " + describe_chains(source.whole) + "; " + target.whole.name + " has " +
-                       describe_chains(target.whole));
-    const auto of_target = region_within(target.molecule, target.whole, near_to, options.region_within_A);
-    region.assign(molecule.residues.size(), 0);
-    for (const auto& [s, t] : pair_residues(ResidueView(molecule), ResidueView(target.molecule)))
-      region[s] = of_target[t];
+      throw InputError(option("of", options.region_of) + " selects no atom of either file; " + whole_source.name +
+                       " has " + describe_chains(whole_source) + "; " + whole_target.name + " has " +
+                       describe_chains(whole_target));
+    const auto of_target = region_within(target, whole_target, near_to, options.region_within_A);
+    region.assign(source.residues.size(), 0);
+    for (const auto& [s, t] : pair_residues(ResidueView(source), ResidueView(target))) region[s] = of_target[t];
   }
   if (!any(region))
     throw InputError("no residue of the source lies within " + option("region-within") + " of " +

@@ -36,8 +36,8 @@ void note_state(CompareResult& result, const std::string& role, const LoadedStat
   if (!p.added.empty()) text += ", " + std::to_string(p.added.size()) + " residues repaired";
   result.input_lines.emplace_back(label, text);
   if (!p.gaps.empty())
-    result.warnings.push_back("the " + role + " lacks residues " + joined(p.gaps, 4) +
-                              "; they are not modelled, and chain ends there stay uncharged");
+    result.warnings.push_back({"the " + role + " lacks residues " + joined(p.gaps, 4) +
+                               "; they are not modelled, and chain ends there stay uncharged"});
 }
 
 }  // namespace
@@ -74,7 +74,8 @@ void note_states(CompareResult& result, const LoadedState& source, const LoadedS
 }
 
 std::vector<Message> all_warnings(const CompareResult& result, const Molecule& source) {
-  std::vector<Message> all = result.warnings;
+  std::vector<Message> all;
+  for (const Warning& warning : result.warnings) all.push_back(warning.text);
   if (result.protonation.empty()) return all;
   std::vector<std::string> words;
   for (const ProtonationDifference& difference : result.protonation) words.push_back(in_words(difference, source));

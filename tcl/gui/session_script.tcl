@@ -41,8 +41,13 @@ namespace eval ::espdiff::gui {
 
     # Comments that say how VMD loaded a molecule.
     proc how_loaded {mol} {
+        variable prepared
         set lines {}
         foreach path [lindex [molinfo $mol get filename] 0] {
+            if {[dict exists $prepared $path]} {
+                return "# Molecule $mol was made and loaded by\n#   espdiff [comment_word [dict get $prepared $path]]\n#  \
+                     mol new [comment_word $path] waitfor all"
+            }
             lappend lines "#   mol [expr {[llength $lines] == 0 ? "new" : "addfile"}] [comment_word $path] waitfor all"
         }
         return "# Molecule $mol was loaded by\n[join $lines \n]"

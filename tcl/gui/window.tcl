@@ -8,7 +8,7 @@ namespace eval ::espdiff::gui {
     variable traced {}          ;# traced variables of VMD, and the procedures called
     variable pending_update ""  ;# the `after` script that updates VMD's molecules
 
-    foreach part {widgets scrolled endpoint_form presets settings_form run_bar result_view draw_form session_script
+    foreach part {widgets scrolled endpoint_form prepare_form presets settings_form run_bar result_view draw_form session_script
         help_window matrix_form matrix_view heat_map residue_table trajectory_form trajectory_view trajectory_point
         line_plot remembered} {
         source [file join [file dirname [info script]] $part.tcl]
