@@ -11,7 +11,7 @@
 
 #include "base/error.h"
 #include "base/system_message.h"
-#include "io/read_structure.h"
+#include "io/elements.h"
 
 namespace espdiff_bench {
 namespace {

@@ -11,10 +11,11 @@
 #include "fingerprint.h"
 #include "io/molecule_builder.h"
 #include "io/read_grid.h"
-#include "io/read_structure.h"
+#include "io/structure_file.h"
 #include "molfile_bridge.h"
 #include "potential/choose_potential.h"
 #include "potential/potential.h"
+#include "report/provenance.h"
 #include "report/state_report.h"
 #include "tcl_values.h"
 
@@ -295,7 +296,7 @@ void load_file(Endpoint& endpoint, const CompareOptions& options, const Endpoint
     throw InputError(error.message() + "; `map none` compares shapes alone");
   }
   const auto inputs = state_inputs(
-      endpoint.role, {endpoint.role, endpoint.structure_path, file.sha256(), std::nullopt, endpoint.structure},
+      endpoint.role, {endpoint.role, endpoint.structure_path, file.sha256(), nullptr, endpoint.structure},
       endpoint.state);
   endpoint.inputs.insert(endpoint.inputs.end(), inputs.begin(), inputs.end());
   endpoint.molecule = endpoint.state.molecule;

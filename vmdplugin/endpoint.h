@@ -10,12 +10,11 @@
 #include "base/structure_options.h"
 #include "base/types.h"
 #include "compare/input.h"
-#include "io/read_structure.h"
 #include "potential/computed_map.h"
 #include "potential/potential.h"
 #include "potential/potential_settings.h"
 #include "prepare/load_state.h"
-#include "report/write_compare.h"
+#include "report/provenance.h"
 #include "tcl_values.h"
 
 namespace espdiff {

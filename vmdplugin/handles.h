@@ -13,6 +13,8 @@
 #include "endpoint.h"
 #include "matrix/matrix_run.h"
 #include "potential/potential.h"
+#include "potential/potential_series.h"
+#include "report/provenance.h"
 #include "report/write_compare.h"
 #include "trajectory/frame_files.h"
 #include "trajectory/trajectory.h"

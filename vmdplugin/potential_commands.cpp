@@ -10,6 +10,7 @@
 #include "io/read_unit_cells.h"
 #include "io/write_grid.h"
 #include "potential/potential.h"
+#include "potential/potential_series.h"
 #include "tcl_values.h"
 #include "volume_store.h"
 

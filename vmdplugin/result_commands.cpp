@@ -12,6 +12,7 @@
 #include "report/preparation_json.h"
 #include "report/residue_values.h"
 #include "report/state_report.h"
+#include "report/write_compare.h"
 #include "report/write_surface.h"
 #include "tcl_values.h"
 #include "vertex_quantity.h"

@@ -6,15 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "base/pairing.h"
 #include "base/types.h"
 
 namespace espdiff {
-
-/// A chain of the source and the chain of the target that most of its residues pair with.
-struct ComparedChains {
-  std::string source, target;  ///< chain names, empty where the file has none
-  std::size_t n_residues = 0;  ///< pairs of residues
-};
 
 /// In the order of the source's chains; chains without a paired residue are left out.
 /// @param target_of [source residue] its partner, -1 for none

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/pairing.h"
 #include "base/types.h"
 
 namespace espdiff {
@@ -20,12 +21,6 @@ std::string describe_protonation(const std::string& state);
 
 /// "HIS 31 of chain A"; the state's name is not the residue's.
 std::string residue_in_words(const Residue& residue);
-
-/// Two paired residues of one kind in different states, or a chain's end in one molecule only.
-struct ProtonationDifference {
-  std::size_t source = 0, target = 0;  ///< residues
-  std::string source_state, target_state;  ///< "ASP", "ASH"; "N-terminus", "C-terminus" or "within the chain"
-};
 
 /// Compares the states of paired residues; ends with charged groups (H2 and H3, OXT) count too. Substituted residues,
 /// and molecules without hydrogens, are not compared.

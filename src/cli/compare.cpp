@@ -10,10 +10,12 @@
 #include "engine/engine.h"
 #include "io/atomic_file.h"
 #include "io/check_outputs.h"
-#include "io/read_structure.h"
+#include "io/structure_file.h"
 #include "prepare/load_state.h"
+#include "prepare/preparation.h"
 #include "prepare/region.h"
 #include "prepare/surface_radii.h"
+#include "report/provenance.h"
 #include "report/residue_values.h"
 #include "report/state_report.h"
 #include "report/write_compare.h"
@@ -82,9 +84,9 @@ Side read_side(const Arguments& a, const std::string& role, const InputOptions& 
   StateRequest request{structure_options(a, role), is_source ? StateRole::kSource : StateRole::kTarget};
   request.source = source;
   Side side{role, load_for(a.maps, !has_given_maps(a.maps), file, request, options, progress), {}, {}};
-  const auto inputs = state_inputs(role, {role, path, file.sha256(), std::nullopt, request.structure}, side.state);
+  const auto inputs = state_inputs(role, {role, path, file.sha256(), nullptr, request.structure}, side.state);
   provenance.inputs.insert(provenance.inputs.end(), inputs.begin(), inputs.end());
-  if (side.state.preparation) provenance.preparations.emplace_back(role, *side.state.preparation);
+  if (side.state.preparation) provenance.preparations.emplace_back(role, std::make_shared<Preparation>(*side.state.preparation));
   return side;
 }
 

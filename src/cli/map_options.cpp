@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "io/read_structure.h"
+#include "io/structure_file.h"
 #include "io/write_csv.h"
 #include "potential/potential.h"
 #include "prepare/pdb2pqr.h"

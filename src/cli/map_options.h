@@ -7,11 +7,11 @@
 
 #include "base/structure_options.h"
 #include "cli/options.h"
-#include "io/read_structure.h"
+#include "io/structure_file.h"
 #include "potential/choose_potential.h"
 #include "potential/computed_map.h"
 #include "prepare/load_state.h"
-#include "report/write_compare.h"
+#include "report/provenance.h"
 
 namespace espdiff {
 class StructureFile;

@@ -10,7 +10,7 @@
 #include "compare/options.h"
 #include "engine/engine.h"
 #include "io/check_outputs.h"
-#include "io/read_structure.h"
+#include "io/structure_file.h"
 #include "matrix/matrix_run.h"
 #include "matrix/write_matrix.h"
 #include "prepare/load_state.h"

@@ -13,7 +13,6 @@
 #include "base/structure_options.h"
 #include "compare/settings.h"
 #include "io/read_grid.h"
-#include "io/read_structure.h"
 #include "potential/potential.h"
 #include "potential/potential_settings.h"
 

@@ -9,11 +9,13 @@
 #include "cli/options.h"
 #include "cli/verbs.h"
 #include "engine/engine.h"
+#include "io/atomic_file.h"
 #include "io/check_outputs.h"
-#include "io/read_structure.h"
 #include "io/read_unit_cells.h"
+#include "io/structure_file.h"
 #include "io/write_grid.h"
 #include "potential/potential.h"
+#include "potential/potential_series.h"
 #include "trajectory/frame_range.h"
 
 namespace espdiff::cli {

@@ -11,6 +11,7 @@
 #include "io/atomic_file.h"
 #include "io/check_outputs.h"
 #include "io/read_structure.h"
+#include "io/structure_file.h"
 #include "io/write_pqr.h"
 #include "prepare/load_state.h"
 #include "report/preparation_json.h"

@@ -1,5 +1,6 @@
 // render.cpp: `espdiff render OUT.vtp -o OUT.png`.
 #include "cli/verbs.h"
+#include "io/atomic_file.h"
 #if defined(ESPDIFF_HAVE_VTK)
 #include <cstdio>
 

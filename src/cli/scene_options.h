@@ -7,8 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "io/atomic_file.h"
 #include "view/scene.h"
+
+namespace espdiff {
+class AtomicFile;
+}
 
 namespace espdiff::cli {
 

@@ -8,6 +8,7 @@
 #include "compare/options.h"
 #include "compare/surface.h"
 #include "engine/engine.h"
+#include "io/atomic_file.h"
 #include "io/check_outputs.h"
 #include "io/read_structure.h"
 #include "io/write_grid.h"

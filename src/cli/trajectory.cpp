@@ -12,7 +12,7 @@
 #include "cli/verbs.h"
 #include "compare/options.h"
 #include "io/check_outputs.h"
-#include "io/read_structure.h"
+#include "io/structure_file.h"
 #include "io/write_csv.h"
 #include "prepare/load_state.h"
 #include "prepare/surface_radii.h"

@@ -1,6 +1,7 @@
 // view.cpp: `espdiff view OUT.vtp`: the window.
 #include "base/error.h"
 #include "cli/verbs.h"
+#include "io/atomic_file.h"
 #if defined(ESPDIFF_HAVE_VTK)
 #include <filesystem>
 

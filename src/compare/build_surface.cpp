@@ -3,6 +3,7 @@
 
 #include "align/superpose.h"
 #include "base/error.h"
+#include "compare/map_recipe.h"
 #include "compare/options.h"
 #include "compare/side_maps.h"
 #include "compare/surface.h"

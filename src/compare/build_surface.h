@@ -5,8 +5,9 @@
 
 #include "base/handles.h"
 #include "base/progress.h"
-#include "compare/result.h"
+#include "base/types.h"
 #include "compare/stage_clock.h"
+#include "compare/surface_summary.h"
 #include "engine/surface_stage.h"
 
 namespace espdiff {

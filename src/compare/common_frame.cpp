@@ -8,6 +8,7 @@
 #include "align/superpose.h"
 #include "base/error.h"
 #include "compare/options.h"
+#include "compare/result.h"
 
 namespace espdiff {
 namespace {

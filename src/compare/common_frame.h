@@ -5,6 +5,7 @@
 
 namespace espdiff {
 
+struct CompareResult;
 /// The common frame of both molecules: the source's principal frame, into which the target is superposed. Grids follow
 /// the axes of the shape itself, so a rigid motion of either input changes only rounding.
 struct CommonFrame {

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "align/compared_chains.h"
+#include "align/protonation.h"
 #include "align/superpose.h"
 #include "base/error.h"
 #include "base/handles.h"
@@ -17,6 +19,7 @@
 #include "compare/input.h"
 #include "compare/last_step.h"
 #include "compare/map_by_deform.h"
+#include "compare/map_recipe.h"
 #include "compare/mapping.h"
 #include "compare/options.h"
 #include "compare/paired_residues.h"
@@ -181,12 +184,12 @@ struct Series::Steps {
       source_map = device_map(engine, source, inverse(frame.from_source), nullptr, wanted, temperature_K, progress);
       unit = wanted;
     }
-    if (source.make_map) result.source_recipe = source_map.recipe;
+    if (source.make_map) result.source_recipe = std::make_shared<const MapRecipe>(source_map.recipe);
     // An iteration may start from the source's potential, whatever steps were made before: the bits of a step do not
     // depend on them.
     const GridPtr before = source.make_map ? source_map.map : nullptr;
     MadeMap made = device_map(engine, target, inverse(frame.from_target), before, wanted, temperature_K, progress);
-    if (target.make_map) result.target_recipe = std::move(made.recipe);
+    if (target.make_map) result.target_recipe = std::make_shared<const MapRecipe>(std::move(made.recipe));
     return made.map;
   }
 

@@ -3,12 +3,12 @@
 
 #include "base/handles.h"
 #include "base/progress.h"
-#include "compare/result.h"
 
 namespace espdiff {
 
 struct CompareInput;
 struct CompareOptions;
+struct CompareResult;
 
 /// Compares two molecules: a series of one.
 /// @throws InputError (no common atoms; a map on one side only; a map that does not cover the surface; units that

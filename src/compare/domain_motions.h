@@ -6,6 +6,7 @@
 
 #include "base/pairing.h"
 #include "base/rigid_domain.h"
+#include "base/screw.h"
 #include "base/types.h"
 #include "compare/build_surface.h"
 

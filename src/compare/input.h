@@ -8,15 +8,10 @@
 #include "base/handles.h"
 #include "base/progress.h"
 #include "base/types.h"
-#include "compare/map_recipe.h"
 
 namespace espdiff {
 
-/// A potential on the device, and what it was made of.
-struct MadeMap {
-  GridPtr map;
-  MapRecipe recipe;
-};
+struct MadeMap;
 
 /// Makes a potential where it is needed, on the device: sampled there in whatever way it was made for, such as by its
 /// splines (PmeOptions::smooth_samples). In kT/e at the comparison's temperature. `to_map` is the way from the common

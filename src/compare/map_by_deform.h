@@ -5,6 +5,7 @@
 #include "compare/build_surface.h"
 #include "compare/domain_motions.h"
 #include "compare/mapping.h"
+#include "engine/deform_stage.h"
 
 namespace espdiff {
 

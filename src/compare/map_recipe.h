@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/handles.h"
 #include "engine/poisson_boltzmann.h"
 #include "engine/potential_stage.h"
 
@@ -35,6 +36,12 @@ struct MapRecipe {
   double bulk_fraction = 0;  ///< of pme: share of the cell's points farther than 10 A from the solute
   Lattice pb_lattice;        ///< in the comparison's frame
   PoissonBoltzmannReport pb_report;
+};
+
+/// A potential on the device, and what it was made of.
+struct MadeMap {
+  GridPtr map;
+  MapRecipe recipe;
 };
 
 /// "pme", "coulomb" or "pb".

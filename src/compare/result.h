@@ -8,27 +8,19 @@
 #include <utility>
 #include <vector>
 
-#include "align/compared_chains.h"
-#include "align/protonation.h"
 #include "base/message.h"
 #include "base/pairing.h"
 #include "base/rigid_domain.h"
 #include "base/types.h"
-#include "compare/map_recipe.h"
+#include "compare/start_from.h"
+#include "compare/surface_summary.h"
 #include "engine/certificate_stage.h"
 #include "engine/deform_stage.h"
 #include "engine/morph_stage.h"
 
 namespace espdiff {
 
-struct SurfaceSummary {
-  std::size_t n_vertices = 0;
-  std::size_t n_triangles = 0;
-  std::size_t n_components = 0;  ///< after removing cavities
-  std::size_t n_cavities_left_out = 0;
-  double area_A2 = 0;
-  double cavity_area_A2 = 0;  ///< of the cavities removed
-};
+struct MapRecipe;
 
 /// Per-residue averages over the mapped surface, source residues. Area-weighted; NaN if a residue has no valid area.
 struct ResidueRow {
@@ -93,10 +85,6 @@ struct MappedSurface {
   std::vector<std::uint8_t> unmatched;
 };
 
-/// Start of a mapping: the source's surface, or the previous target's, which is closer if targets are the frames of a
-/// trajectory.
-enum class StartFrom { kSource, kPrevious };
-
 /// The metrics at one distance outside the surfaces.
 struct OffsetMetrics {
   double offset_A = 0;
@@ -129,10 +117,10 @@ struct CompareResult {
   bool has_potential = false;
   std::string shapes_because;  ///< why there is none, where nobody asked for shapes alone
   PotentialUnit unit = PotentialUnit::kUnknown;
-  std::vector<OffsetMetrics> by_offset;                   ///< [offset of the options]; empty without potentials
-  std::optional<MapRecipe> source_recipe, target_recipe;  ///< of potentials that were computed
-  Metrics metrics;                                        ///< over valid triangles
-  Metrics metrics_all;                                    ///< over all triangles with samples
+  std::vector<OffsetMetrics> by_offset;                           ///< [offset of the options]; empty without potentials
+  std::shared_ptr<const MapRecipe> source_recipe, target_recipe;  ///< of potentials that were computed, otherwise null
+  Metrics metrics;                                                ///< over valid triangles
+  Metrics metrics_all;                                            ///< over all triangles with samples
   std::size_t n_outside_source_map = 0, n_outside_target_map = 0;  ///< vertices
   SurfaceSummary source_surface, target_surface;
   double area_mapped_A2 = 0;

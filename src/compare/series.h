@@ -5,13 +5,16 @@
 #include <optional>
 #include <vector>
 
+#include "base/handles.h"
 #include "base/progress.h"
-#include "compare/result.h"
+#include "base/types.h"
+#include "compare/start_from.h"
 
 namespace espdiff {
 
 struct CompareInput;
 struct CompareOptions;
+struct CompareResult;
 
 /// State that a series passes from one step to the next, in the source's principal frame. Angstrom.
 struct SeriesState {

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/units.h"
+#include "compare/map_recipe.h"
 #include "engine/engine.h"
 
 namespace espdiff {

@@ -8,7 +8,8 @@
 
 #include "base/progress.h"
 #include "base/types.h"
-#include "compare/result.h"
+#include "compare/surface_summary.h"
+#include "engine/deform_stage.h"
 #include "engine/surface_stage.h"
 
 namespace espdiff {

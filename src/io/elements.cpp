@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "io/elements.h"
 #include "io/molecule_builder.h"
-#include "io/read_structure.h"
 
 namespace espdiff {
 namespace {

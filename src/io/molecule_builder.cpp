@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "base/water.h"
-#include "io/read_structure.h"
+#include "io/elements.h"
 
 namespace espdiff {
 namespace {

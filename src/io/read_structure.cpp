@@ -11,6 +11,7 @@
 #include "io/read_input.h"
 #include "io/read_pqr.h"
 #include "io/read_unit_cells.h"
+#include "io/structure_file.h"
 #ifdef ESPDIFF_HAVE_GEMMI
 #include "io/read_gemmi.h"
 #endif
@@ -90,6 +91,11 @@ StructureFile::StructureFile(const std::string& path) {
 StructureFile::~StructureFile() = default;
 
 const std::string& StructureFile::sha256() const { return parsed_->file.sha256; }
+
+void StructureFile::require_unchanged(const std::string& before) const {
+  if (before.empty() || before == sha256()) return;
+  throw IoError(parsed_->file.path, "the file was changed while it was in use; start again");
+}
 
 int StructureFile::n_models() const {
   if (!parsed_->is_mmcif) return static_cast<int>(parsed_->models.size());

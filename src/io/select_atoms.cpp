@@ -70,6 +70,16 @@ std::string describe_chains(const Molecule& molecule) {
 
 namespace {
 
+/// In gemmi 0.5 a number alone begins an open range; elsewhere (MMDB, later gemmi) it is one residue, as here.
+void end_at_single_number(const std::string& part, gemmi::Selection& selection) {
+  const auto& from = selection.from_seqid;
+  if (from.empty() || !selection.to_seqid.empty()) return;
+  const std::string number = std::to_string(from.seqnum);
+  const std::size_t behind = part.find(number) + number.size();
+  const std::string rest = part.substr(behind, part.find_first_of("/;", behind) - behind);
+  if (rest.find('-') == std::string::npos) selection.to_seqid = from;
+}
+
 gemmi::Selection parsed(const std::string& part, const std::string& option_name) {
   gemmi::Selection selection;
   try {
@@ -83,6 +93,7 @@ gemmi::Selection parsed(const std::string& part, const std::string& option_name)
     throw InputError(option(option_name) + ": " + in_quotes(part) +
                      " selects by model, alternate location, occupancy or B factor, which are not known here; select "
                      "by chain, residue, atom or element");
+  end_at_single_number(part, selection);
   return selection;
 }
 

@@ -5,9 +5,10 @@
 #include <string>
 
 #include "base/types.h"
-#include "io/atomic_file.h"
 
 namespace espdiff {
+
+class AtomicFile;
 
 /// Writes `grid` as OpenDX text, z fastest, values with 9 significant digits (a float is read back bit by bit), the
 /// unit in a comment: "# POTENTIAL (kT/e)". The file appears under its name when it is complete.

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/version.h"
+#include "compare/map_recipe.h"
 #include "compare/options.h"
 #include "compare/settings.h"
 #include "engine/engine.h"

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "io/read_csv.h"
 #include "io/read_grid.h"
-#include "io/read_structure.h"
+#include "io/structure_file.h"
 #include "io/text_cursor.h"
 
 namespace espdiff {
@@ -18,10 +18,13 @@ namespace {
 namespace fs = std::filesystem;
 
 /// One variant per model; messages and labels use `path` for the file.
-std::vector<VariantFiles> models_of(const VariantFiles& file, int n_models) {
+std::vector<VariantFiles> models_of(const VariantFiles& file) {
+  const StructureFile structure(file.structure);
+  const int n_models = structure.n_models();
   std::vector<VariantFiles> models;
   for (int model = 1; model <= n_models; ++model) {
     models.push_back(file);
+    models.back().sha256 = structure.sha256();
     models.back().model = model;
     if (n_models > 1 && !file.label.empty()) models.back().label += ":" + std::to_string(model);
   }
@@ -72,7 +75,7 @@ std::vector<VariantFiles> variants_of_files(const std::vector<std::string>& path
   for (const std::string& path : paths) {
     VariantFiles file;
     file.structure = path;
-    const std::vector<VariantFiles> models = models_of(file, count_models(path));
+    const std::vector<VariantFiles> models = models_of(file);
     variants.insert(variants.end(), models.begin(), models.end());
   }
   label(variants);
@@ -102,7 +105,7 @@ std::vector<VariantFiles> read_variant_list(const std::string& path) {
     }
     if (file.structure.empty()) throw FormatError(path, table.lines[row], "the structure is missing");
     if (model.empty()) {
-      const std::vector<VariantFiles> models = models_of(file, count_models(file.structure));
+      const std::vector<VariantFiles> models = models_of(file);
       variants.insert(variants.end(), models.begin(), models.end());
       continue;
     }
@@ -148,6 +151,7 @@ Variant read_variant(const VariantFiles& files, const StructureFile& file, Molec
   Variant variant;
   variant.label = files.label;
   variant.group = files.group;
+  file.require_unchanged(files.sha256);
   variant.molecule = std::move(molecule);
   const std::string model = files.model > 1 ? ", model " + std::to_string(files.model) : "";
   variant.inputs.push_back({"structure", files.structure + model, file.sha256()});

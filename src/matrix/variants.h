@@ -7,7 +7,8 @@
 
 #include "base/structure_options.h"
 #include "base/types.h"
-#include "report/write_compare.h"
+#include "compare/input.h"
+#include "report/provenance.h"
 
 namespace espdiff {
 
@@ -28,6 +29,7 @@ struct Variant {
 /// Files of a variant.
 struct VariantFiles {
   std::string structure;
+  std::string sha256;  ///< of the structure file, where its models were counted; read_variant() wants the same
   int model = 1;
   std::string map;       ///< empty for none
   std::string map_unit;  ///< empty: from the file
@@ -36,7 +38,7 @@ struct VariantFiles {
 
 /// One variant for each model of each file, labelled by the file's name without folder and extension, plus `:MODEL` if
 /// a file has several. If two files would get the same label, both are labelled by their paths.
-/// @throws as count_models()
+/// @throws as StructureFile
 std::vector<VariantFiles> variants_of_files(const std::vector<std::string>& paths);
 
 /// Reads a list of variants: a table (read_csv()) with a column `structure` and optionally `model` (from 1; without it
@@ -55,7 +57,7 @@ void check_labels(const std::vector<std::string>& labels);
 /// A variant of a loaded molecule, with its map.
 /// @param file     the structure's: variants may be models of one file
 /// @param molecule as it is compared
-/// @throws as read_grid()
+/// @throws as read_grid(); IoError (the structure was changed since its models were counted)
 Variant read_variant(const VariantFiles& files, const StructureFile& file, Molecule molecule,
                      const std::string& map_array);
 

@@ -8,6 +8,7 @@
 #include "align/superpose.h"
 #include "base/error.h"
 #include "base/water.h"
+#include "compare/map_recipe.h"
 #include "engine/engine.h"
 #include "io/sha256.h"
 #include "potential/potential.h"

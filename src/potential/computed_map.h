@@ -13,6 +13,8 @@
 
 namespace espdiff {
 
+struct MapRecipe;
+
 /// What surrounds the charges.
 struct ChargeSurroundings {
   std::optional<UnitCell> cell;  ///< the molecule's own, where it has one

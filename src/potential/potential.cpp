@@ -1,5 +1,6 @@
 // potential.cpp: computes the frames of a molecule, brings them into one frame, and averages them.
 #include "potential/potential.h"
+#include "potential/potential_series.h"
 
 #include <algorithm>
 #include <cmath>

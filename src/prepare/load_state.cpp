@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/water.h"
 #include "io/read_structure.h"
+#include "io/structure_file.h"
 #include "io/read_topology.h"
 #include "io/select_atoms.h"
 #include "prepare/pdb2pqr.h"

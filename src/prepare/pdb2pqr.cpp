@@ -43,9 +43,15 @@ constexpr double kTimeLimit_s = 3600;
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "espdiff-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw IoError(name, "a temporary folder cannot be made; check TMPDIR");
-    path_ = name;
+    // VMD may name a folder in TMPDIR that is not there.
+    const char* const named = std::getenv("TMPDIR");
+    std::error_code ignored;
+    const bool is_there = named != nullptr && std::filesystem::is_directory(named, ignored);
+    for (const std::string& folder : {std::string(is_there ? named : "/tmp"), std::string("/tmp")}) {
+      path_ = folder + "/espdiff-XXXXXX";
+      if (mkdtemp(path_.data()) != nullptr) return;
+    }
+    throw IoError(path_, "a temporary folder cannot be made; name one that can be written to in TMPDIR");
   }
   ~TemporaryFolder() {
     std::error_code ignored;
@@ -198,6 +204,7 @@ std::string identity_of(const std::string& program) {
 /// The reason in a log: its last error, in our words where they are known.
 std::string reason_in(const std::string& log) {
   static const std::vector<std::pair<const char*, const char*>> kKnown = {
+      {"does not seem to contain any", "PROPKA cannot use it, such as a peptide of few residues"},
       {"missing too many", "more than a tenth of the heavy atoms of its residues are missing"},
       {"does not contain any", "no residue of it is known to the force field"},
       {"Unable to debump", "atoms overlap, and moving them apart failed"},
@@ -216,7 +223,7 @@ std::string reason_in(const std::string& log) {
     if (text.rfind("CRITICAL:", 0) == 0 && text.find("Giving up") == std::string::npos)
       last = text.substr(std::string("CRITICAL:").size());
   }
-  return last.empty() ? "it gave no reason" : last;
+  return last.empty() ? "it gave no reason" : "it says " + in_quotes(last);
 }
 
 /// "PDB2PQR v3.5.2"

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "io/read_structure.h"
+#include "io/elements.h"
 
 namespace espdiff {
 namespace {

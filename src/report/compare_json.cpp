@@ -2,6 +2,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "align/protonation.h"
 #include "align/rigid_domains.h"
 #include "compare/options.h"
 #include "compare/result.h"
@@ -9,6 +10,7 @@
 #include "report/metrics.h"
 #include "report/potential_json.h"
 #include "report/preparation_json.h"
+#include "report/provenance.h"
 #include "report/state_report.h"
 #include "report/write_compare.h"
 
@@ -172,7 +174,7 @@ Json region_json(const CompareResult& result) {
 
 Json preparations(const Provenance& provenance) {
   Json json{{"source", nullptr}, {"target", nullptr}};
-  for (const auto& [role, preparation] : provenance.preparations) json[role] = preparation_json(preparation);
+  for (const auto& [role, preparation] : provenance.preparations) json[role] = preparation_json(*preparation);
   return json;
 }
 

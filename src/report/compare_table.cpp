@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "align/compared_chains.h"
 #include "align/rigid_domains.h"
 #include "compare/result.h"
 #include "report/metrics.h"

@@ -70,8 +70,6 @@ void add_pb(Json& json, const MapRecipe& r) {
   json["debye_length_A"] = number(report.debye_length_A);
 }
 
-const MapRecipe* pointer_to(const std::optional<MapRecipe>& recipe) { return recipe ? &*recipe : nullptr; }
-
 }  // namespace
 
 Json recipe_json(const MapRecipe& r) {
@@ -115,7 +113,7 @@ Json potential_json(const CompareResult& result) {
   json["because"] = a ? a->because : b->because;
   json["zero"] = {{"source", a ? Json(to_string(a->zero)) : Json(nullptr)},
                   {"target", b ? Json(to_string(b->zero)) : Json(nullptr)}};
-  json["notes"] = potential_notes(pointer_to(a), pointer_to(b));
+  json["notes"] = potential_notes(a.get(), b.get());
   return json;
 }
 

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "base/types.h"
-#include "io/atomic_file.h"
 
 namespace espdiff {
 
+class AtomicFile;
 struct CompareResult;
 
 /// The quantities of a residue: the names of the metrics that it has.

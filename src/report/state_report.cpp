@@ -4,10 +4,13 @@
 #include <cstdio>
 #include <sstream>
 
+#include "align/protonation.h"
 #include "compare/result.h"
 #include "io/sha256.h"
 #include "io/write_pqr.h"
 #include "prepare/load_state.h"
+#include "report/provenance.h"
+#include "report/write_compare.h"
 
 namespace espdiff {
 namespace {
@@ -33,7 +36,8 @@ void note_state(CompareResult& result, const std::string& role, const LoadedStat
   const Preparation& p = *state.preparation;
   std::string text = p.program + ", " + p.force_field + ", pH " + number("%g", p.ph) + ": " +
                      std::to_string(p.n_hydrogens_added) + " hydrogens added";
-  if (!p.added.empty()) text += ", " + std::to_string(p.added.size()) + " residues repaired";
+  if (!p.added.empty())
+    text += ", " + std::to_string(p.added.size()) + (p.added.size() == 1 ? " residue" : " residues") + " repaired";
   result.input_lines.emplace_back(label, text);
   if (!p.gaps.empty())
     result.warnings.push_back({"the " + role + " lacks residues " + joined(p.gaps, 4) +

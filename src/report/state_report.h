@@ -5,11 +5,12 @@
 #include <vector>
 
 #include "base/message.h"
-#include "report/write_compare.h"
+#include "report/provenance.h"
 
 namespace espdiff {
 
 struct CompareResult;
+struct KeptFile;
 struct LoadedState;
 struct Molecule;
 

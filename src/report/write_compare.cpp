@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "compare/map_recipe.h"
 #include "compare/options.h"
 #include "compare/result.h"
 #include "io/atomic_file.h"
@@ -17,8 +18,10 @@
 #include "io/write_grid.h"
 #include "io/write_pqr.h"
 #include "io/write_vtp.h"
+#include "potential/computed_map.h"
 #include "report/metrics.h"
 #include "report/potential_json.h"
+#include "report/provenance.h"
 
 namespace espdiff {
 namespace {
@@ -116,7 +119,8 @@ void write_residue_file(std::ostream& out, const Molecule& source, const Compare
 }  // namespace
 
 InputFile computed_input(const std::string& role, const ComputedMap& map) {
-  return {role, to_string(map.recipe().method) + " of " + map.recipe().charges_from, map.fingerprint(), map.recipe()};
+  return {role, to_string(map.recipe().method) + " of " + map.recipe().charges_from, map.fingerprint(),
+          std::make_shared<const MapRecipe>(map.recipe())};
 }
 
 namespace {

@@ -2,46 +2,20 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/message.h"
-#include "base/structure_options.h"
 #include "base/types.h"
-#include "base/version.h"
-#include "io/atomic_file.h"
-#include "potential/computed_map.h"
-#include "prepare/preparation.h"
 
 namespace espdiff {
 
+class AtomicFile;
 struct CompareOptions;
 struct CompareResult;
-
-/// An input by what it was used for: "source", "target", "source_map", "target_map".
-struct InputFile {
-  std::string role;
-  std::string path;    ///< of a computed map: "pme of" whose charges
-  std::string sha256;  ///< of a computed map: of charges, positions, cell and options
-  std::optional<MapRecipe> computed = std::nullopt;
-  /// Of a structure that was read from a file: which of its models and atoms.
-  std::optional<StructureOptions> read_with = std::nullopt;
-};
-/// A computed map as an input.
-InputFile computed_input(const std::string& role, const ComputedMap& map);
-
-/// What a result needs besides numbers to be reproduced.
-struct Provenance {
-  std::string version = kVersion;
-  std::string device;              ///< "cpu" or "cuda"
-  std::string device_description;  ///< "16 OpenMP threads"
-  int threads = 0;                 ///< of the CPU back end; 0 on a device
-  std::vector<InputFile> inputs;
-  std::vector<std::pair<std::string, Preparation>> preparations;  ///< "source" or "target", and what PDB2PQR did
-  std::string command_line;
-};
+struct Provenance;
 
 /// A file written beside the results that is the input of a role from then on; the original input stays listed under
 /// ROLE_file.

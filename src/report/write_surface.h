@@ -4,10 +4,10 @@
 #include <string>
 
 #include "base/types.h"
-#include "io/atomic_file.h"
 
 namespace espdiff {
 
+class AtomicFile;
 struct SurfaceResult;
 
 /// Point arrays: normal, component, residue_number (0 where no atom reaches) and, with a map, potential (NaN outside

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "io/read_structure.h"
+#include "io/structure_file.h"
 
 namespace espdiff {
 FrameFiles::FrameFiles(std::vector<std::string> paths) : paths_(std::move(paths)) {
@@ -14,6 +14,7 @@ FrameFiles::FrameFiles(std::vector<std::string> paths) : paths_(std::move(paths)
   for (std::size_t i = 0; i < paths_.size(); ++i) {
     load(i);
     first_.push_back(first_.back() + file_->n_models());
+    sha256_.push_back(file_->sha256());
   }
 }
 
@@ -26,6 +27,7 @@ void FrameFiles::load(std::size_t file) {
   file_ = nullptr;  // the old text first
   cells_.reset();
   file_ = std::make_unique<StructureFile>(paths_[file]);
+  if (file < sha256_.size()) file_->require_unchanged(sha256_[file]);
   loaded_ = file;
 }
 

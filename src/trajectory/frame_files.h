@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/types.h"
-#include "io/read_structure.h"
+#include "io/structure_file.h"
 
 namespace espdiff {
 
@@ -16,7 +16,7 @@ namespace espdiff {
 /// kept in memory.
 class FrameFiles {
  public:
-  /// Reads every file once, to count its models.
+  /// Reads every file, to count its models. A file that is read again must have the same content.
   /// @throws as read_structure(); InputError without a file
   explicit FrameFiles(std::vector<std::string> paths);
 
@@ -29,7 +29,7 @@ class FrameFiles {
   /// @throws as StructureFile
   std::pair<const StructureFile*, int> file_of_frame(int frame);
   /// @param options all but the model
-  /// @throws as read_structure()
+  /// @throws as read_structure(); IoError (the file was changed since)
   Molecule read(int frame, StructureOptions options);
   /// The cell that the frame's file gives it. @throws as StructureFile::unit_cells()
   std::optional<UnitCell> cell(int frame);
@@ -39,7 +39,8 @@ class FrameFiles {
   void load(std::size_t file);
 
   std::vector<std::string> paths_;
-  std::vector<int> first_;  // [file + 1] number of its first frame
+  std::vector<int> first_;           // [file + 1] number of its first frame
+  std::vector<std::string> sha256_;  // [file] of the first reading
   std::size_t loaded_ = 0;
   std::unique_ptr<StructureFile> file_;
   std::optional<std::vector<std::optional<UnitCell>>> cells_;  // of the loaded file

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "base/structure_options.h"
 #include "compare/options.h"
 #include "compare/series.h"
-#include "io/read_structure.h"
 #include "trajectory/series_csv.h"
 
 namespace espdiff {

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "report/metrics.h"
+#include "report/provenance.h"
 #include "report/write_compare.h"
 
 namespace espdiff {

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "compare/input.h"
+#include "compare/result.h"
 #include "io/atomic_file.h"
 #include "io/text_cursor.h"
 #include "trajectory/series_file.h"

@@ -12,7 +12,7 @@
 #include "compare/input.h"
 #include "compare/options.h"
 #include "compare/series.h"
-#include "report/write_compare.h"
+#include "report/provenance.h"
 #include "trajectory/series_csv.h"
 
 namespace espdiff {

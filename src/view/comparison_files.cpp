@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "base/error.h"
-#include "io/read_structure.h"
+#include "io/structure_file.h"
 
 namespace espdiff {
 namespace {

@@ -4,10 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "io/atomic_file.h"
 #include "view/scene.h"
 
 namespace espdiff {
+
+class AtomicFile;
 
 /// Draws the output of `espdiff compare`: the surface of OUT.vtp coloured by one array, fainter where the displacement
 /// is larger, corrupt triangles and points without a value in grey, with colour bar, length bar and keys, on white.

@@ -12,6 +12,8 @@
 #include "compare/compare.h"
 #include "compare/made_side.h"
 #include "compare/options.h"
+#include "engine/engine.h"
+#include "engine/select_engine.h"
 
 using namespace espdiff_test;
 using espdiff::compare;

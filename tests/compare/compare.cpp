@@ -12,8 +12,11 @@
 #include "compare/made_side.h"
 #include "compare/options.h"
 #include "compare/result.h"
+#include "cuda/surface/back_ends.h"
 #include "engine/engine.h"
+#include "engine/select_engine.h"
 #include "io/read_structure.h"
+#include "support/test_data.h"
 
 using namespace espdiff_test;
 using espdiff::compare;

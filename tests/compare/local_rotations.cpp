@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "compare/local_rotations.h"
-#include "cuda/surface/shapes.h"
+#include "support/random.h"
 
 using namespace espdiff_test;
 using espdiff::MovingAtom;

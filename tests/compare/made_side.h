@@ -9,6 +9,7 @@
 #include "compare/result.h"
 #include "cuda/certificate/mesh_checks.h"
 #include "cuda/surface/shapes.h"
+#include "support/random.h"
 
 namespace espdiff_test {
 

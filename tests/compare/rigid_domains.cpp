@@ -11,8 +11,12 @@
 #include "compare/compare.h"
 #include "compare/made_side.h"
 #include "compare/options.h"
+#include "engine/engine.h"
+#include "engine/select_engine.h"
 #include "report/metrics.h"
+#include "report/provenance.h"
 #include "report/write_compare.h"
+#include "support/test_data.h"
 
 using namespace espdiff_test;
 using espdiff::compare;

@@ -4,6 +4,8 @@
 #include "compare/compare.h"
 #include "compare/made_side.h"
 #include "compare/options.h"
+#include "engine/engine.h"
+#include "engine/select_engine.h"
 #include "io/read_structure.h"
 #include "support/test_data.h"
 

@@ -10,6 +10,8 @@
 #include "compare/compare.h"
 #include "compare/made_side.h"
 #include "compare/options.h"
+#include "engine/engine.h"
+#include "engine/select_engine.h"
 #include "io/sha256.h"
 #include "support/test_data.h"
 #include "trajectory/series_file.h"

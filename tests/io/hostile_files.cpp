@@ -11,6 +11,7 @@
 #include "io/read_structure.h"
 #include "io/read_vtp.h"
 #include "io/sha256.h"
+#include "io/structure_file.h"
 #include "io/write_vtp.h"
 #include "support/test_data.h"
 

@@ -13,8 +13,8 @@
 
 #include "base/error.h"
 #include "io/read_grid.h"
-#include "io/read_structure.h"
 #include "io/sha256.h"
+#include "io/structure_file.h"
 #include "support/test_data.h"
 
 using namespace espdiff;

@@ -5,7 +5,7 @@
 #include <ctime>
 
 #include "base/error.h"
-#include "io/read_structure.h"
+#include "io/structure_file.h"
 #include "support/test_data.h"
 
 using namespace espdiff;

@@ -51,6 +51,8 @@ TEST_CASE("select_atoms: chains, numbers, insertion codes, names, elements, kind
   CHECK(n_selected("//A") == 7);
   CHECK(n_selected("//B") == 4);
   CHECK(n_selected("//A/1-2") == 5);
+  CHECK(n_selected("//A/1") == 3);
+  CHECK(n_selected("//A/2-") == 4);
   CHECK(n_selected("//B/1.A") == 2);
   CHECK(n_selected("(ATP)") == 1);
   CHECK(n_selected("(ATP,HOH)") == 2);

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "io/atomic_file.h"
 #include "io/read_grid.h"
 #include "io/write_grid.h"
 #include "support/test_data.h"

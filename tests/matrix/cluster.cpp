@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "cuda/surface/shapes.h"
+#include "support/random.h"
 
 using namespace espdiff;  // NOLINT: a test of one header
 using espdiff_test::Random;

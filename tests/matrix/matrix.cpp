@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "compare/compare.h"
 #include "compare/options.h"
+#include "engine/engine.h"
 #include "io/read_csv.h"
 #include "matrix/made_variants.h"
 #include "matrix/write_matrix.h"

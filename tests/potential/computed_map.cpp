@@ -8,13 +8,19 @@
 
 #include "base/error.h"
 #include "compare/compare.h"
+#include "compare/input.h"
 #include "compare/made_side.h"
+#include "compare/map_recipe.h"
 #include "compare/series.h"
 #include "cuda/potential/ewald_oracle.h"
+#include "engine/engine.h"
 #include "potential/choose_potential.h"
 #include "potential/potential.h"
+#include "potential/potential_series.h"
 #include "potential/potential_settings.h"
+#include "report/provenance.h"
 #include "report/write_compare.h"
+#include "support/test_data.h"
 
 using namespace espdiff_test;
 using espdiff::ComputedMap;

@@ -12,10 +12,12 @@
 #include "compare/map_recipe.h"
 #include "compare/options.h"
 #include "compare/result.h"
+#include "cuda/surface/back_ends.h"
 #include "cuda/surface/shapes.h"
 #include "engine/select_engine.h"
 #include "io/read_structure.h"
 #include "potential/computed_map.h"
+#include "support/random.h"
 #include "support/test_data.h"
 
 using namespace espdiff_test;

@@ -1,5 +1,7 @@
 // potential.cpp: cells, grids and frames of potentials; superposed frames; Coulomb's law; what is refused.
 #include "potential/potential.h"
+#include "potential/potential_series.h"
+#include "support/test_data.h"
 
 #include <cmath>
 #include <limits>

@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "cuda/surface/shapes.h"
+#include "support/random.h"
+#include "support/test_data.h"
 
 using namespace espdiff_test;
 using espdiff::Grid;

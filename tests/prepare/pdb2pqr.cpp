@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/input_options.h"
 #include "io/read_structure.h"
+#include "io/structure_file.h"
 #include "io/run_program.h"
 #include "io/select_atoms.h"
 #include "io/write_pqr.h"
@@ -179,8 +180,8 @@ TEST_CASE("prepare_molecule: a phosphorylated residue, a ligand and an ion get n
         "in.pdb: 2 atoms get no charges from PDB2PQR's force field parse: ATP 301 of chain A, CA 302 of chain A (first "
         "atom PA); give a MOL2 file of it with hydrogens (ligand FILE), charges for all atoms (topology FILE, "
         "charges-from FILE or a PQR), or drop it (leave-out (ATP,CA))");
-  const std::string phosphorylated = replaced(text, "THR A", "TPO A");
-  CHECK(message_of([&] { prepare(read(folder, phosphorylated)); }).find("TPO") != std::string::npos);
+  const std::string phosphorylated = replaced(text, "TYR A", "PTR A");
+  CHECK(message_of([&] { prepare(read(folder, phosphorylated, "ptr.pdb")); }).find("PTR") != std::string::npos);
   InputOptions options;
   options.charges.use_cache = false;
   options.leave_out = "(ATP,CA)";
@@ -212,7 +213,7 @@ TEST_CASE("prepare_molecule: a missing loop is listed, its ends stay uncharged; 
 }
 
 TEST_CASE("prepare_molecule: of alternate locations the better occupied one is charged") {
-  const std::string text = lysozyme(1, 12);
+  const std::string text = lysozyme(1, 20);
   if (text.empty() || !has_pdb2pqr()) return;
   const ScratchFolder folder;
   std::string alternate;
@@ -238,9 +239,12 @@ TEST_CASE("prepare_molecule: of alternate locations the better occupied one is c
 }
 
 TEST_CASE("prepare_molecule: the cache gives the same, and a damaged entry is not taken") {
-  const std::string text = lysozyme(1, 12);
+  const std::string text = lysozyme(1, 20);
   if (text.empty() || !has_pdb2pqr()) return;
   const ScratchFolder folder;
+  CHECK(message_of([&] { prepare(read(folder, lysozyme(1, 12), "short.pdb")); })
+            .find("short.pdb: PDB2PQR cannot prepare it: PROPKA cannot use it, such as a peptide of few residues; "
+                  "complete or mend the structure, leave atoms out") == 0);
   setenv("XDG_CACHE_HOME", folder.file("cache").c_str(), 1);
   const Molecule molecule = read(folder, text);
   ChargeOptions options;

@@ -12,8 +12,11 @@
 #include "base/error.h"
 #include "compare/surface.h"
 #include "cuda/certificate/mesh_checks.h"
+#include "cuda/surface/back_ends.h"
 #include "cuda/surface/shapes.h"
 #include "io/read_structure.h"
+#include "support/random.h"
+#include "support/test_data.h"
 
 using namespace espdiff_test;
 using espdiff::Grid;

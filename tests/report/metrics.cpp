@@ -11,6 +11,7 @@
 
 #include "compare/options.h"
 #include "compare/result.h"
+#include "report/provenance.h"
 #include "report/residue_values.h"
 #include "report/write_compare.h"
 

@@ -13,6 +13,7 @@
 #include "compare/result.h"
 #include "compare/settings.h"
 #include "engine/deform_stage.h"
+#include "report/provenance.h"
 
 using namespace espdiff;
 using espdiff_test::message_of;

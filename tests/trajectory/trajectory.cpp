@@ -7,6 +7,8 @@
 #include "base/error.h"
 #include "compare/compare.h"
 #include "compare/made_side.h"
+#include "engine/engine.h"
+#include "engine/select_engine.h"
 #include "prepare/take_charges.h"
 #include "support/test_data.h"
 #include "trajectory/frame_files.h"
@@ -299,6 +301,10 @@ TEST_CASE("frames are numbered through all files") {
   CHECK(files.name(3) == folder.file("b.pqr") + ", model 2");
   CHECK_FALSE(files.cell(1).has_value());
   CHECK(files.cell(4).value().lengths.x == 44);
+  folder.write("a.pqr", model(7) + model(8));
+  CHECK(files.read(4, {}).positions[0].x == 4);
+  CHECK(message_of([&] { files.read(0, {}); }) ==
+        folder.file("a.pqr") + ": the file was changed while it was in use; start again");
   CHECK_THROWS_AS(espdiff::FrameFiles({}), espdiff::InputError);
   CHECK_THROWS_AS(espdiff::FrameFiles({folder.file("absent.pdb")}), espdiff::IoError);
 }

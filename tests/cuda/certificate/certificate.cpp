@@ -4,9 +4,12 @@
 #include <cmath>
 #include <cstdio>
 
+#include "cuda/surface/back_ends.h"
 #include "cuda/surface/oracles.h"
+#include "cuda/surface/read_atoms.h"
 #include "engine/certificate_stage.h"
 #include "engine/engine.h"
+#include "support/test_data.h"
 
 using namespace espdiff_test;
 using espdiff::FitReport;

@@ -5,9 +5,11 @@
 
 #include "base/error.h"
 #include "cuda/certificate/mesh_checks.h"
+#include "cuda/surface/back_ends.h"
 #include "cuda/surface/shapes.h"
 #include "engine/certificate_stage.h"
 #include "engine/engine.h"
+#include "support/random.h"
 
 using namespace espdiff_test;
 using espdiff::DistortionReport;

@@ -9,7 +9,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "cuda/surface/back_ends.h"
 #include "cuda/surface/shapes.h"
+#include "support/random.h"
 
 namespace espdiff_test {
 

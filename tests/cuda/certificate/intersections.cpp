@@ -6,8 +6,10 @@
 #include <limits>
 
 #include "cuda/certificate/intersection_oracle.h"
+#include "cuda/surface/read_atoms.h"
 #include "engine/certificate_stage.h"
 #include "engine/engine.h"
+#include "support/test_data.h"
 
 using namespace espdiff_test;
 using espdiff::IntersectionReport;

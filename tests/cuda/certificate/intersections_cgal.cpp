@@ -2,9 +2,11 @@
 #include <doctest/doctest.h>
 
 #include "cuda/certificate/intersection_oracle.h"
+#include "cuda/surface/read_atoms.h"
 #include "engine/certificate_stage.h"
 #include "engine/deform_stage.h"
 #include "engine/engine.h"
+#include "support/test_data.h"
 
 #if defined(ESPDIFF_HAVE_CGAL)
 

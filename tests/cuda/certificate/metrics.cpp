@@ -6,9 +6,11 @@
 #include <limits>
 
 #include "base/error.h"
+#include "cuda/surface/back_ends.h"
 #include "cuda/surface/oracles.h"
 #include "engine/certificate_stage.h"
 #include "engine/engine.h"
+#include "support/test_data.h"
 
 using namespace espdiff_test;
 using espdiff::Metrics;

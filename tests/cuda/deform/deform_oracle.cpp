@@ -7,9 +7,12 @@
 #include <cstdio>
 #include <set>
 
+#include "cuda/surface/back_ends.h"
+#include "cuda/surface/read_atoms.h"
 #include "cuda/surface/shapes.h"
 #include "engine/deform_stage.h"
 #include "engine/engine.h"
+#include "support/test_data.h"
 
 using namespace espdiff_test;
 using espdiff::DeformOptions;

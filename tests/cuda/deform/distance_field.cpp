@@ -7,8 +7,11 @@
 
 #include "base/error.h"
 #include "base/progress.h"
+#include "cuda/surface/back_ends.h"
 #include "cuda/surface/oracles.h"
+#include "cuda/surface/read_atoms.h"
 #include "engine/engine.h"
+#include "support/test_data.h"
 
 using namespace espdiff_test;
 using espdiff::Grid;

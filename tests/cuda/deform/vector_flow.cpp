@@ -13,9 +13,12 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "cuda/certificate/mesh_checks.h"
+#include "cuda/surface/back_ends.h"
 #include "cuda/surface/shapes.h"
 #include "engine/deform_stage.h"
 #include "engine/engine.h"
+#include "support/random.h"
+#include "support/test_data.h"
 
 using namespace espdiff_test;
 using espdiff::FieldPtr;

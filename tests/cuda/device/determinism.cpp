@@ -5,11 +5,15 @@
 #include <string>
 
 #include "cuda/certificate/mesh_checks.h"
+#include "cuda/surface/back_ends.h"
+#include "cuda/surface/read_atoms.h"
 #include "cuda/surface/shapes.h"
 #include "engine/certificate_stage.h"
 #include "engine/deform_stage.h"
 #include "engine/engine.h"
 #include "engine/surface_stage.h"
+#include "support/random.h"
+#include "support/test_data.h"
 
 using namespace espdiff_test;
 

@@ -7,9 +7,11 @@
 #include <utility>
 
 #include "base/error.h"
+#include "cuda/surface/back_ends.h"
 #include "cuda/surface/shapes.h"
 #include "engine/engine.h"
 #include "engine/morph_stage.h"
+#include "support/test_data.h"
 
 using namespace espdiff_test;
 using espdiff::DeviceChoice;

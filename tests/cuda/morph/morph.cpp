@@ -6,10 +6,12 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "cuda/certificate/mesh_checks.h"
+#include "cuda/surface/back_ends.h"
 #include "cuda/surface/shapes.h"
 #include "engine/certificate_stage.h"
 #include "engine/engine.h"
 #include "engine/morph_stage.h"
+#include "support/test_data.h"
 
 using namespace espdiff_test;
 using espdiff::MorphOptions;

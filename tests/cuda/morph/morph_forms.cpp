@@ -11,6 +11,7 @@
 #include "cuda/surface/shapes.h"
 #include "cuda/surface/split_edges.h"
 #include "engine/morph_stage.h"
+#include "support/random.h"
 
 using namespace espdiff_test;
 using namespace espdiff::cpu_backend;

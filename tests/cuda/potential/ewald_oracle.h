@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "base/error.h"
+#include "cuda/surface/back_ends.h"
 #include "cuda/surface/shapes.h"
 #include "engine/engine.h"
 #include "engine/potential_stage.h"
+#include "support/random.h"
 
 namespace espdiff_test {
 

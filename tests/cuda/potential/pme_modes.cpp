@@ -10,6 +10,7 @@
 #include "cuda/potential/ewald_oracle.h"
 #include "engine/engine.h"
 #include "engine/potential_stage.h"
+#include "support/test_data.h"
 
 using namespace espdiff_test;
 using espdiff::Grid;

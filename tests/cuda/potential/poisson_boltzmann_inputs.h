@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cuda/surface/shapes.h"
+#include "cuda/surface/back_ends.h"
 #include "engine/engine.h"
 #include "engine/poisson_boltzmann.h"
 

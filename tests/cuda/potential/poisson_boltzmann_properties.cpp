@@ -6,6 +6,8 @@
 #include <cstring>
 
 #include "cuda/potential/poisson_boltzmann_inputs.h"
+#include "io/read_structure.h"
+#include "support/test_data.h"
 
 using namespace espdiff_test;
 

@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "cuda/potential/dielectric_map.h"
-#include "cuda/surface/shapes.h"
+#include "support/random.h"
 
 using namespace espdiff_test;
 using espdiff::cpu_backend::Buffer;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cuda/potential/spread.h"
-#include "cuda/surface/shapes.h"
+#include "support/random.h"
 
 using namespace espdiff_test;
 using namespace espdiff::cpu_backend;

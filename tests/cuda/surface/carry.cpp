@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "cuda/surface/back_ends.h"
 #include "cuda/surface/shapes.h"
 #include "engine/engine.h"
 

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "cuda/certificate/mesh_checks.h"
+#include "cuda/surface/back_ends.h"
 #include "cuda/surface/shapes.h"
 #include "engine/engine.h"
 #include "support/test_data.h"

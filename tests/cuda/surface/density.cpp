@@ -6,8 +6,11 @@
 #include <limits>
 
 #include "base/error.h"
+#include "cuda/surface/back_ends.h"
 #include "cuda/surface/oracles.h"
+#include "cuda/surface/read_atoms.h"
 #include "engine/engine.h"
+#include "support/test_data.h"
 
 using namespace espdiff_test;
 

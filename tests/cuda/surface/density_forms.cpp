@@ -7,10 +7,14 @@
 
 #include "cuda/certificate/mesh_checks.h"
 #include "cuda/device/spatial_order.h"
+#include "cuda/surface/back_ends.h"
 #include "cuda/surface/density.h"
 #include "cuda/surface/density_at_points.h"
+#include "cuda/surface/read_atoms.h"
 #include "cuda/surface/shapes.h"
 #include "engine/engine.h"
+#include "support/random.h"
+#include "support/test_data.h"
 
 using namespace espdiff_test;
 using namespace espdiff::cpu_backend;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "cuda/surface/back_ends.h"
 #include "cuda/surface/oracles.h"
 #include "engine/engine.h"
 

@@ -5,8 +5,11 @@
 #include <cstdio>
 
 #include "cuda/certificate/mesh_checks.h"
+#include "cuda/surface/back_ends.h"
 #include "cuda/surface/oracles.h"
+#include "cuda/surface/read_atoms.h"
 #include "engine/engine.h"
+#include "support/test_data.h"
 
 using namespace espdiff_test;
 

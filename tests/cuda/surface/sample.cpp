@@ -5,8 +5,11 @@
 #include <limits>
 
 #include "base/error.h"
+#include "cuda/surface/back_ends.h"
 #include "cuda/surface/shapes.h"
 #include "engine/engine.h"
+#include "support/random.h"
+#include "support/test_data.h"
 
 using namespace espdiff_test;
 using espdiff::Grid;

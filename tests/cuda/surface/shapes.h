@@ -1,73 +1,19 @@
-// shapes.h: inputs of the engine's tests: back ends, atoms, spheres, proteins, rigid motions.
+// shapes.h: made inputs of the engine's tests: atoms, spheres, proteins.
 #pragma once
 
-#include <doctest/doctest.h>
-
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 
-#include "engine/engine.h"
-#include "engine/select_engine.h"
-#include "io/read_structure.h"
-#include "support/test_data.h"
+#include "base/types.h"
+#include "support/random.h"
 
 namespace espdiff_test {
 
-using espdiff::Engine;
 using espdiff::Mesh;
-using espdiff::Vec3d;
-using espdiff::Vec3f;
-
-constexpr double kPi = 3.14159265358979323846;
-
-/// One engine for each back end that can run here; prints once per program which cannot, and why.
-/// @param n_threads of the CPU back end; 0 uses all
-inline std::vector<std::unique_ptr<Engine>> back_ends(int n_threads = 0) {
-  std::vector<std::unique_ptr<Engine>> engines;
-  engines.push_back(espdiff::select_engine(espdiff::DeviceChoice::kCpu, n_threads));
-  const espdiff::BackEndStatus cuda = espdiff::cuda_status();
-  static bool announced = false;
-  if (cuda.available) {
-    engines.push_back(espdiff::select_engine(espdiff::DeviceChoice::kCuda, 0));
-  } else if (!announced) {
-    announced = true;
-    MESSAGE("SKIPPED: cuda: ", cuda.description.plain());
-  }
-  return engines;
-}
-
-/// Reproducible random numbers: Knuth's MMIX generator, upper bits.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(seed) { bits(); }
-
-  std::uint32_t bits() {
-    state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
-    return static_cast<std::uint32_t>(state_ >> 33);
-  }
-  /// In [low, high).
-  double uniform(double low = 0, double high = 1) { return low + (high - low) * (bits() / 2147483648.0); }
-  std::size_t below(std::size_t n) { return bits() % n; }
-  Vec3d in_box(double half_side) {
-    const double x = uniform(-half_side, half_side), y = uniform(-half_side, half_side);
-    return {x, y, uniform(-half_side, half_side)};
-  }
-  Vec3d direction() {
-    for (;;) {
-      const Vec3d v = in_box(1);
-      const double length = norm(v);
-      if (length > 0.1 && length < 1) return (1 / length) * v;
-    }
-  }
-
- private:
-  std::uint64_t state_;
-};
 
 /// Atoms as upload_atoms() takes them.
 struct AtomSet {
@@ -82,10 +28,6 @@ struct AtomSet {
     residues.push_back(residue);
   }
 };
-
-inline espdiff::AtomsPtr upload(Engine& engine, const AtomSet& atoms) {
-  return engine.upload_atoms(atoms.positions, atoms.widths, atoms.residues);
-}
 
 inline AtomSet one_gaussian(Vec3d centre, double width) {
   AtomSet atoms;
@@ -130,8 +72,6 @@ inline AtomSet atoms_of(const espdiff::Molecule& molecule) {
   return atoms;
 }
 
-inline AtomSet read_atoms(const std::string& path) { return atoms_of(espdiff::read_structure(path)); }
-
 /// A sphere of 20 * 4^levels triangles.
 inline Mesh icosphere(int levels, double radius, Vec3d centre = {}) {
   const double g = (1 + std::sqrt(5.0)) / 2;
@@ -173,26 +113,6 @@ Mesh moved(Mesh mesh, Move move) {
 inline Mesh turned(Mesh mesh) {
   for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
   return mesh;
-}
-
-/// Rotation by `angle` about `axis` (a unit vector), then translation.
-inline espdiff::RigidTransform rigid(Vec3d axis, double angle, Vec3d translation) {
-  espdiff::RigidTransform t;
-  const double c = std::cos(angle), s = std::sin(angle);
-  for (int column = 0; column < 3; ++column) {
-    Vec3d e{};
-    e[column] = 1;
-    const Vec3d r = c * e + s * cross(axis, e) + ((1 - c) * dot(axis, e)) * axis;  // Rodrigues
-    for (int row = 0; row < 3; ++row) t.rotation[3 * row + column] = r[row];
-  }
-  t.translation = translation;
-  return t;
-}
-
-inline espdiff::RigidTransform random_rigid(Random& random, double shift) {
-  const Vec3d axis = random.direction();
-  const double angle = random.uniform(0.3, 3.0);
-  return rigid(axis, angle, random.in_box(shift));
 }
 
 /// One point of a lattice.

@@ -5,9 +5,11 @@
 #include <cstdio>
 
 #include "cuda/certificate/mesh_checks.h"
+#include "cuda/surface/back_ends.h"
 #include "cuda/surface/shapes.h"
 #include "engine/engine.h"
 #include "engine/surface_stage.h"
+#include "support/random.h"
 
 using namespace espdiff_test;
 

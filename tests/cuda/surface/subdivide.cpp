@@ -7,9 +7,11 @@
 
 #include "base/error.h"
 #include "cuda/certificate/mesh_checks.h"
+#include "cuda/surface/back_ends.h"
 #include "cuda/surface/shapes.h"
 #include "engine/engine.h"
 #include "engine/surface_stage.h"
+#include "support/test_data.h"
 
 using namespace espdiff_test;
 using espdiff::MeshPtr;

@@ -11,6 +11,7 @@
 
 #include "cuda/certificate/mesh_checks.h"
 #include "cuda/surface/shapes.h"
+#include "support/random.h"
 
 using espdiff::CellCase;
 using espdiff::CellEdge;

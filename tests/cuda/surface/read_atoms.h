@@ -1,0 +1,13 @@
+// read_atoms.h: the atoms of a structure file for the engine's tests.
+#pragma once
+
+#include <string>
+
+#include "cuda/surface/shapes.h"
+#include "io/read_structure.h"
+
+namespace espdiff_test {
+
+inline AtomSet read_atoms(const std::string& path) { return atoms_of(espdiff::read_structure(path)); }
+
+}  // namespace espdiff_test
