@@ -12,8 +12,8 @@
 #include "io/atomic_file.h"
 #include "io/check_outputs.h"
 #include "io/read_structure.h"
-#include "io/structure_file.h"
 #include "io/select_atoms.h"
+#include "io/structure_file.h"
 #include "io/write_pqr.h"
 #include "prepare/load_state.h"
 #include "prepare/region.h"
@@ -57,7 +57,8 @@ void run_comparison(ComparisonObject& c, const Progress& progress) {
     check_left_out(options.input, {&c.source.state, &c.target.state});
   for (Endpoint* side : {&c.source, &c.target}) {
     for (KeptFile& kept : kept_structure(side->role, side->state)) c.kept.push_back(std::move(kept));
-    if (side->state.preparation) c.provenance.preparations.emplace_back(side->role, std::make_shared<Preparation>(*side->state.preparation));
+    if (side->state.preparation)
+      c.provenance.preparations.emplace_back(side->role, std::make_shared<Preparation>(*side->state.preparation));
   }
   const auto whole = [](const Endpoint& side) -> const Molecule& {
     return side.state.whole.size() > 0 ? side.state.whole : *side.molecule;

@@ -295,16 +295,16 @@ void load_file(Endpoint& endpoint, const CompareOptions& options, const Endpoint
     load_state(file, request, options.input, progress);  // or was it the preparation?
     throw InputError(error.message() + "; `map none` compares shapes alone");
   }
-  const auto inputs = state_inputs(
-      endpoint.role, {endpoint.role, endpoint.structure_path, file.sha256(), nullptr, endpoint.structure},
-      endpoint.state);
+  const auto inputs =
+      state_inputs(endpoint.role, {endpoint.role, endpoint.structure_path, file.sha256(), nullptr, endpoint.structure},
+                   endpoint.state);
   endpoint.inputs.insert(endpoint.inputs.end(), inputs.begin(), inputs.end());
   endpoint.molecule = endpoint.state.molecule;
   if (!wants_everything(endpoint)) return;
   const int model = endpoint.structure.model;
-  endpoint.everything = Everything{endpoint.state.everything.size() > 0 ? std::move(endpoint.state.everything)
-                                                                        : file.read({model, true, true}),
-                                   endpoint.state.cell};
+  endpoint.everything = Everything{
+      endpoint.state.everything.size() > 0 ? std::move(endpoint.state.everything) : file.read({model, true, true}),
+      endpoint.state.cell};
 }
 
 }  // namespace
@@ -316,10 +316,12 @@ void load(Endpoint& endpoint, const CompareOptions& options, const Endpoint* sou
   } else if (endpoint.structure_path.empty()) {
     const InputOptions& input = options.input;
     const bool is_target = endpoint.role == "target";
-    for (const auto& [name, text] : {std::pair("select", &input.both.select), {"leave-out", &input.leave_out},
-                                     {is_target ? "target-select" : "source-select",
-                                      is_target ? &input.target.select : &input.source.select},
-                                     {"assembly", &input.assembly}, {"topology", &input.both.topology}}) {
+    for (const auto& [name, text] :
+         {std::pair("select", &input.both.select),
+          {"leave-out", &input.leave_out},
+          {is_target ? "target-select" : "source-select", is_target ? &input.target.select : &input.source.select},
+          {"assembly", &input.assembly},
+          {"topology", &input.both.topology}}) {
       if (text->empty()) continue;
       throw InputError(option(name) + " is of structures in files, and the " + endpoint.role +
                        " is a molecule of VMD; choose its atoms by `sel`");

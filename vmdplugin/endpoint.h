@@ -60,7 +60,8 @@ struct Endpoint {
 ///   file PATH ?model N? ?map MAP?
 ///   atoms LIST coordinates BYTES ?indices LIST? name TEXT radii_origin R charges_origin C ?input TEXT? ?cell LIST?
 ///   ?region LIST? ?map MAP?
-/// with the region's atoms as indices into the coordinates, MAP: file PATH ?array NAME? ?unit U?, or memory NAME ?unit U?, or
+/// with the region's atoms as indices into the coordinates, MAP: file PATH ?array NAME? ?unit U?, or memory NAME ?unit
+/// U?, or
 ///   kind pme|pb|coulomb ?charges LIST? ?radii LIST? ?water B? ?box CELL? ?because TEXT? ?KEY VALUE ...?, the keys
 ///   those of potential_settings()
 /// A volume in memory is taken: it is gone after. `charges` are those of all atoms in the coordinates, 0 where one does

@@ -55,9 +55,8 @@ Tcl_Obj* matrix_result(const MatrixObject& object) {
 /// What was written, and what PDB2PQR did; without `preparation` where the molecule had charges.
 Tcl_Obj* preparation_result(const PreparationObject& object) {
   nlohmann::ordered_json json{{"file", object.path}, {"n_atoms", object.molecule.state.molecule.size()}};
-  json["preparation"] = object.molecule.state.preparation
-                            ? preparation_json(*object.molecule.state.preparation)
-                            : nlohmann::ordered_json(nullptr);
+  json["preparation"] = object.molecule.state.preparation ? preparation_json(*object.molecule.state.preparation)
+                                                          : nlohmann::ordered_json(nullptr);
   return to_obj(json);
 }
 

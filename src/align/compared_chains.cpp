@@ -23,8 +23,8 @@ std::vector<NamedChain> named_chains(const Molecule& molecule) {
   for (const Residue& residue : molecule.residues) {
     const char letter = residue_letter(residue.name);
     if (letter == '?') continue;
-    auto found =
-        std::find_if(chains.begin(), chains.end(), [&](const NamedChain& chain) { return chain.name == residue.chain; });
+    auto found = std::find_if(chains.begin(), chains.end(),
+                              [&](const NamedChain& chain) { return chain.name == residue.chain; });
     if (found == chains.end()) found = chains.insert(chains.end(), {residue.chain, {}});
     found->letters[{residue.number, residue.insertion_code}] = letter;
   }

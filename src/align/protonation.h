@@ -10,8 +10,8 @@
 
 namespace espdiff {
 
-/// The state of a titratable residue by its Amber name: ASP or ASH, GLU or GLH, HID, HIE or HIP, LYS or LYN, CYS, CYM or
-/// CYX (in a disulfide), TYR or TYM, ARG or AR0.
+/// The state of a titratable residue by its Amber name: ASP or ASH, GLU or GLH, HID, HIE or HIP, LYS or LYN, CYS, CYM
+/// or CYX (in a disulfide), TYR or TYM, ARG or AR0.
 /// @returns [residue] empty for other residues, and for those without hydrogens
 std::vector<std::string> protonation_states(const Molecule& molecule);
 

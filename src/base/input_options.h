@@ -32,7 +32,7 @@ struct InputOptions {
   std::string charges_from;  ///< PQR file of another state, whose charges and radii states without take
   RadiiChoice radii = RadiiChoice::kAuto;
   ChargeOptions charges;
-  std::string region;         ///< atoms of the source whose residues are reported as well; empty for none
+  std::string region;          ///< atoms of the source whose residues are reported as well; empty for none
   double region_within_A = 0;  ///< instead: the source's residues with an atom this near to `region_of`
   std::string region_of;       ///< atoms of the source's file, or else of the target's
 

@@ -86,7 +86,8 @@ Side read_side(const Arguments& a, const std::string& role, const InputOptions& 
   Side side{role, load_for(a.maps, !has_given_maps(a.maps), file, request, options, progress), {}, {}};
   const auto inputs = state_inputs(role, {role, path, file.sha256(), nullptr, request.structure}, side.state);
   provenance.inputs.insert(provenance.inputs.end(), inputs.begin(), inputs.end());
-  if (side.state.preparation) provenance.preparations.emplace_back(role, std::make_shared<Preparation>(*side.state.preparation));
+  if (side.state.preparation)
+    provenance.preparations.emplace_back(role, std::make_shared<Preparation>(*side.state.preparation));
   return side;
 }
 

@@ -64,7 +64,8 @@ int run() {
        !gnuplot.empty() ? gnuplot : "no program `gnuplot` on PATH, which draws plots (Debian: gnuplot-nox)");
   const std::string pdb2pqr = find_pdb2pqr();
   line("prepare", !pdb2pqr.empty(),
-       !pdb2pqr.empty() ? pdb2pqr : std::string("no program `pdb2pqr30` on PATH, which assigns charges; ") + kPdb2pqrRemedy);
+       !pdb2pqr.empty() ? pdb2pqr
+                        : std::string("no program `pdb2pqr30` on PATH, which assigns charges; ") + kPdb2pqrRemedy);
   const std::string module = vmd_module();
   line("vmd module", !module.empty(),
        !module.empty()

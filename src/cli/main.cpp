@@ -68,11 +68,11 @@ int run(int argc, char** argv) {
   app.name("espdiff");
   app.set_version_flag("--version", std::string("espdiff ") + espdiff::kVersion);
   app.require_subcommand(0, 1);
-  std::vector<espdiff::cli::Verb> verbs = {espdiff::cli::add_compare(app),   espdiff::cli::add_trajectory(app),
-                                           espdiff::cli::add_matrix(app),    espdiff::cli::add_merge(app),
-                                           espdiff::cli::add_plot(app),      espdiff::cli::add_surface(app),
-                                           espdiff::cli::add_potential(app), espdiff::cli::add_prepare(app),   espdiff::cli::add_render(app),
-                                           espdiff::cli::add_view(app),      espdiff::cli::add_doctor(app)};
+  std::vector<espdiff::cli::Verb> verbs = {
+      espdiff::cli::add_compare(app),   espdiff::cli::add_trajectory(app), espdiff::cli::add_matrix(app),
+      espdiff::cli::add_merge(app),     espdiff::cli::add_plot(app),       espdiff::cli::add_surface(app),
+      espdiff::cli::add_potential(app), espdiff::cli::add_prepare(app),    espdiff::cli::add_render(app),
+      espdiff::cli::add_view(app),      espdiff::cli::add_doctor(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -134,16 +134,15 @@ void add_settings(CLI::App& parser, GivenSettings& given, SettingsFor what) {
     };
     const std::string type = setting.is_file ? "FILE" : setting.kind == SettingKind::kText ? "TEXT" : "NUMBER";
     CLI::Option* const added =
-        setting.is_list
-            ? parser.add_option_function<std::vector<std::string>>(
-                  "--" + name,
-                  [&given, name](const std::vector<std::string>& texts) {
-                    for (const std::string& text : texts) given.emplace_back(name, text);
-                  },
-                  setting.help)
-            : parser.add_option_function<std::string>(
-                  "--" + name, [&given, name](const std::string& text) { given.emplace_back(name, text); },
-                  setting.help);
+        setting.is_list ? parser.add_option_function<std::vector<std::string>>(
+                              "--" + name,
+                              [&given, name](const std::vector<std::string>& texts) {
+                                for (const std::string& text : texts) given.emplace_back(name, text);
+                              },
+                              setting.help)
+                        : parser.add_option_function<std::string>(
+                              "--" + name, [&given, name](const std::string& text) { given.emplace_back(name, text); },
+                              setting.help);
     if (setting.is_list) added->expected(1)->take_all();
     added->check(CLI::Validator(check, ""))
         ->type_name(setting.kind == SettingKind::kChoice ? joined(setting.choices, "|") : type)

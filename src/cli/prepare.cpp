@@ -68,8 +68,8 @@ int run(Arguments& a, const Context& context) {
   check_outputs({a.input}, {a.output, a.json});
   AtomicFile pqr(a.output), json(a.json);
   const StructureFile file(a.input);
-  const LoadedState state = load_state(file, {a.structure, StateRole::kOnly, true, true, nullptr}, options.input,
-                                       *context.progress);
+  const LoadedState state =
+      load_state(file, {a.structure, StateRole::kOnly, true, true, nullptr}, options.input, *context.progress);
   check_left_out(options.input, {&state});
   write_pqr(pqr.stream(), state.molecule);
   json.stream() << as_json(a, context, file, state).dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
@@ -86,7 +86,8 @@ Verb add_prepare(CLI::App& app) {
   auto a = std::make_shared<Arguments>();
   CLI::App* parser = app.add_subcommand("prepare", "Add hydrogens, charges and radii to a structure");
   parser->footer(
-      "Runs PDB2PQR (Debian: pdb2pqr) with PROPKA. The verbs that compare do the same for structures without charges.\n\n"
+      "Runs PDB2PQR (Debian: pdb2pqr) with PROPKA. The verbs that compare do the same for structures without "
+      "charges.\n\n"
       "Examples:\n"
       "  espdiff prepare 1ake.pdb --select '//A;polymer' -o 1ake_a.pqr\n"
       "  espdiff prepare complex.pdb --ligand drug.mol2 --ph 6.5 -o complex.pqr\n\n"

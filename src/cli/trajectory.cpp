@@ -138,8 +138,8 @@ class Sides {
     const std::string name = frames_.name(number);
     StructureOptions structure = a_.structure;
     structure.model = model;
-    LoadedState state = load_frame(*file, structure, name, source_.molecule, source_.preparation.has_value(), options_,
-                                   progress_);
+    LoadedState state =
+        load_frame(*file, structure, name, source_.molecule, source_.preparation.has_value(), options_, progress_);
     if (plan_.takes_everything() && state.everything.size() == 0) {
       state.everything = file->read({model, true, true});
       if (!source_.everything.charges.empty()) take_values(state.everything, source_.everything, name);

@@ -262,8 +262,7 @@ struct Series::Steps {
       unmatched[t] = std::max(unmatched[t], mapping.unmatched[t]);
     OffsetMetrics at;
     at.offset_A = offset_A;
-    at.metrics =
-        engine.compare(moved, mapping.mapped, at_source, at_target, engine.upload_scalars(flags), path_length);
+    at.metrics = engine.compare(moved, mapping.mapped, at_source, at_target, engine.upload_scalars(flags), path_length);
     region.has_potential = true;
     region.unit = unit;
     region.by_offset.push_back(at);
@@ -313,9 +312,9 @@ struct Series::Steps {
     Region region;
     if (!source.region.empty()) {
       region = make_region(source.region, s, s.residue, target_of, target.molecule->residues.size());
-      result.region = region_result(engine, region, mapping, target_surface,
-                                    static_cast<float>(options.surface.isovalue), s.residue, mapped_residue, target_of,
-                                    result, *source.molecule, *target.molecule);
+      result.region =
+          region_result(engine, region, mapping, target_surface, static_cast<float>(options.surface.isovalue),
+                        s.residue, mapped_residue, target_of, result, *source.molecule, *target.molecule);
     }
     if (target_map != nullptr)
       compare_potentials(target, target_map, mapping, moved, target_surface.atoms, region.outside, result);
@@ -344,7 +343,8 @@ struct Series::Steps {
     }
     std::vector<bool> in_region(result.surface.positions.size(), false);
     for (std::size_t t = 0; t < region.outside.size(); ++t) {
-      const bool counts = region.outside[t] == 0 && (result.surface.unmatched.empty() || result.surface.unmatched[t] == 0);
+      const bool counts =
+          region.outside[t] == 0 && (result.surface.unmatched.empty() || result.surface.unmatched[t] == 0);
       for (const std::uint32_t v : result.surface.triangles[t]) in_region[v] = in_region[v] || counts;
     }
     std::size_t n = 0;

@@ -109,9 +109,11 @@ void add_structure_rows(std::vector<Setting>& all) {
       "Atoms of both files that make surface and charges, in gemmi's syntax: //A is chain A, //A/10-20, (HEM), "
       "//A;polymer; several, parted by blanks, add up. Default: all")));
   all.push_back(text_row(
-      "source-select", group, [](auto& o) -> auto& { return o.source.select; }, "The same, of the source's file alone"));
+      "source-select", group, [](auto& o) -> auto& { return o.source.select; },
+      "The same, of the source's file alone"));
   all.push_back(text_row(
-      "target-select", group, [](auto& o) -> auto& { return o.target.select; }, "The same, of the target's file alone"));
+      "target-select", group, [](auto& o) -> auto& { return o.target.select; },
+      "The same, of the target's file alone"));
   all.push_back(of_surface(text_row(
       "leave-out", group, [](auto& o) -> auto& { return o.leave_out; },
       "Atoms to leave out of both states, such as ligands without charges: (SO4,GOL)")));
@@ -122,14 +124,13 @@ void add_structure_rows(std::vector<Setting>& all) {
   all.push_back(of_surface(choice_row(
       "radii", group, {"auto", "file", "element"},
       [](InputOptions& o, const std::string& text) {
-        o.radii = text == "file"      ? RadiiChoice::kFile
-                  : text == "element" ? RadiiChoice::kElement
-                                      : RadiiChoice::kAuto;
+        o.radii = text == "file" ? RadiiChoice::kFile : text == "element" ? RadiiChoice::kElement : RadiiChoice::kAuto;
       },
       [](const InputOptions& o) {
         return o.radii == RadiiChoice::kFile ? "file" : o.radii == RadiiChoice::kElement ? "element" : "auto";
       },
-      "Radii of the compared surfaces: the files' (file), Bondi's (element), or the files' if all states have them from "
+      "Radii of the compared surfaces: the files' (file), Bondi's (element), or the files' if all states have them "
+      "from "
       "one force field and Bondi's otherwise (auto). The dielectric boundary always takes the force field's")));
 }
 

@@ -6,10 +6,10 @@
 #include <limits>
 
 #include "align/superpose.h"
+#include "compare/build_surface.h"
 #include "compare/certificate.h"
 #include "compare/mapping.h"
 #include "compare/result.h"
-#include "compare/build_surface.h"
 #include "engine/engine.h"
 
 namespace espdiff {

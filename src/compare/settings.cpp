@@ -264,8 +264,9 @@ Setting offset_setting() {
 }
 
 /// The settings whose key in OUT.json ends with a unit.
-constexpr std::pair<const char*, const char*> kUnits[] = {
-    {"grid-spacing", "A"}, {"max-step", "A"}, {"distance-threshold", "A"}, {"gvf-weight", "A2"}, {"temperature", "K"}, {"region-within", "A"}};
+constexpr std::pair<const char*, const char*> kUnits[] = {{"grid-spacing", "A"},       {"max-step", "A"},
+                                                          {"distance-threshold", "A"}, {"gvf-weight", "A2"},
+                                                          {"temperature", "K"},        {"region-within", "A"}};
 
 std::vector<Setting> make_settings() {
   std::vector<Setting> all;

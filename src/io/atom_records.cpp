@@ -103,8 +103,8 @@ bool has_pdb_decimals(std::string_view line) {
   return tail.size() >= 12 && tail[3] == '.' && tail[9] == '.';
 }
 
-/// PDB columns 31 to 54 hold three numbers, 55 to 66 two more or blanks, and 67 to 72 nothing, or behind occupancy and B
-/// factor a whole number (an atomic number, as old programs write it).
+/// PDB columns 31 to 54 hold three numbers, 55 to 66 two more or blanks, and 67 to 72 nothing, or behind occupancy and
+/// B factor a whole number (an atomic number, as old programs write it).
 bool fits_pdb(std::string_view line) {
   if (line.size() < 54) return false;
   for (std::size_t begin : {30, 38, 46}) {

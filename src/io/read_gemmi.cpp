@@ -5,9 +5,9 @@
 #include <cmath>
 #include <exception>
 #include <gemmi/assembly.hpp>  // for make_assembly
-#include <gemmi/cif.hpp>    // for read_memory
-#include <gemmi/mmcif.hpp>  // for make_structure
-#include <gemmi/pdb.hpp>    // for read_pdb_from_memory
+#include <gemmi/cif.hpp>       // for read_memory
+#include <gemmi/mmcif.hpp>     // for make_structure
+#include <gemmi/pdb.hpp>       // for read_pdb_from_memory
 #include <limits>
 #include <new>
 #include <set>
@@ -157,9 +157,9 @@ void build_assembly(const std::string& path, const gemmi::Structure& structure, 
   if (found == structure.assemblies.end()) {
     std::string names;
     for (const gemmi::Assembly& assembly : structure.assemblies) names += (names.empty() ? "" : ", ") + assembly.name;
-    throw InputError(path + ": " + option("assembly") + ": there is no assembly " + in_quotes(name) + "; " +
-                     (names.empty() ? "the file describes none (REMARK 350, _pdbx_struct_assembly)"
-                                    : "there are " + names));
+    throw InputError(
+        path + ": " + option("assembly") + ": there is no assembly " + in_quotes(name) + "; " +
+        (names.empty() ? "the file describes none (REMARK 350, _pdbx_struct_assembly)" : "there are " + names));
   }
   call_gemmi(path, "the assembly cannot be built: ", [&] {
     model = gemmi::make_assembly(*found, model, gemmi::HowToNameCopiedChain::Short, nullptr);
@@ -283,9 +283,8 @@ Molecule read_pdb(const std::string& path, const AtomModel& model, const std::st
   MoleculeBuilder builder(path, options);
   const CheckedPdb checked = check_pdb(path, model, builder);
   const std::string text = remarks + checked.text;
-  gemmi::Structure structure = call_gemmi(path, "the PDB cannot be read: ", [&] {
-    return gemmi::read_pdb_from_memory(text.data(), text.size(), path);
-  });
+  gemmi::Structure structure = call_gemmi(
+      path, "the PDB cannot be read: ", [&] { return gemmi::read_pdb_from_memory(text.data(), text.size(), path); });
   const bool is_assembly = !options.assembly.empty();
   if (is_assembly && !structure.models.empty())
     build_assembly(path, structure, options.assembly, structure.models.front());

@@ -1,6 +1,7 @@
 // read_topology.cpp: the !NATOM section of a PSF, and the flags ATOM_NAME, CHARGE and RADII of a prmtop.
 #include "io/read_topology.h"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -27,7 +28,8 @@ void read_psf(const std::string& text, Topology& topology) {
     if (words.size() < 2 || words[1].substr(0, 6) != "!NATOM" || !parse_integer(words[0], n)) continue;
     check_count(topology.path, cursor.line(), n);
     for (long long i = 0; i < n; ++i) {
-      if (cursor.at_end()) cursor.fail("the PSF ends after " + std::to_string(i) + " of " + std::to_string(n) + " atoms");
+      if (cursor.at_end())
+        cursor.fail("the PSF ends after " + std::to_string(i) + " of " + std::to_string(n) + " atoms");
       const std::string_view line = cursor.rest_of_line();
       const auto atom = split_words(line);
       double charge = 0;
@@ -60,16 +62,20 @@ std::size_t field_width(std::string_view format) {
   return known && width > 0 ? static_cast<std::size_t>(width) : 0;
 }
 
-std::map<std::string, Section> prmtop_sections(const std::string& text, const std::string& path) {
+std::map<std::string, Section> prmtop_sections(const std::string& text) {
   std::map<std::string, Section> sections;
-  TextCursor cursor(text, path);
   Section* section = nullptr;
   std::size_t width = 0;
-  while (!cursor.at_end()) {
-    const std::string_view line = cursor.rest_of_line();
+  long number = 0;
+  // Blanks at a line's beginning belong to its first field.
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string_view line = std::string_view(text).substr(begin, end - begin);
+    begin = end + 1;
+    ++number;
     if (line.substr(0, 5) == "%FLAG") {
       section = &sections[std::string(trimmed(line.substr(5)))];
-      section->line = cursor.line();
+      section->line = number;
       width = 0;
     } else if (line.substr(0, 7) == "%FORMAT") {
       width = field_width(line);
@@ -93,8 +99,9 @@ std::vector<float> numbers_of(const std::string& path, const std::string& flag, 
   for (std::size_t i = 0; i < n_atoms; ++i) {
     double value = 0;
     if (!parse_number(section.fields[i], value))
-      throw FormatError(path, section.line, "%FLAG " + flag + ": value " + std::to_string(i + 1) + " is " +
-                                                in_quotes(section.fields[i]) + "; a number was expected");
+      throw FormatError(path, section.line,
+                        "%FLAG " + flag + ": value " + std::to_string(i + 1) + " is " + in_quotes(section.fields[i]) +
+                            "; a number was expected");
     numbers.push_back(static_cast<float>(value * scale));
   }
   return numbers;
@@ -103,7 +110,7 @@ std::vector<float> numbers_of(const std::string& path, const std::string& flag, 
 void read_prmtop(const std::string& text, Topology& topology) {
   constexpr double kAmberCharge = 18.2223;
   const std::string& path = topology.path;
-  auto sections = prmtop_sections(text, path);
+  auto sections = prmtop_sections(text);
   for (const char* flag : {"POINTERS", "ATOM_NAME", "CHARGE"}) {
     if (sections.count(flag) == 0) throw FormatError(path, 0, std::string("the prmtop has no %FLAG ") + flag);
   }
@@ -116,8 +123,9 @@ void read_prmtop(const std::string& text, Topology& topology) {
   topology.charges = numbers_of(path, "CHARGE", sections["CHARGE"], n_atoms, 1 / kAmberCharge);
   if (sections.count("RADII") > 0) topology.radii = numbers_of(path, "RADII", sections["RADII"], n_atoms, 1);
   if (names.fields.size() < n_atoms)
-    throw FormatError(path, names.line, "%FLAG ATOM_NAME has " + std::to_string(names.fields.size()) + " names for " +
-                                            std::to_string(n_atoms) + " atoms; the file seems to be cut");
+    throw FormatError(path, names.line,
+                      "%FLAG ATOM_NAME has " + std::to_string(names.fields.size()) + " names for " +
+                          std::to_string(n_atoms) + " atoms; the file seems to be cut");
   for (std::size_t i = 0; i < n_atoms; ++i) topology.names.emplace_back(names.fields[i]);
 }
 

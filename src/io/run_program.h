@@ -17,7 +17,7 @@ struct ProgramCall {
 };
 
 struct ProgramResult {
-  int status = 0;  ///< exit status; 128 + the signal's number after a signal
+  int status = 0;                ///< exit status; 128 + the signal's number after a signal
   std::string output, messages;  ///< its standard output and standard error
 };
 

@@ -60,8 +60,8 @@ std::string describe_chains(const Molecule& molecule) {
     std::string content = chain.n == 0 ? "" : std::to_string(chain.first) + "-" + std::to_string(chain.last);
     for (std::size_t k = 0; k < std::min(chain.others.size(), kMostLigands); ++k)
       content += (content.empty() ? "" : ", ") + chain.others[k];
-    text += (text.empty() ? "" : ", ") + (order[i].empty() ? "no chain name" : "chain " + order[i]) + " (" + content +
-            ")";
+    text +=
+        (text.empty() ? "" : ", ") + (order[i].empty() ? "no chain name" : "chain " + order[i]) + " (" + content + ")";
   }
   return order.size() > kMostChains ? text + " and " + std::to_string(order.size() - kMostChains) + " more" : text;
 }
@@ -112,7 +112,7 @@ std::vector<bool> select_atoms(const Molecule& molecule, const std::string& text
     gemmi::Residue as_gemmi;
     as_gemmi.name = residue.name;
     as_gemmi.seqid = gemmi::SeqId(residue.number, residue.insertion_code);
-    as_gemmi.entity_type = polymer[r]                     ? gemmi::EntityType::Polymer
+    as_gemmi.entity_type = polymer[r]                    ? gemmi::EntityType::Polymer
                            : is_water_name(residue.name) ? gemmi::EntityType::Water
                                                          : gemmi::EntityType::NonPolymer;
     for (std::size_t s = 0; s < selections.size(); ++s)

@@ -70,8 +70,8 @@ std::string free_fields(const Molecule& molecule, std::size_t i) {
   const Atom& atom = molecule.atoms[i];
   const Residue& residue = molecule.residues[static_cast<std::size_t>(atom.residue)];
   const Vec3d& p = molecule.positions[i];
-  std::string line = (atom.hetero ? "HETATM " : "ATOM ") + std::to_string(i + 1) + ' ' + word(atom.name) + ' ' +
-                     word(residue.name);
+  std::string line =
+      (atom.hetero ? "HETATM " : "ATOM ") + std::to_string(i + 1) + ' ' + word(atom.name) + ' ' + word(residue.name);
   if (!residue.chain.empty()) line += ' ' + word(residue.chain);
   line += ' ' + std::to_string(residue.number);
   if (residue.insertion_code != ' ') line += residue.insertion_code;

@@ -9,9 +9,9 @@
 #include "base/error.h"
 #include "base/water.h"
 #include "io/read_structure.h"
-#include "io/structure_file.h"
 #include "io/read_topology.h"
 #include "io/select_atoms.h"
+#include "io/structure_file.h"
 #include "prepare/pdb2pqr.h"
 #include "prepare/take_charges.h"
 
@@ -111,7 +111,6 @@ LoadedState load_state(const StructureFile& file, const StateRequest& request, c
   StructureOptions structure = request.structure;
   structure.assembly = options.assembly;
   LoadedState state;
-  state.cell = file.unit_cells().at(static_cast<std::size_t>(structure.model - 1));
   if (!topology.empty()) {
     if (!structure.assembly.empty())
       throw InputError(option("assembly") + " and a topology were given; a topology lists the atoms of the file");
@@ -125,6 +124,7 @@ LoadedState load_state(const StructureFile& file, const StateRequest& request, c
     if (request.wants_charges && is_charged(state.molecule))
       state.everything = file.read({structure.model, true, true, structure.assembly});
   }
+  state.cell = file.unit_cells().at(static_cast<std::size_t>(structure.model - 1));
   state.whole = state.molecule;
   if (!options.leave_out.empty()) {
     leave_out(state.molecule, options.leave_out, state.n_left_out);

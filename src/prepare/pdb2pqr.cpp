@@ -88,7 +88,8 @@ class Renumbering {
       const auto free =
           std::find_if(letters.begin(), letters.end(), [&](char letter) { return taken.count(letter) == 0; });
       if (free == letters.end())
-        throw InputError(molecule.name + ": has more than 62 chains, which a PDB file cannot tell apart; select some (" +
+        throw InputError(molecule.name +
+                         ": has more than 62 chains, which a PDB file cannot tell apart; select some (" +
                          option("select", "//A") + ")");
       names[residue.chain] = *free;
       taken.insert(*free);
@@ -101,7 +102,8 @@ class Renumbering {
         residue.insertion_code = ' ';
       }
       residue.chain = std::string(1, names.at(residue.chain));
-      if (!index_.emplace(std::tuple(residue.chain, residue.number), r).second && renumbered.count(original_[r].chain) == 0)
+      if (!index_.emplace(std::tuple(residue.chain, residue.number), r).second &&
+          renumbered.count(original_[r].chain) == 0)
         doubled_.insert(original_[r].number);
       residues_.push_back(residue);
     }
@@ -163,9 +165,8 @@ std::string pdb_text(Molecule molecule, const Renumbering& renumbering, const st
   // Atoms of a residue follow each other, also the hydrogens that a ligand got.
   std::vector<std::size_t> order(molecule.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return molecule.atoms[a].residue < molecule.atoms[b].residue;
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return molecule.atoms[a].residue < molecule.atoms[b].residue; });
   Molecule sorted;
   sorted.name = molecule.name;
   sorted.residues = molecule.residues;
@@ -205,6 +206,8 @@ std::string identity_of(const std::string& program) {
 std::string reason_in(const std::string& log) {
   static const std::vector<std::pair<const char*, const char*>> kKnown = {
       {"does not seem to contain any", "PROPKA cannot use it, such as a peptide of few residues"},
+      // Its message of that cannot be formatted.
+      {"Unknown format code 'i'", "more than a tenth of the heavy atoms of its residues are missing"},
       {"missing too many", "more than a tenth of the heavy atoms of its residues are missing"},
       {"does not contain any", "no residue of it is known to the force field"},
       {"Unable to debump", "atoms overlap, and moving them apart failed"},
@@ -253,9 +256,9 @@ std::string run_pdb2pqr(const std::string& program, const std::string& name, con
   std::error_code ignored;
   const std::string log = result.output + result.messages;
   if (result.status != 0 || !std::filesystem::exists(folder.file("output.pqr"), ignored))
-    throw InputError(name + ": PDB2PQR cannot prepare it: " + reason_in(log) +
+    throw InputError(name + ": has no charges, and PDB2PQR cannot prepare it: " + reason_in(log) +
                      "; complete or mend the structure, leave atoms out (" + option("leave-out", "(...)") +
-                     "), or give charges (" + option("topology", "FILE") + " or a PQR)");
+                     "), or give charges (" + option("topology", "FILE") + " of a PSF or prmtop, or a PQR)");
   return "REMARK " + version_in(log) + "\n" + read_input(folder.file("output.pqr")).content;
 }
 

@@ -24,10 +24,10 @@ struct Prepared {
 };
 
 /// Adds missing heavy atoms and hydrogens, and assigns charges and radii: PDB2PQR with PROPKA's protonation states at
-/// the pH of the options (Dolinsky et al., Nucleic Acids Res. 35, W522 (2007); Olsson et al., J. Chem. Theory Comput. 7,
-/// 525 (2011)). It gets the molecule as a PDB file of one conformation without water. Chains and residue numbers that
-/// its columns or PROPKA's keys cannot hold (long names, insertion codes, more than four digits) are renumbered for it
-/// and restored afterwards. Selenomethionine is charged as methionine.
+/// the pH of the options (Dolinsky et al., Nucleic Acids Res. 35, W522 (2007); Olsson et al., J. Chem. Theory Comput.
+/// 7, 525 (2011)). It gets the molecule as a PDB file of one conformation without water. Chains and residue numbers
+/// that its columns or PROPKA's keys cannot hold (long names, insertion codes, more than four digits) are renumbered
+/// for it and restored afterwards. Selenomethionine is charged as methionine.
 /// @param states [residue] the protonation state to give a residue, as protonation_states() names it; empty strings
 ///               and an empty list leave the choice to PROPKA, which is not run if any state is given
 /// @throws DeviceError (no PDB2PQR, it failed), InputError (nothing it could charge, atoms without charge, a MOL2 file

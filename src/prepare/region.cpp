@@ -27,8 +27,8 @@ std::vector<std::uint8_t> region_within(const Molecule& molecule, const Molecule
     std::uint8_t& flag = region[static_cast<std::size_t>(molecule.atoms[i].residue)];
     if (flag != 0) continue;
     const Vec3d& p = molecule.positions[i];
-    flag = std::any_of(centres.begin(), centres.end(), [&](const Vec3d& c) { return norm(c - p) <= distance_A; }) ? 1
-                                                                                                                 : 0;
+    flag =
+        std::any_of(centres.begin(), centres.end(), [&](const Vec3d& c) { return norm(c - p) <= distance_A; }) ? 1 : 0;
   }
   return region;
 }

@@ -83,8 +83,7 @@ std::vector<Message> all_warnings(const CompareResult& result, const Molecule& s
   if (result.protonation.empty()) return all;
   std::vector<std::string> words;
   for (const ProtonationDifference& difference : result.protonation) words.push_back(in_words(difference, source));
-  all.insert(all.begin(), std::to_string(words.size()) +
-                              (words.size() == 1 ? " residue differs" : " residues differ") +
+  all.insert(all.begin(), std::to_string(words.size()) + (words.size() == 1 ? " residue differs" : " residues differ") +
                               " in protonation, which makes a difference by itself: " + joined(words, 4) + "; " +
                               switched_on("same-protonation") + " gives prepared states the source's");
   return all;

@@ -37,8 +37,10 @@ const Rooms kAllowed = {
     {"trajectory", {"base", "align", "engine", "io", "compare", "prepare", "potential", "report"}},
     {"matrix", {"base", "align", "engine", "io", "compare", "prepare", "potential", "report"}},
     {"cli",
-     {"base", "align", "engine", "io", "compare", "prepare", "potential", "plot", "view", "report", "trajectory", "matrix"}},
-    {"vmdplugin", {"base", "align", "engine", "io", "compare", "prepare", "potential", "plot", "report", "trajectory", "matrix"}},
+     {"base", "align", "engine", "io", "compare", "prepare", "potential", "plot", "view", "report", "trajectory",
+      "matrix"}},
+    {"vmdplugin",
+     {"base", "align", "engine", "io", "compare", "prepare", "potential", "plot", "report", "trajectory", "matrix"}},
 };
 
 std::string quoted_include(const std::string& line) {
@@ -119,6 +121,7 @@ TEST_CASE("only the command line writes options with dashes; other messages name
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(ESPDIFF_SOURCE_DIR) / folder)) {
       const std::string extension = entry.path().extension().string();
       if (entry.path().parent_path().filename() == "cli") continue;
+      if (entry.path().filename() == "pdb2pqr.cpp") continue;  // another program's options
       if (extension != ".h" && extension != ".cpp" && extension != ".cu") continue;
       std::ifstream in(entry.path());
       for (std::string line; std::getline(in, line); ++n_lines) {

@@ -62,8 +62,9 @@ TEST_CASE("prepare: an atom without charge, an unknown chain, a word that drops 
   const std::string uncharged = refused("--select //A");
   CHECK(contains(uncharged, "57 atoms get no charges from PDB2PQR's force field parse: AP5 215 of chain A"));
   CHECK(contains(uncharged, "or drop it (--leave-out '(AP5)')"));
-  CHECK(contains(refused("--select //C"), "--select '//C' selects no atom; the file has chain A (1-214, AP5), chain B"));
-  CHECK(contains(refused("--leave-out '(HEM)'"), "drops no atom"));
+  CHECK(
+      contains(refused("--select //C"), "--select '//C' selects no atom; the file has chain A (1-214, AP5), chain B"));
+  CHECK(contains(refused("--select '//A;polymer' --leave-out '(HEM)'"), "drops no atom"));
   CHECK(contains(refused("--select '//A;polymer' --ligand " + *path), "a ligand is read from a Tripos MOL2 file"));
   CHECK(contains(refused("--assembly 7"), "there is no assembly '7'"));
   CHECK(folder.n_files() == 0);
@@ -113,8 +114,9 @@ TEST_CASE("compare: copies are said, and swapped chains of a dimer are not compa
     (is_a ? second : first) += line + "\n";
   }
   const std::string swapped = folder.write("swapped.pdb", first + second);
-  const Outcome outcome = run_espdiff("compare " + *tim + " " + swapped +
-                                      " --select ';polymer' --potential none --grid-spacing 2 -o " + folder.file("out"));
+  const Outcome outcome =
+      run_espdiff("compare " + *tim + " " + swapped + " --select ';polymer' --potential none --grid-spacing 2 -o " +
+                  folder.file("out"));
   CHECK(outcome.status == 0);
   CHECK(contains(outcome.out, "Copies in the source             chains A, B repeat one sequence"));
   const nlohmann::json json = json_of(folder.file("out.json"));

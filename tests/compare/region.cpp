@@ -30,7 +30,7 @@ std::vector<std::uint8_t> residues(bool (*in)(std::size_t)) {
 
 TEST_CASE("a region of all residues has the whole's numbers and verdict") {
   const CompareResult result = compared(residues([](std::size_t) { return true; }));
-  REQUIRE(result.region != nullptr);
+  REQUIRE(static_cast<bool>(result.region));
   const CompareResult& region = *result.region;
   CHECK(region.metrics.area_A2 == result.metrics.area_A2);
   CHECK(region.metrics.mean_abs_difference == result.metrics.mean_abs_difference);
@@ -55,4 +55,4 @@ TEST_CASE("two complementary regions share the area, and their means add up to t
   for (const ResidueRow& row : first.region->residues) CHECK(row.residue % 4 == 0);
 }
 
-TEST_CASE("without a region there is none") { CHECK(compared({}).region == nullptr); }
+TEST_CASE("without a region there is none") { CHECK(!compared({}).region); }

@@ -29,7 +29,9 @@ const char* const kPdb =
     "HETATM    4 ZN    ZN A 100       4.000   4.000   3.000  1.00  0.00          ZN\n";
 
 const char* const kCif =
-    "data_x\nloop_\n_pdbx_struct_assembly.id\n_pdbx_struct_assembly.details\n1 dimer\n#\n"
+    "data_x\n_pdbx_struct_assembly.id 1\n_pdbx_struct_assembly.details author_defined_assembly\n"
+    "_pdbx_struct_assembly.method_details ?\n_pdbx_struct_assembly.oligomeric_details dimeric\n"
+    "_pdbx_struct_assembly.oligomeric_count 2\n#\n"
     "_pdbx_struct_assembly_gen.assembly_id 1\n_pdbx_struct_assembly_gen.oper_expression 1,2\n"
     "_pdbx_struct_assembly_gen.asym_id_list A\n#\nloop_\n_pdbx_struct_oper_list.id\n_pdbx_struct_oper_list.type\n"
     "_pdbx_struct_oper_list.matrix[1][1]\n_pdbx_struct_oper_list.matrix[1][2]\n_pdbx_struct_oper_list.matrix[1][3]\n"
@@ -103,11 +105,11 @@ TEST_CASE("a PDB file with atomic numbers behind its columns is no PQR") {
 #ifdef ESPDIFF_HAVE_GEMMI
   // As VMD's example deoxy.pdb has them.
   const ScratchFolder folder;
-  const std::string path = folder.write(
-      "deoxy.pdb",
-      "ATOM      1 CB   MET     0     -11.092   7.121 -18.545  1.00 28.04   6         \n"
-      "ATOM      2 CG   MET     0     -10.026   7.899 -17.775  1.00 28.18   6         \n"
-      "ATOM      3 SD   MET     0      -9.946   7.480 -16.010  1.00 27.93  16         \n");
+  const std::string path =
+      folder.write("deoxy.pdb",
+                   "ATOM      1 CB   MET     0     -11.092   7.121 -18.545  1.00 28.04   6         \n"
+                   "ATOM      2 CG   MET     0     -10.026   7.899 -17.775  1.00 28.18   6         \n"
+                   "ATOM      3 SD   MET     0      -9.946   7.480 -16.010  1.00 27.93  16         \n");
   const Molecule molecule = read_structure(path);
   REQUIRE(molecule.size() == 3);
   CHECK(molecule.charges.empty());

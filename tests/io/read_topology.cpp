@@ -19,7 +19,8 @@ namespace {
 const char* const kPsf =
     "PSF\n\n       1 !NTITLE\n REMARKS made\n\n       2 !NATOM\n"
     "       1 U    1    MET  N    NH3   -0.300000       14.0070           0\n"
-    "       2 U    1    MET  HT1  HC     0.330000        1.0080           0\n\n       1 !NBOND: bonds\n       1       2\n";
+    "       2 U    1    MET  HT1  HC     0.330000        1.0080           0\n\n       1 !NBOND: bonds\n       1       "
+    "2\n";
 const char* const kPrmtop =
     "%VERSION  VERSION_STAMP = V0001.000\n%FLAG TITLE\n%FORMAT(20a4)\nmade\n%FLAG POINTERS\n%FORMAT(10I8)\n"
     "       2       1\n%FLAG ATOM_NAME\n%FORMAT(20a4)\nN   H1  \n%FLAG CHARGE\n%FORMAT(5E16.8)\n"

@@ -31,8 +31,9 @@ TEST_CASE("run_program: a working folder, and none of our open files") {
 
 TEST_CASE("run_program: a signal, a missing program") {
   CHECK(run_program({{"sh", "-c", "kill -9 $$"}, {}, {}, 0, {}}).status == 128 + 9);
-  CHECK(message_of([] { run_program({{"no-such-program-1"}, {}, {}, 0, {}}); }) ==
-        "there is no program 'no-such-program-1'");
+  CHECK(message_of([] {
+          run_program({{"no-such-program-1"}, {}, {}, 0, {}});
+        }) == "there is no program 'no-such-program-1'");
   CHECK(find_program("no-such-program-1").empty());
   CHECK(find_program("sh").find("/sh") != std::string::npos);
 }
@@ -40,16 +41,17 @@ TEST_CASE("run_program: a signal, a missing program") {
 TEST_CASE("run_program: ends the program and its children when it may not go on") {
   const ScratchFolder folder;
   const auto begun = std::chrono::steady_clock::now();
-  const auto seconds = [&] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-  };
-  CHECK(message_of([] { run_program({{"sleep", "30"}, {}, {}, 0.2, {}}); }) == "sleep ran for more than 0 s and was ended");
+  const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count(); };
+  CHECK(message_of([] {
+          run_program({{"sleep", "30"}, {}, {}, 0.2, {}});
+        }) == "sleep ran for more than 0 s and was ended");
   int n = 0;
   const auto stop = [&] {
     if (++n > 5) throw Cancelled();
   };
   // The child would write the file after a second, if it lived.
-  CHECK_THROWS_AS(run_program({{"sh", "-c", "(sleep 1; echo > left) & wait"}, {}, folder.file(""), 0, stop}), Cancelled);
+  CHECK_THROWS_AS(run_program({{"sh", "-c", "(sleep 1; echo > left) & wait"}, {}, folder.file(""), 0, stop}),
+                  Cancelled);
   CHECK(seconds() < 10);
   run_program({{"sleep", "1.3"}, {}, {}, 0, {}});
   CHECK(folder.n_files() == 0);

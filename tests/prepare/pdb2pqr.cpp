@@ -10,9 +10,9 @@
 #include "base/error.h"
 #include "base/input_options.h"
 #include "io/read_structure.h"
-#include "io/structure_file.h"
 #include "io/run_program.h"
 #include "io/select_atoms.h"
+#include "io/structure_file.h"
 #include "io/write_pqr.h"
 #include "prepare/cache.h"
 #include "prepare/load_state.h"
@@ -164,8 +164,7 @@ TEST_CASE("prepare_molecule: selenomethionine is charged as methionine, and said
   const Molecule molecule = read(folder, selenium, "mse.pdb");
   const Prepared prepared = prepare(molecule);
   CHECK(prepared.molecule.charges == plain.molecule.charges);
-  CHECK(prepared.preparation.renamed == std::vector<std::string>{"MSE 1 of chain A as MET",
-                                                                 "MSE 6 of chain A as MET"});
+  CHECK(prepared.preparation.renamed == std::vector<std::string>{"MSE 1 of chain A as MET", "MSE 6 of chain A as MET"});
 }
 
 TEST_CASE("prepare_molecule: a phosphorylated residue, a ligand and an ion get no charge; three ways on") {
@@ -243,7 +242,8 @@ TEST_CASE("prepare_molecule: the cache gives the same, and a damaged entry is no
   if (text.empty() || !has_pdb2pqr()) return;
   const ScratchFolder folder;
   CHECK(message_of([&] { prepare(read(folder, lysozyme(1, 12), "short.pdb")); })
-            .find("short.pdb: PDB2PQR cannot prepare it: PROPKA cannot use it, such as a peptide of few residues; "
+            .find("short.pdb: has no charges, and PDB2PQR cannot prepare it: PROPKA cannot use it, such as a peptide "
+                  "of few residues; "
                   "complete or mend the structure, leave atoms out") == 0);
   setenv("XDG_CACHE_HOME", folder.file("cache").c_str(), 1);
   const Molecule molecule = read(folder, text);

@@ -49,8 +49,9 @@ TEST_CASE("set_surface_radii: what is asked for is taken or refused") {
   CHECK(set_surface_radii({&a, &b}, RadiiChoice::kFile).empty());
   CHECK(a.radii[0] == 2);
   CHECK(b.radii[0] == 1.9F);
-  CHECK(message_of([&] { set_surface_radii({&a, &c}, RadiiChoice::kFile); }) ==
-        "made.pqr: radii file was asked for, and the file has no radii; take radii element");
+  CHECK(message_of([&] {
+          set_surface_radii({&a, &c}, RadiiChoice::kFile);
+        }) == "made.pqr: radii file was asked for, and the file has no radii; take radii element");
   set_surface_radii({&a}, RadiiChoice::kElement);
   CHECK(a.radii[1] == doctest::Approx(1.7));
 }
