@@ -1,5 +1,6 @@
-// poisson_boltzmann.cpp: times the Poisson-Boltzmann potential, beside APBS where it is installed, and says how values
-// at a surface depend on the spacing, as CSV.
+// poisson_boltzmann.cpp: times the Poisson-Boltzmann potential beside APBS, shows what a start from an earlier
+// potential saves and how values at a surface depend on the spacing, as CSV; then one line for each figure that is
+// asked for.
 #include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
@@ -13,11 +14,15 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
 #include "dcd_frames.h"
+#include "engine/engine.h"
+#include "engine/poisson_boltzmann.h"
 #include "engine/select_engine.h"
 #include "io/read_structure.h"
 
@@ -86,11 +91,29 @@ espdiff::GridPtr potential(espdiff::Engine& engine, const Molecule& m, const Lat
   return engine.poisson_boltzmann(m.positions, m.radii, m.charges, lattice, options, {}, start, {}, report);
 }
 
-void print_row(const char* what, int threads, const Lattice& lattice, const Seconds& t, int cycles) {
-  std::printf("%s,%d,%zu,%.4f,%d,%.3f,%.3f\n", what, threads, lattice.n_points(), lattice.step[0].x, cycles, t.cpu,
-              t.wall);
+void print_row(const std::string& what, int threads, const Lattice& lattice, const Seconds& t,
+               const PoissonBoltzmannReport& report) {
+  std::printf("%s,%d,%zu,%.4f,%d,%.2e,%.2e,%.3f,%.3f\n", what.c_str(), threads, lattice.n_points(), lattice.step[0].x,
+              report.cycles, report.start_residual, report.relative_residual, t.cpu, t.wall);
   std::fflush(stdout);
 }
+
+/// Sentences for the end: each a figure beside what is asked for.
+class Summary {
+ public:
+  template <typename... Values>
+  void add(const char* format, Values... values) {
+    char text[240];
+    std::snprintf(text, sizeof text, format, values...);
+    lines_.emplace_back(text);
+  }
+  void print() const {
+    for (const std::string& line : lines_) std::printf("# %s\n", line.c_str());
+  }
+
+ private:
+  std::vector<std::string> lines_;
+};
 
 /// APBS on the same grid, focusing from one of 1.7 times its extent, without writing the potential.
 Seconds apbs_seconds(const Lattice& lattice, int repeats) {
@@ -115,63 +138,107 @@ Seconds apbs_seconds(const Lattice& lattice, int repeats) {
 
 constexpr double kFkbpSide_A = 67.2;  // 97 points of 0.7 A
 
-void measure_speed(int repeats) {
+void measure_speed(int repeats, Summary& summary) {
   if (!is_there(kFkbp)) return;
   const Molecule m = espdiff::read_structure(kFkbp);
   const Lattice lattice = cube(m, 97, kFkbpSide_A);
+  Seconds one, two;
   for (const int threads : {1, 2}) {
     const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, threads);
     PoissonBoltzmannReport report;
     const Seconds t = timed(repeats, RUSAGE_SELF, [&] { potential(*engine, m, lattice, &report); });
-    print_row("fkbp_97", threads, lattice, t, report.cycles);
+    print_row("fkbp_97", threads, lattice, t, report);
+    (threads == 1 ? one : two) = t;
+    if (threads == 1)
+      summary.add("memory: %.0f bytes a grid point, asked for before anything is computed", report.bytes_per_point);
   }
-  if (std::system("command -v apbs >/dev/null 2>&1") == 0) {
-    print_row("fkbp_97_apbs", 1, lattice, apbs_seconds(lattice, std::min(repeats, 3)), 0);
-  } else {
+  if (std::system("command -v apbs >/dev/null 2>&1") != 0) {
     std::fprintf(stderr, "SKIPPED: apbs is not on PATH\n");
+    return;
   }
+  const Seconds apbs = apbs_seconds(lattice, std::min(repeats, 3));
+  print_row("fkbp_97_apbs", 1, lattice, apbs, {});
+  summary.add("processor time on one thread over APBS': %.3f (at most 0.2)", one.cpu / apbs.cpu);
+  summary.add("wall time on two threads over APBS': %.3f (at most 0.1)", two.wall / apbs.wall);
 }
 
-void measure_sizes(int repeats, int largest) {
+void measure_sizes(int repeats, int largest, Summary& summary) {
   if (!is_there(kFkbp)) return;
   const Molecule m = espdiff::read_structure(kFkbp);
   const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 1);
+  double first = 0, last = 0, n_first = 0, n_last = 0, steepest = 0;
   for (const int n : {65, 97, 129, 193, 257}) {
     if (n > largest) break;
     const Lattice lattice = cube(m, n, kFkbpSide_A);
     PoissonBoltzmannReport report;
     const Seconds t = timed(n > 129 ? 1 : repeats, RUSAGE_SELF, [&] { potential(*engine, m, lattice, &report); });
-    print_row(("fkbp_size_" + std::to_string(n)).c_str(), 1, lattice, t, report.cycles);
+    print_row("fkbp_size_" + std::to_string(n), 1, lattice, t, report);
+    const auto points = static_cast<double>(lattice.n_points());
+    if (first == 0) {
+      first = t.cpu;
+      n_first = points;
+    } else {
+      steepest = std::max(steepest, std::log(t.cpu / last) / std::log(points / n_last));
+    }
+    last = t.cpu;
+    n_last = points;
   }
+  if (n_last > n_first)
+    summary.add(
+        "slope of the time in log-log from 65^3 to the largest grid: %.2f, at most %.2f between neighbours (at most "
+        "1.1)",
+        std::log(last / first) / std::log(n_last / n_first), steepest);
 }
 
-/// Adenylate kinase's frames as they follow each other: from zero, and from the frame before.
-void measure_frames(int n_frames) {
+Molecule moved(Molecule m, double by_A) {
+  std::mt19937 generator(3);
+  std::normal_distribution<double> along(0, by_A / std::sqrt(3.0));
+  for (Vec3d& p : m.positions) p = p + Vec3d{along(generator), along(generator), along(generator)};
+  return m;
+}
+
+/// What a start from an earlier potential saves: of adenylate kinase's frame before, of a frame whose atoms lie ever
+/// nearer, and of the same frame on a grid of half the spacing, which is as good as any earlier potential can be.
+void measure_starts(Summary& summary) {
   const std::string folder = data_folder() + "/traj_adk";
   if (!is_there(folder + "/adk_open.pqr") || !is_there(folder + "/adk_dims.dcd")) return;
   const Molecule open = espdiff::read_structure(folder + "/adk_open.pqr");
-  const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 1);
-  const Lattice lattice = espdiff::poisson_boltzmann_lattice(open.positions, open.radii, 0.7, 14);
-  espdiff::GridPtr before;
-  for (int i = 0; i < n_frames; ++i) {
-    const Molecule frame = espdiff_bench::read_frame(open, folder + "/adk_dims.dcd", 40 + i);
-    PoissonBoltzmannReport cold, warm;
-    const Seconds from_zero = timed(1, RUSAGE_SELF, [&] { potential(*engine, frame, lattice, &cold); });
-    print_row("adk_cold", 1, lattice, from_zero, cold.cycles);
-    espdiff::GridPtr now;
-    const Seconds from_before = timed(1, RUSAGE_SELF, [&] { now = potential(*engine, frame, lattice, &warm, before); });
-    if (before) print_row("adk_warm", 1, lattice, from_before, warm.cycles);
-    before = now;
+  const auto frame = [&](std::size_t i) { return espdiff_bench::read_frame(open, folder + "/adk_dims.dcd", i); };
+  const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 0);
+  const Molecule before = frame(40), next = frame(41);
+  const Lattice lattice = espdiff::poisson_boltzmann_lattice(before.positions, before.radii, 0.5, 12);
+  const auto row = [&](const std::string& name, const Molecule& m, const Lattice& on, const espdiff::GridPtr& start) {
+    PoissonBoltzmannReport report;
+    espdiff::GridPtr made;
+    const Seconds t = timed(1, RUSAGE_SELF, [&] { made = potential(*engine, m, on, &report, start); });
+    print_row("start_" + name, 0, on, t, report);
+    return std::make_pair(made, report);
+  };
+  const auto [from, cold] = row("zero", before, lattice, nullptr);
+  const PoissonBoltzmannReport frame_before = row("frame_before", next, lattice, from).second;
+  for (const double by_A : {0.05, 0.01, 0.001})
+    row("moved_by_" + std::to_string(by_A), moved(before, by_A), lattice, from);
+  Lattice fine = lattice;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    fine.size[axis] = 2 * fine.size[axis] - 1;
+    fine.step[axis] = 0.5 * fine.step[axis];
   }
+  const PoissonBoltzmannReport finer =
+      row("itself_at_half_the_spacing", before, lattice, row("fine", before, fine, nullptr).first).second;
+  summary.add(
+      "cycles from zero %d, from the frame before %d (half is asked for), from the same frame at half the spacing %d",
+      cold.cycles, frame_before.cycles, finer.cycles);
 }
 
 /// Pairs whose atoms lie in one frame: both potentials on the first one's surface.
-void study_spacing(const std::string& name, const std::string& first, const std::string& second, double finest) {
+void study_spacing(const std::string& name, const std::string& first, const std::string& second, double finest,
+                   Summary& summary) {
   if (!is_there(first) || !is_there(second)) return;
   const Molecule a = espdiff::read_structure(first), b = espdiff::read_structure(second);
   const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 0);
   const auto atoms = engine->upload_atoms(a.positions, a.radii, std::vector<std::int32_t>(a.size(), 0));
   const auto surface = engine->project(engine->isosurface(engine->density(atoms, 1.0), 0.5F), atoms, 0.5F, 1.0);
+  double usual = 0, halved = 0;
   for (const auto smoothing : {espdiff::DielectricSmoothing::kEdges, espdiff::DielectricSmoothing::kNinePoint}) {
     for (const double h : {1.0, 0.7, 0.5, 0.35, 0.25}) {
       if (h < finest) break;
@@ -192,34 +259,42 @@ void study_spacing(const std::string& name, const std::string& first, const std:
                   smoothing == espdiff::DielectricSmoothing::kEdges ? "edges" : "nine_point", h, std::sqrt(squares / n),
                   differences / n);
       std::fflush(stdout);
+      if (smoothing == espdiff::DielectricSmoothing::kEdges && h == espdiff::kUsualPbSpacing_A) usual = differences / n;
+      if (smoothing == espdiff::DielectricSmoothing::kEdges && h == 0.5 * espdiff::kUsualPbSpacing_A)
+        halved = differences / n;
     }
   }
+  if (halved > 0)
+    summary.add("%s: halving the usual spacing changes the mean absolute difference by %.2f %% (at most 3 %%)",
+                name.c_str(), 100 * std::fabs(halved / usual - 1));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app("Times the Poisson-Boltzmann potential, beside APBS, and how it depends on the spacing.");
-  int repeats = 5, largest = 257, frames = 4;
+  int repeats = 5, largest = 257;
   double finest = 0.25;
   bool no_study = false;
   app.add_option("--repeats", repeats, "The least of so many times counts");
   app.add_option("--largest", largest, "Points along an edge of the largest grid");
-  app.add_option("--frames", frames, "Of adenylate kinase");
   app.add_option("--finest", finest, "Finest spacing of the study, Angstrom");
   app.add_flag("--no-study", no_study, "Times alone");
   CLI11_PARSE(app, argc, argv);
   try {
-    std::printf("case,threads,points,spacing_A,cycles,cpu_s,wall_s\n");
-    measure_speed(repeats);
-    measure_sizes(repeats, largest);
-    measure_frames(frames);
-    if (no_study) return 0;
-    const std::string data = data_folder();
-    study_spacing("1ajj_ph7_ph2", data + "/pqr_pdb2pqr/1AJJ_pH7_AMBER.pqr", data + "/pqr_pdb2pqr/1AJJ_pH2_AMBER.pqr",
-                  finest);
-    study_spacing("t4l", data + "/pair_t4l_maps/3lzm.pqr", data + "/pair_t4l_maps/181l_fit.pqr", finest);
-    study_spacing("tim", data + "/pair_tim_maps/scTIM_chainA.pqr", data + "/pair_tim_maps/dTIM_chainA.pqr", finest);
+    std::printf("case,threads,points,spacing_A,cycles,start_residual,residual,cpu_s,wall_s\n");
+    Summary summary;
+    measure_speed(repeats, summary);
+    measure_sizes(repeats, largest, summary);
+    measure_starts(summary);
+    const std::string data = data_folder(), pqr = data + "/pqr_pdb2pqr/1AJJ_pH", t4l = data + "/pair_t4l_maps/",
+                      tim = data + "/pair_tim_maps/";
+    if (!no_study) {
+      study_spacing("1AJJ", pqr + "7_AMBER.pqr", pqr + "2_AMBER.pqr", finest, summary);
+      study_spacing("T4 lysozyme", t4l + "3lzm.pqr", t4l + "181l_fit.pqr", finest, summary);
+      study_spacing("TIM", tim + "scTIM_chainA.pqr", tim + "dTIM_chainA.pqr", finest, summary);
+    }
+    summary.print();
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "espdiff_poisson_boltzmann: %s\n", error.what());

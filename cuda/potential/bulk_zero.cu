@@ -1,4 +1,4 @@
-// bulk_zero.cu: finds the points of a cell that are far from the solute, and takes their mean for zero.
+// bulk_zero.cu: finds the grid points far from the solute, and subtracts their mean.
 #include "cuda/potential/bulk_zero.h"
 
 #include <cmath>
@@ -8,7 +8,7 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// Sum and number of what is counted.
+/// Sum and number of the selected values.
 struct Total {
   double sum = 0, n = 0;
   ESPDIFF_HD Total& operator+=(const Total& other) {
@@ -18,7 +18,7 @@ struct Total {
   }
 };
 
-/// [point] 1 where no image of an atom is nearer than the distance, else 0.
+/// [point] 1 if every image of every atom is farther than the distance, otherwise 0.
 Buffer<std::uint32_t> far_points(const Lattice& lattice, const std::vector<Vec3d>& solute, double distance_A) {
   Buffer<std::uint32_t> far(lattice.n_points(), 1U);
   double to_index[12];

@@ -1,4 +1,4 @@
-// bulk_zero.h: the zero of a periodic potential moved to its bulk solvent (see Engine::zero_in_bulk).
+// bulk_zero.h: moves the zero of a periodic potential to its bulk solvent (see Engine::zero_in_bulk).
 #pragma once
 
 #include <memory>

@@ -61,6 +61,11 @@ SolverReport conjugate_gradients(const GridOperator& a, Multigrid& preconditione
     exact_residual(a, x, work.low, b, work.r);
     report.relative_residual = std::sqrt(dot_product(work.r, work.r)) / options.norm;
     if (restart == 0) report.start_residual = report.relative_residual;
+    if (restart == 0 && report.relative_residual > 1) {  // worse than zero
+      clear_inner(a.size, x);
+      exact_residual(a, x, work.low, b, work.r);
+      report.relative_residual = std::sqrt(dot_product(work.r, work.r)) / options.norm;
+    }
     report.converged = report.relative_residual <= options.tolerance;
     const bool is_over = report.cycles >= options.max_cycles || restart == kMostRestarts;
     if (report.converged || is_over || !std::isfinite(report.relative_residual)) break;

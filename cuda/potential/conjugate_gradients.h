@@ -35,7 +35,8 @@ struct SolverWork {
 /// Rounding x to single precision alone can leave a residual above the tolerance. So x has a second part, `work.low`,
 /// which takes the corrections after a restart (iterative refinement), and true residuals are computed in double
 /// precision from x + low. The caller gets their sum, rounded once.
-/// @param x     [point] start and result; its border has the Dirichlet values
+/// @param x     [point] start and result; its border has the Dirichlet values. A start with a residual above 1, worse
+///              than zero, is replaced by zero.
 /// @param step  called after each cycle with the relative residual
 SolverReport conjugate_gradients(const GridOperator& a, Multigrid& preconditioner, const Buffer<float>& b,
                                  const SolverOptions& options, SolverWork& work, Buffer<float>& x,

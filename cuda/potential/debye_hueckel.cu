@@ -9,7 +9,7 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// Distance of the points on which the sum is evaluated: far from atoms it varies over many Angstrom.
+/// Distance between evaluations of the sum. Far from atoms it varies over many Angstrom.
 constexpr double kBorderSpacing_A = 2.5;
 
 /// Charges for the sum: strength = scale q exp(kappa a) / (1 + kappa a).
@@ -18,7 +18,7 @@ struct BorderCharges {
   const float* y;
   const float* z;
   const float* strength;
-  std::size_t n;  ///< a multiple of kLanes; those added have no strength
+  std::size_t n;  ///< a multiple of kLanes, padded with charges of strength 0
   float kappa;
 };
 constexpr std::size_t kLanes = 16;
@@ -53,7 +53,7 @@ struct BorderSums {
   float* values;
 
   ESPDIFF_INLINE void at(std::size_t index) const {
-    // The last points may lie beyond the face: the sum holds there too.
+    // The last points may lie beyond the face, where the sum is valid too.
     const int u = static_cast<int>(index % static_cast<std::size_t>(face.coarse[0])),
               v = static_cast<int>(index / static_cast<std::size_t>(face.coarse[0]));
     const float a = static_cast<float>(u * stride), b = static_cast<float>(v * stride);
@@ -70,7 +70,7 @@ ESPDIFF_MULTIVERSION void sum_points(const BorderSums& sums, std::size_t first, 
 }
 #endif
 
-/// Lagrange's cubic weights of four points in a row, t from 0 to 1 between the middle two; beyond them also good.
+/// Weights of cubic Lagrange interpolation on four points in a row; t runs from 0 to 1 between the middle two.
 ESPDIFF_INLINE void cubic_weights(float t, float (&w)[4]) {
   w[0] = -t * (t - 1.0F) * (t - 2.0F) / 6.0F;
   w[1] = (t + 1.0F) * (t - 1.0F) * (t - 2.0F) * 0.5F;

@@ -8,7 +8,7 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
-/// What the border's potential depends on.
+/// Constants of the border's potential.
 struct DebyeHueckel {
   double scale = 0;  ///< C / eps_solvent, kT A / e^2
   double kappa = 0;  ///< inverse Debye length
@@ -18,7 +18,7 @@ struct DebyeHueckel {
 ///
 ///     phi(x) = scale sum_i q_i exp(-kappa (r - a_i)) / ((1 + kappa a_i) r),   r = |x - x_i|, a_i the atom's radius
 ///
-/// (APBS' `mdh`), exact on every `stride`-th point along the edges of a face, cubic in between.
+/// (APBS' `mdh`). The sum is evaluated every 2.5 A on each face, and interpolated by cubics in between.
 void set_debye_hueckel_border(const std::vector<PbAtom>& atoms, const CubicLattice& lattice, const DebyeHueckel& law,
                               Buffer<float>& phi);
 

@@ -1,4 +1,4 @@
-// dielectric_map.cu: the faces' dielectrics by the solute's shape or by Gaussians, and the ions' exclusion.
+// dielectric_map.cu: dielectrics of faces from the solute's shape or from Gaussians; where ions are excluded.
 #include "cuda/potential/dielectric_map.h"
 
 #include <algorithm>
@@ -13,12 +13,12 @@ CubicLattice faces_along(CubicLattice lattice, int axis) {
   return lattice;
 }
 
-/// Dielectrics of a face by how many of it and the eight around it lie in the solute.
+/// [count] dielectric of a face, by how many of the nine samples lie in the solute.
 struct SmoothDielectric {
   float of[10];
 };
 
-/// Faces along one axis from the depths of all three kinds' middles.
+/// Faces along one axis, from the depths at the centres of all three kinds of faces.
 struct NinePoint {
   const float* own;
   const float* side;
@@ -63,7 +63,7 @@ void fill_by_nine_points(const SoluteShape& shape, const CubicLattice& lattice, 
   smooth_faces(on_grid.size, depths, 2, dielectric, on_grid.ez);
 }
 
-/// The dielectric between two points: in series, with the boundary where the depth is zero between them.
+/// The dielectric between two points: the two parts in series; they meet where the depth is zero.
 struct EdgeDielectric {
   float inverse_solute, inverse_solvent;
 

@@ -1,4 +1,4 @@
-// fourier.h: convolution of a periodic grid in Fourier space: FFTW on the CPU, cuFFT on a device.
+// fourier.h: convolution of a periodic grid in Fourier space, by FFTW on the CPU and cuFFT on a device.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
-/// The factor that each Fourier mode of the charges is multiplied by: the Ewald sum's, over the splines'.
+/// Factor of each Fourier mode of the charges: the Ewald sum's factor divided by the splines'.
 template <typename T>
 struct Influence {
   int size[3];
@@ -26,8 +26,8 @@ ESPDIFF_INLINE double gaussian_of(double exponent) { return exp(exponent); }
 /// -size/2 < m <= size/2
 ESPDIFF_INLINE int signed_mode(int k, int size) { return k <= size / 2 ? k : k - size; }
 
-/// The factor of the modes (x, y, z), z from 0 to its size; m = 0 is left out, which stands for a uniform background
-/// that makes the cell neutral, and for a potential of mean zero.
+/// The factors of the modes (x, y, z), z from 0 to its size. The mode m = 0 is 0: a uniform background neutralizes the
+/// cell, and the potential's mean is zero.
 /// @param in_plane the sum of the first two axes' reciprocal parts, plane_factor their splines' factors times the scale
 template <typename T>
 ESPDIFF_INLINE T influence_at(const Influence<T>& f, Vec3<T> in_plane, T plane_factor, int z) {
@@ -42,7 +42,7 @@ ESPDIFF_INLINE Vec3<T> in_plane_mode(const Influence<T>& f, int x, int y) {
          static_cast<T>(signed_mode(y, f.size[1])) * f.reciprocal[1];
 }
 
-/// A real periodic grid, x fastest, with what its transforms need. Slabs of constant z begin at multiples of
+/// A real periodic grid, x fastest, with the workspace of its transforms. Slabs of constant z begin at multiples of
 /// slab_stride().
 template <typename T>
 class FourierGrid {
@@ -55,7 +55,7 @@ class FourierGrid {
   virtual void convolve(const Influence<T>& influence) = 0;
 };
 
-/// @throws DeviceError where the back end's library of Fourier transforms is absent, with the remedy
+/// @throws DeviceError if the back end's FFT library is absent; the message says how to install it
 template <typename T>
 std::unique_ptr<FourierGrid<T>> make_fourier_grid(std::array<int, 3> size);
 

@@ -1,7 +1,7 @@
 // fourier_cufft.cu: the CUDA back end's Fourier transforms: cuFFT, loaded when a potential is first asked for.
 //
-// libcufft takes 290 MB: linked, it would have to be on every machine that only loads our module, and NVIDIA's static
-// form would make the module as large. So it is opened by name, and a machine without it is told what to install.
+// libcufft takes 290 MB. If it were linked, every machine that loads the module would need it; linked statically, the
+// module would be as large. So it is opened at first use, and its absence is an error that says what to install.
 #include "cuda/potential/fourier.h"
 
 #include <cuda_runtime.h>

@@ -1,10 +1,10 @@
-// fourier_fftw.cu: the CPU back end's Fourier transforms: FFTW's one-dimensional ones, arranged so that the grid passes
-// through the cache three times in all.
+// fourier_fftw.cu: the CPU back end's Fourier transforms: FFTW's one-dimensional transforms, arranged so that the grid
+// passes through the cache three times.
 //
-// FFTW's own three-dimensional plans take about twice as long when they are only estimated, and measured ones depend on
-// the machine's load at the time. Here: (1) each slab's rows x (real to complex), then its columns y; (2) blocks of
-// columns z forward, times the influence, and back; (3) each slab back. Every slab and block is transformed by one plan
-// wherever it lies and whoever does it, hence the same bits for any number of threads.
+// FFTW's own three-dimensional plans take twice as long if estimated; measured plans depend on the machine's load.
+// Here: (1) each slab's rows x (real to complex), then its columns y; (2) blocks of columns z forward, times the
+// influence, and back; (3) each slab back. All slabs and blocks share one plan, so the bits do not depend on the number
+// of threads.
 #include "cuda/potential/fourier.h"
 
 #include <algorithm>
@@ -64,7 +64,7 @@ struct Fftw<double> {
   static void run(Plan plan, Complex* in, Complex* out) { fftw_execute_dft(plan, in, out); }
 };
 
-/// Only executing a plan is safe while another thread does the same.
+/// FFTW is thread-safe only in executing plans.
 std::mutex& planner() {
   static std::mutex mutex;
   return mutex;
@@ -72,7 +72,7 @@ std::mutex& planner() {
 
 /// Columns that are transformed together.
 constexpr std::size_t kBlock = 16;
-/// Parts that slabs and blocks are shared out in; each has its own scratch space.
+/// Number of parts of the work; each has its own scratch space.
 constexpr std::size_t kMostParts = 32;
 
 /// Multiplies a block of columns [column][z] by the influence.
@@ -116,8 +116,8 @@ class FftwGrid : public FourierGrid<T> {
     slab_ = odd_multiple(nx * ny);
     plane_ = odd_multiple(complex_row_ * ny);
     n_parts_ = std::min(nz, kMostParts);
-    // Aligned as FFTW's plans want it: one more block, from which the first aligned address is taken.
-    // The gaps between slabs and columns are transformed along with the rest, hence hold numbers.
+    // One more block, so that an address aligned for FFTW's plans exists.
+    // The gaps between slabs and columns are transformed too, so they must hold numbers.
     values_.assign(slab_ * nz + kBlock, T(0));
     modes_.assign(2 * plane_ * nz + kBlock, T(0));
     scratch_per_part_ = 2 * std::max(plane_, kBlock * nz);

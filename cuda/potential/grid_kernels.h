@@ -1,8 +1,8 @@
-// grid_kernels.h: how a kernel is run over the inner points of a grid: row by row on the CPU, point by point on a GPU.
+// grid_kernels.h: runs a kernel over the inner points of a grid: row by row on the CPU, point by point on a GPU.
 //
-// A kernel is a struct of pointers with at(point, colour), which writes what belongs to the point. A coloured kernel
-// (kColoured) changes points of its own colour alone and reads neighbours of the other one; it is called for all points
-// on the CPU, where it must leave those of the other colour as they are, so that whole rows vectorize.
+// A kernel is a struct of pointers with at(point, colour), which writes the values of that point only. A coloured
+// kernel (kColoured) changes points of one colour and reads neighbours of the other. The CPU calls it for points of
+// both colours, so that whole rows vectorize; it must not change points of the other colour.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ struct GridSize {
 
 #if !defined(__CUDACC__)
 
-/// Grids of fewer points than this are left to one thread: starting the others would take longer.
+/// Smaller grids run on one thread: starting the others would take longer.
 constexpr std::size_t kSerialPoints = 8192;
 
 /// The rows of planes [k0, k1), without the border.
@@ -43,7 +43,7 @@ ESPDIFF_INLINE void run_rows(const Kernel& given, const GridSize& size, int k0, 
   }
 }
 
-/// Compiles a kernel's rows for several instruction sets; a template cannot be.
+/// Compiles a kernel's rows for several instruction sets, which is not possible for a template.
 #define ESPDIFF_GRID_KERNEL(Kernel)                                                                       \
   ESPDIFF_MULTIVERSION void run_kernel_rows(const Kernel& kernel, const GridSize& size, int k0, int k1) { \
     run_rows(kernel, size, k0, k1);                                                                       \
@@ -83,7 +83,7 @@ void run_on_grid(const GridSize& size, const Kernel& kernel) {
 
 #endif
 
-/// Several sums side by side, so that additions of neighbours do not wait for each other.
+/// Several independent partial sums, so that additions do not wait for each other.
 struct LaneSums {
   static constexpr int kLanes = 8;
   double sum[kLanes] = {};

@@ -1,4 +1,4 @@
-// multigrid.cu: kernels of the operator, of Gauss-Seidel sweeps and of the way between grids; the V-cycle.
+// multigrid.cu: kernels of the operator, of Gauss-Seidel sweeps, and between grids; the V-cycle.
 #include "cuda/potential/multigrid.h"
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// Coefficients as kernels see them.
+/// The operator's coefficients for kernels.
 struct OperatorView {
   const float* ex;
   const float* ey;
@@ -87,6 +87,15 @@ struct ExactResidual {
 };
 ESPDIFF_GRID_KERNEL(ExactResidual)
 
+struct Clear {
+  static constexpr bool kColoured = false;
+  int colour;
+  float* x;
+
+  ESPDIFF_INLINE void at(std::size_t p, int) const { x[p] = 0.0F; }
+};
+ESPDIFF_GRID_KERNEL(Clear)
+
 /// The first half of a sweep from zero: points of the colour by their own equation, the others zero.
 struct StartSweep {
   static constexpr bool kColoured = false;
@@ -120,7 +129,7 @@ void half_sweep(const GridOperator& a, int colour, const Buffer<float>& b, Buffe
   run_on_grid(a.size, HalfSweep{colour, view_of(a), raw(b), raw(x)});
 }
 
-/// Points of the next coarser grid along an axis; its last one may lie one step beyond the finer grid's.
+/// Points of the next coarser grid along an axis. Its last point may lie one step beyond the finer grid.
 int coarser(int n) { return n / 2 + 1; }
 
 /// b of the coarse grid: half the transpose of trilinear interpolation of r; the half belongs to the doubled spacing.
@@ -216,7 +225,7 @@ void coarsen(const GridOperator& fine, GridOperator& coarse) {
     ex[p] = coarse_face(from.ex, f, 0, i, j, k);
     ey[p] = coarse_face(from.ey, f, 1, i, j, k);
     ez[p] = coarse_face(from.ez, f, 2, i, j, k);
-    // What ions add, k, is what the diagonal has beyond the faces; four times it for the doubled spacing.
+    // k is the diagonal minus the faces; it quadruples with the doubled spacing.
     float ions = 0;
     const bool is_inner = i > 0 && j > 0 && k > 0 && 2 * i < f.nx - 1 && 2 * j < f.ny - 1 && 2 * k < f.nz - 1;
     if (is_inner) {
@@ -261,6 +270,8 @@ void exact_residual(const GridOperator& a, const Buffer<float>& x, const Buffer<
                     Buffer<float>& r) {
   run_on_grid(a.size, ExactResidual{0, view_of(a), raw(x), raw(low), raw(b), raw(r)});
 }
+
+void clear_inner(const GridSize& size, Buffer<float>& x) { run_on_grid(size, Clear{0, raw(x)}); }
 
 void add_parts(Buffer<float>& x, Buffer<float>& low) {
   float* const high = raw(x);

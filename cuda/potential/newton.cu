@@ -6,7 +6,7 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// Beyond this sinh would overflow; where ions may be, no potential of a converged solution comes near it.
+/// Avoids overflow of sinh. Converged potentials in the solvent are far smaller.
 constexpr float kMostArgument = 50;
 constexpr int kMostHalvings = 12;
 constexpr double kStepTolerance = 0.1;
@@ -46,7 +46,7 @@ double nonlinear_residual(const GridOperator& on_grid, const Buffer<float>& k, c
               j = static_cast<int>(p / size.row() % static_cast<std::size_t>(size.ny)),
               plane = static_cast<int>(p / size.plane());
     const bool is_inner = i > 0 && j > 0 && plane > 0 && i < size.nx - 1 && j < size.ny - 1 && plane < size.nz - 1;
-    // The operator took k cosh(at) x for the ions' term.
+    // The operator used k cosh(at) x for the ions' term.
     const float cosine = coshf(cut(at[p]));
     const float excess = cosine * value[p] - sinhf(cut(value[p]));
     if (is_inner) residual[p] += ions[p] * (excess + (cosine - coshf(cut(value[p]))) * rest[p]);
@@ -79,6 +79,12 @@ NewtonReport newton(GridOperator& on_grid, const Buffer<float>& k, const Buffer<
   double norm = nonlinear_residual(on_grid, k, x, b, {x, low}, residual);
   SolverReport& told = report.solver;
   told.start_residual = norm / options.norm;
+  if (!(norm <= options.norm)) {
+    // A start with a strong potential where ions are now: sinh makes it far worse than zero.
+    clear_inner(on_grid.size, x);
+    set_jacobian(on_grid, k, x);
+    norm = nonlinear_residual(on_grid, k, x, b, {x, low}, residual);
+  }
   for (;;) {
     told.relative_residual = norm / options.norm;
     told.converged = told.relative_residual <= options.tolerance;
@@ -96,10 +102,10 @@ NewtonReport newton(GridOperator& on_grid, const Buffer<float>& k, const Buffer<
       next = nonlinear_residual(on_grid, k, x, b, {work.z, work.p}, work.scratch);
       if (next < norm * (1 - 1e-4 * part) || halvings == kMostHalvings) break;
     }
-    if (!(next < norm)) return report;  // no part of the way helps
+    if (!(next < norm)) return report;  // no step length reduces the residual
     x = work.z;
     low = work.p;
-    // The border of z is the one of x, which conjugate gradients expect to be zero.
+    // z has the border of x now; conjugate gradients expect zero there.
     work.z.assign(x.size(), 0.0F);
     work.scratch.assign(x.size(), 0.0F);
     set_jacobian(on_grid, k, x);

@@ -1,4 +1,4 @@
-// pb_atoms.h: an atom as the Poisson-Boltzmann equation sees it.
+// pb_atoms.h: an atom of the Poisson-Boltzmann equation.
 #pragma once
 
 #include "cuda/device/device.h"

@@ -22,7 +22,7 @@ void require(bool holds, const std::string& what, double value, const std::strin
   throw InputError(what + " " + text_of(value) + unit + " " + rule);
 }
 
-/// A charge that no atom's sphere holds would lie bare in the solvent, where its potential has no meaning.
+/// Refuses charges in the solvent, outside all spheres: their potential has no meaning.
 void check_bare_charges(const std::vector<Vec3d>& positions, const std::vector<float>& radii,
                         const std::vector<float>& charges) {
   for (std::size_t i = 0; i < positions.size(); ++i) {

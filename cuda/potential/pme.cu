@@ -1,4 +1,4 @@
-// pme.cu: smooth particle-mesh Ewald: checks what is asked for, spreads the charges, and convolves the grid.
+// pme.cu: smooth particle-mesh Ewald: checks the parameters, spreads the charges, and convolves the grid.
 #include "cuda/potential/pme.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ double checked_volume(const PmeCell& cell) {
   if (!is_finite(cell.centre) || !is_finite(e[0]) || !is_finite(e[1]) || !is_finite(e[2]))
     throw InputError("the cell has a centre or an edge that is not finite; give twelve numbers in Angstrom");
   const double volume = dot(e[0], cross(e[1], e[2]));
-  // Flatter than this, the reciprocal edges would be noise.
+  // In a flatter cell the reciprocal edges would be rounding noise.
   constexpr double kFlat = 1e-6;
   if (volume > kFlat * norm(e[0]) * norm(e[1]) * norm(e[2])) return volume;
   throw InputError("the cell's edges " + text_of(e[0]) + ", " + text_of(e[1]) + " and " + text_of(e[2]) +
@@ -65,7 +65,7 @@ void check_options(const PmeOptions& o) {
   check_sizes(o);
 }
 
-/// Values, modes, scratch and result, for each grid point.
+/// Memory of a grid point: values, modes, scratch and result.
 void check_memory(const PmeOptions& o) {
   const double per_point = o.precision == Precision::kDouble ? 8 + 9 + 4 : 4 + 5 + 4;
   const double n_points = static_cast<double>(o.size[0]) * o.size[1] * o.size[2];
@@ -76,14 +76,14 @@ void check_memory(const PmeOptions& o) {
                     std::to_string(coarser) + " times as coarse would fit");
 }
 
-/// Rows of the matrix that takes positions to parts of the edges: the reciprocal edges, 1/A.
+/// Reciprocal edges, 1/A: the rows of the matrix from positions to fractional coordinates.
 std::array<Vec3d, 3> reciprocal_edges(const PmeCell& cell) {
   const auto& e = cell.edges;
   const double inverse = 1.0 / dot(e[0], cross(e[1], e[2]));
   return {inverse * cross(e[1], e[2]), inverse * cross(e[2], e[0]), inverse * cross(e[0], e[1])};
 }
 
-/// Charges in grid coordinates, wrapped into the cell; atoms without charge are left out.
+/// Charges in grid coordinates, wrapped into the cell, without atoms of charge 0.
 std::vector<GridCharge> place_charges(const std::vector<Vec3d>& positions, const std::vector<float>& charges,
                                       const PmeCell& cell, const PmeOptions& options) {
   const std::array<int, 3>& size = options.size;
@@ -116,7 +116,7 @@ double centred_spline(int order, double x) {
          (order - 1);
 }
 
-/// [mode] what undoes the splines along one axis: one over the transform of the centred spline at whole numbers.
+/// [mode] one over the transform of the centred spline at whole numbers: deconvolves the splines along one axis.
 template <typename T>
 Buffer<T> spline_factors(int size, const PmeOptions& options) {
   std::vector<double> spline(static_cast<std::size_t>(options.order / 2 + 1));
@@ -133,8 +133,8 @@ Buffer<T> spline_factors(int size, const PmeOptions& options) {
   return to_device(factors);
 }
 
-/// What the map lacks of the full sum, and the constant that keeps its mean over the cell at zero: the direct part's
-/// mean, C pi Q / (beta^2 V), which a net charge Q leaves.
+/// The direct part of the sum, and the constant that keeps the mean over the cell at zero: the mean of the direct part
+/// of a net charge Q, C pi Q / (beta^2 V).
 void add_direct_part(const std::vector<Vec3d>& positions, const std::vector<float>& charges, const PmeCell& cell,
                      const PmeOptions& options, MapGrid& map) {
   const double coulomb = coulomb_in_kt(options.temperature_K), beta = options.ewald_factor;

@@ -11,7 +11,7 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
-/// Computes maps, and keeps the plans and workspace of the last size for the next map of that size.
+/// Computes maps. Keeps plans and workspace for the next map of the same size.
 class PmeSolver {
  public:
   std::shared_ptr<MapGrid> potential(const std::vector<Vec3d>& positions, const std::vector<float>& charges,

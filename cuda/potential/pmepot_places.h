@@ -1,7 +1,7 @@
-// pmepot_places.h: where PMEPot sees a charge: grid coordinates with the roundings of its single precision.
+// pmepot_places.h: grid coordinates of charges with the rounding of PMEPot's single precision.
 //
-// Its coordinates are off by up to 1e-5 grid steps, which moves the potential of a box of water by 2e-5 of its maximum:
-// more than a compatible mode may differ. Nothing else of its arithmetic matters that much.
+// PMEPot's coordinates are off by up to 1e-5 grid steps. That changes the potential of a box of water by 2e-5 of its
+// maximum, more than the compatible mode may differ. The rest of its arithmetic matters less.
 #pragma once
 
 #include <array>

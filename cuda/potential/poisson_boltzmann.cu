@@ -1,4 +1,4 @@
-// poisson_boltzmann.cu: from atoms to the potential: sets up the equation on the grid and has it solved.
+// poisson_boltzmann.cu: from atoms to the potential: sets up the equation on the grid and solves it.
 #include "cuda/potential/poisson_boltzmann.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-/// Ions of one kind in a cubic Angstrom, of 1 mol/l: Avogadro's number, 6.02214076e23 (CODATA 2018), times 1e-27.
+/// Ions of one kind per cubic Angstrom at 1 mol/l: Avogadro's number, 6.02214076e23 (CODATA 2018), times 1e-27.
 constexpr double kIonsPerA3 = 6.02214076e-4;
 
 /// The equation's constants; see docs/potentials.md.
@@ -36,7 +36,7 @@ Constants constants_of(const PoissonBoltzmannOptions& o) {
   return c;
 }
 
-/// Atoms in an order that depends on nothing but themselves, so that theirs in the input changes no bit.
+/// Atoms sorted by position, so that their order in the input changes no bit.
 std::vector<PbAtom> sorted_atoms(const std::vector<Vec3d>& positions, const std::vector<float>& radii,
                                  const std::vector<float>& charges) {
   std::vector<PbAtom> atoms;
@@ -81,7 +81,7 @@ Buffer<float> right_hand_side(const std::vector<PbAtom>& atoms, const CubicLatti
   return b;
 }
 
-/// Visits the grid's border: sets phi there to the trilinear samples of a map around it.
+/// Sets the border of phi to trilinear samples of a wider map.
 void set_border_from(const MapGrid& around, const CubicLattice& lattice, Buffer<float>& phi) {
   MapGrid in_its_frame;
   in_its_frame.lattice = around.lattice;
@@ -100,7 +100,7 @@ void set_border_from(const MapGrid& around, const CubicLattice& lattice, Buffer<
   });
 }
 
-/// phi = an earlier potential where it has one, zero elsewhere.
+/// phi = an earlier potential; zero outside it.
 void start_from(const MapGrid& start, const Lattice& lattice, Buffer<float>& phi) {
   MapGrid in_its_frame;
   in_its_frame.lattice = start.lattice;
@@ -121,7 +121,7 @@ Lattice twice_as_wide(Lattice lattice) {
   return lattice;
 }
 
-/// What one solution takes, on one grid.
+/// Inputs of a solution, on any grid.
 struct Problem {
   const std::vector<PbAtom>& atoms;
   const PoissonBoltzmannOptions& options;
@@ -145,7 +145,7 @@ void throw_not_converged(const PoissonBoltzmannOptions& o, const SolverReport& s
   throw ConvergenceError(text);
 }
 
-/// Solves for phi, whose border is set, and tells how.
+/// Solves for phi, whose border is set, and fills the report.
 void solve(const Problem& problem, const CubicLattice& lattice, Buffer<float>& phi, PoissonBoltzmannReport& report) {
   const PoissonBoltzmannOptions& options = problem.options;
   const double h = static_cast<double>(lattice.spacing);

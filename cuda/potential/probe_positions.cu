@@ -1,4 +1,4 @@
-// probe_positions.cu: neighbours whose spheres meet, the exposed arcs of the circles where they do, points on the arcs.
+// probe_positions.cu: neighbours whose spheres intersect, the exposed arcs of their circles, points on the arcs.
 #include "cuda/potential/probe_positions.h"
 
 #include <cmath>
@@ -6,7 +6,7 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// Between points of an arc. The surface is off by a square of half of it over twice the probe's radius.
+/// Distance d between points of an arc. The surface is off by (d / 2)^2 / (2 probe radius).
 constexpr float kArcSpacing_A = 0.2F;
 constexpr float kTwoPi = 6.28318531F;
 constexpr int kMostArcs = 24;
@@ -27,7 +27,7 @@ void find_neighbours(ProbeAtoms& atoms, float max_radius) {
         const float square = dx * dx + dy * dy + dz * dz, reach = radius[a] + radius[b];
         if (square >= reach * reach) continue;
         if (out != nullptr) {
-          // By distance: the nearest cover most.
+          // Nearest first: they cover most.
           std::uint32_t at = found;
           for (; at > 0; --at) {
             const std::uint32_t c = out[at - 1];
@@ -51,10 +51,10 @@ void find_neighbours(ProbeAtoms& atoms, float max_radius) {
       n, [=] ESPDIFF_HD(std::size_t a) { visit_neighbours(static_cast<std::uint32_t>(a), neighbour + first[a]); });
 }
 
-/// The circle in which the spheres of two atoms meet.
+/// The circle in which the spheres of two atoms intersect.
 struct Circle {
   Vec3f centre, axis, u, v;  ///< u, v, axis: an orthonormal frame
-  float radius;              ///< 0 where they do not meet
+  float radius;              ///< 0 if they do not intersect
 };
 
 ESPDIFF_INLINE Circle circle_between(const ProbeAtomsView& atoms, std::uint32_t a, std::uint32_t b) {
@@ -63,7 +63,7 @@ ESPDIFF_INLINE Circle circle_between(const ProbeAtomsView& atoms, std::uint32_t 
   const float d = sqrtf(dot(way, way)), ra = atoms.radius[a], rb = atoms.radius[b];
   if (!(d > 1e-4F)) return circle;
   const float along = 0.5F * (d + (ra * ra - rb * rb) / d), square = ra * ra - along * along;
-  if (!(square > 0.0F)) return circle;  // one inside the other
+  if (!(square > 0.0F)) return circle;  // one sphere is inside the other
   circle.radius = sqrtf(square);
   circle.axis = (1.0F / d) * way;
   circle.centre = from + along * circle.axis;
@@ -80,7 +80,7 @@ struct Arcs {
   float begin[kMostArcs], end[kMostArcs];
   int n;
 
-  /// Takes away [from, to], 0 <= from <= to <= 2 pi.
+  /// Removes [from, to], 0 <= from <= to <= 2 pi.
   ESPDIFF_INLINE void remove(float from, float to) {
     const int before = n;
     for (int i = 0; i < before; ++i) {
@@ -109,7 +109,7 @@ struct Arcs {
   }
 };
 
-/// Takes away what lies inside the sphere of atom c; returns false where nothing is left.
+/// Removes the part inside the sphere of atom c. Returns false if nothing is left.
 ESPDIFF_INLINE bool cut_by(const ProbeAtomsView& atoms, std::uint32_t c, const Circle& circle, Arcs& arcs) {
   const Vec3f way = atoms.centre(c) - circle.centre;
   const float height = dot(way, circle.axis), x = dot(way, circle.u), y = dot(way, circle.v);
@@ -151,7 +151,7 @@ ESPDIFF_INLINE std::uint32_t points_of(float angle, float radius) {
   return static_cast<std::uint32_t>(angle * radius / kArcSpacing_A) + 2U;
 }
 
-/// The atom that a neighbour list's entry belongs to.
+/// The atom whose neighbour list has the entry.
 ESPDIFF_INLINE std::uint32_t owner_of(const std::uint32_t* first, std::uint32_t n_atoms, std::uint32_t entry) {
   std::uint32_t low = 0, high = n_atoms;
   while (high - low > 1) {
@@ -165,7 +165,7 @@ ESPDIFF_INLINE std::uint32_t owner_of(const std::uint32_t* first, std::uint32_t 
   return low;
 }
 
-/// An atom is exposed where one of its circles is, or where all its neighbours lie inside it.
+/// An atom is exposed if one of its circles is, or if all its neighbours lie inside it.
 /// @param first_point [neighbour entry + 1] of the points on the entry's circle
 void find_exposed(ProbeAtoms& atoms, const Buffer<std::uint32_t>& first_point) {
   const ProbeAtomsView view = view_of(atoms);
@@ -179,7 +179,7 @@ void find_exposed(ProbeAtoms& atoms, const Buffer<std::uint32_t>& first_point) {
       const Vec3f way = view.centre(b) - view.centre(a);
       if (sqrtf(dot(way, way)) + view.radius[b] > view.radius[a]) holds_all = false;
       std::uint32_t at = entry;
-      if (b < a) {  // the circle is the other's
+      if (b < a) {  // the other atom owns the circle
         at = view.first[b];
         while (view.neighbour[at] != a) ++at;
       }

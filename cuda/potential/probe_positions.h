@@ -1,11 +1,11 @@
-// probe_positions.h: where a probe touches two or more atoms at once: what the solvent-excluded surface's concave parts
-// roll on.
+// probe_positions.h: positions of a probe that touches two or more atoms: they shape the concave parts of the
+// solvent-excluded surface.
 //
 // A probe's centre may be anywhere outside the atoms' spheres that are larger by the probe's radius (the accessible
-// region). What the probe reaches from there is solvent (Richards, Annu. Rev. Biophys. Bioeng. 6, 151 (1977)). A point
-// within the probe's radius of the accessible region is so of one of the region's faces (parts of a sphere), edges
-// (arcs where two spheres meet) or corners. Faces are tested exactly, see dielectric_map.h; arcs, ended by their
-// corners, are taken as points so close together that the surface is off by less than 0.004 A.
+// region). All points that the probe covers from there are solvent (Richards, Annu. Rev. Biophys. Bioeng. 6, 151
+// (1977)). The nearest point of the accessible region lies on one of its faces (parts of a sphere), edges (arcs where
+// two spheres meet) or corners. Faces are treated exactly, see dielectric_map.h. Arcs with their corners are sampled so
+// densely that the surface is off by less than 0.004 A.
 #pragma once
 
 #include <cstdint>
@@ -16,20 +16,20 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
-/// A point counts as inside a sphere when its squared distance is below this part of the squared radius: two atoms in
-/// one place must not cover each other by rounding.
+/// A point is inside a sphere if its squared distance is below this fraction of the squared radius. So two atoms at one
+/// position do not cover each other by rounding.
 constexpr float kNotQuite = 1.0F - 1e-5F;
 
-/// Atoms enlarged by the probe, and for each those whose spheres cut its own.
+/// Atoms enlarged by the probe; for each, the atoms whose spheres intersect its own.
 struct ProbeAtoms {
   std::shared_ptr<AtomCells> cells;  ///< reach is radius + probe
   Buffer<float> radius;              ///< [sorted atom] of the enlarged sphere, Angstrom
   Buffer<std::uint32_t> first;       ///< [sorted atom + 1] into `neighbour`
   Buffer<std::uint32_t> neighbour;   ///< sorted atoms; for each atom the nearest first
-  Buffer<std::uint8_t> exposed;      ///< [sorted atom] a part of its sphere bounds the accessible region
+  Buffer<std::uint8_t> exposed;      ///< [sorted atom] 1 if a part of its sphere bounds the accessible region
 };
 
-/// What kernels see of them.
+/// The same for kernels.
 struct ProbeAtomsView {
   AtomCellsView cells;
   const float* radius;
@@ -50,7 +50,7 @@ struct ProbeAtomsView {
 };
 ProbeAtomsView view_of(const ProbeAtoms& atoms);
 
-/// Cells and radii alone. @param atoms with a positive radius each
+/// Sets cells and radii only. @param atoms with a positive radius each
 ProbeAtoms make_probe_atoms(const std::vector<PbAtom>& atoms, float probe_radius);
 /// Sets neighbours and exposure. Returns points of the arcs, corners included.
 Buffer<Vec4f> find_probe_positions(ProbeAtoms& atoms);

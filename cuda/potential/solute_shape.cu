@@ -7,22 +7,22 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// What kernels see of a shape.
+/// A shape for kernels.
 struct ShapeView {
   ProbeAtomsView atoms;
   AtomCellsView probes;
   float probe;
-  float reach;   ///< of the probe and a step of the lattice: what decides about points next to the surface
-  float margin;  ///< beyond the enlarged spheres where depths are still told
+  float reach;   ///< probe radius and a lattice step: farther probes do not matter next to the surface
+  float margin;  ///< distance beyond the enlarged spheres within which depths are computed
   bool has_probe, has_arcs;
 };
 
 ESPDIFF_INLINE float square_of(float dx, float dy, float dz) { return dx * dx + dy * dy + dz * dz; }
 
-/// Deeper in the solute than this nothing is looked for.
+/// Deeper points are not examined.
 constexpr float kDeepest_A = 1000;
 
-/// Whether the probe may stand where p, at distance d of atom a, is projected to on the enlarged sphere.
+/// Whether the probe fits at the projection of p, at distance d from atom a, onto the enlarged sphere.
 ESPDIFF_INLINE bool is_reached_on(const ShapeView& shape, std::uint32_t a, Vec3f p, float d) {
   const Vec3f centre = shape.atoms.centre(a);
   const float scale = shape.atoms.radius[a] / d;
@@ -38,7 +38,7 @@ ESPDIFF_INLINE float depth_at(const ShapeView& shape, Vec3f p) {
       inside = larger(inside, shape.atoms.radius[a] - d);
     }
   });
-  // Beyond the margin from the spheres the depth is all the same.
+  // Beyond the margin the value does not matter.
   if (inside <= 0.0F || !shape.has_probe) return inside < -shape.margin ? -kDeepest_A : inside - shape.probe;
   float depth = kDeepest_A;
   visit_atom_runs(cells, p, cells.max_reach, [&](std::uint32_t begin, std::uint32_t end) {
@@ -74,7 +74,7 @@ ESPDIFF_INLINE void visit_disc(const CubicLattice& lattice, int k, Vec3f centre,
     const float dy = lattice.coordinate(1, j) - centre.y, left = reach - dy * dy;
     if (!(left > 0)) continue;
     const float half = sqrtf(left);
-    // A point more on each side: the visit's own test decides.
+    // One more point on each side: visit() tests the distance itself.
     const int i0 = std::max(0, static_cast<int>((centre.x - half - lattice.origin.x) * inverse)),
               i1 = std::min(lattice.size[0] - 1, static_cast<int>((centre.x + half - lattice.origin.x) * inverse) + 1);
     visit(j, i0, i1 + 1, dy, dz);
@@ -90,7 +90,7 @@ struct PlaneFill {
   float* depths;
 };
 
-/// How deep points lie in the enlarged spheres.
+/// Depth of points in the enlarged spheres.
 ESPDIFF_INLINE void mark_spheres(const PlaneFill& in, int k) {
   const AtomCellsView& cells = in.shape.atoms.cells;
   const float z = in.lattice.coordinate(2, k);
@@ -106,7 +106,7 @@ ESPDIFF_INLINE void mark_spheres(const PlaneFill& in, int k) {
   }
 }
 
-/// What a probe reaches that touches one atom.
+/// Points that a probe covers while it touches one atom.
 ESPDIFF_INLINE void reach_faces(const PlaneFill& in, int k) {
   const AtomCellsView& cells = in.shape.atoms.cells;
   const float z = in.lattice.coordinate(2, k), probe = in.shape.probe;
@@ -125,7 +125,7 @@ ESPDIFF_INLINE void reach_faces(const PlaneFill& in, int k) {
   }
 }
 
-/// What a probe reaches that touches two or more.
+/// Points that a probe covers while it touches two or more.
 ESPDIFF_INLINE void reach_arcs(const PlaneFill& in, int k) {
   const float probe = in.shape.probe, reach = in.shape.reach;
   for (std::uint32_t n = in.first_probe[k]; n < in.first_probe[k + 1]; ++n) {
@@ -206,7 +206,7 @@ void SoluteShape::depths_by_planes(const CubicLattice& lattice, Buffer<float>& d
   depths.resize(lattice.n_points());
   PlaneFill fill{
       view_of(atoms_, probes_, probe_, lattice.spacing), lattice, atoms_.radius.size(), nullptr, nullptr, raw(depths)};
-  // Probes by the planes that they reach.
+  // Probes sorted by plane.
   std::vector<std::uint32_t> first(static_cast<std::size_t>(lattice.size[2]) + 1, 0), probes;
   const std::size_t n_probes = probes_ ? probes_->x.size() : 0;
   const auto planes_of = [&](std::size_t c) {

@@ -9,7 +9,7 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// A total order of charges that differ: the base along x first, because a gather looks for it.
+/// A total order of charges, by base_x first, because the gather searches for it.
 struct InOrder {
   ESPDIFF_HD bool operator()(const GridCharge& a, const GridCharge& b) const {
     if (a.row != b.row) return a.row < b.row;
@@ -72,7 +72,7 @@ void store_weights(const Buffer<GridCharge>& sorted, SortedCharges<T>& charges) 
   });
 }
 
-/// What a kernel sees of sorted charges.
+/// Sorted charges for kernels.
 template <typename T>
 struct ChargesView {
   const std::uint32_t* row_first;
@@ -86,7 +86,7 @@ ChargesView<T> view_of(const SortedCharges<T>& c) {
 }
 
 #if defined(__GNUC__) && !defined(__CUDACC__)
-/// N numbers that one instruction adds, where the processor has it. Compilers leave loops over so few alone.
+/// N numbers, added by one instruction where the processor has it. Compilers do not vectorize such short loops.
 template <typename T, int N>
 struct Lanes {
   typedef T Type __attribute__((vector_size(N * sizeof(T))));
@@ -148,7 +148,7 @@ ESPDIFF_INLINE void fill_slab_inline(const ChargesView<T>& charges, int z, T* sl
 }
 
 #if !defined(__CUDACC__)
-// Written out: a template cannot be compiled for several instruction sets.
+// Not a template: only plain functions can be compiled for several instruction sets.
 #define ESPDIFF_FILL_SLAB(order, type)                                                                             \
   ESPDIFF_MULTIVERSION void fill_slab(std::integral_constant<int, order>, const ChargesView<type>& charges, int z, \
                                       type* slab) {                                                                \

@@ -17,8 +17,7 @@ struct GridCharge {
   int base_x;
 };
 
-/// Charges sorted by row, then base_x, then by what distinguishes them: the order depends on places and charges alone,
-/// not on the order in which they came.
+/// Charges sorted by row, then base_x, then position and charge: a unique order, whatever order they came in.
 template <typename T>
 struct SortedCharges {
   int order = 4;

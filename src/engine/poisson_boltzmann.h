@@ -1,4 +1,4 @@
-// poisson_boltzmann.h: what a Poisson-Boltzmann potential is asked for with, and what is told of it.
+// poisson_boltzmann.h: parameters and report of a Poisson-Boltzmann potential.
 #pragma once
 
 #include <cstddef>
@@ -16,24 +16,24 @@ enum class DielectricBoundary {
   kGaussian      ///< none: a smooth dielectric (Li et al., J. Chem. Theory Comput. 9, 2126 (2013))
 };
 
-/// How a sharp boundary is laid on a grid.
+/// How a sharp boundary is discretized.
 enum class DielectricSmoothing {
-  kEdges,     ///< harmonic mean along the way between two grid points, by where the boundary cuts it
-  kNinePoint  ///< harmonic mean of nine samples around its middle, as APBS' `smol`; errs three times as much
+  kEdges,     ///< harmonic mean along the edge between two grid points, by where the boundary cuts it
+  kNinePoint  ///< harmonic mean of nine samples around its middle, as APBS' `smol`; has three times the error
 };
 
-/// What holds on the grid's border.
+/// Values on the grid's border.
 enum class FarBoundary {
   kDebyeHueckel,  ///< the sum of all charges' Debye-Hueckel potentials in solvent (APBS' `mdh`)
   kFocus          ///< the potential on a grid of twice the extent and twice the spacing, with that sum on its border
 };
 
-/// Parameters of Engine::poisson_boltzmann(). The defaults are those of APBS' examples, but for the temperature.
+/// Parameters of Engine::poisson_boltzmann(). The defaults are those of APBS' examples, except the temperature.
 struct PoissonBoltzmannOptions {
   double solute_dielectric = 2;
   double solvent_dielectric = 78.54;
   double ionic_strength = 0.15;  ///< mol/l of a 1:1 salt
-  double ion_radius_A = 2;       ///< no ions nearer to an atom than its radius and this (Stern layer)
+  double ion_radius_A = 2;       ///< ions stay this far outside every atom's sphere (Stern layer)
   double probe_radius_A = 1.4;   ///< of DielectricBoundary::kMolecular
   double gaussian_sigma = 0.93;  ///< of DielectricBoundary::kGaussian: an atom's Gaussian over its radius
   double temperature_K = 300;
@@ -46,26 +46,26 @@ struct PoissonBoltzmannOptions {
   int max_newton_steps = 50;  ///< of the nonlinear equation
 };
 
-/// How a potential was come by.
+/// How a potential was computed.
 struct PoissonBoltzmannReport {
   double start_residual = 0;     ///< |b - A phi| / |b| of the start
   double relative_residual = 0;  ///< the same at the end, in double precision; never above the tolerance
   int cycles = 0;                ///< of conjugate gradients, all steps together
   int newton_steps = 0;          ///< 0 for the linearized equation
-  int levels = 0;                ///< of the multigrid; 0 for the nonlinear equation, which makes it anew each step
-  double bytes_per_point = 0;    ///< of device memory, at the peak
+  int levels = 0;                ///< of the multigrid; 0 for the nonlinear equation, which makes a new one in each step
+  double bytes_per_point = 0;    ///< of device memory, at most
   double net_charge = 0;         ///< elementary charges
   std::size_t n_charges = 0;     ///< that are not zero
   double debye_length_A = 0;     ///< infinite without salt
 };
 
-/// Where none are asked for: at 0.5 A a surface's potentials differ by 1 % from those at 0.25 A, and 12 A of solvent
-/// around the atoms leave 0.1 % of what 24 A give (docs/potentials.md).
+/// Defaults. At 0.5 A a surface's potentials differ by 1 % from those at 0.25 A; 12 A of solvent around the atoms
+/// change them by 0.1 % against 24 A (docs/potentials.md).
 constexpr double kUsualPbSpacing_A = 0.5, kUsualPbPadding_A = 12;
 
 /// A cubic lattice for Engine::poisson_boltzmann() along the axes of the atoms' frame: it reaches `padding_A` beyond
-/// every atom's sphere and is centred on their box. Numbers of points are one more than multiples of eight, so that
-/// the multigrid halves them; the steps are `spacing_A` exactly.
+/// every atom's sphere and is centred on their box. The numbers of points are multiples of eight plus one, for the
+/// multigrid; the steps are exactly `spacing_A`.
 /// @param radii [atom] Angstrom
 /// @throws InputError (spacing or padding, no atoms, positions that are not finite, more than 2e9 points)
 Lattice poisson_boltzmann_lattice(const std::vector<Vec3d>& positions, const std::vector<float>& radii,

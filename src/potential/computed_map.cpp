@@ -16,7 +16,7 @@
 namespace espdiff {
 namespace {
 
-/// Bulk solvent lies farther than this from the solute, and fills this share of the cell at least.
+/// Distance of bulk solvent from the solute, and the least fraction of the cell that it must fill.
 constexpr double kBulkDistance_A = 10, kLeastBulkFraction = 0.01;
 
 const char* origin_of_cell(const PotentialOptions& options, bool has_own) {
@@ -38,7 +38,8 @@ std::vector<Vec3d> moved(std::vector<Vec3d> positions, const RigidTransform& tra
   return positions;
 }
 
-/// The lattice with its points at multiples of the spacing: atoms that two molecules share lie alike on it.
+/// Moves the lattice so that its points are multiples of the spacing. Atoms at the same position in two molecules then
+/// have the same place between grid points.
 Lattice on_multiples(Lattice lattice) {
   for (int axis = 0; axis < 3; ++axis) {
     const double h = lattice.step[static_cast<std::size_t>(axis)][axis];
@@ -53,7 +54,7 @@ struct ComputedMap::Charges {
   Molecule molecule;
   std::vector<Vec3d> solute;
   PotentialOptions options;
-  MapRecipe recipe;  ///< as far as it is known before
+  MapRecipe recipe;  ///< what is known before the map is made
 
   MadeMap pme(Engine& engine, const RigidTransform& to_map, const Progress& progress) const;
   MadeMap coulomb(Engine& engine, const RigidTransform& to_map) const;
@@ -65,7 +66,7 @@ MadeMap ComputedMap::Charges::pme(Engine& engine, const RigidTransform& to_map, 
   MadeMap made{nullptr, recipe};
   MapRecipe& r = made.recipe;
   const bool is_padded = r.cell_from == "padded";
-  // A box of ours lies along the common frame's axes, not along the file's.
+  // A padded box is aligned with the common frame, not with the file's axes.
   const RigidTransform to_common = inverse(to_map);
   const std::vector<Vec3d> positions = is_padded ? moved(molecule.positions, to_common) : molecule.positions;
   if (is_padded) r.cell = choose_cell(options, positions, std::nullopt);
@@ -137,7 +138,7 @@ ComputedMap::ComputedMap(Molecule charges, ChargeSurroundings surroundings, cons
   r.pb_spacing_A = options.pb_spacing_A;
   if (options.method == PotentialMethod::kPme) {
     r.cell_from = origin_of_cell(options, surroundings.cell.has_value());
-    r.cell = choose_cell(options, charges.positions, surroundings.cell);  // a padded one is made again when it counts
+    r.cell = choose_cell(options, charges.positions, surroundings.cell);  // a padded one is made again in pme()
     r.pme.size = choose_grid_size(r.cell, options.grid, options.pme.compatible);
     r.zero = ZeroPlace::kCellMean;
   }

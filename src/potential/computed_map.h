@@ -15,31 +15,31 @@ namespace espdiff {
 
 struct MapRecipe;
 
-/// What surrounds the charges.
+/// Surroundings of the charges.
 struct ChargeSurroundings {
-  std::optional<UnitCell> cell;  ///< the molecule's own, where it has one
-  /// Atoms that bulk solvent keeps 10 A away from, in the frame of the charges; none: all that are not water.
+  std::optional<UnitCell> cell;  ///< the molecule's own, if it has one
+  /// Atoms of the solute, in the frame of the charges; bulk solvent is 10 A away from them. Empty: all but water.
   std::vector<Vec3d> solute;
-  /// Whether water is among the charges; where the molecule has residues, they tell.
+  /// Whether water is among the charges. Needed only if the molecule has no residues.
   bool has_water = false;
 };
 
 /// The potential of a molecule's charges, to be sampled at surfaces on the device: by splines of a periodic grid (pme),
 /// by those of an isolated one (pb), or summed at the surface's points (coulomb).
 ///
-/// What has no periodic cell of its own is computed along the axes of the comparison's common frame, those of the
-/// source itself: how a molecule lies in its file then changes nothing but rounding.
+/// A molecule without a periodic cell is computed along the axes of the comparison's common frame (the source's
+/// principal axes). So its orientation in the file changes only rounding.
 class ComputedMap {
  public:
-  /// @param charges positions and charges, for pb radii too; all of them count, whatever part has the surface
-  /// @param options superposition and blocks do not count
+  /// @param charges positions and charges of all atoms that count; for pb also radii
+  /// @param options superposition and blocks are not used
   /// @throws InputError (no charges, a cell or grid that cannot be, pb with explicit water)
   ComputedMap(Molecule charges, ChargeSurroundings surroundings, const PotentialOptions& options);
 
   const MapRecipe& recipe() const;
-  /// Of all that the map depends on.
+  /// SHA-256 of everything that the map depends on.
   std::string fingerprint() const;
-  /// Serves a comparison for as long as it likes, also when this object is gone. @throws as the engine's potentials
+  /// A function that makes the map; it may outlive this object. @throws as the engine's potentials
   MapMaker maker() const;
 
  private:

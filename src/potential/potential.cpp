@@ -1,4 +1,4 @@
-// potential.cpp: computes the frames of a molecule, brings them into one frame, and averages them.
+// potential.cpp: computes the potentials of a molecule's frames in one common frame, and averages them.
 #include "potential/potential.h"
 #include "potential/potential_series.h"
 
@@ -54,7 +54,7 @@ void require_charges(const Molecule& molecule) {
       "topology that has them (PSF, prmtop)");
 }
 
-/// What later frames are held against.
+/// The first frame, which later frames are superposed on.
 struct PotentialSeries::FirstFrame {
   std::size_t n_atoms = 0;
   std::vector<std::size_t> atoms;  ///< of the superposition; none without
@@ -152,7 +152,7 @@ Grid PotentialSeries::next_map(const Molecule& frame, const std::optional<UnitCe
     }
   }
   Grid map = compute(positions, frame, cell, progress);
-  // The image of another cell on this lattice does not repeat with it.
+  // The samples of another cell are not periodic on this lattice.
   map.periodic = options_.method == PotentialMethod::kPme && same_lattice(map.lattice, first_->lattice) &&
                  (one_lattice_ || average_.n_frames() == 0);
   map.name = frame.name + (options_.method == PotentialMethod::kPme       ? " (PME)"

@@ -17,7 +17,7 @@ namespace espdiff {
 /// @throws InputError for anything but pme, coulomb, pb
 PotentialMethod parse_potential_method(const std::string& text);
 
-/// How many points the grid has: `size` where it is not zero, else enough for steps of `resolution_A` at most.
+/// Number of grid points: `size` if it is not zero, otherwise enough for steps of at most `resolution_A`.
 struct GridChoice {
   std::array<int, 3> size{0, 0, 0};
   double resolution_A = 1;
@@ -26,29 +26,29 @@ struct GridChoice {
 /// in Angstrom.
 /// @throws InputError
 GridChoice parse_grid_choice(const std::string& text);
-/// The order of the B-splines where none is asked for: PMEPot's own in its mode, else that of PmeOptions.
+/// Default order of the B-splines: PMEPot's in its mode, otherwise that of PmeOptions.
 int usual_order(bool compatible);
-/// Reads a cell: `ox oy oz ax ay az bx by bz cx cy cz` (o the centre), with braces and commas as one likes; PMEPot's
-/// -cell is one of these.
+/// Reads a cell: `ox oy oz ax ay az bx by bz cx cy cz` (o the centre), with or without braces and commas; PMEPot's
+/// -cell is one form.
 /// @throws InputError
 PmeCell parse_cell(const std::string& text);
 
 /// How potentials are computed.
 struct PotentialOptions {
   PotentialMethod method = PotentialMethod::kPme;
-  std::string because;  ///< why this one, where it was not asked for; for results to tell
-  /// The cell of every frame. Without: the frame's own; without that, or with `pad_A`, a box around the atoms.
+  std::string because;  ///< the reason, if the user did not ask for this method; shown in results
+  /// Cell of every frame. None: the frame's own; if it has none, or with `pad_A`, a box around the atoms.
   std::optional<PmeCell> cell;
-  std::optional<double> pad_A;  ///< space on each side of the atoms; 10 A where no cell is known
+  std::optional<double> pad_A;  ///< space on each side of the atoms; 10 A if no cell is known
   GridChoice grid;
-  PmeOptions pme;  ///< but the grid's size
+  PmeOptions pme;  ///< except the grid's size
   CoulombOptions coulomb;
   PoissonBoltzmannOptions pb;
   double pb_spacing_A = kUsualPbSpacing_A;
   double pb_padding_A = kUsualPbPadding_A;  ///< of the grid beyond every atom's sphere
-  /// Superposes each frame on the first by these atoms (water left out), and samples all maps on the first one's
-  /// lattice: the average then stays with the molecule. In a periodic cell these atoms are put together first where its
-  /// border has cut the molecule (unwrapped()). kNone: frames stay where they are.
+  /// Superposes each frame on the first by these atoms without water, and samples all maps on the first frame's
+  /// lattice, so that the average follows the molecule. In a periodic cell the molecule is unwrapped first
+  /// (unwrapped()). kNone: frames are not moved.
   AlignAtoms align = AlignAtoms::kNone;
   std::size_t frames_per_block = 1;  ///< for the error bar
 };
@@ -61,17 +61,17 @@ Vec3d middle_of(const std::vector<Vec3d>& positions);
 /// The box around the atoms, wider by `pad_A` on each side, as PMEPot makes it.
 /// @throws InputError (no atoms, a negative pad)
 PmeCell padded_cell(const std::vector<Vec3d>& positions, double pad_A);
-/// Edges from lengths and angles: a along x, b in the x-y plane.
-/// @throws InputError (angles that no cell has)
+/// Edge vectors from lengths and angles: a along x, b in the x-y plane.
+/// @throws InputError (impossible angles)
 PmeCell cell_from(const UnitCell& cell, Vec3d centre);
 
-/// The cell of a frame: as asked for, its own, or a box around its atoms.
+/// The cell of a frame: the given one, its own, or a box around its atoms.
 /// @throws InputError
 PmeCell choose_cell(const PotentialOptions& options, const std::vector<Vec3d>& positions,
                     const std::optional<UnitCell>& own_cell);
 
-/// Points along each edge: as asked for, else the least product of 2, 3, 5 and 7 that makes steps of at most the
-/// resolution; with `compatible` the number that PMEPot takes (even, among those it has in a list, at most 512).
+/// Points along each edge: the given number, otherwise the least product of 2, 3, 5 and 7 with steps of at most the
+/// resolution. With `compatible` the number that PMEPot takes (even, from its list, at most 512).
 /// @throws InputError (resolution)
 std::array<int, 3> choose_grid_size(const PmeCell& cell, const GridChoice& choice, bool compatible);
 

@@ -23,7 +23,7 @@ std::vector<double> numbers_in(const std::string& text, const std::string& what)
   return numbers;
 }
 
-/// The least number from `n` on that has no factors but 2, 3, 5 and 7, whose transforms are fast.
+/// The least number >= n whose prime factors are 2, 3, 5 and 7: fast transforms.
 int next_smooth(int n) {
   for (;; ++n) {
     int rest = n;
@@ -50,7 +50,7 @@ Box box_around(const std::vector<Vec3d>& positions) {
   return box;
 }
 
-/// The numbers of points that PMEPot chooses among.
+/// The numbers of points in PMEPot's list.
 constexpr int kPmepotSizes[] = {8,   10,  12,  16,  20,  24,  30,  32,  36,  40,  48,  50,  56,  60,  64,  72,
                                 80,  84,  88,  96,  100, 108, 112, 120, 128, 144, 160, 168, 176, 192, 200, 216,
                                 224, 240, 256, 264, 288, 300, 324, 336, 360, 384, 400, 432, 448, 480, 512};
@@ -113,7 +113,7 @@ PmeCell padded_cell(const std::vector<Vec3d>& positions, double pad_A) {
 
 PmeCell cell_from(const UnitCell& cell, Vec3d centre) {
   constexpr double kDegree = 3.14159265358979323846 / 180;
-  // Right angles exactly: the cosine of a rounded one would leave a trace.
+  // Right angles are exact: the cosine of 90 degrees in radians is not zero.
   const auto cosine = [](double angle) { return angle == 90 ? 0.0 : std::cos(angle * kDegree); };
   const double cos_bc = cosine(cell.angles.x), cos_ac = cosine(cell.angles.y), cos_ab = cosine(cell.angles.z);
   const double sin_ab = cell.angles.z == 90 ? 1.0 : std::sin(cell.angles.z * kDegree);

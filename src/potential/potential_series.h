@@ -30,7 +30,7 @@ class PotentialSeries {
   /// @throws InputError (no charges, other atoms than the first frame's), GeometryError (superposition), and as
   /// Engine::pme_potential
   Grid step(const Molecule& frame, const std::optional<UnitCell>& own_cell, const Progress& progress);
-  /// As step(), where the average alone is wanted.
+  /// Like step(), without returning the map.
   void add(const Molecule& frame, const std::optional<UnitCell>& own_cell, const Progress& progress);
 
   const RunningMap& average() const { return average_; }

@@ -1,5 +1,5 @@
-// potential_settings.h: every option of a computed potential by name, once for the command line, Tcl, the window and
-// their manuals.
+// potential_settings.h: table of all options of computed potentials, used by the command line, Tcl, the window and
+// the manuals.
 #pragma once
 
 #include <functional>
@@ -16,41 +16,41 @@ namespace espdiff {
 struct PotentialSetting {
   /// In Tcl, `{map {pb KEY VALUE}}`.
   std::string key;
-  /// The option of the verbs that compare, without dashes before it: there `grid` could be the surface's.
+  /// The option of `compare`, `trajectory` and `matrix`, without dashes before it.
   std::string option;
   std::vector<PotentialMethod> of;  ///< the potentials that read it
   SettingKind kind = SettingKind::kNumber;
   std::vector<std::string> choices;  ///< of a choice
   std::string help;                  ///< with the unit
-  /// Takes the value written in the text.
+  /// Sets the value from a text.
   /// @throws InputError that names the option, the text and what is accepted
   std::function<void(PotentialOptions&, const std::string&)> set;
-  /// The value as text that set() takes; empty where none is set.
+  /// The value as a text for set(); empty if there is none.
   std::function<std::string(const PotentialOptions&)> get;
 
   /// The option of `espdiff potential`, without dashes before it: PMEPot's name where PMEPot has one.
   std::string map_option() const;
 };
 
-/// All of them, in the order in which manuals list them.
+/// All options, in the manuals' order.
 const std::vector<PotentialSetting>& potential_settings();
 
 /// @param name a key or an option
 /// @throws InputError when there is none of that name
 const PotentialSetting& find_potential_setting(const std::string& name);
 
-/// The names and texts that were given.
+/// Names and values that the user gave.
 using GivenPotentialSettings = std::vector<std::pair<std::string, std::string>>;
 
-/// Options of one potential; what is not given keeps its default. Ewald's sum is in full unless `compatible`, since the
-/// map is for surfaces.
-/// @param on_lattice for a map in a file: coulomb then has a grid and a box, and pme its smooth part, since a grid
-/// cannot hold what is near the charges
-/// @throws InputError as PotentialSetting::set; for what the potential does not read, which would be ignored in silence
+/// Options of one potential; the others keep their defaults. Ewald's sum is full unless `compatible`, since the map is
+/// for surfaces.
+/// @param on_lattice for a map in a file: coulomb then has a grid and a box, and pme the smooth part, since a grid
+/// cannot resolve the potential near charges
+/// @throws InputError as PotentialSetting::set; for an option of another potential
 PotentialOptions make_potential_options(PotentialMethod method, const GivenPotentialSettings& given,
                                         double temperature_K, bool on_lattice = false);
 
-/// All that the potential reads, for heads and plans of resumable runs: "pb ionic-strength 0.15 ...".
+/// All options of the potential in words, for heads and plans of resumable runs: "pb ionic_strength 0.15 ...".
 std::string potential_in_words(const PotentialOptions& options);
 
 }  // namespace espdiff

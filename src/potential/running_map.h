@@ -9,10 +9,10 @@
 
 namespace espdiff {
 
-/// Adds up maps on one lattice, in double precision, by Welford's method (Technometrics 4, 419 (1962)), which does not
-/// lose digits where the mean is large against the variance. Means of successive blocks of frames give an error bar
-/// that holds although neighbouring frames resemble each other (Flyvbjerg & Petersen, J. Chem. Phys. 91, 461 (1989)).
-/// Memory: 40 bytes a point, 4 while there is one frame.
+/// Adds up maps on one lattice, in double precision, by Welford's method (Technometrics 4, 419 (1962)), which keeps its
+/// digits if the mean is much larger than the deviations. Means of successive blocks of frames give an error bar
+/// that is valid for correlated frames (Flyvbjerg & Petersen, J. Chem. Phys. 91, 461 (1989)).
+/// Memory: 40 bytes a point; 4 with a single frame.
 class RunningMap {
  public:
   /// @param frames_per_block at least 1
@@ -25,7 +25,7 @@ class RunningMap {
   std::size_t n_frames() const { return n_frames_; }
   /// Of the lattice; 0 before the first frame.
   std::size_t n_points() const { return lattice_.n_points(); }
-  /// Whole blocks; frames of a last block that is not full count for mean and variance only.
+  /// Number of full blocks. Frames of an incomplete block enter mean and variance only.
   std::size_t n_blocks() const { return n_blocks_; }
 
   /// @throws InputError before the first frame
@@ -45,7 +45,7 @@ class RunningMap {
   Lattice lattice_;
   PotentialUnit unit_ = PotentialUnit::kUnknown;
   bool periodic_ = false;
-  std::vector<float> first_;                        // [point] the only frame so far: sums are begun with the second
+  std::vector<float> first_;                        // [point] the first frame, until a second one comes
   std::vector<double> mean_, squares_;              // [point] of frames: mean, sum of squared deviations
   std::vector<double> block_;                       // [point] mean of the block that is being filled
   std::vector<double> block_mean_, block_squares_;  // [point] of the blocks' means

@@ -24,7 +24,7 @@ std::size_t FrameFiles::file_of(int frame) const {
 
 void FrameFiles::load(std::size_t file) {
   if (file_ != nullptr && loaded_ == file) return;
-  file_ = nullptr;  // the old text first
+  file_ = nullptr;  // frees the old text first
   cells_.reset();
   file_ = std::make_unique<StructureFile>(paths_[file]);
   if (file < sha256_.size()) file_->require_unchanged(sha256_[file]);

@@ -12,8 +12,7 @@
 
 namespace espdiff {
 
-/// Models of PQR, PDB or mmCIF files as frames, numbered from 0 through all files in their order. One file at a time is
-/// kept in memory.
+/// Models of PQR, PDB or mmCIF files as frames, numbered from 0 through all files. One file at a time is in memory.
 class FrameFiles {
  public:
   /// Reads every file, to count its models. A file that is read again must have the same content.

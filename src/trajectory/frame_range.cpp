@@ -54,7 +54,7 @@ class FrameParser {
     for (long long i = begin; i <= end; i += step) found_.push_back(static_cast<int>(i));
   }
 
-  /// Tcl once took what is left out as the first frame, step 1 or the last frame.
+  /// The text to write for an earlier form in Tcl: missing parts meant the first frame, step 1, the last frame.
   void check_complete(std::vector<std::string> words) const {
     if (words.size() == 1) return;
     const char* const usual[] = {"0", words.size() == 3 ? "1" : "end", "end"};

@@ -1,4 +1,4 @@
-// series_csv.cpp: head and rows of a trajectory as text under a lock, and back.
+// series_csv.cpp: writes and reads the head and the rows of a trajectory, under a lock.
 #include "trajectory/series_csv.h"
 
 #include <fcntl.h>
@@ -35,7 +35,7 @@ bool has_content(const std::string& path) {
   return std::filesystem::exists(path, ignored) && std::filesystem::file_size(path, ignored) != 0;
 }
 
-/// Whether the open file is still the one of that name: another run may have removed it before it was locked.
+/// Whether the open file still has that name: another run may have removed it before the lock.
 bool is_file_named(int descriptor, const std::string& path) {
   struct stat open_file {};
   struct stat named {};
@@ -69,7 +69,7 @@ SeriesCsv::SeriesCsv(std::string path, SeriesHead head, ExistingFile existing)
   if (has_content(path_) && existing == ExistingFile::kRefuse)
     throw IoError(path_, "the file exists; " + switched_on("resume") + " goes on with it, " + switched_on("overwrite") +
                              " replaces it");
-  { const AtomicFile probe(path_); }  // what cannot be written is better found before the first frame
+  { const AtomicFile probe(path_); }  // fails now, not after the first frame
   open_and_lock();
   try {
     if (existing == ExistingFile::kResume && has_content(path_)) read_rows();
@@ -111,9 +111,9 @@ SeriesCsv::~SeriesCsv() {
 
 void SeriesCsv::read_rows() {
   const std::string text = read_text_file(path_);
-  // What follows the last line end was being written when the run broke off.
+  // Text after the last line end is an incomplete row of an interrupted run.
   const std::string complete = text.substr(0, text.rfind('\n') + 1);
-  if (text.rfind(kFirstWords, 0) == 0 && has_comments_only(complete)) return;  // nothing but a part of the head
+  if (text.rfind(kFirstWords, 0) == 0 && has_comments_only(complete)) return;  // only a part of the head
   const CsvTable table = parse_csv(complete, path_);
   if (table.columns != series_columns())
     throw FormatError(path_, static_cast<long>(table.comments.size()) + 1,

@@ -1,4 +1,4 @@
-// series_csv.h: the CSV file of a trajectory: one row a frame, written as it is done, and read back to be resumed.
+// series_csv.h: the CSV file of a trajectory: one row for each frame, written when it is computed; can be resumed.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace espdiff {
 
-/// What the rows depend on, by name; each stands in the file as `# NAME: TEXT`.
+/// Everything that the rows depend on, by name; in the file as lines `# NAME: TEXT`.
 using SeriesHead = std::vector<std::pair<std::string, std::string>>;
 
-/// How to treat a file that is there already.
+/// What to do with an existing file.
 enum class ExistingFile { kRefuse, kResume, kReplace };
 
 /// The file, locked: one run at a time writes it. It is empty until its first row; every row is in the file when add()
@@ -25,17 +25,17 @@ class SeriesCsv {
   SeriesCsv(std::string path, SeriesHead head, ExistingFile existing);
   SeriesCsv(SeriesCsv&& other) noexcept;
   SeriesCsv& operator=(SeriesCsv&&) = delete;
-  /// Removes a file that got no row.
+  /// Removes the file if it has no row.
   ~SeriesCsv();
 
   const std::string& path() const { return path_; }
-  /// Rows in the file: those of an earlier run, and those added.
+  /// Rows in the file: of earlier runs and of this one.
   const std::vector<SeriesRow>& rows() const { return rows_; }
-  /// Of what the rows depend on.
+  /// Fingerprint of the head.
   std::string fingerprint() const;
 
-  /// Adds to the head what is known only after the file was opened; a file that is resumed must say the same.
-  /// @throws InputError (it says something else)
+  /// Adds a line to the head after the file was opened. A resumed file must have the same line.
+  /// @throws InputError (the file has another text)
   void note(const std::string& name, const std::string& text);
   /// @throws IoError
   void add(const SeriesRow& row);

@@ -36,7 +36,7 @@ std::vector<T> array_of(const Json& json) {
   return values;
 }
 
-/// What a later step needs of a molecule: what pairs its atoms, and where they are.
+/// The parts of a molecule that a later step needs: names for pairing atoms, and positions.
 Json molecule_json(const Molecule& molecule) {
   Json atoms = Json::array(), residues = Json::array();
   for (const Atom& a : molecule.atoms) atoms.push_back({a.name, a.element, a.residue, a.hetero});

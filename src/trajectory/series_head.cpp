@@ -27,7 +27,7 @@ std::string joined(const std::vector<std::string>& paths, Text text) {
   return all;
 }
 
-/// Settings that are not at their defaults: however they were given, the same rows have the same text.
+/// Settings that differ from their defaults. Equal settings give the same text, however they were given.
 std::string settings_in_words(const CompareOptions& options) {
   const CompareOptions usual;
   std::string text;

@@ -1,4 +1,4 @@
-// series_head.h: what a trajectory's rows depend on, in the words of its CSV file: the same from every front end.
+// series_head.h: head of a trajectory's CSV file: everything that the rows depend on; the same from all front ends.
 #pragma once
 
 #include <string>
@@ -11,20 +11,20 @@
 
 namespace espdiff {
 
-/// A run as its user described it. Potentials are in the words of Tcl: `pme ...`, `file PATH ...`, `none`.
+/// A run as the user described it. Potentials are in the words of Tcl: `pme ...`, `file PATH ...`, `none`.
 struct SeriesDescription {
   std::vector<std::string> files;  ///< whose models are the frames
   StructureOptions structure;      ///< how they are read
-  SeriesHead molecule;             ///< instead of files: what VMD holds
+  SeriesHead molecule;             ///< instead of files: a molecule of VMD
   std::vector<int> frames;
   std::string reference;      ///< `file PATH`, `frame N`, `previous`, ...
   std::string map = "none";   ///< of each frame
-  std::string reference_map;  ///< of the reference; empty by the rule of `map`
+  std::string reference_map;  ///< of the reference; empty: as `map`
   StartFrom start = StartFrom::kPrevious;
 };
 
-/// Version, frames, reference, potentials, settings that are not the usual ones, and the files' SHA-256. What is known
-/// only when the reference is read is added by TrajectoryRun::note_inputs().
+/// Version, frames, reference, potentials, settings that differ from their defaults, and SHA-256 of the files.
+/// TrajectoryRun::note_inputs() adds the rest when the reference has been read.
 /// @throws IoError (a file is missing or unreadable)
 SeriesHead series_head(const SeriesDescription& run, const CompareOptions& options);
 

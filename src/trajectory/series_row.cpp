@@ -1,4 +1,4 @@
-// series_row.cpp: the table of columns, and rows from results.
+// series_row.cpp: table of columns; makes rows from results.
 #include "trajectory/series_row.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// series_row.h: one frame's row of a trajectory: its columns, and where their values come from.
+// series_row.h: a row of a trajectory: its columns, and the source of their values.
 #pragma once
 
 #include <string>
@@ -15,14 +15,14 @@ struct CompareResult;
 /// Names of the columns, in order.
 const std::vector<std::string>& series_columns();
 
-/// One frame, by column; what has no value is empty. Numbers have all their digits. Nothing in it depends on time,
-/// threads or the process, so that equal runs write equal bytes.
+/// One frame, by column; missing values are empty. Numbers have all digits. Nothing depends on time, threads or the
+/// process, so that equal runs write equal bytes.
 class SeriesRow {
  public:
-  /// What a comparison gave; values are those of OUT.json (compare_json()).
+  /// A row from a result, with the values of OUT.json (compare_json()).
   SeriesRow(int frame, const std::string& reference, const Molecule& source, const Molecule& target,
             const CompareResult& result, const CompareOptions& options);
-  /// Why a frame has no numbers.
+  /// A row without numbers, with the reason.
   SeriesRow(int frame, const std::string& reference, const std::string& error);
   /// @param cells one a column
   explicit SeriesRow(std::vector<std::string> cells) : cells_(std::move(cells)) {}
@@ -31,7 +31,7 @@ class SeriesRow {
   const std::string& operator[](const std::string& column) const;
   const std::vector<std::string>& cells() const { return cells_; }
 
-  /// Whether the mapping of the frame after may begin at this one's.
+  /// Whether the next frame's mapping may start from this one's.
   bool has_mapping() const { return (*this)["error"].empty() && (*this)["converged"] == "1"; }
 
  private:
@@ -40,7 +40,7 @@ class SeriesRow {
   std::vector<std::string> cells_;
 };
 
-/// The text with line breaks as blanks: a row is a line, so that an incomplete one is told by its missing end.
+/// The text with line breaks replaced by blanks. A row is one line, so that an incomplete row is recognized.
 std::string one_line(std::string text);
 
 }  // namespace espdiff

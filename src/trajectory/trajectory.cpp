@@ -1,4 +1,4 @@
-// trajectory.cpp: the steps of a run over frames, and how an interrupted one goes on.
+// trajectory.cpp: the steps of a run over frames, and resuming.
 #include "trajectory/trajectory.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace espdiff {
 namespace {
 
-/// Whether a cell of a row that was computed again is what it was; another back end's last digits may differ.
+/// Whether a recomputed cell agrees with the existing one, up to the last digits of another back end.
 bool same_cell(const std::string& then, const std::string& now) {
   if (then == now) return true;
   double a = 0, b = 0;
@@ -40,7 +40,7 @@ std::vector<TrajectoryStep> steps_of(const TrajectoryPlan& plan) {
   return steps;
 }
 
-/// What goes wrong with a frame, but for a cancellation.
+/// The error of a frame, except a cancellation.
 template <typename Work>
 std::optional<Error> error_of(Work work) {
   try {
@@ -75,7 +75,7 @@ TrajectoryRun::TrajectoryRun(TrajectoryPlan plan, SeriesCsv file)
                      ": a list of distances was given, and a trajectory has one row for a frame; give one");
   check_earlier_rows();
   position_ = n_resumed_ = file_.rows().size();
-  remove_leftovers(state_path());  // what a killed run was writing; nobody else is, since the file is locked
+  remove_leftovers(state_path());  // temporary files of a killed run; the lock excludes others
   if (position_ == 0 || is_done()) {
     remove_state();
   } else {
@@ -120,7 +120,8 @@ void TrajectoryRun::restore_mapping() {
   } catch (const Error& error) {
     reason = error.what();
   }
-  // Interrupted between a row and its mapping, the state is that of the row before: the last one is computed again.
+  // If the run was interrupted between a row and its mapping, the state belongs to the row before: compute the last row
+  // again.
   try {
     if (rows.size() < 2 || !rows[rows.size() - 2].has_mapping()) throw InputError("there is no mapping before it");
     restored_ = read_mapping_of(rows[rows.size() - 2]);
@@ -143,7 +144,7 @@ Error TrajectoryRun::cancelled() const {
 }
 
 const SeriesRow* TrajectoryRun::step(Engine& engine, const std::function<StepInput()>& read, const Progress& progress) {
-  // The share is the whole run's; each stage of a frame begins at 0 again.
+  // Progress of the whole run; each stage of a frame starts at 0.
   const Progress inner([&](const std::string& stage, double fraction) {
     share_ = std::max(share_, (static_cast<double>(position_) + fraction) / static_cast<double>(steps_.size()));
     progress.report(in_front(next().frame) + stage, share_);
@@ -171,7 +172,7 @@ const SeriesRow* TrajectoryRun::skip(const Error& why) {
   return end_step({step.frame, step.reference, why.what()});
 }
 
-/// After a frame without numbers from the source, as a run does that is resumed there.
+/// After a failed frame the mapping starts from the source, as in a run that is resumed there.
 StartFrom TrajectoryRun::start_of_step() const {
   const bool follows_error = position_ > 0 && !file_.rows()[position_ - 1]["error"].empty();
   return follows_error || plan_.against_previous ? StartFrom::kSource : plan_.start;
@@ -186,7 +187,7 @@ SeriesRow TrajectoryRun::compare(Engine& engine, const StepInput& input, const P
   return {next().frame, next().reference, *input.source.molecule, *input.target.molecule, result, plan_.options};
 }
 
-/// The row is in the file before its mapping is, and both before the next step begins.
+/// Writes the row first, then its mapping, both before the next step.
 const SeriesRow* TrajectoryRun::end_step(const SeriesRow& row) {
   const bool is_there = position_ < file_.rows().size(), is_last = position_ + 1 == steps_.size();
   if (is_there) {
@@ -205,7 +206,7 @@ const SeriesRow* TrajectoryRun::end_step(const SeriesRow& row) {
   return is_there ? nullptr : &file_.rows().back();
 }
 
-/// A row that is computed again must come out as it stands, or the rows would not belong together.
+/// A recomputed row must equal the existing one; otherwise the inputs have changed.
 void TrajectoryRun::compare_again(const SeriesRow& row) const {
   const SeriesRow& earlier = file_.rows()[position_];
   for (const char* column : {"rmsd_A", "mean_displacement_A", "mean_abs_difference"}) {

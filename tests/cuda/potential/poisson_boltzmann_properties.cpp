@@ -142,9 +142,30 @@ TEST_CASE("a start from the potential of the frame before needs fewer cycles, an
     const Grid from_before = engine->download(pb_on_device(*engine, next, lattice, {}, &warm, before));
     pb_on_device(*engine, m, lattice, {}, &again, before);
     MESSAGE("cycles from zero ", cold.cycles, ", from the frame before ", warm.cycles, ", from itself ", again.cycles);
+    CHECK(warm.start_residual < 0.5);
+    CHECK(cold.relative_residual <= 1e-6);
     CHECK(warm.cycles < cold.cycles);
     CHECK(again.cycles <= 1);
     CHECK(deviation(from_before.values, from_zero.values).of_rms < 1e-5);
+  }
+}
+
+TEST_CASE("a start that is worse than none does no harm: strong charges elsewhere, both equations") {
+  const Molecule here = molecule_of({{0, 0, 0}}, {2.0F}, {9.0F}), there = molecule_of({{5, 0, 0}}, {2.0F}, {-9.0F});
+  const Lattice lattice = pb_lattice(molecule_of({{0, 0, 0}, {5, 0, 0}}, {2.0F, 2.0F}, {1.0F, 1.0F}), 0.6, 8);
+  for (const auto& engine : fast_back_ends()) {
+    for (const bool nonlinear : {false, true}) {
+      PoissonBoltzmannOptions options;
+      options.nonlinear = nonlinear;
+      PoissonBoltzmannReport cold, warm;
+      const Grid from_zero = pb_map(*engine, here, lattice, options, &cold);
+      const auto start = pb_on_device(*engine, there, lattice, options);
+      const Grid from_there = engine->download(pb_on_device(*engine, here, lattice, options, &warm, start));
+      CHECK(warm.start_residual > 1);
+      CHECK(warm.cycles == cold.cycles);
+      CHECK(warm.relative_residual <= options.tolerance);
+      CHECK(from_there.values == from_zero.values);
+    }
   }
 }
 
