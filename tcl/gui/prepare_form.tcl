@@ -2,7 +2,6 @@
 
 namespace eval ::espdiff::gui {
     variable preparing ""             ;# handle of the running preparation
-    variable prepared [dict create]   ;# by PQR file: the words after `espdiff` that made it
 
     proc build_prepare_row {path side} {
         variable widget

@@ -6,6 +6,7 @@ namespace eval ::espdiff::gui {
     variable done [dict create]
     # By handle, and for `trajectory` and `matrix`: how their molecules were loaded, as comments.
     variable loaded [dict create]
+    variable prepared [dict create]  ;# by PQR file: the words after `espdiff` that made it
 
     proc remember_compare {handle source target settings} {
         variable done

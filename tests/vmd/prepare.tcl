@@ -1,5 +1,6 @@
 # prepare.tcl: a molecule of VMD without charges gets some: by command, and by the window's button from VMD's menu.
 source [file join $env(ESPDIFF_TESTS) support.tcl]
+unset env(ESPDIFF_PDB2PQR)
 package require espdiff
 
 proc widget {name} { return $::espdiff::gui::widget($name) }
