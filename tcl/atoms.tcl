@@ -11,8 +11,10 @@ namespace eval ::espdiff {
         require_vmd "espdiff atoms" "outside of it -file FILE writes a PDB file with the values as B factors"
         set mol [atoms_molecule $handle [dict get $options mol]]
         set values [residue_values $handle $quantity]
-        return [dict merge [dict create quantity $quantity unit [dict get $values unit] mol $mol \
+        set carried [dict merge [dict create quantity $quantity unit [dict get $values unit] mol $mol \
             field [dict get $options field]] [set_atoms $mol [dict get $values of] $options]]
+        if {[dict get $options show]} { show_atom_colors $handle $carried }
+        return $carried
     }
 
     proc atoms_molecule {handle mol} {

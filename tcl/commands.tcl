@@ -46,7 +46,7 @@ namespace eval ::espdiff {
 
     command residues [dict create arguments {handle} options {} settings none run ::espdiff::residues \
         summary {The comparison by residue of the source, over the mapped surface.} \
-        returns "a list of dictionaries: index chain number insertion name [metric_names residues]" \
+        returns "a list of dictionaries: index chain number insertion name target_name (of its partner, or empty) [metric_names residues]" \
         example {foreach residue [espdiff residues comparison1] { puts [dict get $residue mean_abs_difference] }}]
 
     command table [dict create arguments {handle} options {} settings none run ::espdiff::table_of \
@@ -80,12 +80,19 @@ namespace eval ::espdiff {
             {-frame text now "Frame of a user field: a number, now, or all"}
             {-missing number 0 "Value of atoms whose residue has no valid surface"}
             {-file file {} "Instead of VMD: a PDB file of the source with the values as B factors"}
+            {-show boolean 0 "Also colour the molecule's representations by the field, over the range of its values,\
+                with a legend; `espdiff uncolor` restores their colours"}
         }] \
         summary {Writes a quantity of the residues to their atoms, for colouring any representation
             (`Coloring Method` User or Beta), or to the B factors of a file for other programs. Residues are identified
             by chain, number and insertion code.} \
         returns {a dictionary: quantity, unit, mol, field, atoms (number with a value), min, max; or the file} \
-        example {espdiff atoms comparison1 -quantity mean_abs_difference; mol modcolor 0 top User}]
+        example {espdiff atoms comparison1 -quantity mean_abs_difference -show 1}]
+
+    command uncolor [dict create arguments {handle} options {} settings none run ::espdiff::uncolor \
+        summary {Restores the colours of the representations that `espdiff atoms -show 1` coloured, and removes its
+            legend. The field keeps its values.} \
+        returns {nothing} example {espdiff uncolor comparison1}]
 
     command highlight [dict create arguments {handle residues} settings none run ::espdiff::highlight options {
             {-mol text both "Where: both, source, target (the comparison's molecules in VMD), or an id"}
@@ -108,12 +115,12 @@ namespace eval ::espdiff {
                 {auto difference sign source target potential displacement path_length none}}
             {-range range auto "Values at the ends of the colour scale; auto is symmetric about 0 and covers 98 % of\
                 the surface's points on each side"}
-            {-transparency choice uncertainty "uncertainty: the larger the displacement, the more transparent"
-                {uncertainty none}}
-            {-uncertainty-limit positive 2.0 "Displacement at which the surface is most transparent, Angstrom; below\
-                half of it nothing is transparent"}
-            {-corrupt choice transparent "Parts off the target's surface: most transparent, marked in yellow (then\
-                also points outside a map), or not drawn" {transparent mark hide}}
+            {-uncertain choice fade "fade: colours fade into grey the larger the displacement; transparent: the\
+                surface does; plain: full colours" {fade transparent plain}}
+            {-uncertainty-limit positive 2.0 "Displacement at which colours have faded completely, Angstrom; below half\
+                of it nothing fades"}
+            {-corrupt choice uncertain "Parts off the target's surface: uncertain, marked in yellow, or not drawn"\
+                {uncertain mark hide}}
             {-surface choice mapped "mapped: on the target; source: on the source" {mapped source}}
             {-legend boolean 1 "A colour bar with title and unit at the window's bottom"}
             {-view choice single "linked: three surfaces side by side that the mouse rotates together, the source and\
@@ -122,8 +129,9 @@ namespace eval ::espdiff {
             {-potential-range range auto "For both potentials with -view linked; auto covers 98 % of the points of\
                 each on each side"}
         } \
-        summary {Draws the surface in VMD and replaces an older drawing of the same handle. View, top molecule and
-            colour settings do not change.} \
+        summary {Draws the surface in VMD and replaces an older drawing of the same handle. Parts meet in smooth lines;
+            parts without a counterpart are grey and hatched. View, top molecule and colour settings do not change. A
+            drawing is several graphics molecules of one name, which are shown, hidden and deleted together.} \
         returns {the graphics molecules' ids} example {espdiff draw comparison1 -color difference -range {-5 5}}]
 
     command view [dict create arguments {input} settings none run ::espdiff::view options {
@@ -155,6 +163,7 @@ namespace eval ::espdiff {
             {-reference-map text {} "Potential of the reference; without it by the rule of -map for its frame, or\
                 computed as the frames' are"}
             {-unit text {} "Unit of the maps if they do not say: kT/e, mV, V, kcal/mol/e, kJ/mol/e, hartree/e"}
+            {-whole boolean 0 "Make molecules whole that their periodic cell cuts; otherwise they are refused"}
             {-start choice auto "Begin each frame's mapping at the source, or at the previous frame's where that is\
                 nearer: small steps; auto: source by -method morph, previous by deform; see Trajectories"\
                 {auto previous source}}

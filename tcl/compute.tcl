@@ -57,7 +57,8 @@ namespace eval ::espdiff {
                 [core_options $options]
         }]
         begin_job $handle $options [dict create temporary $temporary \
-            source_mol [mol_of_endpoint $source] target_mol [mol_of_endpoint $target]]
+            source_mol [mol_of_endpoint $source] target_mol [mol_of_endpoint $target] \
+            source_frame [frame_of_endpoint $source] target_frame [frame_of_endpoint $target]]
     }
 
     proc surface {options molecule} {
@@ -68,12 +69,18 @@ namespace eval ::espdiff {
                     [dict create regularize [dict get $options regularize]]]
         }]
         begin_job $handle $options [dict create temporary $temporary \
-            source_mol [mol_of_endpoint $molecule] target_mol [mol_of_endpoint $molecule]]
+            source_mol [mol_of_endpoint $molecule] target_mol [mol_of_endpoint $molecule] \
+            source_frame [frame_of_endpoint $molecule] target_frame [frame_of_endpoint $molecule]]
     }
 
     proc mol_of_endpoint {endpoint} {
         if {![dict exists $endpoint mol]} { return "" }
         return [vmd_molecule_id [dict get $endpoint mol] molecule]
+    }
+
+    proc frame_of_endpoint {endpoint} {
+        if {![dict exists $endpoint mol]} { return "" }
+        return [vmd_frame [dict get $endpoint mol] [value_or $endpoint frame now] molecule]
     }
 
     proc result {options handle args} {

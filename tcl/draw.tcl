@@ -1,13 +1,17 @@
 # draw.tcl: coloured surfaces as graphics molecules of VMD, and their removal.
 
 namespace eval ::espdiff {
-    # By handle: molecules (ids of the graphics molecules, the legend's last).
+    # By handle: molecules (ids of the graphics molecules, the legend last), and the options that it was drawn with.
     variable drawings [dict create]
+    variable drawn_options [dict create]
 
-    # Steps of displacement, from 0 to the limit, and their opacity. VMD does not sort triangles: with GLSL it blends
-    # triangles of opacity 0.5 or less in list order, without writing depths, and draws the others as if opaque. So no
-    # opacity lies between 0.5 and 1. Steps of one opacity share a graphics molecule.
-    variable opacities {1.0 1.0 1.0 0.5 0.35 0.2}
+    # How far the colours have faded in bands of uncertainty, from half the limit to the limit. VMD has one colour scale
+    # at a time, so that each band is a graphics molecule.
+    variable fadings {0.25 0.5 0.75}
+    # Opacity of these bands and of what is beyond the limit, with -uncertain transparent. With GLSL VMD blends triangles
+    # of opacity 0.5 or less in list order, without writing depths, and draws the others as if opaque.
+    variable opacities {0.5 0.4 0.3 0.2}
+    variable neutral_grey {0.60 0.60 0.60}
 
     # Three colours for the lower end, the middle and the upper end of VMD's colour scale.
     variable scales {
@@ -17,14 +21,17 @@ namespace eval ::espdiff {
     variable lengths {displacement path_length}  ;# quantities that start at 0
     variable scale_method RWB  ;# VMD's colour scale whose colours are replaced temporarily
 
+    variable scale_first 33   ;# the first id of VMD's colour scale
     variable plain_color 2    ;# gray: no quantity, and points outside a map
     variable marked_color 4   ;# yellow: corrupt parts with -corrupt mark
+    variable said_rendermode 0  ;# whether the user was told that transparency needs GLSL
 
     proc draw {options handle} {
         require_vmd "espdiff draw" \
             "outside of it `espdiff export` writes the surface, and the command line's `espdiff render` draws it"
         require_core_handle $handle
         core::check $handle
+        advise_rendermode $options
         if {[dict get $options view] eq "linked"} { return [draw_linked $options $handle] }
         end_linked_view
         set plan [drawing_plan $options $handle]
@@ -32,18 +39,42 @@ namespace eval ::espdiff {
         set molecules {}
         keep_view {
             set code [catch {
-                with_color_scale [dict get $plan colors] {
-                    draw_levels $handle $plan molecules
-                    if {[dict get $plan legend]} { lappend molecules [draw_legend $plan] }
-                    foreach mol $molecules { build_list $mol }
+                draw_parts $handle $plan molecules
+                if {[dict get $plan legend]} {
+                    with_color_scale [dict get $plan colors] {
+                        lappend molecules [set mol [draw_legend $plan]]
+                        build_list $mol
+                    }
                 }
             } message error]
             delete_molecules [expr {$code ? $molecules : $older}]
         }
+        if {!$code} { show_alone $molecules }
         place_legends  ;# after keep_view, which has VMD reset the views
         if {$code} { return -options $error $message }
-        remember_drawing $handle $molecules
+        remember_drawing $handle $molecules $options
+        add_frame_note $handle [expr {[dict get $options surface] eq "mapped" ? "target" : "source"}]
         return $molecules
+    }
+
+    # Without another molecule, VMD has made the legend the top molecule, and the view is of nothing.
+    proc show_alone {molecules} {
+        variable legends
+        if {![dict exists $legends [molinfo top]]} return
+        mol top [lindex $molecules 0]
+        display resetview
+        foreach mol [lrange $molecules 1 end] {
+            if {![dict exists $legends $mol]} { copy_view [lindex $molecules 0] $mol }
+        }
+    }
+
+    # VMD's rendermode Normal draws transparent surfaces as a pattern of points.
+    proc advise_rendermode {options} {
+        variable said_rendermode
+        if {$said_rendermode || [dict get $options uncertain] ne "transparent"} return
+        if {[catch { display get rendermode } mode] || $mode eq "GLSL" || "GLSL" ni [display get rendermodes]} return
+        say "transparent parts look stippled in VMD's rendermode $mode; `display rendermode GLSL` draws them smoothly"
+        set said_rendermode 1
     }
 
     # The drawing's parameters, from options and handle: color, low, high, unit, colors, legend, and the core's options.
@@ -56,16 +87,31 @@ namespace eval ::espdiff {
         set color [drawn_quantity $handle [dict get $options color] $is_surface]
         set range [dict create low -1 high 1 unit ""]
         if {$color ne "none"} { set range [drawn_range $handle $color [dict get $options range]] }
-        set corrupt [dict get {transparent bin mark plain hide skip} [dict get $options corrupt]]
-        set plain [expr {$corrupt eq "plain" ? $marked_color : $plain_color}]
         set side [expr {[dict get $options surface] eq "mapped" ? "target" : "source"}]
-        set core [dict create color $color low [dict get $range low] high [dict get $range high] corrupt $corrupt \
-            plain $plain surface [dict get $options surface]]
+        set core [dict create color $color low [dict get $range low] high [dict get $range high] \
+            corrupt [dict get $options corrupt] plain $plain_color marked $marked_color \
+            surface [dict get $options surface]]
+        set is_plain [expr {$is_surface || [dict get $options uncertain] eq "plain"}]
+        if {!$is_plain} { dict set core limit [dict get $options uncertainty-limit] }
         return [dict merge $range [dict create handle $handle color $color core $core \
             colors [dict get $scales [expr {$color in $lengths ? "sequential" : "diverging"}]] \
             legend [expr {[dict get $options legend] && $color ne "none"}] beside [molecule_of $handle $side] \
-            levels [opacity_levels $options $is_surface] limit [dict get $options uncertainty-limit] \
-            n_bins [number_of_bins $options $is_surface]]]
+            parts [drawn_parts $options $is_surface] key [legend_key $handle $options $is_surface]]]
+    }
+
+    # What grey and stripes mean, for the legend.
+    proc legend_key {handle options is_surface} {
+        if {$is_surface} { return "" }
+        set words {}
+        if {[dict get $options uncertain] ne "plain"} {
+            set how [dict get {fade grey transparent transparent} [dict get $options uncertain]]
+            lappend words "$how: uncertain, moved by [format %.3g [dict get $options uncertainty-limit]] A or more"
+        }
+        set side [expr {[dict get $options surface] eq "mapped" ? "target" : "source"}]
+        if {[dict get [core::result $handle] certificate no_counterpart_area_fraction $side] > 0} {
+            lappend words "hatched: no counterpart"
+        }
+        return [join $words "; "]
     }
 
     proc drawn_quantity {handle color is_surface} {
@@ -92,44 +138,78 @@ namespace eval ::espdiff {
         return [dict create low [expr {$color in $lengths ? 0 : -$high}] high $high unit $unit]
     }
 
-    # For each graphics molecule, its opacity and steps of displacement.
-    proc opacity_levels {options is_surface} {
+    # The parts of a drawing, opaque ones first, because VMD draws in this order: name, how far its colours have faded (1:
+    # grey), opacity, the core's options. Grey parts include what has no counterpart, hatched.
+    proc drawn_parts {options is_surface} {
+        variable fadings
         variable opacities
-        if {$is_surface} { return {1.0 0} }
-        if {[dict get $options transparency] eq "none"} {
-            if {[dict get $options corrupt] eq "transparent"} { return [list 1.0 0 [lindex $opacities end] 1] }
-            return {1.0 0}
-        }
-        set levels [dict create]
-        set bin -1
-        foreach opacity $opacities { dict lappend levels $opacity [incr bin] }
-        return $levels
-    }
-
-    proc number_of_bins {options is_surface} {
-        variable opacities
-        if {$is_surface} { return 1 }
-        if {[dict get $options transparency] eq "uncertainty"} { return [llength $opacities] }
-        expr {[dict get $options corrupt] eq "transparent" ? 2 : 1}
-    }
-
-    # One graphics molecule per opacity; their ids are appended to the caller's list as they are made. Opaque ones come
-    # first, because VMD draws in this order.
-    proc draw_levels {handle plan molecules_name} {
-        upvar 1 $molecules_name molecules
-        set levels [dict get $plan levels]
-        # Without uncertainty the limit exceeds any displacement, and the second step holds the corrupt parts.
-        set limit [expr {[dict get $plan n_bins] > 2 ? [dict get $plan limit] : 1e9}]
-        dict for {opacity bins} $levels {
-            set name "espdiff $handle [dict get $plan color]"
-            if {$opacity < 1} { append name " (opacity $opacity)" }
-            lappend molecules [set mol [new_graphics $name [dict get $plan beside]]]
-            graphics $mol material [material_of $opacity]
-            foreach bin $bins {
-                core::triangles $handle $mol [dict merge [dict get $plan core] [dict create opacity_bin $bin \
-                    n_bins [dict get $plan n_bins] uncertainty_limit $limit]]
+        set style [dict get $options uncertain]
+        if {$is_surface} { return {{"" 0 1.0 {}}} }
+        set grey [list "uncertain" 1 1.0 {from 1 hatches 1}]
+        if {$style eq "plain"} { return [list {"" 0 1.0 {to 1}} $grey] }
+        set n [llength $fadings]
+        set parts [list [list "" 0 1.0 {to 0.5}]]
+        set between {}
+        for {set i 0} {$i < $n} {incr i} {
+            set band [list from [expr {0.5 + 0.5 * $i / $n}] to [expr {0.5 + 0.5 * ($i + 1) / $n}]]
+            set share [lindex $fadings $i]
+            if {$style eq "fade"} {
+                lappend between [list "faded [expr {round(100 * $share)}] %" $share 1.0 $band]
+            } else {
+                set opacity [lindex $opacities $i]
+                lappend between [list "opacity $opacity" 0 $opacity $band]
             }
         }
+        if {$style eq "fade"} { return [concat $parts $between [list $grey]] }
+        set least [lindex $opacities end]
+        return [concat $parts [list {"no counterpart" 1 1.0 {from 1e8 hatches 1}}] $between \
+            [list [list "opacity $least" 0 $least {from 1}]]]
+    }
+
+    # One graphics molecule for each part that has triangles; their ids are appended to the caller's list as they are
+    # made.
+    proc draw_parts {handle plan molecules_name} {
+        upvar 1 $molecules_name molecules
+        variable scale_first
+        variable neutral_grey
+        foreach part [dict get $plan parts] {
+            lassign $part what faded opacity band
+            set name "espdiff $handle [dict get $plan color]"
+            if {$what ne ""} { append name ": $what" }
+            lappend molecules [set mol [new_graphics $name [dict get $plan beside]]]
+            graphics $mol material [material_of $opacity]
+            set core [dict merge [dict get $plan core] $band]
+            if {$faded == 1} { dict set core color none; dict set core plain $scale_first }
+            set n 0
+            with_color_scale [faded_colors [dict get $plan colors] $faded] {
+                set n [core::triangles $handle $mol $core]
+                build_list $mol
+            }
+            if {[dict exists $band hatches] && [dict get $core surface] eq "mapped"} {
+                with_color_scale [faded_colors {} 1] {
+                    # Its stripes only: the rest is covered by the mapped surface.
+                    incr n [core::triangles $handle $mol [dict merge $core {surface uncovered limit 0 from 1e8}]]
+                    build_list $mol
+                }
+            }
+            if {$n == 0 && $what ne ""} {
+                mol delete $mol
+                set molecules [lrange $molecules 0 end-1]
+            }
+        }
+    }
+
+    # A scale's colours mixed with grey. Those of grey itself: dark and light stripes at its ends.
+    proc faded_colors {colors faded} {
+        variable neutral_grey
+        if {$faded == 1} { return [list $neutral_grey $neutral_grey {0.90 0.90 0.90}] }
+        set mixed {}
+        foreach color $colors {
+            set entries {}
+            foreach a $color b $neutral_grey { lappend entries [expr {(1 - $faded) * $a + $faded * $b}] }
+            lappend mixed $entries
+        }
+        return $mixed
     }
 
     # A graphics molecule with the view of `beside`, otherwise of the top molecule.
@@ -189,9 +269,12 @@ namespace eval ::espdiff {
         return [value_or $drawings $handle {}]
     }
 
-    proc remember_drawing {handle molecules} {
+    proc remember_drawing {handle molecules options} {
         variable drawings
+        variable drawn_options
         dict set drawings $handle $molecules
+        dict set drawn_options $handle $options
+        watch_drawings
     }
 
     # The user may have deleted some of them; VMD does not reuse ids.
@@ -205,6 +288,8 @@ namespace eval ::espdiff {
         set scene [leave_linked_view $handle]
         if {[in_vmd]} { keep_view { delete_molecules [drawing_of $handle] }; restore_scene $scene; place_legends }
         dict unset drawings $handle
+        forget_frame_note $handle
+        watch_drawings
     }
 
     proc undraw {options args} {

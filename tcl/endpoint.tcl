@@ -3,7 +3,7 @@
 namespace eval ::espdiff {
     variable endpoint_keys {
         file {file model map because unit array hetero water}
-        mol {mol frame sel map because unit radii region}
+        mol {mol frame sel map because unit radii whole region}
     }
 
     # Parses an endpoint into a dict and reports its errors. `role` is source, target, ...
@@ -13,13 +13,15 @@ namespace eval ::espdiff {
             fail "$role: '$text' is not {mol ID ?frame N? ?sel TEXT? ?map K?} or {file PATH ?map PATH?}"
         }
         set endpoint [dict create {*}$text]
+        if {![dict exists $endpoint mol] && ![dict exists $endpoint file]} {
+            fail "$role: neither `mol ID` (a molecule in VMD) nor `file PATH` is in '$text'"
+        }
         set form [expr {[dict exists $endpoint mol] ? "mol" : "file"}]
         foreach key [dict keys $endpoint] {
             if {$key ni [dict get $endpoint_keys $form]} {
                 fail "$role: [unknown_word key $key [dict get $endpoint_keys $form]]"
             }
         }
-        if {![dict exists $endpoint $form]} { fail "$role: neither `mol ID` nor `file PATH` is in '$text'" }
         return $endpoint
     }
 

@@ -36,7 +36,7 @@ namespace eval ::espdiff {
 ::espdiff::load_module
 foreach ::espdiff::part {
     files options metrics commands manual jobs endpoint vmd_molecule vmd_view vmd_volume compute potential
-    draw linked_view highlight legend matrix atoms plot plot_file frame_maps trajectory trajectory_steps view
+    draw drawing_watch script_words saved_state linked_view highlight legend matrix atoms atom_colors plot plot_file frame_maps trajectory trajectory_steps view
     doctor
 } {
     source [file join $::espdiff::directory $::espdiff::part.tcl]
@@ -44,7 +44,11 @@ foreach ::espdiff::part {
 unset ::espdiff::part
 
 # The entry of VMD's menu calls this, by `vmd_install_extension espdiff espdiff_tk "Analysis/..."` in .vmdrc; VMD wants
-# the path of the window.
-proc espdiff_tk {} { return [espdiff gui] }
+# the path of the window, whose close button it then takes over.
+proc espdiff_tk {} {
+    set window [espdiff gui]
+    after idle {::espdiff::gui::guard ::espdiff::gui::take_close_button}
+    return $window
+}
 
 package provide espdiff [::espdiff::core::version]

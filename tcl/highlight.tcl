@@ -16,6 +16,12 @@ namespace eval ::espdiff {
         if {[llength $residues] > 0 && [llength $found] == 0} {
             fail "espdiff highlight: no molecule has a residue of that chain and number ([join [dict keys $keys] {, }])"
         }
+        foreach mol $found { lappend visible [molinfo $mol get displayed] }
+        if {$found ne "" && 1 ni $visible} {
+            fail "espdiff highlight: [expr {[llength $found] == 1 ? "molecule [lindex $found 0] is" : "molecules\
+                [join_words $found and] are"}] hidden, so that nothing would be seen; show one (`mol on\
+                [lindex $found 0]`, or the D in VMD's list), then highlight again"
+        }
         forget_highlight $handle
         variable highlights
         foreach mol $found {
@@ -86,6 +92,12 @@ namespace eval ::espdiff {
             }
         } { $all delete }
         return $indices
+    }
+
+    proc is_highlight {mol name} {
+        variable highlights
+        dict for {handle places} $highlights { if {[list $mol $name] in $places} { return 1 } }
+        return 0
     }
 
     # VMD's name of the new representation, which stays valid when others are deleted.

@@ -2,7 +2,7 @@
 
 namespace eval ::espdiff {
     # By handle: command and progress (the user's), temporary (files to delete at the end), source_mol and target_mol
-    # (VMD's molecules, or empty).
+    # (VMD's molecules, or empty), source_frame and target_frame, call (the words that began it).
     variable jobs [dict create]
 
     variable slice_ms 50  ;# between two polls of a computation: the longest standstill of a progress bar
@@ -18,7 +18,8 @@ namespace eval ::espdiff {
     proc begin_job {handle options {description {}}} {
         variable jobs
         variable slice_ms
-        dict set jobs $handle [dict merge {temporary {} source_mol {} target_mol {}} $description \
+        variable call
+        dict set jobs $handle [dict merge {temporary {} source_mol {} target_mol {}} $description [list call $call] \
             [dict create command [dict get $options command] progress [dict get $options progress]]]
         if {[dict get $options command] ne ""} {
             after $slice_ms [list ::espdiff::poll $handle]
@@ -83,6 +84,7 @@ namespace eval ::espdiff {
         dict unset jobs $handle
         forget_drawing $handle
         forget_highlight $handle
+        if {[in_vmd]} { restore_atom_colors $handle }
     }
 
     # The molecule of VMD of one side; empty if it came from a file or is deleted.

@@ -4,7 +4,7 @@ namespace eval ::espdiff {
     # In units of half the window's height, from its centre: position and size of the bar, baselines of the texts. The
     # bar is at the bottom centre. VMD's view has the same height in any window, so only a window narrower than high
     # would crop it; there all of it is made narrower.
-    variable legend_layout {half_width 0.62 bottom -0.885 top -0.845 ticks -0.945 title -0.815}
+    variable legend_layout {half_width 0.62 bottom -0.845 top -0.805 ticks -0.905 title -0.775 key -0.965}
     variable letter_width 0.0275  ;# average width of VMD's letters at size 1, in the same units
     variable legend_titles {
         difference "Potential difference, target - source" source "Potential of the source"
@@ -13,7 +13,7 @@ namespace eval ::espdiff {
         sign "Sign of the potential, target against source"
     }
 
-    # By id of the graphics molecule: its centre, in units of half the window's width.
+    # By id of the graphics molecule: handle, and its centre in units of half the window's width.
     variable legends [dict create]
 
     # `plan` comes from drawing_plan. The legend's centre, and half of its space, are in units of half the window's
@@ -21,24 +21,33 @@ namespace eval ::espdiff {
     proc draw_legend {plan {middle 0} {room 1}} {
         variable legend_layout
         variable letter_width
-        set mol [new_legend "espdiff [dict get $plan handle] legend" $middle]
+        set mol [new_legend [dict get $plan handle] "espdiff [dict get $plan handle] legend" $middle]
         set layout $legend_layout
         dict with layout {
             set room [expr {$room * [lindex [legend_screen] 2]}]
             set half_width [expr {min($half_width, 0.82 * $room)}]
+            set positions [tick_positions $plan $half_width]
             draw_bar $mol $half_width $bottom $top
             graphics $mol color [legend_text_color]
+            draw_ticks $mol $positions $bottom
+            # Texts last: VMD's PostScript renderer frees a text again with each shape after it.
             set text [legend_title $plan]
             set size [expr {min(1.0, 2 * $room / ($letter_width * [string length $text] + 0.1))}]
-            draw_ticks $mol $plan $half_width $bottom $ticks [expr {0.85 * max(0.65, min(1.0, 1.6 * $room))}]
             draw_text $mol $text 0 $title [expr {0.95 * $size}]
+            set size [expr {0.85 * max(0.65, min(1.0, 1.6 * $room))}]
+            foreach {x label} $positions { draw_text $mol $label $x $ticks $size }
+            set text [value_or $plan key ""]
+            if {$text ne ""} {
+                set size [expr {min(0.75, 2 * $room / ($letter_width * [string length $text] + 0.1))}]
+                draw_text $mol $text 0 $key $size
+            }
         }
         return $mol
     }
 
     # Draws the name of a panel at the window's top.
     proc draw_panel_title {handle middle text size} {
-        set mol [new_legend "espdiff $handle title" $middle]
+        set mol [new_legend $handle "espdiff $handle title" $middle]
         graphics $mol color [legend_text_color]
         draw_text $mol $text 0 0.9 $size
         build_list $mol
@@ -54,32 +63,52 @@ namespace eval ::espdiff {
     }
 
     # A graphics molecule that is fixed on the screen by place_legends.
-    proc new_legend {name middle} {
+    proc new_legend {handle name middle} {
         variable legends
         set mol [mol load graphics $name]
-        dict set legends $mol $middle
-        graphics $mol materials off  ;# the bar's colours unchanged, without light and shade
+        dict set legends $mol [list $handle $middle]
+        # The bar's colours unchanged, without light and shade; ray tracers need a material for that.
+        graphics $mol materials off
+        graphics $mol material [flat_material]
         trace remove variable ::vmd_logfile write ::espdiff::on_vmd_command
         trace add variable ::vmd_logfile write ::espdiff::on_vmd_command
         return $mol
     }
 
-    # Moves a legend to its position on the screen and fixes it there.
-    proc place_legend {mol middle} {
+    proc flat_material {} {
+        set name EspdiffFlat
+        if {$name ni [material list]} {
+            material add $name copy Opaque
+            foreach {property value} {ambient 1.0 diffuse 0.0 specular 0.0 shininess 0.0} {
+                material change $property $name $value
+            }
+        }
+        return $name
+    }
+
+    # Moves a legend to its position on the screen and fixes it there. The legends of several drawings stand above each
+    # other: `row` is counted from the bottom.
+    proc place_legend {mol middle row} {
         lassign [legend_screen] unit z aspect
+        set y [expr {0.28 * $row * $unit}]
         set x [expr {$middle * $aspect * $unit}]
         mol free $mol
         molinfo $mol set center_matrix {{{1 0 0 0} {0 1 0 0} {0 0 1 0} {0 0 0 1}}}
         molinfo $mol set rotate_matrix {{{1 0 0 0} {0 1 0 0} {0 0 1 0} {0 0 0 1}}}
         molinfo $mol set scale_matrix [list [list [list $unit 0 0 0] [list 0 $unit 0 0] [list 0 0 $unit 0] {0 0 0 1}]]
-        molinfo $mol set global_matrix [list [translation_matrix [list $x 0 $z]]]
+        molinfo $mol set global_matrix [list [translation_matrix [list $x $y $z]]]
         mol fix $mol
     }
 
     proc place_legends {} {
         variable legends
-        dict for {mol middle} $legends {
-            if {$mol in [molinfo list]} { place_legend $mol $middle } else { dict unset legends $mol }
+        set rows {}
+        dict for {mol place} $legends {
+            if {$mol ni [molinfo list]} { dict unset legends $mol; continue }
+            lassign $place handle middle
+            if {[regexp { (title|note)$} [molinfo $mol get name]]} { place_legend $mol $middle 0; continue }
+            if {$handle ni $rows} { lappend rows $handle }
+            place_legend $mol $middle [lsearch -exact $rows $handle]
         }
         if {[dict size $legends] == 0} { trace remove variable ::vmd_logfile write ::espdiff::on_vmd_command }
     }
@@ -139,13 +168,26 @@ namespace eval ::espdiff {
         }
     }
 
-    proc draw_ticks {mol plan half_width bottom baseline size} {
-        foreach {share label} [tick_labels $plan] {
-            if {$half_width < 0.3 && abs($share) == 0.5} continue  ;# no room for five
-            set x [expr {$share * $half_width}]
-            graphics $mol line [list $x $bottom 0] [list $x [expr {$bottom - 0.015}] 0] width 2
-            draw_text $mol $label $x $baseline $size
+    # Triangles, because lines have no width in ray tracers.
+    proc draw_ticks {mol positions bottom} {
+        set half 0.0022
+        set low [expr {$bottom - 0.015}]
+        foreach {x label} $positions {
+            set left [expr {$x - $half}]
+            set right [expr {$x + $half}]
+            graphics $mol triangle [list $left $bottom 0] [list $left $low 0] [list $right $low 0]
+            graphics $mol triangle [list $left $bottom 0] [list $right $low 0] [list $right $bottom 0]
         }
+    }
+
+    # Where ticks stand, and their labels; three if there is no room for five.
+    proc tick_positions {plan half_width} {
+        set positions {}
+        foreach {share label} [tick_labels $plan] {
+            if {$half_width < 0.3 && abs($share) == 0.5} continue
+            lappend positions [expr {$share * $half_width}] $label
+        }
+        return $positions
     }
 
     # Positions from -1 (left end) to 1, and their labels.
@@ -168,7 +210,7 @@ namespace eval ::espdiff {
 
     proc legend_title {plan} {
         variable legend_titles
-        set title [value_or $plan title [dict get $legend_titles [dict get $plan color]]]
+        set title [value_or $plan title [value_or $legend_titles [dict get $plan color] ""]]
         set unit [dict get $plan unit]
         if {$unit eq ""} { return $title }
         if {$unit eq "unknown"} { set unit "unit unknown" }

@@ -36,7 +36,8 @@ namespace eval ::espdiff {
         place_panels
         place_legends
         set molecules [concat {*}[dict values $made]]
-        remember_drawing $handle $molecules
+        remember_drawing $handle $molecules $options
+        add_frame_note $handle target
         return $molecules
     }
 
@@ -49,7 +50,7 @@ namespace eval ::espdiff {
         set plans [dict create]
         foreach {panel surface} {source source target mapped} {
             set own [dict create color [expr {$has_potentials ? $panel : "none"}] surface $surface range $range \
-                transparency none legend 0]
+                uncertain plain legend 0]
             dict set plans $panel [drawing_plan [dict merge $options $own] $handle]
         }
         dict set plans difference [drawing_plan [dict merge $options {surface mapped}] $handle]
@@ -71,11 +72,8 @@ namespace eval ::espdiff {
         variable panels
         dict for {panel plan} $plans {
             set molecules {}
-            with_color_scale [dict get $plan colors] {
-                draw_levels $handle $plan molecules
-                dict set made $panel $molecules
-                foreach mol $molecules { build_list $mol }
-            }
+            draw_parts $handle $plan molecules
+            dict set made $panel $molecules
         }
         set titles [dict create]
         dict for {panel place} $panels {

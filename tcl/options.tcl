@@ -224,10 +224,17 @@ namespace eval ::espdiff {
         return $options
     }
 
+    # By command: earlier names that are not settings.
+    variable renamed_options {draw {-transparency {-uncertain (fade, transparent or plain)}}}
+
     # Options cannot be abbreviated: a new option would break such scripts.
     proc refuse_word {name word known} {
         if {![string match -* $word]} { return -code error -errorcode {TCL WRONGARGS} \
             "wrong # args: should be \"[usage $name]\"" }
+        variable renamed_options
+        if {[dict exists $renamed_options $name $word]} {
+            fail "espdiff $name: $word is called [dict get $renamed_options $name $word] now"
+        }
         set renamed [core::renamed_settings]
         set old [string range $word 1 end]
         if {[dict exists $renamed $old] && "-[dict get $renamed $old]" in $known} {

@@ -113,21 +113,26 @@ namespace eval ::espdiff {
     # Endpoints, each with the potential that is usual for all of them together where the user named none: `map pb` and
     # why under `because`. `map none` compares shapes alone.
     proc with_usual_maps {endpoints} {
-        set facts {}
         foreach endpoint $endpoints {
             if {![string is list $endpoint] || [llength $endpoint] % 2 || [dict exists $endpoint map]} {
                 return $endpoints
             }
             if {![dict exists $endpoint mol] && ![dict exists $endpoint file]} { return $endpoints }
-            # What cannot be read is refused where it is read, by its role.
-            if {[catch { potential_facts $endpoint molecule } fact]} { return $endpoints }
-            lappend facts $fact
         }
-        lassign [core::usual_potential $facts] kind because
+        # What cannot be read is refused where it is read, by its role.
+        if {[catch { usual_potential_of $endpoints } choice]} { return $endpoints }
+        lassign $choice kind because
         if {$kind eq "none"} { return $endpoints }
         set result {}
         foreach endpoint $endpoints { lappend result [dict merge $endpoint [list map $kind because $because]] }
         return $result
+    }
+
+    # The potential that is usual for all endpoints together, and why.
+    proc usual_potential_of {endpoints} {
+        set facts {}
+        foreach endpoint $endpoints { lappend facts [potential_facts $endpoint molecule] }
+        return [core::usual_potential $facts]
     }
 
     # The core calls a given cell `box`; `cell` is the molecule's own.

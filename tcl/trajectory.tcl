@@ -77,7 +77,8 @@ namespace eval ::espdiff {
         if {$run(mol) ne ""} {
             set run(mol) [vmd_molecule_id $run(mol) -mol]
             set radii [expr {[value_or [dict get $options settings] radii auto] eq "element" ? "element" : "vmd"}]
-            set run(endpoint) [dict create mol $run(mol) sel [dict get $options sel] radii $radii]
+            set run(endpoint) [dict create mol $run(mol) sel [dict get $options sel] radii $radii \
+                whole [dict get $options whole]]
             set run(where) "molecule $run(mol) ([molinfo $run(mol) get name])"
             vmd_frame $run(mol) last -mol
             set n [molinfo $run(mol) get numframes]

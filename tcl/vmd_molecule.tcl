@@ -67,7 +67,9 @@ namespace eval ::espdiff {
             set indices [$selection list]
         } { $selection delete }
         if {[llength $atoms] == 0} { fail "$role: the selection '$text' of molecule $mol ($name) holds no atoms" }
-        return [dict create mol $mol n_atoms $n_atoms sel $text atoms $atoms indices $indices \
+        set whole [value_or $endpoint whole 0]
+        if {$whole ni {0 1}} { fail "$role: whole '$whole' is not 0 or 1" }
+        return [dict create mol $mol n_atoms $n_atoms sel $text atoms $atoms indices $indices whole $whole \
             radii_origin [expr {$radii eq "element" ? "element" : [vmd_radii_origin $mol]}] \
             charges_origin [vmd_charges_origin $mol $atoms]]
     }

@@ -52,7 +52,16 @@ namespace eval ::espdiff {
     # molecule with maps only has none, and VMD would complain about frame 0.
     proc vmd_write_volume {type name mol k} {
         set range [expr {[molinfo $mol get numframes] > 0 ? "beg 0 end 0" : ""}]
-        expr {![catch { animate write $type $name {*}$range volsets [list $k] $mol }]}
+        quietly { set code [catch { animate write $type $name {*}$range volsets [list $k] $mol }] }
+        expr {!$code}
+    }
+
+    # Evaluates `body` in the caller without VMD's lines about files: our volumes in memory have names that mean nothing
+    # to a user. Warnings and errors are printed.
+    proc quietly {body} {
+        if {[catch { vmdcon -loglevel } level]} { return [uplevel 1 $body] }
+        vmdcon -loglevel warn
+        finally { uplevel 1 $body } { vmdcon -loglevel $level }
     }
 
     proc volume_name {} {
@@ -81,7 +90,7 @@ namespace eval ::espdiff {
     # ignores `molid N` and loads into the top molecule.
     proc vmd_add_volume {type name mol} {
         set n [molinfo $mol get numvolumedata]
-        catch { mol addfile $name type $type waitfor all $mol }
+        quietly { catch { mol addfile $name type $type waitfor all $mol } }
         expr {[molinfo $mol get numvolumedata] == $n + 1}
     }
 

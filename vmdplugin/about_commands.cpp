@@ -1,5 +1,5 @@
 // about_commands.cpp: version, build, back_ends, device, settings, renamed_settings, metrics, abi, models, map_unit,
-// colours, volumes: what this module is and offers.
+// colours, volumes: version and contents of this module.
 #include <cstdio>
 #include <sstream>
 
@@ -46,7 +46,7 @@ Tcl_Obj* build(const Call&) {
                   {"tcl", to_obj(TCL_PATCH_LEVEL)}});
 }
 
-/// What a name given as -device means.
+/// The devices that a name given as -device means.
 Tcl_Obj* device(const Call& call) {
   const BackEndStatus status = device_status(parse_device(call.text(0)));
   return to_dict({{"name", to_obj(status.name)}, {"description", to_obj(spelled(call.interp, status.description))}});
@@ -154,7 +154,7 @@ const char* name_of(MetricSection section) {
   return "mapping";
 }
 
-/// The keys that lead to a metric in `espdiff result`; none where it is a residue's only.
+/// The keys of a metric in `espdiff result`; empty if only residues have it.
 std::vector<std::string> result_keys(const Metric& metric) {
   std::vector<std::string> keys;
   std::istringstream parts(metric.has_result() ? metric.json_pointer() : "");
@@ -164,7 +164,8 @@ std::vector<std::string> result_keys(const Metric& metric) {
   return keys;
 }
 
-/// The table of metrics. `unit` is `potential` where it is the potentials'; values times `factor` are in it.
+/// The table of metrics. `unit` is `potential` if the unit is that of the potentials. Values times `factor` are in
+/// that unit.
 Tcl_Obj* list_metrics(const Call&) {
   std::vector<Tcl_Obj*> all;
   for (const Metric& metric : metrics()) {
@@ -184,7 +185,7 @@ Tcl_Obj* list_metrics(const Call&) {
   return to_list(all);
 }
 
-/// What a file brings for a potential: {charges B solvent B}.
+/// Whether a file has charges and explicit solvent: {charges B solvent B}.
 Tcl_Obj* facts_of_file(const Call& call) {
   const int model = to_int(call.arguments[1], "model");
   const StructureFile file(call.text(0));
@@ -196,7 +197,7 @@ Tcl_Obj* facts_of_file(const Call& call) {
 }
 
 /// The rule for molecules whose user named no potential: a list of {name B charges B solvent} each; returns
-/// {kind because}, kind none where shapes alone are compared.
+/// {kind because}; the kind is none if only shapes are compared.
 Tcl_Obj* usual_potential(const Call& call) {
   std::vector<PotentialFacts> molecules;
   for (Tcl_Obj* const molecule : to_vector(call.arguments[0], "molecules")) {
@@ -247,7 +248,7 @@ Tcl_Obj* forget_volume(const Call& call) {
   return nullptr;
 }
 
-/// Colours of values from the lowest to the highest, as Tk names them. Diverging ones are red for the lowest, as
+/// Colours from the lowest value to the highest, by Tk's names. Diverging scales begin with red, in which negative
 /// potentials are drawn.
 Tcl_Obj* colours(const Call& call) {
   const std::string kind = call.text(0);

@@ -1,4 +1,4 @@
-// boundary.h: where C calls us: no exception passes; each becomes a class name and one line of text.
+// boundary.h: the boundary to C: turns each exception into a class name and one line of text.
 #pragma once
 
 #include <exception>
@@ -10,14 +10,14 @@
 
 namespace espdiff {
 
-/// What the other side of a boundary learns of an exception.
+/// An exception as the other side of a boundary sees it.
 struct Failure {
   const char* error_class;  ///< "INPUT", "MEMORY", ...: the CLASS of a Tcl errorcode
   Message message;          ///< one line
 };
 
-/// Returns body(), or on_failure(Failure) when body throws anything at all; both return the same type. Tcl and VMD are
-/// C and C++ of other compilers: an exception that reached them would end the program. `on_failure` must not throw.
+/// Returns body(), or on_failure(Failure) if body throws; both return the same type. An exception that reached Tcl or
+/// VMD would end the program. `on_failure` must not throw.
 template <typename Body, typename OnFailure>
 auto boundary(Body&& body, OnFailure&& on_failure) noexcept -> decltype(body()) {
   try {

@@ -1,4 +1,4 @@
-// commands.cpp: makes the commands, checks their arity, and turns whatever is thrown into a Tcl error.
+// commands.cpp: creates the commands, checks their arguments' number, and turns exceptions into Tcl errors.
 #include "commands.h"
 
 #include "boundary.h"
@@ -65,7 +65,7 @@ std::string Call::text(std::size_t i) const { return to_string(arguments.at(i));
 
 void create_commands(Tcl_Interp* interp) {
   auto handles = std::make_shared<Handles>();
-  // Goes with the interpreter, whether or not the commands were deleted before.
+  // Freed with the interpreter, even if the commands were deleted before.
   Tcl_SetAssocData(interp, kHandlesKey, delete_handles, new std::shared_ptr<Handles>(handles));
   for (const Command& command : all_commands()) {
     const std::string name = std::string(kNamespace) + "::" + command.name;

@@ -10,7 +10,7 @@
 
 namespace espdiff::vmdplugin {
 
-/// What a command is called with.
+/// The call of a command.
 struct Call {
   Tcl_Interp* interp;
   Handles& handles;

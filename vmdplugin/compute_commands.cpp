@@ -1,5 +1,4 @@
-// compute_commands.cpp: compare, surface: hand work to the worker; status, wait, cancel, delete: watch and end
-// it.
+// compute_commands.cpp: compare and surface start jobs of the worker; status, wait, cancel and delete manage them.
 #include "base/error.h"
 #include "commands.h"
 #include "compare/compare.h"
@@ -25,7 +24,7 @@ namespace espdiff::vmdplugin {
 Computation parse_computation(DictReader& reader, bool* regularize) {
   Computation computation;
   computation.device = reader.text("device", "auto");
-  parse_device(computation.device);  // a wrong one is told at once
+  parse_device(computation.device);  // reports a wrong one at once
   computation.threads = reader.integer("threads", 0);
   if (computation.threads < 0)
     throw InputError("threads: " + std::to_string(computation.threads) + " is negative; 0 uses all");
@@ -109,13 +108,13 @@ Tcl_Obj* prepare_command(const Call& call) {
   return to_obj(call.handles.add(object));
 }
 
-/// Whoever holds the handle holds the object, the job holds it while it runs.
+/// The handle owns the object; the job keeps it alive while it runs.
 Tcl_Obj* compare_command(const Call& call) {
   auto object = std::make_shared<ComparisonObject>();
   object->computation = parse_computation(call.arguments[2], nullptr);
   object->source = parse_endpoint(call.arguments[0], "source");
   object->target = parse_endpoint(call.arguments[1], "target");
-  // Not owned by its own job, which would keep it alive for ever.
+  // A weak pointer: the object owns its job, and would never be freed.
   object->job = Worker::instance().submit([keep = std::weak_ptr<ComparisonObject>(object)](const Progress& progress) {
     if (const auto alive = keep.lock()) run_comparison(*alive, progress);
   });

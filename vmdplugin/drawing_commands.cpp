@@ -1,9 +1,11 @@
-// drawing_commands.cpp: triangles, put_map, write_map: what came out, drawn and as maps.
+// drawing_commands.cpp: triangles, put_map, write_map: results drawn in VMD, and as maps.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "commands.h"
+#include "drawn_part.h"
 #include "graphics_draw.h"
 #include "io/check_outputs.h"
 #include "io/write_grid.h"
@@ -15,23 +17,30 @@
 namespace espdiff::vmdplugin {
 namespace {
 
-/// VMD's colour scale: the first id and the last.
+/// The first id of VMD's colour scale; the last one is kMostColourId.
 constexpr int kFirstScaleId = 33;
-
-/// A surface as it is drawn: in the frame of the molecule that it belongs to.
-struct DrawnSurface {
-  std::vector<Vec3f> positions, normals;
-  const std::vector<Triangle>* triangles = nullptr;
-  std::vector<std::uint8_t> corrupt;                    ///< [triangle] empty where nothing was mapped
-  const std::vector<std::uint8_t>* left_out = nullptr;  ///< [triangle] not part of the surface; null or empty for none
-  const std::vector<float>* displacement = nullptr;
-};
 
 std::vector<Vec3f> single_precision(const std::vector<Vec3d>& positions) {
   std::vector<Vec3f> result;
   result.reserve(positions.size());
   for (const Vec3d& p : positions) result.push_back(static_cast<Vec3f>(p));
   return result;
+}
+
+/// The target's surface that nothing was mapped to, a little below itself: where the mapped surface reaches over its
+/// border, the mapped surface is seen.
+DrawnSurface drawn_uncovered(const UncoveredSurface& surface) {
+  constexpr float kBelow_A = 0.1F;
+  DrawnSurface drawn;
+  drawn.positions = single_precision(surface.positions);
+  for (std::size_t v = 0; v < drawn.positions.size(); ++v)
+    drawn.positions[v] = drawn.positions[v] - kBelow_A * surface.normals[v];
+  drawn.normals = surface.normals;
+  drawn.triangles = &surface.triangles;
+  drawn.unmatched = &surface.uncovered;
+  drawn.has_unmatched_positions = true;
+  drawn.border = 0.01F;  // beyond the border of the mapped surface
+  return drawn;
 }
 
 DrawnSurface drawn_surface(const std::string& handle, const Object& object, const std::string& which) {
@@ -49,21 +58,22 @@ DrawnSurface drawn_surface(const std::string& handle, const Object& object, cons
   if (which == "mapped") {
     drawn.positions = single_precision(s.positions);
     drawn.normals = s.normals;
-    drawn.corrupt = s.corrupt;
-    drawn.left_out = &s.unmatched;
   } else if (which == "source") {
     drawn.positions = single_precision(s.source_positions);
     drawn.normals = s.source_normals;
-    drawn.corrupt = s.corrupt;
-    for (std::size_t t = 0; t < s.unmatched.size(); ++t) drawn.corrupt[t] |= s.unmatched[t];
-  } else {
-    throw InputError("surface: '" + which + "' is not mapped or source");
+    drawn.has_unmatched_positions = true;
+  } else if (which != "uncovered") {
+    throw InputError("surface: '" + which + "' is not mapped, source or uncovered");
   }
+  if (which == "uncovered") return drawn_uncovered(comparison->result.uncovered);
   drawn.triangles = &s.triangles;
-  drawn.displacement = &s.displacement;
+  drawn.corrupt = s.corrupt;
+  drawn.unmatched = &s.unmatched;
+  drawn.uncertainty = &vertex_uncertainty(s);
   return drawn;
 }
 
+/// Colour ids of values; those that are NaN get the colour `plain`.
 std::vector<int> colours_of(const std::vector<float>& values, double low, double high, int plain) {
   std::vector<int> ids;
   ids.reserve(values.size());
@@ -79,42 +89,22 @@ std::vector<int> colours_of(const std::vector<float>& values, double low, double
   return ids;
 }
 
-/// Which triangles are drawn in one go: those of one level of uncertainty, so that each level can have an opacity.
-struct OpacityBin {
-  int bin, n_bins;
-  double limit_A;  ///< displacement at which the last bin begins, times n / (n - 1)
-};
-
-int bin_of(const DrawnSurface& surface, std::size_t t, const OpacityBin& opacity) {
-  if (surface.displacement == nullptr) return 0;
-  double displacement = 0;
-  for (const std::uint32_t v : (*surface.triangles)[t])
-    displacement += static_cast<double>((*surface.displacement)[v]) / 3;
-  const double share = displacement / opacity.limit_A;
-  return std::isfinite(share) ? static_cast<int>(std::min(share, 1.0) * opacity.n_bins) : opacity.n_bins;
-}
-
-std::vector<std::uint8_t> select_triangles(const DrawnSurface& surface, const OpacityBin& opacity,
-                                           const std::string& corrupt) {
-  std::vector<std::uint8_t> drawn(surface.triangles->size(), 1);
-  for (std::size_t t = 0; t < drawn.size(); ++t) {
-    const bool is_corrupt = !surface.corrupt.empty() && surface.corrupt[t] != 0;
-    const bool left_out = surface.left_out != nullptr && !surface.left_out->empty() && (*surface.left_out)[t] != 0;
-    // What is corrupt is the least certain.
-    const int bin =
-        is_corrupt && corrupt == "bin" ? opacity.n_bins - 1 : std::min(bin_of(surface, t, opacity), opacity.n_bins - 1);
-    const bool hidden = left_out || (is_corrupt && corrupt == "skip");
-    drawn[t] = !hidden && bin == opacity.bin ? 1 : 0;
-  }
-  return drawn;
-}
-
-/// Vertices of corrupt triangles in the plain colour.
-void mark_corrupt(const DrawnSurface& surface, int plain, std::vector<int>& colours) {
-  for (std::size_t t = 0; t < surface.corrupt.size(); ++t) {
-    if (surface.corrupt[t] == 0) continue;
-    for (const std::uint32_t v : (*surface.triangles)[t]) colours[v] = plain;
-  }
+DrawnPart parse_part(DictReader& reader) {
+  DrawnPart part;
+  part.limit_A = reader.number("limit", 0);
+  part.from = static_cast<float>(reader.number("from", 0));
+  part.to = static_cast<float>(reader.number("to", 1e9));
+  part.corrupt = reader.text("corrupt", "normal");
+  part.hatches = reader.boolean("hatches", false);
+  part.plain = reader.integer("plain", 8);
+  part.marked = reader.integer("marked", 4);
+  part.light = reader.integer("light", kMostColourId);
+  if (part.corrupt != "normal" && part.corrupt != "uncertain" && part.corrupt != "mark" && part.corrupt != "hide")
+    throw InputError("corrupt: '" + part.corrupt + "' is not normal, uncertain, mark or hide");
+  if (!(part.limit_A >= 0) || !(part.to > part.from))
+    throw InputError("a band of uncertainty from " + std::to_string(part.from) + " to " + std::to_string(part.to) +
+                     " of a limit of " + std::to_string(part.limit_A) + " A is empty");
+  return part;
 }
 
 Tcl_Obj* triangles(const Call& call) {
@@ -122,31 +112,34 @@ Tcl_Obj* triangles(const Call& call) {
   const auto object = call.handles.find(handle);
   const int mol = to_int(call.arguments[1], "graphics molecule");
   DictReader reader(call.arguments[2], "options");
-  const std::string color = reader.text("color", "none"), corrupt = reader.text("corrupt", "normal");
-  if (corrupt != "normal" && corrupt != "plain" && corrupt != "bin" && corrupt != "skip")
-    throw InputError("corrupt: '" + corrupt + "' is not normal, plain, bin or skip");
+  const std::string color = reader.text("color", "none");
   const DrawnSurface surface = drawn_surface(handle, *object, reader.text("surface", "mapped"));
   const double low = reader.number("low", -1), high = reader.number("high", 1);
   if (!(high > low))
     throw InputError("range: " + std::to_string(low) + " to " + std::to_string(high) +
                      " is not from a lower to a higher value");
-  const int plain = reader.integer("plain", 8);
-  const OpacityBin opacity{reader.integer("opacity_bin", 0), reader.integer("n_bins", 1),
-                           reader.number("uncertainty_limit", 1)};
-  if (opacity.n_bins < 1 || opacity.bin < 0 || opacity.bin >= opacity.n_bins || !(opacity.limit_A > 0))
-    throw InputError("opacity_bin " + std::to_string(opacity.bin) + " of n_bins " + std::to_string(opacity.n_bins) +
-                     " with an uncertainty_limit of " + std::to_string(opacity.limit_A) + " A makes no sense");
+  const DrawnPart part = parse_part(reader);
   reader.finish();
 
-  TriangleSoup soup;
-  soup.positions = &surface.positions;
-  soup.normals = &surface.normals;
-  soup.triangles = surface.triangles;
-  soup.colour = color == "none" ? std::vector<int>(surface.positions.size(), plain)
-                                : colours_of(vertex_quantity(handle, *object, color).values, low, high, plain);
-  if (corrupt == "plain") mark_corrupt(surface, plain, soup.colour);
-  soup.drawn = select_triangles(surface, opacity, corrupt);
-  return to_obj(draw_triangles(call.interp, mol, soup));
+  std::vector<float> values(surface.positions.size(), std::numeric_limits<float>::quiet_NaN());
+  if (color != "none") values = vertex_quantity(handle, *object, color).values;
+  const CutPart cut = cut_part(surface, part, std::move(values));
+  const std::size_t n_vertices = cut.surface.positions().size();
+  std::size_t n_drawn = 0;
+  const auto draw = [&](const std::vector<Triangle>& some, std::vector<int> colours) {
+    if (some.empty()) return;
+    TriangleSoup soup;
+    soup.positions = &cut.surface.positions();
+    soup.normals = &cut.surface.normals();
+    soup.triangles = &some;
+    soup.colour = std::move(colours);
+    n_drawn += draw_triangles(call.interp, mol, soup);
+  };
+  draw(cut.coloured, colours_of(cut.surface.field(cut.value), low, high, part.plain));
+  draw(cut.marked, std::vector<int>(n_vertices, part.marked));
+  draw(cut.dark, std::vector<int>(n_vertices, part.plain));
+  draw(cut.light, std::vector<int>(n_vertices, part.light));
+  return to_obj(n_drawn);
 }
 
 /// The quantity carried onto a lattice around the mapped surface.

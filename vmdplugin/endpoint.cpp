@@ -1,7 +1,8 @@
-// endpoint.cpp: descriptions of molecules and maps in Tcl become ours.
+// endpoint.cpp: converts Tcl's descriptions of molecules and maps.
 #include "endpoint.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <set>
@@ -18,6 +19,7 @@
 #include "report/provenance.h"
 #include "report/state_report.h"
 #include "tcl_values.h"
+#include "whole_molecule.h"
 
 namespace espdiff::vmdplugin {
 namespace {
@@ -60,10 +62,10 @@ VmdAtom atom_of(Tcl_Obj* description, const std::string& what) {
   atom.entry.residue_number = to_int(fields[2], what + ", resid");
   const std::string insertion = to_string(fields[3]), chain = to_string(fields[4]), segment = to_string(fields[5]);
   atom.entry.insertion_code = insertion.empty() ? ' ' : insertion[0];
-  // VMD calls the chain of files without chains "X"; their segments tell more.
+  // VMD calls a missing chain "X"; then the segment identifies the chain.
   const bool has_chain = !chain.empty() && chain != " " && chain != "X";
   atom.entry.chain = has_chain || segment.empty() ? chain : segment;
-  // Where no file says, VMD calls the element "X"; then the name tells.
+  // VMD calls an unknown element "X"; then it follows from the atom's name.
   atom.entry.element = to_string(fields[6]) == "X" ? "" : to_string(fields[6]);
   atom.radius = to_double(fields[7], what + ", radius");
   atom.charge = to_double(fields[8], what + ", charge");
@@ -109,7 +111,13 @@ void parse_vmd_molecule(DictReader& reader, Endpoint& endpoint) {
     throw InputError(name +
                      ": every radius is 0, so that there is no surface; load a file with radii (PQR), set them "
                      "(`$sel set radius`), or take `radii element`");
-  endpoint.inputs.push_back({endpoint.role, reader.text("input", name), fingerprint(*endpoint.molecule)});
+  std::string input = reader.text("input", name);
+  const bool whole = reader.boolean("whole", false);
+  if (Tcl_Obj* const numbers = reader.find("cell")) {
+    const std::optional<UnitCell> cell = parse_unit_cell(numbers, endpoint.role + " cell");
+    if (cell && make_whole(*endpoint.molecule, *cell, whole, endpoint.role) > 0) input += " whole 1";
+  }
+  endpoint.inputs.push_back({endpoint.role, input, fingerprint(*endpoint.molecule)});
   if (Tcl_Obj* const list = reader.find("region")) {
     std::set<std::size_t> chosen;
     for (Tcl_Obj* const index : to_vector(list, endpoint.role + " region"))
@@ -122,13 +130,13 @@ void parse_vmd_molecule(DictReader& reader, Endpoint& endpoint) {
   }
 }
 
-/// @param endpoint_reader of the endpoint that the map is for: its coordinates and cell are the map's
+/// @param endpoint_reader of the map's endpoint, which has the coordinates and the cell
 void parse_map_request(DictReader& reader, DictReader& endpoint_reader, Endpoint& endpoint) {
   MapRequest request;
   request.method = parse_potential_method(to_string(reader.require("kind")));
   request.because = reader.text("because");
   request.given = take_potential_settings(reader);
-  make_potential_options(request.method, request.given, PmeOptions().temperature_K);  // a wrong one is reported at once
+  make_potential_options(request.method, request.given, PmeOptions().temperature_K);  // reports a wrong one at once
   if (Tcl_Obj* const box = reader.find("box")) {
     if (request.method != PotentialMethod::kPme)
       throw InputError(endpoint.role + " map: a cell was given, and only the potential pme has one; leave it out");
@@ -151,6 +159,21 @@ void parse_map_request(DictReader& reader, DictReader& endpoint_reader, Endpoint
   endpoint.map_request = std::move(request);
 }
 
+/// Whether a lattice repeats with the cell: its points cover each edge once, as those of PME's maps do. A lattice that
+/// ends at the cell's border has a point more.
+bool covers_cell(const Lattice& lattice, const UnitCell& cell) {
+  constexpr double kDegree = 3.14159265358979323846 / 180;
+  const auto edge = [&](std::size_t axis) { return static_cast<double>(lattice.size[axis]) * lattice.step[axis]; };
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (std::fabs(norm(edge(axis)) - cell.lengths[static_cast<int>(axis)]) > 0.3 * norm(lattice.step[axis]))
+      return false;
+    const Vec3d b = edge((axis + 1) % 3), c = edge((axis + 2) % 3);
+    const double cosine = dot(b, c) / (norm(b) * norm(c));
+    if (std::fabs(cosine - std::cos(kDegree * cell.angles[static_cast<int>(axis)])) > 0.01) return false;
+  }
+  return true;
+}
+
 void parse_map(Tcl_Obj* description, DictReader& endpoint_reader, Endpoint& endpoint) {
   DictReader reader(description, endpoint.role + " map");
   if (reader.find("kind") != nullptr) return parse_map_request(reader, endpoint_reader, endpoint);
@@ -162,6 +185,10 @@ void parse_map(Tcl_Obj* description, DictReader& endpoint_reader, Endpoint& endp
     if (!endpoint.map) throw InputError(endpoint.role + " map: no volume named '" + name + "' is in memory");
     endpoint.map->name = label;
     if (!endpoint.map_unit.empty()) endpoint.map->unit = parse_potential_unit(endpoint.map_unit);
+    if (Tcl_Obj* const numbers = endpoint_reader.find("cell")) {
+      const std::optional<UnitCell> cell = parse_unit_cell(numbers, endpoint.role + " cell");
+      if (cell && covers_cell(endpoint.map->lattice, *cell)) endpoint.map->periodic = true;
+    }
     endpoint.inputs.push_back({endpoint.role + "_map", label, fingerprint(*endpoint.map)});
     return;
   }
@@ -169,7 +196,7 @@ void parse_map(Tcl_Obj* description, DictReader& endpoint_reader, Endpoint& endp
   endpoint.map_array = reader.text("array");
   reader.find("name");
   reader.finish();
-  if (!endpoint.map_unit.empty()) parse_potential_unit(endpoint.map_unit);  // a wrong one is told at once
+  if (!endpoint.map_unit.empty()) parse_potential_unit(endpoint.map_unit);  // reports a wrong one at once
 }
 
 }  // namespace
@@ -251,7 +278,7 @@ Molecule named_atoms(const std::vector<Tcl_Obj*>& atoms, const std::vector<Vec3d
 
 namespace {
 
-/// The map that was asked for. Of a file that has water in a cell, pme takes both; else what has the surface.
+/// The requested map. For a file with water in a cell, pme takes all of it; otherwise the endpoint's atoms.
 ComputedMap requested_map(Endpoint& endpoint, double temperature_K) {
   MapRequest& request = *endpoint.map_request;
   PotentialOptions options = make_potential_options(request.method, request.given, temperature_K);

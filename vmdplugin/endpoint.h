@@ -33,13 +33,13 @@ struct MapRequest {
   std::string because;  ///< why this potential, where the user did not ask for it
 };
 
-/// All that a structure file has, with water and ions, and its cell.
+/// All atoms of a structure file, with water and ions, and its cell.
 struct Everything {
   Molecule molecule;
   std::optional<UnitCell> cell;
 };
 
-/// A molecule and its map. What is in files is read by load(), on the worker's thread.
+/// A molecule and its map. Files are read by load(), on the worker's thread.
 struct Endpoint {
   std::string structure_path;  ///< empty: the molecule came from memory
   StructureOptions structure;
@@ -48,7 +48,7 @@ struct Endpoint {
   std::optional<Molecule> molecule;
   std::optional<Grid> map;
   std::optional<MapRequest> map_request;
-  std::optional<Everything> everything;     ///< where wants_everything()
+  std::optional<Everything> everything;     ///< if wants_everything()
   std::optional<ComputedMap> computed_map;  ///< of the request
   std::vector<InputFile> inputs;            ///< provenance; roles begin with the endpoint's ("source", "source_map")
   std::string role;
@@ -64,16 +64,16 @@ struct Endpoint {
 /// U?, or
 ///   kind pme|pb|coulomb ?charges LIST? ?radii LIST? ?water B? ?box CELL? ?because TEXT? ?KEY VALUE ...?, the keys
 ///   those of potential_settings()
-/// A volume in memory is taken: it is gone after. `charges` are those of all atoms in the coordinates, 0 where one does
-/// not count; without them the molecule's own are taken.
+/// A volume in memory is removed from the store. `charges` are those of all atoms in the coordinates, 0 for unselected
+/// ones; by default those of the molecule.
 /// @param role "source", "target" or "molecule"
 /// @throws InputError (wrong keys, numbers that do not fit each other, no atoms, radii that add no density)
 Endpoint parse_endpoint(Tcl_Obj* description, const std::string& role);
 
-/// The options of potentials among a dict's keys, taken off it.
+/// Reads the keys of potentials' settings from a dict.
 GivenPotentialSettings take_potential_settings(DictReader& reader);
 
-/// Six numbers, lengths and angles; nothing where a length is at most 1 A, as VMD says that there is no cell.
+/// A cell of six numbers, lengths and angles; empty if a length is at most 1 A, by which VMD marks a missing cell.
 std::optional<UnitCell> parse_unit_cell(Tcl_Obj* numbers, const std::string& what);
 
 /// Atoms with positions and charges only, for a potential: `coordinates` as `gettimestep` returns them.
@@ -84,10 +84,10 @@ Molecule charged_atoms(Tcl_Obj* charges, Tcl_Obj* coordinates, const std::string
 /// @throws InputError (numbers that do not fit each other)
 Molecule named_atoms(const std::vector<Tcl_Obj*>& atoms, const std::vector<Vec3d>& positions, const std::string& name);
 
-/// Whether the map that was asked for depends on all that the structure's file has: pme takes water in a cell.
+/// Whether the requested map depends on all atoms of the structure file: pme takes water in a cell.
 bool wants_everything(const Endpoint& endpoint);
 
-/// Reads the files that are not read yet, and notes the fingerprints of all inputs.
+/// Reads the files that are not read yet, and adds the fingerprints of all inputs.
 /// @param options selections and charges of files; the temperature of the kT in a computed map's unit
 /// @param source  loaded, for the target; null for others
 /// @throws what load_state, read_grid and ComputedMap throw; InputError (a selection of files for VMD's atoms)

@@ -1,4 +1,4 @@
-// fingerprint.h: hashes of molecules and maps that are in no file, for the provenance of a result.
+// fingerprint.h: hashes of molecules and maps from memory, for a result's provenance.
 #pragma once
 
 #include <string>

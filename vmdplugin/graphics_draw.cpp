@@ -138,7 +138,7 @@ void check_vector(Vec3f v, const char* what, std::size_t vertex) {
                    " " + std::to_string(v.y) + " " + std::to_string(v.z) + "; numbers within 1e7 were expected");
 }
 
-/// Before the first triangle, so that nothing is left half drawn.
+/// Checked before the first triangle, so that no surface is half drawn.
 void check_soup(const TriangleSoup& soup) {
   const std::size_t n = soup.positions->size();
   if (soup.normals->size() != n || soup.colour.size() != n) {
@@ -193,7 +193,7 @@ std::size_t draw_triangles(Tcl_Interp* interp, int mol, const TriangleSoup& soup
   if (Tcl_GetCommandInfo(interp, "::graphics", &command) == 0) {
     throw InputError("there is no command 'graphics', by which VMD draws; run this inside VMD");
   }
-  // What the procedure does is what costs; looking the command up for each triangle would add to it.
+  // Calls the command's procedure directly: looking it up for each triangle would take longer.
   constexpr int kCount = static_cast<int>(kNumArguments);
   if (command.isNativeObjectProc != 0) {
     return draw_with<ObjectArguments>(interp, mol, soup, [&](Tcl_Obj* const* arguments) {

@@ -1,10 +1,10 @@
-// handles.cpp: objects by name, and the end of their jobs.
+// handles.cpp: finds objects by name, and ends their jobs.
 #include "handles.h"
 
 namespace espdiff::vmdplugin {
 namespace {
 
-/// The object as one of a kind. @throws InputError that names what it is
+/// The object as one of a kind. @throws InputError (another kind)
 template <typename Kind>
 std::shared_ptr<Kind> as(const std::shared_ptr<Object>& object, const std::string& handle, const char* wanted) {
   auto found = std::dynamic_pointer_cast<Kind>(object);

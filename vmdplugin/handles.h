@@ -1,5 +1,5 @@
-// handles.h: what Tcl holds by name: comparisons, surfaces, trajectories, ... They belong to the interpreter that made
-// them.
+// handles.h: objects with handles in Tcl: comparisons, surfaces, trajectories and so on. They belong to the interpreter
+// that made them.
 #pragma once
 
 #include <map>
@@ -30,11 +30,11 @@ struct Computation {
   std::string command_line;  ///< the user's command, for the provenance
 };
 
-/// Behind every handle.
+/// Base of all objects with handles.
 struct Object {
   virtual ~Object() = default;
   virtual const char* kind() const = 0;
-  std::shared_ptr<Job> job;  ///< that fills it; null where there is none
+  std::shared_ptr<Job> job;  ///< that computes it; null if there is none
 };
 
 /// One pair.

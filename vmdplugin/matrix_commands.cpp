@@ -1,4 +1,4 @@
-// matrix_commands.cpp: matrix, merge: many variants, each with each, and parts of a matrix put together.
+// matrix_commands.cpp: matrix compares all pairs of variants; merge joins the shards of a matrix.
 #include "base/error.h"
 #include "commands.h"
 #include "engine/engine.h"
@@ -30,7 +30,7 @@ void add_variant(Tcl_Obj* description, MatrixObject& object) {
   Tcl_DecrRefCount(endpoint);
 }
 
-/// Reads the files; the endpoints are empty after. Potentials that are to be computed are made on the way.
+/// Reads the files and empties the endpoints; computes the requested potentials.
 std::vector<Variant> load_variants(MatrixObject& object, const Progress& progress) {
   std::vector<Variant> variants;
   for (std::size_t i = 0; i < object.endpoints.size(); ++i) {
@@ -63,7 +63,7 @@ MatrixRun parse_run(DictReader& reader) {
   run.overwrite = reader.boolean("overwrite", false);
   run.skip_errors = reader.text("on_error", "stop") == "skip";
   run.cluster_by = reader.text("cluster_by");
-  if (!run.cluster_by.empty()) find_metric(run.cluster_by);  // a wrong one is told at once
+  if (!run.cluster_by.empty()) find_metric(run.cluster_by);  // reports a wrong one at once
   return run;
 }
 

@@ -1,4 +1,4 @@
-// module.cpp: what the hosting programs look for: Tcl's Espdiff_Init and Espdiff_Unload, VMD's vmdplugin_*.
+// module.cpp: the entry points: Tcl's Espdiff_Init and Espdiff_Unload, VMD's vmdplugin_*.
 #include <tcl.h>
 
 #include "base/version.h"
@@ -22,7 +22,7 @@ void stop_worker() {
 
 extern "C" void on_tcl_exit(ClientData) { stop_worker(); }
 
-/// The last way out: a program that ends without asking Tcl or VMD's plugins to.
+/// Stops the worker if a program ends without calling Tcl's or VMD's own functions for that.
 __attribute__((destructor)) void on_unload() { stop_worker(); }
 
 }  // namespace
@@ -42,8 +42,8 @@ ESPDIFF_ENTRY int Espdiff_Init(Tcl_Interp* interp) {  // NOLINT: Tcl makes the n
       });
 }
 
-/// `unload espdiffplugin.so Espdiff`: stops what computes. The library itself stays mapped (linked with -z nodelete):
-/// VMD may hold it as well.
+/// `unload espdiffplugin.so Espdiff`: stops the worker. The library stays mapped (linked with -z nodelete), because
+/// VMD may have opened it too.
 ESPDIFF_ENTRY int Espdiff_Unload(Tcl_Interp* interp, int flags) {  // NOLINT: as above
   return espdiff::boundary(
       [interp, flags] {

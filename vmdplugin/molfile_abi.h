@@ -7,7 +7,7 @@ namespace espdiff::molfile {
 
 inline constexpr int kSuccess = 0;
 inline constexpr int kError = -1;
-inline constexpr int kNoAtoms = 0;  ///< what open_file_read says of a file that holds volumes only
+inline constexpr int kNoAtoms = 0;  ///< returned by open_file_read for files with volumes only
 inline constexpr const char* kPluginType = "mol file reader";  ///< writers are of this type, too
 
 /// The versions known here, newest first. VMD takes plugins of its own version only, and has one: 18 is that of 1.9.4,
@@ -15,7 +15,7 @@ inline constexpr const char* kPluginType = "mol file reader";  ///< writers are 
 /// and no has_scalar, has_gradient, has_variance.
 inline constexpr int kVersions[] = {18, 17, 16};
 
-/// What every plugin starts with. VMD keeps pointers to it and to all strings for good.
+/// The head of every plugin. VMD keeps pointers to it and to all strings.
 struct PluginHead {
   int abiversion = 0;
   const char* type = kPluginType;
@@ -27,7 +27,7 @@ struct PluginHead {
   int is_reentrant = 0;
 };
 
-/// Returns kSuccess when VMD took the plugin, or has one of this name and version; kError when it refuses the version.
+/// Returns kSuccess if VMD accepts the plugin or has one of this name and version; kError if it refuses the version.
 using RegisterCallback = int (*)(void* registrar, PluginHead* plugin);
 
 /// One volume. Axes are whole edges: direction times (number of points - 1) times spacing; values x fastest.
@@ -54,7 +54,7 @@ struct Volume<16> {
   void mark_as_scalar() {}  // it can be nothing else
 };
 
-// The functions of a plugin, in VMD's order; what no plugin of ours has stays a null `void*`.
+// The functions of a plugin, in VMD's order; unused ones are null.
 
 template <int Version>
 struct FileFunctions {

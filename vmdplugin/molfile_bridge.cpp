@@ -39,7 +39,7 @@ struct FileTypes {
   }
 };
 
-/// VMD has no other way to show why a file was refused.
+/// VMD shows the reason of a refused file nowhere else.
 template <int Version>
 void say(const molfile::Plugin<Version>& plugin, const Failure& failure) {
   const std::string line = "espdiff) " + failure.message.plain() + "\n";
@@ -53,7 +53,7 @@ void say(const molfile::Plugin<Version>& plugin, const Failure& failure) {
 
 std::string text_or_empty(const char* text) { return text != nullptr ? text : ""; }
 
-// Writing: the handle is a name in a list that only grows, since VMD need not close what it opened.
+// Writing: the handle is a name in a list that only grows, since VMD does not always close a file.
 
 struct WriteNames {
   std::mutex mutex;
@@ -124,7 +124,7 @@ int write_volume(void* handle, molfile::Volume<Version>* metadata, float* values
 
 void close_written(void*) {}
 
-// Reading: the handle owns the volumes, so that the store may let go of them meanwhile.
+// Reading: the handle owns the volumes, so that they survive their removal from the store.
 
 template <int Version>
 struct OpenVolumes {
@@ -196,7 +196,7 @@ void* open_for_reading(const char* path, const char* type, int* n_atoms) {
 
 template <int Version>
 int read_metadata(void* handle, int* n_sets, molfile::Volume<Version>** metadata) {
-  if (n_sets != nullptr) *n_sets = 0;  // VMD looks at the number only
+  if (n_sets != nullptr) *n_sets = 0;  // VMD reads only the number
   if (handle == nullptr || n_sets == nullptr || metadata == nullptr) return kError;
   auto& opened = *static_cast<OpenVolumes<Version>*>(handle);
   *n_sets = static_cast<int>(opened.metadata.size());
@@ -246,7 +246,7 @@ FileTypes<Version>::FileTypes() {
   }
 }
 
-/// True when VMD takes plugins of this version. One is offered first: VMD prints a warning for each that it refuses.
+/// True if VMD accepts plugins of this version. Offers one plugin first: VMD prints a warning for each refused one.
 template <int Version>
 bool offer(void* registrar, molfile::RegisterCallback callback) {
   auto& types = FileTypes<Version>::instance();

@@ -15,7 +15,7 @@ inline constexpr const char* kVolumeReader = "espdiffmap";     ///< `mol addfile
 inline constexpr const char* kVtiReader = "vti";               ///< in builds with VTK
 
 /// Offers the file types to VMD, newest version of its plugin interface first, and stays with the version accepted.
-/// VMD ignores what its own writers return: whoever has it write a volume must look whether the name is in the store.
+/// VMD ignores the return values of writers, so callers must check whether the volume is in the store.
 /// A volume written keeps its values bit for bit (NaN too), its grid (the origin is the first point), the unit that its
 /// name says, as PMEPot's "PME potential (kT/e, T=300K)" does, and that name; one with fewer than 2 points along an
 /// axis or without a volume is refused. Opening a name for writing removes what was under it. What fails is said on
@@ -23,7 +23,7 @@ inline constexpr const char* kVtiReader = "vti";               ///< in builds wi
 /// @returns molfile::kSuccess, or molfile::kError when no version was accepted
 int register_plugins(void* registrar, molfile::RegisterCallback callback) noexcept;
 
-/// The version of VMD's plugin interface that was accepted; 0 before that, and outside of VMD.
+/// The accepted version of VMD's plugin interface; 0 before that, and outside of VMD.
 int accepted_abi();
 
 /// All scalar point arrays of a VTI file, each with its array's name as dataname.

@@ -10,7 +10,7 @@ namespace {
 
 constexpr const char* kVariable = "::espdiff::option_spelling";
 
-/// What is an option of the command line and a key of an endpoint in Tcl.
+/// Options of the command line that are keys of an endpoint in Tcl.
 struct EndpointKey {
   const char *option, *words;
 };
@@ -19,7 +19,7 @@ constexpr EndpointKey kEndpointKeys[] = {{"source-map", "the source's `map`"},
                                          {"source-map-unit", "the source's `unit`"},
                                          {"target-map-unit", "the target's `unit`"}};
 
-/// What the command in `prefix` returns; the usual spelling where it fails.
+/// The result of the command in `prefix`; Tcl's spelling if it fails.
 std::string by_command(Tcl_Interp* interp, Tcl_Obj* prefix, const NamedOption& option) {
   Tcl_Obj* const command = Tcl_DuplicateObj(prefix);
   Tcl_IncrRefCount(command);

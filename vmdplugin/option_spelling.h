@@ -13,7 +13,7 @@ namespace espdiff::vmdplugin {
 std::string spelled_option(const NamedOption& option);
 
 /// The message as Tcl writes it, or as the command does that the variable ::espdiff::option_spelling names: called with
-/// name, value, and 1 for a switch, it returns the words. The window says by it what its fields are called.
+/// name, value, and 1 for a switch, it returns the text. The window uses it to name its fields.
 std::string spelled(Tcl_Interp* interp, const Message& message);
 
 }  // namespace espdiff::vmdplugin

@@ -1,4 +1,4 @@
-// plot_commands.cpp: plot_lines: lines into a file, as the command line's `espdiff plot` draws them.
+// plot_commands.cpp: plot_lines draws lines into a file, as the command line's `espdiff plot` does.
 #include <cmath>
 
 #include "commands.h"

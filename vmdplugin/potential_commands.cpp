@@ -17,9 +17,9 @@
 namespace espdiff::vmdplugin {
 namespace {
 
-/// The engine of the last potential, with its plans and buffers, which for a small map take as long as the work itself.
-/// Of the CPU only, and not when they are large: an engine of a GPU wants to go before the driver does, and memory that
-/// is seldom used belongs to others. Touched by the worker's thread alone.
+/// The engine of the last potential is kept: for a small map, its plans and buffers take as long to make as the
+/// potential. Only on the CPU, since a GPU's engine must be destroyed before the driver, and only if its buffers are
+/// small. Used by the worker's thread only.
 struct KeptEngine {
   std::string device;
   int threads = 0;
@@ -47,7 +47,7 @@ Tcl_Obj* potential(const Call& call) {
   auto object = std::make_shared<PotentialObject>();
   DictReader reader(call.arguments[0], "options");
   object->computation.device = reader.text("device", "auto");
-  parse_device(object->computation.device);  // a wrong one is told at once
+  parse_device(object->computation.device);  // reports a wrong one at once
   object->computation.threads = reader.integer("threads", 0);
   const PotentialMethod method = parse_potential_method(reader.text("method", "pme"));
   object->potential = make_potential_options(method, take_potential_settings(reader), PmeOptions().temperature_K, true);
@@ -59,7 +59,7 @@ Tcl_Obj* potential(const Call& call) {
   return to_obj(call.handles.add(object));
 }
 
-/// The frame's atoms: with names and residues where the superposition needs them.
+/// The frame's atoms; with names and residues if the superposition needs them.
 Molecule frame_of(DictReader& reader, bool named) {
   const std::string name = reader.text("name", "frame");
   Molecule molecule = charged_atoms(reader.require("charges"), reader.require("coordinates"), name);

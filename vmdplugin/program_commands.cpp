@@ -1,5 +1,5 @@
-// program_commands.cpp: start_program, program_state: another program beside this one. Tcl's exec forks, and VMD with a
-// trajectory may reserve more address space than the system is willing to fork.
+// program_commands.cpp: start_program and program_state run another program. Tcl's exec is not used: it forks, which
+// fails if VMD with a trajectory has reserved too much address space.
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -16,7 +16,7 @@ extern "C" char** environ;  // NOLINT: POSIX declares no header for it
 namespace espdiff::vmdplugin {
 namespace {
 
-/// In a session of its own, so that a key in VMD's terminal does not end it. Both outputs go to the file `log`.
+/// Starts it in its own session, so that a key in VMD's terminal does not end it. Both outputs go to the file `log`.
 pid_t start(const std::vector<std::string>& words, const std::string& log) {
   std::vector<char*> arguments;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
@@ -44,7 +44,7 @@ Tcl_Obj* start_program(const Call& call) {
   return to_obj(static_cast<int>(start(words, call.text(1))));
 }
 
-/// "running", or the exit status: 128 and the signal's number after a signal; empty where it cannot be known.
+/// "running", or the exit status (128 plus the signal's number after a signal); empty if it is unknown.
 Tcl_Obj* program_state(const Call& call) {
   int status = 0;
   const pid_t ended = waitpid(to_int(call.arguments[0], "process"), &status, WNOHANG);

@@ -1,8 +1,9 @@
-// result_commands.cpp: result, residues, table, range, export: what came out, as values and as files.
+// result_commands.cpp: result, residues, table, range, export: results as values and as files.
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "commands.h"
+#include "compare/paired_residues.h"
 #include "compare/result.h"
 #include "compare/surface.h"
 #include "io/check_outputs.h"
@@ -38,7 +39,7 @@ Tcl_Obj* surface_result(const SurfaceObject& surface) {
                   {"time_ms", times}});
 }
 
-/// The results' JSON, of a shard without matrix; and how the run went.
+/// The result as JSON with the run's statistics; a shard has no matrix.
 Tcl_Obj* matrix_result(const MatrixObject& object) {
   const MatrixReport& report = object.report;
   Tcl_Obj* const dict = report.matrix
@@ -85,9 +86,14 @@ Tcl_Obj* result(const Call& call) {
   return to_obj(json);
 }
 
+std::string name_of_partner(const Molecule& target, std::int32_t residue) {
+  return residue < 0 ? "" : target.residues[static_cast<std::size_t>(residue)].name;
+}
+
 Tcl_Obj* residues(const Call& call) {
   const auto comparison = call.handles.finished_comparison(call.text(0));
-  const Molecule& source = *comparison->source.molecule;
+  const Molecule &source = *comparison->source.molecule, &target = *comparison->target.molecule;
+  const std::vector<std::int32_t> partner = paired_residues(source, target, comparison->result.pairing);
   std::vector<Tcl_Obj*> rows;
   for (const ResidueRow& row : comparison->result.residues) {
     const Residue& residue = source.residues.at(row.residue);
@@ -96,7 +102,8 @@ Tcl_Obj* residues(const Call& call) {
                                    {"chain", to_obj(residue.chain)},
                                    {"number", to_obj(static_cast<int>(residue.number))},
                                    {"insertion", to_obj(insertion)},
-                                   {"name", to_obj(residue.name)}});
+                                   {"name", to_obj(residue.name)},
+                                   {"target_name", to_obj(name_of_partner(target, partner[row.residue]))}});
     for (const Metric& metric : metrics()) {
       if (metric.has_residues())
         Tcl_DictObjPut(nullptr, dict, to_obj(metric.name), to_obj(value_of(metric, comparison->result, row)));
@@ -135,7 +142,7 @@ Tcl_Obj* range(const Call& call) {
                   {"n_nan", to_obj(range.n_nan)}});
 }
 
-/// The files that a comparison was made of; empty where something came from memory.
+/// Paths of a comparison's input files; empty for inputs from memory.
 std::vector<std::string> input_paths(const ComparisonObject& comparison) {
   std::vector<std::string> paths;
   for (const InputFile& input : comparison.provenance.inputs) paths.push_back(input.path);
@@ -172,7 +179,7 @@ Tcl_Obj* export_files(const Call& call) {
   return to_list(written);
 }
 
-/// For what Tcl knows the names of.
+/// Names of metrics that Tcl offers.
 Tcl_Obj* check_output_files(const Call& call) {
   std::vector<std::string> lists[2];
   for (std::size_t i = 0; i < 2; ++i) {

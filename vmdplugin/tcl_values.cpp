@@ -1,4 +1,4 @@
-// tcl_values.cpp: Tcl's values to ours and back.
+// tcl_values.cpp: converts between Tcl's values and C++ values.
 #include "tcl_values.h"
 
 #include <algorithm>

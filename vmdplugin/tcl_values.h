@@ -1,4 +1,4 @@
-// tcl_values.h: Tcl's values to ours and back.
+// tcl_values.h: converts between Tcl's values and C++ values.
 #pragma once
 
 #include <tcl.h>
@@ -11,7 +11,7 @@
 
 namespace espdiff::vmdplugin {
 
-/// Each returns a new object that nobody refers to yet.
+/// Each returns a new object with reference count 0.
 Tcl_Obj* to_obj(const std::string& text);
 Tcl_Obj* to_obj(const char* text);
 Tcl_Obj* to_obj(int value);
@@ -26,13 +26,13 @@ Tcl_Obj* to_dict(std::initializer_list<std::pair<const char*, Tcl_Obj*>> entries
 Tcl_Obj* to_obj(const nlohmann::ordered_json& json);
 
 std::string to_string(Tcl_Obj* value);
-/// Each throws InputError with `what` and the value where that is something else.
+/// Each throws InputError with `what` and the value if it has another type.
 int to_int(Tcl_Obj* value, const std::string& what);
 double to_double(Tcl_Obj* value, const std::string& what);
 bool to_bool(Tcl_Obj* value, const std::string& what);
 std::vector<Tcl_Obj*> to_vector(Tcl_Obj* value, const std::string& what);
 
-/// Reads a dict key by key; whoever is done calls finish(), which refuses keys that nobody asked for.
+/// Reads a dict key by key. finish() refuses keys that were not read.
 class DictReader {
  public:
   /// @param what for messages: "source", "options"

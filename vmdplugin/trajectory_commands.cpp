@@ -1,4 +1,4 @@
-// trajectory_commands.cpp: runs over frames, which Tcl drives frame by frame; ranges of frames and tables as text.
+// trajectory_commands.cpp: runs over frames, step by step from Tcl; ranges of frames; CSV tables.
 #include <sstream>
 
 #include "base/error.h"
@@ -33,7 +33,7 @@ SeriesHead pairs_of(Tcl_Obj* list, const std::string& what) {
   return pairs;
 }
 
-/// A computed potential in the words of the core, whatever was given of it; other maps as they are.
+/// A computed potential with all its settings as text; other maps unchanged.
 std::string map_in_words(Tcl_Obj* map, double temperature_K) {
   const std::vector<Tcl_Obj*> words = to_vector(map, "map");
   const std::string kind = words.empty() ? std::string() : to_string(words[0]);
@@ -98,8 +98,8 @@ std::shared_ptr<TrajectoryObject> resting(const Call& call) {
   return object;
 }
 
-/// {frame N reference R previous P}: the step to do. P is the frame that it is compared with, of a run against the
-/// frame before. Empty when all is done.
+/// The next step, {frame N reference R previous P}; empty after the last one. P is the frame to compare with, in a run
+/// against the previous frame.
 Tcl_Obj* trajectory_next(const Call& call) {
   const auto object = resting(call);
   if (object->run->is_done()) return Tcl_NewObj();
@@ -142,7 +142,7 @@ void load_side(TrajectoryObject& object, Endpoint& side, std::optional<int> fram
   if (options.input.radii == RadiiChoice::kElement) set_surface_radii({&*side.molecule}, RadiiChoice::kElement);
 }
 
-/// What all rows depend on: the source, and a map that serves all frames.
+/// Reads the inputs of all rows: the source, and a map of all frames.
 std::vector<InputFile> common_inputs(const TrajectoryObject& object) {
   std::vector<InputFile> inputs = object.source.inputs;
   for (const InputFile& input : object.target.inputs) {
@@ -151,12 +151,12 @@ std::vector<InputFile> common_inputs(const TrajectoryObject& object) {
   return inputs;
 }
 
-/// Runs on the worker's thread: what is read, compared and written of one frame.
+/// Reads, compares and writes one frame, on the worker's thread.
 void run_step(TrajectoryObject& object, const Progress& progress) {
   object.row.reset();
   TrajectoryRun& run = *object.run;
   if (object.engine == nullptr) object.engine = engine_for(object.computation);
-  // Without the source of all frames nothing can be compared: no matter for -on-error skip.
+  // A failure of the common source ends the run, even with -on-error skip.
   if (!object.against_previous) load_side(object, object.source, std::nullopt, progress);
   const auto read = [&] {
     const TrajectoryStep& step = run.next();
@@ -180,7 +180,7 @@ Tcl_Obj* trajectory_step(const Call& call) {
   return nullptr;
 }
 
-/// The next frame cannot be had, for the reason MESSAGE of errorcode {ESPDIFF CLASS}: a row that says so, or an error.
+/// The next frame failed with MESSAGE and errorcode {ESPDIFF CLASS}: writes a row with the error, or throws it.
 Tcl_Obj* trajectory_skip(const Call& call) {
   const auto object = resting(call);
   object->row.reset();
@@ -188,7 +188,7 @@ Tcl_Obj* trajectory_skip(const Call& call) {
   return nullptr;
 }
 
-/// The row that the last step added, by column; empty where it was there.
+/// The row that the last step added, by column; empty if the file had it already.
 Tcl_Obj* trajectory_row(const Call& call) {
   const auto object = resting(call);
   Tcl_Obj* const dict = Tcl_NewDictObj();
@@ -210,13 +210,13 @@ Tcl_Obj* trajectory_summary(const Call& call) {
                   {"csv", to_obj(object->run->file().path())}});
 }
 
-/// Why the first mapping of a resumed run starts from the source; empty usually.
+/// Reason why the first mapping of a resumed run starts from the source; usually empty.
 Tcl_Obj* trajectory_warning(const Call& call) { return to_obj(resting(call)->run->warning()); }
 
-/// Ends the run between two frames: the error of a cancelled run.
+/// Ends the run between two frames; throws the error of a cancelled run.
 Tcl_Obj* trajectory_cancelled(const Call& call) { throw resting(call)->run->cancelled(); }
 
-/// OPTION TEXT N NOW OF: a list of frames; NOW is empty where there is no such frame.
+/// OPTION TEXT N NOW OF: a list of frames; NOW is empty if there is no current frame.
 Tcl_Obj* frames(const Call& call) {
   FrameSet set;
   set.what = call.text(0);

@@ -51,6 +51,8 @@ VertexQuantity vertex_quantity(const std::string& handle, const Object& object, 
   return {surface->result.potential, to_string(surface->result.unit)};
 }
 
+const std::vector<float>& vertex_uncertainty(const MappedSurface& surface) { return surface.displacement; }
+
 QuantityRange range_of(const std::vector<float>& values) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   std::vector<float> sorted;

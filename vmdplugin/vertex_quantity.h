@@ -14,10 +14,13 @@ struct VertexQuantity {
 };
 
 /// @param name of a comparison: difference (target - source), source, target, displacement, path_length, or sign, which
-/// is +1 where a negative potential became positive, -1 where a positive one became negative, else 0; of a surface:
-/// potential
+/// is +1 where a negative potential became positive, -1 where a positive one became negative, otherwise 0; of a
+/// surface: potential
 /// @throws InputError (another name; no potentials), and the failure of the object's job
 VertexQuantity vertex_quantity(const std::string& handle, const Object& object, const std::string& name);
+
+/// What a comparison calls the uncertainty of a vertex, Angstrom; NaN if unmatched. All drawings ask here.
+const std::vector<float>& vertex_uncertainty(const MappedSurface& surface);
 
 /// Two-sided range for a colour scale.
 struct QuantityRange {

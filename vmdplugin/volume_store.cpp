@@ -51,7 +51,7 @@ std::optional<Grid> take_volume(const std::string& name) {
     volume = std::move(found->second);
     store().volumes.erase(found);
   }
-  // Out of the store, its owners can only become fewer: alone is alone for good.
+  // After removal from the store nobody new can own it, so that a single owner stays the only one.
   if (volume.use_count() == 1) return std::move(volume->grid);
   return volume->grid;
 }

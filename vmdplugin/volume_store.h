@@ -1,4 +1,4 @@
-// volume_store.h: volumes kept in memory by name, through which VMD and the Tcl commands hand each other maps.
+// volume_store.h: volumes in memory by name, by which VMD and the Tcl commands exchange maps.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@ struct StoredVolume {
   std::string dataname;
 };
 
-/// Everything about a volume but its values.
+/// A volume without its values.
 struct VolumeDescription {
   Lattice lattice;
   PotentialUnit unit = PotentialUnit::kUnknown;
@@ -25,7 +25,7 @@ struct VolumeDescription {
 
 // One store for the process; each function may be called from any thread.
 
-/// Keeps a volume under `name`, in the place of one that was there.
+/// Stores a volume under `name`; replaces an older one.
 /// @throws InputError when an axis has fewer than 2 points or the number of values is not the lattice's
 void put_volume(const std::string& name, Grid grid, std::string dataname);
 

@@ -1,4 +1,4 @@
-// worker.cpp: the queue, the thread that takes from it, and the end of both.
+// worker.cpp: the queue of jobs and the thread that runs them.
 #include "worker.h"
 
 #include <omp.h>
@@ -14,8 +14,8 @@
 namespace espdiff::vmdplugin {
 namespace {
 
-/// VMD lets its main thread flush denormal numbers to zero, and threads inherit that: results would then differ in
-/// their last bits from the command line's.
+/// VMD's main thread flushes denormal numbers to zero, and threads inherit that. Results would then differ from the
+/// command line's in their last bits.
 void set_default_rounding() {
   std::fesetenv(FE_DFL_ENV);
 #if defined(__SSE__)
@@ -24,9 +24,9 @@ void set_default_rounding() {
 #endif
 }
 
-/// OpenMP's threads spin while they wait for each other, which beside another busy program makes a computation up to
-/// ten times as long. The variable that forbids it (OMP_WAIT_POLICY) is read when the library starts, which is before
-/// us. But where there are more of its threads than processors it hardly spins; so one team more exists, and sleeps.
+/// OpenMP's threads spin while they wait. Beside another busy program this makes a computation up to ten times as long.
+/// OMP_WAIT_POLICY, which forbids it, is read before this library is loaded. With more threads than processors libgomp
+/// hardly spins, so a second team of threads is kept asleep.
 class SleepingTeam {
  public:
   SleepingTeam() : thread_([this] { sleep(); }) {}
@@ -135,7 +135,7 @@ void Job::run() {
         return failure.error_class == std::string(error_class_name(ErrorClass::kCancelled)) ? State::kCancelled
                                                                                             : State::kFailed;
       });
-  body_ = nullptr;  // what it holds is freed by the thread that made most of it
+  body_ = nullptr;  // frees its memory on the thread that allocated most of it
   end(state, why);
 }
 

@@ -1,4 +1,4 @@
-// worker.h: one thread that computes, job after job, while the hosting program goes on.
+// worker.h: the thread that computes one job after the other in the background.
 #pragma once
 
 #include <atomic>
@@ -13,7 +13,7 @@
 
 namespace espdiff::vmdplugin {
 
-/// A computation that was handed to the worker. Its functions may be called from any thread.
+/// A computation by the worker. Its functions may be called from any thread.
 class Job {
  public:
   enum class State { kQueued, kRunning, kDone, kFailed, kCancelled };
@@ -33,7 +33,7 @@ class Job {
   void wait() const;
   /// A queued job never starts; a running one stops at its next check.
   void cancel();
-  /// Why it failed or was cancelled.
+  /// The reason of a failure or cancellation.
   Failure failure() const;
 
  private:
@@ -55,7 +55,7 @@ class Worker {
   static Worker& instance();
 
   std::shared_ptr<Job> submit(Job::Body body);
-  /// Cancels all jobs and joins the thread; a later job starts it again. Called at every way out of the program: an
+  /// Cancels all jobs and joins the thread; a later job starts it again. Called however the program ends: an
   /// unjoined thread would end the hosting program with an abort.
   void stop();
 

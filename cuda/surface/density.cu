@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "base/error.h"
@@ -63,10 +64,15 @@ CubicLattice density_lattice(const AtomCells& atoms, double spacing_A) {
   const double coarser = coarsening_to_fit(n_points, kBytesPerPoint);
   if (coarser > 1) {
     const double fitting = spacing_A * coarser;
-    throw MemoryError("a grid of spacing " + std::to_string(spacing_A) + " A over " + std::to_string(extent.x) + " x " +
-                      std::to_string(extent.y) + " x " + std::to_string(extent.z) + " A has " +
-                      std::to_string(n_points) + " points, which " + need_in_words(n_points, kBytesPerPoint) +
-                      "; a spacing of " + std::to_string(fitting) + " A would fit, or select fewer atoms");
+    const auto short_number = [](double value) {
+      char text[32];
+      std::snprintf(text, sizeof text, "%.4g", value);
+      return std::string(text);
+    };
+    throw MemoryError("a grid of spacing " + short_number(spacing_A) + " A over " + short_number(extent.x) + " x " +
+                      short_number(extent.y) + " x " + short_number(extent.z) + " A has " + short_number(n_points) +
+                      " points, which " + need_in_words(n_points, kBytesPerPoint) + "; a spacing of " +
+                      short_number(std::ceil(1000 * fitting) / 1000) + " A would fit, or select fewer atoms");
   }
   for (int axis = 0; axis < 3; ++axis) lattice.size[axis] = static_cast<int>(std::ceil(extent[axis] / spacing_A) + 3);
   lattice.spacing = static_cast<float>(spacing_A);

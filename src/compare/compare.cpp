@@ -316,6 +316,9 @@ struct Series::Steps {
           region_result(engine, region, mapping, target_surface, static_cast<float>(options.surface.isovalue),
                         s.residue, mapped_residue, target_of, result, *source.molecule, *target.molecule);
     }
+    result.uncovered =
+        uncovered_surface(engine.download(target_surface.mesh),
+                          engine.download(result.certificate.target_to_mapped.beyond), inverse(frame.from_target));
     if (target_map != nullptr)
       compare_potentials(target, target_map, mapping, moved, target_surface.atoms, region.outside, result);
     result.residues = residue_rows(s, source.molecule->residues.size(), result.has_potential);

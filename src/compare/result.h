@@ -14,6 +14,7 @@
 #include "base/types.h"
 #include "compare/start_from.h"
 #include "compare/surface_summary.h"
+#include "compare/uncovered_surface.h"
 #include "engine/certificate_stage.h"
 #include "engine/deform_stage.h"
 #include "engine/morph_stage.h"
@@ -132,6 +133,7 @@ struct CompareResult {
   MorphReport morph_report;
   std::vector<ResidueRow> residues;
   MappedSurface surface;
+  UncoveredSurface uncovered;                           ///< of the target
   std::vector<std::pair<std::string, double>> time_ms;  ///< stage, in order; "total" last
   /// The same numbers, certificate and residues of the region alone, without vertices; null without a region. Its RMSD
   /// is that of its atoms after the whole superposition. The round trip is not measured for it.

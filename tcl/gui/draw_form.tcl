@@ -4,7 +4,7 @@ namespace eval ::espdiff::gui {
     variable form
     array set form {
         draw,color difference draw,surface target draw,range auto draw,low -5 draw,high 5
-        draw,transparency 1 draw,limit 2.0 draw,corrupt transparent draw,legend 1 draw,view single draw,mol ""
+        draw,uncertain fade draw,limit 2.0 draw,off_target uncertain draw,legend 1 draw,view single draw,mol ""
     }
     variable drawn_on {target mapped source source}  ;# the window's word, espdiff's word
 
@@ -26,20 +26,25 @@ namespace eval ::espdiff::gui {
             98 % of the surface's points on each side"
         grid configure $path.range -columnspan 3
         ttk::frame $path.look
-        ttk::checkbutton $path.look.transparent -text "Transparent where uncertain, up to" \
-            -variable ${variable}(draw,transparency)
+        ttk::label $path.look.uncertain -text "Uncertain parts"
+        ttk::combobox $path.look.style -textvariable ${variable}(draw,uncertain) -state readonly -width 11 \
+            -values {fade transparent plain}
+        ttk::label $path.look.from -text "from"
         ttk::spinbox $path.look.limit -textvariable ${variable}(draw,limit) -width 5 -from 0.5 -to 20 -increment 0.5
         ttk::label $path.look.unit -text "\u00c5"
-        tip $path.look.transparent "The larger a point's displacement, the more transparent it is"
-        tip $path.look.limit "Displacement at which the surface is most transparent"
+        foreach name {uncertain style} {
+            tip $path.look.$name "fade: colours fade into grey the larger a point's displacement is; transparent: the\
+                surface does; plain: full colours"
+        }
+        tip $path.look.limit "Displacement at which colours have faded completely; below half of it nothing fades"
         ttk::checkbutton $path.look.legend -text Legend -variable ${variable}(draw,legend)
         tip $path.look.legend "A colour bar at the bottom of VMD's window"
-        pack $path.look.transparent $path.look.limit $path.look.unit -side left -padx {0 4}
+        pack $path.look.uncertain $path.look.style $path.look.from $path.look.limit $path.look.unit -side left -padx {0 4}
         pack $path.look.legend -side right
         grid $path.look -row 2 -column 0 -columnspan 4 -sticky ew -pady 2
-        ttk::combobox $path.corrupt -textvariable ${variable}(draw,corrupt) -state readonly -width 12 \
-            -values {transparent mark hide}
-        form_row $path 3 "Corrupt parts" $path.corrupt "Parts that are off the target's surface: most transparent,\
+        ttk::combobox $path.corrupt -textvariable ${variable}(draw,off_target) -state readonly -width 12 \
+            -values {uncertain mark hide}
+        form_row $path 3 "Corrupt parts" $path.corrupt "Parts that are off the target's surface: as uncertain as can be,\
             marked in yellow, or not drawn"
         ttk::checkbutton $path.linked -text "Source, target and this side by side" \
             -variable ::espdiff::gui::form(draw,view) -onvalue linked -offvalue single
@@ -127,12 +132,11 @@ namespace eval ::espdiff::gui {
         if {$form(draw,range) eq "given"} {
             lappend options -range [list [string trim $form(draw,low)] [string trim $form(draw,high)]]
         }
-        if {!$form(draw,transparency)} {
-            lappend options -transparency none
-        } elseif {$form(draw,limit) ne "2.0"} {
+        if {$form(draw,uncertain) ne "fade"} { lappend options -uncertain $form(draw,uncertain) }
+        if {$form(draw,uncertain) ne "plain" && $form(draw,limit) ne "2.0"} {
             lappend options -uncertainty-limit $form(draw,limit)
         }
-        if {$form(draw,corrupt) ne "transparent"} { lappend options -corrupt $form(draw,corrupt) }
+        if {$form(draw,off_target) ne "uncertain"} { lappend options -corrupt $form(draw,off_target) }
         if {$form(draw,surface) ne "target"} { lappend options -surface [dict get $drawn_on $form(draw,surface)] }
         if {!$form(draw,legend)} { lappend options -legend 0 }
         if {$form(draw,view) ne "single"} { lappend options -view $form(draw,view) }

@@ -100,7 +100,12 @@ namespace eval ::espdiff::gui {
         ttk::combobox $path.unit -textvariable ::espdiff::gui::form($side,unit) -values $units -state readonly -width 12
         form_row $path 7 Unit $path.unit "Unit of the map's values, if the map does not say; VMD's data sets do\
             not"
-        foreach name {map browse_map unit} { set widget($side,$name) $path.$name }
+        # In the place of the unit: what the automatic choice is, and why. The row is never empty, so that nothing below
+        # moves.
+        tip [ttk::label $path.choice -foreground gray40 -anchor w -width 10] ""
+        grid $path.choice -row 7 -column 0 -columnspan 3 -sticky ew -pady 2
+        grid rowconfigure $path 7 -minsize [expr {[winfo reqheight $path.unit] + 4}]
+        foreach name {map browse_map unit choice} { set widget($side,$name) $path.$name }
     }
 
     # Shows the rows for the current choice, with VMD's current molecules, frames and data sets.
@@ -117,7 +122,34 @@ namespace eval ::espdiff::gui {
         set has_map [expr {$map ni {none ""} && ![is_computed_map $map]}]
         foreach name {unit label_unit} { show_if $has_map $parent.$name }
         update_prepare_row $side
+        show_if [expr {!$has_map}] $parent.choice
+        set choice [expr {$map eq "automatic" ? [automatic_choice] : ""}]
+        $widget($side,choice) configure -text $choice
+        set ::espdiff::gui::tips($widget($side,choice)) $choice
         foreach name {file map} { $widget($side,$name) xview end }
+    }
+
+    # What `automatic` takes for the molecules chosen now, as "Poisson-Boltzmann: charges without explicit water".
+    proc automatic_choice {} {
+        variable form
+        variable computed
+        set endpoints {}
+        foreach side {source target} {
+            if {$form($side,kind) eq "mol"} {
+                set mol [number_of $form($side,mol)]
+                if {$mol eq "" || $mol ni [molinfo list]} { return "" }
+                lappend endpoints [list mol $mol]
+            } else {
+                set path [string trim $form($side,file)]
+                if {![file isfile $path]} { return "" }
+                lappend endpoints [list file $path]
+            }
+        }
+        if {[catch { ::espdiff::usual_potential_of $endpoints } choice]} { return "" }
+        lassign $choice kind because
+        if {$kind eq "none"} { return "Shapes alone: $because" }
+        foreach {title word} $computed { if {$word eq $kind} { return "$title: $because" } }
+        return "$kind: $because"
     }
 
     proc show_if {shown path} {

@@ -2,7 +2,7 @@
 
 namespace eval ::espdiff::gui {
     variable plot_frame {}  ;# layout: left, top, width, height in pixels; x_low, x_high, y_low, y_high; points
-    variable plot_inks {line #0072b2 chosen #e07000 axis gray30 grid gray90 now gray60 failed #b00020}
+    variable plot_inks {line #0072b2 pale #9cc4e4 mean #d55e00 chosen #e07000 axis gray30 grid gray90 now gray60 failed #b00020}
 
     # points: {row x y} for each row, in pixels; y is empty if the row has no number.
     proc draw_trajectory {} {
@@ -32,6 +32,7 @@ namespace eval ::espdiff::gui {
         draw_axes $plot $title [string map [list A \u00c5 ^2 \u00b2] $unit]
         dict set plot_frame points [points_of $frames $values]
         draw_points $plot
+        draw_running_mean $plot $frames $values
         mark_now
         mark_point
         tell_chosen_point
@@ -172,6 +173,36 @@ namespace eval ::espdiff::gui {
                 -outline [dict get $plot_inks line] -width 2 -tags [expr {$good ? "good" : "bad"}] \
                 -fill [expr {$good ? [dict get $plot_inks line] : "white"}]
         }
+    }
+
+    # The running mean over as many rows as the user wants, over paler points; none for 1.
+    proc draw_running_mean {plot frames values} {
+        variable form
+        variable plot_inks
+        set n [string trim $form(trajectory,smooth)]
+        if {![string is integer -strict $n] || $n < 1} { error "Mean over: '$n' is not a whole number from 1 on" }
+        if {$n == 1} return
+        set line {}
+        foreach frame $frames mean [running_mean $values $n] {
+            if {$mean ne ""} { lappend line [plot_x $frame] [plot_y $mean] }
+        }
+        foreach tag {good bad} { $plot itemconfigure $tag -outline [dict get $plot_inks pale] }
+        $plot itemconfigure good -fill [dict get $plot_inks pale]
+        if {[llength $line] > 2} {
+            $plot create line $line -fill [dict get $plot_inks mean] -width 3 -tags mean
+        }
+    }
+
+    # Means over n values around each, fewer at the ends; missing ones ("") are left out.
+    proc running_mean {values n} {
+        set before [expr {($n - 1) / 2}]
+        set means {}
+        for {set i 0} {$i < [llength $values]} {incr i} {
+            set some [lsearch -all -inline -not -exact [lrange $values [expr {max(0, $i - $before)}] \
+                [expr {$i - $before + $n - 1}]] ""]
+            lappend means [expr {[llength $some] == 0 ? "" : [::tcl::mathop::+ 0.0 {*}$some] / [llength $some]}]
+        }
+        return $means
     }
 
     # A dashed line at the frame that VMD shows.

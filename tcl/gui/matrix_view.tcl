@@ -69,6 +69,7 @@ namespace eval ::espdiff::gui {
         }
         set settings [setting_options variants]
         tell_in matrix ""
+        set ::espdiff::gui::matrix_begun [clock milliseconds]
         set matrix_running [espdiff matrix [matrix_variants] {*}$options {*}$settings \
             -progress ::espdiff::gui::matrix_progress -command ::espdiff::gui::finish_matrix]
         set endpoints {}
@@ -111,7 +112,8 @@ namespace eval ::espdiff::gui {
         variable widget
         if {![info exists widget(matrix,bar)] || ![winfo exists $widget(matrix,bar)]} return
         $widget(matrix,bar) configure -value $fraction
-        tell_in matrix $stage
+        variable matrix_begun
+        tell_in matrix $stage[time_left $matrix_begun $fraction]
     }
 
     proc finish_matrix {handle} {

@@ -5,18 +5,19 @@ namespace eval ::espdiff::gui {
     variable residue_rows {}    ;# its `espdiff residues`
     variable highlighted ""     ;# handle with a highlight in VMD
     variable form
-    array set form {residues,sort mean_abs_difference residues,falling 1 residues,face 1}
+    array set form {residues,sort share residues,falling 1 residues,face 1 residues,least 0}
 
-    # Key of `espdiff residues`, heading, whether it needs potentials, decimals, factor.
+    # Key of `espdiff residues`, or share: area times |difference|, of the sum over all residues. Heading, whether it needs potentials, decimals, factor.
     variable residue_columns {
         residue Residue 0 "" 1
+        share "Share %" 1 1 100
         mean_abs_difference "|Diff.|" 1 2 1
         mean_signed_difference Diff. 1 2 1
         mean_source Source 1 2 1
         mean_target Target 1 2 1
-        sign_change_area_fraction "Sign, %" 1 0 100
-        mean_displacement_A "Moved, \u00c5" 0 2 1
-        area_A2 "Area, \u00c5\u00b2" 0 1 1
+        sign_change_area_fraction "Sign %" 1 0 100
+        mean_displacement_A "Moved \u00c5" 0 2 1
+        area_A2 "Area \u00c5\u00b2" 0 1 1
     }
 
     proc build_residues {path} {
@@ -25,17 +26,25 @@ namespace eval ::espdiff::gui {
         variable residues_of -  ;# no handle: the table is new
         ttk::frame $path.top
         ttk::label $path.title -anchor w -width 28 -font [bold_font]
-        ttk::combobox $path.top.sort -state readonly -width 15
+        ttk::combobox $path.top.sort -state readonly -width 12
         bind $path.top.sort <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::sort_as_chosen}
         ttk::checkbutton $path.top.falling -text "largest first" -variable ::espdiff::gui::form(residues,falling) \
             -command {::espdiff::gui::guard ::espdiff::gui::fill_residues}
         ttk::label $path.top.by -text "Sorted by"
         tip $path.top.sort "Same as a click on a heading"
-        pack $path.top.by $path.top.sort $path.top.falling -side left -padx {0 6}
+        ttk::label $path.top.from -text "Area from"
+        ttk::spinbox $path.top.least -textvariable ::espdiff::gui::form(residues,least) -width 4 -from 0 -to 200 \
+            -increment 5 -command {::espdiff::gui::guard_in residues ::espdiff::gui::fill_residues}
+        ttk::label $path.top.unit -text "\u00c5\u00b2"
+        bind $path.top.least <Return> {::espdiff::gui::guard_in residues ::espdiff::gui::fill_residues; break}
+        bind $path.top.least <FocusOut> {::espdiff::gui::guard_in residues ::espdiff::gui::fill_residues}
+        tip $path.top.least "Residues with less surface are left out: their means say little"
+        pack $path.top.by $path.top.sort $path.top.falling $path.top.from $path.top.least $path.top.unit -side left \
+            -padx {0 6}
         ttk::frame $path.list
         set columns {}
         foreach {key heading of_potentials decimals factor} $residue_columns { lappend columns $key }
-        ttk::treeview $path.list.table -columns $columns -show headings -height 18 -selectmode extended \
+        ttk::treeview $path.list.table -columns $columns -show headings -height 18 -selectmode extended -style Espdiff.Treeview \
             -yscrollcommand [list $path.list.scroll set]
         foreach {key heading of_potentials decimals factor} $residue_columns {
             $path.list.table heading $key -command [list ::espdiff::gui::guard ::espdiff::gui::sort_by $key]
@@ -47,10 +56,16 @@ namespace eval ::espdiff::gui {
         grid columnconfigure $path.list 0 -weight 1
         grid rowconfigure $path.list 0 -weight 1
         build_residue_buttons $path.buttons
-        ttk::label $path.message -anchor w -wraplength 620 -justify left
+        # As high as its longest text, so that the buttons above do not move.
+        ttk::frame $path.space -height [expr {3 * [font metrics TkDefaultFont -linespace]}]
+        pack propagate $path.space 0
+        ttk::label $path.message -anchor nw -wraplength 620 -justify left
+        pack $path.message -in $path.space -fill both -expand 1
+        raise $path.message
+        bind $path.space <Configure> [list $path.message configure -wraplength %w]
         pack $path.title -fill x -padx 8 -pady {8 0}
         pack $path.top -fill x -padx 8 -pady 4
-        pack $path.message -side bottom -fill x -padx 8 -pady {0 8}
+        pack $path.space -side bottom -fill x -padx 8 -pady {0 8}
         pack $path.buttons -side bottom -fill x -padx 8 -pady 4
         pack $path.list -fill both -expand 1 -padx 8
         bind $path.list.table <<TreeviewSelect>> {::espdiff::gui::guard_in residues ::espdiff::gui::highlight_chosen}
@@ -65,17 +80,19 @@ namespace eval ::espdiff::gui {
         ttk::frame $path
         button $path.clear "Clear highlight" ::espdiff::gui::clear_highlight
         button $path.atoms "Colour atoms" ::espdiff::gui::colour_atoms
+        button $path.uncolor "Restore colours" {::espdiff::gui::guard_in residues ::espdiff::gui::restore_colours}
         button $path.export "Export CSV..." ::espdiff::gui::export_residues
         tip $path.clear "Deselect all rows and remove the highlight from VMD (Escape)"
-        tip $path.atoms "Carries what the table is sorted by onto the atoms, in VMD's field User, and colours the\
-            molecule's representations by it"
+        tip $path.atoms "Carries what the table is sorted by onto the atoms of the displayed molecules, in VMD's field\
+            User, and colours their representations by it, with a legend"
+        tip $path.uncolor "The representations' colours as they were before"
         tip $path.export "Write the table in its current order, with all digits"
         pack $path.export -side right
         ttk::checkbutton $path.face -text "rotate the view to it" -variable ::espdiff::gui::form(residues,face) \
             -command {::espdiff::gui::guard_in residues ::espdiff::gui::highlight_chosen}
         tip $path.face "Rotate VMD's view so that the highlighted residues are in front"
-        if {[in_vmd]} { pack $path.clear $path.face $path.atoms -side left -padx {0 6} }
-        foreach name {clear face atoms export} { set widget(residues,$name) $path.$name }
+        if {[in_vmd]} { pack $path.clear $path.face $path.atoms $path.uncolor -side left -padx {0 6} }
+        foreach name {clear face atoms uncolor export} { set widget(residues,$name) $path.$name }
     }
 
     # Shows the residues of a newly shown result.
@@ -86,22 +103,75 @@ namespace eval ::espdiff::gui {
         variable chosen_result
         variable widget
         if {$residues_of ne $shown} {
+            set chosen [chosen_residues]
             remove_highlight
             set residues_of $shown
-            set residue_rows [expr {$shown eq "" ? {} : [espdiff residues $shown]}]
-            fill_residues
+            set residue_rows [expr {$shown eq "" ? {} : [with_shares [espdiff residues $shown]]}]
+            $widget(residues,table) selection set {}
             tell_in residues [residue_hint]
+            fill_residues
+            select_residues $chosen
         }
         $widget(residues,title) configure -text [expr {$shown eq "" ? "No comparison yet" : $chosen_result}]
-        set_enabled [expr {$shown ne ""}] $widget(residues,clear) $widget(residues,atoms) $widget(residues,export) \
+        set_enabled [expr {$shown ne ""}] $widget(residues,clear) $widget(residues,atoms) $widget(residues,uncolor) $widget(residues,export) \
             $widget(residues,sort) $widget(residues,falling)
+    }
+
+    # Rows with their share of the sum of |difference| times area; empty without potentials.
+    proc with_shares {rows} {
+        set sum 0.0
+        foreach row $rows {
+            if {[dict get $row mean_abs_difference] eq ""} continue
+            set sum [expr {$sum + [dict get $row area_A2] * [dict get $row mean_abs_difference]}]
+        }
+        set result {}
+        foreach row $rows {
+            set value [dict get $row mean_abs_difference]
+            if {$value ne "" && $sum > 0} { set value [expr {[dict get $row area_A2] * $value / $sum}] }
+            lappend result [dict set row share $value]
+        }
+        return $result
+    }
+
+    # The selected residues: the structure that they belong to, and their names with chain and number.
+    proc chosen_residues {} {
+        variable residues_of
+        variable residue_rows
+        variable widget
+        set chosen [$widget(residues,table) selection]
+        if {$chosen eq "" || $residues_of ni [espdiff handles]} { return {} }
+        set names {}
+        foreach row $residue_rows { if {[dict get $row index] in $chosen} { lappend names [residue_name $row] } }
+        return [list [structure_of $residues_of] $names]
+    }
+
+    # Selects the same residues in another result of the same source. A row's number means another residue there.
+    proc select_residues {chosen} {
+        variable shown
+        variable residue_rows
+        variable widget
+        lassign $chosen structure names
+        if {$names eq "" || $shown eq "" || $structure ne [structure_of $shown]} return
+        set items {}
+        foreach row $residue_rows { if {[residue_name $row] in $names} { lappend items [dict get $row index] } }
+        $widget(residues,table) selection set $items
+        if {$items ne ""} { $widget(residues,table) see [lindex $items 0] }
+    }
+
+    # The source's file or molecule of VMD, in any frame.
+    proc structure_of {handle} {
+        foreach input [espdiff result $handle inputs] {
+            if {[dict get $input role] ne "source"} continue
+            regsub {" frame \d+.*} [dict get $input path] {"} name
+            return $name
+        }
     }
 
     proc residue_hint {} {
         variable shown
         if {$shown eq ""} { return "Compare two states in the tab Pair; their residues are listed here." }
         set unit [potential_unit]
-        set text "Means over each residue's share of the surface"
+        set text "Means over each residue's part of the surface; Share is its part of the sum of |Diff.| times area"
         if {$unit ne ""} {
             append text "; potentials in $unit. Diff. is target - source, Sign the share of the area whose sign\
                 changes"
@@ -127,7 +197,10 @@ namespace eval ::espdiff::gui {
         variable residue_rows
         set with {}
         set without {}
+        set least [string trim $form(residues,least)]
+        if {![::espdiff::is_number $least]} { error "Area from: '$least' is not a number" }
         foreach row $residue_rows {
+            if {$least > 0 && ([dict get $row area_A2] eq "" || [dict get $row area_A2] < $least)} continue
             set value [residue_number $row $form(residues,sort)]
             if {$value eq ""} { lappend without $row } else { lappend with [list $value $row] }
         }
@@ -137,10 +210,13 @@ namespace eval ::espdiff::gui {
         return [concat $rows $without]
     }
 
+    # "A:TRP90", and "A:TRP90\u2192SER" where it is mutated.
     proc residue_name {row} {
         set name "[dict get $row name][dict get $row number][dict get $row insertion]"
-        if {[dict get $row chain] in {"" X " "}} { return $name }
-        return "[dict get $row chain]:$name"
+        if {[dict get $row chain] ni {"" X " "}} { set name "[dict get $row chain]:$name" }
+        set other [dict get $row target_name]
+        if {$other ni [list "" [dict get $row name]]} { append name "\u2192$other" }
+        return $name
     }
 
     # Fills the rows in order; selected rows stay selected.
@@ -186,14 +262,17 @@ namespace eval ::espdiff::gui {
             lappend visible $key
             lappend titles $heading
         }
-        if {$form(residues,sort) ni $visible} { set form(residues,sort) mean_displacement_A }
+        if {$form(residues,sort) ni $visible} {
+            set form(residues,sort) [expr {$has_potentials ? "share" : "mean_displacement_A"}]
+        }
         set table $widget(residues,table)
         $table configure -displaycolumns $visible
         foreach key $visible title $titles {
             if {$key eq $form(residues,sort)} { append title " [expr {$form(residues,falling) ? "\u25be" : "\u25b4"}]" }
             $table heading $key -text $title
-            set least [expr {$key eq "residue" ? 96 : 66}]
-            $table column $key -width [expr {max($least, 10 + [font measure [heading_font] $title])}]
+            # Wide enough for a mutation: A:LYS199 -> GLY.
+            set least [font measure TkDefaultFont [expr {$key eq "residue" ? "A:WWW1999\u2192GLY" : "-99.99 "}]]
+            $table column $key -width [expr {max($least, [font measure [heading_font] "$title "])}]
         }
         $widget(residues,sort) configure -values $titles
         $widget(residues,sort) set [lindex $titles [lsearch -exact $visible $form(residues,sort)]]
@@ -255,21 +334,49 @@ namespace eval ::espdiff::gui {
         forget $handle highlight
     }
 
-    # Writes the sorted column to the atoms of the molecule on which the surface is drawn.
     proc colour_atoms {} { guard_in residues ::espdiff::gui::carry_onto_atoms }
 
+    # Carries the sorted column onto the atoms of the compared molecules that are displayed.
     proc carry_onto_atoms {} {
         variable form
         variable shown
         set quantity $form(residues,sort)
+        if {$quantity eq "share"} { set quantity mean_abs_difference }
         if {$quantity in {residue area_A2}} { error "sort by the column that should colour the atoms" }
-        set words [list -quantity $quantity -mol source]
-        set carried [espdiff atoms $shown {*}$words]
-        remember $shown atoms [concat atoms $words]
-        set mol [dict get $carried mol]
-        for {set rep 0} {$rep < [molinfo $mol get numreps]} {incr rep} { mol modcolor $rep $mol User }
-        tell_in residues "Molecule $mol is coloured by its field User: $quantity,\
-            [with_unit [dict get $carried min]] to [with_unit [dict get $carried max] [dict get $carried unit]]."
+        set molecules {}
+        foreach {side mol} [displayed_sides $shown] {
+            set words [list -quantity $quantity -mol $side -show 1]
+            set carried [espdiff atoms $shown {*}$words]
+            remember $shown atoms.$side [concat atoms $words]
+            lappend molecules $mol
+        }
+        set many [expr {[llength $molecules] > 1}]
+        tell_in residues "Molecule[expr {$many ? "s" : ""}] [join $molecules { and }] [expr {$many ? "are" : "is"}]\
+            coloured by the field User: $quantity, [with_unit [dict get $carried min]] to\
+            [with_unit [dict get $carried max] [dict get $carried unit]]."
+    }
+
+    # The compared molecules that VMD displays: side, molecule, ... One that is both sides is named once.
+    proc displayed_sides {handle} {
+        set sides {}
+        set known {}
+        foreach side {source target} {
+            set mol [::espdiff::molecule_of $handle $side]
+            if {$mol eq "" || $mol in [dict values $sides]} continue
+            lappend known $mol
+            if {[molinfo $mol get displayed]} { lappend sides $side $mol }
+        }
+        if {$sides ne ""} { return $sides }
+        if {$known eq ""} { error "the compared molecules are not in VMD: they came from files, or are deleted" }
+        error "molecule[expr {[llength $known] > 1 ? "s" : ""}] [join $known { and }] of this comparison\
+            [expr {[llength $known] > 1 ? "are" : "is"}] hidden; show one by the D in VMD's list, then colour its atoms"
+    }
+
+    proc restore_colours {} {
+        variable shown
+        espdiff uncolor $shown
+        foreach side {source target} { forget $shown atoms.$side }
+        tell_in residues [residue_hint]
     }
 
     proc export_residues {} {

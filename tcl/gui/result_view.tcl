@@ -33,6 +33,10 @@ namespace eval ::espdiff::gui {
         grid $path.top.list $path.top.view $path.top.table $path.top.export $path.top.delete -sticky ew -padx {0 6}
         grid configure $path.top.delete -padx 0
         grid columnconfigure $path.top 0 -weight 1
+        # What the result came from: the form above may have changed since.
+        ttk::label $path.origin -foreground gray40 -justify left -anchor w -wraplength 500
+        bind $path.origin <Configure> {%W configure -wraplength [expr {max(100, %w - 4)}]}
+        set widget(result,origin) $path.origin
         build_verdict $path.verdict
         ttk::frame $path.numbers
         build_numbers $path.numbers 0 13 [shown_metrics potential]
@@ -105,6 +109,31 @@ namespace eval ::espdiff::gui {
         return $side
     }
 
+    # Atoms and potentials of both sides, one line each.
+    proc origin_of {handle} {
+        if {$handle eq ""} { return "" }
+        set lines {}
+        foreach side {source target} {
+            set words {}
+            foreach input [espdiff result $handle inputs] {
+                if {[dict get $input role] eq $side} {
+                    set name [dict get $input path]
+                    if {![regsub {^mol (\d+) "(.*)" frame (\d+) sel} $name {\1: \2, frame \3, atoms} name]} {
+                        set name [file tail $name]
+                    }
+                    set words [linsert $words 0 $name]
+                } elseif {[dict get $input role] eq "${side}_map"} {
+                    set map [dict get $input path]
+                    if {[dict exists $input computed]} { set map [dict get $input computed label] }
+                    regsub {^mol \d+ ".*" map (\d+)$} $map {data set \1} map
+                    lappend words "potential: [expr {[dict exists $input computed] ? $map : [file tail $map]}]"
+                }
+            }
+            lappend lines "[string totitle $side] [join $words {, }]"
+        }
+        return [join $lines \n]
+    }
+
     proc list_results {} {
         variable widget
         set names [result_names]
@@ -127,6 +156,12 @@ namespace eval ::espdiff::gui {
         set chosen_result [lsearch -inline -glob $names "$shown:*"]
         if {$chosen_result eq "" || $shown eq ""} { set chosen_result [lindex $names 0] }
         set shown [lindex [split $chosen_result :] 0]
+        $widget(result,origin) configure -text [origin_of $shown]
+        if {$shown eq ""} {
+            pack forget $widget(result,origin)
+        } else {
+            pack $widget(result,origin) -before $widget(verdict) -fill x -pady {0 4}
+        }
         show_verdict
         show_numbers
         set_enabled [expr {$shown ne ""}] $widget(result,list) $widget(result,view) $widget(result,table) \

@@ -2,6 +2,7 @@
 
 namespace eval ::espdiff::gui {
     variable running ""   ;# handle of this window's running computation
+    variable run_begun 0  ;# clock milliseconds
     variable watch_id ""  ;# the `after` script that notices its deletion
 
     # Stages in order: name, text, start and end on the bar. The surfaces' stages come twice; the bar does not go back.
@@ -50,7 +51,9 @@ namespace eval ::espdiff::gui {
     # One line or several, selectable; errors are red and also go to the console.
     proc show_message {text {kind note}} {
         variable widget
-        if {$kind eq "error"} { tell_console $text }
+        variable error_shown
+        unset -nocomplain error_shown(pair)
+        if {$kind eq "error"} { tell_console $text; set error_shown(pair) 1 }
         if {![info exists widget(message)] || ![winfo exists $widget(message)]} return
         $widget(message) configure -state normal
         $widget(message) delete 1.0 end
@@ -75,7 +78,24 @@ namespace eval ::espdiff::gui {
         variable running
         if {$running ne ""} return
         show_message ""
-        start_compare [endpoint source] [endpoint target] [setting_options]
+        set source [endpoint source]
+        set target [endpoint target]
+        if {![catch { start_compare $source $target [setting_options] } message options]} return
+        if {![offer_whole $message]} { return -options $options $message }
+        foreach side {source target} {
+            if {[dict exists [set $side] mol]} { lappend $side whole 1 }
+        }
+        start_compare $source $target [setting_options]
+    }
+
+    # A molecule that its periodic cell cuts: asks whether to put it together.
+    proc offer_whole {message} {
+        variable window
+        if {![string match "*is cut by its periodic cell*" $message]} { return 0 }
+        set answer [tk_messageBox -parent $window -type yesno -icon question -title "Surface Potential Comparison" \
+            -message "A molecule is cut by its periodic cell." -detail "[lindex [split $message ";"] 0].\n\nMake the\
+            molecules whole, and compare them? Their atoms in VMD stay where they are."]
+        expr {$answer eq "yes"}
     }
 
     # Compares in the background; returns the handle.
@@ -84,6 +104,7 @@ namespace eval ::espdiff::gui {
         if {$running ne ""} { error "a comparison is running; wait for it, or cancel it" }
         set running [espdiff compare $source $target {*}$settings \
             -progress ::espdiff::gui::show_progress -command {::espdiff::gui::guard ::espdiff::gui::finish}]
+        set ::espdiff::gui::run_begun [clock milliseconds]
         remember_compare $running $source $target $settings
         save_settings
         show_running 1
@@ -117,12 +138,13 @@ namespace eval ::espdiff::gui {
     proc show_progress {stage fraction} {
         variable widget
         variable stages
+        variable run_begun
         if {![info exists widget(bar)] || [$widget(cancel) instate disabled]} return
         foreach {name words begin end} $stages {
             if {$name ne $stage} continue
             set share [expr {$begin + $fraction * ($end - $begin)}]
             $widget(bar) configure -value [expr {max($share, [$widget(bar) cget -value])}]
-            show_message "$words..."
+            show_message "$words...[time_left $run_begun [expr {[$widget(bar) cget -value] / 100.0}]]"
         }
     }
 
@@ -181,7 +203,10 @@ namespace eval ::espdiff::gui {
     proc abandon_run {} {
         variable running
         set handle $running
+        if {$handle eq ""} return
         end_run
-        if {$handle ne "" && $handle in [espdiff handles]} { espdiff delete $handle }
+        forget $handle
+        show_message "Cancelled: the window was closed."
+        if {$handle in [espdiff handles]} { espdiff delete $handle }
     }
 }

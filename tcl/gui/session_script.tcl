@@ -4,8 +4,10 @@ namespace eval ::espdiff::gui {
     # By handle and action (compare, draw, map.QUANTITY.MOL, export): the words after `espdiff` without the handle.
     # Repeating an action replaces it, as in VMD.
     variable done [dict create]
-    # By handle, and for `trajectory` and `matrix`: how their molecules were loaded, as comments.
-    variable loaded [dict create]
+    # By molecule of VMD: the lines that load it again.
+    variable loading [dict create]
+    # By handle, and for `trajectory` and `matrix`: the molecules of VMD that they need.
+    variable needed [dict create]
     variable prepared [dict create]  ;# by PQR file: the words after `espdiff` that made it
 
     proc remember_compare {handle source target settings} {
@@ -14,13 +16,15 @@ namespace eval ::espdiff::gui {
         remember_molecules $handle [list $source $target]
     }
 
+    # Recorded now, since the user may delete a molecule later. Ids change from session to session, so that the script
+    # has variables instead: $mol0 for what is molecule 0 here.
     proc remember_molecules {what endpoints} {
-        variable loaded
-        set lines {}
-        foreach endpoint $endpoints {
-            if {[dict exists $endpoint mol]} { lappend lines [how_loaded [dict get $endpoint mol]] }
-        }
-        dict set loaded $what [lsort -unique $lines]
+        variable loading
+        variable needed
+        set molecules {}
+        foreach endpoint $endpoints { lappend molecules {*}[::espdiff::molecules_named $endpoint] }
+        foreach mol $molecules { if {$mol in [molinfo list]} { dict set loading $mol [how_loaded $mol] } }
+        dict set needed $what [lsort -integer -unique $molecules]
     }
 
     proc remember {handle what words} {
@@ -31,62 +35,97 @@ namespace eval ::espdiff::gui {
     # Removes an undone action; without `what` all actions of a handle.
     proc forget {handle {what ""}} {
         variable done
-        variable loaded
+        variable needed
         if {$what eq ""} {
             dict unset done $handle
-            dict unset loaded $handle
+            dict unset needed $handle
         } elseif {[dict exists $done $handle $what]} {
             dict unset done $handle $what
         }
     }
 
-    # Comments that say how VMD loaded a molecule.
+    # The commands that load a molecule as VMD did, by full names, for any working folder.
     proc how_loaded {mol} {
+        lassign [molinfo $mol get {filename filetype filespec}] paths types specs
         variable prepared
         set lines {}
-        foreach path [lindex [molinfo $mol get filename] 0] {
-            if {[dict exists $prepared $path]} {
-                return "# Molecule $mol was made and loaded by\n#   espdiff [comment_word [dict get $prepared $path]]\n#  \
-                     mol new [comment_word $path] waitfor all"
+        foreach path $paths type $types spec $specs {
+            if {$type eq "espdiffmap"} {
+                lappend lines "# Molecule $mol also had a map that espdiff computed in VMD."
+                continue
             }
-            lappend lines "#   mol [expr {[llength $lines] == 0 ? "new" : "addfile"}] [comment_word $path] waitfor all"
+            if {[dict exists $prepared $path]} {
+                set made [string map {\n \\n \r \\r} [dict get $prepared $path]]
+                lappend lines "# The next file was made by: espdiff $made"
+            }
+            set words [list [::espdiff::full_name $path] type $type {*}$spec waitfor all]
+            if {![string match "*mol new*" $lines]} {
+                lappend lines "set mol$mol \[mol new $words\]"
+            } else {
+                lappend lines "mol addfile $words \$mol$mol"
+            }
         }
-        return "# Molecule $mol was loaded by\n[join $lines \n]"
+        return $lines
     }
 
-    # A word within a comment, which a newline in a file's name would end.
-    proc comment_word {word} { return [string map {\n \\n \r \\r} [list $word]] }
+    # By molecule: its variable in the script.
+    proc molecule_variables {} {
+        variable loading
+        set names [dict create]
+        foreach mol [dict keys $loading] { dict set names $mol \$mol$mol }
+        return $names
+    }
 
-    # A script that repeats the actions in the window: the shown comparison with its drawing, the trajectory, the
-    # matrix.
+    proc script_word {words} { ::espdiff::script_word $words [molecule_variables] }
+    proc script_words {options} { ::espdiff::script_words $options [molecule_variables] }
+
+    # A script that repeats from nothing what was done in the window: the shown comparison with its drawing, the
+    # trajectory, the matrix.
     proc session_text {} {
         variable shown
-        variable loaded
+        variable needed
+        variable loading
+        remember_script_molecules $shown
         set molecules {}
         foreach what [list $shown trajectory matrix] {
-            if {[dict exists $loaded $what]} { lappend molecules {*}[dict get $loaded $what] }
+            if {[dict exists $needed $what]} { lappend molecules {*}[dict get $needed $what] }
         }
-        set lines [concat {"package require espdiff"} [lsort -unique $molecules] [pair_lines $shown] \
-            [trajectory_lines] [matrix_lines]]
+        set lines {"package require espdiff"}
+        foreach mol [lsort -integer -unique $molecules] {
+            if {[dict exists $loading $mol]} { lappend lines {*}[dict get $loading $mol] }
+        }
+        lappend lines {*}[pair_lines $shown] {*}[trajectory_lines] {*}[matrix_lines]
         return [join $lines \n]\n
+    }
+
+    # A comparison that a script made: its own call repeats it.
+    proc remember_script_molecules {handle} {
+        variable done
+        if {$handle eq "" || ([dict exists $done $handle] && [dict exists $done $handle compare])} return
+        set call [lrange [espdiff result $handle command_line] 1 end]
+        dict set done $handle compare $call
+        if {[in_vmd]} { remember_molecules $handle [lrange $call 1 2] }
     }
 
     proc pair_lines {handle} {
         variable done
         if {$handle eq ""} { return {} }
-        set steps [expr {[dict exists $done $handle] ? [dict get $done $handle] : {}}]
-        if {![dict exists $steps compare]} {
-            # Made by a script: its own call repeats it.
-            dict set steps compare [lrange [espdiff result $handle command_line] 1 end]
-        }
+        set steps [dict get $done $handle]
         set settings [lassign [dict get $steps compare] compare source target]
         # Callbacks of another program are not available.
         if {[llength $settings] % 2 == 0} { set settings [dict remove $settings -command -progress] }
-        lappend lines "set comparison \[espdiff compare [list $source] \\"
-        lappend lines "    [list $target][option_lines $settings]\]"
+        lappend lines "set comparison \[espdiff compare [script_word $source] \\"
+        lappend lines "    [script_word $target][option_lines $settings]\]"
         lappend lines {puts [espdiff table $comparison]}
         dict for {what words} [dict remove $steps compare] {
-            lappend lines "espdiff [lindex $words 0] \$comparison [lrange $words 1 end]"
+            set options [lassign $words name]
+            set first {}
+            # Positional words come before the options.
+            while {[llength $options] % 2 || ($options ne "" && ![string match {-[a-z]*} [lindex $options 0]])} {
+                set options [lassign $options word]
+                lappend first [list $word]
+            }
+            lappend lines [string trimright "espdiff $name \$comparison [join [concat $first [script_words $options]]]"]
         }
         return $lines
     }
@@ -108,22 +147,18 @@ namespace eval ::espdiff::gui {
         variable matrix_run
         if {$matrix_run eq ""} { return {} }
         dict with matrix_run {
-            return [list "set variants \[list[word_lines $variants]\]" \
+            set text "set variants \[list"
+            foreach variant $variants { append text " \\\n    [script_word $variant]" }
+            return [list "$text\]" \
                 "puts \[espdiff table \[espdiff matrix \$variants[option_lines \
                     [concat [list -output $output -overwrite 1] $settings]]\]\]"]
         }
     }
 
-    proc word_lines {words} {
-        set text ""
-        foreach word $words { append text " \\\n    [list $word]" }
-        return $text
-    }
-
     # Options, each on a continuation line.
     proc option_lines {options} {
         set text ""
-        foreach {option value} $options { append text " \\\n    [list $option $value]" }
+        foreach {option word} [script_words $options] { append text " \\\n    $option $word" }
         return $text
     }
 

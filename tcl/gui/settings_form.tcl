@@ -56,6 +56,7 @@ namespace eval ::espdiff::gui {
             build_setting_page $page $groups
         }
         button $path.defaults Defaults ::espdiff::gui::restore_settings 2
+        grid rowconfigure $path 0 -minsize [winfo reqheight $path.defaults]
         tip $path.defaults "Set all settings back to their defaults"
         set widget(defaults) $path.defaults
         trace add variable setting write ::espdiff::gui::count_changes
@@ -172,6 +173,7 @@ namespace eval ::espdiff::gui {
         $widget(settings_toggle) configure \
             -text "$arrow Settings[expr {$n == 0 ? " (all at their defaults)" : " ($n changed)"}]"
         show_preset
+        clear_error pair
     }
 
     proc forget_settings {} { trace remove variable ::espdiff::gui::setting write ::espdiff::gui::count_changes }

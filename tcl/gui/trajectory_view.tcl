@@ -5,7 +5,7 @@ namespace eval ::espdiff::gui {
     variable trajectory_rows {}     ;# rows shown, dicts by column
     variable trajectory_run {}      ;# their options, output and settings, as arguments
     variable form
-    array set form {trajectory,metric ""}
+    array set form {trajectory,metric "" trajectory,smooth 1}
 
     proc build_trajectory_bar {path} {
         build_tab_bar trajectory $path run Run ::espdiff::gui::run_trajectory ::espdiff::gui::cancel_trajectory \
@@ -17,13 +17,18 @@ namespace eval ::espdiff::gui {
         variable widget
         ttk::frame $path.top
         ttk::label $path.top.label -text Metric
-        ttk::combobox $path.top.metric -textvariable ::espdiff::gui::form(trajectory,metric) -state readonly -width 30
+        ttk::combobox $path.top.metric -textvariable ::espdiff::gui::form(trajectory,metric) -state readonly -width 22
         bind $path.top.metric <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::draw_trajectory}
         button $path.top.open "Open CSV..." ::espdiff::gui::browse_rows
         button $path.top.save "Save plot..." ::espdiff::gui::save_plot
         tip $path.top.open "Rows of an earlier run"
-        tip $path.top.save "Save the plot as PNG or SVG, by gnuplot"
-        pack $path.top.label $path.top.metric -side left -padx {0 6}
+        tip $path.top.save "Save the plot as PNG or SVG, by gnuplot; as PostScript with the running mean, as seen here"
+        ttk::label $path.top.over -text "Mean over"
+        ttk::spinbox $path.top.smooth -textvariable ::espdiff::gui::form(trajectory,smooth) -width 3 -from 1 -to 99 \
+            -increment 2 -command {::espdiff::gui::guard_in trajectory ::espdiff::gui::draw_trajectory}
+        bind $path.top.smooth <Return> {::espdiff::gui::guard_in trajectory ::espdiff::gui::draw_trajectory; break}
+        tip $path.top.smooth "Frames of the running mean, drawn over the points; 1 draws none"
+        pack $path.top.label $path.top.metric $path.top.over $path.top.smooth -side left -padx {0 6}
         pack $path.top.save $path.top.open -side right -padx {6 0}
         canvas $path.plot -width 420 -height 240 -background white -highlightthickness 1 -takefocus 1 \
             -highlightbackground gray80 -highlightcolor #3060c0
@@ -73,6 +78,7 @@ namespace eval ::espdiff::gui {
         set options [trajectory_options]
         set settings [setting_options series]
         tell_in trajectory ""
+        set ::espdiff::gui::trajectory_begun [clock milliseconds]
         set trajectory_running [espdiff trajectory {*}$options {*}$output {*}$settings \
             -callback ::espdiff::gui::add_row -progress ::espdiff::gui::trajectory_progress \
             -command ::espdiff::gui::finish_trajectory]
@@ -112,7 +118,8 @@ namespace eval ::espdiff::gui {
         if {[regexp {^frame (\d+): (.*)$} $stage -> frame step]} {
             set stage "Frame $frame: [string tolower [stage_words $step] 0 0]..."
         }
-        tell_in trajectory $stage
+        variable trajectory_begun
+        tell_in trajectory $stage[time_left $trajectory_begun $fraction]
     }
 
     proc cancel_trajectory {} {
@@ -200,12 +207,18 @@ namespace eval ::espdiff::gui {
         variable form
         set path [tk_getSaveFile -parent $window -title "Save the plot" -defaultextension .svg \
             -initialfile [file rootname [file tail $form(trajectory,csv)]].svg \
-            -filetypes {{"Scalable picture" .svg} {"Picture" .png}}]
+            -filetypes {{"Scalable picture" .svg} {"Picture" .png} {"As seen here, PostScript" .ps}}]
         if {$path ne ""} { guard_in trajectory ::espdiff::gui::save_plot_as $path }
     }
 
     proc save_plot_as {path} {
         variable trajectory_run
+        variable widget
+        if {[string tolower [file extension $path]] in {.ps .eps}} {
+            $widget(trajectory,plot) postscript -file $path -colormode color
+            tell_in trajectory "Written: $path, as it is seen here"
+            return
+        }
         set metric [lindex [chosen_trajectory_metric] 0]
         espdiff plot [dict get $trajectory_run output -csv] -metrics [list $metric] -file $path
         dict set trajectory_run plot [list -metrics [list $metric] -file $path]

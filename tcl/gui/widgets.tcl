@@ -5,9 +5,31 @@ namespace eval ::espdiff::gui {
     variable tip_id ""  ;# the `after` script that shows a tip
     array set tips {}
 
+    variable error_shown  ;# tabs whose message line shows an error
+    array set error_shown {}
+
     # Evaluates a command and shows its error in the window instead of a traceback dialog.
-    proc guard {args} {
-        if {[catch_labelled { uplevel #0 $args } message options]} { show_message $message error }
+    proc guard {args} { guarded pair $args }
+
+    # Like guard, for actions in a tab.
+    proc guard_in {tab args} { guarded $tab $args }
+
+    # An older error disappears when the user does something else that succeeds. Mere updates of the window leave it.
+    proc guarded {tab command} {
+        variable error_shown
+        set stood [info exists error_shown($tab)]
+        if {[catch_labelled { uplevel #0 $command } message options]} {
+            if {$tab eq "pair"} { show_message $message error } else { tell_in $tab $message error }
+        } elseif {$stood && ![regexp {^::espdiff::gui::(update|tell|draw|take|finish|list)_} [lindex $command 0]]} {
+            clear_error $tab
+        }
+    }
+
+    # Removes an error; a later message stays.
+    proc clear_error {tab} {
+        variable error_shown
+        if {![info exists error_shown($tab)]} return
+        if {$tab eq "pair"} { show_message "" } else { tell_in $tab "" }
     }
 
     # A button with a guarded command. An underlined letter is also its Alt key.
@@ -51,7 +73,7 @@ namespace eval ::espdiff::gui {
         variable window
         variable tips
         hide_tip
-        if {![winfo exists $path]} return
+        if {![winfo exists $path] || $tips($path) eq ""} return
         toplevel $window.tip
         wm overrideredirect $window.tip 1
         pack [ttk::label $window.tip.text -text $tips($path) -wraplength 320 -padding 4 -background #ffffe0 \
@@ -151,6 +173,18 @@ namespace eval ::espdiff::gui {
         return "$text $unit"
     }
 
+    # ", about 2 min left" from when a run began (clock milliseconds) and the fraction done; empty while it is too early
+    # to tell.
+    proc time_left {begun fraction} {
+        set elapsed [expr {([clock milliseconds] - $begun) / 1000.0}]
+        if {$elapsed < 5 || $fraction < 0.05 || $fraction >= 1} { return "" }
+        set left [expr {$elapsed * (1 - $fraction) / $fraction}]
+        if {$left < 5} { return "" }
+        if {$left < 90} { return ", about [expr {round($left)}] s left" }
+        if {$left < 5400} { return ", about [expr {round($left / 60)}] min left" }
+        return ", about [format %.1f [expr {$left / 3600}]] h left"
+    }
+
     proc bold_font {} {
         if {"EspdiffBold" ni [font names]} { font create EspdiffBold {*}[font actual TkDefaultFont] -weight bold }
         return EspdiffBold
@@ -179,13 +213,10 @@ namespace eval ::espdiff::gui {
     # A tab's line of text; errors also go to VMD's console, so that they are not lost with the tab.
     proc tell_in {tab text {kind note}} {
         variable widget
-        if {$kind eq "error"} { tell_console $text }
+        variable error_shown
+        unset -nocomplain error_shown($tab)
+        if {$kind eq "error"} { tell_console $text; set error_shown($tab) 1 }
         if {![info exists widget($tab,message)] || ![winfo exists $widget($tab,message)]} return
         $widget($tab,message) configure -text $text -foreground [expr {$kind eq "error" ? "#b00020" : "black"}]
-    }
-
-    # Like guard, for actions in a tab.
-    proc guard_in {tab args} {
-        if {[catch_labelled { uplevel #0 $args } message options]} { tell_in $tab $message error }
     }
 }

@@ -7,6 +7,9 @@ namespace eval ::espdiff::gui {
     variable window .espdiff
     variable traced {}          ;# traced variables of VMD, and the procedures called
     variable pending_update ""  ;# the `after` script that updates VMD's molecules
+    variable hide_command ""    ;# VMD's command that closes a window of its menu; empty if opened by `espdiff gui`
+    variable known_molecules ""
+    variable is_hidden 0        ;# the window was closed by VMD's menu, which keeps it
 
     foreach part {widgets scrolled endpoint_form prepare_form presets settings_form run_bar result_view draw_form session_script
         help_window matrix_form matrix_view heat_map residue_table trajectory_form trajectory_view trajectory_point
@@ -23,18 +26,29 @@ namespace eval ::espdiff::gui {
         if {[winfo exists $window]} {
             wm deiconify $window
             raise $window
-            update_molecules
-            show_results
+            shown_again
         } else {
             build
         }
         return $window
     }
 
+    # The entry of VMD's menu opened the window: VMD has set its own command for the close button, which only withdraws
+    # the window. close_window takes its place, and uses it, because VMD could not open a destroyed window again.
+    proc take_close_button {} {
+        variable window
+        variable hide_command
+        if {![winfo exists $window]} return
+        set command [wm protocol $window WM_DELETE_WINDOW]
+        if {$command ni {"" ::espdiff::gui::close_window}} { set hide_command $command }
+        wm protocol $window WM_DELETE_WINDOW ::espdiff::gui::close_window
+    }
+
     proc build {} {
         variable window
         # VMD gives some widgets a smaller font; here all have the same.
         option add *Espdiff*font TkDefaultFont interactive
+        style_for_screen
         toplevel $window -class Espdiff
         wm withdraw $window
         wm title $window "Surface Potential Comparison"
@@ -52,13 +66,35 @@ namespace eval ::espdiff::gui {
         bind_keys
         bind $window <Destroy> {if {"%W" eq $::espdiff::gui::window} { ::espdiff::gui::closed }}
         bind $window <FocusIn> {if {"%W" eq $::espdiff::gui::window} { ::espdiff::gui::update_soon }}
+        # `menu espdiff off` and `on` withdraw and show the window without calling us.
+        bind $window <Unmap> {if {"%W" eq $::espdiff::gui::window} { after idle ::espdiff::gui::notice_hidden }}
+        bind $window <Map> {if {"%W" eq $::espdiff::gui::window} { ::espdiff::gui::shown_again }}
+        set ::espdiff::gui::is_hidden 0
+        set ::espdiff::gui::hide_command ""
         trace_molecules
         load_settings
         update_molecules
         show_results
         keep_wheel_from_changing_values $window
+        fit_screen
         wm deiconify $window
         focus $::espdiff::gui::widget(compare)
+    }
+
+    # Ttk's rows and arrows have fixed sizes in pixels, which are too small for large fonts.
+    proc style_for_screen {} {
+        ttk::style configure Espdiff.Treeview -rowheight [expr {[font metrics TkDefaultFont -linespace] + 4}]
+        if {[tk scaling] < 1.6} return
+        set size [expr {round(9 * [tk scaling])}]
+        foreach style {TCombobox TSpinbox TScrollbar} { ttk::style configure $style -arrowsize $size }
+    }
+
+    # On a small screen the window is lower than it asks for; its page scrolls.
+    proc fit_screen {} {
+        variable window
+        update idletasks
+        set most [expr {[winfo screenheight $window] - 60}]
+        if {[winfo reqheight $window] > $most} { wm geometry $window [winfo reqwidth $window]x$most }
     }
 
     proc build_pair {outer} {
@@ -141,41 +177,91 @@ namespace eval ::espdiff::gui {
 
     proc update_molecules {} {
         variable window
+        variable known_molecules
         if {![winfo exists $window]} return
+        # An error about a molecule is out of date when the molecules change.
+        set molecules [expr {[in_vmd] ? [molecule_names] : ""}]
+        if {$molecules ne $known_molecules} { foreach tab {pair residues trajectory matrix} { clear_error $tab } }
+        set known_molecules $molecules
         foreach side {source target} { update_endpoint $side }
         if {[in_vmd]} { update_draw }
         update_trajectory
         update_matrix
     }
 
-    # In VMD the window manager's close does not arrive here: VMD hides the window with its computation running.
+    # The close button, Control-w, and `menu espdiff off` end the same way: runs cancelled, highlight removed, settings
+    # saved.
     proc close_window {} {
         variable window
-        variable running
-        variable matrix_running
-        variable trajectory_running
-        if {$running ne "" || $matrix_running ne "" || $trajectory_running ne ""} {
+        variable hide_command
+        if {[is_running]} {
             set answer [tk_messageBox -parent $window -type yesno -icon question -title "Surface Potential Comparison" \
                 -message "A comparison is running." -detail "Cancel it and close the window?"]
             if {$answer ne "yes"} return
         }
-        destroy $window
+        if {$hide_command eq ""} {
+            destroy $window
+        } else {
+            leave_window
+            uplevel #0 $hide_command
+        }
     }
 
-    # However the window closed: leaves only the user's entries.
-    proc closed {} {
+    proc is_running {} {
+        variable running
+        variable matrix_running
+        variable trajectory_running
+        expr {$running ne "" || $matrix_running ne "" || $trajectory_running ne ""}
+    }
+
+    # An iconified window stays open.
+    proc notice_hidden {} {
+        variable window
+        if {[winfo exists $window] && [wm state $window] eq "withdrawn"} { leave_window }
+    }
+
+    proc shown_again {} {
+        variable is_hidden
+        if {$is_hidden} {
+            set is_hidden 0
+            trace_molecules
+            show_trajectory_running
+            show_matrix_running
+        }
+        update_molecules
+        show_results
+    }
+
+    # However the window closed: leaves the results and the user's entries, nothing else.
+    proc leave_window {} {
         variable traced
         variable pending_update
+        variable is_hidden
+        variable widget
+        variable matrix_running
+        variable trajectory_running
+        if {$is_hidden} return
+        set is_hidden 1
         foreach {name command} $traced { trace remove variable $name write $command }
         set traced {}
         save_settings
         after cancel $pending_update
-        forget_tips
-        forget_settings
+        hide_tip
         remove_highlight
+        if {[winfo exists $widget(residues,table)]} { $widget(residues,table) selection set {} }
+        foreach tab {trajectory matrix} {
+            if {[set ${tab}_running] ne ""} { tell_in $tab "Stopped: the window was closed." }
+        }
         abandon_run
         abandon_trajectory
         abandon_matrix
+    }
+
+    # The window was destroyed.
+    proc closed {} {
+        leave_window
+        forget_tips
+        forget_settings
         array unset ::espdiff::gui::widget
     }
 }

@@ -79,7 +79,7 @@ test "another quantity takes its place, with other colours" {
     set n [count_pixels displacement]
     check "brown" {[dict get $n brown] > 200}
     check "no blue" {[dict get $n blue] < 20}
-    espdiff draw $comparison -color path_length -transparency none
+    espdiff draw $comparison -color path_length -uncertain plain
     set n [count_pixels path_length]
     check "brown" {[dict get $n brown] > 200}
     check "no blue" {[dict get $n blue] < 20}
@@ -89,7 +89,7 @@ test "another quantity takes its place, with other colours" {
 }
 
 test "VMD's lights do not wash the colours out" {
-    espdiff draw $comparison -transparency none -legend 0
+    espdiff draw $comparison -uncertain plain -legend 0
     rotate y by -30
     set n [count_pixels lights]
     rotate y by 30
@@ -97,21 +97,26 @@ test "VMD's lights do not wash the colours out" {
     check "not white" {[dict get $n white] < 0.005 * [dict get $n light]}
 }
 
-test "what is uncertain is transparent" {
-    set solid [espdiff draw $comparison -transparency none]
-    set opaque [count_pixels opaque]
+test "what is uncertain is opaque and grey, or transparent" {
+    espdiff draw $comparison -uncertain plain
+    set plain [count_pixels plain]
     espdiff draw $comparison -uncertainty-limit 0.5
+    set faded [count_pixels faded]
+    check "less colour" {[dict get $faded red] < [dict get $plain red] - 100}
+    check "no holes" {abs([dict get $faded dark] - [dict get $plain dark]) < 300}
+    foreach material [lsearch -all -inline [material list] Espdiff*] {
+        check_equal "opacity of $material" [format %.1f [lindex [material settings $material] 5]] 1.0
+    }
+    espdiff draw $comparison -uncertainty-limit 0.5 -uncertain transparent
     set half [count_pixels transparent]
-    check "darker" {[dict get $half dark] > [dict get $opaque dark] + 300}
-    set opacities {}
-    foreach material [lsearch -all -inline [material list] Espdiff*] { lappend opacities [lindex [material settings $material] 4] }
-    check "three materials or more" {[llength $opacities] >= 3}
+    check "darker" {[dict get $half dark] > [dict get $plain dark] + 300}
+    check_refused {espdiff draw $comparison -transparency none} {ESPDIFF INPUT} "-uncertain"
 }
 
 test "a range saturates, and is refused when it is none" {
-    espdiff draw $comparison -range {-0.5 0.5} -transparency none
+    espdiff draw $comparison -range {-0.5 0.5} -uncertain plain
     set narrow [count_pixels narrow]
-    espdiff draw $comparison -range {-20 20} -transparency none
+    espdiff draw $comparison -range {-20 20} -uncertain plain
     set wide [count_pixels wide]
     check "narrow is redder" {[dict get $narrow red] > [dict get $wide red] + 300}
     check_refused {espdiff draw $comparison -range {2 1}} {ESPDIFF INPUT} "-range"
@@ -120,7 +125,7 @@ test "a range saturates, and is refused when it is none" {
 }
 
 test "the source's side is drawn where the source is" {
-    foreach mol [espdiff draw $comparison -surface source -legend 0 -transparency none] {}
+    foreach mol [espdiff draw $comparison -surface source -legend 0 -uncertain plain] {}
     check "drawn" {[dict get [count_pixels source] light] > 1000}
 }
 

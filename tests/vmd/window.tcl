@@ -1,30 +1,9 @@
 # window.tcl: a user's way through the window in a real VMD, by its widgets: pair, drawings, residues, trajectory, matrix, ends.
 source [file join $env(ESPDIFF_TESTS) support.tcl]
+source [file join $env(ESPDIFF_TESTS) window_support.tcl]
 package require espdiff
 
-proc widget {name} { return $::espdiff::gui::widget($name) }
-proc form {args} { array set ::espdiff::gui::form $args }
-proc press {name} { update; [widget $name] invoke; update }
-proc pause {ms} { after $ms {set ::tick 1}; vwait ::tick }
-proc wait_until {condition} {
-    set end [expr {[clock seconds] + 60}]
-    while {![uplevel #0 [list expr $condition]]} {
-        if {[clock seconds] > $end} { error "'$condition' did not come true" }
-        pause 30
-    }
-}
-proc message_line {} { string trim [[widget message] get 1.0 end] }
-proc tab {name} { ::espdiff::gui::show_tab $name; update }
-
-# Callbacks whose errors nobody would see.
-set background {}
-proc background_error {message options} { lappend ::background $message }
-interp bgerror {} background_error
-
-foreach {name side} {scTIM_chainA source dTIM_chainA target} {
-    set $side [mol new [input pair_tim_maps/$name.pqr] type pqr waitfor all]
-    mol addfile [input pair_tim_maps/${name}_pot-PE0.dx] type dx waitfor all [set $side]
-}
+load_tim
 set window [espdiff gui]
 array set ::espdiff::gui::setting {grid-spacing 2}
 update
@@ -58,14 +37,8 @@ test "drawn, side by side, and undrawn" {
     check_equal projection [display get projection] Orthographic
     ::espdiff::gui::save_picture_as $scratch/linked.tga
     check "a picture" {[file size $scratch/linked.tga] > 10000}
-    set script [::espdiff::gui::session_text]
     press undraw
     check_equal projection [display get projection] Perspective
-    # The script does the same again, on the molecules that are there.
-    uplevel #0 [string map {"set comparison" "set repeated" {$comparison} {$repeated}} $script]
-    check_equal "drawn by the script" [display get projection] Orthographic
-    check_equal "its number" [espdiff result $repeated rms_difference] [espdiff result $comparison rms_difference]
-    espdiff delete $repeated
     check_equal molecules [molinfo num] $before
     form draw,view single
 }
@@ -73,6 +46,8 @@ test "drawn, side by side, and undrawn" {
 test "a residue is highlighted in VMD, and not any more" {
     tab residues
     set table [widget residues,table]
+    check_equal "sorted by" $::espdiff::gui::form(residues,sort) share
+    ::espdiff::gui::sort_by mean_abs_difference
     set first [lindex [$table children {}] 0]
     set values {}
     foreach item [$table children {}] { lappend values [$table set $item mean_abs_difference] }
@@ -162,6 +137,20 @@ test "the plot as a picture, beside a trajectory in memory" {
     foreach text {"Mean absolute difference" kT/e Frame} { check $text {[string first $text $svg] > 0} }
 }
 
+test "a running mean over the points, and the plot as it is seen" {
+    check_equal means [::espdiff::gui::running_mean {1 2 "" 6 9} 3] {1.5 1.5 4.0 7.5 7.5}
+    form trajectory,smooth 3
+    ::espdiff::gui::draw_trajectory
+    check_equal line [llength [[widget trajectory,plot] find withtag mean]] 1
+    ::espdiff::gui::save_plot_as $scratch/adk.ps
+    check "a file" {[file size $scratch/adk.ps] > 3000}
+    form trajectory,smooth none
+    ::espdiff::gui::guard_in trajectory ::espdiff::gui::draw_trajectory
+    check "told" {[string match "Mean over: 'none'*" [[widget trajectory,message] cget -text]]}
+    form trajectory,smooth 1
+    ::espdiff::gui::draw_trajectory
+}
+
 test "a run that is cancelled keeps its rows, and is gone on with" {
     form trajectory,csv $scratch/again.csv trajectory,frames 0:10:end
     press trajectory,run
@@ -226,11 +215,7 @@ test "closing the window during a run: nothing stays but results and settings" {
     pause 200
     set handles [list $::espdiff::gui::running $::espdiff::gui::trajectory_running]
     check "both run" {"" ni $handles}
-    rename tk_messageBox tk_box
-    proc tk_messageBox {args} { return yes }
-    ::espdiff::gui::close_window
-    rename tk_messageBox ""
-    rename tk_box tk_messageBox
+    with_yes { ::espdiff::gui::close_window }
     pause 200
     check "gone" {![winfo exists $window]}
     foreach handle $handles { check "$handle is gone" {$handle ni [espdiff handles]} }

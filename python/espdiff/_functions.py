@@ -1,0 +1,170 @@
+"""The functions of the package: arguments of Python's kind for the engine's."""
+
+import os
+import tempfile
+
+from . import _core
+from ._inputs import state_of
+from ._results import Comparison, Matrix
+
+
+def _as_text(value):
+    if isinstance(value, bool):
+        return "1" if value else "0"
+    if isinstance(value, (list, tuple)):
+        return ",".join(_as_text(entry) for entry in value)
+    return repr(value) if isinstance(value, float) else str(value)
+
+
+def _as_settings(options):
+    """[(name, text)] of keyword arguments: grid_spacing=1 is the option grid-spacing."""
+    return [(name.replace("_", "-"), _as_text(value)) for name, value in options.items()]
+
+
+def _call(function, options):
+    arguments = ", ".join(f"{name}={value!r}" for name, value in options.items())
+    return f"espdiff.{function}({arguments})"
+
+
+class _Bar:
+    """Progress as a bar of tqdm's, where it is installed."""
+
+    def __init__(self, what):
+        try:
+            from tqdm.auto import tqdm
+        except ImportError:
+            self._bar = None
+        else:
+            self._bar = tqdm(total=100, desc=what, leave=False, bar_format="{desc}: {percentage:3.0f}%|{bar}| {postfix}")
+
+    def __call__(self, stage, fraction):
+        if self._bar is not None:
+            self._bar.n = round(100 * fraction)
+            self._bar.set_postfix_str(stage)
+
+    def close(self):
+        if self._bar is not None:
+            self._bar.close()
+
+
+class _Progress:
+    """What `progress=` gives: True for a bar, a function of (stage, fraction), or nothing."""
+
+    def __init__(self, progress, what):
+        self.listener = _Bar(what) if progress is True else progress or None
+
+    def __enter__(self):
+        return self.listener
+
+    def __exit__(self, *_):
+        if isinstance(self.listener, _Bar):
+            self.listener.close()
+
+
+def _with_map(state, given, unit, role):
+    if given is None:
+        return state
+    if isinstance(given, (str, os.PathLike)):
+        return state.with_map(os.fspath(given), unit=unit or "")
+    if isinstance(given, _core.Map):
+        steps = [given.steps[axis][axis] for axis in range(3)]
+        if any(given.steps[a][b] for a in range(3) for b in range(3) if a != b):
+            raise _core.InputError(f"{role}_map: its axes are not x, y and z; save it, and give the file")
+        return state.with_map(given.values, list(given.origin), steps, given.unit)
+    raise _core.InputError(f"{role}_map: a {type(given).__name__} is no map; give a path or an espdiff.Map")
+
+
+def compare(source, target, *, potential="auto", source_map=None, target_map=None, source_map_unit=None,
+            target_map_unit=None, pme_cell="auto", device="auto", threads=0, progress=None, **options):
+    """Compares the electrostatic potential on the surfaces of two states.
+
+    source, target: path, State, or AtomGroup (MDAnalysis, ProDy).
+    potential: what is computed without maps: auto, pb, pme, coulomb or none (`espdiff compare --help`).
+    source_map, target_map: potentials instead: paths (DX, VTI, cube) or Maps.
+    device: auto, cpu, cuda or cuda:N. threads: of the CPU; 0 for all.
+    progress: True for a bar (tqdm), or a function of (stage, fraction).
+    options: those of the command line, with underscores: ionic_strength=0.1, method="deform".
+
+    Returns a Comparison. Raises espdiff.Error: InputError, FormatError, IoError, GeometryError, ...; Ctrl-C raises
+    KeyboardInterrupt and ends the computation.
+    """
+    a = _with_map(state_of(source, "source"), source_map, source_map_unit, "source")
+    b = _with_map(state_of(target, "target"), target_map, target_map_unit, "target")
+    call = _call("compare", {"potential": potential, **options})
+    with _Progress(progress, "compare") as listener:
+        return Comparison(_core.compare(a, b, _as_settings(options), potential, pme_cell, device, threads, call, listener))
+
+
+def surface(state, *, potential="auto", pme_cell="auto", map=None, map_unit=None, regularize=False, device="auto",
+            threads=0, progress=None, **options):
+    """The surface of one molecule, with its potential at the vertices where there are charges or a map.
+
+    Arguments as of compare(). regularize: even out the triangles, as for the source of a comparison.
+    """
+    given = _with_map(state_of(state), map, map_unit, "state")
+    with _Progress(progress, "surface") as listener:
+        return _core.surface(given, _as_settings(options), potential, pme_cell, device, threads, regularize, listener)
+
+
+def potential(state, method="auto", *, device="auto", threads=0, progress=None, **options):
+    """A map of the potential of a molecule's charges: pb, pme or coulomb; auto as in compare().
+
+    Returns a Map: values (nx, ny, nz), origin, steps, unit; save("map.dx").
+    """
+    with _Progress(progress, "potential") as listener:
+        return _core.potential(state_of(state), _as_settings(options), method, device, threads, listener)
+
+
+def matrix(states, labels=None, *, groups=None, potential="auto", pme_cell="auto", output=None, resume=False,
+           overwrite=False, skip_errors=False, shard=None, device="auto", threads=0, progress=None, **options):
+    """Compares every state with every other one, in both directions.
+
+    states: as in compare(). labels: a name for each; paths name themselves. groups: optional, one for each state.
+    output: prefix of OUT.csv and OUT.json; with `resume` a run that broke off goes on. shard: "2/8" computes a part,
+    for espdiff merge; it needs `output`.
+
+    Returns a Matrix, None for a shard.
+    """
+    states = list(states)
+    if labels is None:
+        labels = [os.path.splitext(os.path.basename(os.fspath(s)))[0] if isinstance(s, (str, os.PathLike)) else f"state{i}"
+                  for i, s in enumerate(states)]
+    if (shard or resume) and output is None:
+        raise _core.InputError("output: a part of a matrix, or one to go on with, needs files")
+    given = [state_of(state, f"states[{i}]") for i, state in enumerate(states)]
+    with _Progress(progress, "matrix") as listener, tempfile.TemporaryDirectory(prefix="espdiff-") as scratch:
+        prefix = os.fspath(output) if output is not None else os.path.join(scratch, "matrix")
+        text = _core.matrix(given, list(labels), list(groups or []), _as_settings(options), potential, pme_cell, device,
+                            threads, prefix, resume, overwrite, skip_errors, shard or "", listener)
+    return Matrix(text) if text else None
+
+
+class Series:
+    """Many targets against one source, whose surface and potential are made once.
+
+        series = espdiff.Series("reference.pqr", potential="pb")
+        for frame in frames:
+            r = series.step(frame)
+
+    start: auto, source or previous: where each mapping begins (`espdiff trajectory --help`).
+    """
+
+    def __init__(self, source, *, potential="auto", pme_cell="auto", start="auto", device="auto", threads=0, **options):
+        call = _call("Series", {"potential": potential, "start": start, **options})
+        self._series = _core.Series(state_of(source, "source"), _as_settings(options), potential, pme_cell, start, device,
+                                    threads, call)
+
+    def step(self, target, progress=None):
+        """Compares the source with the next target. Returns a Comparison."""
+        with _Progress(progress, "compare") as listener:
+            return Comparison(self._series.step(state_of(target, "target"), listener))
+
+
+def help_options():
+    """Every option that compare() takes: a list of dicts with name, group, choices, default and help."""
+    return [{**row, "name": row["name"].replace("-", "_")} for row in _core.settings()]
+
+
+def status():
+    """Which back ends there are, and why one is missing."""
+    return _core.status()

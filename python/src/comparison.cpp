@@ -1,0 +1,173 @@
+// comparison.cpp: compare(), and its result as arrays, numbers and files.
+#include "comparison.h"
+
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "arrays.h"
+#include "base/error.h"
+#include "compare/compare.h"
+#include "engine/engine.h"
+#include "io/check_outputs.h"
+#include "report/metrics.h"
+#include "report/write_compare.h"
+#include "run.h"
+
+namespace espdiff::python {
+namespace {
+
+std::shared_ptr<Comparison> compare_states(const StatePtr& source, const StatePtr& target, const Settings& settings,
+                                           const std::string& potential, const std::string& pme_cell,
+                                           const std::string& device, int threads, const std::string& call,
+                                           const nb::object& progress) {
+  auto made = std::make_shared<Comparison>();
+  made->source = source;
+  made->target = target;
+  const Computation computation(settings, potential, pme_cell, device, threads);
+  made->options = computation.options;
+  run(progress, [&](const Progress& told) {
+    std::vector<InputFile> inputs;
+    const MapPlan plan(computation, {source.get(), target.get()});
+    const CompareInput a = plan.input_of(*source, "source", inputs), b = plan.input_of(*target, "target", inputs);
+    const std::unique_ptr<Engine> engine = computation.make_engine();
+    made->provenance = provenance_of(*engine, call, std::move(inputs));
+    made->result = compare(*engine, a, b, made->options, told);
+    if (!made->result.has_potential) made->result.shapes_because = plan.because();
+  });
+  return made;
+}
+
+/// [vertex] a third of the area of its triangles on the mapped surface, but for those that are unmatched or corrupt.
+std::vector<double> vertex_areas(const MappedSurface& s) {
+  std::vector<double> areas(s.positions.size(), 0.0);
+  for (std::size_t t = 0; t < s.triangles.size(); ++t) {
+    if (s.corrupt[t] != 0 || (!s.unmatched.empty() && s.unmatched[t] != 0)) continue;
+    const Triangle& v = s.triangles[t];
+    const double area = 0.5 * norm(cross(s.positions[v[1]] - s.positions[v[0]], s.positions[v[2]] - s.positions[v[0]]));
+    for (const std::uint32_t corner : v) areas[corner] += area / 3;
+  }
+  return areas;
+}
+
+std::vector<float> difference(const MappedSurface& s) {
+  std::vector<float> values(s.potential_source.size());
+  for (std::size_t v = 0; v < values.size(); ++v) values[v] = s.potential_target[v] - s.potential_source[v];
+  return values;
+}
+
+nb::dict residue_columns(const Comparison& c) {
+  nb::dict columns;
+  nb::list chains, numbers, insertions, names;
+  for (const ResidueRow& row : c.result.residues) {
+    const Residue& residue = c.source->molecule.residues.at(row.residue);
+    chains.append(residue.chain);
+    numbers.append(residue.number);
+    insertions.append(residue.insertion_code == ' ' ? std::string() : std::string(1, residue.insertion_code));
+    names.append(residue.name);
+  }
+  columns["chain"] = chains;
+  columns["number"] = numbers;
+  columns["insertion_code"] = insertions;
+  columns["name"] = names;
+  for (const Metric& metric : metrics()) {
+    if (!metric.has_residues()) continue;
+    std::vector<double> values;
+    for (const ResidueRow& row : c.result.residues) values.push_back(value_of(metric, c.result, row));
+    columns[metric.name] = array_from(std::move(values));
+  }
+  return columns;
+}
+
+nb::dict metric_values(const Comparison& c) {
+  nb::dict values;
+  for (const Metric& metric : metrics()) {
+    if (!metric.has_result()) continue;
+    const double value =
+        is_unchecked(metric, c.result) ? std::numeric_limits<double>::quiet_NaN() : value_of(metric, c.result);
+    values[metric.name] = value;
+  }
+  return values;
+}
+
+std::string json_text(const Comparison& c) {
+  return compare_json(c.source->molecule, c.target->molecule, c.result, c.options, c.provenance)
+      .dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::string table(const Comparison& c) {
+  std::ostringstream out;
+  print_table(out, c.source->molecule, c.target->molecule, c.result, [](const NamedOption& option) {
+    std::string name = option.name;
+    for (char& letter : name) letter = letter == '-' ? '_' : letter;
+    return option.value.empty() ? name : name + "=" + option.value;
+  });
+  return out.str();
+}
+
+std::vector<std::string> save(const Comparison& c, const std::string& prefix) {
+  const std::vector<std::string> files{prefix + ".json", prefix + ".vtp", prefix + ".residues.csv"};
+  std::vector<std::string> inputs;
+  for (const InputFile& input : c.provenance.inputs) inputs.push_back(input.path);
+  check_outputs(inputs, files);
+  const nb::gil_scoped_release unlocked;
+  write_compare(prefix, c.source->molecule, c.target->molecule, c.result, c.options, c.provenance);
+  return files;
+}
+
+/// A property that views an array of the mapped surface.
+template <typename T>
+auto array_of(std::vector<T> MappedSurface::*member) {
+  return [member](nb::handle self) { return view_of(nb::cast<const Comparison&>(self).result.surface.*member, self); };
+}
+
+}  // namespace
+
+void add_comparison(nb::module_& module) {
+  using S = MappedSurface;
+  nb::class_<Comparison>(module, "Comparison", "The result of compare(); arrays are read-only and not copied.")
+      .def_prop_ro("source", [](const Comparison& c) { return c.source; })
+      .def_prop_ro("target", [](const Comparison& c) { return c.target; })
+      .def_prop_ro("has_potential", [](const Comparison& c) { return c.result.has_potential; })
+      .def_prop_ro(
+          "unit", [](const Comparison& c) { return to_string(c.result.unit); }, "Of potentials.")
+      .def_prop_ro("trustworthy", [](const Comparison& c) { return c.result.certificate.trustworthy; })
+      .def_prop_ro("positions", array_of(&S::positions),
+                   "(vertices, 3) float64, A: the source's surface mapped onto the target, in the target's frame.")
+      .def_prop_ro("source_positions", array_of(&S::source_positions),
+                   "(vertices, 3) float64, A: where each vertex lies on the source, in the source's frame.")
+      .def_prop_ro("normals", array_of(&S::normals), "(vertices, 3) float32: outward, of the target.")
+      .def_prop_ro("source_normals", array_of(&S::source_normals), "(vertices, 3) float32: outward, of the source.")
+      .def_prop_ro("triangles", array_of(&S::triangles), "(triangles, 3) uint32: vertices, counter-clockwise.")
+      .def_prop_ro("source_potential", array_of(&S::potential_source), "(vertices) float32; empty for shapes alone.")
+      .def_prop_ro("target_potential", array_of(&S::potential_target), "(vertices) float32; empty for shapes alone.")
+      .def_prop_ro(
+          "difference", [](const Comparison& c) { return array_from(difference(c.result.surface)); },
+          "(vertices) float32: potential on the target minus that on the source.")
+      .def_prop_ro("displacement", array_of(&S::displacement), "(vertices) float32, A; NaN where unmatched.")
+      .def_prop_ro("path_length", array_of(&S::path_length), "(vertices) float32, A; NaN where unmatched.")
+      .def_prop_ro("residue_index", array_of(&S::residue), "(vertices) int32: row of `residues`; -1 for none.")
+      .def_prop_ro("corrupt", array_of(&S::corrupt), "(triangles) uint8: not 0 where the mapping cannot be trusted.")
+      .def_prop_ro("unmatched", array_of(&S::unmatched),
+                   "(triangles) uint8: not 0 where there is no counterpart; empty where all have one.")
+      .def_prop_ro(
+          "area", [](const Comparison& c) { return array_from(vertex_areas(c.result.surface)); },
+          "(vertices) float64, A^2: a third of a vertex's triangles, without unmatched and corrupt ones.")
+      .def_prop_ro("metrics", &metric_values, "Every number of the comparison by name; NaN where there is none.")
+      .def("residue_columns", &residue_columns, "The residue table by columns.")
+      .def("json", &json_text, "The content of OUT.json.")
+      .def("table", &table, "The table that the command line prints.")
+      .def("save", &save, nb::arg("prefix"),
+           "Writes PREFIX.json, PREFIX.vtp and PREFIX.residues.csv, all or none. Raises IoError.");
+  module.def("compare", &compare_states, nb::arg("source"), nb::arg("target"), nb::arg("settings"),
+             nb::arg("potential"), nb::arg("pme_cell"), nb::arg("device"), nb::arg("threads"), nb::arg("call"),
+             nb::arg("progress").none());
+}
+
+}  // namespace espdiff::python

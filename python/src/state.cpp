@@ -1,0 +1,239 @@
+// state.cpp: states from files and from arrays, checked argument by argument.
+#include "state.h"
+
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <cmath>
+#include <string_view>
+
+#include "arrays.h"
+#include "base/error.h"
+#include "io/elements.h"
+#include "io/molecule_builder.h"
+#include "io/read_grid.h"
+#include "io/sha256.h"
+#include "io/structure_file.h"
+
+namespace espdiff::python {
+namespace {
+
+template <typename T>
+void append_bytes(std::string& bytes, const std::vector<T>& values) {
+  bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+}
+
+/// Of all that a result depends on. Positions, radii and charges have no padding.
+std::string fingerprint(const Molecule& molecule) {
+  std::string bytes;
+  append_bytes(bytes, molecule.positions);
+  append_bytes(bytes, molecule.radii);
+  append_bytes(bytes, molecule.charges);
+  for (const Atom& atom : molecule.atoms) bytes += atom.name + "\n" + std::to_string(atom.residue) + "\n";
+  for (const Residue& residue : molecule.residues)
+    bytes +=
+        residue.chain + "\n" + residue.name + "\n" + std::to_string(residue.number) + residue.insertion_code + "\n";
+  return sha256_of(bytes);
+}
+
+template <typename T>
+void check_size(const std::vector<T>& values, const char* name, std::size_t n) {
+  if (values.empty() || values.size() == n) return;
+  throw InputError(std::string(name) + ": there are " + std::to_string(values.size()) + " for " + std::to_string(n) +
+                   " atoms");
+}
+
+std::optional<UnitCell> read_cell(const std::optional<AnyArray>& numbers) {
+  if (!numbers) return std::nullopt;
+  if (numbers->size() != 6)
+    throw InputError("cell: " + std::to_string(numbers->size()) +
+                     " numbers; three lengths (A) and three angles (degrees) are needed");
+  const std::vector<float> v = read_values(*numbers, "cell");
+  for (const float value : v) {
+    if (!std::isfinite(value)) throw InputError("cell: a length or angle is not finite");
+  }
+  const auto d = [&](std::size_t i) { return static_cast<double>(v[i]); };
+  if (d(0) <= 1 || d(1) <= 1 || d(2) <= 1) return std::nullopt;
+  return UnitCell{{d(0), d(1), d(2)}, {d(3), d(4), d(5)}};
+}
+
+/// Names and residues as a structure file would have them.
+struct Labels {
+  std::vector<std::string> names, elements, residue_names, chains, insertion_codes;
+  std::vector<int> residue_numbers;
+};
+
+StatePtr from_arrays(const AnyArray& positions, const std::optional<AnyArray>& radii,
+                     const std::optional<AnyArray>& charges, Labels labels, const std::optional<AnyArray>& cell,
+                     const std::string& name) {
+  auto state = std::make_shared<State>();
+  const std::vector<Vec3d> at = read_positions(positions, "positions");
+  const std::size_t n = at.size();
+  check_size(labels.names, "names", n);
+  check_size(labels.elements, "elements", n);
+  check_size(labels.residue_names, "residue_names", n);
+  check_size(labels.residue_numbers, "residue_numbers", n);
+  check_size(labels.chains, "chains", n);
+  check_size(labels.insertion_codes, "insertion_codes", n);
+  if (!radii && labels.names.empty() && labels.elements.empty())
+    throw InputError("radii: none are given, and neither names nor elements to take them from");
+  MoleculeBuilder builder(name, {});
+  for (std::size_t i = 0; i < n; ++i) {
+    AtomEntry entry;
+    // Atoms without names pair by their places in the arrays.
+    entry.name = labels.names.empty() ? "A" + std::to_string(i + 1) : labels.names[i];
+    if (!labels.elements.empty()) entry.element = labels.elements[i];
+    entry.residue_name = labels.residue_names.empty() ? "MOL" : labels.residue_names[i];
+    entry.residue_number = labels.residue_numbers.empty() ? 1 : labels.residue_numbers[i];
+    if (!labels.chains.empty()) entry.chain = labels.chains[i];
+    if (!labels.insertion_codes.empty() && !labels.insertion_codes[i].empty())
+      entry.insertion_code = labels.insertion_codes[i][0];
+    entry.position = at[i];
+    builder.add(entry);
+  }
+  state->molecule = builder.finish();
+  if (radii) {
+    state->molecule.radii = read_numbers(*radii, "radii", n);
+    state->molecule.radii_origin = ValueOrigin::kFile;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (state->molecule.radii[i] < 0) throw InputError("radii: atom " + std::to_string(i) + " has a negative radius");
+    }
+  }
+  if (charges) state->molecule.charges = read_numbers(*charges, "charges", n);
+  state->cell = read_cell(cell);
+  state->input = {"", name, fingerprint(state->molecule)};
+  return state;
+}
+
+StatePtr from_file(const std::string& path, int model, bool hetero, bool water) {
+  auto state = std::make_shared<State>();
+  const StructureFile file(path);
+  const StructureOptions options{model, hetero, water};
+  state->molecule = file.read(options);
+  state->everything = std::make_shared<const Molecule>(file.read({model, true, true}));
+  state->cell = file.unit_cells().at(static_cast<std::size_t>(model - 1));
+  state->input = {"", path, file.sha256(), nullptr, options};
+  return state;
+}
+
+/// A copy with what surrounds the molecule: the water, ions and cell of another state.
+StatePtr surrounded_by(const State& state, const State& everything) {
+  auto copy = std::make_shared<State>(state);
+  copy->everything = std::make_shared<const Molecule>(everything.molecule);
+  copy->cell = everything.cell;
+  copy->input.sha256 = sha256_of(state.input.sha256 + everything.input.sha256);
+  return copy;
+}
+
+StatePtr with_map_file(const State& state, const std::string& path, const std::string& unit, const std::string& array) {
+  auto copy = std::make_shared<State>(state);
+  GridOptions options;
+  options.array = array;
+  GridFile map = read_grid_file(path, options);
+  if (!unit.empty()) map.grid.unit = parse_potential_unit(unit);
+  copy->map = std::make_shared<const Grid>(std::move(map.grid));
+  copy->map_input = {"", path, map.sha256};
+  return copy;
+}
+
+StatePtr with_map(const State& state, const AnyArray& values, const std::vector<double>& origin,
+                  const std::vector<double>& step, const std::string& unit) {
+  if (values.ndim() != 3) throw InputError("values: a map has three axes, x, y and z");
+  if (origin.size() != 3) throw InputError("origin: three numbers (A) are needed");
+  if (step.size() != 3) throw InputError("step: three numbers (A), one for each axis, are needed");
+  auto grid = std::make_shared<Grid>();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (values.shape(axis) < 2 || values.shape(axis) > 4096)
+      throw InputError("values: an axis has " + std::to_string(values.shape(axis)) + " points; 2 to 4096 are possible");
+    if (!(step[axis] > 0)) throw InputError("step: " + std::to_string(step[axis]) + " A is not positive");
+    grid->lattice.size[axis] = static_cast<int>(values.shape(axis));
+    grid->lattice.step[axis][static_cast<int>(axis)] = step[axis];
+    grid->lattice.origin[static_cast<int>(axis)] = origin[axis];
+  }
+  const std::vector<float> in_order = read_values(values, "values");  // z fastest
+  const std::size_t nx = values.shape(0), ny = values.shape(1), nz = values.shape(2);
+  grid->values.resize(in_order.size());
+  for (std::size_t x = 0; x < nx; ++x) {
+    for (std::size_t y = 0; y < ny; ++y) {
+      for (std::size_t z = 0; z < nz; ++z) {
+        const float value = in_order[z + nz * (y + ny * x)];
+        if (!std::isfinite(value)) throw InputError("values: the map has values that are not finite");
+        grid->values[x + nx * (y + ny * z)] = value;
+      }
+    }
+  }
+  grid->unit = parse_potential_unit(unit);
+  grid->name = "map of " + state.molecule.name;
+  std::string bytes;
+  append_bytes(bytes, grid->values);
+  auto copy = std::make_shared<State>(state);
+  copy->map_input = {"", grid->name, sha256_of(bytes)};
+  copy->map = grid;
+  return copy;
+}
+
+}  // namespace
+
+void add_state(nb::module_& module) {
+  nb::class_<State>(module, "State",
+                    "One state of a molecule: positions, radii and charges of its atoms, with their names and "
+                    "residues, by which the atoms of two states are paired. Read-only.")
+      .def_static("read", &from_file, nb::arg("path"), nb::kw_only(), nb::arg("model") = 1, nb::arg("hetero") = true,
+                  nb::arg("water") = false,
+                  "Reads a PQR, PDB or mmCIF file (also packed by gzip).\n\n"
+                  "model: which of the file's models, from 1. hetero: keep HETATM records. water: keep water as part "
+                  "of the molecule; it counts for pme in a periodic cell in any case.\n"
+                  "Raises IoError, FormatError, InputError.")
+      .def_static(
+          "from_arrays",
+          [](const AnyArray& positions, const std::optional<AnyArray>& radii, const std::optional<AnyArray>& charges,
+             std::vector<std::string> names, std::vector<std::string> elements, std::vector<std::string> residue_names,
+             std::vector<int> residue_numbers, std::vector<std::string> chains,
+             std::vector<std::string> insertion_codes, const std::optional<AnyArray>& cell, const std::string& name) {
+            return from_arrays(positions, radii, charges,
+                               {std::move(names), std::move(elements), std::move(residue_names), std::move(chains),
+                                std::move(insertion_codes), std::move(residue_numbers)},
+                               cell, name);
+          },
+          nb::arg("positions"), nb::arg("radii").none() = nb::none(), nb::arg("charges").none() = nb::none(),
+          nb::kw_only(), nb::arg("names") = std::vector<std::string>(),
+          nb::arg("elements") = std::vector<std::string>(), nb::arg("residue_names") = std::vector<std::string>(),
+          nb::arg("residue_numbers") = std::vector<int>(), nb::arg("chains") = std::vector<std::string>(),
+          nb::arg("insertion_codes") = std::vector<std::string>(), nb::arg("cell").none() = nb::none(),
+          nb::arg("name") = "arrays",
+          "A state from arrays, which are copied once, in any floating-point type and order.\n\n"
+          "positions: (n, 3), A. radii: (n), A; without, van der Waals radii by element. charges: (n), elementary "
+          "charges; without, shapes alone are compared. cell: three lengths (A), three angles (degrees).\n"
+          "Raises InputError, which names the argument.")
+      .def("surrounded_by", &surrounded_by, nb::arg("everything"),
+           "The same molecule in the surroundings of another state: its water and ions (which count for pme) and its "
+           "cell.")
+      .def("with_map", &with_map_file, nb::arg("path"), nb::kw_only(), nb::arg("unit") = "", nb::arg("array") = "",
+           "The same molecule with the potential of a map file: DX, VTI or cube.")
+      .def("with_map", &with_map, nb::arg("values"), nb::arg("origin"), nb::arg("step"), nb::arg("unit") = "kT/e",
+           "The same molecule with a potential: values (nx, ny, nz), origin and step in A.")
+      .def("__len__", [](const State& s) { return s.molecule.size(); })
+      .def("__repr__",
+           [](const State& s) {
+             return "<espdiff.State " + s.molecule.name + ": " + std::to_string(s.molecule.size()) + " atoms, " +
+                    std::to_string(s.molecule.residues.size()) + " residues" +
+                    (s.molecule.charges.empty() ? ", no charges>" : ">");
+           })
+      .def_prop_ro(
+          "name", [](const State& s) { return s.molecule.name; }, "Path or name, for messages.")
+      .def_prop_ro(
+          "sha256", [](const State& s) { return s.input.sha256; }, "Of the file or of the arrays.")
+      .def_prop_ro(
+          "positions", [](nb::handle self) { return view_of(nb::cast<const State&>(self).molecule.positions, self); },
+          "(n, 3) float64, A; read-only.")
+      .def_prop_ro(
+          "radii", [](nb::handle self) { return view_of(nb::cast<const State&>(self).molecule.radii, self); },
+          "(n) float32, A; read-only.")
+      .def_prop_ro(
+          "charges", [](nb::handle self) { return view_of(nb::cast<const State&>(self).molecule.charges, self); },
+          "(n) float32, elementary charges; empty without charges; read-only.");
+}
+
+}  // namespace espdiff::python

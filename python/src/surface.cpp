@@ -1,0 +1,75 @@
+// surface.cpp: surface(): one molecule's surface, with its potential.
+#include "compare/surface.h"
+
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "arrays.h"
+#include "engine/engine.h"
+#include "inputs.h"
+#include "report/write_surface.h"
+#include "run.h"
+#include "surface.h"
+
+namespace espdiff::python {
+namespace {
+
+struct PySurface {
+  StatePtr state;
+  SurfaceResult result;
+};
+
+std::shared_ptr<PySurface> make(const StatePtr& state, const Settings& settings, const std::string& potential,
+                                const std::string& pme_cell, const std::string& device, int threads, bool regularize,
+                                const nb::object& progress) {
+  auto made = std::make_shared<PySurface>();
+  made->state = state;
+  const Computation computation(settings, potential, pme_cell, device, threads);
+  run(progress, [&](const Progress& told) {
+    const MapPlan plan(computation, {state.get()});
+    const CompareInput input = plan.input_of(*state);
+    const std::unique_ptr<Engine> engine = computation.make_engine();
+    made->result = make_surface(*engine, input, computation.options, regularize, told);
+  });
+  return made;
+}
+
+}  // namespace
+
+void add_surface(nb::module_& module) {
+  nb::class_<PySurface>(module, "Surface", "The result of surface(); arrays are read-only and not copied.")
+      .def_prop_ro(
+          "positions", [](nb::handle self) { return view_of(nb::cast<const PySurface&>(self).result.positions, self); },
+          "(vertices, 3) float64, A.")
+      .def_prop_ro(
+          "normals",
+          [](nb::handle self) { return view_of(nb::cast<const PySurface&>(self).result.mesh.normals, self); },
+          "(vertices, 3) float32, outward.")
+      .def_prop_ro(
+          "triangles",
+          [](nb::handle self) { return view_of(nb::cast<const PySurface&>(self).result.mesh.triangles, self); },
+          "(triangles, 3) uint32, counter-clockwise.")
+      .def_prop_ro(
+          "residue_index",
+          [](nb::handle self) { return view_of(nb::cast<const PySurface&>(self).result.residue, self); },
+          "(vertices) int32: residue of the molecule; -1 for none.")
+      .def_prop_ro(
+          "potential", [](nb::handle self) { return view_of(nb::cast<const PySurface&>(self).result.potential, self); },
+          "(vertices) float32; empty without charges or map.")
+      .def_prop_ro("unit", [](const PySurface& s) { return to_string(s.result.unit); })
+      .def_prop_ro(
+          "area", [](const PySurface& s) { return s.result.summary.area_A2; }, "A^2.")
+      .def(
+          "save",
+          [](const PySurface& s, const std::string& path) {
+            const nb::gil_scoped_release unlocked;
+            write_surface(path, s.state->molecule, s.result, s.result.unit);
+          },
+          nb::arg("path"), "Writes a VTP file. Raises IoError.");
+  module.def("surface", &make, nb::arg("state"), nb::arg("settings"), nb::arg("potential"), nb::arg("pme_cell"),
+             nb::arg("device"), nb::arg("threads"), nb::arg("regularize"), nb::arg("progress").none());
+}
+
+}  // namespace espdiff::python

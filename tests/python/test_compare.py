@@ -1,0 +1,115 @@
+"""compare(): arrays, numbers and files, and the same bytes as the command line's."""
+
+import json
+import subprocess
+
+import numpy as np
+import pytest
+
+import espdiff
+from conftest import QUICK
+
+
+def test_arrays_are_views_that_keep_their_owner(made):
+    result = espdiff.compare(*made, **QUICK)
+    positions, potential = result.positions, result.source_potential
+    n = len(positions)
+    assert positions.shape == (n, 3) and positions.dtype == np.float64
+    assert potential.shape == (n,) and potential.dtype == np.float32
+    assert result.triangles.max() == n - 1
+    for array in (positions, potential, result.triangles, result.displacement):
+        assert not array.flags.writeable
+        assert not array.flags.owndata
+    before = positions.copy()
+    del result  # the arrays hold what they view
+    espdiff.compare(*made, **QUICK)
+    assert np.array_equal(positions, before)
+
+
+def test_numbers_follow_from_the_arrays(made):
+    result = espdiff.compare(*made, **QUICK)
+    assert result.unit == "kT/e" and result.has_potential
+    valid = np.isfinite(result.difference)
+    weighted = (result.area[valid] * np.abs(result.difference[valid])).sum() / result.area[valid].sum()
+    assert weighted == pytest.approx(result.metrics["mean_abs_difference"], rel=1e-6)
+    assert result.area.sum() == pytest.approx(result.metrics["area_A2"], rel=1e-6)
+    assert result.certificate.trustworthy == result.trustworthy
+    assert len(result.residues) == 12
+    assert "TYR" in set(result.residues["name"])
+
+
+def test_the_self_comparison_has_no_difference(made):
+    result = espdiff.compare(made[0], made[0], **QUICK)
+    assert result.metrics["mean_abs_difference"] < 1e-4
+    assert result.metrics["mean_displacement_A"] < 1e-3
+
+
+def test_threads_do_not_change_bits(made):
+    one = espdiff.compare(*made, grid_spacing=1.5, threads=1)
+    two = espdiff.compare(*made, grid_spacing=1.5, threads=2)
+    assert np.array_equal(one.positions, two.positions)
+    assert np.array_equal(one.difference, two.difference, equal_nan=True)
+
+
+def test_files_are_those_of_the_command_line(data, tmp_path, program):
+    source, target = data / "series19_ubq_2k39" / "m01.pqr", data / "series19_ubq_2k39" / "m02.pqr"
+    espdiff.compare(source, target, ionic_strength=0.1).save(tmp_path / "python")
+    subprocess.run([program, "compare", source, target, "-o", tmp_path / "cli", "--ionic-strength", "0.1", "-q"], check=True)
+    for ending in (".vtp", ".residues.csv"):
+        assert (tmp_path / f"python{ending}").read_bytes() == (tmp_path / f"cli{ending}").read_bytes()
+    ours, theirs = (json.loads((tmp_path / f"{name}.json").read_text()) for name in ("python", "cli"))
+    for content in (ours, theirs):
+        for key in ("time_ms", "command_line"):
+            assert content.pop(key)
+    assert ours == theirs
+
+
+def test_given_maps(made):
+    maps = [espdiff.potential(state, "coulomb", pme_grid=1.0) for state in made]
+    assert maps[0].values.ndim == 3 and not maps[0].values.flags.writeable
+    given = espdiff.compare(*made, source_map=maps[0], target_map=maps[1], **QUICK)
+    direct = espdiff.compare(*made, potential="coulomb", **QUICK)
+    assert given.has_potential
+    # Interpolated from a lattice of 1 A, against the sum at each vertex.
+    assert given.metrics["mean_abs_difference"] == pytest.approx(direct.metrics["mean_abs_difference"], rel=0.2)
+    with pytest.raises(espdiff.InputError, match="computed potentials, and maps were given"):
+        espdiff.compare(*made, source_map=maps[0], target_map=maps[1], potential="pb")
+
+
+def test_series_is_compare_frame_by_frame(made):
+    series = espdiff.Series(made[0], start="source", **QUICK)
+    for target in (made[1], made[0]):
+        step, alone = series.step(target), espdiff.compare(made[0], target, **QUICK)
+        assert np.array_equal(step.positions, alone.positions)
+        assert step.metrics["mean_abs_difference"] == alone.metrics["mean_abs_difference"]
+
+
+def test_matrix_has_the_numbers_of_compare(made, tmp_path):
+    matrix = espdiff.matrix(made, ["a", "b"], output=tmp_path / "m", **QUICK)
+    assert (tmp_path / "m.csv").is_file() and matrix.labels == ["a", "b"]
+    table = matrix["mean_abs_difference"]
+    assert np.isnan(table[0, 0])
+    assert table[0, 1] == espdiff.compare(*made, **QUICK).metrics["mean_abs_difference"]
+    with pytest.raises(espdiff.InputError, match="exist"):
+        espdiff.matrix(made, ["a", "b"], output=tmp_path / "m", **QUICK)
+
+
+def test_surface(made):
+    surface = espdiff.surface(made[0], **QUICK)
+    assert len(surface.positions) == len(surface.potential) == len(surface.residue_index)
+    a, b, c = (np.asarray(surface.positions)[surface.triangles[:, corner]] for corner in range(3))
+    areas = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    assert areas.sum() == pytest.approx(surface.area, rel=1e-5)
+
+
+def test_plot_and_pyvista(made, tmp_path):
+    matplotlib = pytest.importorskip("matplotlib", reason="SKIPPED: no matplotlib")
+    matplotlib.use("Agg")
+    result = espdiff.compare(*made, **QUICK)
+    axes = result.plot(top=8)
+    assert axes.get_ylabel() == "Mean absolute difference (kT/e)"
+    axes.figure.savefig(tmp_path / "plot.png")
+    pyvista = pytest.importorskip("pyvista", reason="SKIPPED: no pyvista")
+    mesh = result.to_pyvista()
+    assert isinstance(mesh, pyvista.PolyData) and mesh.n_points == len(result.positions)
+    assert mesh.area == pytest.approx(result.area.sum(), rel=1e-3)

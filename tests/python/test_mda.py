@@ -1,0 +1,73 @@
+"""MDAnalysis: AtomGroups as states, and trajectories."""
+
+import numpy as np
+import pytest
+
+import espdiff
+from conftest import QUICK
+
+mda = pytest.importorskip("MDAnalysis", reason="SKIPPED: no MDAnalysis")
+
+from espdiff.mda import SurfacePotential  # noqa: E402
+
+
+@pytest.fixture(scope="module")
+def universe(data):
+    psf, dcd = sorted((data / "traj_adk").glob("*.psf")), sorted((data / "traj_adk").glob("*.dcd"))
+    if not psf or not dcd:
+        pytest.skip("SKIPPED: no PSF and DCD among the real inputs")
+    return mda.Universe(str(psf[0]), str(dcd[0]))
+
+
+def test_an_atomgroup_is_a_state(universe, tmp_path):
+    atoms = universe.select_atoms("protein")
+    result = espdiff.compare(atoms, atoms, potential="none", grid_spacing=2)
+    assert result.metrics["mean_displacement_A"] < 0.01
+    assert len(result.source) == len(atoms)
+    assert np.allclose(result.source.positions, atoms.positions)
+    assert np.allclose(result.source.charges, atoms.charges)
+
+
+def test_empty_and_missing(universe):
+    with pytest.raises(espdiff.InputError, match="source: the AtomGroup is empty"):
+        espdiff.compare(universe.select_atoms("resname NONE"), universe.atoms)
+    with pytest.raises(espdiff.InputError, match="atomgroup: it is empty"):
+        SurfacePotential(universe.select_atoms("resname NONE"))
+    with pytest.raises(espdiff.InputError, match="reference: there is no frame 9999"):
+        SurfacePotential(universe.atoms, reference=9999, **QUICK).run(stop=1)
+
+
+def test_frames_have_the_numbers_of_compare(universe):
+    atoms = universe.select_atoms("protein")
+    options = {"potential": "none", "grid_spacing": 2, "threads": 1}
+    run = SurfacePotential(atoms, reference=0, residues=True, **options).run(start=0, stop=5, step=2)
+    assert list(run.results.frames) == [0, 2, 4]
+    universe.trajectory[0]
+    reference = espdiff.State.from_arrays(**_arrays(atoms))
+    universe.trajectory[4]
+    alone = espdiff.compare(reference, espdiff.State.from_arrays(**_arrays(atoms)), **options)
+    assert run.results.metrics["mean_displacement_A"][2] == alone.metrics["mean_displacement_A"]
+    assert run.results.residues.shape == (3, len(alone.residues))
+    assert run.results.trustworthy.dtype == bool
+
+
+def _arrays(atoms):
+    return {
+        "positions": atoms.positions.copy(), "charges": atoms.charges, "names": list(atoms.names),
+        "residue_names": list(atoms.resnames), "residue_numbers": [int(n) for n in atoms.resids],
+        "chains": list(atoms.segids),
+    }
+
+
+@pytest.mark.parametrize("backend", ["multiprocessing", "dask"])
+def test_workers_give_the_same_bits(universe, backend):
+    if not hasattr(mda.analysis.base.AnalysisBase, "get_supported_backends"):
+        pytest.skip("SKIPPED: MDAnalysis before 2.8 has no workers")
+    if backend == "dask":
+        pytest.importorskip("dask", reason="SKIPPED: no dask")
+    atoms = universe.select_atoms("protein")
+    options = {"potential": "none", "grid_spacing": 2.5, "threads": 1}
+    one = SurfacePotential(atoms, **options).run(stop=4)
+    two = SurfacePotential(atoms, **options).run(stop=4, backend=backend, n_workers=2)
+    for name, values in one.results.metrics.items():
+        assert np.array_equal(values, two.results.metrics[name], equal_nan=True), name

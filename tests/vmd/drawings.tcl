@@ -1,0 +1,146 @@
+# drawings.tcl: drawings as a VMD user treats them: several at once, hidden, deleted, at another frame, alone, rendered, saved.
+source [file join $env(ESPDIFF_TESTS) support.tcl]
+source [file join $env(ESPDIFF_TESTS) window_support.tcl]
+package require espdiff
+
+proc displayed {molecules} { set n 0; foreach mol $molecules { incr n [molinfo $mol get displayed] }; return $n }
+# The note of a drawing's frame, if it is shown.
+proc shown_notes {} {
+    set notes {}
+    foreach mol [molinfo list] {
+        if {[string match "*espdiff* note*" [molinfo $mol get name]] && [molinfo $mol get displayed]} { lappend notes $mol }
+    }
+    return $notes
+}
+proc our_molecules {} { lsearch -all -inline -not -exact [lmap mol [molinfo list] { expr {
+    [string match "*espdiff*" [molinfo $mol get name]] ? $mol : "" }}] "" }
+
+test "a drawing in a VMD without molecules is what is seen" {
+    set comparison [espdiff compare [list file [input pair_tim_maps/scTIM_chainA.pqr] map [input pair_tim_maps/scTIM_chainA_pot-PE0.dx]] \
+        [list file [input pair_tim_maps/dTIM_chainA.pqr] map [input pair_tim_maps/dTIM_chainA_pot-PE0.dx]] -grid-spacing 2]
+    set drawn [espdiff draw $comparison]
+    check "the surface is the top molecule: [molinfo [molinfo top] get name]" {[molinfo top] == [lindex $drawn 0]}
+    set scale [lindex [molinfo [molinfo top] get scale_matrix] 0 0 0]
+    check "the view is of it" {$scale < 0.2}
+    espdiff delete all
+}
+
+load_tim
+set comparison [espdiff compare [list mol $source map 0] [list mol $target map 0] -grid-spacing 2]
+set reverse [espdiff compare [list mol $target map 0] [list mol $source map 0] -grid-spacing 2]
+
+test "legends of two drawings stand above each other" {
+    espdiff draw $comparison
+    espdiff draw $reverse
+    set heights {}
+    foreach mol [our_molecules] {
+        if {[string match "*legend*" [molinfo $mol get name]]} {
+            lappend heights [lindex [molinfo $mol get global_matrix] 0 1 3]
+        }
+    }
+    check_equal "two legends" [llength $heights] 2
+    check "apart" {abs([lindex $heights 0] - [lindex $heights 1]) > 0.05}
+    espdiff undraw $reverse
+}
+
+test "the molecules of a drawing can be told apart, and are hidden and shown together" {
+    set drawn [espdiff draw $comparison]
+    set names [lmap mol $drawn { lindex [molinfo $mol get name] 0 }]
+    check_equal "different names" [llength [lsort -unique $names]] [llength $drawn]
+    mol off [lindex $drawn 0]
+    check_equal hidden [displayed $drawn] 0
+    mol on [lindex $drawn end]
+    check_equal shown [displayed $drawn] [llength $drawn]
+    check_equal "the proteins stay" [displayed [list $source $target]] 2
+}
+
+test "deleting one of them deletes the drawing" {
+    mol delete [lindex $drawn 0]
+    update
+    check_equal molecules [molinfo list] [list $source $target]
+    set drawn [espdiff draw $comparison]
+    espdiff undraw
+    check_equal molecules [molinfo list] [list $source $target]
+}
+
+test "transparency in a rendermode that cannot is told about" {
+    display rendermode Normal
+    set ::espdiff::said_rendermode 0
+    espdiff draw $comparison -uncertain transparent
+    check_equal told $::espdiff::said_rendermode 1
+    espdiff draw $comparison
+}
+
+test "every renderer of this VMD takes a drawing with its legend" {
+    foreach renderer [render list] {
+        set path $scratch/out.$renderer
+        set failed [catch { render $renderer $path } message]
+        # VMD's Wavefront writer refuses files without a material file beside them.
+        note "    $renderer: [expr {$failed ? "failed: $message" : "[file size $path] bytes"}]"
+        if {$renderer ne "Wavefront"} { check $renderer {!$failed && [file size $path] > 10000} }
+        file delete $path
+    }
+}
+
+test "a saved state has the command that makes the drawing again, and nothing else of it" {
+    material change opacity Espdiff100 0.9
+    set before [our_molecules]
+    mol top $target
+    save_state $scratch/state.vmd
+    check_equal "drawn again" [llength [our_molecules]] [llength $before]
+    check "its material is as the user made it" {abs([lindex [material settings Espdiff100] 5] - 0.9) < 0.01}
+    check "small: [file size $scratch/state.vmd] bytes" {[file size $scratch/state.vmd] < 40000}
+    set channel [open $scratch/state.vmd]
+    set state [read $channel]
+    close $channel
+    check "no graphics" {[string first "graphics top" $state] < 0}
+    check "no material" {[string first Espdiff100 $state] < 0}
+    check "the command" {[string first "espdiff draw" $state] > 0}
+    material change opacity Espdiff100 1.0
+}
+
+test "the state makes the same drawing in a fresh VMD" {
+    set channel [open $scratch/again.tcl w]
+    puts $channel "lappend auto_path {[file join $env(VMDPLUGINPATH) tcl]}\nmol new\nplay {$scratch/state.vmd}"
+    puts $channel "set channel \[open {$scratch/number} w\]"
+    puts $channel {puts $channel [espdiff result [lindex [espdiff handles] 0] rms_difference]}
+    puts $channel {foreach mol [molinfo list] { puts $channel [molinfo $mol get name] }}
+    puts $channel "close \$channel\nquit"
+    close $channel
+    set vmd [expr {[info exists env(VMD)] ? $env(VMD) : "vmd"}]
+    catch { exec $vmd -dispdev text -e $scratch/again.tcl < /dev/null 2>@1 } log
+    check "it ran: [string range $log end-600 end]" {[file exists $scratch/number]}
+    set channel [open $scratch/number]
+    set lines [split [read $channel] \n]
+    close $channel
+    check_equal number [lindex $lines 0] [espdiff result $comparison rms_difference]
+    check_equal "one legend" [llength [lsearch -all $lines "*legend*"]] 1
+}
+
+test "at another frame the picture says which frame the surface is of" {
+    espdiff undraw
+    set adk [mol new [input traj_adk/adk.psf] type psf waitfor all]
+    mol addfile [input traj_adk/adk_dims.dcd] type dcd waitfor all $adk
+    animate goto 10
+    set frames [espdiff compare [list mol $adk frame 0 sel protein map none] [list mol $adk sel protein map none] \
+        -grid-spacing 2]
+    espdiff draw $frames
+    check_equal "its own frame" [shown_notes] {}
+    animate goto 60
+    check_equal "another one" [llength [shown_notes]] 1
+    set words ""
+    foreach item [graphics [lindex [shown_notes] 0] list] {
+        append words [graphics [lindex [shown_notes] 0] info $item]
+    }
+    check "the words" {[string match "*frame 10*another frame*" $words]}
+    animate goto 10
+    check_equal "back" [shown_notes] {}
+    animate goto 20
+    espdiff undraw
+    check_equal molecules [our_molecules] {}
+}
+
+test "no callback failed" { check_equal errors $background {} }
+
+espdiff delete all
+finish
