@@ -15,6 +15,7 @@
 #include "cuda/certificate/distortion.h"
 #include "cuda/certificate/intersections.h"
 #include "cuda/certificate/metrics.h"
+#include "cuda/certificate/slip.h"
 #include "cuda/deform/deform.h"
 #include "cuda/deform/fields.h"
 #include "cuda/deform/vector_flow.h"
@@ -352,6 +353,14 @@ class BackEndEngine : public Engine {
   DistortionReport distortion(const MeshPtr& source, const MeshPtr& mapped, double limit) override {
     return run(
         [&] { return ESPDIFF_BACKEND::distortion(unwrap<SurfaceMesh>(source), unwrap<SurfaceMesh>(mapped), limit); });
+  }
+
+  std::vector<float> slip(const MeshPtr& source, const MeshPtr& mapped, const MeshPtr& target,
+                          const std::vector<MovingAtom>& atoms) override {
+    return run([&] {
+      return ESPDIFF_BACKEND::slip(unwrap<SurfaceMesh>(source), unwrap<SurfaceMesh>(mapped),
+                                   unwrap<SurfaceMesh>(target), atoms);
+    });
   }
 
   double area(const MeshPtr& mesh) override {

@@ -16,11 +16,12 @@ in vec3 sourcePlaceFS;
 in vec3 targetPlaceFS;
 in vec3 vertexPotentialFS;
 in float displacementFS;
+in float uncertaintyFS;
 flat in float residueIndexFS;
 
 uniform sampler3D sourceMap;
 uniform sampler3D targetMap;
-uniform vec4 fade;            // displacements of greatest and of least opacity, least opacity, greatest opacity
+uniform vec4 fade;            // uncertainties of greatest and of least opacity, least opacity, greatest opacity
 uniform vec2 shownColumns;    // window columns from, to: the sides of a split view
 uniform float hatchPitch;     // pixels
 
@@ -29,7 +30,7 @@ uniform float hatchPitch;     // pixels
 #include "blinn_phong.glsl"
 
 const int kDifference = 0, kSource = 1, kTarget = 2, kSign = 3, kDisplacement = 4, kMagnitude = 5, kResidue = 6,
-          kPlain = 7, kReadBack = 8;
+          kPlain = 7, kSlip = 8, kReadBack = 9;
 
 /// Source and target potential here, as far as they are drawn; z is 1 if the drawn quantity has a value.
 vec3 potentials()
@@ -45,6 +46,7 @@ vec3 surfaceColour()
   if (colourBy == kPlain) return plainColour;
   if (colourBy == kResidue) return residueColour(residueIndexFS);
   if (colourBy == kDisplacement) return displacementFS < 0.0 ? noValueColour : scaleColour(displacementFS);
+  if (colourBy == kSlip) return uncertaintyFS < 0.0 ? noValueColour : scaleColour(uncertaintyFS);
   vec3 both = potentials();
   if (both.z == 0.0) return noValueColour;
   if (colourBy == kReadBack) return bytesOf(both.y - both.x);
@@ -59,8 +61,8 @@ float opacityHere()
 {
   if (part == 1) return 0.3;
   if (!fades) return fade.w;
-  if (displacementFS < 0.0) return fade.z;
-  return mix(fade.w, fade.z, clamp((displacementFS - fade.x) / (fade.y - fade.x), 0.0, 1.0));
+  if (uncertaintyFS < 0.0) return fade.z;
+  return mix(fade.w, fade.z, clamp((uncertaintyFS - fade.x) / (fade.y - fade.x), 0.0, 1.0));
 }
 
 /// Diagonal stripes, fixed to the picture.

@@ -7,6 +7,7 @@ in vec3 sourcePlace;         // the unsuperposed source position in the source's
 in vec3 targetPlace;         // the mapped position in the target's map
 in vec3 vertexPotential;     // source, target, and 1 where both have a value
 in float displacement;       // Angstrom; negative: unknown
+in float uncertainty;        // Angstrom; negative: unknown
 in float residueIndex;       // negative: none
 
 uniform mat4 MCDCMatrix;     // names that VTK's mapper sets
@@ -20,6 +21,7 @@ out vec3 sourcePlaceFS;
 out vec3 targetPlaceFS;
 out vec3 vertexPotentialFS;
 out float displacementFS;
+out float uncertaintyFS;
 flat out float residueIndexFS;
 
 void main()
@@ -32,5 +34,6 @@ void main()
   targetPlaceFS = targetPlace;
   vertexPotentialFS = vertexPotential;
   displacementFS = displacement;
+  uncertaintyFS = uncertainty;
   residueIndexFS = residueIndex;
 }

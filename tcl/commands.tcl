@@ -62,7 +62,8 @@ namespace eval ::espdiff {
         returns {the files written} example {espdiff export comparison1 wild_mutant}]
 
     command map [dict create arguments {handle} settings none run ::espdiff::map options {
-            {-quantity choice difference "Quantity of the map" {difference source target sign displacement path_length}}
+            {-quantity choice difference "Quantity of the map" {difference source target sign slip
+                displacement path_length}}
             {-spacing positive 1.0 "Distance of the lattice's points, Angstrom"}
             {-mol molecule {} "Add the map to this molecule of VMD, for `Color Volume` and Isosurface representations"}
             {-file file {} "Write the map to this DX file"}
@@ -108,16 +109,16 @@ namespace eval ::espdiff {
         example {espdiff highlight comparison1 {88 113}}]
 
     command draw [dict create arguments {handle} settings none run ::espdiff::draw options {
-            {-color choice auto "Quantity shown; auto is difference (for a surface, potential), or displacement without\
+            {-color choice auto "Quantity shown; auto is difference (for a surface, potential), or slip without\
                 potentials. difference: target - source, red negative, white 0, blue positive; sign: blue became\
-                positive, red became negative; potential is for surfaces; path_length: length of each point's path,\
+                positive, red became negative; slip: distance of each point from where its own atoms went; potential is for surfaces; path_length: length of each point's path,\
                 at least its displacement"
-                {auto difference sign source target potential displacement path_length none}}
+                {auto difference sign source target potential slip displacement path_length none}}
             {-range range auto "Values at the ends of the colour scale; auto is symmetric about 0 and covers 98 % of\
                 the surface's points on each side"}
-            {-uncertain choice fade "fade: colours fade into grey the larger the displacement; transparent: the\
+            {-uncertain choice fade "fade: colours fade into grey the larger the slip; transparent: the\
                 surface does; plain: full colours" {fade transparent plain}}
-            {-uncertainty-limit positive 2.0 "Displacement at which colours have faded completely, Angstrom; below half\
+            {-uncertainty-limit positive 2.0 "Slip at which colours have faded completely, Angstrom; below half\
                 of it nothing fades"}
             {-corrupt choice uncertain "Parts off the target's surface: uncertain, marked in yellow, or not drawn"\
                 {uncertain mark hide}}

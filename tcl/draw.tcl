@@ -18,7 +18,7 @@ namespace eval ::espdiff {
         diverging  {{0.78 0.08 0.10} {0.88 0.88 0.88} {0.10 0.22 0.78}}
         sequential {{0.88 0.88 0.88} {0.98 0.62 0.20} {0.45 0.05 0.05}}
     }
-    variable lengths {displacement path_length}  ;# quantities that start at 0
+    variable lengths {slip displacement path_length}  ;# quantities that start at 0
     variable scale_method RWB  ;# VMD's colour scale whose colours are replaced temporarily
 
     variable scale_first 33   ;# the first id of VMD's colour scale
@@ -105,7 +105,7 @@ namespace eval ::espdiff {
         set words {}
         if {[dict get $options uncertain] ne "plain"} {
             set how [dict get {fade grey transparent transparent} [dict get $options uncertain]]
-            lappend words "$how: uncertain, moved by [format %.3g [dict get $options uncertainty-limit]] A or more"
+            lappend words "$how: uncertain, slipped by [format %.3g [dict get $options uncertainty-limit]] A or more"
         }
         set side [expr {[dict get $options surface] eq "mapped" ? "target" : "source"}]
         if {[dict get [core::result $handle] certificate no_counterpart_area_fraction $side] > 0} {
@@ -118,7 +118,7 @@ namespace eval ::espdiff {
         if {$color eq "auto"} {
             set color [expr {$is_surface ? "potential" : "difference"}]
             if {![catch { core::range $handle $color }]} { return $color }
-            return [expr {$is_surface ? "none" : "displacement"}]
+            return [expr {$is_surface ? "none" : [catch { core::range $handle slip }] ? "displacement" : "slip"}]
         }
         if {$color ne "none"} { core::range $handle $color }  ;# the core reports quantities that the handle lacks
         return $color

@@ -9,6 +9,7 @@ namespace eval ::espdiff {
     variable legend_titles {
         difference "Potential difference, target - source" source "Potential of the source"
         target "Potential of the target" potential "Potential" displacement "Displacement"
+        slip "Slip, distance from where the atoms went"
         path_length "Path length"
         sign "Sign of the potential, target against source"
     }

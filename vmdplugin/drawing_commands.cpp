@@ -148,8 +148,9 @@ Grid quantity_map(const Call& call) {
   const auto comparison = call.handles.finished_comparison(handle);
   const VertexQuantity quantity = vertex_quantity(handle, *comparison, name);
   Grid map = surface_quantity_map(comparison->result.surface, quantity.values, to_double(call.arguments[2], "spacing"));
-  map.unit = name == "displacement" || name == "path_length" || name == "sign" ? PotentialUnit::kUnknown
-                                                                               : comparison->result.unit;
+  map.unit = name == "displacement" || name == "slip" || name == "path_length" || name == "sign"
+                 ? PotentialUnit::kUnknown
+                 : comparison->result.unit;
   map.name = "espdiff " + name + (quantity.unit.empty() ? "" : " (" + quantity.unit + ")");
   return map;
 }

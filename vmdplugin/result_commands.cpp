@@ -80,9 +80,8 @@ Tcl_Obj* result(const Call& call) {
   auto json = json_of(*comparison);
   auto& reasons = json["certificate"]["reasons"] = nlohmann::ordered_json::array();
   for (const Message& reason : comparison->result.certificate.reasons) reasons.push_back(spelled(call.interp, reason));
-  auto& warnings = json["warnings"] = nlohmann::ordered_json::array();
-  for (const Message& warning : all_warnings(comparison->result, *comparison->source.molecule))
-    warnings.push_back(spelled(call.interp, warning));
+  for (std::size_t k = 0; k < comparison->result.warnings.size(); ++k)
+    json["warnings"][k]["text"] = spelled(call.interp, comparison->result.warnings[k].text);
   return to_obj(json);
 }
 

@@ -22,8 +22,12 @@ VertexQuantity of_comparison(const std::string& handle, const CompareResult& res
   const MappedSurface& s = result.surface;
   if (name == "displacement") return {s.displacement, "A"};
   if (name == "path_length") return {s.path_length, "A"};
+  if (name == "slip") {
+    if (s.slip.empty()) throw InputError(handle + " has no slip, since no atoms pair; take displacement");
+    return {s.slip, "A"};
+  }
   if (name != "difference" && name != "source" && name != "target" && name != "sign")
-    throw InputError("'" + name + "' is not difference, source, target, sign, displacement or path_length");
+    throw InputError("'" + name + "' is not difference, source, target, sign, slip, displacement or path_length");
   require_potentials(handle, name, result.has_potential);
   const std::string unit = potential_unit_text(result);
   if (name == "source") return {s.potential_source, unit};
@@ -51,7 +55,9 @@ VertexQuantity vertex_quantity(const std::string& handle, const Object& object, 
   return {surface->result.potential, to_string(surface->result.unit)};
 }
 
-const std::vector<float>& vertex_uncertainty(const MappedSurface& surface) { return surface.displacement; }
+const std::vector<float>& vertex_uncertainty(const MappedSurface& surface) {
+  return surface.slip.empty() ? surface.displacement : surface.slip;
+}
 
 QuantityRange range_of(const std::vector<float>& values) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();

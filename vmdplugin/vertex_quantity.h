@@ -19,7 +19,8 @@ struct VertexQuantity {
 /// @throws InputError (another name; no potentials), and the failure of the object's job
 VertexQuantity vertex_quantity(const std::string& handle, const Object& object, const std::string& name);
 
-/// What a comparison calls the uncertainty of a vertex, Angstrom; NaN if unmatched. All drawings ask here.
+/// What a comparison calls the uncertainty of a vertex, Angstrom: its slip, or its displacement if no atoms pair; NaN
+/// if unmatched, and where the atoms have no partner. All drawings ask here.
 const std::vector<float>& vertex_uncertainty(const MappedSurface& surface);
 
 /// Two-sided range for a colour scale.

@@ -38,18 +38,75 @@ double mean_umbrella_length(const SurfaceMesh& mesh) {
   return sum / static_cast<double>(mesh.n_vertices());
 }
 
+/// [point] distance to the tree's triangles.
+Buffer<float> distances_to(const TriangleTreeView& tree, const Vec4f* x, std::size_t n) {
+  Buffer<float> distances(n);
+  float* const distance = raw(distances);
+  for_each_index((n + kRun - 1) / kRun, [=] ESPDIFF_HD(std::size_t run) {
+    std::uint32_t guess = 0;
+    for (std::size_t v = run * kRun; v < (run + 1) * kRun && v < n; ++v) {
+      const NearestTriangle nearest = nearest_triangle(tree, x[v].xyz(), guess);
+      distance[v] = sqrtf(nearest.squared_distance);
+      guess = nearest.place;
+    }
+  });
+  return distances;
+}
+
+Buffer<Vec4f> triangle_centroids(const SurfaceMesh& mesh) {
+  Buffer<Vec4f> centroids(mesh.n_triangles());
+  const Corners* const corners = raw(mesh.topology->triangles);
+  const Vec4f* const x = raw(mesh.positions);
+  Vec4f* const centroid = raw(centroids);
+  for_each_index(mesh.n_triangles(), [=] ESPDIFF_HD(std::size_t t) {
+    const Corners& c = corners[t];
+    centroid[t] = make_vec4((1.0F / 3.0F) * (x[c.v[0]].xyz() + x[c.v[1]].xyz() + x[c.v[2]].xyz()), 0.0F);
+  });
+  return centroids;
+}
+
+/// Area-weighted sums over points of a surface.
+struct WeightedDistances {
+  std::vector<std::pair<float, float>> points;  ///< distance, area
+  double area = 0, sum = 0, beyond = 0, within = 0;
+  float limit_A;
+
+  explicit WeightedDistances(float limit) : limit_A(limit) {}
+
+  void add(const std::vector<float>& distances, const std::vector<float>& areas, double share) {
+    for (std::size_t k = 0; k < distances.size(); ++k) {
+      const double w = share * static_cast<double>(areas[k]), d = static_cast<double>(distances[k]);
+      points.emplace_back(distances[k], static_cast<float>(w));
+      area += w;
+      sum += w * d;
+      (distances[k] > limit_A ? beyond : within) += distances[k] > limit_A ? w : w * d;
+    }
+  }
+
+  DistanceSummary summary() {
+    std::sort(points.begin(), points.end());
+    DistanceSummary result;
+    result.mean = sum / area;
+    result.max = static_cast<double>(points.back().first);
+    result.area_fraction_beyond_limit = beyond / area;
+    result.mean_within_limit = area > beyond ? within / (area - beyond) : 0;
+    double below = 0;
+    for (const auto& [value, weight] : points) {
+      below += static_cast<double>(weight);
+      result.p95 = static_cast<double>(value);
+      if (below >= 0.95 * area) break;
+    }
+    return result;
+  }
+};
+
 }  // namespace
 
 FitReport fit_to_density(const SurfaceMesh& mapped, const AtomCells& target, float isovalue) {
   const std::size_t n = mapped.n_triangles();
   const Corners* const corners = raw(mapped.topology->triangles);
   const Vec4f* const x = raw(mapped.positions);
-  Buffer<Vec4f> centroids(n);
-  Vec4f* const centroid = raw(centroids);
-  for_each_index(n, [=] ESPDIFF_HD(std::size_t t) {
-    const Corners& c = corners[t];
-    centroid[t] = make_vec4((1.0F / 3.0F) * (x[c.v[0]].xyz() + x[c.v[1]].xyz() + x[c.v[2]].xyz()), 0.0F);
-  });
+  const Buffer<Vec4f> centroids = triangle_centroids(mapped);
   Buffer<DensitySample> sampled(n);
   density_at_points(target, centroids, spatial_order(centroids), n, sampled);
   const DensitySample* const density = raw(sampled);
@@ -85,56 +142,27 @@ FitReport fit_to_density(const SurfaceMesh& mapped, const AtomCells& target, flo
 DistanceSummary distance_summary(const SurfaceMesh& from, const SurfaceMesh& to, float limit_A) {
   const TriangleTree tree_of_target = make_triangle_tree(to);
   const TriangleTreeView tree = tree_of_target.view();
-  Buffer<float> distances(from.n_vertices());
-  const Vec4f* const x = raw(from.positions);
-  float* const distance = raw(distances);
-  const std::size_t n = from.n_vertices();
-  for_each_index((n + kRun - 1) / kRun, [=] ESPDIFF_HD(std::size_t run) {
-    std::uint32_t guess = 0;
-    for (std::size_t v = run * kRun; v < (run + 1) * kRun && v < n; ++v) {
-      const NearestTriangle nearest = nearest_triangle(tree, x[v].xyz(), guess);
-      distance[v] = sqrtf(nearest.squared_distance);
-      guess = nearest.place;
-    }
-  });
+  const Buffer<float> at_vertices = distances_to(tree, raw(from.positions), from.n_vertices());
+  const Buffer<Vec4f> centroids = triangle_centroids(from);
+  const Buffer<float> at_centroids = distances_to(tree, raw(centroids), from.n_triangles());
   auto beyond_flags = std::make_shared<Scalars>();
   beyond_flags->values.resize(from.n_triangles());
   float* const beyond_limit = raw(beyond_flags->values);
+  const float* const distance = raw(at_vertices);
   const Corners* const corners = raw(from.topology->triangles);
   for_each_index(from.n_triangles(), [=] ESPDIFF_HD(std::size_t t) {
     const Corners c = corners[t];
     const float farthest = larger(distance[c.v[0]], larger(distance[c.v[1]], distance[c.v[2]]));
     beyond_limit[t] = farthest > limit_A ? 1.0F : 0.0F;
   });
-  const std::vector<float> weights = to_host(vertex_areas(from, triangle_areas(from), nullptr));
-  const std::vector<float> values = to_host(distances);
-
-  std::vector<std::pair<float, float>> by_distance(values.size());
-  double area = 0, sum = 0, beyond = 0, within = 0;
-  for (std::size_t v = 0; v < values.size(); ++v) {
-    by_distance[v] = {values[v], weights[v]};
-    const double w = static_cast<double>(weights[v]);
-    area += w;
-    sum += w * static_cast<double>(values[v]);
-    if (values[v] > limit_A) {
-      beyond += w;
-    } else {
-      within += w * static_cast<double>(values[v]);
-    }
-  }
-  std::sort(by_distance.begin(), by_distance.end());
-  DistanceSummary summary;
-  summary.mean = sum / area;
-  summary.max = static_cast<double>(by_distance.back().first);
-  summary.area_fraction_beyond_limit = beyond / area;
+  // A quarter of the weight at the corners and the rest at the centroid integrates quadratic functions exactly. Corners
+  // alone lie on the surface's own lattice, where both surfaces are nearest to each other.
+  const Buffer<float> areas = triangle_areas(from);
+  WeightedDistances weighted(limit_A);
+  weighted.add(to_host(at_vertices), to_host(vertex_areas(from, areas, nullptr)), 0.25);
+  weighted.add(to_host(at_centroids), to_host(areas), 0.75);
+  DistanceSummary summary = weighted.summary();
   summary.beyond = beyond_flags;
-  summary.mean_within_limit = area > beyond ? within / (area - beyond) : 0;
-  double below = 0;
-  for (const auto& [value, weight] : by_distance) {
-    below += static_cast<double>(weight);
-    summary.p95 = static_cast<double>(value);
-    if (below >= 0.95 * area) break;
-  }
   return summary;
 }
 

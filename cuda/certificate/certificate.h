@@ -15,7 +15,8 @@ constexpr float kCorruptDensity = 0.1F;
 
 FitReport fit_to_density(const SurfaceMesh& mapped, const AtomCells& target, float isovalue);
 
-/// Exact distances from the vertices of `from` to the triangles of `to`, weighted by the area at each vertex.
+/// Exact distances from the corners (a quarter of each triangle's area) and centroids (the rest) of `from` to the
+/// triangles of `to`.
 DistanceSummary distance_summary(const SurfaceMesh& from, const SurfaceMesh& to, float limit_A);
 
 }  // namespace espdiff::ESPDIFF_BACKEND

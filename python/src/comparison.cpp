@@ -151,6 +151,8 @@ void add_comparison(nb::module_& module) {
           "difference", [](const Comparison& c) { return array_from(difference(c.result.surface)); },
           "(vertices) float32: potential on the target minus that on the source.")
       .def_prop_ro("displacement", array_of(&S::displacement), "(vertices) float32, A; NaN where unmatched.")
+      .def_prop_ro("slip", array_of(&S::slip),
+                   "(vertices) float32, A; NaN where unmatched or without partner; empty if no atoms pair.")
       .def_prop_ro("path_length", array_of(&S::path_length), "(vertices) float32, A; NaN where unmatched.")
       .def_prop_ro("residue_index", array_of(&S::residue), "(vertices) int32: row of `residues`; -1 for none.")
       .def_prop_ro("corrupt", array_of(&S::corrupt), "(triangles) uint8: not 0 where the mapping cannot be trusted.")

@@ -9,6 +9,7 @@
 #include "align/pair_residues.h"
 #include "align/residue_names.h"
 #include "base/error.h"
+#include "base/residue_label.h"
 
 namespace espdiff {
 namespace {
@@ -111,12 +112,6 @@ void pair_residue_atoms(const ResidueView& source, std::size_t a, const ResidueV
   }
 }
 
-std::string residue_label(const Residue& residue) {
-  std::string label = residue.name + " " + std::to_string(residue.number);
-  if (residue.insertion_code != ' ') label += residue.insertion_code;
-  return residue.chain.empty() ? label : label + " of chain " + residue.chain;
-}
-
 std::string atom_label(const Molecule& molecule, std::size_t i) {
   const Atom& atom = molecule.atoms[i];
   return atom.name + " of " + residue_label(molecule.residues[static_cast<std::size_t>(atom.residue)]);
@@ -197,12 +192,17 @@ std::string to_string(AlignAtoms atoms) {
   return "none";
 }
 
-AtomPairing pair_atoms(const Molecule& source, const Molecule& target) {
-  if (source.size() >= kMinPairs && same_order(source, target)) return pair_in_order(source);
+AtomPairing pair_atoms(const Molecule& source, const Molecule& target, PairOthers others) {
+  const bool in_order = source.size() >= kMinPairs && same_order(source, target);
+  if (in_order && others == PairOthers::kByNumber) return pair_in_order(source);
   const ResidueView source_view(source), target_view(target);
-  const IndexPairs residues = pair_residues(source_view, target_view);
+  if (in_order && order_holds(source_view, target_view)) return pair_in_order(source);
+  ResiduePairing by_residues = pair_residues(source_view, target_view, others);
+  const IndexPairs& residues = by_residues.pairs;
   AtomPairing pairing;
-  pairing.method = "sequence alignment";
+  pairing.method = by_residues.by_names ? "names of residues" : "sequence alignment";
+  pairing.moved = std::move(by_residues.moved);
+  pairing.exchanged_chains = std::move(by_residues.exchanged_chains);
   pairing.n_aligned_residues = residues.size();
   for (const auto& [a, b] : residues) {
     const bool substituted = !same_residue_name(source.residues[a].name, target.residues[b].name);

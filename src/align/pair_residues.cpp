@@ -12,6 +12,8 @@
 #include <tuple>
 
 #include "align/align_sequences.h"
+#include "align/assign_chains.h"
+#include "align/pair_by_place.h"
 
 namespace espdiff {
 namespace {
@@ -226,18 +228,183 @@ void pair_others(const ResidueView& source, const ResidueView& target, IndexPair
   }
 }
 
+/// About this many points stand for a chain.
+constexpr std::size_t kChainPoints = 30;
+/// Equal chains reach this share of the lower self score, and have this share of each other's length.
+constexpr double kEqualScore = 0.9, kEqualLength = 0.8;
+/// Names pair files in different orders if they pair this many times the residues that the alignment does.
+constexpr double kMoreByNames = 1.1;
+
+bool are_equal(const Chain& a, const Chain& b, ScoreTable& scores) {
+  const auto shorter = static_cast<double>(std::min(a.residues.size(), b.residues.size())),
+             longer = static_cast<double>(std::max(a.residues.size(), b.residues.size()));
+  if (a.kind != b.kind || shorter < kMinLeftover || shorter < kEqualLength * longer) return false;
+  const int lower_self = std::min(self_score(a.sequence), self_score(b.sequence));
+  return scores.score(a.sequence, b.sequence) >= kEqualScore * lower_self;
+}
+
+Vec3d place_of(const ResidueView& view, std::size_t residue) {
+  for (const std::size_t i : view.atoms[residue]) {
+    const std::string& name = view.molecule->atoms[i].name;
+    if (name == "CA" || name == "P") return view.molecule->positions[i];
+  }
+  return view.molecule->positions[view.atoms[residue].front()];
+}
+
+IndexPairs aligned_residues(const Chain& a, const Chain& b) {
+  IndexPairs pairs;
+  for (const auto& [p, q] : align_sequences(a.sequence, b.sequence, a.numbers, b.numbers))
+    pairs.emplace_back(a.residues[p], b.residues[q]);
+  return pairs;
+}
+
+/// The chains of both molecules, which of them are equal, and which of the other molecule each pairs with.
+struct EqualChains {
+  std::vector<Chain> source, target;
+  ChainAssignment assignment{};
+
+  EqualChains(const ResidueView& source_view, const ResidueView& target_view, ScoreTable& scores,
+              const IndexPairs& pairs) {
+    SequenceEncoder encoder;
+    source = chains_of(source_view, encoder);
+    target = chains_of(target_view, encoder);
+    assignment.points.resize(source.size(), std::vector<ChainPoints>(target.size()));
+    assignment.target_of.assign(source.size(), -1);
+    if (source.size() < 2 || target.size() < 2) return;
+    std::map<std::size_t, std::size_t> chain_of_target, partner(pairs.begin(), pairs.end());
+    for (std::size_t j = 0; j < target.size(); ++j) {
+      for (const std::size_t r : target[j].residues) chain_of_target[r] = j;
+    }
+    for (std::size_t i = 0; i < source.size(); ++i) {
+      std::map<std::size_t, std::size_t> votes;
+      for (const std::size_t r : source[i].residues) {
+        if (partner.count(r) != 0) ++votes[chain_of_target[partner[r]]];
+      }
+      std::size_t most = 0;
+      for (std::size_t j = 0; j < target.size(); ++j) {
+        if (!are_equal(source[i], target[j], scores)) continue;
+        assignment.points[i][j] = points(source_view, source[i], target_view, target[j]);
+        if (votes[j] <= most) continue;
+        most = votes[j];
+        assignment.target_of[i] = static_cast<std::ptrdiff_t>(j);
+      }
+    }
+  }
+
+  /// Whether any chain has a choice.
+  bool any_choice() const {
+    return std::any_of(assignment.points.begin(), assignment.points.end(), [](const auto& row) {
+      return std::count_if(row.begin(), row.end(), [](const ChainPoints& points) { return !points.empty(); }) > 1;
+    });
+  }
+
+  static ChainPoints points(const ResidueView& source_view, const Chain& a, const ResidueView& target_view,
+                            const Chain& b) {
+    ChainPoints all;
+    const IndexPairs pairs = aligned_residues(a, b);
+    const std::size_t stride = std::max<std::size_t>(1, pairs.size() / kChainPoints);
+    for (std::size_t k = 0; k < pairs.size(); k += stride) {
+      if (source_view.atoms[pairs[k].first].empty() || target_view.atoms[pairs[k].second].empty()) continue;
+      all.emplace_back(place_of(source_view, pairs[k].first), place_of(target_view, pairs[k].second));
+    }
+    return all;
+  }
+};
+
+/// Exchanges the pairs of equal chains whose arrangement fits another assignment.
+void pair_by_arrangement(const ResidueView& source, const ResidueView& target, ScoreTable& scores,
+                         ResiduePairing& pairing) {
+  const EqualChains chains(source, target, scores, pairing.pairs);
+  if (!chains.any_choice()) return;
+  const std::vector<std::ptrdiff_t> best = assign_chains(chains.assignment);
+  if (best == chains.assignment.target_of) return;
+  std::set<std::size_t> source_done, target_done;
+  IndexPairs pairs;
+  for (std::size_t i = 0; i < best.size(); ++i) {
+    if (best[i] < 0) continue;
+    const Chain &a = chains.source[i], &b = chains.target[static_cast<std::size_t>(best[i])];
+    source_done.insert(a.residues.begin(), a.residues.end());
+    target_done.insert(b.residues.begin(), b.residues.end());
+    const IndexPairs own = aligned_residues(a, b);
+    pairs.insert(pairs.end(), own.begin(), own.end());
+    if (best[i] != chains.assignment.target_of[i]) pairing.exchanged_chains.emplace_back(a.name, b.name);
+  }
+  for (const auto& pair : pairing.pairs) {
+    if (source_done.count(pair.first) == 0 && target_done.count(pair.second) == 0) pairs.push_back(pair);
+  }
+  pairing.pairs = std::move(pairs);
+}
+
+bool is_polymer(ResidueKind kind) { return kind == ResidueKind::kAminoAcid || kind == ResidueKind::kNucleotide; }
+
+/// Residues of the polymer with the same chain, number, insertion code and name, where only one has them on each side.
+IndexPairs pair_by_names(const ResidueView& source, const ResidueView& target) {
+  using Key = std::tuple<std::string, std::int32_t, char>;
+  const auto keys = [](const ResidueView& view) {
+    std::map<Key, std::vector<std::size_t>> all;
+    for (std::size_t r = 0; r < view.kinds.size(); ++r) {
+      const Residue& residue = view.molecule->residues[r];
+      if (is_polymer(view.kinds[r])) all[{residue.chain, residue.number, residue.insertion_code}].push_back(r);
+    }
+    return all;
+  };
+  const auto of_source = keys(source), of_target = keys(target);
+  IndexPairs pairs;
+  for (const auto& [key, residues] : of_source) {
+    const auto same = of_target.find(key);
+    if (same == of_target.end() || residues.size() > 1 || same->second.size() > 1) continue;
+    const std::size_t a = residues.front(), b = same->second.front();
+    if (same_residue_name(source.molecule->residues[a].name, target.molecule->residues[b].name))
+      pairs.emplace_back(a, b);
+  }
+  return pairs;
+}
+
+std::size_t n_same_names(const ResidueView& source, const ResidueView& target, const IndexPairs& pairs) {
+  return static_cast<std::size_t>(std::count_if(pairs.begin(), pairs.end(), [&](const auto& pair) {
+    return same_residue_name(source.molecule->residues[pair.first].name, target.molecule->residues[pair.second].name);
+  }));
+}
+
 }  // namespace
 
-IndexPairs pair_residues(const ResidueView& source, const ResidueView& target) {
+ResiduePairing pair_residues(const ResidueView& source, const ResidueView& target, PairOthers others) {
   SequenceEncoder encoder;
   std::vector<Chain> source_chains = chains_of(source, encoder), target_chains = chains_of(target, encoder);
   ScoreTable scores;
-  IndexPairs pairs;
-  while (pair_chains(source_chains, target_chains, scores, pairs)) {
+  ResiduePairing pairing;
+  while (pair_chains(source_chains, target_chains, scores, pairing.pairs)) {
   }
-  pair_others(source, target, pairs);
-  std::sort(pairs.begin(), pairs.end());
-  return pairs;
+  IndexPairs by_names = pair_by_names(source, target);
+  pairing.by_names = static_cast<double>(by_names.size()) >
+                     kMoreByNames * static_cast<double>(n_same_names(source, target, pairing.pairs)) + kMinLeftover;
+  if (pairing.by_names) {
+    pairing.pairs = std::move(by_names);
+  } else {
+    pair_by_arrangement(source, target, scores, pairing);
+  }
+  const PolymerMotion motion(source, target, pairing.pairs);
+  if (others == PairOthers::kByPlace && motion.known()) {
+    const IndexPairs placed = pair_by_place(source, target, motion, pairing.moved);
+    pairing.pairs.insert(pairing.pairs.end(), placed.begin(), placed.end());
+  } else {
+    pair_others(source, target, pairing.pairs);
+  }
+  std::sort(pairing.pairs.begin(), pairing.pairs.end());
+  return pairing;
+}
+
+bool order_holds(const ResidueView& source, const ResidueView& target) {
+  IndexPairs polymer, others;
+  for (std::size_t r = 0; r < source.kinds.size(); ++r) {
+    if (source.atoms[r].empty()) continue;
+    (is_polymer(source.kinds[r]) ? polymer : others).emplace_back(r, r);
+  }
+  ScoreTable scores;
+  const EqualChains chains(source, target, scores, polymer);
+  if (chains.any_choice() && assign_chains(chains.assignment) != chains.assignment.target_of) return false;
+  const PolymerMotion motion(source, target, polymer);
+  return !motion.known() || in_place(source, target, motion, others);
 }
 
 }  // namespace espdiff

@@ -111,4 +111,15 @@ std::string in_words(const ProtonationDifference& difference, const Molecule& so
          difference.target_state + " in the target";
 }
 
+Message protonation_warning(const std::vector<ProtonationDifference>& differences, const Molecule& source) {
+  constexpr std::size_t kMost = 4;
+  std::string list;
+  for (std::size_t i = 0; i < differences.size() && i < kMost; ++i)
+    list += (i == 0 ? "" : "; ") + in_words(differences[i], source);
+  if (differences.size() > kMost) list += "; and " + std::to_string(differences.size() - kMost) + " more";
+  return std::to_string(differences.size()) + (differences.size() == 1 ? " residue differs" : " residues differ") +
+         " in protonation, which makes a difference by itself: " + list + "; " + switched_on("same-protonation") +
+         " gives prepared states the source's";
+}
+
 }  // namespace espdiff

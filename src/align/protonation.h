@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/message.h"
 #include "base/pairing.h"
 #include "base/types.h"
 
@@ -30,5 +31,8 @@ std::vector<ProtonationDifference> protonation_differences(const Molecule& sourc
 
 /// "HIS 31 of chain A: HIP in the source, HIE in the target".
 std::string in_words(const ProtonationDifference& difference, const Molecule& source);
+
+/// All of them in one sentence, with the remedy.
+Message protonation_warning(const std::vector<ProtonationDifference>& differences, const Molecule& source);
 
 }  // namespace espdiff

@@ -11,11 +11,20 @@ namespace espdiff {
 /// Which paired atoms the superposition uses.
 enum class AlignAtoms { kAll, kBackbone, kCAlpha, kNone };
 
+/// A ligand or ion that both molecules have, in different places.
+struct MovedResidue {
+  std::size_t source = 0, target = 0;  ///< residues
+  double distance_A = 0;               ///< from where the polymer's motion puts it
+};
+
 struct AtomPairing {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;  ///< (source atom, target atom), ascending in the source atom
-  std::string method;                                      ///< "same order" or "sequence alignment"
+  std::string method;  ///< "same order", "sequence alignment" or "names of residues"
   std::size_t n_aligned_residues = 0;
   std::size_t n_substituted_residues = 0;  ///< aligned, with different names
+  std::vector<MovedResidue> moved{};       ///< not paired
+  /// Equal chains that pair by their arrangement although their names pair otherwise: (source, target).
+  std::vector<std::pair<std::string, std::string>> exchanged_chains{};
 };
 
 /// A chain of the source and the chain of the target that most of its residues pair with.

@@ -105,6 +105,8 @@ std::vector<MovingAtom> atom_paths(const Molecule& source, const Molecule& targe
                      ", which needs none");
   Side from(source), to(target);
   std::vector<std::size_t> target_of(source.size()), source_of(target.size());
+  std::vector<std::int32_t> pair_of(source.size(), -1);
+  std::int32_t n_pairs = 0;
   std::vector<std::pair<std::size_t, std::size_t>> pairs = pairing.pairs;
   const auto add_pairs = [&](const std::vector<std::pair<std::size_t, std::size_t>>& added) {
     for (const auto& [s, t] : added) {
@@ -112,6 +114,7 @@ std::vector<MovingAtom> atom_paths(const Molecule& source, const Molecule& targe
       to.add(t);
       target_of[s] = t;
       source_of[t] = s;
+      pair_of[s] = n_pairs++;
     }
   };
   add_pairs(pairs);
@@ -123,6 +126,7 @@ std::vector<MovingAtom> atom_paths(const Molecule& source, const Molecule& targe
   std::vector<MovingAtom> paths;
   for (const auto& [s, t] : pairs) {
     MovingAtom path;
+    path.pair = pair_of[s];
     path.motion = motion_of(s);
     path.start = from_source.apply(source.positions[s]);
     path.end = from_target.apply(target.positions[t]);
@@ -142,7 +146,11 @@ std::vector<MovingAtom> atom_paths(const Molecule& source, const Molecule& targe
     path.end = from_target.apply(target.positions[target_of[anchor]]);
     const Vec3d arm = path.start - from_source.apply(source.positions[anchor]);
     path.motion = motion_of(anchor);
-    if (norm(arm) > kSproutReach_A) path.end += path.motion.turn(arm, 1);
+    if (norm(arm) > kSproutReach_A) {
+      path.end += path.motion.turn(arm, 1);
+    } else {
+      path.pair = pair_of[anchor];
+    }
     path.start_width = path.end_width = width(source.radii[s]);
     path.at_end = false;
     paths.push_back(path);
@@ -155,7 +163,11 @@ std::vector<MovingAtom> atom_paths(const Molecule& source, const Molecule& targe
     path.end = from_target.apply(target.positions[t]);
     const Vec3d arm = path.end - from_target.apply(target.positions[anchor]);
     path.motion = motion_of(source_of[anchor]);
-    if (norm(arm) > kSproutReach_A) path.start += path.motion.turn(arm, -1);
+    if (norm(arm) > kSproutReach_A) {
+      path.start += path.motion.turn(arm, -1);
+    } else {
+      path.pair = pair_of[source_of[anchor]];
+    }
     path.start_width = path.end_width = width(target.radii[t]);
     path.at_start = false;
     paths.push_back(path);

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <limits>
 
+#include "compare/short_numbers.h"
+#include "compare/slip.h"
 #include "engine/engine.h"
 
 namespace espdiff {
@@ -19,22 +21,26 @@ struct Limits {
   static constexpr double kMaxUnmatchedSource = 0.05;
   static constexpr double kMaxUnmatchedTarget = 0.1;  ///< new surface on the target is no fault of the mapping
   static constexpr std::size_t kSelfIntersectingPairs = 0;
+  static constexpr double kMaxOutsideMaps = 0.05;
+  static constexpr double kResidueCorrelation = 0.9;
+  /// Where the differences by residue err by less than this share of the potentials, they are noise.
+  static constexpr double kResidueNoise = 0.05;
 };
 
-std::string percent(double fraction) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g %%", 100 * fraction);
-  return text;
-}
-std::string angstrom(double length) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g A", length);
-  return text;
-}
 /// "3 pairs of triangles intersect (limit 0)"
 std::string intersecting_pairs(std::size_t n) {
   return std::to_string(n) + (n == 1 ? " pair of triangles intersects" : " pairs of triangles intersect") + " (limit " +
          std::to_string(Limits::kSelfIntersectingPairs) + ")";
+}
+
+std::string two_digits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", value);
+  return text;
+}
+bool disagrees(const std::optional<ResidueCheck>& check) {
+  return check && check->correlation < Limits::kResidueCorrelation &&
+         check->rms_error > Limits::kResidueNoise * check->rms_potential;
 }
 
 }  // namespace
@@ -70,7 +76,11 @@ double same_residue_share(const MappedSurface& s, const std::vector<std::int32_t
   return all > 0 ? same / all : std::numeric_limits<double>::quiet_NaN();
 }
 
-void judge(Certificate& c, const CompareResult& result, std::size_t n_vertices) {
+void judge(CompareResult& result, const Molecule& source) {
+  Certificate& c = result.certificate;
+  for (const Warning& warning : result.warnings) {
+    if (warning.refuses) c.reasons.push_back(warning.text);
+  }
   const auto refuse = [&](bool bad, const Message& reason) {
     if (bad) c.reasons.push_back(reason);
   };
@@ -96,9 +106,14 @@ void judge(Certificate& c, const CompareResult& result, std::size_t n_vertices) 
   refuse(c.round_trip && c.round_trip->mean_A > Limits::kRoundTrip_A,
          "the round-trip error is " + angstrom(c.round_trip ? c.round_trip->mean_A : 0) + " on average (limit " +
              angstrom(Limits::kRoundTrip_A) + ")");
-  const double n = static_cast<double>(std::max<std::size_t>(n_vertices, 1));
-  const double outside = static_cast<double>(std::max(result.n_outside_source_map, result.n_outside_target_map));
-  refuse(outside > 0, percent(outside / n) + " of the vertices lie outside a map");
+  for (const Message& reason : slip_reasons(result, source)) c.reasons.push_back(reason);
+  refuse(disagrees(c.residues), "the differences by residue correlate by " +
+                                    two_digits(c.residues ? c.residues->correlation : 0) +
+                                    " with those of each residue's potentials on its own surfaces (limit " +
+                                    two_digits(Limits::kResidueCorrelation) + ")");
+  refuse(c.outside_maps > Limits::kMaxOutsideMaps, percent(c.outside_maps) +
+                                                       " of the mapped area lies outside a map (limit " +
+                                                       percent(Limits::kMaxOutsideMaps) + ")");
   c.trustworthy = c.reasons.empty();
 }
 

@@ -19,8 +19,7 @@ Certificate certify(Engine& engine, const Mapping& mapping, const MeshPtr& targe
 double same_residue_share(const MappedSurface& surface, const std::vector<std::int32_t>& source_residue,
                           const std::vector<std::int32_t>& target_residue, const std::vector<std::int32_t>& target_of);
 
-/// Sets `trustworthy` and `reasons`.
-/// @param n_vertices of the surface that the result's vertices outside a map are counted on
-void judge(Certificate& certificate, const CompareResult& result, std::size_t n_vertices);
+/// Sets the certificate's `trustworthy` and `reasons`.
+void judge(CompareResult& result, const Molecule& source);
 
 }  // namespace espdiff

@@ -17,11 +17,14 @@
 #include "compare/compare.h"
 #include "compare/domain_motions.h"
 #include "compare/input.h"
+#include "compare/input_warnings.h"
 #include "compare/last_step.h"
 #include "compare/map_by_deform.h"
 #include "compare/map_recipe.h"
+#include "compare/map_warnings.h"
 #include "compare/mapping.h"
 #include "compare/options.h"
+#include "compare/own_potentials.h"
 #include "compare/paired_residues.h"
 #include "compare/region_result.h"
 #include "compare/residue_rows.h"
@@ -30,6 +33,7 @@
 #include "compare/sample_outside.h"
 #include "compare/series.h"
 #include "compare/side_maps.h"
+#include "compare/slip.h"
 #include "engine/certificate_stage.h"
 #include "engine/deform_stage.h"
 #include "engine/engine.h"
@@ -125,7 +129,8 @@ struct Series::Steps {
         inverse(frame.domains, paired_residues(*target.molecule, *source.molecule, scratch.pairing))};
     Mapping mapping;
     if (options.method == Method::kMorph) {
-      mapping = mapping_of(back.morph(*source.molecule, surface, reversed, nullptr, scratch, progress, clock));
+      const auto paths = back.paths_to(*source.molecule, reversed, scratch.pairing, progress);
+      mapping = mapping_of(back.morph(*source.molecule, surface, reversed, paths, nullptr, scratch, progress, clock));
     } else {
       mapping = back.deform(surface, reversed.domains.carry(engine, back.regularized, target_surface.atoms), reversed,
                             scratch, progress, clock);
@@ -134,21 +139,30 @@ struct Series::Steps {
     return mapping;
   }
 
+  /// The paths of all atoms from the source to a target; see atom_paths().
+  std::vector<MovingAtom> paths_to(const Molecule& target, const CommonFrame& frame, const AtomPairing& pairing,
+                                   const Progress& progress) const {
+    return atom_paths(*source.molecule, target, pairing, frame.from_source, frame.from_target, frame.domains,
+                      options.surface.radius_scale, progress);
+  }
+
+  /// @param paths of paths_to()
   /// @param from the step to continue from; null for the source
   MorphResult morph(const Molecule& target, const Surface& target_surface, const CommonFrame& frame,
-                    const LastStep* from, CompareResult& result, const Progress& progress, StageClock& clock) const {
+                    const std::vector<MovingAtom>& paths, const LastStep* from, CompareResult& result,
+                    const Progress& progress, StageClock& clock) const {
     MorphOptions morph = options.morph;
     morph.isovalue = options.surface.isovalue;
     morph.max_edge_A = options.morph_max_edge * options.surface.grid_spacing_A;
-    const auto paths =
-        from != nullptr
-            ? paths_from(*from, *source.molecule, target, frame.from_target, result.domains, options, progress)
-            : atom_paths(*source.molecule, target, result.pairing, frame.from_source, frame.from_target, frame.domains,
-                         options.surface.radius_scale, progress);
-    MorphResult morphed = from != nullptr ? engine.continue_morph(*from->morphed, paths, surface.atoms,
-                                                                  target_surface.atoms, morph, "morph", progress)
-                                          : engine.morph(regularized, paths, surface.atoms, target_surface.atoms, morph,
-                                                         "morph", progress);
+    MorphResult morphed;
+    if (from != nullptr) {
+      const auto step_paths =
+          paths_from(*from, *source.molecule, target, frame.from_target, result.domains, options, progress);
+      morphed = engine.continue_morph(*from->morphed, step_paths, surface.atoms, target_surface.atoms, morph, "morph",
+                                      progress);
+    } else {
+      morphed = engine.morph(regularized, paths, surface.atoms, target_surface.atoms, morph, "morph", progress);
+    }
     result.morph_report = morphed.report;
     result.morph_report.n_vertices_added = engine.n_vertices(morphed.source) - engine.n_vertices(regularized);
     clock.lap("morph");
@@ -244,6 +258,12 @@ struct Series::Steps {
       result.metrics_all =
           engine.compare(moved, mapping.mapped, at_source, at_target,
                          mapping.unmatched.empty() ? nullptr : engine.upload_scalars(mapping.unmatched), path_length);
+      if (!s.slip.empty()) {
+        std::vector<float> slipped = slipped_triangles(s);
+        for (std::size_t t = 0; t < slipped.size(); ++t) slipped[t] = std::max(slipped[t], excluded[t]);
+        result.metrics_without_slip =
+            engine.compare(moved, mapping.mapped, at_source, at_target, engine.upload_scalars(slipped), path_length);
+      }
       s.potential_source = std::move(of_source);
       s.potential_target = std::move(of_target);
       set_unmatched_to_nan(kept, s.potential_target);
@@ -285,15 +305,54 @@ struct Series::Steps {
     progress.report("certificate", 0.0);
     find_matched(mapping, target_surface);
     result.area_mapped_A2 = mapping.fit.area_A2;
+    std::vector<std::string> not_checked = std::move(result.certificate.not_checked);
     result.certificate = certify(engine, mapping, target_surface.mesh);
+    result.certificate.not_checked = std::move(not_checked);
     result.certificate.converged = options.method == Method::kMorph || result.deform_report.converged;
     clock.lap("certificate");
   }
 
+  /// [residue] one side's potentials on its own surface, at the first of the offsets.
+  std::vector<double> own_of(const GridPtr& map, const MeshPtr& mesh, const AtomsPtr& atoms,
+                             const Molecule& molecule) const {
+    const OutsideSamples samples = sample_outside(
+        engine, map, mesh, atoms, static_cast<float>(options.surface.isovalue), options.offsets_A.front());
+    return own_potentials(engine.download_shape(mesh), engine.vertex_residues(mesh, atoms), samples.values,
+                          molecule.residues.size());
+  }
+
+  /// Each residue's difference from its potentials on its own surfaces, and how the mapped differences agree.
+  void check_against_own(const CompareInput& target, const GridPtr& target_map, const Mapping& mapping,
+                         const Surface& target_surface, const std::vector<std::int32_t>& target_of,
+                         CompareResult& result) const {
+    if (target_map == nullptr || result.pairing.pairs.empty()) {
+      for (ResidueRow& row : result.residues) row.own_difference = std::numeric_limits<double>::quiet_NaN();
+      if (target_map != nullptr) result.certificate.not_checked.emplace_back("residues");
+      return;
+    }
+    const std::vector<double> own = own_of(source_map.map, mapping.source, surface.atoms, *source.molecule);
+    set_own_differences(result.residues, own,
+                        own_of(target_map, target_surface.mesh, target_surface.atoms, *target.molecule), target_of);
+    result.certificate.residues = check_residues(result.residues, own);
+  }
+
+  /// Slip by vertex and over the area.
+  void measure_slip(const Mapping& mapping, const MeshPtr& target, const std::vector<MovingAtom>& paths,
+                    const std::vector<bool>& kept, CompareResult& result) const {
+    if (paths.empty()) {
+      result.certificate.not_checked.emplace_back("slip");
+      return;
+    }
+    MappedSurface& s = result.surface;
+    s.slip = engine.slip(mapping.source, mapping.mapped, target, paths);
+    set_unmatched_to_nan(kept, s.slip);
+    result.certificate.slip = summarize_slip(s, matched_areas(s));
+  }
+
   /// Fills in the results of the mapping: per-vertex arrays, potentials, metrics, residues, and the verdict.
   void evaluate(const CompareInput& target, const CommonFrame& frame, const Surface& target_surface,
-                const GridPtr& target_map, const Mapping& mapping, CompareResult& result, const Progress& progress,
-                StageClock& clock) {
+                const GridPtr& target_map, const Mapping& mapping, const std::vector<MovingAtom>& paths,
+                CompareResult& result, const Progress& progress, StageClock& clock) {
     progress.report("metrics", 0.0);
     MappedSurface& s = result.surface;
     const MeshPtr moved = frame.domains.carry(engine, mapping.source, surface.atoms);
@@ -306,8 +365,9 @@ struct Series::Steps {
     set_unmatched_to_nan(kept, s.displacement);
     set_unmatched_to_nan(kept, s.path_length);
     s.residue = engine.vertex_residues(mapping.source, surface.atoms);
-    const std::vector<std::int32_t> mapped_residue = engine.vertex_residues(mapping.mapped, target_surface.atoms),
-                                    target_of = paired_residues(*source.molecule, *target.molecule, result.pairing);
+    measure_slip(mapping, target_surface.mesh, paths, kept, result);
+    const std::vector<std::int32_t> target_of = paired_residues(*source.molecule, *target.molecule, result.pairing);
+    const std::vector<std::int32_t> mapped_residue = engine.vertex_residues(mapping.mapped, target_surface.atoms);
     result.certificate.same_residue_area_fraction = same_residue_share(s, s.residue, mapped_residue, target_of);
     Region region;
     if (!source.region.empty()) {
@@ -319,11 +379,14 @@ struct Series::Steps {
     result.uncovered =
         uncovered_surface(engine.download(target_surface.mesh),
                           engine.download(result.certificate.target_to_mapped.beyond), inverse(frame.from_target));
-    if (target_map != nullptr)
+    if (target_map != nullptr) {
       compare_potentials(target, target_map, mapping, moved, target_surface.atoms, region.outside, result);
+      result.certificate.outside_maps = share_outside(s, matched_areas(s));
+    }
     result.residues = residue_rows(s, source.molecule->residues.size(), result.has_potential);
+    check_against_own(target, target_map, mapping, target_surface, target_of, result);
     describe_chains(target, target_of, result);
-    judge(result.certificate, result, s.positions.size());
+    judge(result, *source.molecule);
     if (result.region != nullptr) finish_region(region, result);
     clock.lap("metrics");
   }
@@ -335,12 +398,17 @@ struct Series::Steps {
     result.chains = compared_chains(a, b, target_of);
     result.source_copies = repeated_chains(a);
     result.target_copies = repeated_chains(b);
-    if (!a.charges.empty() && !b.charges.empty()) result.protonation = protonation_differences(a, b, target_of);
+    if (a.charges.empty() || b.charges.empty()) return;
+    result.protonation = protonation_differences(a, b, target_of);
+    if (!result.protonation.empty()) result.warnings.push_back({protonation_warning(result.protonation, a), false});
   }
 
   /// The region's residues, vertices outside a map, and verdict.
-  static void finish_region(const Region& region, CompareResult& result) {
+  void finish_region(const Region& region, CompareResult& result) const {
     CompareResult& part = *result.region;
+    for (const Warning& warning : result.warnings) {
+      if (warning.refuses) part.warnings.push_back(warning);
+    }
     for (const ResidueRow& row : result.residues) {
       if (region.source[row.residue] != 0) part.residues.push_back(row);
     }
@@ -358,7 +426,15 @@ struct Series::Steps {
       part.n_outside_source_map += std::isnan(result.surface.potential_source[v]) ? 1 : 0;
       part.n_outside_target_map += std::isnan(result.surface.potential_target[v]) ? 1 : 0;
     }
-    judge(part.certificate, part, n);
+    const double n_outside = static_cast<double>(std::max(part.n_outside_source_map, part.n_outside_target_map));
+    part.certificate.outside_maps = n > 0 ? n_outside / static_cast<double>(n) : 0;
+    judge(part, *source.molecule);
+  }
+
+  void check_given_maps(const CompareInput& target, CompareResult& result) const {
+    bool checked = true;
+    for (Warning& warning : map_warnings(source, target, checked)) result.warnings.push_back(std::move(warning));
+    if (!checked) result.certificate.not_checked.emplace_back("maps_fit_molecules");
   }
 
   /// Runs the stages in order; see Series::step().
@@ -368,6 +444,8 @@ struct Series::Steps {
     check_maps(source, target);  // before any work
     progress.report("align", 0.0);
     const CommonFrame frame = align(*source.molecule, *target.molecule, options, result);
+    result.warnings = input_warnings(*source.molecule, *target.molecule, result);
+    check_given_maps(target, result);
     clock.lap("align");
     const GridPtr target_map = make_maps(target, frame, result, progress);
     if (target_map != nullptr) clock.lap("potential");
@@ -387,8 +465,13 @@ struct Series::Steps {
     const LastStep* const before = result.start == StartFrom::kPrevious ? &*from : nullptr;
     Mapping mapping;
     MorphResult morphed;
+    // deform needs no pairs; the morph says what it misses.
+    const bool has_paths = options.method == Method::kMorph || !result.pairing.pairs.empty();
+    const std::vector<MovingAtom> paths =
+        has_paths ? paths_to(*target.molecule, frame, result.pairing, progress) : std::vector<MovingAtom>();
+    clock.lap("atom paths");
     if (options.method == Method::kMorph) {
-      morphed = morph(*target.molecule, target_surface, frame, before, result, progress, clock);
+      morphed = morph(*target.molecule, target_surface, frame, paths, before, result, progress, clock);
       mapping = mapping_of(morphed);
     } else {
       const MeshPtr begin =
@@ -403,7 +486,7 @@ struct Series::Steps {
     } else {
       result.certificate.not_checked.emplace_back("round_trip");
     }
-    evaluate(target, frame, target_surface, target_map, mapping, result, progress, clock);
+    evaluate(target, frame, target_surface, target_map, mapping, paths, result, progress, clock);
     if (options.method == Method::kMorph) {
       last = after_morph(morphed, *target.molecule, frame.from_target, std::move(target_atoms), before,
                          result.certificate.unmatched_source);

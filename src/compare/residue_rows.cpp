@@ -27,12 +27,19 @@ std::vector<ResidueRow> residue_rows(const MappedSurface& s, std::size_t n_resid
     for (const std::uint32_t c : v) weight[c] += area / 3;
   }
   std::vector<ResidueRow> rows(n_residues);
+  std::vector<double> slip_area(n_residues, 0.0);
   for (std::size_t v = 0; v < weight.size(); ++v) {
     if (s.residue[v] < 0 || weight[v] <= 0) continue;
     ResidueRow& row = rows[static_cast<std::size_t>(s.residue[v])];
     row.area_A2 += weight[v];
     row.mean_displacement_A += weight[v] * static_cast<double>(s.displacement[v]);
     row.mean_path_length_A += weight[v] * static_cast<double>(s.path_length[v]);
+    if (!s.slip.empty() && !std::isnan(s.slip[v])) {
+      const double slip = static_cast<double>(s.slip[v]);
+      slip_area[static_cast<std::size_t>(s.residue[v])] += weight[v];
+      row.mean_slip_A += weight[v] * slip;
+      row.slip_area_fraction += slip > kLargeSlip_A ? weight[v] : 0;
+    }
     if (!has_potential) continue;
     const double a = static_cast<double>(s.potential_source[v]), b = static_cast<double>(s.potential_target[v]);
     row.mean_abs_difference += weight[v] * std::fabs(b - a);
@@ -48,6 +55,8 @@ std::vector<ResidueRow> residue_rows(const MappedSurface& s, std::size_t n_resid
     const double scale = row.area_A2 > 0 ? 1 / row.area_A2 : kNan;
     row.mean_displacement_A *= scale;
     row.mean_path_length_A *= scale;
+    row.mean_slip_A *= slip_area[r] > 0 ? 1 / slip_area[r] : kNan;
+    row.slip_area_fraction *= slip_area[r] > 0 ? 1 / slip_area[r] : kNan;
     for (double* value : {&row.mean_abs_difference, &row.mean_signed_difference, &row.mean_source, &row.mean_target,
                           &row.sign_change_area_fraction}) {
       *value *= has_potential ? scale : kNan;

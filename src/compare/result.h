@@ -34,6 +34,27 @@ struct ResidueRow {
   double sign_change_area_fraction = 0;
   double mean_displacement_A = 0;
   double mean_path_length_A = 0;
+  double mean_slip_A = 0;         ///< NaN if no atom of the residue has a partner
+  double slip_area_fraction = 0;  ///< farther than kLargeSlip_A
+  double own_difference = 0;      ///< of the residue's potentials on its own surfaces; see set_own_differences()
+};
+
+/// Slip beyond these is medium, and large: a side chain's width, and the distance between neighbouring residues.
+constexpr double kMediumSlip_A = 2, kLargeSlip_A = 3;
+
+/// Slip of the matched area, weighted by the mapped area; see Engine::slip(). NaN where the atoms do not pair.
+struct SlipSummary {
+  double mean_A = 0, median_A = 0, p95_A = 0, max_A = 0;
+  double medium_area_fraction = 0, large_area_fraction = 0;  ///< beyond kMediumSlip_A, kLargeSlip_A
+  double unpaired_area_fraction = 0;                         ///< of atoms without a partner, so without a slip
+};
+
+/// The differences by residue against those of each residue's potentials on its own surfaces, which need no mapping.
+struct ResidueCheck {
+  double correlation = 0;    ///< NaN if it is not defined
+  double rms_error = 0;      ///< of the mapped differences, in the unit of the potential
+  double rms_potential = 0;  ///< of the source's own potentials
+  std::size_t n_residues = 0;
 };
 
 /// Round-trip error: how far from its start a vertex ends after mapping to the target and back by a second mapping,
@@ -58,9 +79,12 @@ struct Certificate {
   double unmatched_target = 0;  ///< fraction of the target's area farther than 1 A from the mapped surface
   DistortionReport distortion;
   std::optional<RoundTrip> round_trip;
+  std::optional<SlipSummary> slip;       ///< empty if no atoms pair
+  std::optional<ResidueCheck> residues;  ///< empty without potentials or pairs
   /// Fraction of the mapped area whose residue on the target (of highest density) is paired with its residue on the
   /// source; NaN if no residues pair.
   double same_residue_area_fraction = 0;
+  double outside_maps = 0;  ///< fraction of the mapped area at vertices outside a map
   bool converged = false;
   bool trustworthy = false;
   std::vector<Message> reasons;          ///< why not trustworthy
@@ -80,6 +104,7 @@ struct MappedSurface {
   std::vector<float> displacement;
   /// [vertex] path length from the start of the mapping, at least the displacement; NaN if unmatched
   std::vector<float> path_length;
+  std::vector<float> slip;  ///< [vertex] Angstrom; NaN if unmatched or without partner; empty if no atoms pair
   std::vector<std::int32_t> residue;  ///< [vertex] index of the source residue, -1 for none
   std::vector<std::uint8_t> corrupt;  ///< [triangle]
   /// [triangle] nonzero if unmatched: the mapped positions there are meaningless; empty if all are matched.
@@ -102,6 +127,7 @@ struct Warning {
 };
 
 struct CompareResult {
+  std::vector<Warning> warnings;
   double rmsd_A = 0;
   AtomPairing pairing;
   std::vector<ComparedChains> chains;  ///< which were compared with which
@@ -122,6 +148,7 @@ struct CompareResult {
   std::shared_ptr<const MapRecipe> source_recipe, target_recipe;  ///< of potentials that were computed, otherwise null
   Metrics metrics;                                                ///< over valid triangles
   Metrics metrics_all;                                            ///< over all triangles with samples
+  Metrics metrics_without_slip;  ///< over valid triangles of a slip within kMediumSlip_A
   std::size_t n_outside_source_map = 0, n_outside_target_map = 0;  ///< vertices
   SurfaceSummary source_surface, target_surface;
   double area_mapped_A2 = 0;

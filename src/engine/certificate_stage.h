@@ -21,7 +21,8 @@ struct Metrics {
   double mean_path_length_A = 0;         ///< mean path length of the vertices from source to mapped; NaN if not given
 };
 
-/// Distances of one surface's vertices to the other surface's triangles, area-weighted over its vertices. Angstrom.
+/// Distances of one surface to the other surface's triangles, area-weighted over the corners (a quarter) and centroids
+/// (three quarters) of its triangles. Angstrom.
 struct DistanceSummary {
   double mean = 0;
   double p95 = 0;  ///< 95 % of the area is closer

@@ -251,7 +251,7 @@ class Engine {
                           const ScalarsPtr& path_length = nullptr) = 0;
 
   virtual FitReport fit(const MeshPtr& mapped, const AtomsPtr& target_atoms, float isovalue) = 0;
-  /// Exact distances from the vertices of `from` to the triangles of `to`.
+  /// Exact distances from the corners and centroids of `from` to the triangles of `to`.
   virtual DistanceSummary distances(const MeshPtr& from, const MeshPtr& to, double limit_A) = 0;
   /// Pairs of intersecting triangles, as CGAL's Polygon_mesh_processing::self_intersections counts them:
   /// - two triangles without a shared vertex that have a point in common, touching included;
@@ -282,6 +282,18 @@ class Engine {
   /// @param limit of the ratio of areas, mapped to source, measured over the one-rings of a triangle's corners
   /// @throws GeometryError if the topologies differ in size
   virtual DistortionReport distortion(const MeshPtr& source, const MeshPtr& mapped, double limit) = 0;
+
+  /// [vertex] slip of a mapping, Angstrom: the distance of a mapped point from the place to which its own atoms carried
+  /// it. The source's atoms near the vertex, weighted by their density there, carry it along their paths, with the
+  /// rotations of their surroundings. The place is the nearest one on the target's surface that belongs to the pairs of
+  /// these atoms (those with at least 5 % of the density); a point of the target's surface belongs to the pair with the
+  /// largest density there. If the pairs have no surface on the target, it is the carried position itself.
+  /// NaN where most of the density is of atoms that belong to no pair.
+  /// @param source, mapped meshes of one topology  @param target the target's surface
+  /// @param atoms the paths of all atoms, see MovingAtom::pair
+  /// @throws GeometryError if the topologies differ in size
+  virtual std::vector<float> slip(const MeshPtr& source, const MeshPtr& mapped, const MeshPtr& target,
+                                  const std::vector<MovingAtom>& atoms) = 0;
 
   /// [vertex] index of the residue with the largest density at the vertex; -1 where no atom reaches.
   virtual std::vector<std::int32_t> vertex_residues(const MeshPtr& mesh, const AtomsPtr& atoms) = 0;

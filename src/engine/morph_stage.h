@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
 #include "base/handles.h"
 #include "base/screw.h"
@@ -18,6 +19,8 @@ struct MovingAtom {
   double start_width = 0, end_width = 0;  ///< standard deviation of its Gaussian; 0 counts as absent
   /// Unpaired atoms are absent at one end. They fade in or out in the half of the path at that end.
   bool at_start = true, at_end = true;
+  /// The pair that it belongs to: its own, or that of its anchor if it is unpaired; -1 for none.
+  std::int32_t pair = -1;
 
   Vec3d position_at(double time) const { return motion.apply(start + time * own_path(), time); }
   Vec3d velocity_at(double time) const { return motion.velocity_at(position_at(time)) + motion.turn(own_path(), time); }

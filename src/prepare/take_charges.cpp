@@ -31,7 +31,7 @@ std::string first_unpaired(const Molecule& molecule, const AtomPairing& pairing,
 
 void take_values(Molecule& frame, const Molecule& molecule, const std::string& name) {
   if (!frame.charges.empty()) return;
-  const AtomPairing pairing = pair_atoms(molecule, frame);
+  const AtomPairing pairing = pair_atoms(molecule, frame, PairOthers::kByNumber);
   if (pairing.pairs.size() != frame.size() || pairing.pairs.size() != molecule.size()) {
     const std::string missing = first_unpaired(molecule, pairing, [](const auto& pair) { return pair.first; });
     const std::string extra = first_unpaired(frame, pairing, [](const auto& pair) { return pair.second; });
@@ -52,7 +52,7 @@ void take_values(Molecule& frame, const Molecule& molecule, const std::string& n
 bool has_same_atoms(const Molecule& frame, const Molecule& molecule) {
   if (frame.size() != molecule.size()) return false;
   try {
-    return pair_atoms(molecule, frame).pairs.size() == frame.size();
+    return pair_atoms(molecule, frame, PairOthers::kByNumber).pairs.size() == frame.size();
   } catch (const InputError&) {
     return false;
   }

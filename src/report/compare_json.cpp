@@ -51,6 +51,13 @@ void add_metrics(Json& json, const CompareResult& result) {
   }
 }
 
+Json warnings(const CompareResult& result) {
+  Json json = Json::array();
+  for (const Warning& warning : result.warnings)
+    json.push_back({{"text", warning.text.plain()}, {"refuses", warning.refuses}});
+  return json;
+}
+
 void add_verdict(Json& json, const Certificate& c) {
   json["converged"] = c.converged;
   json["trustworthy"] = c.trustworthy;
@@ -63,6 +70,15 @@ Json metrics_all_triangles(const CompareResult& result) {
   Json json;
   for (const Metric& metric : metrics()) {
     if (metric.source.of_area != nullptr) json[metric.name] = number(value_over_all_triangles(metric, result));
+  }
+  return json;
+}
+
+/// The metrics over the area whose slip is at most 2 A.
+Json metrics_without_slip(const CompareResult& result) {
+  Json json;
+  for (const Metric& metric : metrics()) {
+    if (metric.source.of_area != nullptr) json[metric.name] = number(value_without_slip(metric, result));
   }
   return json;
 }
@@ -184,11 +200,11 @@ void add_results(Json& json, const Molecule& source, const CompareResult& result
   json["potential"] = potential_json(result);
   add_metrics(json, result);
   json["by_offset"] = offsets(result);
+  json["metrics_without_slip"] = metrics_without_slip(result);
+  json["warnings"] = warnings(result);
   add_verdict(json["certificate"], result.certificate);
   json["metrics_all_triangles"] = metrics_all_triangles(result);
   json["region"] = region_json(result);
-  json["warnings"] = Json::array();
-  for (const Message& warning : all_warnings(result, source)) json["warnings"].push_back(warning.plain());
   json["protonation_differences"] = Json::array();
   for (const ProtonationDifference& difference : result.protonation)
     json["protonation_differences"].push_back(in_words(difference, source));

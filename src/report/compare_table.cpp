@@ -102,7 +102,8 @@ void print_section(std::ostream& out, const CompareResult& result, MetricSection
     if (metric.section != section || !metric.has_result()) continue;
     std::vector<std::string> values = {formatted(metric, value_of(metric, result))};
     if (result.has_potential && metric.source.of_area != nullptr)
-      values.push_back(formatted(metric, value_over_all_triangles(metric, result)));
+      values.insert(values.end(), {formatted(metric, value_over_all_triangles(metric, result)),
+                                   formatted(metric, value_without_slip(metric, result))});
     row(out, metric.label, unit_of(metric, to_string(result.unit)), values);
   }
 }
@@ -160,7 +161,7 @@ void print_metrics(std::ostream& out, const CompareResult& result) {
     print_kind_of_potential(out, result);
     const bool vacuum = potential_unit_text(result) != to_string(result.unit);
     heading(out, std::string("Potential") + (vacuum ? kInVacuum : "") + " (target - source)",
-            {"valid area", "all area"});
+            {"valid area", "all area", "without slip"});
     print_section(out, result, MetricSection::kPotential);
   } else {
     heading(out, "Shape (no potentials)", {"valid area"});
@@ -259,10 +260,10 @@ void print_region(std::ostream& out, const CompareResult& result, const OptionSp
   for (const Message& reason : region.certificate.reasons) out << "    - " << reason.spelled(spelling) << '\n';
 }
 
-/// What to know of the input, whatever the verdict.
-void print_warnings(std::ostream& out, const Molecule& source, const CompareResult& result,
-                    const OptionSpelling& spelling) {
-  for (const Message& warning : all_warnings(result, source)) out << "\nWARNING: " << warning.spelled(spelling) << '\n';
+void print_warnings(std::ostream& out, const CompareResult& result, const OptionSpelling& spelling) {
+  if (result.warnings.empty()) return;
+  out << "\nWarnings\n";
+  for (const Warning& warning : result.warnings) out << "  - " << warning.text.spelled(spelling) << '\n';
 }
 
 void print_verdict(std::ostream& out, const CompareResult& result, const OptionSpelling& spelling) {
@@ -287,7 +288,7 @@ void print_table(std::ostream& out, const Molecule& source, const Molecule& targ
   print_surfaces(out, result);
   print_certificate(out, result);
   print_region(out, result, spelling);
-  print_warnings(out, source, result, spelling);
+  print_warnings(out, result, spelling);
   print_verdict(out, result, spelling);
 }
 

@@ -31,6 +31,19 @@ double of_round_trip(const CompareResult& result) {
   return result.certificate.round_trip ? (*result.certificate.round_trip).*Member : kNan;
 }
 
+double residue_correlation(const CompareResult& result) {
+  return result.certificate.residues ? result.certificate.residues->correlation : kNan;
+}
+
+double outside_maps(const CompareResult& result) {
+  return result.has_potential ? result.certificate.outside_maps : kNan;
+}
+
+template <double SlipSummary::*Member>
+double of_slip(const CompareResult& result) {
+  return result.certificate.slip ? (*result.certificate.slip).*Member : kNan;
+}
+
 double rmsd(const CompareResult& result) { return result.rmsd_A; }
 double source_area(const CompareResult& result) { return result.source_surface.area_A2; }
 double target_area(const CompareResult& result) { return result.target_surface.area_A2; }
@@ -105,6 +118,15 @@ std::vector<Metric> make_metrics() {
        kNowhere,
        "Length of the points' paths: the more it exceeds the displacement, the less certain",
        {&Metrics::mean_path_length_A, &ResidueRow::mean_path_length_A}},
+      {"own_difference", "Difference on its own surface", S::kPotential, U::kPotential, kNowhere,
+       "The residue's mean potential on the target's own surface minus that on the source's, without a mapping",
+       &ResidueRow::own_difference},
+      {"mean_slip_A", "Mean slip", S::kShape, U::kAngstrom, kNowhere,
+       "Mean distance of the points from where their own atoms carried them: the farther, the less certain",
+       &ResidueRow::mean_slip_A},
+      {"slip_area_fraction", "Area of a slip beyond 3 A", S::kShape, U::kFraction, kNowhere,
+       "Share of the area that slipped farther than the distance between neighbouring residues",
+       &ResidueRow::slip_area_fraction},
       {"area_source_A2", "Area of the source", S::kSurface, U::kSquareAngstrom, kNowhere, "Surface area of the source",
        source_area, "/area_A2/source", "Area", "source"},
       {"area_target_A2", "Area of the target", S::kSurface, U::kSquareAngstrom, kNowhere, "Surface area of the target",
@@ -154,6 +176,31 @@ std::vector<Metric> make_metrics() {
        S::kCertificate, U::kAngstrom, kNowhere, "Mean distance to the mapped surface of what lies within 1 A",
        of_distances<&C::target_to_mapped, &D::mean_within_limit>, "/certificate/target_to_mapped_A/mean_within_limit",
        "  where within 1 A", "mean"},
+      {"slip_mean_A", "Slip", S::kCertificate, U::kAngstrom, kBoth,
+       "Mean distance of the mapped points from where their own atoms carried them", of_slip<&SlipSummary::mean_A>,
+       "/certificate/slip/mean_A", "Slip", "mean"},
+      {"slip_median_A", "Median slip", S::kCertificate, U::kAngstrom, kNowhere, "Half of the mapped area slipped less",
+       of_slip<&SlipSummary::median_A>, "/certificate/slip/median_A", "Slip", "median"},
+      {"slip_p95_A", "95th percentile of the slip", S::kCertificate, U::kAngstrom, kBoth,
+       "95 % of the mapped area slipped less", of_slip<&SlipSummary::p95_A>, "/certificate/slip/p95_A", "Slip", "p95"},
+      {"slip_max_A", "Greatest slip", S::kCertificate, U::kAngstrom, kNowhere,
+       "Greatest distance of a mapped point from where its own atoms carried it", of_slip<&SlipSummary::max_A>,
+       "/certificate/slip/max_A", "Slip", "max"},
+      {"slip_beyond_2A", "Area of a slip beyond 2 A, whole surface", S::kCertificate, U::kFraction, kBoth,
+       "Share of the mapped area that slipped by more than 2 A", of_slip<&SlipSummary::medium_area_fraction>,
+       "/certificate/slip/beyond_2A_area_fraction", "Slipped area", "2 A"},
+      {"slip_beyond_3A", "Area of a slip beyond 3 A, whole surface", S::kCertificate, U::kFraction, kBoth,
+       "Share of the mapped area that slipped by more than 3 A", of_slip<&SlipSummary::large_area_fraction>,
+       "/certificate/slip/beyond_3A_area_fraction", "Slipped area", "3 A"},
+      {"slip_unpaired", "Mapped area without partners", S::kCertificate, U::kFraction, kNowhere,
+       "Share of the mapped area whose atoms have no partner, so that its slip is not known",
+       of_slip<&SlipSummary::unpaired_area_fraction>, "/certificate/slip/unpaired_area_fraction"},
+      {"residue_correlation", "Residue correlation", S::kCertificate, U::kIndex, kBoth,
+       "Correlation of the residues' mean differences with those of their potentials on their own surfaces",
+       residue_correlation, "/certificate/residues/correlation"},
+      {"outside_maps", "Area outside the maps", S::kCertificate, U::kFraction, kBoth,
+       "Share of the mapped area that lies outside a map and is in no number", outside_maps,
+       "/certificate/outside_maps_area_fraction"},
       {"round_trip_mean_A", "Round-trip error", S::kCertificate, U::kAngstrom, kNowhere,
        "Mean distance from its start at which a point ends that a second mapping takes back",
        of_round_trip<&RoundTrip::mean_A>, "/certificate/round_trip/mean_A", "Round-trip error", "mean"},
@@ -225,6 +272,11 @@ double value_of(const Metric& metric, const CompareResult& result) {
 double value_over_all_triangles(const Metric& metric, const CompareResult& result) {
   if (metric.source.of_area == nullptr || !result.has_potential) return kNan;
   return result.metrics_all.*metric.source.of_area;
+}
+
+double value_without_slip(const Metric& metric, const CompareResult& result) {
+  if (metric.source.of_area == nullptr || !result.has_potential || !result.certificate.slip) return kNan;
+  return result.metrics_without_slip.*metric.source.of_area;
 }
 
 double value_of(const Metric& metric, const CompareResult& result, const ResidueRow& row) {

@@ -71,6 +71,8 @@ const Metric* find_metric_or_null(const std::string& name);
 double value_of(const Metric& metric, const CompareResult& result);
 /// Over all triangles with samples, corrupt ones included; NaN where there is none.
 double value_over_all_triangles(const Metric& metric, const CompareResult& result);
+/// Over the counted area whose slip is at most 2 A; NaN where there is none.
+double value_without_slip(const Metric& metric, const CompareResult& result);
 /// The number for one residue; NaN where it has no surface that is counted. The metric has_residues().
 double value_of(const Metric& metric, const CompareResult& result, const ResidueRow& row);
 /// Whether the certificate says that this was not checked.

@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <sstream>
 
-#include "align/protonation.h"
 #include "compare/result.h"
 #include "io/sha256.h"
 #include "io/write_pqr.h"
@@ -75,18 +74,6 @@ void note_states(CompareResult& result, const LoadedState& source, const LoadedS
   for (auto& [stage, time] : result.time_ms) {
     if (stage == "total") time += ms;
   }
-}
-
-std::vector<Message> all_warnings(const CompareResult& result, const Molecule& source) {
-  std::vector<Message> all;
-  for (const Warning& warning : result.warnings) all.push_back(warning.text);
-  if (result.protonation.empty()) return all;
-  std::vector<std::string> words;
-  for (const ProtonationDifference& difference : result.protonation) words.push_back(in_words(difference, source));
-  all.insert(all.begin(), std::to_string(words.size()) + (words.size() == 1 ? " residue differs" : " residues differ") +
-                              " in protonation, which makes a difference by itself: " + joined(words, 4) + "; " +
-                              switched_on("same-protonation") + " gives prepared states the source's");
-  return all;
 }
 
 }  // namespace espdiff

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "base/message.h"
 #include "report/provenance.h"
 
 namespace espdiff {
@@ -25,8 +24,5 @@ std::vector<KeptFile> kept_structure(const std::string& role, const LoadedState&
 /// @param radii_note of set_surface_radii(); may be empty
 void note_states(CompareResult& result, const LoadedState& source, const LoadedState& target,
                  const std::string& radii_note);
-
-/// The result's warnings, with that about protonation states.
-std::vector<Message> all_warnings(const CompareResult& result, const Molecule& source);
 
 }  // namespace espdiff

@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -55,12 +56,15 @@ void write_surface_file(std::ostream& out, const Molecule& source, const Compare
                         const Provenance& provenance) {
   const MappedSurface& s = result.surface;
   const DerivedArrays derived = derive(source, result);
+  const std::vector<float> unknown_slip(s.slip.empty() ? s.positions.size() : 0,
+                                        std::numeric_limits<float>::quiet_NaN());
   VtpSurface file;
   file.points = VtpArray("Points", s.positions);
   file.triangles = &s.triangles;
   file.point_arrays = {{"source_position", s.source_positions},
                        {"displacement", s.displacement},
                        {"path_length", s.path_length},
+                       {"slip", s.slip.empty() ? unknown_slip : s.slip},
                        {"normal", s.normals},
                        {"source_normal", s.source_normals},
                        {"residue_number", derived.residue_number},

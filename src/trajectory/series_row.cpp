@@ -34,7 +34,7 @@ std::vector<Column> make_columns() {
   const auto add = [&all](const std::vector<Column>& more) { all.insert(all.end(), more.begin(), more.end()); };
   add({{"converged", "/certificate/converged"}, {"trustworthy", "/certificate/trustworthy"}, {"start", "/start"}});
   add(of_mapping);
-  add({{"reasons", "/certificate/reasons"}, {"error", ""}});
+  add({{"reasons", "/certificate/reasons"}, {"warnings", "/warnings"}, {"error", ""}});
   return all;
 }
 
@@ -47,6 +47,7 @@ std::string cell_of(const Json& value) {
   if (value.is_null()) return {};
   if (value.is_boolean()) return value.get<bool>() ? "1" : "0";
   if (value.is_string()) return one_line(value.get<std::string>());
+  if (value.is_object()) return one_line(value.value("text", ""));  // a warning
   if (!value.is_array()) return value.dump();
   std::string text;
   for (const Json& element : value) text += (text.empty() ? "" : "; ") + cell_of(element);

@@ -18,7 +18,7 @@ struct ArrayDescription {
 };
 
 /// In the order of RenderArray.
-constexpr std::array<ArrayDescription, 8> kArrays = {{
+constexpr std::array<ArrayDescription, 9> kArrays = {{
     {"difference", "potential_difference", "potential difference, target \xE2\x88\x92 source"},
     {"source", "potential_source", "potential of the source"},
     {"target", "potential_target", "potential of the target"},
@@ -27,6 +27,7 @@ constexpr std::array<ArrayDescription, 8> kArrays = {{
     {"magnitude", "potential_difference", "magnitude of the potential difference"},
     {"residue", "residue_index", "residues"},
     {"plain", "", "shape"},
+    {"slip", "slip", "slip, distance from where the atoms went"},
 }};
 
 const ArrayDescription& describe(RenderArray array) { return kArrays[static_cast<std::size_t>(array)]; }
@@ -55,12 +56,12 @@ void check(const ScaleRange& range) {
 }  // namespace
 
 RenderArray parse_render_array(const std::string& text) {
-  if (text == "uncertainty") return RenderArray::kDisplacement;
+  if (text == "uncertainty") return RenderArray::kSlip;
   for (std::size_t i = 0; i < kArrays.size(); ++i) {
     if (text == kArrays[i].option) return static_cast<RenderArray>(i);
   }
   throw InputError("cannot colour by '" + text +
-                   "'; use difference, source, target, sign, displacement, magnitude, residue or plain");
+                   "'; use difference, source, target, sign, displacement, magnitude, residue, plain or slip");
 }
 
 const char* to_string(RenderArray array) { return describe(array).option; }

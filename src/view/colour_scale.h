@@ -10,9 +10,9 @@
 namespace espdiff {
 
 /// The quantity that colours a mapped surface. The numbers are those of shaders/surface.frag.
-enum class RenderArray { kDifference, kSource, kTarget, kSign, kDisplacement, kMagnitude, kResidue, kPlain };
+enum class RenderArray { kDifference, kSource, kTarget, kSign, kDisplacement, kMagnitude, kResidue, kPlain, kSlip };
 
-/// @param text difference, source, target, sign, displacement (or uncertainty), magnitude, residue or plain
+/// @param text difference, source, target, sign, displacement, magnitude, residue, plain or slip (or uncertainty)
 /// @throws InputError listing them
 RenderArray parse_render_array(const std::string& text);
 /// The name that parse_render_array() reads.
@@ -62,7 +62,9 @@ class ColourScale {
 
  private:
   double hue() const;
-  bool is_sequential() const { return array_ == RenderArray::kDisplacement || array_ == RenderArray::kMagnitude; }
+  bool is_sequential() const {
+    return array_ == RenderArray::kDisplacement || array_ == RenderArray::kMagnitude || array_ == RenderArray::kSlip;
+  }
   void set_ends(std::vector<float> magnitudes, const ScaleRange& range);
 
   RenderArray array_;
@@ -75,7 +77,7 @@ class ColourScale {
 /// 0.
 double round_up_nicely(double value);
 
-/// Opacity by displacement: the farther a vertex moved, the less certain its correspondence.
+/// Opacity by slip (by displacement where a file has no slip): the farther, the less certain the correspondence.
 struct OpacityScale {
   double opaque_below_A = 0.5;  ///< displacement up to which the surface is opaque
   double faint_above_A = 3.0;   ///< displacement from which it has the least opacity; linear between

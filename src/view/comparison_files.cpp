@@ -84,7 +84,7 @@ std::vector<std::string> files_of(const ComparisonFiles& files) {
 bool shows_potentials(const Scene& scene) {
   return scene.layout != Layout::kTurned ||
          (scene.array != RenderArray::kDisplacement && scene.array != RenderArray::kResidue &&
-          scene.array != RenderArray::kPlain);
+          scene.array != RenderArray::kPlain && scene.array != RenderArray::kSlip);
 }
 
 ComparisonFiles read_comparison(const std::string& vtp_path, const Scene& scene) {

@@ -103,8 +103,9 @@ void ComparisonScene::make_offsets() {
 }
 
 void ComparisonScene::lay_out() {
-  // Displacement is already shown as colour; fading would hide the places of interest.
-  const bool fades = scene_.fade && scene_.array != RenderArray::kDisplacement && !files_.surface.displacement.empty();
+  // What is already shown as colour need not fade; fading would hide the places of interest.
+  const bool shows_uncertainty = scene_.array == RenderArray::kDisplacement || scene_.array == RenderArray::kSlip;
+  const bool fades = scene_.fade && !shows_uncertainty && !files_.surface.uncertainty().empty();
   std::vector<Panel> panels = panels_of(scene_, fades);
   const LegendShares shares = legend_shares(scene_);
   place(panels, shares.bottom, shares.top);

@@ -21,6 +21,7 @@ std::string compared_name(RenderArray array) {
     case RenderArray::kDisplacement: return "distance to the counterpart";
     case RenderArray::kResidue: return "residues";
     case RenderArray::kPlain: return "shape";
+    case RenderArray::kSlip: return "slip";
     default: return "target \xE2\x88\x92 source";
   }
 }

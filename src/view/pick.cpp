@@ -125,6 +125,7 @@ PickedPoint SurfacePicker::describe(std::size_t triangle, std::array<double, 3> 
   }
   if (!point.is_matched) point.target = kNothing;
   point.displacement_A = point.is_matched ? interpolated(surface.displacement, t, weights) : kNothing;
+  point.slip_A = point.is_matched && !surface.slip.empty() ? interpolated(surface.slip, t, weights) : kNothing;
   const std::size_t nearest =
       t[static_cast<std::size_t>(std::max_element(weights.begin(), weights.end()) - weights.begin())];
   if (!surface.residue_index.empty()) point.residue = static_cast<int>(surface.residue_index[nearest]);
@@ -145,7 +146,8 @@ std::vector<std::string> picked_in_words(const PickedPoint& point, const Compari
   const double difference = static_cast<double>(point.target) - static_cast<double>(point.source);
   const bool changes = point.source * point.target < 0;
   lines.push_back(line("target - source", number(difference, unit) + (changes ? ", the sign changes" : "")));
-  lines.push_back(line("uncertainty", number(point.displacement_A, "A") + " to its counterpart"));
+  lines.push_back(line("slip", number(point.slip_A, "A") + " from where its atoms went"));
+  lines.push_back(line("displacement", number(point.displacement_A, "A") + " to its counterpart"));
   lines.push_back(line("certificate", trust(point)));
   if (files.record.found) {
     std::string whole = files.record.trustworthy ? "trustworthy" : "not trustworthy";

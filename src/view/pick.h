@@ -21,6 +21,7 @@ struct PickedPoint {
   std::array<double, 3> weights{};  ///< of the triangle's corners
   float source = 0, target = 0;     ///< potentials; NaN: no value
   float displacement_A = 0;         ///< NaN: unknown
+  float slip_A = 0;                 ///< NaN: unknown
   int residue = -1;                 ///< index into the source's residues; negative: none
   int residue_number = 0;
   bool is_corrupt = false, is_matched = true;

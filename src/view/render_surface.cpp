@@ -29,7 +29,8 @@ std::string described(const ColourScale& scale, const std::string& unit) {
   if (scale.two_classes()) return what;
   char range[96];
   std::snprintf(range, sizeof range, ", scale %.6g to %.6g ", scale.low(), scale.high());
-  return what + range + (scale.array() == RenderArray::kDisplacement ? "A" : unit);
+  return what + range +
+         (scale.array() == RenderArray::kDisplacement || scale.array() == RenderArray::kSlip ? "A" : unit);
 }
 
 std::string description(const ComparisonScene& scene) {

@@ -28,7 +28,7 @@ struct Scene {
   std::string colours = "red-blue";  ///< or cool-warm, purple-orange
   std::string unit;                  ///< of the potential; the file's when empty
   bool per_vertex = false;           ///< interpolate the vertices' values instead of looking up the maps
-  bool fade = true;                  ///< fainter where the displacement is larger
+  bool fade = true;                  ///< fainter where the slip is larger
   OpacityScale opacity;
 
   Layout layout = Layout::kTurned;

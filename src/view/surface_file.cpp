@@ -92,6 +92,7 @@ void read_arrays(SurfaceFile& file, const VtpContent& surface) {
   file.source_positions = vectors_of<Vec3d>(surface, "source_position");
   file.source_normals = vectors_of<Vec3f>(surface, "source_normal");
   file.displacement = numbers_of(surface, "displacement");
+  file.slip = numbers_of(surface, "slip");
   file.potential_source = numbers_of(surface, "potential_source");
   file.potential_target = numbers_of(surface, "potential_target");
   file.potential_difference = numbers_of(surface, "potential_difference");
@@ -115,6 +116,11 @@ void read_arrays(SurfaceFile& file, const VtpContent& surface) {
 
 }  // namespace
 
+const std::vector<float>& SurfaceFile::uncertainty() const {
+  const bool knows_slip = std::any_of(slip.begin(), slip.end(), [](float value) { return std::isfinite(value); });
+  return knows_slip ? slip : displacement;
+}
+
 const std::vector<float>& SurfaceFile::values(RenderArray array) const {
   static const std::vector<float> nothing;
   const auto pick = [&]() -> const std::vector<float>& {
@@ -125,6 +131,7 @@ const std::vector<float>& SurfaceFile::values(RenderArray array) const {
       case RenderArray::kTarget: return potential_target;
       case RenderArray::kSign: return sign_change;
       case RenderArray::kDisplacement: return displacement;
+      case RenderArray::kSlip: return slip;
       case RenderArray::kResidue: return residue_index;
       case RenderArray::kPlain: break;
     }

@@ -21,6 +21,7 @@ struct SurfaceFile {
   std::vector<std::uint8_t> corrupt;    ///< [triangle]
   std::vector<std::uint8_t> unmatched;  ///< [triangle] 1: its mapped positions are meaningless
   std::vector<float> displacement;      ///< Angstrom
+  std::vector<float> slip;              ///< Angstrom; NaN where it is not known; empty in files of older versions
   std::vector<float> potential_source, potential_target, potential_difference;  ///< NaN without a value
   std::vector<float> sign_change;                                               ///< NaN without a value
   std::vector<float> residue_index;   ///< of the source's residues; negative: none
@@ -34,6 +35,8 @@ struct SurfaceFile {
   /// The values that colour the surface.
   /// @throws InputError if the file lacks them, listing the arrays it has
   const std::vector<float>& values(RenderArray array) const;
+  /// What makes points uncertain: the slip, or the displacement where no slip is known.
+  const std::vector<float>& uncertainty() const;
 };
 
 /// Reads a VTK XML PolyData file (.vtp).

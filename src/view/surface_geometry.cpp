@@ -153,6 +153,7 @@ SurfaceGeometry::SurfaceGeometry(const SurfaceFile& surface, const RunRecord& re
   inside_maps_ = source_inside && target_inside;
   add_potentials(points_, surface);
   add_numbers(points_, "displacement", surface.displacement, -1);
+  add_numbers(points_, "uncertainty", surface.uncertainty(), -1);
   add_numbers(points_, "residueIndex", surface.residue_index, -1);
 }
 

@@ -45,7 +45,7 @@ void set_integer(vtkShaderProgram* program, const char* name, int value) {
 constexpr std::size_t kColours = 2048;
 
 /// kReadBack of shaders/surface.frag.
-constexpr int kReadBack = 8;
+constexpr int kReadBack = 9;
 
 }  // namespace
 

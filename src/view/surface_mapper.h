@@ -18,13 +18,13 @@ enum class SurfacePart { kTrusted, kCorrupt, kUnmatched };
 
 /// Names of the point arrays that the shaders need besides positions and normals.
 inline constexpr const char* kSurfaceAttributes[] = {"startMC",         "startNormalMC", "sourcePlace", "targetPlace",
-                                                     "vertexPotential", "displacement",  "residueIndex"};
+                                                     "vertexPotential", "displacement",  "uncertainty", "residueIndex"};
 
 /// How a surface is drawn; may change between pictures.
 struct SurfaceLook {
   ColourScale scale{RenderArray::kPlain, {}, 0.0};
   OpacityScale opacity;
-  bool fades = false;        ///< opacity by displacement
+  bool fades = false;        ///< opacity by uncertainty
   bool inside_maps = false;  ///< no fragment lies outside a map
   double morph = 1;          ///< 0 on the source, 1 on the target
   bool splits = false;       ///< draws only these columns of the window

@@ -13,10 +13,11 @@ namespace eval ::espdiff::gui {
         ttk::labelframe $path -text Draw -padding 6
         set variable ::espdiff::gui::form
         ttk::combobox $path.color -textvariable ${variable}(draw,color) -state readonly -width 12 \
-            -values {difference sign source target displacement path_length none}
+            -values {difference sign source target slip displacement path_length none}
         bind $path.color <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::update_draw}
         form_row $path 0 "Colour by" $path.color "difference: target - source, red negative, blue positive;\
-            sign: where it changed; source, target: the potentials; displacement: how far each point travelled,\
+            sign: where it changed; source, target: the potentials; slip: how far each point is from where its own\
+            atoms went; displacement: how far each point travelled,\
             path_length: the path length"
         ttk::combobox $path.surface -textvariable ${variable}(draw,surface) -state readonly -width 12 \
             -values {target source}
@@ -33,10 +34,10 @@ namespace eval ::espdiff::gui {
         ttk::spinbox $path.look.limit -textvariable ${variable}(draw,limit) -width 5 -from 0.5 -to 20 -increment 0.5
         ttk::label $path.look.unit -text "\u00c5"
         foreach name {uncertain style} {
-            tip $path.look.$name "fade: colours fade into grey the larger a point's displacement is; transparent: the\
+            tip $path.look.$name "fade: colours fade into grey the larger a point's slip is; transparent: the\
                 surface does; plain: full colours"
         }
-        tip $path.look.limit "Displacement at which colours have faded completely; below half of it nothing fades"
+        tip $path.look.limit "Slip at which colours have faded completely; below half of it nothing fades"
         ttk::checkbutton $path.look.legend -text Legend -variable ${variable}(draw,legend)
         tip $path.look.legend "A colour bar at the bottom of VMD's window"
         pack $path.look.uncertain $path.look.style $path.look.from $path.look.limit $path.look.unit -side left -padx {0 4}
@@ -108,12 +109,12 @@ namespace eval ::espdiff::gui {
         set_enabled $is_shown $widget(draw) $widget(undraw) $widget(map)
         set unit [expr {$is_shown ? [potential_unit] : ""}]
         set has_potentials [expr {$unit ne "" || !$is_shown}]
-        set colors {displacement path_length none}
+        set colors {slip displacement path_length none}
         if {$has_potentials} { set colors [concat {difference sign source target} $colors] }
         $widget(draw,color) configure -values $colors
-        if {$form(draw,color) ni $colors} { set form(draw,color) displacement }
+        if {$form(draw,color) ni $colors} { set form(draw,color) slip }
         switch $form(draw,color) {
-            displacement - path_length { set unit "\u00c5" }
+            slip - displacement - path_length { set unit "\u00c5" }
             sign - none { set unit "" }
         }
         $widget(draw,unit) configure -text $unit

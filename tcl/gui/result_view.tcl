@@ -177,13 +177,18 @@ namespace eval ::espdiff::gui {
             return
         }
         set certificate [labelled { espdiff result $shown certificate }]
+        set warnings {}
+        foreach warning [labelled { espdiff result $shown warnings }] {
+            if {![dict get $warning refuses]} { lappend warnings "\u2022 [dict get $warning text]" }
+        }
         if {[dict get $certificate trustworthy]} {
-            say_verdict Trustworthy {"The mapping is within every limit that was checked."} #d3efd8 #0b4a1c
+            set lines [linsert $warnings 0 "The mapping is within every limit that was checked."]
+            say_verdict Trustworthy $lines #d3efd8 #0b4a1c
             return
         }
         set reasons {}
         foreach reason [dict get $certificate reasons] { lappend reasons "\u2022 $reason" }
-        say_verdict "Not trustworthy" $reasons #ffe3b0 #5c3300
+        say_verdict "Not trustworthy" [concat $reasons $warnings] #ffe3b0 #5c3300
     }
 
     proc show_numbers {} {

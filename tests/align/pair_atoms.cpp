@@ -162,7 +162,7 @@ TEST_CASE("a file without chain names pairs with one that has them, with continu
   }
 }
 
-TEST_CASE("ligands and ions pair by name with the closest number, waters not at all") {
+TEST_CASE("by number, ligands and ions pair by name with the closest number, waters not at all") {
   MadeMolecule a, b;
   a.peptide("A", 1, "MKTAYIAKQRQ");
   a.residue("A", 201, "NA", {"NA"});
@@ -175,7 +175,7 @@ TEST_CASE("ligands and ions pair by name with the closest number, waters not at 
   b.residue("C", 401, "DSS", {"S", "O", "C1", "C2"});
   b.residue("C", 9, "DMS", {"S", "O", "C1"});
   b.residue("B", 501, "HOH", {"O"});
-  const AtomPairing pairing = pair_atoms(a.molecule, b.molecule);
+  const AtomPairing pairing = pair_atoms(a.molecule, b.molecule, PairOthers::kByNumber);
   CHECK(has_pair(pairing, a.molecule, b.molecule, "A301:NA=B301:NA"));
   CHECK(has_pair(pairing, a.molecule, b.molecule, "A201:NA=B205:NA"));
   CHECK(has_pair(pairing, a.molecule, b.molecule, "A401:S=C9:S"));

@@ -233,7 +233,7 @@ TEST_CASE("compare refuses invalid input with a remedy") {
   }
 }
 
-TEST_CASE("a vertex outside a map is counted, excluded, and makes the result untrustworthy") {
+TEST_CASE("surface outside a map is counted and excluded; too much of it makes the result untrustworthy") {
   const Side a = make_side(1, 0), b = make_side(2, 0.3);
   Side part = b;
   part.map.lattice.size[2] /= 2;  // half of the layers; z is slowest, so the values stay in place
@@ -244,7 +244,11 @@ TEST_CASE("a vertex outside a map is counted, excluded, and makes the result unt
     CHECK(r.n_outside_source_map == 0);
     CHECK(r.metrics.area_A2 < 0.8 * r.area_mapped_A2);
     CHECK(std::isfinite(r.metrics.mean_abs_difference));
-    CHECK_FALSE(r.certificate.trustworthy);
+    CHECK(r.certificate.outside_maps > 0.05);
+    CHECK(r.certificate.outside_maps < 1 - r.metrics.area_A2 / r.area_mapped_A2);
+    REQUIRE_FALSE(r.certificate.trustworthy);
+    CHECK(r.certificate.reasons.back().plain().find("of the mapped area lies outside a map (limit 5 %)") !=
+          std::string::npos);
   }
 }
 

@@ -27,6 +27,8 @@ CompareResult full_result() {
   result.pairing.pairs = {{0, 0}, {1, 1}, {2, 2}};
   result.unit = PotentialUnit::kKtPerE;
   result.certificate.round_trip = RoundTrip{0.1, 0.2, 0.3, 0.04};
+  result.certificate.slip = SlipSummary{0.5, 0.3, 1.5, 4, 0.04, 0.02, 0.01};
+  result.certificate.residues = ResidueCheck{0.95, 0.1, 2, 30};
   result.residues = {{0, 6, 1, -1, 2, 1, 0.5, 1, 2}, {1, 4, 2, 2, 0, 2, 0, 1.5, 3}};
   return result;
 }
@@ -96,7 +98,8 @@ TEST_CASE("the residues' metrics are those of the table, the path length among t
   const std::vector<std::string> quantities = residue_quantities();
   CHECK(quantities == std::vector<std::string>{"area_A2", "mean_abs_difference", "mean_signed_difference",
                                                "mean_source", "mean_target", "sign_change_area_fraction",
-                                               "mean_displacement_A", "mean_path_length_A"});
+                                               "mean_displacement_A", "mean_path_length_A", "own_difference",
+                                               "mean_slip_A", "slip_area_fraction"});
   CHECK(residue_values(result, "mean_path_length_A") == std::vector<double>{2, 3});
   CHECK(residue_unit(result, "mean_path_length_A") == "A");
   CHECK(residue_unit(result, "mean_source") == "kT/e");

@@ -82,7 +82,8 @@ TEST_CASE("array names are read, and errors list them") {
   CHECK(legend_title(RenderArray::kSource, "") == "potential of the source");
   CHECK(legend_title(RenderArray::kSign, "mV").find("mV") == std::string::npos);
   CHECK(espdiff_test::message_of([] { parse_render_array("charge"); }) ==
-        "cannot colour by 'charge'; use difference, source, target, sign, displacement, magnitude, residue or plain");
+        "cannot colour by 'charge'; use difference, source, target, sign, displacement, magnitude, residue, plain or "
+        "slip");
 }
 
 TEST_CASE("ranges by percentile, and with both ends given") {
@@ -115,7 +116,7 @@ TEST_CASE("a magnitude is sequential and has no sign") {
 
 TEST_CASE("every array name survives writing and reading") {
   for (const std::string& name : render_array_names()) CHECK(to_string(parse_render_array(name)) == name);
-  CHECK(parse_render_array("uncertainty") == RenderArray::kDisplacement);
+  CHECK(parse_render_array("uncertainty") == RenderArray::kSlip);
   CHECK_FALSE(ColourScale(RenderArray::kPlain, {}, 0).has_bar());
 }
 

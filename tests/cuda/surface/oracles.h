@@ -85,13 +85,19 @@ inline espdiff::DistanceSummary distances_oracle(const Mesh& a, const Mesh& b, d
   std::vector<std::pair<double, double>> by_distance;
   double area = 0;
   espdiff::DistanceSummary summary;
-  for (std::size_t v = 0; v < weights.size(); ++v) {
-    const double d = mesh_distance_oracle(b, static_cast<Vec3d>(a.positions[v]));
-    by_distance.emplace_back(d, weights[v]);
-    area += weights[v];
-    summary.mean += weights[v] * d;
+  const auto add = [&](const Vec3d& p, double weight) {
+    const double d = mesh_distance_oracle(b, p);
+    by_distance.emplace_back(d, weight);
+    area += weight;
+    summary.mean += weight * d;
     summary.max = std::max(summary.max, d);
-    if (d > limit) summary.area_fraction_beyond_limit += weights[v];
+    if (d > limit) summary.area_fraction_beyond_limit += weight;
+  };
+  for (std::size_t v = 0; v < weights.size(); ++v) add(static_cast<Vec3d>(a.positions[v]), 0.25 * weights[v]);
+  for (const auto& t : a.triangles) {
+    const auto p = static_cast<Vec3d>(a.positions[t[0]]), q = static_cast<Vec3d>(a.positions[t[1]]),
+               r = static_cast<Vec3d>(a.positions[t[2]]);
+    add((1.0 / 3) * (p + q + r), 0.75 * 0.5 * norm(cross(q - p, r - p)));
   }
   summary.mean /= area;
   summary.area_fraction_beyond_limit /= area;

@@ -1,0 +1,47 @@
+// certificate_rates.cpp: how many planted errors the certificate catches, and how many easy pairs it refuses; the
+// tables of docs/study.md.
+#include <cstdio>
+#include <cstring>
+#include <string>
+
+#include "compare/planted_cases.h"
+#include "real_pairs.h"
+
+namespace {
+
+using namespace espdiff_test;
+
+/// @returns the number of cases with the wrong verdict
+int print(const char* title, const std::vector<PlantedCase>& cases, int threads) {
+  std::printf("## %s\n\n| case | RMSD A | slip beyond 3 A %% | same residue %% | verdict | reasons |\n", title);
+  std::printf("|---|---|---|---|---|---|\n");
+  int n_wrong = 0, n_easy = 0;
+  for (const PlantedCase& planted : cases) {
+    const PlantedOutcome outcome = run_case(planted, threads);
+    // A pair that is farther than 2 A is not easy.
+    const bool counts = planted.reason.size() > 0 || outcome.rmsd_A < 2;
+    n_easy += counts ? 1 : 0;
+    n_wrong += counts && !outcome.right ? 1 : 0;
+    std::printf("| %s | %.2f | %.2f | %.1f | %s%s%s | %s |\n", planted.name.c_str(), outcome.rmsd_A,
+                100 * outcome.slip_beyond_3A, 100 * outcome.same_residue,
+                outcome.trustworthy ? "trustworthy" : "not trustworthy", outcome.right ? "" : " (WRONG)",
+                counts ? "" : " (not counted)", outcome.reasons.c_str());
+    std::fflush(stdout);
+  }
+  std::printf("\n%d of %d wrong\n\n", n_wrong, n_easy);
+  return n_wrong;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string folder = espdiff_bench::data_folder();
+  if (folder.empty()) {
+    std::fprintf(stderr, "certificate_rates: real inputs are absent; set ESPDIFF_DATA to their folder\n");
+    return 2;
+  }
+  const bool planted_only = argc > 1 && std::strcmp(argv[1], "--planted") == 0;
+  int n_wrong = print("Planted errors", planted_cases(folder), 0);
+  if (!planted_only) n_wrong += print("Easy pairs", easy_pairs(folder), 0);
+  return n_wrong == 0 ? 0 : 1;
+}
