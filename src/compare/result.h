@@ -135,7 +135,6 @@ struct CompareResult {
   std::vector<std::vector<std::string>> source_copies, target_copies;
   /// Between charged molecules: residues whose protonation makes a difference by itself.
   std::vector<ProtonationDifference> protonation;
-  std::vector<Warning> warnings;
   /// Lines of the printed table on where charges and radii came from: label, text.
   std::vector<std::pair<std::string, std::string>> input_lines;
   std::size_t n_superposed_atoms = 0;
@@ -163,7 +162,7 @@ struct CompareResult {
   UncoveredSurface uncovered;                           ///< of the target
   std::vector<std::pair<std::string, double>> time_ms;  ///< stage, in order; "total" last
   /// The same numbers, certificate and residues of the region alone, without vertices; null without a region. Its RMSD
-  /// is that of its atoms after the whole superposition. The round trip is not measured for it.
+  /// is that of its atoms after the whole superposition. The round trip, slip and the correlation by residue are not checked for it alone.
   std::shared_ptr<CompareResult> region{};
 };
 

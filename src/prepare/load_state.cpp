@@ -49,7 +49,8 @@ std::vector<std::string> forced_states(const Molecule& source, const Molecule& r
   const std::vector<std::string> of_source = protonation_states(source), own = protonation_states(prepared);
   std::map<std::tuple<std::string, std::int32_t, char>, std::string> state_of;
   for (std::size_t r = 0; r < own.size(); ++r) state_of[key(prepared.residues[r])] = own[r];
-  for (const auto& [s, t] : pair_residues(ResidueView(source), ResidueView(prepared))) {
+  const ResiduePairing pairing = pair_residues(ResidueView(source), ResidueView(prepared));
+  for (const auto& [s, t] : pairing.pairs) {
     const Residue& residue = prepared.residues[t];
     if (same_residue_name(source.residues[s].name, residue.name) && !of_source[s].empty())
       state_of[key(residue)] = of_source[s];

@@ -56,7 +56,8 @@ std::vector<std::uint8_t> region_residues(const Molecule& source, const Molecule
                        describe_chains(whole_target));
     const auto of_target = region_within(target, whole_target, near_to, options.region_within_A);
     region.assign(source.residues.size(), 0);
-    for (const auto& [s, t] : pair_residues(ResidueView(source), ResidueView(target))) region[s] = of_target[t];
+    const ResiduePairing pairing = pair_residues(ResidueView(source), ResidueView(target));
+    for (const auto& [s, t] : pairing.pairs) region[s] = of_target[t];
   }
   if (!any(region))
     throw InputError("no residue of the source lies within " + option("region-within") + " of " +
