@@ -224,7 +224,7 @@ TEST_CASE("compare refuses invalid input with a remedy") {
   CHECK(with([](auto& s) { s.radius_scale = 0; }) == "radius scale 0.000000 is not positive; 1 is usual");
   CHECK(with([](auto& s) { s.grid_spacing_A = 0; }) == "grid spacing 0.000000 A is not a positive number; 1 is usual");
   const std::string text = with([](auto& s) { s.grid_spacing_A = 1e-4; });
-  CHECK(text.find("a grid of spacing 0.000100 A") == 0);
+  CHECK(text.find("a grid of spacing 0.0001 A") == 0);
   CHECK(text.find(" A would fit") != std::string::npos);
   for (const double bad : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
     CHECK(with([&](auto& s) { s.isovalue = bad; }).find("is not positive") != std::string::npos);

@@ -73,11 +73,11 @@ test "transparency in a rendermode that cannot is told about" {
 
 test "every renderer of this VMD takes a drawing with its legend" {
     foreach renderer [render list] {
-        set path $scratch/out.$renderer
+        # VMD's Wavefront writer makes its material file's name from this ending.
+        set path $scratch/out.[expr {$renderer eq "Wavefront" ? "obj" : $renderer}]
         set failed [catch { render $renderer $path } message]
-        # VMD's Wavefront writer refuses files without a material file beside them.
         note "    $renderer: [expr {$failed ? "failed: $message" : "[file size $path] bytes"}]"
-        if {$renderer ne "Wavefront"} { check $renderer {!$failed && [file size $path] > 10000} }
+        check $renderer {!$failed && [file size $path] > 10000}
         file delete $path
     }
 }
@@ -138,6 +138,27 @@ test "at another frame the picture says which frame the surface is of" {
     animate goto 20
     espdiff undraw
     check_equal molecules [our_molecules] {}
+}
+
+test "what has no counterpart is hatched on either side" {
+    mol addfile [input traj_adk/adk_dims.dcd] type dcd first 97 last 97 waitfor all $adk
+    set last [expr {[molinfo $adk get numframes] - 1}]
+    set open [espdiff compare [list mol $adk frame 0 sel protein map none] [list mol $adk frame $last sel protein map none] \
+        -grid-spacing 2]
+    check "on the target" {[espdiff result $open certificate no_counterpart_area_fraction target] > 0.01}
+    foreach surface {mapped source} {
+        espdiff draw $open -surface $surface -uncertainty-limit 15
+        set stripes [dict create 33 0 1056 0]
+        foreach mol [our_molecules] {
+            if {![string match "*: uncertain*" [molinfo $mol get name]]} continue
+            foreach item [graphics $mol list] {
+                set color [lindex [graphics $mol info $item] end]
+                if {[dict exists $stripes $color]} { dict incr stripes $color }
+            }
+        }
+        note "    $surface: dark and light triangles $stripes"
+        check "$surface: stripes" {[dict get $stripes 33] > 50 && [dict get $stripes 1056] > 50}
+    }
 }
 
 test "no callback failed" { check_equal errors $background {} }
