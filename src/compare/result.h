@@ -162,7 +162,8 @@ struct CompareResult {
   UncoveredSurface uncovered;                           ///< of the target
   std::vector<std::pair<std::string, double>> time_ms;  ///< stage, in order; "total" last
   /// The same numbers, certificate and residues of the region alone, without vertices; null without a region. Its RMSD
-  /// is that of its atoms after the whole superposition. The round trip, slip and the correlation by residue are not checked for it alone.
+  /// is that of its atoms after the whole superposition. The round trip, slip and the correlation by residue are not
+  /// checked for it alone.
   std::shared_ptr<CompareResult> region{};
 };
 
