@@ -21,6 +21,17 @@ namespace eval ::espdiff {
         returns {a handle, such as comparison1. With -command at once, otherwise when the comparison is done} \
         example {espdiff compare {file wild.pqr map wild.dx} {file mutant.pqr map mutant.dx} -grid-spacing 0.8}]
 
+    command prepare [dict create arguments {molecule} settings preparation run ::espdiff::prepare options {
+            {-pqr file required "PQR file to write: atoms with hydrogens, charges and radii"}
+            {-progress command {} "Called as CMD stage fraction (0 to 1) about 20 times a second; `break` from it cancels"}
+            {-command command {} "Prepare in the background, and call CMD handle from the event loop at the end"}
+        } \
+        summary {Adds hydrogens, charges and radii to a molecule (an endpoint) by PDB2PQR, a program, with PROPKA's
+            protonation states. Structures in files get the same wherever a potential is computed from them. Of a
+            molecule in VMD, one location of each atom counts.} \
+        returns {a handle, such as preparation1; `espdiff result` lists what was added, repaired and protonated} \
+        example {espdiff prepare {mol 0 sel protein} -pqr prepared.pqr; mol new prepared.pqr}]
+
     command surface [dict create arguments {molecule} settings surface run ::espdiff::surface \
         options [concat $computing {{-regularize boolean 0 "Regularize the triangles"}}] \
         summary {Makes the surface of one molecule (an endpoint), with its potential if a map is given.} \
@@ -141,7 +152,7 @@ namespace eval ::espdiff {
         summary {Removes drawings with their legends; without a handle, all of them.} \
         returns {nothing} example {espdiff undraw comparison1}]
 
-    command trajectory [dict create arguments {} settings all run ::espdiff::trajectory options [concat {
+    command trajectory [dict create arguments {} settings series run ::espdiff::trajectory options [concat {
             {-mol molecule {} "Molecule of VMD whose frames are compared"}
             {-file file {} "Instead of -mol: structure file whose models are the frames, the first one is frame 0"}
             {-sel text "not water" "Atoms of the molecule; chosen once, in the reference frame"}
@@ -153,7 +164,6 @@ namespace eval ::espdiff {
             {-reference-map text {} "Potential of the reference; without it by the rule of -map for its frame, or\
                 computed as the frames' are"}
             {-unit text {} "Unit of the maps if they do not say: kT/e, mV, V, kcal/mol/e, kJ/mol/e, hartree/e"}
-            {-radii choice vmd "Radii of the molecule: VMD's, or Bondi's by element" {vmd element}}
             {-whole boolean 0 "Make molecules whole that their periodic cell cuts; otherwise they are refused"}
             {-start choice auto "Begin each frame's mapping at the source, or at the previous frame's where that is\
                 nearer: small steps; auto: source by -method morph, previous by deform; see Trajectories"\
@@ -169,7 +179,7 @@ namespace eval ::espdiff {
         returns {a dictionary: frames rows skipped resumed csv seconds; with -command a handle, such as trajectory1} \
         example {espdiff trajectory -mol 0 -frames 0:10:end -map {files frame%03d.dx} -csv out.csv}]
 
-    command matrix [dict create arguments {variants} settings all run ::espdiff::matrix options [concat {
+    command matrix [dict create arguments {variants} settings variants run ::espdiff::matrix options [concat {
             {-output file required "Prefix of the results OUT.csv and OUT.json, and of the state file"}
             {-resume boolean 0 "Resume an interrupted run from its state file beside the results"}
             {-overwrite boolean 0 "Start again and replace results and state files"}

@@ -4,8 +4,38 @@ namespace eval ::espdiff {
     # The core's options besides the molecules.
     proc core_options {options} {
         variable call
-        dict merge [dict get $options settings] [dict create device [dict get $options device] \
+        dict merge [setting_values $options] [dict create device [dict get $options device] \
             threads [dict get $options threads] command_line $call]
+    }
+
+    # The given settings. Names of files are full, because the core may read them from another working folder.
+    proc setting_values {options} {
+        set values [dict get $options settings]
+        foreach setting [core::settings] {
+            set name [dict get $setting name]
+            if {![dict get $setting file] || ![dict exists $values $name] || [dict get $values $name] eq ""} continue
+            set paths {}
+            set names [dict get $values $name]
+            foreach path [expr {[dict get $setting list] ? [split $names ,] : [list $names]}] {
+                lappend paths [existing_file $path -$name]
+            }
+            dict set values $name [join $paths ,]
+        }
+        return $values
+    }
+
+    proc prepare {options molecule} {
+        variable call
+        set endpoint [parse_endpoint $molecule molecule]
+        foreach key {map region because} {
+            if {[dict exists $endpoint $key]} { fail "molecule: `$key` is not of a preparation; leave it out" }
+        }
+        if {[dict exists $endpoint mol]} { dict set endpoint radii element }
+        set temporary {}
+        set handle [core::prepare [make_endpoint $endpoint molecule temporary] \
+            [dict merge [setting_values $options] [dict create command_line $call]] \
+            [file normalize [dict get $options pqr]]]
+        begin_job $handle $options [dict create source_mol [mol_of_endpoint $endpoint]]
     }
 
     # Calls the core, and removes its inputs (files, volumes in memory) if it refuses.

@@ -3,7 +3,7 @@
 namespace eval ::espdiff {
     variable endpoint_keys {
         file {file model map because unit array hetero water}
-        mol {mol frame sel map because unit radii whole}
+        mol {mol frame sel map because unit radii whole region}
     }
 
     # Parses an endpoint into a dict and reports its errors. `role` is source, target, ...
@@ -34,6 +34,9 @@ namespace eval ::espdiff {
             set molecule [vmd_structure $endpoint $role]
             set frame [vmd_frame [dict get $molecule mol] [value_or $endpoint frame now] $role]
             set result [vmd_with_frame $molecule $frame]
+            if {[dict exists $endpoint region]} {
+                dict set result region [vmd_region [dict get $molecule mol] [dict get $endpoint region] $frame $role]
+            }
         } else {
             set result [file_endpoint $endpoint $role]
         }

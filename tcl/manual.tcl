@@ -88,7 +88,10 @@ namespace eval ::espdiff {
         append text [manual_options $rows]
         switch [dict get $description settings] {
             all { append text "Takes all [link_to_settings] as well.\n\n" }
+            series { append text "Takes all [link_to_settings] but those of a region as well.\n\n" }
+            variants { append text "Takes all [link_to_settings] but those of a region or of one side as well.\n\n" }
             surface { append text "Takes those [link_to_settings] that are marked *surface* as well.\n\n" }
+            preparation { append text "Takes those [link_to_settings] that are marked *prepare* as well.\n\n" }
         }
         return "${text}Example:\n\n    [dict get $description example]\n\n"
     }
@@ -113,7 +116,8 @@ namespace eval ::espdiff {
                 set group [dict get $setting group]
                 append text "\n*$group*\n\n| option | accepts | meaning | |\n|---|---|---|---|\n"
             }
-            set mark [expr {[dict get $setting surface] ? "surface" : ""}]
+            set mark [join [concat [expr {[dict get $setting surface] ? "surface" : ""}] \
+                [expr {[dict get $setting preparation] ? "prepare" : ""}]] ", "]
             set cells [list `-[dict get $setting name]` [describe_option $setting] [dict get $setting help] $mark]
             append text "| [join $cells { | }] |\n"
         }

@@ -101,11 +101,25 @@ namespace eval ::espdiff {
         set wanted [dict get $description settings]
         if {$wanted eq "none"} { return $options }
         foreach setting [core::settings] {
-            if {$wanted eq "surface" && ![dict get $setting surface]} continue
+            if {![takes_setting $wanted $setting]} continue
             dict set setting name -[dict get $setting name]
             lappend options [dict merge $setting {setting 1}]
         }
         return $options
+    }
+
+    # Whether commands of this kind take a setting: `all`, `series` and `variants` (which have no region), `surface`
+    # and `preparation` (of one molecule).
+    proc takes_setting {wanted setting} {
+        set name [dict get $setting name]
+        set of_region [expr {[dict get $setting group] eq "Region"}]
+        switch $wanted {
+            surface { return [dict get $setting surface] }
+            preparation { return [dict get $setting preparation] }
+            series { return [expr {!$of_region}] }
+            variants { return [expr {!$of_region && ![string match source-* $name] && ![string match target-* $name]}] }
+        }
+        return 1
     }
 
     # Descriptions of the values that each kind of option accepts.

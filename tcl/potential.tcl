@@ -148,6 +148,9 @@ namespace eval ::espdiff {
     proc vmd_charges {mol text frame what} {
         set all [atomselect $mol all]
         finally { set charges [$all get charge] } { $all delete }
+        set is_charged 0
+        foreach charge $charges { if {$charge != 0} { set is_charged 1; break } }
+        if {!$is_charged} { vmd_require_charges [dict create mol $mol charges_origin none] $what }
         if {$text ne "all"} {
             if {[catch { atomselect $mol $text frame [vmd_frame $mol $frame $what] } selection]} {
                 fail "$what: the selection '$text' is not understood by VMD ($selection)"
@@ -159,8 +162,7 @@ namespace eval ::espdiff {
             set charges $chosen
         }
         foreach charge $charges { if {$charge != 0} { return $charges } }
-        if {$text ne "all"} { fail "$what: no atom of the selection '$text' has a charge" }
-        vmd_require_charges [dict create mol $mol charges_origin none] $what
+        fail "$what: no atom of the selection '$text' has a charge"
     }
 
     # Computes the potential of each frame, averages, and stores the maps as requested.

@@ -76,7 +76,8 @@ namespace eval ::espdiff {
         upvar 1 $run_name run
         if {$run(mol) ne ""} {
             set run(mol) [vmd_molecule_id $run(mol) -mol]
-            set run(endpoint) [dict create mol $run(mol) sel [dict get $options sel] radii [dict get $options radii] \
+            set radii [expr {[value_or [dict get $options settings] radii auto] eq "element" ? "element" : "vmd"}]
+            set run(endpoint) [dict create mol $run(mol) sel [dict get $options sel] radii $radii \
                 whole [dict get $options whole]]
             set run(where) "molecule $run(mol) ([molinfo $run(mol) get name])"
             vmd_frame $run(mol) last -mol
@@ -121,7 +122,7 @@ namespace eval ::espdiff {
             set n_chosen [llength [dict get $run(structure) atoms]]
             dict set plan molecule [dict create \
                 molecule "[molinfo $run(mol) get name], [dict get $run(structure) n_atoms] atoms" \
-                sel "[dict get $options sel] ($n_chosen atoms)" radii [dict get $options radii]]
+                sel "[dict get $options sel] ($n_chosen atoms)" radii [dict get $run(endpoint) radii]]
         }
         return $plan
     }

@@ -93,6 +93,19 @@ namespace eval ::espdiff {
         return $endpoint
     }
 
+    # The atoms of a region, as indices; VMD's selections know distances, such as
+    # `same residue as protein within 5 of resname AP5`.
+    proc vmd_region {mol text frame role} {
+        set name "molecule $mol ([molinfo $mol get name])"
+        if {$role ne "source"} { fail "$role: `region` belongs to the source" }
+        if {[catch { atomselect $mol $text frame $frame } selection]} {
+            fail "$role: the region '$text' of $name is not understood by VMD ($selection)"
+        }
+        finally { set atoms [$selection list] } { $selection delete }
+        if {[llength $atoms] == 0} { fail "$role: the region '$text' of $name holds no atoms" }
+        return $atoms
+    }
+
     # The last file with radii counts: VMD lets it replace those of files before it.
     proc vmd_radii_origin {mol} {
         variable types_with_radii
@@ -119,7 +132,7 @@ namespace eval ::espdiff {
         set types [lindex [molinfo $mol get filetype] 0]
         set why "none of its files ([join $types {, }]) carries charges"
         foreach type $types { if {$type in $types_with_charges} { set why "all charges in its files are 0" } }
-        fail "$role: the atoms of molecule $mol ([molinfo $mol get name]) have no charges: $why; load it from a PSF,\
-            PQR or Amber prmtop file, or set them with `\$sel set charge`"
+        fail "$role: the atoms of molecule $mol ([molinfo $mol get name]) have no charges: $why; `espdiff prepare`\
+            makes some, PSF, PQR and Amber prmtop files have some, `\$sel set charge` sets them"
     }
 }

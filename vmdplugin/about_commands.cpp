@@ -19,6 +19,7 @@
 #include "plot/colour_map.h"
 #include "potential/choose_potential.h"
 #include "potential/potential_settings.h"
+#include "prepare/pdb2pqr.h"
 #include "report/metrics.h"
 #include "tcl_values.h"
 
@@ -92,7 +93,10 @@ Tcl_Obj* list_settings(const Call&) {
                            {"choices", to_list(setting.choices)},
                            {"default", to_obj(setting.get(defaults))},
                            {"help", to_obj(setting.help)},
-                           {"surface", to_obj(setting.of_surface)}}));
+                           {"surface", to_obj(setting.of_surface)},
+                           {"preparation", to_obj(is_of_preparation(setting))},
+                           {"list", to_obj(setting.is_list)},
+                           {"file", to_obj(setting.is_file)}}));
   }
   return to_list(all);
 }
@@ -187,7 +191,9 @@ Tcl_Obj* facts_of_file(const Call& call) {
   const StructureFile file(call.text(0));
   const Molecule everything = file.read({model, true, true});
   const PotentialFacts facts = potential_facts(everything, file.unit_cells().at(static_cast<std::size_t>(model - 1)));
-  return to_dict({{"charges", to_obj(facts.has_charges)}, {"solvent", to_obj(facts.has_solvent)}});
+  // Structures without charges get some.
+  const bool charges = facts.has_charges || !find_pdb2pqr().empty();
+  return to_dict({{"charges", to_obj(charges)}, {"solvent", to_obj(facts.has_solvent)}});
 }
 
 /// The rule for molecules whose user named no potential: a list of {name B charges B solvent} each; returns

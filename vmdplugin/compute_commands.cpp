@@ -8,6 +8,16 @@
 #include "compare/surface.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"
+#include "io/atomic_file.h"
+#include "io/check_outputs.h"
+#include "io/read_structure.h"
+#include "io/select_atoms.h"
+#include "io/structure_file.h"
+#include "io/write_pqr.h"
+#include "prepare/load_state.h"
+#include "prepare/region.h"
+#include "prepare/surface_radii.h"
+#include "report/state_report.h"
 #include "tcl_values.h"
 
 namespace espdiff::vmdplugin {
@@ -39,15 +49,63 @@ Computation parse_computation(Tcl_Obj* options, bool* regularize) {
 void run_comparison(ComparisonObject& c, const Progress& progress) {
   progress.report("read", 0.0);
   const std::unique_ptr<Engine> engine = engine_for(c.computation);
-  load(c.source, c.computation.options.temperature_K);
-  load(c.target, c.computation.options.temperature_K);
+  const CompareOptions& options = c.computation.options;
+  load(c.source, options, nullptr, progress);
+  load(c.target, options, &c.source, progress);
+  if (!c.source.structure_path.empty() && !c.target.structure_path.empty())
+    check_left_out(options.input, {&c.source.state, &c.target.state});
+  for (Endpoint* side : {&c.source, &c.target}) {
+    for (KeptFile& kept : kept_structure(side->role, side->state)) c.kept.push_back(std::move(kept));
+    if (side->state.preparation)
+      c.provenance.preparations.emplace_back(side->role, std::make_shared<Preparation>(*side->state.preparation));
+  }
+  const auto whole = [](const Endpoint& side) -> const Molecule& {
+    return side.state.whole.size() > 0 ? side.state.whole : *side.molecule;
+  };
+  if (options.input.has_region())
+    c.source.region =
+        region_residues(*c.source.molecule, whole(c.source), *c.target.molecule, whole(c.target), options.input);
+  const std::string radii_note = set_surface_radii({&*c.source.molecule, &*c.target.molecule}, options.input.radii);
   c.provenance.device = engine->back_end();
   c.provenance.device_description = engine->description();
   c.provenance.threads = engine->n_threads();
   c.provenance.command_line = c.computation.command_line;
   c.provenance.inputs = c.source.inputs;
   c.provenance.inputs.insert(c.provenance.inputs.end(), c.target.inputs.begin(), c.target.inputs.end());
-  c.result = compare(*engine, input_of(c.source), input_of(c.target), c.computation.options, progress);
+  c.result = compare(*engine, input_of(c.source), input_of(c.target), options, progress);
+  note_states(c.result, c.source.state, c.target.state, radii_note);
+}
+
+/// Runs on the worker's thread.
+void run_preparation(PreparationObject& p, const Progress& progress) {
+  const InputOptions& options = p.computation.options.input;
+  LoadedState& state = p.molecule.state;
+  if (p.molecule.molecule) {
+    state.molecule = without_repeated_atoms(*p.molecule.molecule);
+    state.n_left_out = p.molecule.molecule->size() - state.molecule.size();
+    state.preparation = charge_molecule(state.molecule, options, {}, state.charge_files, progress);
+  } else {
+    state = load_state(StructureFile(p.molecule.structure_path), {p.molecule.structure}, options, progress);
+    check_left_out(options, {&state});
+  }
+  AtomicFile file(p.path);
+  write_pqr(file.stream(), state.molecule);
+  file.commit();
+  progress.report("write", 1.0);
+}
+
+/// ENDPOINT OPTIONS FILE: charges for a molecule, which is written as a PQR file.
+Tcl_Obj* prepare_command(const Call& call) {
+  auto object = std::make_shared<PreparationObject>();
+  object->molecule = parse_endpoint(call.arguments[0], "molecule");
+  object->computation = parse_computation(call.arguments[1], nullptr);
+  object->path = call.text(2);
+  check_outputs({object->molecule.structure_path}, {object->path});
+  AtomicFile probe(object->path);
+  object->job = Worker::instance().submit([keep = std::weak_ptr<PreparationObject>(object)](const Progress& progress) {
+    if (const auto alive = keep.lock()) run_preparation(*alive, progress);
+  });
+  return to_obj(call.handles.add(object));
 }
 
 /// The handle owns the object; the job keeps it alive while it runs.
@@ -74,7 +132,8 @@ Tcl_Obj* surface(const Call& call) {
         if (alive == nullptr) return;
         progress.report("read", 0.0);
         const std::unique_ptr<Engine> engine = engine_for(alive->computation);
-        load(alive->molecule, alive->computation.options.temperature_K);
+        load(alive->molecule, alive->computation.options, nullptr, progress);
+        set_surface_radii({&*alive->molecule.molecule}, alive->computation.options.input.radii);
         alive->result =
             make_surface(*engine, input_of(alive->molecule), alive->computation.options, regularize, progress);
       });
@@ -124,6 +183,7 @@ Tcl_Obj* list_handles(const Call& call) { return to_list(call.handles.names()); 
 std::vector<Command> compute_commands() {
   return {{"compare", 3, 3, "source target options", compare_command},
           {"surface", 2, 2, "molecule options", surface},
+          {"prepare", 3, 3, "molecule options file", prepare_command},
           {"status", 1, 1, "handle", status},
           {"wait", 2, 2, "handle milliseconds", wait},
           {"cancel", 1, 1, "handle", cancel},

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <set>
 
 #include "base/error.h"
+#include "compare/options.h"
 #include "fingerprint.h"
 #include "io/molecule_builder.h"
 #include "io/read_grid.h"
@@ -15,6 +17,7 @@
 #include "potential/choose_potential.h"
 #include "potential/potential.h"
 #include "report/provenance.h"
+#include "report/state_report.h"
 #include "tcl_values.h"
 #include "whole_molecule.h"
 
@@ -115,6 +118,16 @@ void parse_vmd_molecule(DictReader& reader, Endpoint& endpoint) {
     if (cell && make_whole(*endpoint.molecule, *cell, whole, endpoint.role) > 0) input += " whole 1";
   }
   endpoint.inputs.push_back({endpoint.role, input, fingerprint(*endpoint.molecule)});
+  if (Tcl_Obj* const list = reader.find("region")) {
+    std::set<std::size_t> chosen;
+    for (Tcl_Obj* const index : to_vector(list, endpoint.role + " region"))
+      chosen.insert(static_cast<std::size_t>(to_int(index, endpoint.role + " region")));
+    endpoint.region.assign(endpoint.molecule->residues.size(), 0);
+    for (std::size_t i = 0; i < atoms.size(); ++i) {
+      const std::size_t at = indices.empty() ? i : static_cast<std::size_t>(to_int(indices[i], "index"));
+      if (chosen.count(at) > 0) endpoint.region[static_cast<std::size_t>(endpoint.molecule->atoms[i].residue)] = 1;
+    }
+  }
 }
 
 /// @param endpoint_reader of the map's endpoint, which has the coordinates and the cell
@@ -291,16 +304,55 @@ bool wants_everything(const Endpoint& endpoint) {
   return endpoint.map_request->method == PotentialMethod::kPme && !is_padded;
 }
 
-void load(Endpoint& endpoint, double temperature_K) {
+namespace {
+
+/// Reads a structure file as the command line does.
+void load_file(Endpoint& endpoint, const CompareOptions& options, const Endpoint* source, const Progress& progress) {
+  const StructureFile file(endpoint.structure_path);
+  StateRequest request{endpoint.structure, endpoint.role == "source"   ? StateRole::kSource
+                                           : endpoint.role == "target" ? StateRole::kTarget
+                                                                       : StateRole::kOnly};
+  request.wants_charges = endpoint.map_request.has_value();
+  request.source = source != nullptr ? &*source->molecule : nullptr;
+  try {
+    endpoint.state = load_state(file, request, options.input, progress);
+  } catch (const InputError& error) {
+    if (!endpoint.map_request || endpoint.map_request->because.empty()) throw;
+    request.wants_charges = false;
+    load_state(file, request, options.input, progress);  // or was it the preparation?
+    throw InputError(error.message() + "; `map none` compares shapes alone");
+  }
+  const auto inputs =
+      state_inputs(endpoint.role, {endpoint.role, endpoint.structure_path, file.sha256(), nullptr, endpoint.structure},
+                   endpoint.state);
+  endpoint.inputs.insert(endpoint.inputs.end(), inputs.begin(), inputs.end());
+  endpoint.molecule = endpoint.state.molecule;
+  if (!wants_everything(endpoint)) return;
+  const int model = endpoint.structure.model;
+  endpoint.everything = Everything{
+      endpoint.state.everything.size() > 0 ? std::move(endpoint.state.everything) : file.read({model, true, true}),
+      endpoint.state.cell};
+}
+
+}  // namespace
+
+void load(Endpoint& endpoint, const CompareOptions& options, const Endpoint* source, const Progress& progress) {
+  const double temperature_K = options.temperature_K;
   if (!endpoint.molecule) {
-    const StructureFile file(endpoint.structure_path);
-    endpoint.molecule = file.read(endpoint.structure);
-    if (wants_everything(endpoint)) {
-      const int model = endpoint.structure.model;
-      endpoint.everything =
-          Everything{file.read({model, true, true}), file.unit_cells().at(static_cast<std::size_t>(model - 1))};
+    load_file(endpoint, options, source, progress);
+  } else if (endpoint.structure_path.empty()) {
+    const InputOptions& input = options.input;
+    const bool is_target = endpoint.role == "target";
+    for (const auto& [name, text] :
+         {std::pair("select", &input.both.select),
+          {"leave-out", &input.leave_out},
+          {is_target ? "target-select" : "source-select", is_target ? &input.target.select : &input.source.select},
+          {"assembly", &input.assembly},
+          {"topology", &input.both.topology}}) {
+      if (text->empty()) continue;
+      throw InputError(option(name) + " is of structures in files, and the " + endpoint.role +
+                       " is a molecule of VMD; choose its atoms by `sel`");
     }
-    endpoint.inputs.push_back({endpoint.role, endpoint.structure_path, file.sha256(), nullptr, endpoint.structure});
   }
   if (endpoint.map || endpoint.computed_map) return;
   if (endpoint.map_request) {
@@ -309,9 +361,9 @@ void load(Endpoint& endpoint, double temperature_K) {
     return;
   }
   if (endpoint.map_path.empty()) return;
-  GridOptions options;
-  options.array = endpoint.map_array;
-  GridFile map = read_grid_file(endpoint.map_path, options);
+  GridOptions grid;
+  grid.array = endpoint.map_array;
+  GridFile map = read_grid_file(endpoint.map_path, grid);
   if (!endpoint.map_unit.empty()) map.grid.unit = parse_potential_unit(endpoint.map_unit);
   endpoint.map = std::move(map.grid);
   endpoint.inputs.push_back({endpoint.role + "_map", endpoint.map_path, std::move(map.sha256)});
@@ -319,7 +371,7 @@ void load(Endpoint& endpoint, double temperature_K) {
 
 CompareInput input_of(const Endpoint& endpoint) {
   return {&*endpoint.molecule, endpoint.map ? &*endpoint.map : nullptr,
-          endpoint.computed_map ? endpoint.computed_map->maker() : MapMaker()};
+          endpoint.computed_map ? endpoint.computed_map->maker() : MapMaker(), endpoint.region};
 }
 
 }  // namespace espdiff::vmdplugin

@@ -13,8 +13,13 @@
 #include "potential/computed_map.h"
 #include "potential/potential.h"
 #include "potential/potential_settings.h"
+#include "prepare/load_state.h"
 #include "report/provenance.h"
 #include "tcl_values.h"
+
+namespace espdiff {
+struct CompareOptions;
+}
 
 namespace espdiff::vmdplugin {
 
@@ -47,13 +52,16 @@ struct Endpoint {
   std::optional<ComputedMap> computed_map;  ///< of the request
   std::vector<InputFile> inputs;            ///< provenance; roles begin with the endpoint's ("source", "source_map")
   std::string role;
+  LoadedState state;                 ///< what load() did; its molecules but `whole` are moved out
+  std::vector<std::uint8_t> region;  ///< [residue] of the molecule, where the description has a region
 };
 
 /// Reads the description; the keys are those of the Tcl layer's contract:
 ///   file PATH ?model N? ?map MAP?
 ///   atoms LIST coordinates BYTES ?indices LIST? name TEXT radii_origin R charges_origin C ?input TEXT? ?cell LIST?
-///   ?map MAP?
-/// with MAP: file PATH ?array NAME? ?unit U?, or memory NAME ?unit U?, or
+///   ?region LIST? ?map MAP?
+/// with the region's atoms as indices into the coordinates, MAP: file PATH ?array NAME? ?unit U?, or memory NAME ?unit
+/// U?, or
 ///   kind pme|pb|coulomb ?charges LIST? ?radii LIST? ?water B? ?box CELL? ?because TEXT? ?KEY VALUE ...?, the keys
 ///   those of potential_settings()
 /// A volume in memory is removed from the store. `charges` are those of all atoms in the coordinates, 0 for unselected
@@ -79,10 +87,11 @@ Molecule named_atoms(const std::vector<Tcl_Obj*>& atoms, const std::vector<Vec3d
 /// Whether the requested map depends on all atoms of the structure file: pme takes water in a cell.
 bool wants_everything(const Endpoint& endpoint);
 
-/// Reads the files that were not read yet, and adds the fingerprints of all inputs.
-/// @param temperature_K of the kT in a computed map's unit
-/// @throws what read_structure, read_grid and ComputedMap throw
-void load(Endpoint& endpoint, double temperature_K);
+/// Reads the files that are not read yet, and adds the fingerprints of all inputs.
+/// @param options selections and charges of files; the temperature of the kT in a computed map's unit
+/// @param source  loaded, for the target; null for others
+/// @throws what load_state, read_grid and ComputedMap throw; InputError (a selection of files for VMD's atoms)
+void load(Endpoint& endpoint, const CompareOptions& options, const Endpoint* source, const Progress& progress);
 
 CompareInput input_of(const Endpoint& endpoint);
 

@@ -15,6 +15,7 @@
 #include "potential/potential.h"
 #include "potential/potential_series.h"
 #include "report/provenance.h"
+#include "report/write_compare.h"
 #include "trajectory/frame_files.h"
 #include "trajectory/trajectory.h"
 #include "worker.h"
@@ -42,7 +43,16 @@ struct ComparisonObject : Object {
   Computation computation;
   Endpoint source, target;
   Provenance provenance;
+  std::vector<KeptFile> kept;  ///< structures that no file holds as they were compared
   CompareResult result;
+};
+
+/// A structure that gets charges, and the PQR file that it is written to.
+struct PreparationObject : Object {
+  const char* kind() const override { return "preparation"; }
+  Computation computation;
+  Endpoint molecule;
+  std::string path;
 };
 
 struct SurfaceObject : Object {

@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "commands.h"
 #include "engine/engine.h"
+#include "prepare/surface_radii.h"
 #include "tcl_values.h"
 
 namespace espdiff::vmdplugin {
@@ -35,7 +36,7 @@ std::vector<Variant> load_variants(MatrixObject& object, const Progress& progres
   for (std::size_t i = 0; i < object.endpoints.size(); ++i) {
     progress.report("read " + object.labels[i], static_cast<double>(i) / static_cast<double>(object.endpoints.size()));
     Endpoint& endpoint = object.endpoints[i];
-    load(endpoint, object.computation.options.temperature_K);
+    load(endpoint, object.computation.options, nullptr, progress);
     Variant variant;
     variant.label = object.labels[i];
     variant.group = object.groups[i];
@@ -47,6 +48,9 @@ std::vector<Variant> load_variants(MatrixObject& object, const Progress& progres
     variants.push_back(std::move(variant));
   }
   object.endpoints.clear();
+  std::vector<Molecule*> molecules;
+  for (Variant& variant : variants) molecules.push_back(&variant.molecule);
+  set_surface_radii(molecules, object.computation.options.input.radii);
   unite_map_units(variants, object.computation.options.temperature_K);
   return variants;
 }

@@ -10,7 +10,9 @@
 #include "matrix/write_matrix.h"
 #include "option_spelling.h"
 #include "report/metrics.h"
+#include "report/preparation_json.h"
 #include "report/residue_values.h"
+#include "report/state_report.h"
 #include "report/write_compare.h"
 #include "report/write_surface.h"
 #include "tcl_values.h"
@@ -51,6 +53,14 @@ Tcl_Obj* matrix_result(const MatrixObject& object) {
   return dict;
 }
 
+/// What was written, and what PDB2PQR did; without `preparation` where the molecule had charges.
+Tcl_Obj* preparation_result(const PreparationObject& object) {
+  nlohmann::ordered_json json{{"file", object.path}, {"n_atoms", object.molecule.state.molecule.size()}};
+  json["preparation"] = object.molecule.state.preparation ? preparation_json(*object.molecule.state.preparation)
+                                                          : nlohmann::ordered_json(nullptr);
+  return to_obj(json);
+}
+
 Tcl_Obj* result(const Call& call) {
   const std::string handle = call.text(0);
   const auto object = call.handles.find(handle);
@@ -61,6 +71,10 @@ Tcl_Obj* result(const Call& call) {
   if (const auto* surface = dynamic_cast<const SurfaceObject*>(object.get())) {
     require_done(handle, *surface);
     return surface_result(*surface);
+  }
+  if (const auto* preparation = dynamic_cast<const PreparationObject*>(object.get())) {
+    require_done(handle, *preparation);
+    return preparation_result(*preparation);
   }
   const auto comparison = call.handles.finished_comparison(handle);
   auto json = json_of(*comparison);
@@ -148,8 +162,10 @@ Tcl_Obj* export_files(const Call& call) {
   check_outputs(input_paths(*comparison), {prefix + ".json", prefix + ".vtp", prefix + ".residues.csv"});
   if (!to_bool(call.arguments[2], "inputs")) {
     write_compare(prefix, *source.molecule, *target.molecule, comparison->result, comparison->computation.options,
-                  comparison->provenance);
-    return to_list({prefix + ".json", prefix + ".vtp", prefix + ".residues.csv"});
+                  comparison->provenance, comparison->kept);
+    std::vector<std::string> written{prefix + ".json", prefix + ".vtp", prefix + ".residues.csv"};
+    for (const KeptFile& kept : comparison->kept) written.push_back(prefix + kept.ending);
+    return to_list(written);
   }
   const auto from_memory = [](const Endpoint& endpoint) {
     return endpoint.map && endpoint.map_path.empty() ? &*endpoint.map : nullptr;

@@ -8,6 +8,9 @@
 #include "io/write_csv.h"
 #include "potential/potential.h"
 #include "potential/potential_settings.h"
+#include "prepare/load_state.h"
+#include "prepare/surface_radii.h"
+#include "prepare/take_charges.h"
 #include "tcl_values.h"
 #include "trajectory/frame_range.h"
 #include "trajectory/series_head.h"
@@ -112,29 +115,31 @@ Tcl_Obj* trajectory_source(const Call& call) {
   return nullptr;
 }
 
-/// A frame of the run's file, with missing values from `source`; null if there are none.
-Molecule read_frame(TrajectoryObject& object, int frame, const StructureOptions& options, const Molecule* source) {
-  Molecule molecule = object.files->read(frame, options);
-  molecule.name = object.files->name(frame);
-  const std::string name = molecule.name;
-  if (source != nullptr && !source->charges.empty()) take_values(molecule, *source, name);
-  molecule.name = name;
-  return molecule;
-}
-
-/// Reads inputs from files; frames of the run's file are read from its open text.
-void load_side(TrajectoryObject& object, Endpoint& side, std::optional<int> frame) {
+/// Reads what is in files, frames of the run's file through its one open text.
+void load_side(TrajectoryObject& object, Endpoint& side, std::optional<int> frame, const Progress& progress) {
+  const CompareOptions& options = object.computation.options;
+  const bool is_source = &side == &object.source;
   if (frame && object.files != nullptr && !side.molecule) {
-    const Endpoint* const source = &side != &object.source ? &object.source : nullptr;
-    side.molecule = read_frame(object, *frame, side.structure,
-                               source != nullptr && source->molecule ? &*source->molecule : nullptr);
-    if (wants_everything(side))
-      side.everything =
-          Everything{read_frame(object, *frame, {1, true, true},
-                                source != nullptr && source->everything ? &source->everything->molecule : nullptr),
-                     object.files->cell(*frame)};
+    const auto [file, model] = object.files->file_of_frame(*frame);
+    StructureOptions structure = side.structure;
+    structure.model = model;
+    static const Molecule kNone;
+    const Molecule& source = !is_source && object.source.molecule ? *object.source.molecule : kNone;
+    const std::string name = object.files->name(*frame);
+    side.state = load_frame(*file, structure, name, source, object.source.state.preparation.has_value(), options.input,
+                            progress);
+    side.molecule = side.state.molecule;
+    if (is_source && side.map_request)
+      side.state.preparation = charge_molecule(*side.molecule, options.input, {}, side.state.charge_files, progress);
+    if (wants_everything(side)) {
+      side.everything = Everything{file->read({model, true, true}), object.files->cell(*frame)};
+      side.everything->molecule.name = name;
+      if (!is_source && object.source.everything && !object.source.everything->molecule.charges.empty())
+        take_values(side.everything->molecule, object.source.everything->molecule, name);
+    }
   }
-  load(side, object.computation.options.temperature_K);
+  load(side, options, is_source ? nullptr : &object.source, progress);
+  if (options.input.radii == RadiiChoice::kElement) set_surface_radii({&*side.molecule}, RadiiChoice::kElement);
 }
 
 /// Reads the inputs of all rows: the source, and a map of all frames.
@@ -152,11 +157,11 @@ void run_step(TrajectoryObject& object, const Progress& progress) {
   TrajectoryRun& run = *object.run;
   if (object.engine == nullptr) object.engine = engine_for(object.computation);
   // A failure of the common source ends the run, even with -on-error skip.
-  if (!object.against_previous) load_side(object, object.source, std::nullopt);
+  if (!object.against_previous) load_side(object, object.source, std::nullopt, progress);
   const auto read = [&] {
     const TrajectoryStep& step = run.next();
-    if (object.against_previous) load_side(object, object.source, step.previous);
-    load_side(object, object.target, step.frame);
+    if (object.against_previous) load_side(object, object.source, step.previous, progress);
+    load_side(object, object.target, step.frame, progress);
     return StepInput{input_of(object.source), input_of(object.target), common_inputs(object)};
   };
   if (const SeriesRow* const row = run.step(*object.engine, read, progress)) object.row = *row;

@@ -27,4 +27,16 @@ struct AtomPairing {
   std::vector<std::pair<std::string, std::string>> exchanged_chains{};
 };
 
+/// A chain of the source and the chain of the target that most of its residues pair with.
+struct ComparedChains {
+  std::string source, target;  ///< chain names, empty where the file has none
+  std::size_t n_residues = 0;  ///< pairs of residues
+};
+
+/// Two paired residues of one kind in different protonation states, or a chain's end in one molecule only.
+struct ProtonationDifference {
+  std::size_t source = 0, target = 0;      ///< residues
+  std::string source_state, target_state;  ///< "ASP", "ASH"; "N-terminus", "C-terminus" or "within the chain"
+};
+
 }  // namespace espdiff

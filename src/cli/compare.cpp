@@ -11,8 +11,13 @@
 #include "io/atomic_file.h"
 #include "io/check_outputs.h"
 #include "io/structure_file.h"
+#include "prepare/load_state.h"
+#include "prepare/preparation.h"
+#include "prepare/region.h"
+#include "prepare/surface_radii.h"
 #include "report/provenance.h"
 #include "report/residue_values.h"
+#include "report/state_report.h"
 #include "report/write_compare.h"
 
 namespace espdiff::cli {
@@ -55,13 +60,14 @@ void add_input_options(CLI::App& p, Arguments& a) {
 
 /// One of the two states.
 struct Side {
-  std::string role, path;
-  std::unique_ptr<StructureFile> file;  // until all is read of it
-  Molecule molecule;
+  std::string role;
+  LoadedState state;
   std::optional<Grid> map;
   std::optional<ComputedMap> computed;
 
-  CompareInput input() const { return {&molecule, map ? &*map : nullptr, computed ? computed->maker() : MapMaker()}; }
+  CompareInput input() const {
+    return {&state.molecule, map ? &*map : nullptr, computed ? computed->maker() : MapMaker(), {}};
+  }
 };
 
 StructureOptions structure_options(const Arguments& a, const std::string& role) {
@@ -70,12 +76,18 @@ StructureOptions structure_options(const Arguments& a, const std::string& role) 
   return options;
 }
 
-Side read_side(const Arguments& a, const std::string& role) {
-  Side side;
-  side.role = role;
-  side.path = role == "source" ? a.source : a.target;
-  side.file = std::make_unique<StructureFile>(side.path);
-  side.molecule = side.file->read(structure_options(a, role));
+Side read_side(const Arguments& a, const std::string& role, const InputOptions& options, const Molecule* source,
+               Provenance& provenance, const Progress& progress) {
+  const bool is_source = role == "source";
+  const std::string& path = is_source ? a.source : a.target;
+  const StructureFile file(path);
+  StateRequest request{structure_options(a, role), is_source ? StateRole::kSource : StateRole::kTarget};
+  request.source = source;
+  Side side{role, load_for(a.maps, !has_given_maps(a.maps), file, request, options, progress), {}, {}};
+  const auto inputs = state_inputs(role, {role, path, file.sha256(), nullptr, request.structure}, side.state);
+  provenance.inputs.insert(provenance.inputs.end(), inputs.begin(), inputs.end());
+  if (side.state.preparation)
+    provenance.preparations.emplace_back(role, std::make_shared<Preparation>(*side.state.preparation));
   return side;
 }
 
@@ -86,20 +98,25 @@ std::string add_maps(const Arguments& a, Side& source, Side& target, double temp
     for (Side* side : {&source, &target}) side->map = given_map(a.maps, side->role, inputs);
     return {};
   }
-  std::vector<ChargedFile> files;
-  std::vector<PotentialFacts> facts;
-  for (const Side* side : {&source, &target}) {
-    files.push_back(a.maps.potential == "none" ? ChargedFile()
-                                               : read_charged(*side->file, structure_options(a, side->role).model));
-    facts.push_back(potential_facts(files.back().everything, files.back().cell));
-  }
-  const PotentialPlan plan(a.maps, facts, temperature_K);
+  const PotentialPlan plan(a.maps, {facts_of(source.state), facts_of(target.state)}, temperature_K);
   for (Side* side : {&source, &target}) {
     if (!plan.computes()) continue;
-    side->computed = plan.map_of(side->molecule, files[side == &source ? 0 : 1]);
+    side->computed = plan.map_of(side->state);
     inputs.push_back(computed_input(side->role + "_map", *side->computed));
   }
   return plan.because();
+}
+
+/// The structures that are written beside the results. An output that would replace an input is found before the work.
+std::vector<KeptFile> kept_structures(const Arguments& a, const Side& source, const Side& target) {
+  std::vector<KeptFile> kept;
+  for (const Side* side : {&source, &target}) {
+    for (KeptFile& file : kept_structure(side->role, side->state)) {
+      check_outputs({a.source, a.target}, {a.output + file.ending});
+      kept.push_back(std::move(file));
+    }
+  }
+  return kept;
 }
 
 int run(const Arguments& a, const Context& context) {
@@ -114,30 +131,36 @@ int run(const Arguments& a, const Context& context) {
     throw InputError("--residue-quantity needs --residue-pdb FILE");
 
   context.progress->report("read", 0.0);
-  Side source = read_side(a, "source"), target = read_side(a, "target");
   Provenance provenance;
   provenance.command_line = context.command_line;
-  for (const Side* side : {&source, &target})
-    provenance.inputs.push_back(
-        {side->role, side->path, side->file->sha256(), nullptr, structure_options(a, side->role)});
+  Side source = read_side(a, "source", options.input, nullptr, provenance, *context.progress);
+  Side target = read_side(a, "target", options.input, &source.state.molecule, provenance, *context.progress);
+  check_left_out(options.input, {&source.state, &target.state});
   const std::string because = add_maps(a, source, target, options.temperature_K, provenance.inputs);
-  for (Side* side : {&source, &target}) side->file.reset();  // its text is no longer needed
+  const std::vector<KeptFile> kept = kept_structures(a, source, target);
+  const std::string radii_note =
+      set_surface_radii({&source.state.molecule, &target.state.molecule}, options.input.radii);
+  CompareInput source_input = source.input();
+  source_input.region = region_residues(source.state.molecule, source.state.whole, target.state.molecule,
+                                        target.state.whole, options.input);
   const std::unique_ptr<Engine> engine = make_engine(a.device);
   provenance.device = engine->back_end();
   provenance.device_description = engine->description();
   provenance.threads = engine->n_threads();
-  CompareResult result = compare(*engine, source.input(), target.input(), options, *context.progress);
+  CompareResult result = compare(*engine, source_input, target.input(), options, *context.progress);
+  note_states(result, source.state, target.state, radii_note);
   if (!result.has_potential) result.shapes_because = because;
   context.progress->report("write", 0.0);
+  const Molecule &source_molecule = source.state.molecule, &target_molecule = target.state.molecule;
   std::unique_ptr<AtomicFile> pdb;
   if (!a.residue_pdb.empty()) {
     pdb = std::make_unique<AtomicFile>(a.residue_pdb);
     const std::string usual = result.has_potential ? "mean_abs_difference" : "mean_displacement_A";
-    write_residue_pdb(*pdb, source.molecule, result, a.residue_quantity.empty() ? usual : a.residue_quantity);
+    write_residue_pdb(*pdb, source_molecule, result, a.residue_quantity.empty() ? usual : a.residue_quantity);
   }
-  write_compare(a.output, source.molecule, target.molecule, result, options, provenance, pdb.get());
+  write_compare(a.output, source_molecule, target_molecule, result, options, provenance, kept, pdb.get());
   context.progress->report("write", 1.0);
-  if (!a.quiet) print_table(std::cout, source.molecule, target.molecule, result, spelled_option);
+  if (!a.quiet) print_table(std::cout, source_molecule, target_molecule, result, spelled_option);
   return 0;
 }
 
@@ -158,7 +181,7 @@ Verb add_compare(CLI::App& app) {
       "Exit status: 0 done, 1 could not compute, 2 wrong usage or input.");
   add_input_options(*parser, *arguments);
   add_structure_options(*parser, arguments->structure);
-  add_settings(*parser, arguments->settings, false);
+  add_settings(*parser, arguments->settings, SettingsFor::kPair);
   add_device_options(*parser, arguments->device);
   parser->add_flag("-q,--quiet", arguments->quiet, "Print no table");
   return {parser, [arguments](const Context& context) { return run(*arguments, context); }};

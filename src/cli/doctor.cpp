@@ -1,10 +1,7 @@
 // doctor.cpp: `espdiff doctor`: the parts of this build and machine, and how to get missing ones.
-#include <unistd.h>
-
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -12,6 +9,8 @@
 #include "cli/spelling.h"
 #include "cli/verbs.h"
 #include "engine/select_engine.h"
+#include "io/run_program.h"
+#include "prepare/pdb2pqr.h"
 #if defined(ESPDIFF_HAVE_VTK)
 #include "view/display.h"
 #endif
@@ -29,17 +28,6 @@ std::string vmd_module() {
   const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
   const auto module = program.parent_path().parent_path() / "vmd" / "molfile" / "espdiffplugin.so";
   return std::filesystem::exists(module, ignored) ? module.string() : std::string();
-}
-
-/// The program of that name on PATH; empty if there is none.
-std::string on_path(const std::string& name) {
-  const char* const path = std::getenv("PATH");
-  std::istringstream folders(path != nullptr ? path : "");
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    const std::string program = folder + "/" + name;
-    if (!folder.empty() && access(program.c_str(), X_OK) == 0) return program;
-  }
-  return {};
 }
 
 int run() {
@@ -71,16 +59,20 @@ int run() {
 #else
   line("render", false, "VTK 9 was not found when this was built (Debian: libvtk9-dev)");
 #endif
-  const std::string gnuplot = on_path("gnuplot");
+  const std::string gnuplot = find_program("gnuplot");
   line("plot", !gnuplot.empty(),
        !gnuplot.empty() ? gnuplot : "no program `gnuplot` on PATH, which draws plots (Debian: gnuplot-nox)");
+  const std::string pdb2pqr = find_pdb2pqr();
+  line("prepare", !pdb2pqr.empty(),
+       !pdb2pqr.empty() ? pdb2pqr
+                        : std::string("no program `pdb2pqr30` on PATH, which assigns charges; ") + kPdb2pqrRemedy);
   const std::string module = vmd_module();
   line("vmd module", !module.empty(),
        !module.empty()
            ? module + "; scripts/install-vmd installs it for VMD"
            : "not built beside this program: Tcl 8.6 was not found when this was built (Debian: tcl8.6-dev), "
              "or it is installed elsewhere; `espdiff doctor` in VMD has details");
-  const std::string vmd = on_path("vmd");
+  const std::string vmd = find_program("vmd");
   line("vmd", !vmd.empty(), !vmd.empty() ? vmd : "no program `vmd` on PATH; only the VMD module needs it");
   return 0;
 }

@@ -71,8 +71,8 @@ int run(int argc, char** argv) {
   std::vector<espdiff::cli::Verb> verbs = {
       espdiff::cli::add_compare(app),   espdiff::cli::add_trajectory(app), espdiff::cli::add_matrix(app),
       espdiff::cli::add_merge(app),     espdiff::cli::add_plot(app),       espdiff::cli::add_surface(app),
-      espdiff::cli::add_potential(app), espdiff::cli::add_render(app),     espdiff::cli::add_view(app),
-      espdiff::cli::add_verify(app),    espdiff::cli::add_doctor(app)};
+      espdiff::cli::add_potential(app), espdiff::cli::add_prepare(app),    espdiff::cli::add_render(app),
+      espdiff::cli::add_view(app),      espdiff::cli::add_verify(app),     espdiff::cli::add_doctor(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -85,8 +85,8 @@ int run(int argc, char** argv) {
     if (verb.parser->parsed()) return run_verb(verb, joined(argc, argv));
   }
   std::fputs(
-      "espdiff: a subcommand is missing: compare, trajectory, matrix, merge, plot, surface, potential, render, "
-      "view or doctor\nTry 'espdiff --help'.\n",
+      "espdiff: a subcommand is missing: compare, trajectory, matrix, merge, plot, surface, potential, prepare, "
+      "render, view or doctor\nTry 'espdiff --help'.\n",
       stderr);
   return 2;
 }

@@ -3,9 +3,11 @@
 
 #include <utility>
 
+#include "base/error.h"
 #include "io/structure_file.h"
 #include "io/write_csv.h"
 #include "potential/potential.h"
+#include "prepare/pdb2pqr.h"
 
 namespace espdiff::cli {
 namespace {
@@ -66,14 +68,32 @@ std::optional<Grid> given_map(const MapArguments& a, const std::string& role, st
   return std::move(map.grid);
 }
 
-ChargedFile read_charged(const StructureFile& file, int model) {
-  return {file.read({model, true, true}), file.unit_cells().at(static_cast<std::size_t>(model - 1))};
+LoadedState load_for(const ComputedMapArguments& a, bool wants_charges, const StructureFile& file, StateRequest request,
+                     const InputOptions& options, const Progress& progress) {
+  request.wants_charges = wants_charges && a.potential != "none";
+  const bool is_auto = a.potential == "auto";
+  request.may_prepare = !is_auto || !find_pdb2pqr().empty();
+  try {
+    return load_state(file, request, options, progress);
+  } catch (const InputError& error) {
+    if (!is_auto || !request.wants_charges) throw;
+    // Was it the preparation?
+    request.wants_charges = false;
+    load_state(file, request, options, progress);
+    throw InputError(error.message() + "; " + option("potential", "none") + " compares shapes alone");
+  }
+}
+
+PotentialFacts facts_of(const LoadedState& state) {
+  return potential_facts(state.everything.size() > 0 ? state.everything : state.molecule, state.cell);
 }
 
 PotentialPlan::PotentialPlan(const ComputedMapArguments& a, const std::vector<PotentialFacts>& facts,
                              double temperature_K) {
   const PotentialChoice choice = choose_potential(a.potential, a.cell, facts);
   because_ = choice.because;
+  if (!choice.method && !because_.empty() && find_pdb2pqr().empty())
+    because_ += std::string(", and PDB2PQR, which assigns some, is not there; ") + kPdb2pqrRemedy;
   own_cell_ = choice.method == PotentialMethod::kPme && choice.own_cell;
   const bool usual_cell = choose_potential(a.potential, "auto", facts).own_cell;
   if (choice.method == PotentialMethod::kPme && choice.own_cell != usual_cell)
@@ -93,13 +113,13 @@ std::string PotentialPlan::in_words() const {
   return potential_in_words(*options_) + unusual_cell_;
 }
 
-ComputedMap PotentialPlan::map_of(const Molecule& molecule, const ChargedFile& all) const {
-  if (!own_cell_) return {molecule, {std::nullopt, molecule.positions, false}, *options_};
-  if (!all.cell)
-    throw InputError(molecule.name +
+ComputedMap PotentialPlan::map_of(const LoadedState& state) const {
+  if (!own_cell_) return {state.molecule, {std::nullopt, state.molecule.positions, false}, *options_};
+  if (!state.cell)
+    throw InputError(state.molecule.name +
                      ": there is no cell (a CRYST1 record with edges above 1 A) before the atoms; add one, or take "
                      "--pme-cell box");
-  return {all.everything, {all.cell, {}, false}, *options_};
+  return {state.everything.size() > 0 ? state.everything : state.molecule, {state.cell, {}, false}, *options_};
 }
 
 }  // namespace espdiff::cli

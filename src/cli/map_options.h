@@ -10,6 +10,7 @@
 #include "io/structure_file.h"
 #include "potential/choose_potential.h"
 #include "potential/computed_map.h"
+#include "prepare/load_state.h"
 #include "report/provenance.h"
 
 namespace espdiff {
@@ -37,13 +38,14 @@ void check_map_options(const MapArguments& arguments);
 /// The file's map of a side, "source" or "target"; nothing where none was given. Adds to `inputs`.
 std::optional<Grid> given_map(const MapArguments& arguments, const std::string& role, std::vector<InputFile>& inputs);
 
-/// A file's molecule for a potential: with its water and ions, and its cell.
-struct ChargedFile {
-  Molecule everything;
-  std::optional<UnitCell> cell;
-};
-/// @throws as StructureFile::read(), unit_cells()
-ChargedFile read_charged(const StructureFile& file, int model);
+/// Loads a state for the verbs that compare: with charges where a potential is asked for or, for auto, where charges
+/// can be had.
+/// @param wants_charges false where maps are given
+/// @throws as load_state(); for auto the message adds how shapes alone are compared
+LoadedState load_for(const ComputedMapArguments& arguments, bool wants_charges, const StructureFile& file,
+                     StateRequest request, const InputOptions& options, const Progress& progress);
+/// What a state brings for a potential.
+PotentialFacts facts_of(const LoadedState& state);
 
 /// How the potentials of all sides are computed; nothing where none are.
 class PotentialPlan {
@@ -60,10 +62,9 @@ class PotentialPlan {
   /// All that the maps depend on besides the molecules; empty where none are computed.
   std::string in_words() const;
 
-  /// The map of a molecule with a surface.
-  /// @param everything with water and ions, and its cell; read where takes_everything()
+  /// The map of a state; where takes_everything() of all its atoms, in its cell.
   /// @throws InputError (no cell), and as ComputedMap
-  ComputedMap map_of(const Molecule& molecule, const ChargedFile& everything) const;
+  ComputedMap map_of(const LoadedState& state) const;
 
  private:
   std::optional<PotentialOptions> options_;

@@ -13,6 +13,9 @@
 #include "io/structure_file.h"
 #include "matrix/matrix_run.h"
 #include "matrix/write_matrix.h"
+#include "prepare/load_state.h"
+#include "prepare/surface_radii.h"
+#include "report/state_report.h"
 
 namespace espdiff::cli {
 namespace {
@@ -46,45 +49,53 @@ bool has_maps(const std::vector<VariantFiles>& files) {
   return std::any_of(files.begin(), files.end(), [](const VariantFiles& f) { return !f.map.empty(); });
 }
 
-/// The potential of all variants, chosen for all of them together.
-PotentialPlan plan_for(const Arguments& a, const std::vector<VariantFiles>& files, double temperature_K) {
-  if (has_maps(files) || a.potential.potential == "none") return {};
-  std::vector<PotentialFacts> facts;
-  std::unique_ptr<StructureFile> structure;
-  std::string open_path;
-  for (const VariantFiles& file : files) {
-    if (structure == nullptr || open_path != file.structure) {
-      structure = std::make_unique<StructureFile>(file.structure);
-      open_path = file.structure;
-    }
-    const ChargedFile all = read_charged(*structure, file.model);
-    facts.push_back(potential_facts(all.everything, all.cell));
-  }
-  return {a.potential, facts, temperature_K};
-}
-
-/// Each molecule is read, and its potential computed, once.
-std::vector<Variant> read_variants(const Arguments& a, const std::vector<VariantFiles>& files,
-                                   const PotentialPlan& plan, double temperature_K, const Progress& progress) {
+/// The molecules of all variants, and their potentials, chosen for all of them together.
+struct States {
   std::vector<Variant> variants;
+  PotentialPlan plan;
+};
+
+/// Each structure is read once.
+States read_states(const Arguments& a, const std::vector<VariantFiles>& files, const CompareOptions& options,
+                   const Progress& progress) {
+  States all;
+  std::vector<LoadedState> states;
   std::unique_ptr<StructureFile> structure;  // several models of one follow each other
   std::string open_path;
+  const bool wants_charges = !has_maps(files);
   for (const VariantFiles& file : files) {
-    const double fraction = static_cast<double>(variants.size()) / static_cast<double>(files.size());
+    const double fraction = static_cast<double>(states.size()) / static_cast<double>(files.size());
     progress.report("read " + file.label, fraction);
     if (structure == nullptr || open_path != file.structure) {
       structure = std::make_unique<StructureFile>(file.structure);
       open_path = file.structure;
     }
-    variants.push_back(read_variant(file, *structure, a.structure, a.map_array));
-    if (!plan.computes()) continue;
-    const ChargedFile all = plan.takes_everything() ? read_charged(*structure, file.model) : ChargedFile();
-    const ComputedMap map = plan.map_of(variants.back().molecule, all);
-    variants.back().make_map = map.maker();
-    variants.back().inputs.push_back(computed_input("map", map));
+    StateRequest request{a.structure};
+    request.structure.model = file.model;
+    request.source = states.empty() ? nullptr : &states.front().molecule;
+    states.push_back(load_for(a.potential, wants_charges, *structure, request, options.input, progress));
+    states.back().whole = {};
+    all.variants.push_back(read_variant(file, *structure, states.back().molecule, a.map_array));
+    const auto inputs = state_inputs("structure", all.variants.back().inputs.front(), states.back());
+    all.variants.back().inputs.insert(all.variants.back().inputs.end(), inputs.begin() + 1, inputs.end());
   }
-  unite_map_units(variants, temperature_K);
-  return variants;
+  if (wants_charges && a.potential.potential != "none") {
+    std::vector<PotentialFacts> facts;
+    for (const LoadedState& state : states) facts.push_back(facts_of(state));
+    all.plan = PotentialPlan(a.potential, facts, options.temperature_K);
+  }
+  std::vector<Molecule*> molecules;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    Variant& variant = all.variants[i];
+    molecules.push_back(&variant.molecule);
+    if (!all.plan.computes()) continue;
+    const ComputedMap map = all.plan.map_of(states[i]);
+    variant.make_map = map.maker();
+    variant.inputs.push_back(computed_input("map", map));
+  }
+  set_surface_radii(molecules, options.input.radii);
+  unite_map_units(all.variants, options.temperature_K);
+  return all;
 }
 
 void print_report(const Arguments& a, const Engine& engine, const MatrixReport& report) {
@@ -114,11 +125,10 @@ int run(Arguments& a, const Context& context) {
   std::vector<std::string> inputs = {a.list, a.groups};
   for (const VariantFiles& file : files) inputs.insert(inputs.end(), {file.structure, file.map});
   check_outputs(inputs, output_paths(a.run));
-  const PotentialPlan plan = plan_for(a, files, options.temperature_K);
-  a.run.potential = plan.computes() ? plan.in_words() : "maps";
   const std::unique_ptr<Engine> engine = make_engine(a.device);
-  const std::vector<Variant> variants = read_variants(a, files, plan, options.temperature_K, *context.progress);
-  const MatrixReport report = run_matrix(*engine, variants, options, a.run, *context.progress);
+  const States states = read_states(a, files, options, *context.progress);
+  a.run.potential = states.plan.computes() ? states.plan.in_words() : "maps";
+  const MatrixReport report = run_matrix(*engine, states.variants, options, a.run, *context.progress);
   context.progress->report("write", 1.0);
   if (!a.quiet) print_report(a, *engine, report);
   return 0;
@@ -164,7 +174,7 @@ Verb add_matrix(CLI::App& app) {
   add_computed_map_options(*parser, a->potential);
   parser->add_option("--map-array", a->map_array, "Array of VTI maps with several")->group("Potentials");
   add_run_options(*parser, *a);
-  add_settings(*parser, a->settings, false);
+  add_settings(*parser, a->settings, SettingsFor::kVariants);
   add_device_options(*parser, a->device);
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
   return {parser, [a](const Context& context) { return run(*a, context); }};

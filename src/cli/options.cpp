@@ -91,11 +91,27 @@ void refuse_earlier_names(CLI::App& parser) {
 
 }  // namespace
 
-void add_settings(CLI::App& parser, GivenSettings& given, bool of_surface_only) {
-  if (!of_surface_only) refuse_earlier_names(parser);
+namespace {
+
+bool has_setting(const Setting& setting, SettingsFor what) {
+  const bool of_side = setting.name.rfind("source-", 0) == 0 || setting.name.rfind("target-", 0) == 0;
+  switch (what) {
+    case SettingsFor::kPair: return true;
+    case SettingsFor::kSeries: return setting.group != kRegionGroup;
+    case SettingsFor::kVariants: return !of_side && setting.group != kRegionGroup;
+    case SettingsFor::kSurface: return setting.of_surface;
+    case SettingsFor::kPreparation: break;
+  }
+  return is_of_preparation(setting);
+}
+
+}  // namespace
+
+void add_settings(CLI::App& parser, GivenSettings& given, SettingsFor what) {
+  if (what != SettingsFor::kSurface && what != SettingsFor::kPreparation) refuse_earlier_names(parser);
   const CompareOptions defaults;
   for (const Setting& setting : settings()) {
-    if (of_surface_only && !setting.of_surface) continue;
+    if (!has_setting(setting, what)) continue;
     const std::string name = setting.name, value = setting.get(defaults);
     if (setting.kind == SettingKind::kBoolean) {
       const bool on = value == "1";
@@ -116,13 +132,20 @@ void add_settings(CLI::App& parser, GivenSettings& given, bool of_surface_only) 
       }
       return std::string();
     };
-    parser
-        .add_option_function<std::string>(
-            "--" + name, [&given, name](const std::string& text) { given.emplace_back(name, text); }, setting.help)
-        ->check(CLI::Validator(check, ""))
-        ->type_name(setting.kind == SettingKind::kChoice ? joined(setting.choices, "|")
-                    : setting.kind == SettingKind::kText ? "TEXT"
-                                                         : "NUMBER")
+    const std::string type = setting.is_file ? "FILE" : setting.kind == SettingKind::kText ? "TEXT" : "NUMBER";
+    CLI::Option* const added =
+        setting.is_list ? parser.add_option_function<std::vector<std::string>>(
+                              "--" + name,
+                              [&given, name](const std::vector<std::string>& texts) {
+                                for (const std::string& text : texts) given.emplace_back(name, text);
+                              },
+                              setting.help)
+                        : parser.add_option_function<std::string>(
+                              "--" + name, [&given, name](const std::string& text) { given.emplace_back(name, text); },
+                              setting.help);
+    if (setting.is_list) added->expected(1)->take_all();
+    added->check(CLI::Validator(check, ""))
+        ->type_name(setting.kind == SettingKind::kChoice ? joined(setting.choices, "|") : type)
         ->default_str(value)
         ->group(setting.group);
   }

@@ -33,9 +33,16 @@ std::unique_ptr<Engine> make_engine(const DeviceArguments& arguments);
 void add_structure_options(CLI::App& parser, StructureOptions& options);
 /// The given settings of a comparison, by name, for make_options().
 using GivenSettings = std::vector<std::pair<std::string, std::string>>;
-/// Adds every setting as an option `--name`; a boolean one as a flag, `--no-name` if it is on by default.
-/// @param of_surface_only omits settings that only a mapping uses
-void add_settings(CLI::App& parser, GivenSettings& given, bool of_surface_only);
+/// What a verb does decides which settings it has.
+enum class SettingsFor {
+  kPair,        ///< all
+  kSeries,      ///< all but the region
+  kVariants,    ///< of many structures alike: none of one side, no region
+  kSurface,     ///< those that one molecule's surface depends on
+  kPreparation  ///< which atoms, and where charges come from
+};
+/// Adds settings as options `--name`; a boolean one as a flag, `--no-name` if it is on by default.
+void add_settings(CLI::App& parser, GivenSettings& given, SettingsFor what);
 
 /// Adds every option of computed potentials, for make_potential_options().
 /// @param of_maps by the names of `espdiff potential`: `--grid` as PMEPot has it, not `--pme-grid`

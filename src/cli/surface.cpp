@@ -87,7 +87,7 @@ Verb add_surface(CLI::App& app) {
   parser->add_flag("--regularize", a->regularize, "Regularize the triangles");
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
   add_structure_options(*parser, a->structure);
-  add_settings(*parser, a->settings, true);
+  add_settings(*parser, a->settings, SettingsFor::kSurface);
   add_device_options(*parser, a->device);
   return {parser, [a](const Context& context) { return run(*a, context); }};
 }

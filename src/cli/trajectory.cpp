@@ -14,6 +14,10 @@
 #include "io/check_outputs.h"
 #include "io/structure_file.h"
 #include "io/write_csv.h"
+#include "prepare/load_state.h"
+#include "prepare/surface_radii.h"
+#include "prepare/take_charges.h"
+#include "report/state_report.h"
 #include "trajectory/frame_files.h"
 #include "trajectory/frame_range.h"
 #include "trajectory/series_head.h"
@@ -89,17 +93,21 @@ SeriesHead head_of(const Arguments& a, const TrajectoryPlan& plan, const std::st
 /// Source and frames, and how their molecules become a comparison's inputs.
 class Sides {
  public:
-  Sides(const Arguments& a, double temperature_K) : a_(a), frames_(a.targets) {
+  Sides(const Arguments& a, const CompareOptions& options, const Progress& progress)
+      : a_(a), options_(options.input), progress_(progress), frames_(a.targets) {
     const StructureFile file(a.source);
-    source_ = file.read(with_model(a.structure));
-    inputs_ = {{"source", a.source, file.sha256()}};
+    StateRequest request{with_model(a.structure), StateRole::kSource};
+    source_ = load_for(a.maps, !has_given_maps(a.maps), file, request, options_, progress);
+    check_left_out(options_, {&source_});
+    inputs_ = state_inputs("source", {"source", a.source, file.sha256()}, source_);
+    surface_ = source_.molecule;
+    set_surface_radii({&surface_}, options_.radii);
     source_map_ = given_map(a.maps, "source", inputs_);
     target_map_ = given_map(a.maps, "target", inputs_);
     if (has_given_maps(a.maps) || a.maps.potential == "none") return;
-    charges_ = read_charged(file, a.source_model);
-    plan_ = PotentialPlan(a.maps, {potential_facts(charges_.everything, charges_.cell)}, temperature_K);
+    plan_ = PotentialPlan(a.maps, {facts_of(source_)}, options.temperature_K);
     if (!plan_.computes()) return;
-    computed_ = plan_.map_of(source_, charges_);
+    computed_ = plan_.map_of(source_);
     inputs_.push_back(computed_input("source_map", *computed_));
   }
 
@@ -107,17 +115,15 @@ class Sides {
   const std::vector<InputFile>& inputs() const { return inputs_; }
   std::string potential() const { return plan_.in_words(); }
   CompareInput source() const {
-    return {&source_, source_map_ ? &*source_map_ : nullptr, computed_ ? computed_->maker() : MapMaker()};
+    return {&surface_, source_map_ ? &*source_map_ : nullptr, computed_ ? computed_->maker() : MapMaker(), {}};
   }
 
   /// A frame, which stays until the next one is asked for.
   CompareInput frame(int number) {
-    target_ = read(number, a_.structure, source_);
-    CompareInput input{&target_, target_map_ ? &*target_map_ : nullptr, nullptr};
-    if (!plan_.computes()) return input;
-    ChargedFile all;
-    if (plan_.takes_everything()) all = {read(number, {1, true, true}, charges_.everything), frames_.cell(number)};
-    input.make_map = plan_.map_of(target_, all).maker();
+    target_ = read(number);
+    CompareInput input{&target_.molecule, target_map_ ? &*target_map_ : nullptr, nullptr, {}};
+    if (plan_.computes()) input.make_map = plan_.map_of(target_).maker();
+    set_surface_radii({&target_.molecule}, options_.radii);
     return input;
   }
 
@@ -126,18 +132,29 @@ class Sides {
     options.model = a_.source_model;
     return options;
   }
-  Molecule read(int number, const StructureOptions& options, const Molecule& of) {
-    Molecule molecule = frames_.read(number, options);
-    if (!of.charges.empty()) take_values(molecule, of, frames_.name(number));
-    molecule.name = frames_.name(number);
-    return molecule;
+
+  LoadedState read(int number) {
+    const auto [file, model] = frames_.file_of_frame(number);
+    const std::string name = frames_.name(number);
+    StructureOptions structure = a_.structure;
+    structure.model = model;
+    LoadedState state =
+        load_frame(*file, structure, name, source_.molecule, source_.preparation.has_value(), options_, progress_);
+    if (plan_.takes_everything() && state.everything.size() == 0) {
+      state.everything = file->read({model, true, true});
+      if (!source_.everything.charges.empty()) take_values(state.everything, source_.everything, name);
+      state.everything.name = name;
+    }
+    return state;
   }
 
   const Arguments& a_;
+  const InputOptions& options_;
+  const Progress& progress_;
   FrameFiles frames_;
-  Molecule target_;
-  Molecule source_;      // what has the surface
-  ChargedFile charges_;  // with water and ions
+  LoadedState target_;
+  LoadedState source_;
+  Molecule surface_;  // the source's, with the radii of its surface
   PotentialPlan plan_;
   std::optional<Grid> source_map_, target_map_;
   std::optional<ComputedMap> computed_;
@@ -154,7 +171,7 @@ int run(const Arguments& a, const Context& context) {
   TrajectoryPlan plan;
   plan.options = make_options(a.settings);
   context.progress->report("read", 0.0);
-  Sides sides(a, plan.options.temperature_K);
+  Sides sides(a, plan.options, *context.progress);
   plan.reference = reference_words(a);
   plan.frames = parse_frames(a.frames, {sides.n_frames()});
   plan.start = parse_start(a.start, plan.options);
@@ -204,7 +221,7 @@ Verb add_trajectory(CLI::App& app) {
   add_run_options(*parser, *a);
   add_map_options(*parser, a->maps);
   add_structure_options(*parser, a->structure);
-  add_settings(*parser, a->settings, false);
+  add_settings(*parser, a->settings, SettingsFor::kSeries);
   add_device_options(*parser, a->device);
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
   return {parser, [a](const Context& context) { return run(*a, context); }};

@@ -33,6 +33,7 @@ Verb add_merge(CLI::App& app);
 Verb add_surface(CLI::App& app);
 Verb add_plot(CLI::App& app);
 Verb add_potential(CLI::App& app);
+Verb add_prepare(CLI::App& app);
 Verb add_render(CLI::App& app);
 Verb add_view(CLI::App& app);
 Verb add_verify(CLI::App& app);

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "align/compared_chains.h"
+#include "align/protonation.h"
 #include "align/superpose.h"
 #include "base/error.h"
 #include "base/handles.h"
@@ -24,6 +26,7 @@
 #include "compare/options.h"
 #include "compare/own_potentials.h"
 #include "compare/paired_residues.h"
+#include "compare/region_result.h"
 #include "compare/residue_rows.h"
 #include "compare/result.h"
 #include "compare/round_trip.h"
@@ -227,7 +230,8 @@ struct Series::Steps {
 
   /// Samples both potentials and computes the metrics of their difference, at each distance outside the surfaces.
   void compare_potentials(const CompareInput& target, const GridPtr& target_map, const Mapping& mapping,
-                          const MeshPtr& moved, const AtomsPtr& target_atoms, CompareResult& result) {
+                          const MeshPtr& moved, const AtomsPtr& target_atoms, const std::vector<float>& outside_region,
+                          CompareResult& result) {
     MappedSurface& s = result.surface;
     const std::vector<bool> kept = is_matched(s);
     std::vector<float> excluded(s.corrupt.begin(), s.corrupt.end());
@@ -244,6 +248,9 @@ struct Series::Steps {
       const ScalarsPtr at_source = engine.upload_scalars(of_source), at_target = engine.upload_scalars(of_target);
       at.metrics = engine.compare(moved, mapping.mapped, at_source, at_target, left_out, path_length);
       result.by_offset.push_back(at);
+      if (result.region != nullptr)
+        compare_region(mapping, moved, at_source, at_target, excluded, outside_region, path_length, at.offset_A,
+                       *result.region);
       if (result.by_offset.size() > 1) continue;
       result.metrics = at.metrics;
       result.n_outside_source_map = at.n_outside_source_map;
@@ -261,6 +268,28 @@ struct Series::Steps {
       s.potential_target = std::move(of_target);
       set_unmatched_to_nan(kept, s.potential_target);
     }
+  }
+
+  /// The metrics of the region at one distance.
+  /// @param excluded [triangle] that do not count anywhere
+  void compare_region(const Mapping& mapping, const MeshPtr& moved, const ScalarsPtr& at_source,
+                      const ScalarsPtr& at_target, const std::vector<float>& excluded,
+                      const std::vector<float>& outside, const ScalarsPtr& path_length, double offset_A,
+                      CompareResult& region) {
+    std::vector<float> flags = outside, unmatched = outside;
+    for (std::size_t t = 0; t < flags.size(); ++t) flags[t] = std::max(flags[t], excluded[t]);
+    for (std::size_t t = 0; t < mapping.unmatched.size(); ++t)
+      unmatched[t] = std::max(unmatched[t], mapping.unmatched[t]);
+    OffsetMetrics at;
+    at.offset_A = offset_A;
+    at.metrics = engine.compare(moved, mapping.mapped, at_source, at_target, engine.upload_scalars(flags), path_length);
+    region.has_potential = true;
+    region.unit = unit;
+    region.by_offset.push_back(at);
+    if (region.by_offset.size() > 1) return;
+    region.metrics = at.metrics;
+    region.metrics_all =
+        engine.compare(moved, mapping.mapped, at_source, at_target, engine.upload_scalars(unmatched), path_length);
   }
 
   /// Finds the part of the mapping that is matched on the target's surface; drops unmatched closed cavities.
@@ -338,19 +367,68 @@ struct Series::Steps {
     s.residue = engine.vertex_residues(mapping.source, surface.atoms);
     measure_slip(mapping, target_surface.mesh, paths, kept, result);
     const std::vector<std::int32_t> target_of = paired_residues(*source.molecule, *target.molecule, result.pairing);
-    result.certificate.same_residue_area_fraction =
-        same_residue_share(s, s.residue, engine.vertex_residues(mapping.mapped, target_surface.atoms), target_of);
+    const std::vector<std::int32_t> mapped_residue = engine.vertex_residues(mapping.mapped, target_surface.atoms);
+    result.certificate.same_residue_area_fraction = same_residue_share(s, s.residue, mapped_residue, target_of);
+    Region region;
+    if (!source.region.empty()) {
+      region = make_region(source.region, s, s.residue, target_of, target.molecule->residues.size());
+      result.region =
+          region_result(engine, region, mapping, target_surface, static_cast<float>(options.surface.isovalue),
+                        s.residue, mapped_residue, target_of, result, *source.molecule, *target.molecule);
+    }
     result.uncovered =
         uncovered_surface(engine.download(target_surface.mesh),
                           engine.download(result.certificate.target_to_mapped.beyond), inverse(frame.from_target));
     if (target_map != nullptr) {
-      compare_potentials(target, target_map, mapping, moved, target_surface.atoms, result);
+      compare_potentials(target, target_map, mapping, moved, target_surface.atoms, region.outside, result);
       result.certificate.outside_maps = share_outside(s, matched_areas(s));
     }
     result.residues = residue_rows(s, source.molecule->residues.size(), result.has_potential);
     check_against_own(target, target_map, mapping, target_surface, target_of, result);
+    describe_chains(target, target_of, result);
     judge(result, *source.molecule);
+    if (result.region != nullptr) finish_region(region, result);
     clock.lap("metrics");
+  }
+
+  /// Which chains and which protonation states were compared.
+  void describe_chains(const CompareInput& target, const std::vector<std::int32_t>& target_of,
+                       CompareResult& result) const {
+    const Molecule &a = *source.molecule, &b = *target.molecule;
+    result.chains = compared_chains(a, b, target_of);
+    result.source_copies = repeated_chains(a);
+    result.target_copies = repeated_chains(b);
+    if (a.charges.empty() || b.charges.empty()) return;
+    result.protonation = protonation_differences(a, b, target_of);
+    if (!result.protonation.empty()) result.warnings.push_back({protonation_warning(result.protonation, a), false});
+  }
+
+  /// The region's residues, vertices outside a map, and verdict.
+  void finish_region(const Region& region, CompareResult& result) const {
+    CompareResult& part = *result.region;
+    for (const Warning& warning : result.warnings) {
+      if (warning.refuses) part.warnings.push_back(warning);
+    }
+    for (const ResidueRow& row : result.residues) {
+      if (region.source[row.residue] != 0) part.residues.push_back(row);
+    }
+    std::vector<bool> in_region(result.surface.positions.size(), false);
+    for (std::size_t t = 0; t < region.outside.size(); ++t) {
+      const bool counts =
+          region.outside[t] == 0 && (result.surface.unmatched.empty() || result.surface.unmatched[t] == 0);
+      for (const std::uint32_t v : result.surface.triangles[t]) in_region[v] = in_region[v] || counts;
+    }
+    std::size_t n = 0;
+    for (std::size_t v = 0; v < in_region.size(); ++v) {
+      if (!in_region[v]) continue;
+      ++n;
+      if (!result.has_potential || result.n_outside_source_map + result.n_outside_target_map == 0) continue;
+      part.n_outside_source_map += std::isnan(result.surface.potential_source[v]) ? 1 : 0;
+      part.n_outside_target_map += std::isnan(result.surface.potential_target[v]) ? 1 : 0;
+    }
+    const double n_outside = static_cast<double>(std::max(part.n_outside_source_map, part.n_outside_target_map));
+    part.certificate.outside_maps = n > 0 ? n_outside / static_cast<double>(n) : 0;
+    judge(part, *source.molecule);
   }
 
   void check_given_maps(const CompareInput& target, CompareResult& result) const {

@@ -1,7 +1,9 @@
 // input.h: one side of a comparison.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <vector>
 
 #include "base/handles.h"
 #include "base/progress.h"
@@ -24,6 +26,8 @@ struct CompareInput {
   const Molecule* molecule = nullptr;
   const Grid* map = nullptr;
   MapMaker make_map = nullptr;  ///< used instead of `map`
+  /// [residue] of the source: nonzero in the region that results are given for as well; empty for none
+  std::vector<std::uint8_t> region{};
 };
 
 }  // namespace espdiff

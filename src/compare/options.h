@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/input_options.h"
 #include "base/pairing.h"
 #include "engine/deform_stage.h"
 #include "engine/morph_stage.h"
@@ -36,6 +37,7 @@ struct SurfaceOptions {
 /// gains other than 1, the rest shape, the projection onto the exact isosurface, and the mapping's smaller
 /// min_displacement.
 struct CompareOptions {
+  InputOptions input;
   SurfaceOptions surface;
   AlignAtoms align = AlignAtoms::kAll;
   std::string domains = "none";  ///< rigid domains to superpose separately; see check_domains()

@@ -130,6 +130,13 @@ struct CompareResult {
   std::vector<Warning> warnings;
   double rmsd_A = 0;
   AtomPairing pairing;
+  std::vector<ComparedChains> chains;  ///< which were compared with which
+  /// Chains that repeat one sequence, by name.
+  std::vector<std::vector<std::string>> source_copies, target_copies;
+  /// Between charged molecules: residues whose protonation makes a difference by itself.
+  std::vector<ProtonationDifference> protonation;
+  /// Lines of the printed table on where charges and radii came from: label, text.
+  std::vector<std::pair<std::string, std::string>> input_lines;
   std::size_t n_superposed_atoms = 0;
   RigidTransform source_to_target;   ///< the superposition
   std::vector<RigidDomain> domains;  ///< superposed separately; displacements start where their motions end
@@ -154,6 +161,10 @@ struct CompareResult {
   MappedSurface surface;
   UncoveredSurface uncovered;                           ///< of the target
   std::vector<std::pair<std::string, double>> time_ms;  ///< stage, in order; "total" last
+  /// The same numbers, certificate and residues of the region alone, without vertices; null without a region. Its RMSD
+  /// is that of its atoms after the whole superposition. The round trip, slip and the correlation by residue are not
+  /// checked for it alone.
+  std::shared_ptr<CompareResult> region{};
 };
 
 }  // namespace espdiff

@@ -11,6 +11,7 @@
 #include "align/pair_atoms.h"
 #include "align/rigid_domains.h"
 #include "base/error.h"
+#include "compare/input_settings.h"
 #include "compare/options.h"
 
 namespace espdiff {
@@ -263,8 +264,9 @@ Setting offset_setting() {
 }
 
 /// The settings whose key in OUT.json ends with a unit.
-constexpr std::pair<const char*, const char*> kUnits[] = {
-    {"grid-spacing", "A"}, {"max-step", "A"}, {"distance-threshold", "A"}, {"gvf-weight", "A2"}, {"temperature", "K"}};
+constexpr std::pair<const char*, const char*> kUnits[] = {{"grid-spacing", "A"},       {"max-step", "A"},
+                                                          {"distance-threshold", "A"}, {"gvf-weight", "A2"},
+                                                          {"temperature", "K"},        {"region-within", "A"}};
 
 std::vector<Setting> make_settings() {
   std::vector<Setting> all;
@@ -289,6 +291,7 @@ std::vector<Setting> make_settings() {
   };
   domains.get = [](const CompareOptions& o) { return o.domains; };
   all.push_back(domains);
+  add_input_settings(all);
   all.push_back(offset_setting());
   all.push_back(number(
       "temperature", "Potentials", kPositive, [](auto& o) -> auto& { return o.temperature_K; },
@@ -365,6 +368,7 @@ CompareOptions make_options(const std::vector<std::pair<std::string, std::string
   CompareOptions options = thesis ? thesis_options() : CompareOptions{};
   for (const auto& [name, text] : given) find_setting(name).set(options, text);
   refuse_of_other_method(given, options.method);
+  check_input_options(options.input);
   return options;
 }
 

@@ -26,10 +26,20 @@ struct Setting {
   /// The value as a text that set() accepts.
   std::function<std::string(const CompareOptions&)> get;
   std::string unit = "";  ///< "A", "K", "A2": ends the name of its key in OUT.json
+  bool is_list = false;   ///< a text of several values, parted by commas; on the command line it may be repeated
+  bool is_file = false;   ///< the text names files, which are sought from the working folder
 
   /// Its key in OUT.json: "grid_spacing_A".
   std::string key() const;
 };
+
+/// Headings of the settings that say which atoms are compared, and where their charges come from.
+constexpr const char* kStructureGroup = "Structures";
+constexpr const char* kChargeGroup = "Charges";
+constexpr const char* kRegionGroup = "Region";
+
+/// Whether one molecule's preparation depends on a setting: which atoms, and how they get charges.
+bool is_of_preparation(const Setting& setting);
 
 /// All settings, in the order of the manuals.
 const std::vector<Setting>& settings();

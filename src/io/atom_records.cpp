@@ -97,7 +97,14 @@ bool is_number(std::string_view text) {
   return parse_number(text, value);
 }
 
-/// PDB columns 31 to 54 hold three numbers, 55 to 66 two more or blanks, and 67 to 72 nothing.
+/// Occupancy and B factor have two decimals each, at fixed columns.
+bool has_pdb_decimals(std::string_view line) {
+  const std::string_view tail = line.substr(54);
+  return tail.size() >= 12 && tail[3] == '.' && tail[9] == '.';
+}
+
+/// PDB columns 31 to 54 hold three numbers, 55 to 66 two more or blanks, and 67 to 72 nothing, or behind occupancy and
+/// B factor a whole number (an atomic number, as old programs write it).
 bool fits_pdb(std::string_view line) {
   if (line.size() < 54) return false;
   for (std::size_t begin : {30, 38, 46}) {
@@ -107,19 +114,16 @@ bool fits_pdb(std::string_view line) {
     const std::string_view field = begin < line.size() ? trimmed(line.substr(begin, 6)) : std::string_view();
     if (!field.empty() && !is_number(field)) return false;
   }
-  return line.size() < 67 || trimmed(line.substr(66, 6)).empty();
+  if (line.size() < 67) return true;
+  const std::string_view behind = trimmed(line.substr(66, 6));
+  long long number = 0;
+  return behind.empty() || (has_pdb_decimals(line) && parse_integer(behind, number));
 }
 
 /// PQR: at least name, number and five more fields, of which the last two (charge, radius) are numbers.
 bool fits_pqr(std::string_view line) {
   const auto words = split_words(line);
   return words.size() >= 8 && is_number(words[words.size() - 1]) && is_number(words[words.size() - 2]);
-}
-
-/// What a line that fits both formats says for PDB: occupancy and B factor with exactly two decimals at fixed columns.
-bool has_pdb_decimals(std::string_view line) {
-  const std::string_view tail = line.substr(54);
-  return tail.size() >= 12 && tail[3] == '.' && tail[9] == '.';
 }
 
 bool has_pqr_name(const std::string& path) {

@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <gemmi/cif.hpp>    // for read_memory
-#include <gemmi/mmcif.hpp>  // for make_structure
-#include <gemmi/pdb.hpp>    // for read_pdb_from_memory
+#include <gemmi/assembly.hpp>  // for make_assembly
+#include <gemmi/cif.hpp>       // for read_memory
+#include <gemmi/mmcif.hpp>     // for make_structure
+#include <gemmi/pdb.hpp>       // for read_pdb_from_memory
 #include <limits>
 #include <new>
 #include <set>
@@ -25,6 +26,7 @@ namespace espdiff {
 namespace {
 
 struct ChosenAtom {
+  std::size_t copy;  // of an assembly
   const gemmi::Chain* chain;
   const gemmi::Residue* residue;
   const gemmi::Atom* atom;
@@ -64,7 +66,7 @@ char best_location(const gemmi::Residue* begin, const gemmi::Residue* end) {
 }
 
 /// Keeps one atom of each name that has locations, and all atoms of names that have none (but not twice at one place).
-void choose_atoms(const gemmi::Chain& chain, const gemmi::Residue& residue, char best,
+void choose_atoms(std::size_t copy, const gemmi::Chain& chain, const gemmi::Residue& residue, char best,
                   std::vector<ChosenAtom>& chosen) {
   std::unordered_map<std::string, const gemmi::Atom*> of_name;  // the choice, for names with locations
   for (const gemmi::Atom& atom : residue.atoms) {
@@ -84,14 +86,16 @@ void choose_atoms(const gemmi::Chain& chain, const gemmi::Residue& residue, char
     const auto found = of_name.find(atom.name);
     const bool keep = found == of_name.end() ? seen.emplace(atom.name, atom.pos.x, atom.pos.y, atom.pos.z).second
                                              : found->second == &atom;
-    if (keep) chosen.push_back({&chain, &residue, &atom});
+    if (keep) chosen.push_back({copy, &chain, &residue, &atom});
   }
 }
 
 /// One conformation of the model, by serial number, which is file order (gemmi gathers the atoms of a chain's residue).
-std::vector<ChosenAtom> choose_conformation(const gemmi::Model& model) {
+/// The chains of an assembly follow each other instead: their copies share serial numbers.
+std::vector<ChosenAtom> choose_conformation(const gemmi::Model& model, bool is_assembly) {
   std::vector<ChosenAtom> chosen;
   for (const gemmi::Chain& chain : model.chains) {
+    const std::size_t copy = is_assembly ? static_cast<std::size_t>(&chain - model.chains.data()) : 0;
     const gemmi::Residue* const end = chain.residues.data() + chain.residues.size();
     for (const gemmi::Residue* begin = chain.residues.data(); begin != end;) {
       const gemmi::Residue* group_end = begin + 1;
@@ -101,12 +105,13 @@ std::vector<ChosenAtom> choose_conformation(const gemmi::Model& model) {
       for (; begin != group_end; ++begin) {
         const bool has_best = std::any_of(begin->atoms.begin(), begin->atoms.end(),
                                           [&](const gemmi::Atom& atom) { return atom.altloc == best; });
-        if (!only_one || has_best) choose_atoms(chain, *begin, best, chosen);
+        if (!only_one || has_best) choose_atoms(copy, chain, *begin, best, chosen);
       }
     }
   }
-  std::stable_sort(chosen.begin(), chosen.end(),
-                   [](const ChosenAtom& a, const ChosenAtom& b) { return a.atom->serial < b.atom->serial; });
+  std::stable_sort(chosen.begin(), chosen.end(), [](const ChosenAtom& a, const ChosenAtom& b) {
+    return std::tie(a.copy, a.atom->serial) < std::tie(b.copy, b.atom->serial);
+  });
   return chosen;
 }
 
@@ -144,16 +149,42 @@ auto call_gemmi(const std::string& path, const char* problem, Call call) -> decl
   }
 }
 
+/// Replaces the model by a biological assembly. The first copy of a chain keeps its name, others get free letters.
+void build_assembly(const std::string& path, const gemmi::Structure& structure, const std::string& name,
+                    gemmi::Model& model) {
+  const auto found = std::find_if(structure.assemblies.begin(), structure.assemblies.end(),
+                                  [&](const gemmi::Assembly& assembly) { return assembly.name == name; });
+  if (found == structure.assemblies.end()) {
+    std::string names;
+    for (const gemmi::Assembly& assembly : structure.assemblies) names += (names.empty() ? "" : ", ") + assembly.name;
+    throw InputError(
+        path + ": " + option("assembly") + ": there is no assembly " + in_quotes(name) + "; " +
+        (names.empty() ? "the file describes none (REMARK 350, _pdbx_struct_assembly)" : "there are " + names));
+  }
+  call_gemmi(path, "the assembly cannot be built: ", [&] {
+    model = gemmi::make_assembly(*found, model, gemmi::HowToNameCopiedChain::Short, nullptr);
+    gemmi::merge_atoms_in_expanded_model(model, gemmi::UnitCell());
+    return 0;
+  });
+}
+
 // ---- mmCIF ----
 
 /// Parses the file and keeps the atoms only, so that a mistake elsewhere in it does no harm.
-gemmi::cif::Document parse_atom_site(const std::string& path, const std::string& text) {
+gemmi::cif::Document parse_atom_site(const std::string& path, const std::string& text, bool with_assemblies) {
   gemmi::cif::Document document = call_gemmi(
       path, "not valid CIF: ", [&] { return gemmi::cif::read_memory(text.data(), text.size(), path.c_str()); });
   for (gemmi::cif::Block& block : document.blocks) {
     std::vector<gemmi::cif::Item> kept;  // not erase(): assigning items loses their line numbers
-    for (gemmi::cif::Item& item : block.items) {
-      if (item.has_prefix("_atom_site.")) kept.push_back(std::move(item));
+    const auto keep = [&](const char* prefix) {
+      for (gemmi::cif::Item& item : block.items) {
+        if (item.has_prefix(prefix)) kept.push_back(std::move(item));
+      }
+    };
+    keep("_atom_site.");  // first
+    if (with_assemblies) {
+      keep("_pdbx_struct_assembly");
+      keep("_pdbx_struct_oper_list");
     }
     block.items = std::move(kept);
   }
@@ -236,8 +267,8 @@ void check_residue_numbers(const std::string& path, const std::string& text, gem
   }
 }
 
-gemmi::Structure parse_mmcif(const std::string& path, const std::string& text) {
-  gemmi::cif::Document document = parse_atom_site(path, text);
+gemmi::Structure parse_mmcif(const std::string& path, const std::string& text, bool with_assemblies = false) {
+  gemmi::cif::Document document = parse_atom_site(path, text, with_assemblies);
   if (document.blocks.empty()) throw InputError(path + ": CIF without a data block; give an mmCIF with coordinates");
   check_atom_site(path, text, document.blocks.front());
   check_residue_numbers(path, text, document.blocks.front());
@@ -247,17 +278,21 @@ gemmi::Structure parse_mmcif(const std::string& path, const std::string& text) {
 
 }  // namespace
 
-Molecule read_pdb(const std::string& path, const AtomModel& model, const StructureOptions& options) {
+Molecule read_pdb(const std::string& path, const AtomModel& model, const std::string& remarks,
+                  const StructureOptions& options) {
   MoleculeBuilder builder(path, options);
   const CheckedPdb checked = check_pdb(path, model, builder);
-  const gemmi::Structure structure = call_gemmi(path, "the PDB cannot be read: ", [&] {
-    return gemmi::read_pdb_from_memory(checked.text.data(), checked.text.size(), path);
-  });
-  for (const ChosenAtom& chosen : choose_conformation(structure.models.front())) {
+  const std::string text = remarks + checked.text;
+  gemmi::Structure structure = call_gemmi(
+      path, "the PDB cannot be read: ", [&] { return gemmi::read_pdb_from_memory(text.data(), text.size(), path); });
+  const bool is_assembly = !options.assembly.empty();
+  if (is_assembly && !structure.models.empty())
+    build_assembly(path, structure, options.assembly, structure.models.front());
+  for (const ChosenAtom& chosen : choose_conformation(structure.models.front(), is_assembly)) {
     const AtomLine& line = checked.lines.at(static_cast<std::size_t>(chosen.atom->serial) - 1);
     AtomEntry entry = make_entry(chosen);
     entry.residue_name = pdb_residue_name(line);
-    entry.chain = pdb_chain_name(line);
+    if (!is_assembly) entry.chain = pdb_chain_name(line);
     entry.hetero = line.is_hetatm();
     entry.line = line.number;
     if (!has_pdb_element(line)) entry.element.clear();  // gemmi's guess does not know the residue
@@ -267,7 +302,8 @@ Molecule read_pdb(const std::string& path, const AtomModel& model, const Structu
 }
 
 Molecule read_mmcif(const std::string& path, const std::string& text, const StructureOptions& options) {
-  const gemmi::Structure structure = parse_mmcif(path, text);
+  const bool is_assembly = !options.assembly.empty();
+  gemmi::Structure structure = parse_mmcif(path, text, is_assembly);
   const int n_models = static_cast<int>(structure.models.size());
   if (options.model < 1 || options.model > n_models) {
     throw InputError(n_models == 0 ? path + ": has no atoms; give a structure with atoms"
@@ -275,7 +311,9 @@ Molecule read_mmcif(const std::string& path, const std::string& text, const Stru
                                          " was asked for, but the file has models 1 to " + std::to_string(n_models));
   }
   MoleculeBuilder builder(path, options);
-  for (const ChosenAtom& chosen : choose_conformation(structure.models[static_cast<std::size_t>(options.model) - 1])) {
+  gemmi::Model& model = structure.models[static_cast<std::size_t>(options.model) - 1];
+  if (is_assembly) build_assembly(path, structure, options.assembly, model);
+  for (const ChosenAtom& chosen : choose_conformation(model, is_assembly)) {
     const AtomEntry entry = make_entry(chosen);
     if (builder.wants(entry.residue_name, entry.hetero)) builder.add(entry);
   }

@@ -14,8 +14,10 @@ namespace espdiff {
 /// (the first on ties), or, where the atom lacks that, its own of highest occupancy. An atom given twice at the same
 /// place is kept once. A letter in column 21 is the fourth of the residue's name (TIP3, as CHARMM and VMD write it),
 /// behind a standard residue the first of a chain name of two. Elements: columns 77 and 78, else guessed from the name.
-/// @throws FormatError (with line), InputError (no atoms left)
-Molecule read_pdb(const std::string& path, const AtomModel& model, const StructureOptions& options);
+/// @param remarks the file's REMARK 350 lines, which describe its assemblies
+/// @throws FormatError (with line), InputError (no atoms left, no such assembly)
+Molecule read_pdb(const std::string& path, const AtomModel& model, const std::string& remarks,
+                  const StructureOptions& options);
 
 /// Reads one model of an mmCIF file; author's names and numbers, alternate locations as for PDB.
 /// @throws FormatError (syntax, coordinates that are not numbers), InputError (no atoms, columns or model)

@@ -1,6 +1,8 @@
 // read_structure.cpp: finds out what a structure file is and hands it to the reader for it.
 #include "io/read_structure.h"
 
+#include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include "base/error.h"
@@ -51,6 +53,23 @@ namespace {
 
 }  // namespace
 
+#ifdef ESPDIFF_HAVE_GEMMI
+namespace {
+
+/// The lines that describe biological assemblies.
+std::string assembly_remarks(std::string_view text) {
+  std::string remarks;
+  for (std::size_t begin = text.find("REMARK 350"); begin != std::string_view::npos;
+       begin = text.find("REMARK 350", begin + 1)) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    remarks += std::string(text.substr(begin, end - begin)) + '\n';
+  }
+  return remarks;
+}
+
+}  // namespace
+#endif
+
 struct StructureFile::Parsed {
   FileContent file;
   bool is_mmcif = false;
@@ -100,9 +119,14 @@ Molecule StructureFile::read(const StructureOptions& options) const {
   if (parsed_->is_mmcif) lack_gemmi(path, "mmCIF");
 #endif
   const AtomModel& model = pick_model(parsed_->models, options.model, path);
-  if (looks_like_pqr(model, path)) return read_pqr(path, model, options);
+  if (looks_like_pqr(model, path)) {
+    if (!options.assembly.empty())
+      throw InputError(path + ": is a PQR file, which describes no assemblies; leave " + option("assembly") +
+                       " out, or give the PDB or mmCIF entry");
+    return read_pqr(path, model, options);
+  }
 #ifdef ESPDIFF_HAVE_GEMMI
-  return read_pdb(path, model, options);
+  return read_pdb(path, model, options.assembly.empty() ? std::string() : assembly_remarks(text), options);
 #else
   lack_gemmi(path, "PDB");
 #endif

@@ -146,15 +146,13 @@ void check_labels(const std::vector<std::string>& labels) {
   }
 }
 
-Variant read_variant(const VariantFiles& files, const StructureFile& file, const StructureOptions& structure,
+Variant read_variant(const VariantFiles& files, const StructureFile& file, Molecule molecule,
                      const std::string& map_array) {
   Variant variant;
   variant.label = files.label;
   variant.group = files.group;
-  StructureOptions options = structure;
-  options.model = files.model;
   file.require_unchanged(files.sha256);
-  variant.molecule = file.read(options);
+  variant.molecule = std::move(molecule);
   const std::string model = files.model > 1 ? ", model " + std::to_string(files.model) : "";
   variant.inputs.push_back({"structure", files.structure + model, file.sha256()});
   if (files.map.empty()) return variant;

@@ -54,11 +54,11 @@ void read_groups(const std::string& path, std::vector<VariantFiles>& variants);
 /// @throws InputError naming an empty label or one that two variants share, with the remedy
 void check_labels(const std::vector<std::string>& labels);
 
-/// Reads structure and map.
-/// @param file the structure's, already opened: variants may be models of one file
-/// @param structure its model is the variant's
-/// @throws as read_structure(), read_grid(); IoError (the structure was changed since its models were counted)
-Variant read_variant(const VariantFiles& files, const StructureFile& file, const StructureOptions& structure,
+/// A variant of a loaded molecule, with its map.
+/// @param file     the structure's: variants may be models of one file
+/// @param molecule as it is compared
+/// @throws as read_grid(); IoError (the structure was changed since its models were counted)
+Variant read_variant(const VariantFiles& files, const StructureFile& file, Molecule molecule,
                      const std::string& map_array);
 
 /// Converts all maps to the unit of the first one.

@@ -2,13 +2,16 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "align/protonation.h"
 #include "align/rigid_domains.h"
 #include "compare/options.h"
 #include "compare/result.h"
 #include "compare/settings.h"
 #include "report/metrics.h"
 #include "report/potential_json.h"
+#include "report/preparation_json.h"
 #include "report/provenance.h"
+#include "report/state_report.h"
 #include "report/write_compare.h"
 
 namespace espdiff {
@@ -154,6 +157,43 @@ Json input_files(const Provenance& provenance, const CompareResult& result) {
   return json;
 }
 
+Json chains(const CompareResult& result) {
+  Json json;
+  json["compared"] = Json::array();
+  for (const ComparedChains& pair : result.chains)
+    json["compared"].push_back({{"source", pair.source}, {"target", pair.target}, {"n_residues", pair.n_residues}});
+  json["copies"] = {{"source", result.source_copies}, {"target", result.target_copies}};
+  return json;
+}
+
+/// The region's metrics and certificate, under the names of the whole's.
+Json region_json(const CompareResult& result) {
+  if (result.region == nullptr) return nullptr;
+  const CompareResult& region = *result.region;
+  Json json;
+  json["n_residues"] = region.residues.size();
+  json["residues"] = Json::array();
+  for (const ResidueRow& row : region.residues) json["residues"].push_back(row.residue);
+  add_metrics(json, region);
+  json["by_offset"] = Json::array();
+  for (const OffsetMetrics& at : region.by_offset) {
+    Json entry{{"offset_A", number(at.offset_A)}};
+    for (const Metric& metric : metrics()) {
+      if (metric.source.of_area != nullptr) entry[metric.name] = number(at.metrics.*metric.source.of_area);
+    }
+    json["by_offset"].push_back(std::move(entry));
+  }
+  json["n_vertices_outside_map"] = {{"source", region.n_outside_source_map}, {"target", region.n_outside_target_map}};
+  add_verdict(json["certificate"], region.certificate);
+  return json;
+}
+
+Json preparations(const Provenance& provenance) {
+  Json json{{"source", nullptr}, {"target", nullptr}};
+  for (const auto& [role, preparation] : provenance.preparations) json[role] = preparation_json(*preparation);
+  return json;
+}
+
 void add_results(Json& json, const Molecule& source, const CompareResult& result) {
   json["n_paired_atoms"] = result.pairing.pairs.size();
   json["potential_unit"] = result.has_potential ? Json(potential_unit_text(result)) : Json(nullptr);
@@ -164,6 +204,11 @@ void add_results(Json& json, const Molecule& source, const CompareResult& result
   json["warnings"] = warnings(result);
   add_verdict(json["certificate"], result.certificate);
   json["metrics_all_triangles"] = metrics_all_triangles(result);
+  json["region"] = region_json(result);
+  json["protonation_differences"] = Json::array();
+  for (const ProtonationDifference& difference : result.protonation)
+    json["protonation_differences"].push_back(in_words(difference, source));
+  json["chains"] = chains(result);
   json["superposition"] = superposition(source, result);
   json["n_vertices"] = result.surface.positions.size();
   json["n_triangles"] = result.surface.triangles.size();
@@ -204,6 +249,7 @@ Json compare_json(const Molecule& source, const Molecule& target, const CompareR
   json["device_description"] = provenance.device_description;
   json["threads"] = provenance.threads;
   json["radii_origin"] = {{"source", name_of(source.radii_origin)}, {"target", name_of(target.radii_origin)}};
+  json["preparation"] = preparations(provenance);
   json["options"] = options_json(setting_texts(options));
   json["inputs"] = input_files(provenance, result);
   json["command_line"] = provenance.command_line;

@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "align/compared_chains.h"
 #include "align/rigid_domains.h"
 #include "compare/result.h"
 #include "report/metrics.h"
 #include "report/potential_json.h"
+#include "report/state_report.h"
 #include "report/write_compare.h"
 
 namespace espdiff {
@@ -51,6 +53,20 @@ std::string with_unit(const Metric& metric, double value) {
   return formatted(metric, value) + (unit.empty() ? "" : " " + unit);
 }
 
+/// Which chains were compared, unless there is one of one name; and copies, of which one may be meant.
+void print_chains(std::ostream& out, const CompareResult& result) {
+  const bool one = result.chains.size() == 1 && result.chains[0].source == result.chains[0].target;
+  if (!one && !result.chains.empty()) line(out, "Chains", in_words(result.chains));
+  for (const auto& [label, copies] : {std::pair("Copies in the source", &result.source_copies),
+                                      std::pair("Copies in the target", &result.target_copies)}) {
+    for (const auto& group : *copies) {
+      std::string names;
+      for (const std::string& name : group) names += (names.empty() ? "" : ", ") + name;
+      line(out, label, "chains " + names + " repeat one sequence");
+    }
+  }
+}
+
 void print_superposition(std::ostream& out, const Molecule& source, const CompareResult& result) {
   const AtomPairing& pairing = result.pairing;
   out << "Superposition\n";
@@ -71,11 +87,13 @@ void print_superposition(std::ostream& out, const Molecule& source, const Compar
     if (metric.section != MetricSection::kSuperposition) continue;
     line(out, metric.label, with_unit(metric, value_of(metric, result)) + " " + over);
   }
+  print_chains(out, result);
   for (const RigidDomain& domain : result.domains) {
     char rmsd[32];
     std::snprintf(rmsd, sizeof rmsd, "%.4g", domain.rmsd_A);
     line(out, "Rigid domain", std::string(rmsd) + " A, " + residue_ranges(source, domain.residues));
   }
+  for (const auto& [label, text] : result.input_lines) line(out, label, text);
 }
 
 /// A row for each metric of the section: over the area that is counted and, with potentials, over all of it.
@@ -223,6 +241,25 @@ void print_certificate(std::ostream& out, const CompareResult& result) {
   if (!not_checked.empty()) line(out, "Not checked", not_checked);
 }
 
+/// The region's metrics, unmatched area and verdict.
+void print_region(std::ostream& out, const CompareResult& result, const OptionSpelling& spelling) {
+  if (result.region == nullptr) return;
+  const CompareResult& region = *result.region;
+  heading(out, "Region: " + counted(region.residues.size(), "residue") + " of the source", {"valid area"});
+  for (const MetricSection section : {MetricSection::kPotential, MetricSection::kShape}) {
+    if (section == MetricSection::kPotential && !region.has_potential) continue;
+    for (const Metric& metric : metrics()) {
+      if (metric.section == section && metric.has_result())
+        row(out, metric.label, unit_of(metric, to_string(result.unit)), {formatted(metric, value_of(metric, region))});
+    }
+  }
+  row(out, "Unmatched area", "",
+      {"source " + number("%.3g", 100 * region.certificate.unmatched_source) + " %",
+       "target " + number("%.3g", 100 * region.certificate.unmatched_target) + " %"});
+  line(out, "Verdict", region.certificate.trustworthy ? "trustworthy" : "not trustworthy");
+  for (const Message& reason : region.certificate.reasons) out << "    - " << reason.spelled(spelling) << '\n';
+}
+
 void print_warnings(std::ostream& out, const CompareResult& result, const OptionSpelling& spelling) {
   if (result.warnings.empty()) return;
   out << "\nWarnings\n";
@@ -250,6 +287,7 @@ void print_table(std::ostream& out, const Molecule& source, const Molecule& targ
   print_offsets(out, result);
   print_surfaces(out, result);
   print_certificate(out, result);
+  print_region(out, result, spelling);
   print_warnings(out, result, spelling);
   print_verdict(out, result, spelling);
 }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/structure_options.h"
@@ -13,6 +14,7 @@ namespace espdiff {
 
 class ComputedMap;
 struct MapRecipe;
+struct Preparation;
 
 /// An input by what it was used for: "source", "target", "source_map", "target_map".
 struct InputFile {
@@ -33,6 +35,8 @@ struct Provenance {
   std::string device_description;  ///< "16 OpenMP threads"
   int threads = 0;                 ///< of the CPU back end; 0 on a device
   std::vector<InputFile> inputs;
+  /// "source" or "target", and what PDB2PQR did to it
+  std::vector<std::pair<std::string, std::shared_ptr<const Preparation>>> preparations;
   std::string command_line;
 };
 

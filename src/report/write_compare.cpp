@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
 #include <sstream>
 
 #include "base/error.h"
@@ -100,6 +102,11 @@ void write_residue_file(std::ostream& out, const Molecule& source, const Compare
   for (const Metric& metric : metrics()) {
     if (metric.has_residues()) columns.push_back(column_of(metric, potential_unit_text(result)));
   }
+  std::set<std::size_t> region;
+  if (result.region != nullptr) {
+    columns.emplace_back("region");
+    for (const ResidueRow& row : result.region->residues) region.insert(row.residue);
+  }
   write_csv_row(out, columns);
   for (const ResidueRow& row : result.residues) {
     const Residue& residue = source.residues.at(row.residue);
@@ -108,6 +115,7 @@ void write_residue_file(std::ostream& out, const Molecule& source, const Compare
     for (const Metric& metric : metrics()) {
       if (metric.has_residues()) cells.push_back(csv_number(value_of(metric, result, row)));
     }
+    if (result.region != nullptr) cells.emplace_back(region.count(row.residue) > 0 ? "1" : "0");
     write_csv_row(out, cells);
   }
 }
@@ -155,7 +163,7 @@ void add_results(FileSet& files, const std::string& output_prefix, const Molecul
 void keep(FileSet& files, Provenance& provenance, const std::string& role, const std::string& path,
           const std::string& content) {
   files.add(path) << content;
-  InputFile kept{role, std::filesystem::path(path).filename().string(), sha256_of(content)};
+  InputFile kept{role, std::filesystem::path(path).filename().string(), sha256_of(content), {}, {}};
   // All that is in it was compared.
   if (role == "source" || role == "target") kept.read_with = StructureOptions{1, true, true};
   for (InputFile& input : provenance.inputs) {
@@ -166,9 +174,19 @@ void keep(FileSet& files, Provenance& provenance, const std::string& role, const
 }  // namespace
 
 void write_compare(const std::string& output_prefix, const Molecule& source, const Molecule& target,
-                   const CompareResult& result, const CompareOptions& options, const Provenance& provenance,
-                   AtomicFile* beside) {
+                   const CompareResult& result, const CompareOptions& options, Provenance provenance,
+                   const std::vector<KeptFile>& kept, AtomicFile* beside) {
   FileSet files;
+  for (const KeptFile& file : kept) {
+    std::optional<InputFile> original;
+    for (const InputFile& input : provenance.inputs) {
+      if (input.role == file.role) original = input;
+    }
+    keep(files, provenance, file.role, output_prefix + file.ending, file.content);
+    if (!original) continue;
+    original->role += "_file";
+    provenance.inputs.push_back(*original);
+  }
   add_results(files, output_prefix, source, target, result, options, provenance);
   files.commit(beside);
 }

@@ -17,6 +17,14 @@ struct CompareOptions;
 struct CompareResult;
 struct Provenance;
 
+/// A file written beside the results that is the input of a role from then on; the original input stays listed under
+/// ROLE_file.
+struct KeptFile {
+  std::string role;
+  std::string ending;  ///< behind the prefix: ".source.pqr"
+  std::string content;
+};
+
 /// Writes OUT.json (compare_json()), OUT.vtp and OUT.residues.csv; all three appear, or none and older ones stay as
 /// they are.
 ///
@@ -27,11 +35,12 @@ struct Provenance;
 /// units. OUT.residues.csv: one row a source residue, in file order; empty fields where a residue has no valid surface.
 /// @param output_prefix OUT; its folder must exist
 /// @param source, target the molecules that `result` compares
+/// @param kept   further files, see kept_structure()
 /// @param beside a complete file that gets its name together with them; may be null
 /// @throws IoError (a file cannot be written)
 void write_compare(const std::string& output_prefix, const Molecule& source, const Molecule& target,
-                   const CompareResult& result, const CompareOptions& options, const Provenance& provenance,
-                   AtomicFile* beside = nullptr);
+                   const CompareResult& result, const CompareOptions& options, Provenance provenance,
+                   const std::vector<KeptFile>& kept = {}, AtomicFile* beside = nullptr);
 
 /// What a comparison was made of, to be written beside its results: molecules as they were compared (one model, one
 /// frame, a selection), and the maps that are in no file (null for those that are, or were computed).

@@ -1,35 +1,13 @@
-// frame_files.cpp: finds the file of a frame; completes charges and radii.
+// frame_files.cpp: which file a frame is in.
 #include "trajectory/frame_files.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "align/pair_atoms.h"
 #include "base/error.h"
 #include "io/structure_file.h"
 
 namespace espdiff {
-namespace {
-
-std::string name_of(const Molecule& molecule, std::size_t atom) {
-  const Atom& a = molecule.atoms[atom];
-  const Residue& residue = molecule.residues[static_cast<std::size_t>(a.residue)];
-  return a.name + " of " + residue.name + " " + (residue.chain.empty() ? "" : residue.chain + " ") +
-         std::to_string(residue.number);
-}
-
-/// The first atom without a partner.
-template <typename AtomOf>
-std::string first_unpaired(const Molecule& molecule, const AtomPairing& pairing, AtomOf atom_of) {
-  std::vector<bool> is_paired(molecule.size(), false);
-  for (const auto& pair : pairing.pairs) is_paired[atom_of(pair)] = true;
-  const auto first = std::find(is_paired.begin(), is_paired.end(), false);
-  return first == is_paired.end() ? std::string()
-                                  : name_of(molecule, static_cast<std::size_t>(first - is_paired.begin()));
-}
-
-}  // namespace
-
 FrameFiles::FrameFiles(std::vector<std::string> paths) : paths_(std::move(paths)) {
   if (paths_.empty()) throw InputError("no file of frames was given");
   first_.push_back(0);
@@ -58,11 +36,16 @@ std::string FrameFiles::name(int frame) const {
   return paths_[file] + ", model " + std::to_string(frame - first_[file] + 1);
 }
 
-Molecule FrameFiles::read(int frame, StructureOptions options) {
+std::pair<const StructureFile*, int> FrameFiles::file_of_frame(int frame) {
   const std::size_t file = file_of(frame);
   load(file);
-  options.model = frame - first_[file] + 1;
-  return file_->read(options);
+  return {file_.get(), frame - first_[file] + 1};
+}
+
+Molecule FrameFiles::read(int frame, StructureOptions options) {
+  const auto [file, model] = file_of_frame(frame);
+  options.model = model;
+  return file->read(options);
 }
 
 std::optional<UnitCell> FrameFiles::cell(int frame) {
@@ -70,26 +53,6 @@ std::optional<UnitCell> FrameFiles::cell(int frame) {
   load(file);
   if (!cells_) cells_ = file_->unit_cells();
   return cells_->at(static_cast<std::size_t>(frame - first_[file]));
-}
-
-void take_values(Molecule& frame, const Molecule& molecule, const std::string& name) {
-  if (!frame.charges.empty()) return;
-  const AtomPairing pairing = pair_atoms(molecule, frame, PairOthers::kByNumber);
-  if (pairing.pairs.size() != frame.size() || pairing.pairs.size() != molecule.size()) {
-    const std::string missing = first_unpaired(molecule, pairing, [](const auto& pair) { return pair.first; });
-    const std::string extra = first_unpaired(frame, pairing, [](const auto& pair) { return pair.second; });
-    throw InputError(name + " has no charges and radii, and cannot take those of " + molecule.name + ": " +
-                     (missing.empty() ? "" : "it lacks " + missing) + (missing.empty() || extra.empty() ? "" : ", ") +
-                     (extra.empty() ? "" : extra + " is not in " + molecule.name) + " (" +
-                     std::to_string(frame.size()) + " and " + std::to_string(molecule.size()) +
-                     " atoms); give frames and source of the same atoms, or frames as PQR");
-  }
-  frame.charges.assign(frame.size(), 0);
-  for (const auto& [from, to] : pairing.pairs) {
-    frame.charges[to] = molecule.charges[from];
-    frame.radii[to] = molecule.radii[from];
-  }
-  frame.radii_origin = molecule.radii_origin;
 }
 
 }  // namespace espdiff

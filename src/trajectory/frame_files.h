@@ -1,9 +1,10 @@
-// frame_files.h: models of structure files as frames; charges and radii for frames that lack them.
+// frame_files.h: the frames of one molecule in structure files of several models.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/types.h"
@@ -23,7 +24,10 @@ class FrameFiles {
   /// "FILE, model N" of a frame, for messages.
   std::string name(int frame) const;
 
-  /// @param options the model is ignored
+  /// The file of a frame, which stays until another frame is asked for, and the frame's model in it.
+  /// @throws as StructureFile
+  std::pair<const StructureFile*, int> file_of_frame(int frame);
+  /// @param options all but the model
   /// @throws as read_structure(); IoError (the file was changed since)
   Molecule read(int frame, StructureOptions options);
   /// The cell that the frame's file gives it. @throws as StructureFile::unit_cells()
@@ -40,11 +44,5 @@ class FrameFiles {
   std::unique_ptr<StructureFile> file_;
   std::optional<std::vector<std::optional<UnitCell>>> cells_;  // of the loaded file
 };
-
-/// Copies charges and radii from the molecule (PQR) to a frame without them (PDB, mmCIF). Atoms are paired by name and
-/// residue (pair_atoms()); every atom of both must have a partner. A frame that has values keeps them.
-/// @param name of the frame, for messages
-/// @throws InputError if an atom has no partner; names the first one
-void take_values(Molecule& frame, const Molecule& molecule, const std::string& name);
 
 }  // namespace espdiff

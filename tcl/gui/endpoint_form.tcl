@@ -48,6 +48,7 @@ namespace eval ::espdiff::gui {
         build_molecule_rows $path $side
         build_file_rows $path $side
         build_map_rows $path $side
+        build_prepare_row $path $side
         return $path
     }
 
@@ -72,7 +73,8 @@ namespace eval ::espdiff::gui {
         variable widget
         variable structure_types
         ttk::entry $path.file -textvariable ::espdiff::gui::form($side,file) -width 12
-        form_row $path 4 File $path.file "Structure file: PQR (charges and radii), PDB or mmCIF"
+        form_row $path 4 File $path.file "Structure file: PQR (charges and radii), PDB or mmCIF, which get\
+            charges by PDB2PQR"
         button $path.browse_file ... [list ::espdiff::gui::browse $side file $structure_types]
         tip $path.browse_file "Choose a file"
         grid $path.browse_file -row 4 -column 2 -padx {4 0} -sticky e
@@ -119,6 +121,7 @@ namespace eval ::espdiff::gui {
         set map [string trim $form($side,map)]
         set has_map [expr {$map ni {none ""} && ![is_computed_map $map]}]
         foreach name {unit label_unit} { show_if $has_map $parent.$name }
+        update_prepare_row $side
         show_if [expr {!$has_map}] $parent.choice
         set choice [expr {$map eq "automatic" ? [automatic_choice] : ""}]
         $widget($side,choice) configure -text $choice

@@ -67,7 +67,7 @@ namespace eval ::espdiff::gui {
             if {![confirm_overwrite $output]} return
             lappend options -overwrite 1
         }
-        set settings [setting_options]
+        set settings [setting_options variants]
         tell_in matrix ""
         set ::espdiff::gui::matrix_begun [clock milliseconds]
         set matrix_running [espdiff matrix [matrix_variants] {*}$options {*}$settings \

@@ -8,6 +8,7 @@ namespace eval ::espdiff::gui {
     variable loading [dict create]
     # By handle, and for `trajectory` and `matrix`: the molecules of VMD that they need.
     variable needed [dict create]
+    variable prepared [dict create]  ;# by PQR file: the words after `espdiff` that made it
 
     proc remember_compare {handle source target settings} {
         variable done
@@ -46,14 +47,19 @@ namespace eval ::espdiff::gui {
     # The commands that load a molecule as VMD did, by full names, for any working folder.
     proc how_loaded {mol} {
         lassign [molinfo $mol get {filename filetype filespec}] paths types specs
+        variable prepared
         set lines {}
         foreach path $paths type $types spec $specs {
             if {$type eq "espdiffmap"} {
                 lappend lines "# Molecule $mol also had a map that espdiff computed in VMD."
                 continue
             }
+            if {[dict exists $prepared $path]} {
+                set made [string map {\n \\n \r \\r} [dict get $prepared $path]]
+                lappend lines "# The next file was made by: espdiff $made"
+            }
             set words [list [::espdiff::full_name $path] type $type {*}$spec waitfor all]
-            if {$lines eq ""} {
+            if {![string match "*mol new*" $lines]} {
                 lappend lines "set mol$mol \[mol new $words\]"
             } else {
                 lappend lines "mol addfile $words \$mol$mol"

@@ -7,7 +7,7 @@ namespace eval ::espdiff::gui {
     array set standard {}
 
     # Small groups of the table share a page.
-    variable setting_pages {General {Molecules Potentials Computing} Surface Surface
+    variable setting_pages {General {Molecules Potentials Computing} Input {Structures Charges Region} Surface Surface
         Mapping {Mapping {Mapping by morph}} Deform {{Mapping by deform}} Regularization Regularization}
 
     # The core's settings and those of the commands that compute.
@@ -149,13 +149,16 @@ namespace eval ::espdiff::gui {
         foreach name [array names standard] { set setting($name) $standard($name) }
     }
 
-    # The settings that differ from their defaults, as options of `espdiff compare`.
-    proc setting_options {} {
+    # The settings that differ from their defaults, as options of `espdiff compare`, or of a command that takes some of
+    # them (see takes_setting).
+    proc setting_options {{wanted all}} {
         variable setting
         variable standard
         set options {}
         foreach row [all_settings] {
             set name [dict get $row name]
+            set of_command [expr {![dict exists $row surface]}]
+            if {$of_command ? $wanted eq "preparation" : ![::espdiff::takes_setting $wanted $row]} continue
             set value [string trim $setting($name)]
             if {$value ne $standard($name)} { lappend options -$name $value }
         }

@@ -63,6 +63,25 @@ TEST_CASE("numbers come back bit by bit, names as they were") {
   CHECK(back.residues[2].name == "NA_");
 }
 
+TEST_CASE("what fits stands in PDB's columns, which VMD reads") {
+  Molecule m = awkward();
+  m.residues = {{"HIS", "A", 49, ' '}, {"ALA", "A", -3, 'B'}, {"NA", "", 7, ' '}};
+  m.positions = {{69.668, 33.705, -4.794}, {0, -1, 123.5}, {-99.5, 1, 2}, {0.25, 0.5, 7}};
+  std::ostringstream out;
+  write_pqr(out, m);
+  CHECK(out.str().substr(0, 129) ==
+        "ATOM      1  N   HIS A  49      69.668  33.705  -4.794 -0.4157 1.1\n"
+        "ATOM      2 HD11 HIS A  49       0.000  -1.000 123.500 0.25 0\n");
+  const Molecule back = read_back(m);
+  for (std::size_t i = 0; i < m.size(); ++i) {
+    CHECK(back.charges[i] == m.charges[i]);
+    CHECK(back.atoms[i].name == m.atoms[i].name);
+    CHECK(static_cast<Vec3f>(back.positions[i]) == static_cast<Vec3f>(m.positions[i]));
+  }
+  CHECK(back.residues[1].insertion_code == 'B');
+  CHECK(back.residues[2].chain.empty());
+}
+
 TEST_CASE("a molecule without charges has charges of 0") {
   Molecule m = awkward();
   m.charges.clear();

@@ -1,4 +1,7 @@
 # support.tcl: what every test file begins with: the package, made and real inputs, a scratch folder, the exit status.
+
+# Made structures are no proteins that PDB2PQR could prepare: without it, shapes alone are compared.
+set env(ESPDIFF_PDB2PQR) /no/such/program
 #
 # ESPDIFF_TCL_PACKAGE names the folder with the package's pkgIndex.tcl, ESPDIFF_DATA that of the real inputs.
 package require tcltest 2.2

@@ -9,6 +9,7 @@
 #include "compare/made_side.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"
+#include "prepare/take_charges.h"
 #include "support/test_data.h"
 #include "trajectory/frame_files.h"
 

@@ -3,6 +3,8 @@
 # The script is run by tests/vmd/run_in_vmd, which names in the environment: RESULT (the file), ESPDIFF (the command
 # line), ESPDIFF_DATA (real inputs), SCRATCH (an empty folder).
 
+# Structures without charges are compared by their shapes; prepare.tcl has PDB2PQR.
+set env(ESPDIFF_PDB2PQR) /no/such/program
 set result_file [open $env(RESULT) w]
 set data $env(ESPDIFF_DATA)
 set scratch $env(SCRATCH)

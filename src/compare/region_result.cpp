@@ -1,0 +1,117 @@
+// region_result.cpp: the mapping's meshes cut to the region, measured like the whole.
+#include "compare/region_result.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "align/superpose.h"
+#include "compare/build_surface.h"
+#include "compare/certificate.h"
+#include "compare/mapping.h"
+#include "compare/result.h"
+#include "engine/engine.h"
+
+namespace espdiff {
+namespace {
+
+/// [triangle] nonzero where fewer than two vertices belong to marked residues.
+std::vector<float> outside_of(const std::vector<Triangle>& triangles, const std::vector<std::int32_t>& vertex_residue,
+                              const std::vector<std::uint8_t>& marked) {
+  std::vector<float> outside;
+  for (const Triangle& triangle : triangles) {
+    const auto n = std::count_if(triangle.begin(), triangle.end(), [&](std::uint32_t v) {
+      return vertex_residue[v] >= 0 && marked[static_cast<std::size_t>(vertex_residue[v])] != 0;
+    });
+    outside.push_back(n < 2 ? 1.0F : 0.0F);
+  }
+  return outside;
+}
+
+/// The RMSD of the region's paired atoms after the superposition; NaN without such atoms.
+double rmsd_of(const Region& region, const CompareResult& whole, const Molecule& source, const Molecule& target) {
+  double sum = 0;
+  std::size_t n = 0;
+  for (const auto& [s, t] : whole.pairing.pairs) {
+    if (region.source[static_cast<std::size_t>(source.atoms[s].residue)] == 0) continue;
+    const double d = norm(whole.source_to_target.apply(source.positions[s]) - target.positions[t]);
+    sum += d * d;
+    ++n;
+  }
+  return n > 0 ? std::sqrt(sum / static_cast<double>(n)) : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// The part of a mesh that is in the region; null where nothing is.
+MeshPtr cut(Engine& engine, const MeshPtr& mesh, const std::vector<float>& excluded) {
+  if (std::all_of(excluded.begin(), excluded.end(), [](float flag) { return flag != 0; })) return nullptr;
+  return engine.without(mesh, engine.upload_scalars(excluded));
+}
+
+}  // namespace
+
+Region make_region(std::vector<std::uint8_t> source, const MappedSurface& surface,
+                   const std::vector<std::int32_t>& vertex_residue, const std::vector<std::int32_t>& target_of,
+                   std::size_t n_target_residues) {
+  Region region;
+  region.outside = outside_of(surface.triangles, vertex_residue, source);
+  region.target.assign(n_target_residues, 0);
+  for (std::size_t r = 0; r < source.size(); ++r) {
+    if (source[r] != 0 && target_of[r] >= 0) region.target[static_cast<std::size_t>(target_of[r])] = 1;
+  }
+  region.source = std::move(source);
+  return region;
+}
+
+std::shared_ptr<CompareResult> region_result(Engine& engine, const Region& region, const Mapping& mapping,
+                                             const Surface& target, float isovalue,
+                                             const std::vector<std::int32_t>& source_residue,
+                                             const std::vector<std::int32_t>& mapped_residue,
+                                             const std::vector<std::int32_t>& target_of, const CompareResult& whole,
+                                             const Molecule& source_molecule, const Molecule& target_molecule) {
+  auto result = std::make_shared<CompareResult>();
+  result->has_potential = whole.has_potential;
+  result->unit = whole.unit;
+  result->morph_report = whole.morph_report;
+  result->deform_report = whole.deform_report;
+  result->rmsd_A = rmsd_of(region, whole, source_molecule, target_molecule);
+  Certificate& c = result->certificate;
+  c.converged = whole.certificate.converged;
+  c.not_checked = {"round_trip", "slip", "residues"};
+  std::vector<float> excluded = region.outside;
+  for (std::size_t t = 0; t < mapping.unmatched.size(); ++t) excluded[t] = std::max(excluded[t], mapping.unmatched[t]);
+  const MeshPtr source = cut(engine, mapping.source, region.outside), matched = cut(engine, mapping.mapped, excluded),
+                matched_source = cut(engine, mapping.source, excluded);
+  const Mesh target_shape = engine.download_shape(target.mesh);
+  const MeshPtr target_part =
+      cut(engine, target.mesh,
+          outside_of(target_shape.triangles, engine.vertex_residues(target.mesh, target.atoms), region.target));
+  result->source_surface.area_A2 = source != nullptr ? engine.area(source) : 0;
+  result->target_surface.area_A2 = target_part != nullptr ? engine.area(target_part) : 0;
+  if (matched != nullptr) {
+    const FitReport fit = engine.fit(matched, target.atoms, isovalue);
+    c.corrupt_area_fraction = fit.corrupt_area_fraction;
+    c.flipped_area_fraction = fit.flipped_area_fraction;
+    c.irregularity_A = fit.irregularity_A;
+    result->area_mapped_A2 = fit.area_A2;
+    c.mapped_to_target = engine.distances(matched, target.mesh, kMatchLimit_A);
+    c.distortion = engine.distortion(matched_source, matched, kAreaRatioLimit);
+    c.self_intersecting_pairs = engine.self_intersections(matched).n_pairs;
+    const double kept = engine.area(matched_source) / engine.area(source);
+    c.unmatched_source = 1 - kept * (1 - c.mapped_to_target.area_fraction_beyond_limit);
+  } else {
+    c.unmatched_source = 1;
+  }
+  c.unmatched_target = 1;
+  if (target_part != nullptr && matched != nullptr) {
+    c.target_to_mapped = engine.distances(target_part, mapping.matched, kMatchLimit_A);
+    c.unmatched_target = c.target_to_mapped.area_fraction_beyond_limit;
+  }
+  MappedSurface part;
+  part.positions = whole.surface.positions;
+  part.triangles = whole.surface.triangles;
+  for (const float flag : excluded) part.unmatched.push_back(flag != 0 ? 1 : 0);
+  c.same_residue_area_fraction = same_residue_share(part, source_residue, mapped_residue, target_of);
+  return result;
+}
+
+}  // namespace espdiff

@@ -1,0 +1,47 @@
+// read_mol2.cpp: the ATOM section: number, name, x, y, z, type.
+#include "io/read_mol2.h"
+
+#include "base/error.h"
+#include "io/file_kind.h"
+#include "io/read_input.h"
+#include "io/text_cursor.h"
+
+namespace espdiff {
+
+Mol2File read_mol2(const std::string& path) {
+  Mol2File file;
+  file.path = path;
+  file.content = read_input(path, [&](std::string_view head) {
+                   const FileKind kind = recognise(head);
+                   if (kind != FileKind::kMol2)
+                     throw InputError(path + ": this looks like " + describe(kind) +
+                                      ", and a ligand is read from a Tripos MOL2 file; convert it, with hydrogens");
+                 }).content;
+  unify_line_ends(file.content);
+  bool in_atoms = false;
+  long number = 0;
+  TextCursor cursor(file.content, path);
+  while (!cursor.at_end()) {
+    const std::string_view line = cursor.rest_of_line();
+    number = cursor.line();
+    if (line.substr(0, 9) == "@<TRIPOS>") {
+      if (in_atoms) break;
+      in_atoms = trimmed(line) == "@<TRIPOS>ATOM";
+      continue;
+    }
+    if (!in_atoms || trimmed(line).empty() || line[0] == '#') continue;
+    const auto words = split_words(line);
+    Mol2Atom atom;
+    if (words.size() < 6 || !parse_number(words[2], atom.position.x) || !parse_number(words[3], atom.position.y) ||
+        !parse_number(words[4], atom.position.z))
+      throw FormatError(path, number,
+                        "a MOL2 atom is " + in_quotes(line) + "; number, name, x, y, z and type were expected");
+    atom.name = words[1];
+    atom.element = words[5].substr(0, words[5].find('.'));
+    file.atoms.push_back(std::move(atom));
+  }
+  if (file.atoms.empty()) throw InputError(path + ": has no @<TRIPOS>ATOM section; give a MOL2 file with atoms");
+  return file;
+}
+
+}  // namespace espdiff

@@ -1,0 +1,173 @@
+// load_state.cpp: the order in which a state is read, selected and charged.
+#include "prepare/load_state.h"
+
+#include <algorithm>
+#include <map>
+
+#include "align/pair_residues.h"
+#include "align/protonation.h"
+#include "base/error.h"
+#include "base/water.h"
+#include "io/read_structure.h"
+#include "io/read_topology.h"
+#include "io/select_atoms.h"
+#include "io/structure_file.h"
+#include "prepare/pdb2pqr.h"
+#include "prepare/take_charges.h"
+
+namespace espdiff {
+namespace {
+
+bool is_charged(const Molecule& molecule) {
+  return std::any_of(molecule.charges.begin(), molecule.charges.end(), [](float q) { return q != 0; });
+}
+
+/// The part of a molecule that the options of reading keep.
+Molecule filtered(const Molecule& everything, const StructureOptions& options) {
+  std::vector<bool> keep;
+  for (const Atom& atom : everything.atoms) {
+    const bool water = is_water_name(everything.residues[static_cast<std::size_t>(atom.residue)].name);
+    keep.push_back(water ? options.include_water : options.include_hetero || !atom.hetero);
+  }
+  return keep_atoms(everything, keep);
+}
+
+/// Drops the atoms of a selection, which may be none.
+void leave_out(Molecule& molecule, const std::string& selection, std::size_t& n_dropped) {
+  std::vector<bool> keep = select_atoms(molecule, selection, "leave-out");
+  keep.flip();
+  const auto n_kept = static_cast<std::size_t>(std::count(keep.begin(), keep.end(), true));
+  if (n_kept == 0)
+    throw InputError(molecule.name + ": " + option("leave-out", selection) + " drops all atoms; name fewer of them");
+  n_dropped = molecule.size() - n_kept;
+  if (n_dropped > 0) molecule = keep_atoms(molecule, keep);
+}
+
+/// The states to give to the target's residues: those of the source's residues they pair with, else their own.
+std::vector<std::string> forced_states(const Molecule& source, const Molecule& raw, const Molecule& prepared) {
+  const auto key = [](const Residue& r) { return std::tuple(r.chain, r.number, r.insertion_code); };
+  const std::vector<std::string> of_source = protonation_states(source), own = protonation_states(prepared);
+  std::map<std::tuple<std::string, std::int32_t, char>, std::string> state_of;
+  for (std::size_t r = 0; r < own.size(); ++r) state_of[key(prepared.residues[r])] = own[r];
+  const ResiduePairing pairing = pair_residues(ResidueView(source), ResidueView(prepared));
+  for (const auto& [s, t] : pairing.pairs) {
+    const Residue& residue = prepared.residues[t];
+    if (same_residue_name(source.residues[s].name, residue.name) && !of_source[s].empty())
+      state_of[key(residue)] = of_source[s];
+  }
+  std::vector<std::string> states;
+  for (const Residue& residue : raw.residues) states.push_back(state_of[key(residue)]);
+  return states;
+}
+
+}  // namespace
+
+const char* to_string(StateRole role) {
+  switch (role) {
+    case StateRole::kSource: return "source";
+    case StateRole::kTarget: return "target";
+    case StateRole::kOnly: break;
+  }
+  return "molecule";
+}
+
+std::optional<Preparation> charge_molecule(Molecule& molecule, const InputOptions& options, const StateRequest& request,
+                                           std::vector<ChargeFile>& files, const Progress& progress) {
+  if (is_charged(molecule)) return std::nullopt;
+  if (!options.charges_from.empty()) {
+    const StructureFile file(options.charges_from);
+    const Molecule from = file.read({1, true, false, {}});
+    if (!is_charged(from))
+      throw InputError(options.charges_from + ": has no charges to take (" + option("charges-from") +
+                       "); give a PQR of another state of the molecule");
+    take_values(molecule, from, molecule.name);
+    files.push_back({"charges_from", options.charges_from, file.sha256()});
+    return std::nullopt;
+  }
+  if (!request.may_prepare) return std::nullopt;
+  progress.report("prepare " + molecule.name, 0.0);
+  Prepared prepared = prepare_molecule(molecule, options.charges, {}, progress);
+  if (options.charges.same_protonation && request.source != nullptr) {
+    const double seconds = prepared.preparation.seconds;
+    const std::vector<std::string> states = forced_states(*request.source, molecule, prepared.molecule);
+    prepared = prepare_molecule(molecule, options.charges, states, progress);
+    prepared.preparation.seconds += seconds;
+  }
+  molecule = std::move(prepared.molecule);
+  return std::move(prepared.preparation);
+}
+
+LoadedState load_state(const StructureFile& file, const StateRequest& request, const InputOptions& options,
+                       const Progress& progress) {
+  const SideInput& side = request.role == StateRole::kTarget ? options.target : options.source;
+  const auto own = [](const std::string& of_side, const std::string& of_both) {
+    return of_side.empty() ? of_both : of_side;
+  };
+  const bool has_side = request.role != StateRole::kOnly;
+  const std::string select = has_side ? own(side.select, options.both.select) : options.both.select;
+  const std::string topology = has_side ? own(side.topology, options.both.topology) : options.both.topology;
+  const char* const select_option = has_side && !side.select.empty()
+                                        ? request.role == StateRole::kTarget ? "target-select" : "source-select"
+                                        : "select";
+  StructureOptions structure = request.structure;
+  structure.assembly = options.assembly;
+  LoadedState state;
+  if (!topology.empty()) {
+    if (!structure.assembly.empty())
+      throw InputError(option("assembly") + " and a topology were given; a topology lists the atoms of the file");
+    const Topology charges = read_topology(topology);
+    state.everything = file.read({structure.model, true, true, {}});
+    take_topology(state.everything, charges);
+    state.molecule = filtered(state.everything, structure);
+    state.charge_files.push_back({"topology", topology, charges.sha256});
+  } else {
+    state.molecule = file.read(structure);
+    if (request.wants_charges && is_charged(state.molecule))
+      state.everything = file.read({structure.model, true, true, structure.assembly});
+  }
+  state.cell = file.unit_cells().at(static_cast<std::size_t>(structure.model - 1));
+  state.whole = state.molecule;
+  if (!options.leave_out.empty()) {
+    leave_out(state.molecule, options.leave_out, state.n_left_out);
+    std::size_t ignored = 0;
+    if (state.everything.size() > 0) leave_out(state.everything, options.leave_out, ignored);
+  }
+  if (!select.empty())
+    state.molecule = keep_atoms(state.molecule, select_some_atoms(state.molecule, select, select_option));
+  if (request.wants_charges)
+    state.preparation = charge_molecule(state.molecule, options, request, state.charge_files, progress);
+  for (const std::string& ligand : options.charges.ligands) {
+    if (state.preparation) state.charge_files.push_back({"ligand", ligand, {}});
+  }
+  state.is_changed = !select.empty() || state.n_left_out > 0 || !structure.assembly.empty() ||
+                     state.preparation.has_value() || !state.charge_files.empty();
+  return state;
+}
+
+LoadedState load_frame(const StructureFile& file, const StructureOptions& structure, const std::string& name,
+                       const Molecule& source, bool source_is_prepared, const InputOptions& options,
+                       const Progress& progress) {
+  StateRequest request{structure, StateRole::kTarget, false, true, &source};
+  LoadedState state = load_state(file, request, options, progress);
+  state.molecule.name = name;
+  if (source.charges.empty() || is_charged(state.molecule)) return state;
+  if (source_is_prepared && !has_same_atoms(state.molecule, source)) {
+    InputOptions like_source = options;
+    like_source.charges.same_protonation = true;
+    state.preparation = charge_molecule(state.molecule, like_source, request, state.charge_files, progress);
+  } else {
+    take_values(state.molecule, source, name);
+  }
+  state.molecule.name = name;
+  return state;
+}
+
+void check_left_out(const InputOptions& options, const std::vector<const LoadedState*>& states) {
+  if (options.leave_out.empty()) return;
+  const bool some = std::any_of(states.begin(), states.end(), [](const LoadedState* s) { return s->n_left_out > 0; });
+  if (some || states.empty()) return;
+  throw InputError(option("leave-out", options.leave_out) + " drops no atom; " + states.front()->whole.name + " has " +
+                   describe_chains(states.front()->whole));
+}
+
+}  // namespace espdiff

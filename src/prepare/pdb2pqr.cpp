@@ -1,0 +1,423 @@
+// pdb2pqr.cpp: writes PDB2PQR's input, runs it or takes its output from the cache, and reads what it wrote.
+#include "prepare/pdb2pqr.h"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <tuple>
+
+#include "align/residue_names.h"
+#include "base/error.h"
+#include "base/input_options.h"
+#include "base/water.h"
+#include "io/read_input.h"
+#include "io/read_structure.h"
+#include "io/run_program.h"
+#include "io/select_atoms.h"
+#include "io/sha256.h"
+#include "io/text_cursor.h"
+#include "io/write_pdb.h"
+#include "prepare/cache.h"
+#include "prepare/ligand.h"
+
+namespace espdiff {
+
+const char* const kPdb2pqrRemedy = "install it (Debian: pdb2pqr; PyPI: pdb2pqr)";
+
+namespace {
+
+constexpr double kTimeLimit_s = 3600;
+
+/// A folder that is deleted at the end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    // VMD may name a folder in TMPDIR that is not there.
+    const char* const named = std::getenv("TMPDIR");
+    std::error_code ignored;
+    const bool is_there = named != nullptr && std::filesystem::is_directory(named, ignored);
+    for (const std::string& folder : {std::string(is_there ? named : "/tmp"), std::string("/tmp")}) {
+      path_ = folder + "/espdiff-XXXXXX";
+      if (mkdtemp(path_.data()) != nullptr) return;
+    }
+    throw IoError(path_, "a temporary folder cannot be made; name one that can be written to in TMPDIR");
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  std::string file(const std::string& name) const { return path_ + "/" + name; }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+bool is_polymer(ResidueKind kind) { return kind == ResidueKind::kAminoAcid || kind == ResidueKind::kNucleotide; }
+
+/// Chains with one character for PDB2PQR, and numbers that fit its columns.
+class Renumbering {
+ public:
+  explicit Renumbering(const Molecule& molecule) : original_(molecule.residues) {
+    const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789";
+    std::map<std::string, char> names;
+    std::set<char> taken;
+    std::set<std::string> renumbered;
+    for (const Residue& residue : original_) {
+      constexpr std::int32_t kLow = -999, kHigh = 9999;
+      if (residue.insertion_code != ' ' || residue.number < kLow || residue.number > kHigh)
+        renumbered.insert(residue.chain);
+      if (residue.chain.size() == 1 && names.emplace(residue.chain, residue.chain[0]).second)
+        taken.insert(residue.chain[0]);
+    }
+    for (const Residue& residue : original_) {
+      if (names.count(residue.chain) > 0) continue;
+      const auto free =
+          std::find_if(letters.begin(), letters.end(), [&](char letter) { return taken.count(letter) == 0; });
+      if (free == letters.end())
+        throw InputError(molecule.name +
+                         ": has more than 62 chains, which a PDB file cannot tell apart; select some (" +
+                         option("select", "//A") + ")");
+      names[residue.chain] = *free;
+      taken.insert(*free);
+    }
+    std::map<std::string, std::int32_t> last;
+    for (std::size_t r = 0; r < original_.size(); ++r) {
+      Residue residue = original_[r];
+      if (renumbered.count(residue.chain) > 0) {
+        residue.number = ++last[residue.chain];
+        residue.insertion_code = ' ';
+      }
+      residue.chain = std::string(1, names.at(residue.chain));
+      if (!index_.emplace(std::tuple(residue.chain, residue.number), r).second &&
+          renumbered.count(original_[r].chain) == 0)
+        doubled_.insert(original_[r].number);
+      residues_.push_back(residue);
+    }
+  }
+
+  const std::vector<Residue>& residues() const { return residues_; }
+  /// The original of a residue in the output; null where there is none.
+  const Residue* original(const Residue& residue) const {
+    const auto found = index_.find({residue.chain, residue.number});
+    return found == index_.end() ? nullptr : &original_[found->second];
+  }
+
+ private:
+  const std::vector<Residue> original_;
+  std::vector<Residue> residues_;
+  std::map<std::tuple<std::string, std::int32_t>, std::size_t> index_;
+  std::set<std::int32_t> doubled_;
+};
+
+/// The molecule without water and, where states are given, without the hydrogens of chains, which are added again.
+Molecule without_water(const Molecule& molecule, bool without_hydrogens) {
+  const std::vector<ResidueKind> kinds = residue_kinds(molecule, atoms_of_residues(molecule));
+  std::vector<bool> keep;
+  for (const Atom& atom : molecule.atoms) {
+    const auto r = static_cast<std::size_t>(atom.residue);
+    const bool is_hydrogen = atom.element == "H" || atom.element == "D";
+    const bool drop = is_hydrogen && is_polymer(kinds[r]) && (without_hydrogens || atom.element == "D");
+    keep.push_back(!drop && !is_water_name(molecule.residues[r].name));
+  }
+  return keep_atoms(molecule, keep);
+}
+
+/// Selenomethionine becomes methionine.
+void replace_selenomethionine(Molecule& molecule, Preparation& preparation) {
+  for (Residue& residue : molecule.residues) {
+    if (residue.name != "MSE") continue;
+    const std::string code = residue.insertion_code == ' ' ? "" : std::string(1, residue.insertion_code);
+    preparation.renamed.push_back("MSE " + std::to_string(residue.number) + code +
+                                  (residue.chain.empty() ? "" : " of chain " + residue.chain) + " as MET");
+    residue.name = "MET";
+  }
+  for (Atom& atom : molecule.atoms) {
+    if (molecule.residues[static_cast<std::size_t>(atom.residue)].name != "MET") continue;
+    atom.hetero = false;
+    if (atom.name == "SE") {
+      atom.name = "SD";
+      atom.element = "S";
+    }
+  }
+}
+
+/// The PDB file that PDB2PQR reads.
+std::string pdb_text(Molecule molecule, const Renumbering& renumbering, const std::vector<std::string>& states) {
+  molecule.residues = renumbering.residues();
+  for (std::size_t r = 0; r < states.size(); ++r) {
+    // Disulfides follow from the geometry.
+    if (!states[r].empty() && states[r] != "CYX" && states[r] != "CYS") molecule.residues[r].name = states[r];
+  }
+  // Atoms of a residue follow each other, also the hydrogens that a ligand got.
+  std::vector<std::size_t> order(molecule.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return molecule.atoms[a].residue < molecule.atoms[b].residue; });
+  Molecule sorted;
+  sorted.name = molecule.name;
+  sorted.residues = molecule.residues;
+  for (const std::size_t i : order) {
+    sorted.atoms.push_back(molecule.atoms[i]);
+    sorted.positions.push_back(molecule.positions[i]);
+  }
+  std::ostringstream text;
+  write_pdb(text, sorted, std::vector<double>(sorted.size(), 0), {});
+  return text.str();
+}
+
+std::string upper_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
+  return text;
+}
+
+/// The program's arguments but the files.
+std::vector<std::string> arguments(const ChargeOptions& options, bool with_propka) {
+  std::vector<std::string> words{"--ff=" + upper_case(options.force_field), "--keep-chain"};
+  if (!with_propka) return words;
+  char ph[32];
+  std::snprintf(ph, sizeof ph, "%g", options.ph);
+  words.insert(words.end(), {"--titration-state-method=propka", std::string("--with-ph=") + ph});
+  return words;
+}
+
+/// The version of a program by its file, so that a new one does not take outputs of an old one from the cache.
+std::string identity_of(const std::string& program) {
+  struct stat status {};
+  stat(program.c_str(), &status);
+  return program + " " + std::to_string(status.st_size) + " " + std::to_string(status.st_mtime);
+}
+
+/// The reason in a log: its last error, in our words where they are known.
+std::string reason_in(const std::string& log) {
+  static const std::vector<std::pair<const char*, const char*>> kKnown = {
+      {"does not seem to contain any", "PROPKA cannot use it, such as a peptide of few residues"},
+      // Its message of that cannot be formatted.
+      {"Unknown format code 'i'", "more than a tenth of the heavy atoms of its residues are missing"},
+      {"missing too many", "more than a tenth of the heavy atoms of its residues are missing"},
+      {"does not contain any", "no residue of it is known to the force field"},
+      {"Unable to debump", "atoms overlap, and moving them apart failed"},
+      {"non-integer charge", "the sum of the charges is not a whole number"},
+      {"noninteger", "the sum of the charges is not a whole number"},
+      {"Found no known", "no residue of it is known to the force field"},
+      {"Unable to find", "a residue lacks atoms that the others could be placed by"},
+      {"Too few atoms present", "a residue has too few atoms to place the missing ones by"}};
+  for (const auto& [mark, words] : kKnown) {
+    if (log.find(mark) != std::string::npos) return words;
+  }
+  std::string last;
+  std::istringstream lines(log);
+  for (std::string line; std::getline(lines, line);) {
+    const std::string text(trimmed(line));
+    if (text.rfind("CRITICAL:", 0) == 0 && text.find("Giving up") == std::string::npos)
+      last = text.substr(std::string("CRITICAL:").size());
+  }
+  return last.empty() ? "it gave no reason" : "it says " + in_quotes(last);
+}
+
+/// "PDB2PQR v3.5.2"
+std::string version_in(const std::string& log) {
+  const std::size_t at = log.find("PDB2PQR v");
+  if (at == std::string::npos) return "PDB2PQR";
+  return log.substr(at, std::min(log.find_first_of(": \n", at + 9), log.size()) - at);
+}
+
+/// Runs the program. The output's first line is a remark with the program's version.
+std::string run_pdb2pqr(const std::string& program, const std::string& name, const std::string& pdb,
+                        const std::string& ligand, const std::vector<std::string>& options, const Progress& progress) {
+  const TemporaryFolder folder;
+  const auto write = [&](const char* file, const std::string& content) {
+    std::ofstream(folder.file(file), std::ios::binary) << content;
+    return folder.file(file);
+  };
+  ProgramCall call;
+  call.words = {program};
+  call.words.insert(call.words.end(), options.begin(), options.end());
+  if (!ligand.empty()) call.words.push_back("--ligand=" + write("ligand.mol2", ligand));
+  call.words.insert(call.words.end(), {write("input.pdb", pdb), folder.file("output.pqr")});
+  call.folder = folder.path();
+  call.time_limit_s = kTimeLimit_s;
+  call.while_running = [&] { progress.check_cancelled(); };
+  const ProgramResult result = run_program(call);
+  std::error_code ignored;
+  const std::string log = result.output + result.messages;
+  if (result.status != 0 || !std::filesystem::exists(folder.file("output.pqr"), ignored))
+    throw InputError(name + ": has no charges, and PDB2PQR cannot prepare it: " + reason_in(log) +
+                     "; complete or mend the structure, leave atoms out (" + option("leave-out", "(...)") +
+                     "), or give charges (" + option("topology", "FILE") + " of a PSF or prmtop, or a PQR)");
+  return "REMARK " + version_in(log) + "\n" + read_input(folder.file("output.pqr")).content;
+}
+
+/// The atoms of an output under their original chains, numbers and names.
+Molecule read_output(const std::string& output, const Molecule& before, const Renumbering& renumbering) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("output.pqr");
+  std::ofstream(path, std::ios::binary) << output;
+  Molecule molecule = read_structure(path, {1, true, true, {}});
+  molecule.name = before.name;
+  for (Residue& residue : molecule.residues) {
+    if (const Residue* const original = renumbering.original(residue)) residue = *original;
+  }
+  return molecule;
+}
+
+void require_residues(const Molecule& molecule) {
+  const std::vector<ResidueKind> kinds = residue_kinds(molecule, atoms_of_residues(molecule));
+  if (std::any_of(kinds.begin(), kinds.end(), is_polymer)) return;
+  std::string names;
+  std::set<std::string> seen;
+  for (const Residue& residue : molecule.residues) {
+    if (seen.insert(residue.name).second && seen.size() <= 4) names += (names.empty() ? "" : ", ") + residue.name;
+  }
+  throw InputError(molecule.name + ": has no charges, and no amino acids or nucleotides that PDB2PQR could charge (" +
+                   names + " only); give a PQR, or " + option("topology", "FILE") + " or " +
+                   option("charges-from", "FILE"));
+}
+
+}  // namespace
+
+std::string find_pdb2pqr() {
+  const char* const named = std::getenv("ESPDIFF_PDB2PQR");
+  if (named != nullptr && *named != '\0') return find_program(named);
+  const std::string program = find_program("pdb2pqr30");
+  return program.empty() ? find_program("pdb2pqr") : program;
+}
+
+namespace {
+
+/// One run of PDB2PQR, or its output from the cache.
+class Run {
+ public:
+  Run(std::string program, const ChargeOptions& options, bool with_propka, const Progress& progress)
+      : program_(std::move(program)), options_(options), words_(arguments(options, with_propka)), progress_(progress) {}
+
+  /// @param ligand content of a MOL2 file; may be empty
+  Molecule operator()(const Molecule& molecule, const std::vector<std::string>& states, const std::string& ligand) {
+    const Renumbering renumbering(molecule);
+    const std::string pdb = pdb_text(molecule, renumbering, states);
+    std::string key = "1 " + identity_of(program_);
+    for (const std::string& word : words_) key += " " + word;
+    key = sha256_of(key + "\n" + sha256_of(ligand) + "\n" + pdb);
+    std::optional<std::string> output = options_.use_cache ? find_in_cache(key) : std::nullopt;
+    if (!output) {
+      all_from_cache_ = false;
+      output = run_pdb2pqr(program_, molecule.name, pdb, ligand, words_, progress_);
+      if (options_.use_cache) keep_in_cache(key, *output);
+    }
+    const std::size_t begin = std::string("REMARK ").size();
+    version_ = output->substr(begin, output->find('\n') - begin);
+    return read_output(*output, molecule, renumbering);
+  }
+  bool all_from_cache() const { return all_from_cache_; }
+  const std::string& version() const { return version_; }
+
+ private:
+  std::string program_;
+  const ChargeOptions& options_;
+  std::vector<std::string> words_;
+  const Progress& progress_;
+  bool all_from_cache_ = true;
+  std::string version_;
+};
+
+/// Appends the residues of `more` that `molecule` lacks.
+void append(Molecule& molecule, const Molecule& more) {
+  const auto same = [](const Residue& a, const Residue& b) {
+    return a.chain == b.chain && a.number == b.number && a.insertion_code == b.insertion_code && a.name == b.name;
+  };
+  std::vector<std::int32_t> index;
+  for (const Residue& residue : more.residues) {
+    const bool there = std::any_of(molecule.residues.begin(), molecule.residues.end(),
+                                   [&](const Residue& other) { return same(residue, other); });
+    index.push_back(there ? -1 : static_cast<std::int32_t>(molecule.residues.size()));
+    if (!there) molecule.residues.push_back(residue);
+  }
+  for (std::size_t i = 0; i < more.size(); ++i) {
+    Atom atom = more.atoms[i];
+    atom.residue = index[static_cast<std::size_t>(atom.residue)];
+    if (atom.residue < 0) continue;
+    molecule.atoms.push_back(atom);
+    molecule.positions.push_back(more.positions[i]);
+    molecule.radii.push_back(more.radii[i]);
+    molecule.charges.push_back(more.charges[i]);
+  }
+}
+
+/// PDB2PQR takes one ligand: the first run has the first one, each further ligand gets its charges in a run beside it.
+Molecule run_with_ligands(Run& run, const Molecule& molecule, const std::vector<std::string>& states,
+                          const std::vector<Mol2File>& ligands) {
+  const std::vector<std::int32_t> ligand_of = ligands_of_residues(molecule, ligands);
+  std::vector<std::int32_t> present;
+  for (const std::int32_t ligand : ligand_of) {
+    if (ligand >= 0 && std::find(present.begin(), present.end(), ligand) == present.end()) present.push_back(ligand);
+  }
+  Molecule result;
+  for (std::size_t k = 0; k < std::max<std::size_t>(present.size(), 1); ++k) {
+    std::vector<bool> keep, keep_residue;
+    for (const std::int32_t ligand : ligand_of) keep_residue.push_back(ligand < 0 || ligand == present[k]);
+    for (const Atom& atom : molecule.atoms) keep.push_back(keep_residue[static_cast<std::size_t>(atom.residue)]);
+    std::vector<std::string> kept_states;
+    for (std::size_t r = 0; r < states.size(); ++r) {
+      if (keep_residue[r]) kept_states.push_back(states[r]);
+    }
+    const std::string content = present.empty() ? "" : ligands[static_cast<std::size_t>(present[k])].content;
+    const Molecule prepared = run(keep_atoms(molecule, keep), kept_states, content);
+    if (k == 0) {
+      result = prepared;
+    } else {
+      append(result, prepared);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options,
+                          const std::vector<std::string>& states, const Progress& progress) {
+  const auto begun = std::chrono::steady_clock::now();
+  const std::string program = find_pdb2pqr();
+  if (program.empty())
+    throw DeviceError(molecule.name + ": has no charges, and PDB2PQR, which assigns them, is not there; " +
+                      kPdb2pqrRemedy);
+  const bool with_propka = states.empty();
+  Prepared prepared;
+  Preparation& done = prepared.preparation;
+  Molecule before = without_water(molecule, !with_propka);
+  require_residues(before);
+  std::vector<std::string> kept_states;
+  for (std::size_t r = 0; r < states.size(); ++r) {
+    if (!is_water_name(molecule.residues[r].name)) kept_states.push_back(states[r]);
+  }
+  replace_selenomethionine(before, done);
+  std::vector<Mol2File> ligands;
+  for (const std::string& path : options.ligands) ligands.push_back(read_mol2(path));
+  Run run(program, options, with_propka, progress);
+  const Molecule given = add_ligand_hydrogens(before, ligands, ligands_of_residues(before, ligands));
+  prepared.molecule = run_with_ligands(run, given, kept_states, ligands);
+  prepared.molecule.name = molecule.name;
+  done.program = run.version();
+  done.force_field = options.force_field;
+  done.ph = options.ph;
+  done.ligands = options.ligands;
+  done.from_cache = run.all_from_cache();
+  compare_with_input(before, prepared.molecule, options, done);
+  done.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  return prepared;
+}
+
+}  // namespace espdiff

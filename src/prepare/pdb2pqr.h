@@ -1,0 +1,38 @@
+// pdb2pqr.h: charges, radii and hydrogens from PDB2PQR, which is run as a program.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "base/types.h"
+#include "prepare/preparation.h"
+
+namespace espdiff {
+
+struct ChargeOptions;
+
+/// The path of PDB2PQR: $ESPDIFF_PDB2PQR, otherwise pdb2pqr30 or pdb2pqr on PATH; empty where there is none.
+std::string find_pdb2pqr();
+/// What to do where there is none: "install it (Debian: pdb2pqr; PyPI: pdb2pqr)".
+extern const char* const kPdb2pqrRemedy;
+
+/// A molecule with charges, and what was done to it.
+struct Prepared {
+  Molecule molecule;
+  Preparation preparation;
+};
+
+/// Adds missing heavy atoms and hydrogens, and assigns charges and radii: PDB2PQR with PROPKA's protonation states at
+/// the pH of the options (Dolinsky et al., Nucleic Acids Res. 35, W522 (2007); Olsson et al., J. Chem. Theory Comput.
+/// 7, 525 (2011)). It gets the molecule as a PDB file of one conformation without water. Chains and residue numbers
+/// that its columns or PROPKA's keys cannot hold (long names, insertion codes, more than four digits) are renumbered
+/// for it and restored afterwards. Selenomethionine is charged as methionine.
+/// @param states [residue] the protonation state to give a residue, as protonation_states() names it; empty strings
+///               and an empty list leave the choice to PROPKA, which is not run if any state is given
+/// @throws DeviceError (no PDB2PQR, it failed), InputError (nothing it could charge, atoms without charge, a MOL2 file
+///         that cannot be read), Cancelled
+Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options,
+                          const std::vector<std::string>& states, const Progress& progress);
+
+}  // namespace espdiff

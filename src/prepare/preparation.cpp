@@ -1,0 +1,156 @@
+// preparation.cpp: compares a structure's atoms before and after PDB2PQR.
+#include "prepare/preparation.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "align/protonation.h"
+#include "align/residue_names.h"
+#include "base/error.h"
+#include "base/input_options.h"
+
+namespace espdiff {
+namespace {
+
+using ResidueKey = std::tuple<std::string, std::int32_t, char>;
+
+ResidueKey key_of(const Residue& residue) { return {residue.chain, residue.number, residue.insertion_code}; }
+
+bool is_hydrogen(const Atom& atom) { return atom.element == "H" || atom.element == "D"; }
+
+/// Heavy atoms by residue: normalized names, and the number of hydrogens.
+struct ResidueAtoms {
+  std::vector<std::string> heavy;
+  std::set<std::string> normalized;
+  std::size_t n_hydrogens = 0;
+};
+
+std::map<ResidueKey, ResidueAtoms> atoms_by_residue(const Molecule& molecule) {
+  std::map<ResidueKey, ResidueAtoms> all;
+  for (const Atom& atom : molecule.atoms) {
+    const Residue& residue = molecule.residues[static_cast<std::size_t>(atom.residue)];
+    ResidueAtoms& of = all[key_of(residue)];
+    if (is_hydrogen(atom)) {
+      ++of.n_hydrogens;
+      continue;
+    }
+    of.heavy.push_back(atom.name);
+    of.normalized.insert(normalized_atom_name(atom.name, residue_letter(residue.name)));
+  }
+  return all;
+}
+
+std::string joined(const std::vector<std::string>& words, std::size_t most = 6) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(words.size(), most); ++i) text += (text.empty() ? "" : ", ") + words[i];
+  return words.size() > most ? text + " and " + std::to_string(words.size() - most) + " more" : text;
+}
+
+/// The names in `a` that are not in `b`.
+std::vector<std::string> missing_in(const ResidueAtoms& a, const ResidueAtoms& b, char letter) {
+  std::vector<std::string> missing;
+  for (const std::string& name : a.heavy) {
+    if (b.normalized.count(normalized_atom_name(name, letter)) == 0) missing.push_back(name);
+  }
+  return missing;
+}
+
+/// Atoms without charge, by residue.
+struct Uncharged {
+  std::vector<std::string> residues;  ///< in words
+  std::set<std::string> names;        ///< of residues
+  std::size_t n_atoms = 0;
+  std::string first_atom;
+
+  void add(const Residue& residue, const std::vector<std::string>& atoms) {
+    if (n_atoms == 0) first_atom = atoms.front();
+    residues.push_back(residue_in_words(residue));
+    names.insert(residue.name);
+    n_atoms += atoms.size();
+  }
+};
+
+[[noreturn]] void refuse(const Molecule& before, const ChargeOptions& options, const Uncharged& uncharged) {
+  std::string names;
+  for (const std::string& name : uncharged.names) names += (names.empty() ? "" : ",") + name;
+  throw InputError(before.name + ": " + std::to_string(uncharged.n_atoms) +
+                   (uncharged.n_atoms == 1 ? " atom gets no charge" : " atoms get no charges") +
+                   " from PDB2PQR's force field " + options.force_field + ": " + joined(uncharged.residues) +
+                   " (first atom " + uncharged.first_atom + "); give a MOL2 file of it with hydrogens (" +
+                   option("ligand", "FILE") + "), charges for all atoms (" + option("topology", "FILE") + ", " +
+                   option("charges-from", "FILE") + " or a PQR), or drop it (" +
+                   option("leave-out", "(" + names + ")") + ")");
+}
+
+void add_protonation(const Molecule& after, Preparation& preparation) {
+  const std::vector<std::string> states = protonation_states(after);
+  for (std::size_t r = 0; r < states.size(); ++r) {
+    const std::string meaning = describe_protonation(states[r]);
+    const bool is_histidine = states[r] == "HID" || states[r] == "HIE";
+    if (meaning.empty() && !is_histidine) continue;
+    preparation.protonation.push_back(residue_in_words(after.residues[r]) + ": " + states[r] +
+                                      (meaning.empty() ? "" : " (" + meaning + ")"));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> chain_gaps(const Molecule& molecule) {
+  constexpr double kLongest_A = 2.5;
+  const auto atoms = atoms_of_residues(molecule);
+  const std::vector<ResidueKind> kinds = residue_kinds(molecule, atoms);
+  const auto position = [&](std::size_t residue, const char* name) -> const Vec3d* {
+    for (const std::size_t i : atoms[residue]) {
+      if (molecule.atoms[i].name == name) return &molecule.positions[i];
+    }
+    return nullptr;
+  };
+  std::vector<std::string> gaps;
+  for (std::size_t r = 0; r + 1 < molecule.residues.size(); ++r) {
+    const Residue &a = molecule.residues[r], &b = molecule.residues[r + 1];
+    if (a.chain != b.chain || kinds[r] != ResidueKind::kAminoAcid || kinds[r + 1] != ResidueKind::kAminoAcid) continue;
+    const Vec3d *const c = position(r, "C"), *const n = position(r + 1, "N");
+    if (c == nullptr || n == nullptr || norm(*c - *n) <= kLongest_A) continue;
+    const auto short_name = [](const Residue& residue) {
+      const std::string code = residue.insertion_code == ' ' ? "" : std::string(1, residue.insertion_code);
+      return residue.name + " " + std::to_string(residue.number) + code;
+    };
+    gaps.push_back("between " + short_name(a) + " and " + short_name(b) +
+                   (a.chain.empty() ? "" : " of chain " + a.chain));
+  }
+  return gaps;
+}
+
+void compare_with_input(const Molecule& before, const Molecule& after, const ChargeOptions& options,
+                        Preparation& preparation) {
+  const auto of_before = atoms_by_residue(before), of_after = atoms_by_residue(after);
+  Uncharged uncharged;
+  static const ResidueAtoms kNone;
+  for (const Residue& residue : before.residues) {
+    const ResidueAtoms& given = of_before.at(key_of(residue));
+    const auto found = of_after.find(key_of(residue));
+    const ResidueAtoms& got = found == of_after.end() ? kNone : found->second;
+    const char letter = residue_letter(residue.name);
+    std::vector<std::string> missing = missing_in(given, got, letter), extra = missing_in(got, given, letter);
+    // Within a chain no residue has a second oxygen.
+    const auto is_end = [](const std::string& name) { return normalized_atom_name(name) == "OXT"; };
+    if (found != of_after.end() && std::any_of(missing.begin(), missing.end(), is_end)) {
+      preparation.removed.push_back("OXT of " + residue_in_words(residue));
+      missing.erase(std::remove_if(missing.begin(), missing.end(), is_end), missing.end());
+    }
+    if (!missing.empty()) uncharged.add(residue, missing);
+    if (!extra.empty()) preparation.added.push_back(joined(extra) + " of " + residue_in_words(residue));
+    preparation.n_hydrogens_added += got.n_hydrogens > given.n_hydrogens ? got.n_hydrogens - given.n_hydrogens : 0;
+  }
+  if (uncharged.n_atoms > 0) refuse(before, options, uncharged);
+  preparation.n_atoms_before = before.size();
+  preparation.n_atoms = after.size();
+  preparation.net_charge = 0;
+  for (const float q : after.charges) preparation.net_charge += static_cast<double>(q);
+  preparation.gaps = chain_gaps(before);
+  add_protonation(after, preparation);
+}
+
+}  // namespace espdiff

@@ -1,0 +1,39 @@
+// preparation.h: what a preparation by PDB2PQR did to a structure.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/types.h"
+
+namespace espdiff {
+
+struct ChargeOptions;
+
+/// What PDB2PQR added, repaired and protonated.
+struct Preparation {
+  std::string program;      ///< "PDB2PQR v3.5.2"
+  std::string force_field;  ///< lower case
+  double ph = 7;
+  std::vector<std::string> ligands;  ///< MOL2 files
+  bool from_cache = false;
+  double seconds = 0;
+  std::size_t n_atoms_before = 0, n_atoms = 0, n_hydrogens_added = 0;
+  double net_charge = 0;                 ///< elementary charges
+  std::vector<std::string> added;        ///< heavy atoms: "CG, CD of GLU 12 of chain A"
+  std::vector<std::string> removed;      ///< heavy atoms in the same words, such as OXT within a chain
+  std::vector<std::string> renamed;      ///< "MSE 5 of chain A as MET"
+  std::vector<std::string> protonation;  ///< states other than the usual one: "HIS 31 of chain A: HIP (protonated)"
+  std::vector<std::string> gaps;         ///< "between GLY 10 and ALA 15 of chain A"
+};
+
+/// Lists what differs between the molecule given to PDB2PQR and its answer.
+/// @param before as given to the program
+/// @throws InputError naming atoms of `before` without a charge, with three ways on
+void compare_with_input(const Molecule& before, const Molecule& after, const ChargeOptions& options,
+                        Preparation& preparation);
+
+/// Breaks of a chain: C and N of residues that follow each other lie more than 2.5 A apart.
+std::vector<std::string> chain_gaps(const Molecule& molecule);
+
+}  // namespace espdiff

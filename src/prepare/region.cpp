@@ -1,0 +1,68 @@
+// region.cpp: regions by selection and by distance.
+#include "prepare/region.h"
+
+#include <algorithm>
+
+#include "align/pair_residues.h"
+#include "base/error.h"
+#include "io/select_atoms.h"
+
+namespace espdiff {
+namespace {
+
+bool any(const std::vector<std::uint8_t>& flags) {
+  return std::any_of(flags.begin(), flags.end(), [](std::uint8_t flag) { return flag != 0; });
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> region_within(const Molecule& molecule, const Molecule& whole,
+                                        const std::vector<bool>& near_to, double distance_A) {
+  std::vector<Vec3d> centres;
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    if (near_to[i]) centres.push_back(whole.positions[i]);
+  }
+  std::vector<std::uint8_t> region(molecule.residues.size(), 0);
+  for (std::size_t i = 0; i < molecule.size(); ++i) {
+    std::uint8_t& flag = region[static_cast<std::size_t>(molecule.atoms[i].residue)];
+    if (flag != 0) continue;
+    const Vec3d& p = molecule.positions[i];
+    flag =
+        std::any_of(centres.begin(), centres.end(), [&](const Vec3d& c) { return norm(c - p) <= distance_A; }) ? 1 : 0;
+  }
+  return region;
+}
+
+std::vector<std::uint8_t> region_residues(const Molecule& source, const Molecule& whole_source, const Molecule& target,
+                                          const Molecule& whole_target, const InputOptions& options) {
+  if (!options.has_region()) return {};
+  if (!options.region.empty()) {
+    const std::vector<bool> selected = select_some_atoms(source, options.region, "region");
+    std::vector<std::uint8_t> region(source.residues.size(), 0);
+    for (std::size_t i = 0; i < selected.size(); ++i) {
+      if (selected[i]) region[static_cast<std::size_t>(source.atoms[i].residue)] = 1;
+    }
+    return region;
+  }
+  std::vector<bool> near_to = select_atoms(whole_source, options.region_of, "of");
+  std::vector<std::uint8_t> region;
+  if (std::find(near_to.begin(), near_to.end(), true) != near_to.end()) {
+    region = region_within(source, whole_source, near_to, options.region_within_A);
+  } else {
+    near_to = select_atoms(whole_target, options.region_of, "of");
+    if (std::find(near_to.begin(), near_to.end(), true) == near_to.end())
+      throw InputError(option("of", options.region_of) + " selects no atom of either file; " + whole_source.name +
+                       " has " + describe_chains(whole_source) + "; " + whole_target.name + " has " +
+                       describe_chains(whole_target));
+    const auto of_target = region_within(target, whole_target, near_to, options.region_within_A);
+    region.assign(source.residues.size(), 0);
+    const ResiduePairing pairing = pair_residues(ResidueView(source), ResidueView(target));
+    for (const auto& [s, t] : pairing.pairs) region[s] = of_target[t];
+  }
+  if (!any(region))
+    throw InputError("no residue of the source lies within " + option("region-within") + " of " +
+                     option("of", options.region_of) + "; take a larger distance");
+  return region;
+}
+
+}  // namespace espdiff

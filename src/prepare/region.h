@@ -1,0 +1,25 @@
+// region.h: the part of the source that results are reported for as well.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/input_options.h"
+#include "base/types.h"
+
+namespace espdiff {
+
+/// The residues of the source's region. A residue belongs to it with any selected atom, or any atom within the
+/// distance. Atoms that the region is near to are sought in the source's file, before its selection; if it has none of
+/// them, in the target's, whose region is then carried over by the pairing of residues.
+/// @param whole_source, whole_target the files' atoms before the selection; of molecules in no file, the molecules
+/// @returns [source residue] nonzero in the region; empty without a region
+/// @throws InputError (a selection of no atoms, or a region without residues, with what there is)
+std::vector<std::uint8_t> region_residues(const Molecule& source, const Molecule& whole_source, const Molecule& target,
+                                          const Molecule& whole_target, const InputOptions& options);
+
+/// The same within one molecule; of a molecule that is in no file `whole` is the molecule itself.
+std::vector<std::uint8_t> region_within(const Molecule& molecule, const Molecule& whole,
+                                        const std::vector<bool>& near_to, double distance_A);
+
+}  // namespace espdiff

@@ -1,0 +1,19 @@
+// surface_radii.h: the radii of the compared surfaces.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/input_options.h"
+#include "base/types.h"
+
+namespace espdiff {
+
+/// Sets the radii by which surfaces are made. kAuto keeps the files' radii where all molecules have some of one origin
+/// and, for 9 in 10 of the atoms that share residue and atom names, of one force field (equal within 0.01 A);
+/// otherwise all take Bondi's by element. Potentials that were computed keep the radii they were given.
+/// @returns a note where kAuto replaced radii, otherwise empty
+/// @throws InputError (kFile, and a molecule has no radii from a file)
+std::string set_surface_radii(const std::vector<Molecule*>& molecules, RadiiChoice choice);
+
+}  // namespace espdiff

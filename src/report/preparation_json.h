@@ -1,0 +1,17 @@
+// preparation_json.h: what PDB2PQR did to a structure, as JSON and as lines for a terminal.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <ostream>
+
+namespace espdiff {
+
+struct Preparation;
+
+/// The object of a structure in OUT.json.
+nlohmann::ordered_json preparation_json(const Preparation& preparation);
+
+/// A table: program and options, what was added, repaired and protonated, the net charge.
+void print_preparation(std::ostream& out, const Preparation& preparation);
+
+}  // namespace espdiff

@@ -1,0 +1,119 @@
+# prepare_form.tcl: the row that offers charges for a molecule of VMD that has none.
+
+namespace eval ::espdiff::gui {
+    variable preparing ""             ;# handle of the running preparation
+
+    proc build_prepare_row {path side} {
+        variable widget
+        ttk::frame $path.charges
+        ttk::label $path.charges.text -foreground #8a5a00
+        ttk::button $path.charges.prepare -text Prepare... -width 0 \
+            -command [list ::espdiff::gui::guard ::espdiff::gui::choose_prepared $side]
+        tip $path.charges.prepare "Add hydrogens, charges and radii by PDB2PQR, by the force field and the pH on the\
+            settings' page Input, and load the result beside this molecule"
+        pack $path.charges.text -side left
+        pack $path.charges.prepare -side right
+        grid $path.charges -row 8 -column 0 -columnspan 3 -sticky ew -pady {4 0}
+        set widget($side,charges) $path.charges
+        set widget($side,charges_text) $path.charges.text
+        set widget($side,prepare) $path.charges.prepare
+        grid remove $path.charges
+    }
+
+    # Shown for a molecule without charges.
+    proc update_prepare_row {side} {
+        variable form
+        variable widget
+        variable preparing
+        set mol [number_of $form($side,mol)]
+        set lacks [expr {$form($side,kind) eq "mol" && $mol ne "" && ![has_charges $mol]}]
+        show_if $lacks $widget($side,charges)
+        if {!$lacks} return
+        $widget($side,charges_text) configure -text "No charges: [file_types $mol] files have none"
+        set_enabled [expr {$preparing eq ""}] $widget($side,prepare)
+    }
+
+    proc has_charges {mol} {
+        set atoms [atomselect $mol all]
+        set charges [$atoms get charge]
+        $atoms delete
+        foreach charge $charges { if {$charge != 0} { return 1 } }
+        return 0
+    }
+
+    proc file_types {mol} {
+        set types {}
+        foreach type [lindex [molinfo $mol get filetype] 0] { lappend types [string toupper $type] }
+        return [join [lsort -unique $types] ", "]
+    }
+
+    # Asks for the file that is written.
+    proc choose_prepared {side} {
+        variable window
+        variable form
+        set mol [number_of $form($side,mol)]
+        set name [file rootname [molinfo $mol get name]]-prepared.pqr
+        set path [tk_getSaveFile -parent $window -initialfile $name -defaultextension .pqr \
+            -filetypes {{"PQR structures" .pqr} {"All files" *}}]
+        if {$path ne ""} { start_preparation $side $path }
+    }
+
+    # Prepares the side's molecule in the background.
+    proc start_preparation {side path} {
+        variable running
+        variable preparing
+        variable prepared
+        if {$running ne ""} { error "a computation is running; wait for it, or cancel it" }
+        set words [list prepare [dict remove [molecule_endpoint $side] map] -pqr $path {*}[setting_options preparation]]
+        set running [espdiff {*}$words -progress ::espdiff::gui::show_progress \
+            -command [list ::espdiff::gui::guard ::espdiff::gui::finish_preparation $side]]
+        set preparing $running
+        dict set prepared $path $words
+        save_settings
+        show_message "Preparing..."
+        show_running 1
+        update_prepare_row $side
+        watch
+        return $running
+    }
+
+    # Loads the PQR, which takes the molecule's place in the form.
+    proc finish_preparation {side handle} {
+        variable running
+        variable preparing
+        variable form
+        if {$handle ne $running} return
+        end_run
+        set preparing ""
+        update_prepare_row $side
+        if {[catch_labelled { espdiff wait $handle } message options]} {
+            espdiff delete $handle
+            set cancelled [expr {[lindex [dict get $options -errorcode] 1] eq "CANCELLED"}]
+            if {$cancelled} { show_message "Cancelled." } else { show_message $message error }
+            return
+        }
+        set result [espdiff result $handle]
+        espdiff delete $handle
+        set top [molinfo top]
+        set mol [mol new [dict get $result file] type pqr waitfor all]
+        if {$top ne ""} { mol top $top }
+        set form($side,mol) "$mol: [molinfo $mol get name]"
+        choose_molecule $side
+        foreach other {source target} { update_endpoint $other }
+        show_message [preparation_words [dict get $result preparation]]
+        return $mol
+    }
+
+    # "1686 hydrogens added, net charge -3; HIS 126 of chain A: HIE; ..."
+    proc preparation_words {preparation} {
+        if {$preparation eq ""} { return "The molecule had charges." }
+        set words "[dict get $preparation program]: [dict get $preparation n_hydrogens_added] hydrogens added,\
+            net charge [format %.4g [dict get $preparation net_charge]]"
+        foreach key {added removed renamed protonation gaps} {
+            foreach line [dict get $preparation $key] {
+                append words "; [expr {$key in {protonation} ? "" : "[string map {gaps missing} $key] "}]$line"
+            }
+        }
+        return $words
+    }
+}

@@ -1,0 +1,138 @@
+// `espdiff prepare` and comparisons of PDB entries: every file of the folders bad_*, selections, regions, errors.
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "run_espdiff.h"
+
+using espdiff_test::contains;
+using espdiff_test::n_lines;
+using espdiff_test::Outcome;
+using espdiff_test::read_file;
+using espdiff_test::real_input;
+using espdiff_test::run_espdiff;
+using espdiff_test::ScratchFolder;
+
+namespace {
+
+bool has_pdb2pqr() {
+  if (contains(run_espdiff("doctor").out, "prepare        ok")) return true;
+  MESSAGE("SKIPPED: no PDB2PQR on PATH");
+  return false;
+}
+
+nlohmann::json json_of(const std::string& path) { return nlohmann::json::parse(read_file(path)); }
+
+}  // namespace
+
+TEST_CASE("prepare: untidy files give an answer or one line that names file, place and remedy") {
+  const auto data = real_input("");
+  if (!data || !has_pdb2pqr()) return;
+  const ScratchFolder folder;
+  const auto prepared = [&](const std::string& file) {
+    return run_espdiff("prepare " + *data + file + " --no-cache -o " + folder.file("out.pqr"));
+  };
+  Outcome outcome = prepared("bad_parmed/2igd.pdb");
+  CHECK(outcome.status == 0);
+  CHECK(contains(outcome.out, "net charge      -2.0000 e"));
+  CHECK(json_of(folder.file("out.json"))["preparation"]["n_atoms"] == 927);
+  for (const auto& [file, words] :
+       {std::pair("bad_biopython/a_structure.pdb", "a_structure.pdb:20: an atom outside of MODEL ... ENDMDL"),
+        {"bad_pdb/insertion-code.pdb", "insertion-code.pdb: has no charges, and no amino acids or nucleotides"},
+        {"bad_pdb/odd-start.pdb", "PDB2PQR could charge (EST only); give a PQR, or --topology FILE"},
+        {"bad_pdb/short-atom.pdb", "short-atom.pdb: has no charges, and no amino acids"}}) {
+    outcome = prepared(file);
+    CHECK(outcome.status == 2);
+    CHECK(contains(outcome.err, words));
+    CHECK(n_lines(outcome.err) == 1);
+    CHECK(outcome.out.empty());
+  }
+}
+
+TEST_CASE("prepare: an atom without charge, an unknown chain, a word that drops nothing, a wrong ligand") {
+  const auto path = real_input("pairs/1ake.pdb");
+  if (!path || !has_pdb2pqr()) return;
+  const ScratchFolder folder;
+  const auto refused = [&](const std::string& options) {
+    const Outcome outcome = run_espdiff("prepare " + *path + " -o " + folder.file("out.pqr") + " " + options);
+    CHECK(outcome.status == 2);
+    CHECK(n_lines(outcome.err) == 1);
+    return outcome.err;
+  };
+  const std::string uncharged = refused("--select //A");
+  CHECK(contains(uncharged, "57 atoms get no charges from PDB2PQR's force field parse: AP5 215 of chain A"));
+  CHECK(contains(uncharged, "or drop it (--leave-out '(AP5)')"));
+  CHECK(
+      contains(refused("--select //C"), "--select '//C' selects no atom; the file has chain A (1-214, AP5), chain B"));
+  CHECK(contains(refused("--select '//A;polymer' --leave-out '(HEM)'"), "drops no atom"));
+  CHECK(contains(refused("--select '//A;polymer' --ligand " + *path), "a ligand is read from a Tripos MOL2 file"));
+  CHECK(contains(refused("--assembly 7"), "there is no assembly '7'"));
+  CHECK(folder.n_files() == 0);
+}
+
+TEST_CASE("compare: two PDB entries to the answer, with a region around a ligand that is not compared") {
+  const auto source = real_input("pairs/1ake.pdb"), target = real_input("pairs/4ake.pdb");
+  if (!source || !has_pdb2pqr()) return;
+  const ScratchFolder folder;
+  const Outcome outcome = run_espdiff("compare " + *source + " " + *target +
+                                      " --select '//A;polymer' --region-within 5 --of '//A/(AP5)' --grid-spacing 2 "
+                                      "--pb-spacing 1.5 -o " +
+                                      folder.file("adk"));
+  CHECK(outcome.status == 0);
+  CHECK(outcome.err.empty());
+  CHECK(contains(outcome.out, "Charges, source                  PDB2PQR v3"));
+  CHECK(contains(outcome.out, "Region: "));
+  const nlohmann::json json = json_of(folder.file("adk.json"));
+  CHECK(json["rmsd_A"].get<double>() == doctest::Approx(7.229).epsilon(1e-3));
+  CHECK(json["preparation"]["source"]["n_hydrogens_added"] == 1686);
+  CHECK(json["chains"]["compared"][0]["n_residues"] == 214);
+  CHECK(json["potential"]["label"] == "Poisson-Boltzmann, 0.15 mol/l");
+  const std::size_t n_region = json["region"]["n_residues"];
+  CHECK(n_region > 20);
+  CHECK(n_region < 80);
+  CHECK(json["region"]["area_A2"]["valid"].get<double>() < json["area_A2"]["valid"].get<double>());
+  CHECK(contains(read_file(folder.file("adk.residues.csv")), ",region"));
+  CHECK(json["inputs"][0]["path"] == "adk.source.pqr");
+  // The kept structures repeat the comparison.
+  const Outcome again = run_espdiff("compare " + folder.file("adk.source.pqr") + " " + folder.file("adk.target.pqr") +
+                                    " --grid-spacing 2 --pb-spacing 1.5 -q -o " + folder.file("again"));
+  CHECK(again.status == 0);
+  CHECK(json_of(folder.file("again.json"))["mean_abs_difference"] == json["mean_abs_difference"]);
+}
+
+TEST_CASE("compare: copies are said, and swapped chains of a dimer are not compared crosswise") {
+  const auto tim = real_input("tim/2YPI.pdb");
+  if (!tim) return;
+  const ScratchFolder folder;
+  // The same dimer with its chains renamed and written in the other order.
+  std::string first, second;
+  std::istringstream lines(read_file(*tim));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("ATOM", 0) != 0) continue;
+    const bool is_a = line[21] == 'A';
+    line[21] = is_a ? 'B' : 'A';
+    (is_a ? second : first) += line + "\n";
+  }
+  const std::string swapped = folder.write("swapped.pdb", first + second);
+  const Outcome outcome =
+      run_espdiff("compare " + *tim + " " + swapped + " --select ';polymer' --potential none --grid-spacing 2 -o " +
+                  folder.file("out"));
+  CHECK(outcome.status == 0);
+  CHECK(contains(outcome.out, "Copies in the source             chains A, B repeat one sequence"));
+  const nlohmann::json json = json_of(folder.file("out.json"));
+  CHECK(json["chains"]["copies"]["target"][0] == nlohmann::json{"A", "B"});
+  MESSAGE("RMSD ", json["rmsd_A"].get<double>());
+}
+
+TEST_CASE("compare: without PDB2PQR shapes alone are compared, and why is said") {
+  const auto source = real_input("t4l/3lzm_from_bcif.pdb");
+  if (!source) return;
+  const ScratchFolder folder;
+  const std::string call = "compare " + *source + " " + *source + " --grid-spacing 2 -o " + folder.file("out");
+  const Outcome outcome = run_espdiff(call, "ESPDIFF_PDB2PQR=/no/such/program");
+  CHECK(outcome.status == 0);
+  CHECK(contains(outcome.out, "has no charges, and PDB2PQR, which assigns some, is not there; install it"));
+  const Outcome asked = run_espdiff(call + " --potential pb", "ESPDIFF_PDB2PQR=/no/such/program");
+  CHECK(asked.status == 1);
+  CHECK(contains(asked.err, "PDB2PQR, which assigns them, is not there"));
+}

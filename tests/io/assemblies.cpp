@@ -1,0 +1,120 @@
+// Biological assemblies of PDB and mmCIF files; PDB files of old programs.
+#include <doctest/doctest.h>
+
+#include "base/error.h"
+#include "io/read_structure.h"
+#include "support/test_data.h"
+
+using namespace espdiff;
+using espdiff_test::message_of;
+using espdiff_test::real_input;
+using espdiff_test::ScratchFolder;
+
+namespace {
+
+/// A dimer: the identity, and a rotation by 180 degrees about z with a shift along it.
+const char* const kPdb =
+    "REMARK 350 BIOMOLECULE: 1\n"
+    "REMARK 350 AUTHOR DETERMINED BIOLOGICAL UNIT: DIMERIC\n"
+    "REMARK 350 APPLY THE FOLLOWING TO CHAINS: A\n"
+    "REMARK 350   BIOMT1   1  1.000000  0.000000  0.000000        0.00000\n"
+    "REMARK 350   BIOMT2   1  0.000000  1.000000  0.000000        0.00000\n"
+    "REMARK 350   BIOMT3   1  0.000000  0.000000  1.000000        0.00000\n"
+    "REMARK 350   BIOMT1   2 -1.000000  0.000000  0.000000        0.00000\n"
+    "REMARK 350   BIOMT2   2  0.000000 -1.000000  0.000000        0.00000\n"
+    "REMARK 350   BIOMT3   2  0.000000  0.000000  1.000000        5.00000\n"
+    "ATOM      1  N   ALA A   1       1.000   2.000   3.000  1.00  0.00           N\n"
+    "ATOM      2  CA  ALA A   1       2.500   2.000   3.000  1.00  0.00           C\n"
+    "ATOM      3  CA  ALA B   1      20.000   2.000   3.000  1.00  0.00           C\n"
+    "HETATM    4 ZN    ZN A 100       4.000   4.000   3.000  1.00  0.00          ZN\n";
+
+const char* const kCif =
+    "data_x\n_pdbx_struct_assembly.id 1\n_pdbx_struct_assembly.details author_defined_assembly\n"
+    "_pdbx_struct_assembly.method_details ?\n_pdbx_struct_assembly.oligomeric_details dimeric\n"
+    "_pdbx_struct_assembly.oligomeric_count 2\n#\n"
+    "_pdbx_struct_assembly_gen.assembly_id 1\n_pdbx_struct_assembly_gen.oper_expression 1,2\n"
+    "_pdbx_struct_assembly_gen.asym_id_list A\n#\nloop_\n_pdbx_struct_oper_list.id\n_pdbx_struct_oper_list.type\n"
+    "_pdbx_struct_oper_list.matrix[1][1]\n_pdbx_struct_oper_list.matrix[1][2]\n_pdbx_struct_oper_list.matrix[1][3]\n"
+    "_pdbx_struct_oper_list.vector[1]\n_pdbx_struct_oper_list.matrix[2][1]\n_pdbx_struct_oper_list.matrix[2][2]\n"
+    "_pdbx_struct_oper_list.matrix[2][3]\n_pdbx_struct_oper_list.vector[2]\n_pdbx_struct_oper_list.matrix[3][1]\n"
+    "_pdbx_struct_oper_list.matrix[3][2]\n_pdbx_struct_oper_list.matrix[3][3]\n_pdbx_struct_oper_list.vector[3]\n"
+    "1 identity 1 0 0 0 0 1 0 0 0 0 1 0\n2 other -1 0 0 0 0 -1 0 0 0 0 1 5\n#\n"
+    "loop_\n_atom_site.group_PDB\n_atom_site.id\n_atom_site.type_symbol\n_atom_site.label_atom_id\n"
+    "_atom_site.label_comp_id\n_atom_site.label_asym_id\n_atom_site.label_seq_id\n_atom_site.Cartn_x\n"
+    "_atom_site.Cartn_y\n_atom_site.Cartn_z\n_atom_site.auth_seq_id\n_atom_site.auth_asym_id\n"
+    "ATOM 1 N N ALA A 1 1 2 3 1 A\nATOM 2 C CA ALA A 1 2.5 2 3 1 A\nATOM 3 C CA ALA B 1 20 2 3 1 B\n";
+
+StructureOptions assembly(const char* name) {
+  StructureOptions options;
+  options.assembly = name;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("an assembly of a PDB file: the copy is rotated and has a chain name of its own") {
+#ifndef ESPDIFF_HAVE_GEMMI
+  MESSAGE("SKIPPED: this build lacks gemmi");
+  return;
+#endif
+  const ScratchFolder folder;
+  const std::string path = folder.write("dimer.pdb", kPdb);
+  CHECK(read_structure(path).size() == 4);
+  const Molecule dimer = read_structure(path, assembly("1"));
+  REQUIRE(dimer.size() == 6);
+  REQUIRE(dimer.residues.size() == 4);
+  CHECK(dimer.residues[0].chain == "A");
+  CHECK(dimer.residues[2].chain == "B");
+  CHECK(dimer.atoms[2].element == "Zn");
+  CHECK(dimer.positions[1].x == 2.5);
+  CHECK(dimer.positions[4].x == -2.5);
+  CHECK(dimer.positions[4].y == -2);
+  CHECK(dimer.positions[4].z == 8);
+  CHECK(dimer.radii.size() == 6);
+}
+
+TEST_CASE("an assembly of an mmCIF file, without occupancies and alternate locations") {
+#ifdef ESPDIFF_HAVE_GEMMI
+  const ScratchFolder folder;
+  const std::string path = folder.write("dimer.cif", kCif);
+  CHECK(read_structure(path).size() == 3);
+  const Molecule dimer = read_structure(path, assembly("1"));
+  REQUIRE(dimer.size() == 4);
+  CHECK(dimer.residues[1].chain == "B");
+  CHECK(dimer.positions[3].x == -2.5);
+  CHECK(dimer.positions[3].z == 8);
+#endif
+}
+
+TEST_CASE("an assembly that is not there is refused with those there are") {
+#ifdef ESPDIFF_HAVE_GEMMI
+  const ScratchFolder folder;
+  const std::string path = folder.write("dimer.pdb", kPdb);
+  CHECK(message_of([&] { read_structure(path, assembly("3")); }) ==
+        path + ": assembly: there is no assembly '3'; there are 1");
+  const std::string plain = folder.write("plain.pdb", std::string(kPdb).substr(std::string(kPdb).find("ATOM")));
+  CHECK(message_of([&] { read_structure(plain, assembly("1")); }).find("the file describes none (REMARK 350") !=
+        std::string::npos);
+  const std::string pqr = folder.write("a.pqr", "ATOM 1 CA ALA A 1 0.0 0.0 0.0 0.5 1.5\n");
+  CHECK(message_of([&] { read_structure(pqr, assembly("1")); }).find("is a PQR file, which describes no assemblies") !=
+        std::string::npos);
+#endif
+}
+
+TEST_CASE("a PDB file with atomic numbers behind its columns is no PQR") {
+#ifdef ESPDIFF_HAVE_GEMMI
+  // As VMD's example deoxy.pdb has them.
+  const ScratchFolder folder;
+  const std::string path =
+      folder.write("deoxy.pdb",
+                   "ATOM      1 CB   MET     0     -11.092   7.121 -18.545  1.00 28.04   6         \n"
+                   "ATOM      2 CG   MET     0     -10.026   7.899 -17.775  1.00 28.18   6         \n"
+                   "ATOM      3 SD   MET     0      -9.946   7.480 -16.010  1.00 27.93  16         \n");
+  const Molecule molecule = read_structure(path);
+  REQUIRE(molecule.size() == 3);
+  CHECK(molecule.charges.empty());
+  CHECK(molecule.atoms[2].name == "SD");
+  CHECK(molecule.atoms[2].element == "S");
+  CHECK(molecule.positions[0].z == -18.545);
+#endif
+}

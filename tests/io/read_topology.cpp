@@ -1,0 +1,75 @@
+// Charges from PSF and prmtop files, as real programs wrote them, cut, and for other coordinates.
+#include "io/read_topology.h"
+
+#include <doctest/doctest.h>
+
+#include <numeric>
+
+#include "base/error.h"
+#include "io/read_structure.h"
+#include "support/test_data.h"
+
+using namespace espdiff;
+using espdiff_test::message_of;
+using espdiff_test::real_input;
+using espdiff_test::ScratchFolder;
+
+namespace {
+
+const char* const kPsf =
+    "PSF\n\n       1 !NTITLE\n REMARKS made\n\n       2 !NATOM\n"
+    "       1 U    1    MET  N    NH3   -0.300000       14.0070           0\n"
+    "       2 U    1    MET  HT1  HC     0.330000        1.0080           0\n\n       1 !NBOND: bonds\n       1       "
+    "2\n";
+const char* const kPrmtop =
+    "%VERSION  VERSION_STAMP = V0001.000\n%FLAG TITLE\n%FORMAT(20a4)\nmade\n%FLAG POINTERS\n%FORMAT(10I8)\n"
+    "       2       1\n%FLAG ATOM_NAME\n%FORMAT(20a4)\nN   H1  \n%FLAG CHARGE\n%FORMAT(5E16.8)\n"
+    "  2.90090000E+00  1.82223000E+01\n%FLAG RADII\n%FORMAT(5E16.8)\n  1.55000000E+00  1.30000000E+00\n";
+
+double sum(const std::vector<float>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+
+}  // namespace
+
+TEST_CASE("read_topology: a PSF's and a prmtop's atoms") {
+  const ScratchFolder folder;
+  const Topology psf = read_topology(folder.write("a.psf", kPsf));
+  CHECK(psf.names == std::vector<std::string>{"N", "HT1"});
+  CHECK(psf.charges == std::vector<float>{-0.3F, 0.33F});
+  CHECK(psf.radii.empty());
+  const Topology prmtop = read_topology(folder.write("a.prmtop", kPrmtop));
+  CHECK(prmtop.names == std::vector<std::string>{"N", "H1"});
+  CHECK(prmtop.charges[1] == doctest::Approx(1).epsilon(1e-6));
+  CHECK(prmtop.radii == std::vector<float>{1.55F, 1.3F});
+}
+
+TEST_CASE("read_topology: cut and wrong files are refused with the line") {
+  const ScratchFolder folder;
+  const auto refused = [&](const char* name, const std::string& text) {
+    const std::string path = folder.write(name, text);
+    return message_of([&] { read_topology(path); }).substr(path.size());
+  };
+  const std::string psf = kPsf, prmtop = kPrmtop;
+  CHECK(refused("b.psf", psf.substr(0, psf.find("       2 U"))).find("the PSF ends after 1 of 2 atoms") !=
+        std::string::npos);
+  CHECK(refused("c.psf", "PSF\n\n 1 !NATOM\n 1 U 1 MET N NH3 x 14\n").find(":4: a PSF atom is") == 0);
+  CHECK(refused("d.psf", "PSF\n\n 1 !NTITLE\n").find("no !NATOM section") != std::string::npos);
+  CHECK(refused("e.prmtop", prmtop.substr(0, prmtop.find("  2.9009"))).find("%FLAG CHARGE has 0 values for 2 atoms") !=
+        std::string::npos);
+  CHECK(refused("f.dx", "object 1 class gridpositions counts 1 1 1\n").find("not read as a topology") !=
+        std::string::npos);
+}
+
+TEST_CASE("read_topology: ubiquitin's PSF gives the charges of its PQR; DHFR's prmtop a net charge of -11") {
+  const auto psf = real_input("ubq/ubq.psf"), pdb = real_input("ubq/ubq.pdb"), pqr = real_input("ubq/ubq.pqr"),
+             prmtop = real_input("box_dhfr_jac/JAC.prmtop");
+  if (!psf) return;
+  Molecule molecule = read_structure(*pdb, {1, true, true});
+  take_topology(molecule, read_topology(*psf));
+  const Molecule expected = read_structure(*pqr, {1, true, true});
+  REQUIRE(molecule.charges.size() == expected.charges.size());
+  CHECK(sum(molecule.charges) == doctest::Approx(sum(expected.charges)).epsilon(1e-6));
+  const Topology dhfr = read_topology(*prmtop);
+  CHECK(dhfr.charges.size() == 23558);
+  CHECK(sum(dhfr.charges) == doctest::Approx(-11).epsilon(1e-4));
+  CHECK(message_of([&] { take_topology(molecule, dhfr); }).find("has 23558 atoms, and") != std::string::npos);
+}

@@ -1,0 +1,309 @@
+// Preparations by PDB2PQR: against the program run by hand, and the rules for untidy entries.
+#include "prepare/pdb2pqr.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "align/protonation.h"
+#include "base/error.h"
+#include "base/input_options.h"
+#include "io/read_structure.h"
+#include "io/run_program.h"
+#include "io/select_atoms.h"
+#include "io/structure_file.h"
+#include "io/write_pqr.h"
+#include "prepare/cache.h"
+#include "prepare/load_state.h"
+#include "support/test_data.h"
+
+using namespace espdiff;
+using espdiff_test::message_of;
+using espdiff_test::real_input;
+using espdiff_test::ScratchFolder;
+
+namespace {
+
+/// Says SKIPPED without the program.
+bool has_pdb2pqr() {
+  if (!find_pdb2pqr().empty()) return true;
+  MESSAGE("SKIPPED: no PDB2PQR; ", kPdb2pqrRemedy);
+  return false;
+}
+
+ChargeOptions without_cache() {
+  ChargeOptions options;
+  options.use_cache = false;
+  return options;
+}
+
+Prepared prepare(const Molecule& molecule, const std::vector<std::string>& states = {}) {
+  return prepare_molecule(molecule, without_cache(), states, Progress());
+}
+
+/// Residues of a chain of 3LZM as the text of a PDB file.
+std::string lysozyme(int first, int last) {
+  const auto path = real_input("t4l/3lzm_from_bcif.pdb");
+  if (!path) return {};
+  std::string text;
+  std::istringstream lines(espdiff_test::read_file(*path));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("ATOM", 0) != 0) continue;
+    const int number = std::stoi(line.substr(22, 4));
+    if (number >= first && number <= last) text += line + "\n";
+  }
+  return text;
+}
+
+Molecule read(const ScratchFolder& folder, const std::string& text, const std::string& name = "in.pdb") {
+  Molecule molecule = read_structure(folder.write(name, text), {1, true, false});
+  molecule.name = name;
+  return molecule;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("prepare_molecule: charges, radii and places of PDB2PQR run by hand, to the last digit") {
+  const auto path = real_input("pairs/4ake.pdb");
+  if (!path || !has_pdb2pqr()) return;
+  const ScratchFolder folder;
+  // By hand: chain A's lines as they stand in the entry, and the options of PDB2PQR's documentation.
+  std::string chain_a;
+  std::istringstream lines(espdiff_test::read_file(*path));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("ATOM", 0) == 0 && line[21] == 'A') chain_a += line + "\n";
+  }
+  const std::string input = folder.write("a.pdb", chain_a), output = folder.file("a.pqr");
+  REQUIRE(run_program({{find_pdb2pqr(), "--ff=PARSE", "--titration-state-method=propka", "--with-ph=7.0",
+                        "--keep-chain", input, output},
+                       {},
+                       {},
+                       300,
+                       {}})
+              .status == 0);
+  const Molecule by_hand = read_structure(output, {1, true, true});
+  InputOptions options;
+  options.both.select = "//A;polymer";
+  options.charges.use_cache = false;
+  const LoadedState state = load_state(StructureFile(*path), {}, options, Progress());
+  REQUIRE(state.molecule.size() == by_hand.size());
+  CHECK(state.molecule.charges == by_hand.charges);
+  CHECK(state.molecule.radii == by_hand.radii);
+  for (std::size_t i = 0; i < by_hand.size(); ++i) {
+    if (state.molecule.positions[i] == by_hand.positions[i] && state.molecule.atoms[i].name == by_hand.atoms[i].name)
+      continue;
+    FAIL("atom ", i, " differs");
+  }
+  // The file that `espdiff prepare` writes has the same bits.
+  std::ostringstream text;
+  write_pqr(text, state.molecule);
+  CHECK(read_structure(folder.write("ours.pqr", text.str()), {1, true, true}).charges == by_hand.charges);
+  REQUIRE(state.preparation);
+  CHECK(state.preparation->program.find("PDB2PQR v3") == 0);
+  CHECK(state.preparation->net_charge == doctest::Approx(-3).epsilon(1e-5));
+  CHECK(state.preparation->n_hydrogens_added == 1686);
+}
+
+TEST_CASE("prepare_molecule: given states are taken") {
+  const std::string text = lysozyme(1, 40);
+  if (text.empty() || !has_pdb2pqr()) return;
+  const ScratchFolder folder;
+  const Molecule molecule = read(folder, text);
+  const Prepared own = prepare(molecule);
+  std::vector<std::string> states = protonation_states(own.molecule);
+  states.resize(molecule.residues.size());
+  const auto residue = [&](int number) {
+    return static_cast<std::size_t>(
+        std::find_if(molecule.residues.begin(), molecule.residues.end(), [&](auto& r) { return r.number == number; }) -
+        molecule.residues.begin());
+  };
+  states[residue(31)] = "HIE";
+  states[residue(20)] = "ASH";
+  states[residue(11)] = "GLH";
+  states[residue(16)] = "LYN";
+  const Prepared forced = prepare(molecule, states);
+  const std::vector<std::string> got = protonation_states(forced.molecule);
+  for (const int number : {31, 20, 11, 16}) CHECK(got[residue(number)] == states[residue(number)]);
+  CHECK(forced.molecule.residues[residue(20)].name == "ASP");  // the name of the input
+}
+
+TEST_CASE("prepare_molecule: insertion codes, long numbers and chain names come back as they were") {
+  const std::string text = lysozyme(1, 30);
+  if (text.empty() || !has_pdb2pqr()) return;
+  const ScratchFolder folder;
+  Molecule molecule = read(folder, text);
+  const Prepared plain = prepare(molecule);
+  for (std::size_t r = 0; r < molecule.residues.size(); ++r) {
+    molecule.residues[r].chain = "heavy";
+    molecule.residues[r].number = r < 15 ? 12345 : 20000 + static_cast<int>(r);
+    if (r < 15) molecule.residues[r].insertion_code = static_cast<char>('A' + r);
+  }
+  const Prepared odd = prepare(molecule);
+  CHECK(odd.molecule.charges == plain.molecule.charges);
+  REQUIRE(odd.molecule.residues.size() == molecule.residues.size());
+  CHECK(odd.molecule.residues[3].insertion_code == 'D');
+  CHECK(odd.molecule.residues[3].number == 12345);
+  CHECK(odd.molecule.residues[20].chain == "heavy");
+  CHECK(odd.molecule.residues[20].number == 20020);
+}
+
+TEST_CASE("prepare_molecule: selenomethionine is charged as methionine, and said") {
+  const std::string text = lysozyme(1, 20);
+  if (text.empty() || !has_pdb2pqr()) return;
+  const ScratchFolder folder;
+  const Prepared plain = prepare(read(folder, text));
+  std::string selenium = replaced(text, "MET A", "MSE A");
+  selenium = replaced(replaced(selenium, " SD  MSE", "SE   MSE"), "ATOM      1", "HETATM    1");
+  const Molecule molecule = read(folder, selenium, "mse.pdb");
+  const Prepared prepared = prepare(molecule);
+  CHECK(prepared.molecule.charges == plain.molecule.charges);
+  CHECK(prepared.preparation.renamed == std::vector<std::string>{"MSE 1 of chain A as MET", "MSE 6 of chain A as MET"});
+}
+
+TEST_CASE("prepare_molecule: a phosphorylated residue, a ligand and an ion get no charge; three ways on") {
+  const std::string text = lysozyme(1, 20);
+  if (text.empty() || !has_pdb2pqr()) return;
+  const ScratchFolder folder;
+  const std::string ligand =
+      "HETATM 9000  PA  ATP A 301      60.000  60.000  60.000  1.00  0.00           P\n"
+      "HETATM 9001 CA    CA A 302      70.000  60.000  60.000  1.00  0.00          CA\n";
+  const Molecule molecule = read(folder, text + ligand);
+  CHECK(message_of([&] { prepare(molecule); }) ==
+        "in.pdb: 2 atoms get no charges from PDB2PQR's force field parse: ATP 301 of chain A, CA 302 of chain A (first "
+        "atom PA); give a MOL2 file of it with hydrogens (ligand FILE), charges for all atoms (topology FILE, "
+        "charges-from FILE or a PQR), or drop it (leave-out (ATP,CA))");
+  const std::string phosphorylated = replaced(text, "TYR A", "PTR A");
+  CHECK(message_of([&] { prepare(read(folder, phosphorylated, "ptr.pdb")); }).find("PTR") != std::string::npos);
+  InputOptions options;
+  options.charges.use_cache = false;
+  options.leave_out = "(ATP,CA)";
+  const LoadedState left = load_state(StructureFile(folder.file("in.pdb")), {}, options, Progress());
+  CHECK(left.preparation.has_value());
+}
+
+TEST_CASE("prepare_molecule: a missing loop is listed, its ends stay uncharged; missing atoms are added") {
+  const std::string text = lysozyme(1, 30);
+  if (text.empty() || !has_pdb2pqr()) return;
+  const ScratchFolder folder;
+  std::string gapped;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const int number = std::stoi(line.substr(22, 4));
+    const bool in_gap = number >= 12 && number <= 15;
+    const bool side_chain = number == 8 && line.substr(12, 4) != " N  " && line.substr(12, 4) != " CA " &&
+                            line.substr(12, 4) != " C  " && line.substr(12, 4) != " O  ";
+    if (!in_gap && !side_chain) gapped += line + "\n";
+  }
+  const Prepared prepared = prepare(read(folder, gapped));
+  CHECK(prepared.preparation.gaps == std::vector<std::string>{"between GLU 11 and LYS 16 of chain A"});
+  REQUIRE(prepared.preparation.added.size() >= 1);
+  CHECK(prepared.preparation.added[0].find("of ARG 8 of chain A") != std::string::npos);
+  for (std::size_t i = 0; i < prepared.molecule.size(); ++i) {
+    const Residue& residue = prepared.molecule.residues[static_cast<std::size_t>(prepared.molecule.atoms[i].residue)];
+    if (residue.number == 11) CHECK(prepared.molecule.atoms[i].name != "OXT");
+  }
+}
+
+TEST_CASE("prepare_molecule: of alternate locations the better occupied one is charged") {
+  const std::string text = lysozyme(1, 20);
+  if (text.empty() || !has_pdb2pqr()) return;
+  const ScratchFolder folder;
+  std::string alternate;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const bool moves = line.substr(17, 3) == "PHE" && line.substr(12, 4) == " CZ ";
+    if (!moves) {
+      alternate += line + "\n";
+      continue;
+    }
+    for (const char location : {'A', 'B'}) {
+      std::string copy = line;
+      copy[16] = location;
+      copy.replace(54, 6, location == 'A' ? "  0.30" : "  0.70");
+      if (location == 'A') copy.replace(30, 8, "   0.000");
+      alternate += copy + "\n";
+    }
+  }
+  const Prepared plain = prepare(read(folder, text)), chosen = prepare(read(folder, alternate, "alternate.pdb"));
+  REQUIRE(chosen.molecule.size() == plain.molecule.size());
+  for (std::size_t i = 0; i < plain.molecule.size(); ++i)
+    CHECK(chosen.molecule.positions[i] == plain.molecule.positions[i]);
+}
+
+TEST_CASE("prepare_molecule: the cache gives the same, and a damaged entry is not taken") {
+  const std::string text = lysozyme(1, 20);
+  if (text.empty() || !has_pdb2pqr()) return;
+  const ScratchFolder folder;
+  CHECK(message_of([&] { prepare(read(folder, lysozyme(1, 12), "short.pdb")); })
+            .find("short.pdb: has no charges, and PDB2PQR cannot prepare it: PROPKA cannot use it, such as a peptide "
+                  "of few residues; "
+                  "complete or mend the structure, leave atoms out") == 0);
+  setenv("XDG_CACHE_HOME", folder.file("cache").c_str(), 1);
+  const Molecule molecule = read(folder, text);
+  ChargeOptions options;
+  const Prepared first = prepare_molecule(molecule, options, {}, Progress());
+  CHECK(!first.preparation.from_cache);
+  const Prepared second = prepare_molecule(molecule, options, {}, Progress());
+  CHECK(second.preparation.from_cache);
+  CHECK(second.molecule.charges == first.molecule.charges);
+  CHECK(second.preparation.program == first.preparation.program);
+  options.ph = 3;
+  CHECK(!prepare_molecule(molecule, options, {}, Progress()).preparation.from_cache);
+  options.ph = 7;
+  for (const auto& entry : std::filesystem::directory_iterator(cache_folder())) {
+    std::string content = espdiff_test::read_file(entry.path().string());
+    content[content.size() / 2] ^= 1;
+    std::ofstream(entry.path()) << content;
+  }
+  const Prepared third = prepare_molecule(molecule, options, {}, Progress());
+  CHECK(!third.preparation.from_cache);
+  CHECK(third.molecule.charges == first.molecule.charges);
+  unsetenv("XDG_CACHE_HOME");
+}
+
+TEST_CASE("prepare_molecule: no program, nothing to charge, cancelled") {
+  const ScratchFolder folder;
+  const Molecule ion = read(folder, "HETATM    1 CA    CA A   1       0.000   0.000   0.000  1.00  0.00          CA\n");
+  setenv("ESPDIFF_PDB2PQR", "/no/such/program", 1);
+  CHECK(message_of([&] { prepare(ion); }) ==
+        "in.pdb: has no charges, and PDB2PQR, which assigns them, is not there; install it (Debian: pdb2pqr; PyPI: "
+        "pdb2pqr)");
+  unsetenv("ESPDIFF_PDB2PQR");
+  if (!has_pdb2pqr()) return;
+  CHECK(message_of([&] { prepare(ion); }).find("no amino acids or nucleotides that PDB2PQR could charge (CA only)") !=
+        std::string::npos);
+  const std::string text = lysozyme(1, 40);
+  if (text.empty()) return;
+  Progress progress;
+  progress.request_cancel();
+  CHECK_THROWS_AS(prepare_molecule(read(folder, text), without_cache(), {}, progress), Cancelled);
+}
+
+TEST_CASE("load_state: the target takes the source's protonation states") {
+  const auto path = real_input("pairs/4ake.pdb");
+  if (!path || !has_pdb2pqr()) return;
+  InputOptions options;
+  options.both.select = "//A;polymer";
+  options.charges.same_protonation = true;
+  options.charges.use_cache = false;
+  const StructureFile file(*path);
+  InputOptions acid = options;
+  acid.charges.ph = 3;
+  const LoadedState source = load_state(file, {{}, StateRole::kSource}, acid, Progress());
+  StateRequest request{{}, StateRole::kTarget};
+  request.source = &source.molecule;
+  const LoadedState target = load_state(file, request, options, Progress());
+  std::vector<std::int32_t> target_of;
+  for (std::size_t r = 0; r < source.molecule.residues.size(); ++r) target_of.push_back(static_cast<std::int32_t>(r));
+  const auto differences = protonation_differences(source.molecule, target.molecule, target_of);
+  for (const auto& difference : differences) MESSAGE(in_words(difference, source.molecule));
+  CHECK(differences.empty());
+  CHECK(target.preparation->net_charge > 10);
+}

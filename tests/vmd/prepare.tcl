@@ -1,0 +1,117 @@
+# prepare.tcl: a molecule of VMD without charges gets some: by command, and by the window's button from VMD's menu.
+source [file join $env(ESPDIFF_TESTS) support.tcl]
+unset env(ESPDIFF_PDB2PQR)
+package require espdiff
+
+proc widget {name} { return $::espdiff::gui::widget($name) }
+proc pause {ms} { after $ms {set ::tick 1}; vwait ::tick }
+proc wait_until {condition} {
+    set end [expr {[clock seconds] + 120}]
+    while {![uplevel #0 [list expr $condition]]} {
+        if {[clock seconds] > $end} { error "'$condition' did not come true" }
+        pause 30
+    }
+}
+proc message_line {} { string trim [[widget message] get 1.0 end] }
+proc charge_of {mol} {
+    set atoms [atomselect $mol all]
+    set sum 0
+    foreach charge [$atoms get charge] { set sum [expr {$sum + $charge}] }
+    $atoms delete
+    return $sum
+}
+
+set background {}
+proc background_error {message options} { lappend ::background $message }
+interp bgerror {} background_error
+
+if {[string match "*prepare        --*" [exec $env(ESPDIFF) doctor]]} {
+    note "SKIPPED: no PDB2PQR on PATH"
+    finish
+}
+set source [mol new [input t4l/3lzm_from_bcif.pdb] type pdb waitfor all]
+set target [mol new [input t4l/181L.pdb] type pdb waitfor all]
+
+test "by command: hydrogens, charges and radii of a selection" {
+    set handle [espdiff prepare [list mol $source sel protein] -pqr $scratch/source.pqr]
+    set result [espdiff result $handle]
+    check "hydrogens" {[dict get $result preparation n_hydrogens_added] > 1300}
+    set mol [mol new [dict get $result file] type pqr waitfor all]
+    check_equal "residues" [llength [lsort -unique [[atomselect $mol "name CA"] get resid]]] 164
+    check_close "net charge" [charge_of $mol] [dict get $result preparation net_charge] 1e-4
+    mol delete $mol
+    espdiff delete $handle
+}
+
+test "refused: no charges for the ligand, no map, no such file" {
+    check_refused {espdiff prepare [list mol $target sel "not water"] -pqr $scratch/no.pqr} {ESPDIFF INPUT} \
+        "get no charges from PDB2PQR" "-leave-out (BNZ,CL,HED)"
+    check "no file" {![file exists $scratch/no.pqr]}
+    check_refused {espdiff prepare [list mol $target map pb] -pqr $scratch/no.pqr} {ESPDIFF INPUT} "is not of a preparation"
+    check_refused {espdiff compare [list mol $source map pb] [list mol $target map pb]} {ESPDIFF INPUT} \
+        "have no charges" "`espdiff prepare` makes some"
+    check_refused {espdiff compare [list mol $source map none] [list mol $target map none] -select //A} {ESPDIFF INPUT} \
+        "choose its atoms by `sel`"
+}
+
+test "the window offers it, and says why" {
+    vmd_install_extension espdiff espdiff_tk "Analysis/Surface Potential Comparison"
+    menu espdiff on
+    update
+    set ::espdiff::gui::form(target,sel) protein
+    set ::espdiff::gui::form(source,sel) protein
+    foreach side {source target} { ::espdiff::gui::update_endpoint $side }
+    update
+    check "the row is there" {[winfo ismapped [widget source,charges]]}
+    check_equal "why" [[widget source,charges_text] cget -text] "No charges: PDB files have none"
+    if {[info exists env(ESPDIFF_KEEP)]} {
+        pause 500
+        exec import -window root $scratch/prepare_before.png
+    }
+}
+
+# The dialog cannot be used by a script; the file's name is all it gives.
+proc tk_getSaveFile {args} { return $::scratch/[dict get $args -initialfile] }
+
+test "pressed: prepared in the background, loaded beside, chosen" {
+    foreach side {source target} {
+        set before [molinfo num]
+        [widget $side,prepare] invoke
+        check "in the background" {$::espdiff::gui::preparing ne ""}
+        wait_until {$::espdiff::gui::running eq ""}
+        check_equal "one more molecule" [molinfo num] [expr {$before + 1}]
+        check "its words" {[string match "PDB2PQR v3*hydrogens added*" [message_line]]}
+        check "it is chosen" {[string match "*prepared.pqr" $::espdiff::gui::form($side,mol)]}
+        update
+        check "no offer any more" {![winfo ismapped [widget $side,charges]]}
+    }
+    if {[info exists env(ESPDIFF_KEEP)]} {
+        pause 500
+        exec import -window root $scratch/prepare_after.png
+    }
+}
+
+test "the prepared pair is compared in salt water, with a region, and the script says how it was made" {
+    array set ::espdiff::gui::setting {grid-spacing 2 region //A/99}
+    [widget compare] invoke
+    wait_until {$::espdiff::gui::running eq ""}
+    set comparison $::espdiff::gui::shown
+    check "potential" {[string match "Poisson-Boltzmann*" [espdiff result $comparison potential label]]}
+    check_equal "region" [espdiff result $comparison region n_residues] 1
+    check "the script" {[string match "*espdiff*prepare*-pqr*" [::espdiff::gui::session_text]]}
+}
+
+test "a region in VMD's words" {
+    set mols [lrange [molinfo list] end-1 end]
+    set handle [espdiff compare [list mol [lindex $mols 0] map none region "within 5 of resid 99"] \
+        [list mol [lindex $mols 1] map none] -grid-spacing 2]
+    check "residues" {[espdiff result $handle region n_residues] > 3}
+    check_refused {espdiff compare [list mol [lindex $mols 0] map none region "resid 9999"] \
+        [list mol [lindex $mols 1] map none]} {ESPDIFF INPUT} "holds no atoms"
+    espdiff delete $handle
+}
+
+test "no callback failed" { check_equal errors $background {} }
+
+espdiff delete all
+finish
