@@ -123,8 +123,8 @@ void load_side(TrajectoryObject& object, Endpoint& side, std::optional<int> fram
     const auto [file, model] = object.files->file_of_frame(*frame);
     StructureOptions structure = side.structure;
     structure.model = model;
-    static const Molecule kNone;
-    const Molecule& source = !is_source && object.source.molecule ? *object.source.molecule : kNone;
+    static const Molecule none;
+    const Molecule& source = !is_source && object.source.molecule ? *object.source.molecule : none;
     const std::string name = object.files->name(*frame);
     side.state = load_frame(*file, structure, name, source, object.source.state.preparation.has_value(), options.input,
                             progress);

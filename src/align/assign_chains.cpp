@@ -63,7 +63,7 @@ std::size_t n_assigned(const std::vector<std::ptrdiff_t>& target_of) {
 
 }  // namespace
 
-double arrangement_rmsd_A(const ChainAssignment& chains, const std::vector<std::ptrdiff_t>& target_of) {
+double rmsd_of_arrangement(const ChainAssignment& chains, const std::vector<std::ptrdiff_t>& target_of) {
   ChainPoints all;
   for (std::size_t i = 0; i < target_of.size(); ++i) {
     if (target_of[i] < 0) continue;
@@ -78,7 +78,7 @@ double arrangement_rmsd_A(const ChainAssignment& chains, const std::vector<std::
 }
 
 std::vector<std::ptrdiff_t> assign_chains(const ChainAssignment& chains) {
-  const double present = arrangement_rmsd_A(chains, chains.target_of);
+  const double present = rmsd_of_arrangement(chains, chains.target_of);
   std::vector<std::ptrdiff_t> best = chains.target_of;
   double least = present;
   int n_tried = 0;
@@ -93,7 +93,7 @@ std::vector<std::ptrdiff_t> assign_chains(const ChainAssignment& chains) {
       }
       const std::vector<std::ptrdiff_t> target_of = nearest_chains(chains, motion);
       if (n_assigned(target_of) < n_assigned(chains.target_of)) continue;
-      const double rmsd_A = arrangement_rmsd_A(chains, target_of);
+      const double rmsd_A = rmsd_of_arrangement(chains, target_of);
       if (rmsd_A < least) {
         least = rmsd_A;
         best = target_of;

@@ -21,7 +21,7 @@ struct ChainAssignment {
 };
 
 /// The RMSD of all assigned chains after their superposition.
-double arrangement_rmsd_A(const ChainAssignment& chains, const std::vector<std::ptrdiff_t>& target_of);
+double rmsd_of_arrangement(const ChainAssignment& chains, const std::vector<std::ptrdiff_t>& target_of);
 
 /// The assignment of equal chains with the least RMSD. Each pair of equal chains is superposed in turn, and the others
 /// follow, nearest first. The present assignment stays unless another has less than 0.8 of its RMSD and 1 A less, so

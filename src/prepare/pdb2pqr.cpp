@@ -37,7 +37,7 @@ const char* const kPdb2pqrRemedy = "install it (Debian: pdb2pqr; PyPI: pdb2pqr)"
 
 namespace {
 
-constexpr double kTimeLimit_s = 3600;
+constexpr double kTimeLimitSeconds = 3600;
 
 /// A folder that is deleted at the end.
 class TemporaryFolder {
@@ -204,7 +204,7 @@ std::string identity_of(const std::string& program) {
 
 /// The reason in a log: its last error, in our words where they are known.
 std::string reason_in(const std::string& log) {
-  static const std::vector<std::pair<const char*, const char*>> kKnown = {
+  static const std::vector<std::pair<const char*, const char*>> known = {
       {"does not seem to contain any", "PROPKA cannot use it, such as a peptide of few residues"},
       // Its message of that cannot be formatted.
       {"Unknown format code 'i'", "more than a tenth of the heavy atoms of its residues are missing"},
@@ -216,7 +216,7 @@ std::string reason_in(const std::string& log) {
       {"Found no known", "no residue of it is known to the force field"},
       {"Unable to find", "a residue lacks atoms that the others could be placed by"},
       {"Too few atoms present", "a residue has too few atoms to place the missing ones by"}};
-  for (const auto& [mark, words] : kKnown) {
+  for (const auto& [mark, words] : known) {
     if (log.find(mark) != std::string::npos) return words;
   }
   std::string last;
@@ -250,7 +250,7 @@ std::string run_pdb2pqr(const std::string& program, const std::string& name, con
   if (!ligand.empty()) call.words.push_back("--ligand=" + write("ligand.mol2", ligand));
   call.words.insert(call.words.end(), {write("input.pdb", pdb), folder.file("output.pqr")});
   call.folder = folder.path();
-  call.time_limit_s = kTimeLimit_s;
+  call.time_limit_s = kTimeLimitSeconds;
   call.while_running = [&] { progress.check_cancelled(); };
   const ProgramResult result = run_program(call);
   std::error_code ignored;

@@ -127,11 +127,11 @@ void compare_with_input(const Molecule& before, const Molecule& after, const Cha
                         Preparation& preparation) {
   const auto of_before = atoms_by_residue(before), of_after = atoms_by_residue(after);
   Uncharged uncharged;
-  static const ResidueAtoms kNone;
+  static const ResidueAtoms none;
   for (const Residue& residue : before.residues) {
     const ResidueAtoms& given = of_before.at(key_of(residue));
     const auto found = of_after.find(key_of(residue));
-    const ResidueAtoms& got = found == of_after.end() ? kNone : found->second;
+    const ResidueAtoms& got = found == of_after.end() ? none : found->second;
     const char letter = residue_letter(residue.name);
     std::vector<std::string> missing = missing_in(given, got, letter), extra = missing_in(got, given, letter);
     // Within a chain no residue has a second oxygen.
