@@ -250,7 +250,7 @@ void Legend::length(double x, double y, double max_pixels, double pixels_per_A) 
 }
 
 void Legend::opacity(const PixelBox& bar, const OpacityScale& scale) {
-  text((bar.left + bar.right) / 2, bar.top + text_height_, "faint: far from its counterpart", Align::kCentre);
+  text((bar.left + bar.right) / 2, bar.top + text_height_, "faint: far from its own atoms", Align::kCentre);
   const double highest_A = scale.faint_above_A * 1.2;
   constexpr int kSteps = 64;
   std::vector<double> opacities;
