@@ -57,7 +57,8 @@ nb::list list_metrics() {
 
 nb::dict status() {
   nb::dict all;
-  for (const auto& [name, status] : {std::pair("cpu", espdiff::cpu_status()), {"cuda", espdiff::cuda_status()},
+  for (const auto& [name, status] : {std::pair("cpu", espdiff::cpu_status()),
+                                     {"cuda", espdiff::cuda_status()},
                                      {"fourier transforms", espdiff::cpu_fourier_status()}}) {
     nb::dict row;
     row["available"] = status.available;

@@ -1,8 +1,8 @@
 // smooth_field.cpp: tests of smoothing over neighbouring vertices, on an octahedron.
 #include "base/smooth_field.h"
 
-#include <cmath>
 #include <doctest/doctest.h>
+#include <cmath>
 #include <limits>
 
 namespace espdiff {
