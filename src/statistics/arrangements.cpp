@@ -14,9 +14,9 @@ using Order = std::vector<std::uint32_t>;
 /// The order whose first group has the marked replicates.
 Order order_of(const std::vector<char>& in_first) {
   Order order;
-  for (const char group : {1, 0}) {
+  for (const bool first : {true, false}) {
     for (std::uint32_t r = 0; r < in_first.size(); ++r) {
-      if (in_first[r] == group) order.push_back(r);
+      if ((in_first[r] != 0) == first) order.push_back(r);
     }
   }
   return order;
