@@ -122,7 +122,8 @@ int run(Arguments& a, const Context& context) {
   a.run.shard = parse_shard(a.shard);
   a.run.skip_errors = a.on_error == "skip";
   const std::vector<VariantFiles> files = chosen_variants(a);
-  std::vector<std::string> inputs = {a.list, a.groups};
+  std::vector<std::string> inputs = input_files(a.settings);
+  inputs.insert(inputs.end(), {a.list, a.groups});
   for (const VariantFiles& file : files) inputs.insert(inputs.end(), {file.structure, file.map});
   check_outputs(inputs, output_paths(a.run));
   const std::unique_ptr<Engine> engine = make_engine(a.device);

@@ -164,7 +164,8 @@ class Sides {
 int run(const Arguments& a, const Context& context) {
   check_map_options(a.maps);
   if (a.resume && a.overwrite) throw InputError("--resume and --overwrite exclude each other");
-  std::vector<std::string> inputs = a.targets;
+  std::vector<std::string> inputs = input_files(a.settings);
+  inputs.insert(inputs.end(), a.targets.begin(), a.targets.end());
   inputs.insert(inputs.end(), {a.source, a.maps.source_map, a.maps.target_map});
   check_outputs(inputs, {a.output, a.output + ".state"});
   const auto begun = std::chrono::steady_clock::now();
