@@ -36,8 +36,7 @@ using GivenSettings = std::vector<std::pair<std::string, std::string>>;
 /// What a verb does decides which settings it has.
 enum class SettingsFor {
   kPair,        ///< all
-  kSeries,      ///< all but the region
-  kVariants,    ///< of many structures alike: none of one side, no region
+  kVariants,    ///< of many structures alike: none of one side
   kSurface,     ///< those that one molecule's surface depends on
   kPreparation  ///< which atoms, and where charges come from
 };
