@@ -65,8 +65,8 @@ SeriesDescription parse_description(DictReader& reader, double temperature_K) {
 }
 
 /// PLAN: csv FILE ?resume B? ?overwrite B? frames LIST reference TEXT ?row_reference TEXT? ?map TEXT?
-/// ?reference_map TEXT? ?one_map B? ?start S? ?on_error E? ?region B? (the reference has one) and file PATH or molecule {NAME TEXT ...}, lines of the
-/// head.
+/// ?reference_map TEXT? ?one_map B? ?start S? ?on_error E? ?region B? (the reference has one) and file PATH or molecule
+/// {NAME TEXT ...}, lines of the head.
 Tcl_Obj* trajectory(const Call& call) {
   auto object = std::make_shared<TrajectoryObject>();
   DictReader options(call.arguments[1], "options");

@@ -128,8 +128,7 @@ std::vector<KeptFile> kept_structures(const Arguments& a, const Side& source, co
 int run(const Arguments& a, const Context& context) {
   check_map_options(a.maps);
   const CompareOptions options = make_options(a.settings);
-  check_outputs(all_inputs(a),
-                {a.output + ".json", a.output + ".vtp", a.output + ".residues.csv", a.residue_pdb});
+  check_outputs(all_inputs(a), {a.output + ".json", a.output + ".vtp", a.output + ".residues.csv", a.residue_pdb});
   // An unwritable output is found before the work.
   for (const char* suffix : {".json", ".vtp", ".residues.csv"}) AtomicFile probe(a.output + suffix);
   if (!a.residue_pdb.empty()) AtomicFile probe(a.residue_pdb);

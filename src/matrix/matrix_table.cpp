@@ -104,8 +104,8 @@ void print_matrix(std::ostream& out, const Matrix& matrix, std::size_t metric) {
   out << matrix.n() << " variants, " << matrix.cells.size() << " ordered pairs";
   if (!matrix.plan.potential.empty()) out << ", potentials: " << matrix.plan.potential;
   out << "\n\n"
-      << padded("Over all pairs", label_width(matrix) + 13) << right("least", 11) << right("mean", 11) << right("greatest", 11)
-      << right("asymmetry", 12) << '\n';
+      << padded("Over all pairs", label_width(matrix) + 13) << right("least", 11) << right("mean", 11)
+      << right("greatest", 11) << right("asymmetry", 12) << '\n';
   for (std::size_t m = 0; m < matrix.metrics().size(); ++m) {
     const MetricSection section = matrix.metrics()[m].section;
     if (section != MetricSection::kCertificate && section != MetricSection::kMapping) print_metric(out, matrix, m);

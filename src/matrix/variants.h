@@ -23,7 +23,7 @@ struct Variant {
   std::vector<InputFile> inputs;  ///< its inputs; roles "structure" and "map"
   Molecule molecule;
   std::optional<Grid> map;
-  MapMaker make_map = nullptr;  ///< instead of `map`; in kT/e
+  MapMaker make_map = nullptr;         ///< instead of `map`; in kT/e
   std::vector<std::uint8_t> region{};  ///< [residue] nonzero in the region; empty without one
 
   bool has_potential() const { return map || make_map != nullptr; }

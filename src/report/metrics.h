@@ -71,7 +71,8 @@ const std::vector<Metric>& region_metrics();
 /// Null when there is none of that name.
 const Metric* find_metric_or_null(const std::string& name);
 
-/// The number for the whole comparison, or for its region (kOfRegion); NaN where there is none. The metric has_result().
+/// The number for the whole comparison, or for its region (kOfRegion); NaN where there is none. The metric
+/// has_result().
 double value_of(const Metric& metric, const CompareResult& result);
 /// Over all triangles with samples, corrupt ones included; NaN where there is none.
 double value_over_all_triangles(const Metric& metric, const CompareResult& result);

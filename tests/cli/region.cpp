@@ -1,4 +1,5 @@
-// region.cpp: --region, --region-within and --of in `espdiff trajectory` and `espdiff matrix`: what compare says of them.
+// region.cpp: --region, --region-within and --of in `espdiff trajectory` and `espdiff matrix`: what compare says of
+// them.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -111,9 +112,8 @@ TEST_CASE("trajectory: without a region there are no such columns; a frame with 
   check_run("trajectory " + files.a + " " + files.frames + " -o " + files.out("t.csv"));
   CHECK_FALSE(contains(read_file(files.out("t.csv")), "region"));
   const std::string frames =
-      files.folder.write("odd.pqr", "MODEL 1\n" + bent_row(0.3) + "ENDMDL\nMODEL 2\n" +
-                                        row_of_atoms(1, 0.6, "GLY") + "ENDMDL\nMODEL 3\n" + bent_row(0.9) +
-                                        "ENDMDL\n");
+      files.folder.write("odd.pqr", "MODEL 1\n" + bent_row(0.3) + "ENDMDL\nMODEL 2\n" + row_of_atoms(1, 0.6, "GLY") +
+                                        "ENDMDL\nMODEL 3\n" + bent_row(0.9) + "ENDMDL\n");
   check_run("trajectory " + files.a + " " + frames + " --region '//*/1-4' --on-error skip -o " + files.out("odd.csv"));
   const espdiff::CsvTable table = espdiff::read_csv(files.out("odd.csv"));
   REQUIRE(table.rows.size() == 3);
@@ -149,11 +149,10 @@ TEST_CASE("matrix: the region's values are compare's region, in files, states an
   CHECK(metric["unit"] == "kT/e");
   CHECK(matrix["clustering"]["metric"] == "region_mean_abs_difference");
   CHECK(matrix["region_trustworthy"][0][2] == one["region"]["certificate"]["trustworthy"]);
-  for (const char* part : {"1/2", "2/2"})
-    check_run(run + "--shard " + part + " -o " + files.out("p"));
-  const Outcome merged = run_espdiff("merge " + files.out("p.shard-1-of-2.state") + " " +
-                                     files.out("p.shard-2-of-2.state") +
-                                     " --cluster-by region_mean_abs_difference -q -o " + files.out("p"));
+  for (const char* part : {"1/2", "2/2"}) check_run(run + "--shard " + part + " -o " + files.out("p"));
+  const Outcome merged =
+      run_espdiff("merge " + files.out("p.shard-1-of-2.state") + " " + files.out("p.shard-2-of-2.state") +
+                  " --cluster-by region_mean_abs_difference -q -o " + files.out("p"));
   CHECK_MESSAGE(merged.status == 0, merged.err);
   CHECK(read_file(files.out("p.csv")) == read_file(files.out("m.csv")));
   CHECK(read_file(files.out("p.json")) == read_file(files.out("m.json")));
