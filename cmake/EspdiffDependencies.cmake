@@ -31,6 +31,7 @@ find_package(OpenMP REQUIRED COMPONENTS CXX)
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
+find_package(Boost 1.66 REQUIRED)  # headers only: distributions of Boost.Math
 
 # CUDA: for the second back end only.
 if(NOT ESPDIFF_CUDA STREQUAL "OFF")

@@ -18,6 +18,7 @@ const Rooms kAllowed = {
     {"base", {}},
     {"io", {"base"}},
     {"align", {"base"}},
+    {"statistics", {"base"}},
     {"prepare", {"base", "align", "io"}},
     {"engine", {"base"}},
     {"cuda/device", {"base", "engine"}},

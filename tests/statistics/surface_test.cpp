@@ -1,0 +1,147 @@
+// surface_test.cpp: two groups compared over a surface: determinism, missing values, places, one replicate a group.
+#include "statistics/surface_test.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "statistics/columns.h"
+#include "statistics/mesh_graph.h"
+#include "statistics/planted_columns.h"
+#include "statistics/replicate_columns.h"
+#include "statistics/welch.h"
+
+using namespace espdiff;
+using espdiff_test::correlated_series;
+using espdiff_test::make_ellipsoid;
+using espdiff_test::Normal;
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+MeshGraph ellipsoid() {
+  std::vector<Vec3d> positions;
+  std::vector<Triangle> triangles;
+  make_ellipsoid(2, positions, triangles);
+  return make_mesh_graph(positions, triangles);
+}
+
+/// Correlated noise at each vertex; `effect` is added around vertex 0 in the second group.
+ColumnsInMemory planted(const MeshGraph& graph, std::size_t n_replicates, std::size_t n_frames, double effect,
+                        std::uint64_t seed) {
+  ColumnsInMemory columns(graph.n_vertices());
+  for (std::size_t r = 0; r < n_replicates; ++r) {
+    std::vector<float> values(n_frames * graph.n_vertices());
+    for (std::size_t v = 0; v < graph.n_vertices(); ++v) {
+      Normal normal(seed, r * graph.n_vertices() + v);
+      const std::vector<double> series = correlated_series(n_frames, 0.5, normal);
+      for (std::size_t f = 0; f < n_frames; ++f) values[f * graph.n_vertices() + v] = static_cast<float>(series[f]);
+    }
+    for (std::size_t f = 0; f < n_frames && 2 * r >= n_replicates; ++f) {
+      float* const row = values.data() + f * graph.n_vertices();
+      row[0] += static_cast<float>(effect);
+      for (std::uint32_t n = graph.first[0]; n < graph.first[1]; ++n)
+        row[graph.neighbours[n]] += static_cast<float>(effect);
+    }
+    columns.add_replicate(std::move(values));
+  }
+  return columns;
+}
+
+std::vector<std::vector<double>> means_of(const std::vector<ReplicateColumns>& replicates) {
+  std::vector<std::vector<double>> means;
+  for (const ReplicateColumns& replicate : replicates) {
+    means.emplace_back();
+    for (const SeriesSummary& s : replicate.columns) means.back().push_back(s.mean);
+  }
+  return means;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("surface test");
+
+TEST_CASE("a planted patch is found, and nothing opposite") {
+  const MeshGraph graph = ellipsoid();
+  const auto means = means_of(summarize_columns(planted(graph, 10, 200, 1.5, 31)));
+  const SurfaceTest test = test_replicates(means, 5, graph, {});
+  CHECK(test.n_arrangements == 252);
+  CHECK(test.exact);
+  CHECK(test.p_tfce[0] == doctest::Approx(2.0 / 252));
+  CHECK(test.p_max_t[3] > 0.05);
+  CHECK(test.vertices.low[0] < 1.5);
+  CHECK(test.vertices.high[0] > 1.5);
+  CHECK(test.mean_abs_difference_p == doctest::Approx(2.0 / 252));
+}
+
+TEST_CASE("vertices that are not tested have no p and do not join others") {
+  const MeshGraph graph = ellipsoid();
+  auto means = means_of(summarize_columns(planted(graph, 8, 100, 1.5, 32)));
+  for (auto& replicate : means) replicate[0] = kNaN;
+  const SurfaceTest test = test_replicates(means, 4, graph, {});
+  CHECK(std::isnan(test.p_max_t[0]));
+  CHECK(std::isnan(test.p_tfce[0]));
+  CHECK(std::isfinite(test.p_tfce[1]));
+}
+
+TEST_CASE("a place's test is Welch's of the replicates' area-weighted means") {
+  const MeshGraph graph = ellipsoid();
+  const auto means = means_of(summarize_columns(planted(graph, 6, 100, 0.5, 33)));
+  const SurfaceTest test = test_replicates(means, 3, graph, {});
+  const PlaceTests places = test_places(test, means, 3, graph, {{0, 5, 7}, {}}, 0.95);
+  std::vector<double> values;
+  for (const auto& m : means)
+    values.push_back((graph.area[0] * m[0] + graph.area[5] * m[5] + graph.area[7] * m[7]) /
+                     (graph.area[0] + graph.area[5] + graph.area[7]));
+  const WelchTest direct = welch_test(group_moments(values.data(), 3), group_moments(values.data() + 3, 3));
+  CHECK(places.t[0] == doctest::Approx(direct.t));
+  CHECK(places.p[0] == doctest::Approx(direct.p));
+  CHECK(std::isnan(places.p[1]));
+}
+
+TEST_CASE("one replicate a group: the bootstrap finds the patch and has the error of the mean") {
+  const MeshGraph graph = ellipsoid();
+  const ColumnsInMemory columns = planted(graph, 2, 800, 1.0, 34);
+  const auto replicates = summarize_columns(columns);
+  const std::vector<char> tested(graph.n_vertices(), 1);
+  const SurfaceTest test = test_within_runs(columns, replicates, 1, tested, graph, {});
+  CHECK(test.inference == Inference::kWithinRuns);
+  CHECK(test.p_tfce[0] == doctest::Approx(0.001));
+  CHECK(test.p_max_t[3] > 0.05);
+  // Two means of 800 frames with g = 3.
+  double sum = 0;
+  for (const double error : test.vertices.error) sum += error;
+  CHECK(sum / static_cast<double>(graph.n_vertices()) == doctest::Approx(std::sqrt(2 * 3.0 / 800)).epsilon(0.1));
+  const PlaceTests places = test_places(test, {}, 1, graph, {{0}}, 0.95);
+  CHECK(places.difference[0] == doctest::Approx(test.vertices.difference[0]));
+  CHECK(places.error[0] == doctest::Approx(test.vertices.error[0]).epsilon(1e-4));
+  CHECK(places.p[0] == doctest::Approx(0.001));
+}
+
+TEST_CASE("columns that are read in parts give the same bits as at once") {
+  const MeshGraph graph = ellipsoid();
+  class Narrow : public Columns {  // reports so many frames that few columns are read at a time
+   public:
+    explicit Narrow(const Columns& all) : all_(all) {}
+    std::size_t n_columns() const override { return all_.n_columns(); }
+    std::size_t n_replicates() const override { return 1; }
+    std::size_t n_frames(std::size_t r) const override { return all_.n_frames(r); }
+    void read(std::size_t r, std::size_t begin, std::size_t end, std::vector<float>& values) const override {
+      ++n_reads;
+      all_.read(r, begin, end, values);
+    }
+    mutable int n_reads = 0;
+
+   private:
+    const Columns& all_;
+  };
+  const ColumnsInMemory columns = planted(graph, 1, 100000, 0, 35);
+  const Narrow narrow(columns);
+  const auto summary = summarize_columns(narrow);
+  CHECK(narrow.n_reads > 1);
+  std::vector<float> values;
+  columns.read(0, 161, 162, values);
+  CHECK(summary[0].columns[161].mean == summarize_series(std::vector<double>(values.begin(), values.end())).mean);
+}
