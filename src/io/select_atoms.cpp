@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/water.h"
+#include "base/water.h"
 #include "io/text_cursor.h"
 #ifdef ESPDIFF_HAVE_GEMMI
 #define USE_STD_SNPRINTF  // gemmi then needs no stb_sprintf.h, which gemmi-dev lacks
@@ -168,6 +169,15 @@ Molecule keep_atoms(const Molecule& molecule, const std::vector<bool>& keep) {
     if (!molecule.charges.empty()) kept.charges.push_back(molecule.charges[i]);
   }
   return kept;
+}
+
+Molecule keep_kinds(const Molecule& molecule, const StructureOptions& options) {
+  std::vector<bool> keep;
+  for (const Atom& atom : molecule.atoms) {
+    const bool water = is_water_name(molecule.residues[static_cast<std::size_t>(atom.residue)].name);
+    keep.push_back(water ? options.include_water : options.include_hetero || !atom.hetero);
+  }
+  return keep_atoms(molecule, keep);
 }
 
 Molecule without_repeated_atoms(const Molecule& molecule) {
