@@ -154,8 +154,8 @@ void add_statistics_options(CLI::App& p, Arguments& a) {
 
 Verb add_ensemble(CLI::App& app) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* parser = app.add_subcommand(
-      "ensemble", "Compare two groups of simulations: where the difference is more than noise");
+  CLI::App* parser =
+      app.add_subcommand("ensemble", "Compare two groups of simulations: where the difference is more than noise");
   parser->footer(
       "One surface, the template, is mapped onto every frame. Each replicate of a group is one sample. Writes OUT.h5 "
       "(potential of\n"

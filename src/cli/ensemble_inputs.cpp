@@ -52,9 +52,10 @@ EnsembleInputs::EnsembleInputs(const EnsembleInputArguments& arguments, const Co
   plan_.settings = setting_texts(options);
   plan_.settings.emplace_back("frames", a_.frames);
   if (a_.groups.empty() == a_.list.empty())
-    throw InputError(a_.list.empty() ? "no group was given; name one or two by " + option("group") + ", or a " +
-                                           option("list") + " of them"
-                                     : option("group") + " and " + option("list") + " exclude each other; leave one out");
+    throw InputError(a_.list.empty()
+                         ? "no group was given; name one or two by " + option("group") + ", or a " + option("list") +
+                               " of them"
+                         : option("group") + " and " + option("list") + " exclude each other; leave one out");
   if (a_.list.empty()) {
     read_groups();
   } else {
@@ -86,8 +87,7 @@ void EnsembleInputs::read_list() {
   const auto path_of = [&](const std::string& text) { return (folder / text).string(); };
   for (const auto& row : table.rows) {
     const std::string file = path_of(row[structure]);
-    const std::string name =
-        replicate < 0 ? name_of_file(file) : row[static_cast<std::size_t>(replicate)];
+    const std::string name = replicate < 0 ? name_of_file(file) : row[static_cast<std::size_t>(replicate)];
     auto found = std::find_if(plan_.replicates.begin(), plan_.replicates.end(), [&](const EnsembleReplicate& r) {
       return r.group == row[group] && r.name == name && replicate >= 0;
     });
@@ -145,8 +145,8 @@ void EnsembleInputs::read_references() {
   potential_ = PotentialPlan(a_.potential, facts, options_.temperature_K);
   if (!potential_.computes())
     throw InputError("an ensemble needs a potential" +
-                     (potential_.because().empty() ? std::string() : ", and " + potential_.because()) + "; give charges (" +
-                     option("charges") + " GROUP=FILE.pqr, or PQR files)");
+                     (potential_.because().empty() ? std::string() : ", and " + potential_.because()) +
+                     "; give charges (" + option("charges") + " GROUP=FILE.pqr, or PQR files)");
   plan_.potential = potential_.in_words();
   plan_.potential_unit = to_string(PotentialUnit::kKtPerE);
 }
@@ -173,8 +173,8 @@ LoadedState EnsembleInputs::load(std::size_t number) {
   StructureOptions structure = a_.structure;
   structure.model = model;
   const Group& group = groups_.at(r.group);
-  LoadedState state = load_frame(*file, structure, name, group.reference.molecule, group.is_prepared, options_.input,
-                                 progress_);
+  LoadedState state =
+      load_frame(*file, structure, name, group.reference.molecule, group.is_prepared, options_.input, progress_);
   if (potential_.takes_everything() && state.everything.size() == 0) {
     state.everything = file->read({model, true, true});
     if (!group.reference.everything.charges.empty()) take_values(state.everything, group.reference.everything, name);
@@ -192,7 +192,8 @@ void EnsembleInputs::choose_template(const Progress& progress) {
   const std::size_t n = plan_.n_frames();
   if (text == "medoid" || is_number(text)) {
     const std::size_t number = is_number(text) ? std::stoul(text)
-                                               : find_medoid(n, [&](std::size_t f) { return load(f).molecule; }, progress);
+                                               : find_medoid(
+                                                     n, [&](std::size_t f) { return load(f).molecule; }, progress);
     if (number >= n)
       throw InputError(option("template", text) + ": there are " + std::to_string(n) +
                        " frames in all groups, numbered from 0");

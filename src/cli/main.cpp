@@ -70,7 +70,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(0, 1);
   std::vector<espdiff::cli::Verb> verbs = {
       espdiff::cli::add_compare(app),   espdiff::cli::add_trajectory(app), espdiff::cli::add_matrix(app),
-      
+
 #ifdef ESPDIFF_HAVE_HDF5
       espdiff::cli::add_ensemble(app),
 #endif

@@ -56,7 +56,8 @@ Verb add_merge(CLI::App& app) {
       "I/N`. The results are those of one process, byte by byte.\n\n"
       "Example:\n  espdiff merge part.shard-*-of-8.state -o all");
   parser->add_option("STATE", a->states, "State files, or HDF5 files, of all parts")->required();
-  parser->add_option("-o,--output", a->run.output, "Prefix of the results: OUT.csv and OUT.json, or OUT.h5")->required();
+  parser->add_option("-o,--output", a->run.output, "Prefix of the results: OUT.csv and OUT.json, or OUT.h5")
+      ->required();
   parser->add_option("--cluster-by", a->run.cluster_by, "Metric for clustering, as in `espdiff matrix`");
   parser->add_flag("--overwrite", a->run.overwrite, "Replace results that exist");
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");

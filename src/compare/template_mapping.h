@@ -20,8 +20,8 @@ struct CompareOptions;
 
 /// The template's surface, regularized, without closed cavities unless the options keep them.
 struct TemplateSurface {
-  std::vector<Vec3d> positions;       ///< [vertex] in the template molecule's own frame, Angstrom
-  std::vector<Vec3f> normals;         ///< [vertex] unit, outward
+  std::vector<Vec3d> positions;  ///< [vertex] in the template molecule's own frame, Angstrom
+  std::vector<Vec3f> normals;    ///< [vertex] unit, outward
   std::vector<Triangle> triangles;
   std::vector<std::int32_t> residue;  ///< [vertex] index of the template's residue, -1 for none
   SurfaceSummary summary;
@@ -33,7 +33,7 @@ struct TemplateFrame {
   /// lies outside the map.
   std::vector<float> potential;
   PotentialUnit unit = PotentialUnit::kUnknown;
-  double rmsd_A = 0;  ///< to the template, of the paired atoms
+  double rmsd_A = 0;                                   ///< to the template, of the paired atoms
   double unmatched_template = 0, unmatched_frame = 0;  ///< fractions of the areas, as in a Certificate
   double distance_A = 0;                               ///< mean, from the mapped surface to the frame's
   double same_residue_area_fraction = 0;

@@ -2,12 +2,14 @@
 #include "ensemble/ensemble_file.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -47,7 +49,8 @@ void read_at(int descriptor, const std::string& path, std::uint64_t offset, void
   while (n > 0) {
     const ssize_t got = ::pread(descriptor, at, n, static_cast<off_t>(offset));
     if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) throw IoError(path, got == 0 ? "ends too early" : std::string("cannot be read: ") + system_message(errno));
+    if (got <= 0)
+      throw IoError(path, got == 0 ? "ends too early" : std::string("cannot be read: ") + system_message(errno));
     at += got;
     offset += static_cast<std::uint64_t>(got);
     n -= static_cast<std::size_t>(got);
@@ -65,6 +68,19 @@ void extend(int descriptor, const std::string& path) {
   if (intended <= fs::file_size(path)) return;
   if (::ftruncate(descriptor, static_cast<off_t>(intended)) != 0)
     throw IoError(path, std::string("lost its end, and cannot be extended: ") + system_message(errno));
+}
+
+/// Removes what killed processes left while they made this file.
+void remove_unfinished(const std::string& path) {
+  const fs::path file(path);
+  const std::string start = file.filename().string() + ".new-";
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(file.has_parent_path() ? file.parent_path() : ".", ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name.rfind(start, 0) != 0) continue;
+    const long process = std::strtol(name.c_str() + start.size(), nullptr, 10);
+    if (process > 0 && ::kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH) fs::remove(entry, ignored);
+  }
 }
 
 }  // namespace
@@ -104,8 +120,9 @@ struct EnsembleFile::Contents {
     surface.triangles = std::move(file.triangles);
     surface.residue = std::move(file.residue);
     if (plan.n_frames() != layout.n_frames)
-      throw FormatError(path, 0, "has places for " + std::to_string(layout.n_frames) + " frames, and describes " +
-                                     std::to_string(plan.n_frames()) + "; it is damaged");
+      throw FormatError(path, 0,
+                        "has places for " + std::to_string(layout.n_frames) + " frames, and describes " +
+                            std::to_string(plan.n_frames()) + "; it is damaged");
     check_frames();
   }
 
@@ -149,6 +166,7 @@ struct EnsembleFile::Contents {
 };
 
 void EnsembleFile::create(const std::string& path, const EnsemblePlan& plan, const TemplateSurface& surface) {
+  remove_unfinished(path);
   const std::string temporary = path + ".new-" + std::to_string(::getpid());
   try {
     make_hdf5_file(temporary, plan_text(plan), surface, plan.potential_unit, plan.n_frames());
@@ -185,9 +203,9 @@ std::size_t EnsembleFile::n_done() const {
 }
 
 void EnsembleFile::write(std::size_t frame, const std::vector<float>& values, const EnsembleFrame& n) {
-  const std::vector<double> row = {n.rmsd_A,         n.unmatched_template,         n.unmatched_frame,
-                                   n.distance_A,     n.same_residue_area_fraction, n.mean_potential,
-                                   n.trustworthy ? 1.0 : 0.0};
+  const std::vector<double> row = {
+      n.rmsd_A,         n.unmatched_template,     n.unmatched_frame, n.distance_A, n.same_residue_area_fraction,
+      n.mean_potential, n.trustworthy ? 1.0 : 0.0};
   contents_->write(frame, values, row, padded(n.note));
 }
 

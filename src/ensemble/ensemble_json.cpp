@@ -50,8 +50,8 @@ Json test_json(const EnsembleResult& result) {
   Json json;
   const bool replicates = test.inference == Inference::kReplicates;
   json["inference"] = replicates ? "replicates" : "within runs";
-  json["method"] = replicates ? "Welch's t of replicates; exchange of their labels"
-                              : "circular block bootstrap within runs";
+  json["method"] =
+      replicates ? "Welch's t of replicates; exchange of their labels" : "circular block bootstrap within runs";
   json["n_arrangements"] = test.n_arrangements;
   json["exact"] = test.exact;
   json["smallest_p"] = test.smallest_p;

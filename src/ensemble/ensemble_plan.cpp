@@ -86,11 +86,8 @@ std::string plan_text(const EnsemblePlan& plan) {
   for (const auto& [group, from] : plan.charges) json["charges"][group] = from;
   json["replicates"] = Json::array();
   for (const EnsembleReplicate& r : plan.replicates)
-    json["replicates"].push_back({{"group", r.group},
-                                  {"name", r.name},
-                                  {"files", r.files},
-                                  {"sha256", r.sha256},
-                                  {"n_frames", r.n_frames}});
+    json["replicates"].push_back(
+        {{"group", r.group}, {"name", r.name}, {"files", r.files}, {"sha256", r.sha256}, {"n_frames", r.n_frames}});
   json["residues"] = plan.residues;
   return json.dump(1);
 }
@@ -113,8 +110,8 @@ EnsemblePlan parse_ensemble_plan(const std::string& text, const std::string& pat
     json.at("residues").get_to(plan.residues);
     return plan;
   } catch (const Json::exception&) {
-    throw FormatError(path, 0, "the description of the run in this file is damaged; " + switched_on("overwrite") +
-                                   " begins anew");
+    throw FormatError(
+        path, 0, "the description of the run in this file is damaged; " + switched_on("overwrite") + " begins anew");
   }
 }
 
@@ -174,10 +171,11 @@ std::string design_warning(const EnsemblePlan& plan) {
   const double p = smallest_p(a, b);
   if (p < 0.05) return "";
   char text[256];
-  std::snprintf(text, sizeof text,
-                "%zu against %zu replicates can be exchanged in %llu ways: no family-wise p can be below %.3g, whatever "
-                "the frames are; 4 against 4 reach 0.029",
-                a, b, static_cast<unsigned long long>(count_arrangements(a, b)), p);
+  std::snprintf(
+      text, sizeof text,
+      "%zu against %zu replicates can be exchanged in %llu ways: no family-wise p can be below %.3g, whatever "
+      "the frames are; 4 against 4 reach 0.029",
+      a, b, static_cast<unsigned long long>(count_arrangements(a, b)), p);
   return text;
 }
 

@@ -20,11 +20,11 @@ struct EnsemblePlan {
   std::string version, device;
   std::vector<std::pair<std::string, std::string>> settings;  ///< of the comparison, by name
   std::string potential, potential_unit;
-  std::string template_name;    ///< in words
-  std::string template_sha256;  ///< of its atoms: names, positions, radii
+  std::string template_name;                                 ///< in words
+  std::string template_sha256;                               ///< of its atoms: names, positions, radii
   std::vector<std::pair<std::string, std::string>> charges;  ///< group, and where its charges come from
-  std::vector<EnsembleReplicate> replicates;  ///< group by group
-  std::vector<std::string> residues;          ///< labels of the template's
+  std::vector<EnsembleReplicate> replicates;                 ///< group by group
+  std::vector<std::string> residues;                         ///< labels of the template's
 
   std::size_t n_frames() const;
   /// In order of their first replicates.

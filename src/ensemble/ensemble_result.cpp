@@ -51,8 +51,8 @@ struct Analysis {
   void check_complete() const {
     const std::size_t n = plan().n_frames();
     if (file.n_done() == n) return;
-    throw InputError(file.path() + " has " + std::to_string(file.n_done()) + " of " + std::to_string(n) +
-                     " frames; " + switched_on("resume") + " computes the others");
+    throw InputError(file.path() + " has " + std::to_string(file.n_done()) + " of " + std::to_string(n) + " frames; " +
+                     switched_on("resume") + " computes the others");
   }
 
   void check_varies() const {
@@ -60,7 +60,8 @@ struct Analysis {
       const auto& all = columns[r].columns;
       if (std::any_of(all.begin(), all.end(), [](const SeriesSummary& s) { return std::isfinite(s.inefficiency); }))
         continue;
-      throw InputError("the potentials of replicate " + plan().replicates[r].name + " of " + plan().replicates[r].group +
+      throw InputError("the potentials of replicate " + plan().replicates[r].name + " of " +
+                       plan().replicates[r].group +
                        " do not change from frame to frame; are its frames copies of one structure?");
     }
   }
@@ -191,7 +192,8 @@ struct Analysis {
     const std::vector<double>& p = result.family_wise();
     std::vector<std::vector<std::uint32_t>> members;
     const auto& residue = file.surface().residue;
-    for (SignificantPatch& found : find_patches(p, result.test.vertices.difference, result.options.alpha, result.graph)) {
+    for (SignificantPatch& found :
+         find_patches(p, result.test.vertices.difference, result.options.alpha, result.graph)) {
       EnsemblePatch patch;
       std::map<std::int32_t, double> shares;
       for (const std::uint32_t v : found.vertices) {
@@ -243,18 +245,20 @@ struct Analysis {
     char text[256];
     for (const ReplicateSummary& r : result.replicates) {
       if (r.effective >= kFewEffective) continue;
-      std::snprintf(text, sizeof text,
-                    "replicate %s of %s has %.0f effective samples (median over the surface), fewer than %.0f: its mean "
-                    "may not have converged",
-                    r.name.c_str(), r.group.c_str(), r.effective, kFewEffective);
+      std::snprintf(
+          text, sizeof text,
+          "replicate %s of %s has %.0f effective samples (median over the surface), fewer than %.0f: its mean "
+          "may not have converged",
+          r.name.c_str(), r.group.c_str(), r.effective, kFewEffective);
       result.warnings.emplace_back(text);
     }
     const double left_out = 1 - result.tested_area_A2 / result.area_A2;
     if (left_out > 0.05) {
-      std::snprintf(text, sizeof text,
-                    "%.1f %% of the template's area has no counterpart in more than %.0f %% of a group's frames, and was "
-                    "not tested",
-                    100 * left_out, 100 * result.options.most_missing);
+      std::snprintf(
+          text, sizeof text,
+          "%.1f %% of the template's area has no counterpart in more than %.0f %% of a group's frames, and was "
+          "not tested",
+          100 * left_out, 100 * result.options.most_missing);
       result.warnings.emplace_back(text);
     }
   }

@@ -20,8 +20,8 @@ enum class ErrorControl { kTfce, kMaxT };
 
 /// Options of the statistics; they do not change the file's values.
 struct EnsembleOptions {
-  double alpha = 0.05;          ///< of patches, and 1 - confidence of intervals
-  double most_missing = 0.2;    ///< a vertex without a counterpart in a larger share of a group's frames is left out
+  double alpha = 0.05;        ///< of patches, and 1 - confidence of intervals
+  double most_missing = 0.2;  ///< a vertex without a counterpart in a larger share of a group's frames is left out
   ErrorControl control = ErrorControl::kTfce;  ///< the family-wise p of patches
   Equilibration equilibration;
   SurfaceTestOptions test;
@@ -40,10 +40,10 @@ struct ReplicateSummary {
 struct GroupColumns {
   std::string name;
   std::size_t n_replicates = 0;
-  std::vector<double> mean;        ///< [vertex] of the replicates' means
-  std::vector<double> deviation;   ///< [vertex] standard deviation of frames within replicates
-  std::vector<double> effective;   ///< [vertex] samples, over all replicates
-  std::vector<double> present;     ///< [vertex] share of frames with a counterpart
+  std::vector<double> mean;       ///< [vertex] of the replicates' means
+  std::vector<double> deviation;  ///< [vertex] standard deviation of frames within replicates
+  std::vector<double> effective;  ///< [vertex] samples, over all replicates
+  std::vector<double> present;    ///< [vertex] share of frames with a counterpart
 };
 
 /// Mean absolute differences over the tested area that need no difference between the groups.

@@ -48,8 +48,9 @@ EnsembleFile open_file(const std::string& path, const EnsemblePlan& plan, const 
     EnsembleFile file(path, true);
     refuse_other_plan(file, plan);
     if (file.n_vertices() != surface.positions.size())
-      throw InputError(path + " has a template of " + std::to_string(file.n_vertices()) + " vertices, and this one has " +
-                       std::to_string(surface.positions.size()) + "; " + switched_on("overwrite") + " begins anew");
+      throw InputError(path + " has a template of " + std::to_string(file.n_vertices()) +
+                       " vertices, and this one has " + std::to_string(surface.positions.size()) + "; " +
+                       switched_on("overwrite") + " begins anew");
     return file;
   }
   EnsembleFile::create(path, plan, surface);
@@ -120,9 +121,11 @@ EnsembleReport run_ensemble(Engine& engine, EnsemblePlan plan, const CompareInpu
     const std::size_t f = missing[i];
     const std::string name = plan.name_of(f);
     std::string text = "frame " + std::to_string(report.n_resumed + i + 1) + " of " + std::to_string(report.n_frames);
-    if (i > 0) text += ", " + in_words(seconds() / static_cast<double>(i) * static_cast<double>(missing.size() - i)) + " left";
+    if (i > 0)
+      text += ", " + in_words(seconds() / static_cast<double>(i) * static_cast<double>(missing.size() - i)) + " left";
     const double share = static_cast<double>(report.n_resumed + i) / static_cast<double>(report.n_frames);
-    const Progress inner([&](const std::string& stage, double) { progress.report(text + "; " + name + ": " + stage, share); });
+    const Progress inner(
+        [&](const std::string& stage, double) { progress.report(text + "; " + name + ": " + stage, share); });
     try {
       inner.report("read", 0.0);
       const TemplateFrame frame = mapping.map(read(f), inner);
@@ -133,8 +136,10 @@ EnsembleReport run_ensemble(Engine& engine, EnsemblePlan plan, const CompareInpu
                                               std::to_string(report.n_frames) + " frames, which " + report.path +
                                               " holds; " + switched_on("resume") + " goes on");
     } catch (const Error& error) {
-      if (!run.skip_errors || error.error_class() == ErrorClass::kIo)
+      if (!run.skip_errors || error.error_class() == ErrorClass::kIo) {
+        if (file.n_done() == 0) fs::remove(report.path);  // nothing is lost
         throw Error(error.error_class(), name + ": " + error.message());
+      }
       constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
       file.write(f, std::vector<float>(file.n_vertices(), std::numeric_limits<float>::quiet_NaN()),
                  {kNaN, 1, 1, kNaN, kNaN, kNaN, false, error.what()});

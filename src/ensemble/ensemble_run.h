@@ -25,12 +25,12 @@ struct EnsembleRun {
 };
 
 struct EnsembleReport {
-  std::string path;              ///< of the file
-  std::size_t n_frames = 0;      ///< of this run's shard
-  std::size_t n_resumed = 0;     ///< of these, there before
-  std::size_t n_damaged = 0;     ///< that were begun or damaged, and computed again
-  std::size_t n_skipped = 0;     ///< with an error instead of values
-  double seconds = 0;            ///< for the frames that were computed
+  std::string path;                                     ///< of the file
+  std::size_t n_frames = 0;                             ///< of this run's shard
+  std::size_t n_resumed = 0;                            ///< of these, there before
+  std::size_t n_damaged = 0;                            ///< that were begun or damaged, and computed again
+  std::size_t n_skipped = 0;                            ///< with an error instead of values
+  double seconds = 0;                                   ///< for the frames that were computed
   std::vector<std::pair<std::string, double>> time_ms;  ///< of the frames computed, by stage
 };
 

@@ -25,8 +25,8 @@ namespace {
 std::string value(double number) { return std::isfinite(number) ? print("%.3f", number) : "-"; }
 
 void print_replicates(std::ostream& out, const EnsembleResult& result) {
-  out << print("%-10s %-20s %7s %6s %7s %9s %9s %12s\n", "group", "replicate", "frames", "g", "eff.", "mean", "RMSD (A)",
-               "not trusted");
+  out << print("%-10s %-20s %7s %6s %7s %9s %9s %12s\n", "group", "replicate", "frames", "g", "eff.", "mean",
+               "RMSD (A)", "not trusted");
   for (const ReplicateSummary& r : result.replicates)
     out << print("%-10.10s %-20.20s %7zu %6.1f %7.1f %9.3f %9.2f %12zu\n", r.group.c_str(), r.name.c_str(),
                  r.n_frames - r.n_cut_off - r.n_failed, r.inefficiency, r.effective, r.mean_potential, r.mean_rmsd_A,
@@ -38,8 +38,8 @@ void print_noise(std::ostream& out, const EnsembleResult& result, const std::str
   if (result.compares) {
     const SurfaceTest& test = result.test;
     const std::string groups = result.groups[1].name + " - " + result.groups[0].name;
-    const char* const null = test.inference == Inference::kReplicates ? "with exchanged labels, median"
-                                                                      : "of resampled runs, median";
+    const char* const null =
+        test.inference == Inference::kReplicates ? "with exchanged labels, median" : "of resampled runs, median";
     out << print("  %-44.44s %8s   p = %.3g\n", groups.c_str(), value(test.mean_abs_difference).c_str(),
                  test.mean_abs_difference_p);
     out << print("  %-44s %8s\n", null, value(test.mean_abs_difference_exchanged).c_str());
@@ -49,7 +49,8 @@ void print_noise(std::ostream& out, const EnsembleResult& result, const std::str
     const std::string name = result.groups[g].name;
     out << print("  %-44.44s %8s\n", ("two replicates of " + name + ", mean of pairs").c_str(),
                  value(result.noise.replicates[g]).c_str());
-    out << print("  %-44.44s %8s\n", ("first and second halves, " + name).c_str(), value(result.noise.halves[g]).c_str());
+    out << print("  %-44.44s %8s\n", ("first and second halves, " + name).c_str(),
+                 value(result.noise.halves[g]).c_str());
   }
 }
 
@@ -66,10 +67,10 @@ std::string main_residues(const EnsemblePatch& patch) {
 
 void print_patches(std::ostream& out, const EnsembleResult& result, const std::string& unit) {
   const double confidence = 100 * (1 - result.options.alpha);
-  out << print("\nsignificant: %.1f A2 of %.1f A2 tested (%.1f %%), family-wise p <= %.3g by %s; smallest possible p %.3g\n",
-               result.significant_area_A2, result.tested_area_A2,
-               100 * result.significant_area_A2 / result.tested_area_A2, result.options.alpha,
-               result.options.control == ErrorControl::kTfce ? "TFCE" : "max-t", result.test.smallest_p);
+  out << print(
+      "\nsignificant: %.1f A2 of %.1f A2 tested (%.1f %%), family-wise p <= %.3g by %s; smallest possible p %.3g\n",
+      result.significant_area_A2, result.tested_area_A2, 100 * result.significant_area_A2 / result.tested_area_A2,
+      result.options.alpha, result.options.control == ErrorControl::kTfce ? "TFCE" : "max-t", result.test.smallest_p);
   if (result.patches.empty()) return;
   out << print("%-6s %9s %12s %20s %8s  %s\n", "patch", "area (A2)", ("diff. (" + unit + ")").c_str(),
                print("%.0f %% interval", confidence).c_str(), "p", "residues");
@@ -97,8 +98,8 @@ void print_residues(std::ostream& out, const EnsembleResult& result) {
   constexpr std::size_t kMost = 10;
   for (std::size_t k = 0; k < std::min(kMost, found.size()); ++k) {
     const std::size_t i = found[k];
-    out << print("  %-24.24s %8.3f (%.3f to %.3f), adjusted p %.2g\n", result.residues[i].label.c_str(), t.difference[i],
-                 t.low[i], t.high[i], result.residues[i].adjusted_p);
+    out << print("  %-24.24s %8.3f (%.3f to %.3f), adjusted p %.2g\n", result.residues[i].label.c_str(),
+                 t.difference[i], t.low[i], t.high[i], result.residues[i].adjusted_p);
   }
 }
 

@@ -21,7 +21,8 @@ constexpr const char* kRemedy = "; begin anew with another output, or with ";
 class Handle {
  public:
   Handle(hid_t id, herr_t (*close)(hid_t), const std::string& path, const char* what) : id_(id), close_(close) {
-    if (id < 0) throw FormatError(path, 0, std::string(what) + " is missing or damaged" + kRemedy + switched_on("overwrite"));
+    if (id < 0)
+      throw FormatError(path, 0, std::string(what) + " is missing or damaged" + kRemedy + switched_on("overwrite"));
   }
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
@@ -185,8 +186,8 @@ std::vector<std::uint64_t> frame_offsets(hid_t file, const std::string& path, En
     hsize_t n_bytes = 0;
     if (H5Dget_chunk_info_by_coord(set, &begin, &filters, &address, &n_bytes) < 0 || address == HADDR_UNDEF ||
         n_bytes != layout.n_vertices * sizeof(float))
-      throw FormatError(path, 0,
-                        "frame " + std::to_string(f) + " has no place in the file" + kRemedy + switched_on("overwrite"));
+      throw FormatError(
+          path, 0, "frame " + std::to_string(f) + " has no place in the file" + kRemedy + switched_on("overwrite"));
     offsets.push_back(address);
   }
   return offsets;
@@ -195,9 +196,9 @@ std::vector<std::uint64_t> frame_offsets(hid_t file, const std::string& path, En
 }  // namespace
 
 const std::vector<std::string>& frame_columns() {
-  static const std::vector<std::string> columns = {
-      "rmsd_A", "unmatched_template", "unmatched_frame", "distance_A", "same_residue_area_fraction", "mean_potential",
-      "trustworthy"};
+  static const std::vector<std::string> columns = {"rmsd_A",     "unmatched_template",         "unmatched_frame",
+                                                   "distance_A", "same_residue_area_fraction", "mean_potential",
+                                                   "trustworthy"};
   return columns;
 }
 
@@ -240,8 +241,8 @@ EnsembleContents open_hdf5_file(const std::string& path) {
   H5Pset_file_locking(access, 0, 1);
   const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
   if (id < 0)
-    throw FormatError(path, 0,
-                      std::string("not an HDF5 file, or its structure is damaged") + kRemedy + switched_on("overwrite"));
+    throw FormatError(
+        path, 0, std::string("not an HDF5 file, or its structure is damaged") + kRemedy + switched_on("overwrite"));
   const Handle file(id, H5Fclose, path, "the file");
   if (H5Lexists(file, "/espdiff", H5P_DEFAULT) <= 0)
     throw FormatError(path, 0, "an HDF5 file, but not one of `espdiff ensemble`");

@@ -49,7 +49,8 @@ void write_surface(std::ostream& out, const EnsembleFile& file, const EnsembleRe
     add("potential_" + sides[g], result.groups[g].mean);
     add("deviation_" + sides[g], result.groups[g].deviation);
     add("effective_samples_" + sides[g], result.groups[g].effective);
-    kept.push_back(std::make_unique<std::vector<float>>(result.groups[g].present.begin(), result.groups[g].present.end()));
+    kept.push_back(
+        std::make_unique<std::vector<float>>(result.groups[g].present.begin(), result.groups[g].present.end()));
     vtp.point_arrays.emplace_back("counterparts_" + sides[g], *kept.back());
     vtp.texts.emplace_back(sides[g] + "_group", result.groups[g].name);
   }
@@ -97,7 +98,8 @@ void write_residues(std::ostream& out, const EnsembleResult& result) {
     for (const double mean : r.means) row.push_back(csv_number(mean));
     if (result.compares) {
       const PlaceTests& t = result.residue_tests;
-      for (const double value : {t.difference[i], t.low[i], t.high[i], t.t[i], t.p[i], r.adjusted_p, r.significant_area_A2})
+      for (const double value :
+           {t.difference[i], t.low[i], t.high[i], t.t[i], t.p[i], r.adjusted_p, r.significant_area_A2})
         row.push_back(csv_number(value));
     }
     write_csv_row(out, row);
