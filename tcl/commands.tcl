@@ -152,7 +152,7 @@ namespace eval ::espdiff {
         summary {Removes drawings with their legends; without a handle, all of them.} \
         returns {nothing} example {espdiff undraw comparison1}]
 
-    command trajectory [dict create arguments {} settings series run ::espdiff::trajectory options [concat {
+    command trajectory [dict create arguments {} settings all run ::espdiff::trajectory options [concat {
             {-mol molecule {} "Molecule of VMD whose frames are compared"}
             {-file file {} "Instead of -mol: structure file whose models are the frames, the first one is frame 0"}
             {-sel text "not water" "Atoms of the molecule; chosen once, in the reference frame"}
@@ -171,7 +171,7 @@ namespace eval ::espdiff {
             {-csv file required "File that gets one row for each frame"}
             {-resume boolean 0 "Go on where an interrupted run left the file"}
             {-overwrite boolean 0 "Replace the file if it exists"}
-            {-on-error choice stop "skip writes a row with the error in its last column, and goes on" {stop skip}}
+            {-on-error choice stop "skip writes a row with the error in its column `error`, and goes on" {stop skip}}
             {-callback command {} "Called as CMD frame row after each row, a dictionary by column; `break` cancels"}
         } $computing] \
         summary {Compares each frame with the reference, or with the frame before, and writes a row for each as it is

@@ -88,8 +88,7 @@ namespace eval ::espdiff {
         append text [manual_options $rows]
         switch [dict get $description settings] {
             all { append text "Takes all [link_to_settings] as well.\n\n" }
-            series { append text "Takes all [link_to_settings] but those of a region as well.\n\n" }
-            variants { append text "Takes all [link_to_settings] but those of a region or of one side as well.\n\n" }
+            variants { append text "Takes all [link_to_settings] but those of one side as well.\n\n" }
             surface { append text "Takes those [link_to_settings] that are marked *surface* as well.\n\n" }
             preparation { append text "Takes those [link_to_settings] that are marked *prepare* as well.\n\n" }
         }

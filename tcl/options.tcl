@@ -108,16 +108,14 @@ namespace eval ::espdiff {
         return $options
     }
 
-    # Whether commands of this kind take a setting: `all`, `series` and `variants` (which have no region), `surface`
-    # and `preparation` (of one molecule).
+    # Whether commands of this kind take a setting: `all`, `variants` (none of one side), `surface` and `preparation`
+    # (of one molecule).
     proc takes_setting {wanted setting} {
         set name [dict get $setting name]
-        set of_region [expr {[dict get $setting group] eq "Region"}]
         switch $wanted {
             surface { return [dict get $setting surface] }
             preparation { return [dict get $setting preparation] }
-            series { return [expr {!$of_region}] }
-            variants { return [expr {!$of_region && ![string match source-* $name] && ![string match target-* $name]}] }
+            variants { return [expr {![string match source-* $name] && ![string match target-* $name]}] }
         }
         return 1
     }

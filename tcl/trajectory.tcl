@@ -116,6 +116,7 @@ namespace eval ::espdiff {
         }
         foreach key {resume overwrite start} { dict set plan $key [dict get $options $key] }
         if {[lindex $run(reference) 0] eq "frame"} { dict set plan row_reference [lindex $run(reference) 1] }
+        if {$run(reference) ne "previous"} { dict set plan region [dict exists $run(reference) region] }
         if {$run(mol) eq ""} {
             dict set plan file $run(path)
         } else {

@@ -97,7 +97,7 @@ namespace eval ::espdiff {
     # `same residue as protein within 5 of resname AP5`.
     proc vmd_region {mol text frame role} {
         set name "molecule $mol ([molinfo $mol get name])"
-        if {$role ne "source"} { fail "$role: `region` belongs to the source" }
+        if {$role ni {source reference}} { fail "$role: `region` belongs to the source" }
         if {[catch { atomselect $mol $text frame $frame } selection]} {
             fail "$role: the region '$text' of $name is not understood by VMD ($selection)"
         }

@@ -47,6 +47,12 @@ std::vector<Variant> load_variants(MatrixObject& object, const Progress& progres
     if (endpoint.computed_map) variant.make_map = endpoint.computed_map->maker();
     variants.push_back(std::move(variant));
   }
+  std::vector<const Molecule*> wholes;
+  for (std::size_t i = 0; i < variants.size(); ++i) {
+    const Molecule& whole = object.endpoints[i].state.whole;
+    wholes.push_back(whole.size() > 0 ? &whole : &variants[i].molecule);
+  }
+  set_regions(variants, wholes, object.computation.options.input);
   object.endpoints.clear();
   std::vector<Molecule*> molecules;
   for (Variant& variant : variants) molecules.push_back(&variant.molecule);
@@ -63,7 +69,7 @@ MatrixRun parse_run(DictReader& reader) {
   run.overwrite = reader.boolean("overwrite", false);
   run.skip_errors = reader.text("on_error", "stop") == "skip";
   run.cluster_by = reader.text("cluster_by");
-  if (!run.cluster_by.empty()) find_metric(run.cluster_by);  // reports a wrong one at once
+  if (!run.cluster_by.empty()) find_metric(run.cluster_by, true);  // reports a wrong one at once
   return run;
 }
 

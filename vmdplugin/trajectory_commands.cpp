@@ -9,6 +9,7 @@
 #include "potential/potential.h"
 #include "potential/potential_settings.h"
 #include "prepare/load_state.h"
+#include "prepare/region.h"
 #include "prepare/surface_radii.h"
 #include "prepare/take_charges.h"
 #include "tcl_values.h"
@@ -64,8 +65,8 @@ SeriesDescription parse_description(DictReader& reader, double temperature_K) {
 }
 
 /// PLAN: csv FILE ?resume B? ?overwrite B? frames LIST reference TEXT ?row_reference TEXT? ?map TEXT?
-/// ?reference_map TEXT? ?one_map B? ?start S? ?on_error E? and file PATH or molecule {NAME TEXT ...}, lines of the
-/// head.
+/// ?reference_map TEXT? ?one_map B? ?start S? ?on_error E? ?region B? (the reference has one) and file PATH or molecule
+/// {NAME TEXT ...}, lines of the head.
 Tcl_Obj* trajectory(const Call& call) {
   auto object = std::make_shared<TrajectoryObject>();
   DictReader options(call.arguments[1], "options");
@@ -81,6 +82,7 @@ Tcl_Obj* trajectory(const Call& call) {
   plan.reference = reader.text("row_reference", run.reference);
   plan.start = run.start = parse_start(reader.text("start", "auto"), plan.options);
   plan.skip_errors = reader.text("on_error", "stop") == "skip";
+  plan.has_region = reader.boolean("region", false) || plan.options.input.has_region();
   object->one_map = reader.boolean("one_map", false);
   object->against_previous = plan.against_previous;
   reader.finish();
@@ -151,16 +153,31 @@ std::vector<InputFile> common_inputs(const TrajectoryObject& object) {
   return inputs;
 }
 
+/// The region of the source by the settings.
+void set_region(TrajectoryObject& object) {
+  const InputOptions& options = object.computation.options.input;
+  if (!options.has_region()) return;
+  Endpoint& source = object.source;
+  const Molecule& whole = source.state.whole.size() > 0 ? source.state.whole : *source.molecule;
+  source.region = region_residues(*source.molecule, whole, *source.molecule, whole, options);
+}
+
 /// Reads, compares and writes one frame, on the worker's thread.
 void run_step(TrajectoryObject& object, const Progress& progress) {
   object.row.reset();
   TrajectoryRun& run = *object.run;
   if (object.engine == nullptr) object.engine = engine_for(object.computation);
   // A failure of the common source ends the run, even with -on-error skip.
-  if (!object.against_previous) load_side(object, object.source, std::nullopt, progress);
+  if (!object.against_previous) {
+    load_side(object, object.source, std::nullopt, progress);
+    set_region(object);
+  }
   const auto read = [&] {
     const TrajectoryStep& step = run.next();
-    if (object.against_previous) load_side(object, object.source, step.previous, progress);
+    if (object.against_previous) {
+      load_side(object, object.source, step.previous, progress);
+      set_region(object);
+    }
     load_side(object, object.target, step.frame, progress);
     return StepInput{input_of(object.source), input_of(object.target), common_inputs(object)};
   };
@@ -193,7 +210,7 @@ Tcl_Obj* trajectory_row(const Call& call) {
   const auto object = resting(call);
   Tcl_Obj* const dict = Tcl_NewDictObj();
   if (!object->row) return dict;
-  for (const std::string& column : series_columns())
+  for (const std::string& column : object->row->columns())
     Tcl_DictObjPut(nullptr, dict, to_obj(column), to_obj((*object->row)[column]));
   return dict;
 }

@@ -107,12 +107,18 @@ std::string add_maps(const Arguments& a, Side& source, Side& target, double temp
   return plan.because();
 }
 
+std::vector<std::string> all_inputs(const Arguments& a) {
+  std::vector<std::string> inputs = input_files(a.settings);
+  inputs.insert(inputs.end(), {a.source, a.target, a.maps.source_map, a.maps.target_map});
+  return inputs;
+}
+
 /// The structures that are written beside the results. An output that would replace an input is found before the work.
 std::vector<KeptFile> kept_structures(const Arguments& a, const Side& source, const Side& target) {
   std::vector<KeptFile> kept;
   for (const Side* side : {&source, &target}) {
     for (KeptFile& file : kept_structure(side->role, side->state)) {
-      check_outputs({a.source, a.target}, {a.output + file.ending});
+      check_outputs(all_inputs(a), {a.output + file.ending});
       kept.push_back(std::move(file));
     }
   }
@@ -122,8 +128,7 @@ std::vector<KeptFile> kept_structures(const Arguments& a, const Side& source, co
 int run(const Arguments& a, const Context& context) {
   check_map_options(a.maps);
   const CompareOptions options = make_options(a.settings);
-  check_outputs({a.source, a.target, a.maps.source_map, a.maps.target_map},
-                {a.output + ".json", a.output + ".vtp", a.output + ".residues.csv", a.residue_pdb});
+  check_outputs(all_inputs(a), {a.output + ".json", a.output + ".vtp", a.output + ".residues.csv", a.residue_pdb});
   // An unwritable output is found before the work.
   for (const char* suffix : {".json", ".vtp", ".residues.csv"}) AtomicFile probe(a.output + suffix);
   if (!a.residue_pdb.empty()) AtomicFile probe(a.residue_pdb);

@@ -74,7 +74,7 @@ States read_states(const Arguments& a, const std::vector<VariantFiles>& files, c
     request.structure.model = file.model;
     request.source = states.empty() ? nullptr : &states.front().molecule;
     states.push_back(load_for(a.potential, wants_charges, *structure, request, options.input, progress));
-    states.back().whole = {};
+    if (options.input.region_of.empty()) states.back().whole = {};  // a region near other atoms refers to them
     all.variants.push_back(read_variant(file, *structure, states.back().molecule, a.map_array));
     const auto inputs = state_inputs("structure", all.variants.back().inputs.front(), states.back());
     all.variants.back().inputs.insert(all.variants.back().inputs.end(), inputs.begin() + 1, inputs.end());
@@ -93,6 +93,10 @@ States read_states(const Arguments& a, const std::vector<VariantFiles>& files, c
     variant.make_map = map.maker();
     variant.inputs.push_back(computed_input("map", map));
   }
+  std::vector<const Molecule*> wholes;
+  for (std::size_t i = 0; i < states.size(); ++i)
+    wholes.push_back(states[i].whole.size() > 0 ? &states[i].whole : &all.variants[i].molecule);
+  set_regions(all.variants, wholes, options.input);
   set_surface_radii(molecules, options.input.radii);
   unite_map_units(all.variants, options.temperature_K);
   return all;
@@ -122,7 +126,8 @@ int run(Arguments& a, const Context& context) {
   a.run.shard = parse_shard(a.shard);
   a.run.skip_errors = a.on_error == "skip";
   const std::vector<VariantFiles> files = chosen_variants(a);
-  std::vector<std::string> inputs = {a.list, a.groups};
+  std::vector<std::string> inputs = input_files(a.settings);
+  inputs.insert(inputs.end(), {a.list, a.groups});
   for (const VariantFiles& file : files) inputs.insert(inputs.end(), {file.structure, file.map});
   check_outputs(inputs, output_paths(a.run));
   const std::unique_ptr<Engine> engine = make_engine(a.device);

@@ -89,16 +89,11 @@ void refuse_earlier_names(CLI::App& parser) {
   }
 }
 
-}  // namespace
-
-namespace {
-
 bool has_setting(const Setting& setting, SettingsFor what) {
   const bool of_side = setting.name.rfind("source-", 0) == 0 || setting.name.rfind("target-", 0) == 0;
   switch (what) {
     case SettingsFor::kPair: return true;
-    case SettingsFor::kSeries: return setting.group != kRegionGroup;
-    case SettingsFor::kVariants: return !of_side && setting.group != kRegionGroup;
+    case SettingsFor::kVariants: return !of_side;
     case SettingsFor::kSurface: return setting.of_surface;
     case SettingsFor::kPreparation: break;
   }
@@ -106,6 +101,14 @@ bool has_setting(const Setting& setting, SettingsFor what) {
 }
 
 }  // namespace
+
+std::vector<std::string> input_files(const GivenSettings& given) {
+  std::vector<std::string> files;
+  for (const auto& [name, text] : given) {
+    if (find_setting(name).is_file) files.push_back(text);
+  }
+  return files;
+}
 
 void add_settings(CLI::App& parser, GivenSettings& given, SettingsFor what) {
   if (what != SettingsFor::kSurface && what != SettingsFor::kPreparation) refuse_earlier_names(parser);

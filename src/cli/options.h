@@ -36,13 +36,14 @@ using GivenSettings = std::vector<std::pair<std::string, std::string>>;
 /// What a verb does decides which settings it has.
 enum class SettingsFor {
   kPair,        ///< all
-  kSeries,      ///< all but the region
-  kVariants,    ///< of many structures alike: none of one side, no region
+  kVariants,    ///< of many structures alike: none of one side
   kSurface,     ///< those that one molecule's surface depends on
   kPreparation  ///< which atoms, and where charges come from
 };
 /// Adds settings as options `--name`; a boolean one as a flag, `--no-name` if it is on by default.
 void add_settings(CLI::App& parser, GivenSettings& given, SettingsFor what);
+/// Files that settings name, such as topologies, for check_outputs().
+std::vector<std::string> input_files(const GivenSettings& given);
 
 /// Adds every option of computed potentials, for make_potential_options().
 /// @param of_maps by the names of `espdiff potential`: `--grid` as PMEPot has it, not `--pme-grid`

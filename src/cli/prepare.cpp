@@ -65,7 +65,9 @@ void print_summary(const Arguments& a, const LoadedState& state) {
 int run(Arguments& a, const Context& context) {
   const CompareOptions options = make_options(a.settings);
   if (a.json.empty()) a.json = json_beside(a.output);
-  check_outputs({a.input}, {a.output, a.json});
+  std::vector<std::string> inputs = input_files(a.settings);
+  inputs.push_back(a.input);
+  check_outputs(inputs, {a.output, a.json});
   AtomicFile pqr(a.output), json(a.json);
   const StructureFile file(a.input);
   const LoadedState state =

@@ -15,6 +15,7 @@
 #include "io/structure_file.h"
 #include "io/write_csv.h"
 #include "prepare/load_state.h"
+#include "prepare/region.h"
 #include "prepare/surface_radii.h"
 #include "prepare/take_charges.h"
 #include "report/state_report.h"
@@ -53,7 +54,7 @@ void add_run_options(CLI::App& p, Arguments& a) {
       ->group(group);
   p.add_flag("--resume", a.resume, "Go on where an interrupted run left the file")->group(group);
   p.add_flag("--overwrite", a.overwrite, "Replace the file if it exists")->group(group);
-  p.add_option("--on-error", a.on_error, "skip writes a row with the error in its last column, and goes on")
+  p.add_option("--on-error", a.on_error, "skip writes a row with the error in its column `error`, and goes on")
       ->check(CLI::IsMember({"stop", "skip"}))
       ->capture_default_str()
       ->group(group);
@@ -101,6 +102,7 @@ class Sides {
     check_left_out(options_, {&source_});
     inputs_ = state_inputs("source", {"source", a.source, file.sha256()}, source_);
     surface_ = source_.molecule;
+    region_ = region_residues(source_.molecule, source_.whole, source_.molecule, source_.whole, options_);
     set_surface_radii({&surface_}, options_.radii);
     source_map_ = given_map(a.maps, "source", inputs_);
     target_map_ = given_map(a.maps, "target", inputs_);
@@ -115,7 +117,7 @@ class Sides {
   const std::vector<InputFile>& inputs() const { return inputs_; }
   std::string potential() const { return plan_.in_words(); }
   CompareInput source() const {
-    return {&surface_, source_map_ ? &*source_map_ : nullptr, computed_ ? computed_->maker() : MapMaker(), {}};
+    return {&surface_, source_map_ ? &*source_map_ : nullptr, computed_ ? computed_->maker() : MapMaker(), region_};
   }
 
   /// A frame, which stays until the next one is asked for.
@@ -155,6 +157,7 @@ class Sides {
   LoadedState target_;
   LoadedState source_;
   Molecule surface_;  // the source's, with the radii of its surface
+  std::vector<std::uint8_t> region_;
   PotentialPlan plan_;
   std::optional<Grid> source_map_, target_map_;
   std::optional<ComputedMap> computed_;
@@ -164,7 +167,8 @@ class Sides {
 int run(const Arguments& a, const Context& context) {
   check_map_options(a.maps);
   if (a.resume && a.overwrite) throw InputError("--resume and --overwrite exclude each other");
-  std::vector<std::string> inputs = a.targets;
+  std::vector<std::string> inputs = input_files(a.settings);
+  inputs.insert(inputs.end(), a.targets.begin(), a.targets.end());
   inputs.insert(inputs.end(), {a.source, a.maps.source_map, a.maps.target_map});
   check_outputs(inputs, {a.output, a.output + ".state"});
   const auto begun = std::chrono::steady_clock::now();
@@ -176,6 +180,7 @@ int run(const Arguments& a, const Context& context) {
   plan.frames = parse_frames(a.frames, {sides.n_frames()});
   plan.start = parse_start(a.start, plan.options);
   plan.skip_errors = a.on_error == "skip";
+  plan.has_region = plan.options.input.has_region();
   const ExistingFile existing = a.resume      ? ExistingFile::kResume
                                 : a.overwrite ? ExistingFile::kReplace
                                               : ExistingFile::kRefuse;
@@ -221,7 +226,7 @@ Verb add_trajectory(CLI::App& app) {
   add_run_options(*parser, *a);
   add_map_options(*parser, a->maps);
   add_structure_options(*parser, a->structure);
-  add_settings(*parser, a->settings, SettingsFor::kSeries);
+  add_settings(*parser, a->settings, SettingsFor::kPair);
   add_device_options(*parser, a->device);
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
   return {parser, [a](const Context& context) { return run(*a, context); }};

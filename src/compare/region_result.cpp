@@ -49,6 +49,11 @@ MeshPtr cut(Engine& engine, const MeshPtr& mesh, const std::vector<float>& exclu
 
 }  // namespace
 
+const std::vector<std::string>& unchecked_in_regions() {
+  static const std::vector<std::string> names = {"round_trip", "slip", "residues"};
+  return names;
+}
+
 Region make_region(std::vector<std::uint8_t> source, const MappedSurface& surface,
                    const std::vector<std::int32_t>& vertex_residue, const std::vector<std::int32_t>& target_of,
                    std::size_t n_target_residues) {
@@ -76,7 +81,7 @@ std::shared_ptr<CompareResult> region_result(Engine& engine, const Region& regio
   result->rmsd_A = rmsd_of(region, whole, source_molecule, target_molecule);
   Certificate& c = result->certificate;
   c.converged = whole.certificate.converged;
-  c.not_checked = {"round_trip", "slip", "residues"};
+  c.not_checked = unchecked_in_regions();
   std::vector<float> excluded = region.outside;
   for (std::size_t t = 0; t < mapping.unmatched.size(); ++t) excluded[t] = std::max(excluded[t], mapping.unmatched[t]);
   const MeshPtr source = cut(engine, mapping.source, region.outside), matched = cut(engine, mapping.mapped, excluded),

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "base/handles.h"
@@ -23,6 +24,9 @@ struct Region {
   /// [triangle of the full mesh] nonzero outside of the region: fewer than two of its vertices belong to residues of it
   std::vector<float> outside;
 };
+
+/// Checks that are made of whole mappings only, by their names in Certificate::not_checked.
+const std::vector<std::string>& unchecked_in_regions();
 
 /// @param vertex_residue [vertex of the surface] source residue, -1 for none
 /// @param target_of      [source residue] its partner, -1 for none

@@ -16,11 +16,15 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<Metric> make_metrics() {
+std::vector<Metric> make_metrics(bool with_region) {
   std::vector<Metric> all;
-  for (const Metric& metric : metrics()) {
-    if ((metric.flags & kInMatrix) != 0) all.push_back(metric);
-  }
+  const auto add = [&](const std::vector<Metric>& some) {
+    for (const Metric& metric : some) {
+      if ((metric.flags & kInMatrix) != 0) all.push_back(metric);
+    }
+  };
+  add(metrics());
+  if (with_region) add(region_metrics());
   return all;
 }
 
@@ -28,41 +32,43 @@ MatrixCell cell_of(const MatrixPair& pair, const CompareResult& result) {
   MatrixCell cell;
   cell.source = pair.first;
   cell.target = pair.second;
-  for (const Metric& metric : matrix_metrics()) {
+  for (const Metric& metric : matrix_metrics(result.region != nullptr)) {
     const double value = value_of(metric, result);
     cell.values.push_back(std::isfinite(value) ? value : kNan);
   }
   cell.converged = result.certificate.converged;
   cell.trustworthy = result.certificate.trustworthy;
+  cell.region_trustworthy = result.region != nullptr && result.region->certificate.trustworthy;
   for (const Message& reason : result.certificate.reasons) cell.reasons.push_back(reason.plain());
   return cell;
 }
 
-MatrixCell failed_cell(const MatrixPair& pair, const std::string& error) {
+MatrixCell failed_cell(const MatrixPair& pair, const std::string& error, bool with_region) {
   MatrixCell cell;
   cell.source = pair.first;
   cell.target = pair.second;
-  cell.values.assign(matrix_metrics().size(), kNan);
+  cell.values.assign(matrix_metrics(with_region).size(), kNan);
   cell.error = error;
   return cell;
 }
 
 CompareInput input_of(const Variant& variant) {
-  return {&variant.molecule, variant.map ? &*variant.map : nullptr, variant.make_map};
+  return {&variant.molecule, variant.map ? &*variant.map : nullptr, variant.make_map, variant.region};
 }
 
 }  // namespace
 
-const std::vector<Metric>& matrix_metrics() {
-  static const std::vector<Metric> all = make_metrics();
-  return all;
+const std::vector<Metric>& matrix_metrics(bool with_region) {
+  static const std::vector<Metric> all = make_metrics(false), with = make_metrics(true);
+  return with_region ? with : all;
 }
 
-std::size_t find_metric(const std::string& name) {
+std::size_t find_metric(const std::string& name, bool with_region) {
   std::string list;
-  for (std::size_t i = 0; i < matrix_metrics().size(); ++i) {
-    if (matrix_metrics()[i].name == name) return i;
-    list += (list.empty() ? "" : ", ") + std::string(matrix_metrics()[i].name);
+  const std::vector<Metric>& all = matrix_metrics(with_region);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].name == name) return i;
+    list += (list.empty() ? "" : ", ") + std::string(all[i].name);
   }
   throw InputError("there is no metric '" + name + "'; there are: " + list);
 }
@@ -110,7 +116,7 @@ void compute_pairs(Engine& engine, const std::vector<Variant>& variants, const C
       throw;
     } catch (const Error& error) {
       if (!skip_errors) throw Error(error.error_class(), name + ": " + error.message());
-      cell = failed_cell(pairs[p], error.what());
+      cell = failed_cell(pairs[p], error.what(), options.input.has_region());
     }
     done(cell);
   }

@@ -14,16 +14,17 @@ namespace espdiff {
 
 struct CompareOptions;
 
-/// The metrics of a matrix, in the order of files.
-const std::vector<Metric>& matrix_metrics();
+/// The metrics of a matrix, in the order of files. Those of a region follow all others.
+const std::vector<Metric>& matrix_metrics(bool with_region = false);
 /// The position of a metric. @throws InputError listing them
-std::size_t find_metric(const std::string& name);
+std::size_t find_metric(const std::string& name, bool with_region = false);
 
 /// One ordered pair: the source's surface mapped onto the target's.
 struct MatrixCell {
   std::size_t source = 0, target = 0;  ///< indices of variants
   std::vector<double> values;          ///< [metric]; NaN if there is none
   bool converged = false, trustworthy = false;
+  bool region_trustworthy = false;
   std::vector<std::string> reasons;  ///< why it is not trustworthy
   std::string error;                 ///< why there are no values
 };

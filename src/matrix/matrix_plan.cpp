@@ -39,6 +39,12 @@ std::string sha256_in(const MatrixPlan::Item& item, const std::string& role) {
 
 }  // namespace
 
+bool MatrixPlan::has_region() const {
+  return std::any_of(settings.begin(), settings.end(), [](const auto& setting) {
+    return (setting.first == "region" || setting.first == "of") && !setting.second.empty();
+  });
+}
+
 MatrixPlan make_plan(const Engine& engine, const std::vector<Variant>& variants, const CompareOptions& options,
                      const std::string& potential) {
   constexpr std::size_t kMaxVariants = 10000;

@@ -22,6 +22,9 @@ struct MatrixPlan {
   std::string potential;                                      ///< origin of the potentials; empty for none
   std::string potential_unit;                                 ///< empty for none
   std::vector<Item> variants;
+
+  /// Whether the pairs have a region, by the settings.
+  bool has_region() const;
 };
 
 /// @param potential description: "maps", or "pme, grid 0.5, Ewald factor 0.25"; ignored if no variant has a map

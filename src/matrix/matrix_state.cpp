@@ -36,27 +36,31 @@ std::string line_of(const std::string& sum, const std::string& json) { return su
 
 std::string cell_json(const MatrixCell& cell) {
   Json values = Json::object();
+  const bool with_region = cell.values.size() > matrix_metrics().size();
   for (std::size_t m = 0; m < cell.values.size(); ++m)
-    values[matrix_metrics()[m].name] = std::isfinite(cell.values[m]) ? Json(cell.values[m]) : Json(nullptr);
-  const Json json = {{"source", cell.source},       {"target", cell.target},           {"values", std::move(values)},
-                     {"converged", cell.converged}, {"trustworthy", cell.trustworthy}, {"reasons", cell.reasons},
-                     {"error", cell.error}};
+    values[matrix_metrics(with_region)[m].name] = std::isfinite(cell.values[m]) ? Json(cell.values[m]) : Json(nullptr);
+  Json json = {{"source", cell.source},       {"target", cell.target},           {"values", std::move(values)},
+               {"converged", cell.converged}, {"trustworthy", cell.trustworthy}, {"reasons", cell.reasons},
+               {"error", cell.error}};
+  if (with_region) json["region_trustworthy"] = cell.region_trustworthy;
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-MatrixCell parse_cell(const std::string& text, std::size_t n_variants) {
+MatrixCell parse_cell(const std::string& text, const MatrixPlan& plan) {
+  const std::size_t n_variants = plan.variants.size();
   const Json json = Json::parse(text);
   MatrixCell cell;
   json.at("source").get_to(cell.source);
   json.at("target").get_to(cell.target);
   if (cell.source >= n_variants || cell.target >= n_variants || cell.source == cell.target)
     throw std::out_of_range("pair");
-  for (const Metric& metric : matrix_metrics()) {
+  for (const Metric& metric : matrix_metrics(plan.has_region())) {
     const Json& value = json.at("values").at(metric.name);
     cell.values.push_back(value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>());
   }
   json.at("converged").get_to(cell.converged);
   json.at("trustworthy").get_to(cell.trustworthy);
+  if (plan.has_region()) json.at("region_trustworthy").get_to(cell.region_trustworthy);
   json.at("reasons").get_to(cell.reasons);
   json.at("error").get_to(cell.error);
   return cell;
@@ -127,7 +131,7 @@ MatrixStateContent read_matrix_state(const std::string& path) {
                       "the state file is cut off before its first row; run anew (" + switched_on("overwrite") + ")");
   try {
     content.plan = parse_plan(json);
-    while (reader.next(json)) content.cells.push_back(parse_cell(json, content.plan.variants.size()));
+    while (reader.next(json)) content.cells.push_back(parse_cell(json, content.plan));
   } catch (const nlohmann::json::exception&) {
     reader.damaged();
   } catch (const std::out_of_range&) {

@@ -16,7 +16,8 @@ bool same_value(double a, double b) { return a == b || (std::isnan(a) && std::is
 
 bool same_cell(const MatrixCell& a, const MatrixCell& b) {
   return std::equal(a.values.begin(), a.values.end(), b.values.begin(), b.values.end(), same_value) &&
-         a.converged == b.converged && a.trustworthy == b.trustworthy && a.reasons == b.reasons && a.error == b.error;
+         a.converged == b.converged && a.trustworthy == b.trustworthy && a.region_trustworthy == b.region_trustworthy &&
+         a.reasons == b.reasons && a.error == b.error;
 }
 
 double mean_of_known(double a, double b) {
@@ -63,14 +64,14 @@ DistanceTable symmetric_distances(const Matrix& matrix, std::size_t metric) {
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = i + 1; j < n; ++j) {
       distances[i * n + j] = distances[j * n + i] =
-          as_distance(matrix_metrics()[metric], matrix.value(metric, i, j), matrix.value(metric, j, i));
+          as_distance(matrix.metrics()[metric], matrix.value(metric, i, j), matrix.value(metric, j, i));
     }
   }
   return distances;
 }
 
 Asymmetry asymmetry(const Matrix& matrix, std::size_t metric) {
-  const double sign = (matrix_metrics()[metric].flags & kAntisymmetric) != 0 ? -1 : 1;
+  const double sign = (matrix.metrics()[metric].flags & kAntisymmetric) != 0 ? -1 : 1;
   Asymmetry result;
   double sum = 0, magnitudes = 0;
   std::size_t n_pairs = 0;

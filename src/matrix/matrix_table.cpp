@@ -53,13 +53,16 @@ std::string percent(double fraction) {
   return std::isnan(fraction) ? "-" : significant(fraction < 1e-9 ? 0 : 100 * fraction) + " %";
 }
 
+/// Of the column of labels, which those of a region make wider.
+int label_width(const Matrix& matrix) { return matrix.plan.has_region() ? 38 : 30; }
+
 void print_metric(std::ostream& out, const Matrix& matrix, std::size_t m) {
-  const Metric& metric = matrix_metrics()[m];
+  const Metric& metric = matrix.metrics()[m];
   const Range range = range_of(matrix, m);
   if (range.least == nullptr) return;
   const bool share = metric.unit == MetricUnit::kFraction;
   const auto value = [&](double v) { return share ? percent(v) : significant(v); };
-  out << padded("  " + std::string(metric.label), 30)
+  out << padded("  " + std::string(metric.label), label_width(matrix))
       << padded(share ? "of the area" : unit_of(metric, matrix.plan.potential_unit), 13)
       << right(value(range.least->values[m]), 11) << right(value(range.mean), 11)
       << right(value(range.most->values[m]), 11) << right(percent(asymmetry(matrix, m).mean), 12) << '\n';
@@ -68,8 +71,8 @@ void print_metric(std::ostream& out, const Matrix& matrix, std::size_t m) {
 void print_groups(std::ostream& out, const Matrix& matrix, std::size_t metric) {
   const std::vector<GroupMean> means = group_means(matrix, metric);
   if (means.empty()) return;
-  out << "\nMeans of groups (source in rows), " << matrix_metrics()[metric].label << ' '
-      << unit_of(matrix_metrics()[metric], matrix.plan.potential_unit) << "\n  ";
+  out << "\nMeans of groups (source in rows), " << matrix.metrics()[metric].label << ' '
+      << unit_of(matrix.metrics()[metric], matrix.plan.potential_unit) << "\n  ";
   std::vector<std::string> names;
   for (const GroupMean& g : means) {
     if (g.source == means.front().source) names.push_back(g.target);
@@ -101,10 +104,10 @@ void print_matrix(std::ostream& out, const Matrix& matrix, std::size_t metric) {
   out << matrix.n() << " variants, " << matrix.cells.size() << " ordered pairs";
   if (!matrix.plan.potential.empty()) out << ", potentials: " << matrix.plan.potential;
   out << "\n\n"
-      << padded("Over all pairs", 43) << right("least", 11) << right("mean", 11) << right("greatest", 11)
-      << right("asymmetry", 12) << '\n';
-  for (std::size_t m = 0; m < matrix_metrics().size(); ++m) {
-    const MetricSection section = matrix_metrics()[m].section;
+      << padded("Over all pairs", label_width(matrix) + 13) << right("least", 11) << right("mean", 11)
+      << right("greatest", 11) << right("asymmetry", 12) << '\n';
+  for (std::size_t m = 0; m < matrix.metrics().size(); ++m) {
+    const MetricSection section = matrix.metrics()[m].section;
     if (section != MetricSection::kCertificate && section != MetricSection::kMapping) print_metric(out, matrix, m);
   }
   const Range range = range_of(matrix, metric);
@@ -112,7 +115,7 @@ void print_matrix(std::ostream& out, const Matrix& matrix, std::size_t metric) {
     const auto pair = [&](const MatrixCell& cell) {
       return matrix.plan.variants[cell.source].label + " to " + matrix.plan.variants[cell.target].label;
     };
-    out << "\nBy " << matrix_metrics()[metric].label << ": nearest " << pair(*range.least) << ", farthest "
+    out << "\nBy " << matrix.metrics()[metric].label << ": nearest " << pair(*range.least) << ", farthest "
         << pair(*range.most) << '\n';
   }
   print_groups(out, matrix, metric);

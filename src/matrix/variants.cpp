@@ -7,10 +7,12 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/input_options.h"
 #include "io/read_csv.h"
 #include "io/read_grid.h"
 #include "io/structure_file.h"
 #include "io/text_cursor.h"
+#include "prepare/region.h"
 
 namespace espdiff {
 namespace {
@@ -163,6 +165,18 @@ Variant read_variant(const VariantFiles& files, const StructureFile& file, Molec
   if (!files.map_unit.empty()) variant.map->unit = parse_potential_unit(files.map_unit);
   variant.inputs.push_back({"map", files.map, std::move(map.sha256)});
   return variant;
+}
+
+void set_regions(std::vector<Variant>& variants, const std::vector<const Molecule*>& wholes,
+                 const InputOptions& options) {
+  if (!options.has_region()) return;
+  const auto has_atoms = [&](const Molecule* whole) { return has_region_atoms(*whole, options); };
+  const auto found = std::find_if(wholes.begin(), wholes.end(), has_atoms);
+  for (std::size_t i = 0; i < variants.size(); ++i) {
+    const std::size_t other = found == wholes.end() ? i : static_cast<std::size_t>(found - wholes.begin());
+    variants[i].region =
+        region_residues(variants[i].molecule, *wholes[i], variants[other].molecule, *wholes[other], options);
+  }
 }
 
 void unite_map_units(std::vector<Variant>& variants, double temperature_K) {

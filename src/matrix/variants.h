@@ -1,6 +1,7 @@
 // variants.h: the molecules of a matrix by name, group and SHA-256, from files and lists.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 namespace espdiff {
 
 class StructureFile;
+struct InputOptions;
 
 /// One molecule of a matrix and its potential.
 struct Variant {
@@ -21,7 +23,8 @@ struct Variant {
   std::vector<InputFile> inputs;  ///< its inputs; roles "structure" and "map"
   Molecule molecule;
   std::optional<Grid> map;
-  MapMaker make_map = nullptr;  ///< instead of `map`; in kT/e
+  MapMaker make_map = nullptr;         ///< instead of `map`; in kT/e
+  std::vector<std::uint8_t> region{};  ///< [residue] nonzero in the region; empty without one
 
   bool has_potential() const { return map || make_map != nullptr; }
 };
@@ -60,6 +63,13 @@ void check_labels(const std::vector<std::string>& labels);
 /// @throws as read_grid(); IoError (the structure was changed since its models were counted)
 Variant read_variant(const VariantFiles& files, const StructureFile& file, Molecule molecule,
                      const std::string& map_array);
+
+/// Sets the region of each variant, by its own residues and atoms. A variant without the atoms that the region is near
+/// to takes the region of the first variant that has them, carried over by the pairing of residues.
+/// @param wholes [variant] the atoms of its file before the selection; of molecules in no file, the molecule
+/// @throws as region_residues()
+void set_regions(std::vector<Variant>& variants, const std::vector<const Molecule*>& wholes,
+                 const InputOptions& options);
 
 /// Converts all maps to the unit of the first one.
 /// @throws InputError if only some variants have maps, or only some units are unknown

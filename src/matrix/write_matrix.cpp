@@ -51,7 +51,7 @@ Json pair_of(const Matrix& matrix, const MatrixCell& cell) {
 }
 
 Json metric_json(const Matrix& matrix, std::size_t m) {
-  const Metric& metric = matrix_metrics()[m];
+  const Metric& metric = matrix.metrics()[m];
   return {{"title", metric.label},
           {"unit", unit_of(metric, matrix.plan.potential_unit)},
           {"values", table(matrix, [m](const MatrixCell& cell) { return number(cell.values[m]); })}};
@@ -59,9 +59,9 @@ Json metric_json(const Matrix& matrix, std::size_t m) {
 
 Json asymmetry_json(const Matrix& matrix) {
   Json json = Json::object();
-  for (std::size_t m = 0; m < matrix_metrics().size(); ++m) {
+  for (std::size_t m = 0; m < matrix.metrics().size(); ++m) {
     const Asymmetry a = asymmetry(matrix, m);
-    json[matrix_metrics()[m].name] = {
+    json[matrix.metrics()[m].name] = {
         {"mean", number(a.mean)},
         {"max", number(a.max)},
         {"pair", {matrix.plan.variants[a.first].label, matrix.plan.variants[a.second].label}}};
@@ -71,7 +71,7 @@ Json asymmetry_json(const Matrix& matrix) {
 
 Json groups_json(const Matrix& matrix) {
   Json json = Json::object();
-  for (std::size_t m = 0; m < matrix_metrics().size(); ++m) {
+  for (std::size_t m = 0; m < matrix.metrics().size(); ++m) {
     Json means = Json::array();
     for (const GroupMean& g : group_means(matrix, m)) {
       means.push_back({{"source", g.source},
@@ -82,7 +82,7 @@ Json groups_json(const Matrix& matrix) {
                        {"min", number(g.min)},
                        {"max", number(g.max)}});
     }
-    if (!means.empty()) json[matrix_metrics()[m].name] = std::move(means);
+    if (!means.empty()) json[matrix.metrics()[m].name] = std::move(means);
   }
   return json;
 }
@@ -92,7 +92,7 @@ Json clustering_json(const Matrix& matrix, const Clustering& clustering) {
   for (const ClusterMerge& merge : clustering.merges)
     merges.push_back({merge.left, merge.right, number(merge.distance), merge.n_variants});
   for (const std::size_t i : clustering.order) order.push_back(matrix.plan.variants[i].label);
-  return {{"metric", matrix_metrics()[clustering.metric].name},
+  return {{"metric", matrix.metrics()[clustering.metric].name},
           {"linkage", "average"},
           {"merges", std::move(merges)},
           {"order", std::move(order)}};
@@ -126,8 +126,11 @@ std::string joined(const std::vector<std::string>& words) {
 
 void write_table(std::ostream& out, const Matrix& matrix) {
   std::vector<std::string> names = {"source", "target", "source_group", "target_group", "potential_unit"};
-  for (const Metric& metric : matrix_metrics()) names.emplace_back(metric.name);
-  names.insert(names.end(), {"converged", "trustworthy", "reasons", "error"});
+  for (const Metric& metric : matrix.metrics()) names.emplace_back(metric.name);
+  names.insert(names.end(), {"converged", "trustworthy"});
+  const bool with_region = matrix.plan.has_region();
+  if (with_region) names.emplace_back("region_trustworthy");
+  names.insert(names.end(), {"reasons", "error"});
   write_csv_row(out, names);
   for (const MatrixCell& cell : matrix.cells) {
     const MatrixPlan::Item &source = matrix.plan.variants[cell.source], &target = matrix.plan.variants[cell.target];
@@ -135,8 +138,10 @@ void write_table(std::ostream& out, const Matrix& matrix) {
                                        matrix.plan.potential_unit};
     for (const double value : cell.values) fields.push_back(csv_number(value));
     const bool has_values = cell.error.empty();
-    fields.insert(fields.end(), {has_values ? std::to_string(cell.converged) : "",
-                                 has_values ? std::to_string(cell.trustworthy) : "", joined(cell.reasons), cell.error});
+    const auto known = [&](bool value) { return has_values ? std::to_string(static_cast<int>(value)) : std::string(); };
+    fields.insert(fields.end(), {known(cell.converged), known(cell.trustworthy)});
+    if (with_region) fields.push_back(known(cell.region_trustworthy));
+    fields.insert(fields.end(), {joined(cell.reasons), cell.error});
     write_csv_row(out, fields);
   }
 }
@@ -149,12 +154,15 @@ Json matrix_json(const Matrix& matrix, std::size_t metric) {
   for (const char* key : {"version", "device", "potential", "potential_unit"}) json[key] = plan[key];
   json["options"] = options_json(matrix.plan.settings);
   json["variants"] = plan["variants"];
-  for (std::size_t m = 0; m < matrix_metrics().size(); ++m)
-    json["metrics"][matrix_metrics()[m].name] = metric_json(matrix, m);
+  for (std::size_t m = 0; m < matrix.metrics().size(); ++m)
+    json["metrics"][matrix.metrics()[m].name] = metric_json(matrix, m);
   const auto known = [](const MatrixCell& cell, bool value) {
     return cell.error.empty() ? Json(value) : Json(nullptr);
   };
   json["trustworthy"] = table(matrix, [&](const MatrixCell& cell) { return known(cell, cell.trustworthy); });
+  if (matrix.plan.has_region())
+    json["region_trustworthy"] =
+        table(matrix, [&](const MatrixCell& cell) { return known(cell, cell.region_trustworthy); });
   json["converged"] = table(matrix, [&](const MatrixCell& cell) { return known(cell, cell.converged); });
   json["not_trustworthy"] = Json::array();
   json["errors"] = Json::array();

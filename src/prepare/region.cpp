@@ -33,6 +33,12 @@ std::vector<std::uint8_t> region_within(const Molecule& molecule, const Molecule
   return region;
 }
 
+bool has_region_atoms(const Molecule& whole, const InputOptions& options) {
+  if (options.region_of.empty()) return false;
+  const std::vector<bool> near_to = select_atoms(whole, options.region_of, "of");
+  return std::find(near_to.begin(), near_to.end(), true) != near_to.end();
+}
+
 std::vector<std::uint8_t> region_residues(const Molecule& source, const Molecule& whole_source, const Molecule& target,
                                           const Molecule& whole_target, const InputOptions& options) {
   if (!options.has_region()) return {};
@@ -51,16 +57,18 @@ std::vector<std::uint8_t> region_residues(const Molecule& source, const Molecule
   } else {
     near_to = select_atoms(whole_target, options.region_of, "of");
     if (std::find(near_to.begin(), near_to.end(), true) == near_to.end())
-      throw InputError(option("of", options.region_of) + " selects no atom of either file; " + whole_source.name +
-                       " has " + describe_chains(whole_source) + "; " + whole_target.name + " has " +
-                       describe_chains(whole_target));
+      throw InputError(option("of", options.region_of) + " selects no atom; " + whole_source.name + " has " +
+                       describe_chains(whole_source) +
+                       (&whole_target == &whole_source
+                            ? std::string()
+                            : "; " + whole_target.name + " has " + describe_chains(whole_target)));
     const auto of_target = region_within(target, whole_target, near_to, options.region_within_A);
     region.assign(source.residues.size(), 0);
     const ResiduePairing pairing = pair_residues(ResidueView(source), ResidueView(target));
     for (const auto& [s, t] : pairing.pairs) region[s] = of_target[t];
   }
   if (!any(region))
-    throw InputError("no residue of the source lies within " + option("region-within") + " of " +
+    throw InputError(source.name + ": no residue lies within " + option("region-within") + " of " +
                      option("of", options.region_of) + "; take a larger distance");
   return region;
 }

@@ -18,6 +18,9 @@ namespace espdiff {
 std::vector<std::uint8_t> region_residues(const Molecule& source, const Molecule& whole_source, const Molecule& target,
                                           const Molecule& whole_target, const InputOptions& options);
 
+/// Whether a molecule has atoms that the region is near to.
+bool has_region_atoms(const Molecule& whole, const InputOptions& options);
+
 /// The same within one molecule; of a molecule that is in no file `whole` is the molecule itself.
 std::vector<std::uint8_t> region_within(const Molecule& molecule, const Molecule& whole,
                                         const std::vector<bool>& near_to, double distance_A);

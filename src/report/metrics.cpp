@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <deque>
 #include <limits>
 
 #include "base/error.h"
+#include "compare/region_result.h"
 #include "compare/result.h"
 
 namespace espdiff {
@@ -248,6 +250,24 @@ std::vector<Metric>& table() {
   return all;
 }
 
+std::vector<Metric> make_region_metrics() {
+  static std::deque<std::string> texts;  // of the names, which must stay where they are
+  const auto keep = [](const std::string& text) { return texts.emplace_back(text).c_str(); };
+  CompareResult region;
+  region.certificate.not_checked = unchecked_in_regions();
+  std::vector<Metric> all;
+  for (const Metric& metric : metrics()) {
+    if (!metric.has_result() || metric.section == MetricSection::kMapping || is_unchecked(metric, region)) continue;
+    Metric of_region = metric;
+    of_region.name = keep("region_" + std::string(metric.name));
+    of_region.label = keep(std::string(metric.label) + ", region");
+    of_region.json = keep("/region" + metric.json_pointer());
+    of_region.flags |= kOfRegion;
+    all.push_back(of_region);
+  }
+  return all;
+}
+
 }  // namespace
 
 const std::vector<Metric>& metrics() { return table(); }
@@ -258,6 +278,11 @@ void add_metric(const Metric& metric) {
   table().push_back(metric);
 }
 
+const std::vector<Metric>& region_metrics() {
+  static const std::vector<Metric> all = make_region_metrics();
+  return all;
+}
+
 const Metric* find_metric_or_null(const std::string& name) {
   const auto found =
       std::find_if(metrics().begin(), metrics().end(), [&](const Metric& metric) { return metric.name == name; });
@@ -265,6 +290,12 @@ const Metric* find_metric_or_null(const std::string& name) {
 }
 
 double value_of(const Metric& metric, const CompareResult& result) {
+  if ((metric.flags & kOfRegion) != 0) {
+    if (result.region == nullptr) return kNan;
+    Metric whole = metric;
+    whole.flags &= ~static_cast<unsigned>(kOfRegion);
+    return value_of(whole, *result.region);
+  }
   if (metric.source.of_result != nullptr) return metric.source.of_result(result);
   return counted_metrics(result).*metric.source.of_area;
 }

@@ -23,6 +23,7 @@ enum MetricFlag : unsigned {
   kInSeries = 1,       ///< a column of a trajectory's CSV file
   kInMatrix = 2,       ///< a table of a matrix
   kAntisymmetric = 4,  ///< the value of target to source is its negative; otherwise it should be the same
+  kOfRegion = 8,       ///< of the region alone
 };
 
 /// Where the value of a metric comes from: the whole comparison, the row of a residue, or both.
@@ -64,10 +65,14 @@ const std::vector<Metric>& metrics();
 /// Adds a row. Before anything is computed or written: columns are fixed from then on.
 /// @throws Error (kInternal) when the name is taken
 void add_metric(const Metric& metric);
+/// What a region has of the metrics: all for whole results but those of the mapping and of checks that are not made of
+/// regions. Named `region_NAME`, labelled "LABEL, region"; in OUT.json at the same place under `region`.
+const std::vector<Metric>& region_metrics();
 /// Null when there is none of that name.
 const Metric* find_metric_or_null(const std::string& name);
 
-/// The number for the whole comparison; NaN where there is none. The metric has_result().
+/// The number for the whole comparison, or for its region (kOfRegion); NaN where there is none. The metric
+/// has_result().
 double value_of(const Metric& metric, const CompareResult& result);
 /// Over all triangles with samples, corrupt ones included; NaN where there is none.
 double value_over_all_triangles(const Metric& metric, const CompareResult& result);

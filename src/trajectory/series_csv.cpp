@@ -115,7 +115,7 @@ void SeriesCsv::read_rows() {
   const std::string complete = text.substr(0, text.rfind('\n') + 1);
   if (text.rfind(kFirstWords, 0) == 0 && has_comments_only(complete)) return;  // only a part of the head
   const CsvTable table = parse_csv(complete, path_);
-  if (table.columns != series_columns())
+  if (table.columns != series_columns() && table.columns != series_columns(true))
     throw FormatError(path_, static_cast<long>(table.comments.size()) + 1,
                       "this is not this version's line of columns; give another file");
   SeriesHead in_file;
@@ -168,7 +168,7 @@ void SeriesCsv::add(const SeriesRow& row) {
   std::string text;
   if (!has_head_) {
     for (const auto& [name, value] : head_) text += "# " + name + ": " + value + "\n";
-    text += line_of(series_columns());
+    text += line_of(row.columns());
     if (::ftruncate(descriptor_, 0) != 0)
       throw IoError(path_, std::string("the file cannot be replaced: ") + system_message(errno));
     has_head_ = true;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "compare/result.h"
 #include "report/metrics.h"
 #include "report/provenance.h"
 #include "report/write_compare.h"
@@ -38,9 +39,31 @@ std::vector<Column> make_columns() {
   return all;
 }
 
-const std::vector<Column>& columns() {
-  static const std::vector<Column> all = make_columns();
+/// The same of the region, with its verdict.
+std::vector<Column> make_columns_of_region() {
+  std::vector<Column> all;
+  for (const Metric& metric : region_metrics()) {
+    if ((metric.flags & kInSeries) != 0) all.push_back({metric.name, metric.json_pointer()});
+  }
+  all.push_back({"region_trustworthy", "/region/certificate/trustworthy"});
+  all.push_back({"region_reasons", "/region/certificate/reasons"});
   return all;
+}
+
+const std::vector<Column>& table_of_columns(bool with_region) {
+  static const std::vector<Column> all = make_columns();
+  static const std::vector<Column> with = [] {
+    std::vector<Column> both = all;
+    for (const Column& column : make_columns_of_region()) both.push_back(column);
+    return both;
+  }();
+  return with_region ? with : all;
+}
+
+std::vector<std::string> names_of(const std::vector<Column>& columns) {
+  std::vector<std::string> names;
+  for (const Column& column : columns) names.push_back(column.name);
+  return names;
 }
 
 std::string cell_of(const Json& value) {
@@ -55,7 +78,7 @@ std::string cell_of(const Json& value) {
 }
 
 std::size_t index_of(const std::string& column) {
-  const auto& names = series_columns();
+  const auto& names = series_columns(true);
   const auto found = std::find(names.begin(), names.end(), column);
   if (found == names.end()) throw Error(ErrorClass::kInternal, "a trajectory's rows have no column '" + column + "'");
   return static_cast<std::size_t>(found - names.begin());
@@ -69,29 +92,30 @@ std::string one_line(std::string text) {
   return text;
 }
 
-const std::vector<std::string>& series_columns() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const Column& column : columns()) all.push_back(column.name);
-    return all;
-  }();
-  return names;
+const std::vector<std::string>& series_columns(bool with_region) {
+  static const std::vector<std::string> names = names_of(table_of_columns(false)),
+                                        with = names_of(table_of_columns(true));
+  return with_region ? with : names;
 }
 
 SeriesRow::SeriesRow(int frame, const std::string& reference, const Molecule& source, const Molecule& target,
                      const CompareResult& result, const CompareOptions& options) {
   const Json json = compare_json(source, target, result, options, {});
-  for (const Column& column : columns())
+  for (const Column& column : table_of_columns(result.region != nullptr))
     cells_.push_back(column.pointer.empty() ? std::string() : cell_of(json.at(Json::json_pointer(column.pointer))));
   at("frame") = std::to_string(frame);
   at("reference_frame") = one_line(reference);
 }
 
-SeriesRow::SeriesRow(int frame, const std::string& reference, const std::string& error)
-    : cells_(series_columns().size()) {
+SeriesRow::SeriesRow(int frame, const std::string& reference, const std::string& error, bool with_region)
+    : cells_(series_columns(with_region).size()) {
   at("frame") = std::to_string(frame);
   at("reference_frame") = one_line(reference);
   at("error") = one_line(error);
+}
+
+const std::vector<std::string>& SeriesRow::columns() const {
+  return series_columns(cells_.size() > series_columns().size());
 }
 
 const std::string& SeriesRow::operator[](const std::string& column) const { return cells_.at(index_of(column)); }

@@ -12,24 +12,26 @@ namespace espdiff {
 struct CompareOptions;
 struct CompareResult;
 
-/// Names of the columns, in order.
-const std::vector<std::string>& series_columns();
+/// Names of the columns, in order. Those of a region follow all others.
+const std::vector<std::string>& series_columns(bool with_region = false);
 
 /// One frame, by column; missing values are empty. Numbers have all digits. Nothing depends on time, threads or the
 /// process, so that equal runs write equal bytes.
 class SeriesRow {
  public:
-  /// A row from a result, with the values of OUT.json (compare_json()).
+  /// A row from a result, with the values of OUT.json (compare_json()), and of its region where it has one.
   SeriesRow(int frame, const std::string& reference, const Molecule& source, const Molecule& target,
             const CompareResult& result, const CompareOptions& options);
   /// A row without numbers, with the reason.
-  SeriesRow(int frame, const std::string& reference, const std::string& error);
+  SeriesRow(int frame, const std::string& reference, const std::string& error, bool with_region = false);
   /// @param cells one a column
   explicit SeriesRow(std::vector<std::string> cells) : cells_(std::move(cells)) {}
 
   /// @throws Error when there is no such column
   const std::string& operator[](const std::string& column) const;
   const std::vector<std::string>& cells() const { return cells_; }
+  /// The columns that the row has.
+  const std::vector<std::string>& columns() const;
 
   /// Whether the next frame's mapping may start from this one's.
   bool has_mapping() const { return (*this)["error"].empty() && (*this)["converged"] == "1"; }

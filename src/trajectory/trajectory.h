@@ -25,6 +25,7 @@ struct TrajectoryPlan {
   CompareOptions options;
   StartFrom start = StartFrom::kPrevious;
   bool skip_errors = false;  ///< a frame that fails becomes a row with the error, and the run goes on
+  bool has_region = false;   ///< the sources have a region, whose numbers are in further columns
 };
 
 /// Default start of mappings: the source (morph) or the frame before (deform).

@@ -76,7 +76,7 @@ namespace eval ::espdiff::gui {
             lappend output -overwrite 1
         }
         set options [trajectory_options]
-        set settings [setting_options series]
+        set settings [setting_options all]
         tell_in trajectory ""
         set ::espdiff::gui::trajectory_begun [clock milliseconds]
         set trajectory_running [espdiff trajectory {*}$options {*}$output {*}$settings \
@@ -194,7 +194,7 @@ namespace eval ::espdiff::gui {
         set form(trajectory,csv) $path
         set trajectory_rows $rows
         set trajectory_run [dict create options [trajectory_options] output [list -csv [file normalize $path]] \
-            settings [setting_options series]]
+            settings [setting_options all]]
         remember_trajectory
         set chosen_point ""
         tell_in trajectory "[llength $rows] rows of [file tail $path]"

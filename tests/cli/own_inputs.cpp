@@ -61,6 +61,21 @@ TEST_CASE("an output that is an input is refused by every verb") {
   in.check_refused("render a.dx -o a.dx", "");
 }
 
+TEST_CASE("an output that is a file named by a setting is refused by every verb that has the setting") {
+  Inputs in;
+  const std::string replaces = "an output would replace an input: ";
+  for (const char* setting : {"topology", "source-topology", "target-topology", "charges-from", "ligand"}) {
+    const std::string option = std::string(" --") + setting + " ";
+    in.check_refused("compare a.pqr b.pqr -o r --device cpu" + option + "r.json", replaces + "'r.json'");
+  }
+  in.check_refused("trajectory a.pqr b.pqr -o t.csv --overwrite --device cpu --topology t.csv", replaces + "'t.csv'");
+  in.check_refused("matrix a.pqr b.pqr -o r --overwrite --device cpu --charges-from r.json", replaces + "'r.json'");
+  in.check_refused("prepare a.pqr -o b.pqr --topology b.pqr", replaces + "'b.pqr'");
+  in.check_refused("prepare a.pqr -o c.pqr --json r.json --ligand b.pqr --ligand r.json", replaces + "'r.json'");
+  in.check_refused("prepare a.pqr -o r.pqr --charges-from r.json", replaces + "'r.json'");
+  in.check_refused("prepare a.pqr -o link.pqr", replaces + "'link.pqr' and 'a.pqr', which are one file");
+}
+
 TEST_CASE("two outputs of one name are refused") {
   Inputs in;
   const std::string twice = "two outputs would have one name: ";

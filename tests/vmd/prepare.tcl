@@ -108,6 +108,11 @@ test "a region in VMD's words" {
     check "residues" {[espdiff result $handle region n_residues] > 3}
     check_refused {espdiff compare [list mol [lindex $mols 0] map none region "resid 9999"] \
         [list mol [lindex $mols 1] map none]} {ESPDIFF INPUT} "holds no atoms"
+    espdiff trajectory -mol [lindex $mols 1] -sel all -map none -frames last -csv $scratch/region.csv -grid-spacing 2 \
+        -reference [list mol [lindex $mols 0] map none region "within 5 of resid 99"]
+    set row [lindex [dict get [::espdiff::core::read_csv $scratch/region.csv] rows] 0]
+    check_close "the same in a trajectory" [dict get $row region_mean_displacement_A] \
+        [espdiff result $handle region mean_displacement_A] 1e-9
     espdiff delete $handle
 }
 
