@@ -17,9 +17,7 @@ using namespace espdiff;
 
 namespace {
 
-double seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 double peak_MB() {
   rusage usage{};
@@ -60,8 +58,8 @@ EnsemblePlan plan_of(std::size_t n_frames, std::size_t n_residues) {
   plan.template_name = "a sphere";
   for (std::size_t i = 0; i < n_residues; ++i) plan.residues.push_back("ALA " + std::to_string(i + 1));
   for (std::size_t r = 0; r < 8; ++r)
-    plan.replicates.push_back({r < 4 ? "wild" : "mutant", std::to_string(r), {std::to_string(r)},
-                               {std::to_string(r)}, n_frames / 8});
+    plan.replicates.push_back(
+        {r < 4 ? "wild" : "mutant", std::to_string(r), {std::to_string(r)}, {std::to_string(r)}, n_frames / 8});
   return plan;
 }
 

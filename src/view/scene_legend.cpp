@@ -79,8 +79,8 @@ void add_keys(Legend& legend, const ComparisonScene& scene, const Paper& paper) 
   const auto& sheets = scene.panels().back().sheets;
   const bool fades = std::any_of(sheets.begin(), sheets.end(), [](const Sheet& s) { return s.fades; });
   if (fades && scene.shows_significance()) {
-    legend.key(paper.width * left, (paper.bar_bottom + paper.bar_top) / 2, kNoValueColour,
-               scene.scene().opacity.least, "not significant, p > " + readable_number(scene.alpha()));
+    legend.key(paper.width * left, (paper.bar_bottom + paper.bar_top) / 2, kNoValueColour, scene.scene().opacity.least,
+               "not significant, p > " + readable_number(scene.alpha()));
   } else if (fades) {
     legend.opacity(paper.bar(left, 0.96), scene.scene().opacity);
   }
