@@ -27,6 +27,7 @@ struct SurfaceFile {
   /// files of pairs.
   std::vector<float> p_family_wise;
   double alpha = 0.05;                ///< field data `alpha`
+  std::string source_group, target_group;  ///< of an ensemble, whose means the potentials are
   std::vector<float> sign_change;     ///< NaN without a value
   std::vector<float> residue_index;   ///< of the source's residues; negative: none
   std::vector<float> residue_number;  ///< as numbered in the structure file
