@@ -201,7 +201,8 @@ std::size_t EnsembleInputs::medoid(const std::string& group, const Progress& pro
     if (group.empty() || r.group == group) n += r.n_frames;
   }
   if (n == 0) throw InputError(option("template", kMedoidOf + group) + ": there is no group of this name");
-  return first + find_medoid(n, [&](std::size_t f) { return load(first + f).molecule; }, progress);
+  return first + find_medoid(
+                     n, [&](std::size_t f) { return load(first + f).molecule; }, progress);
 }
 
 RigidTransform EnsembleInputs::onto(const Molecule& earlier) const {
@@ -213,9 +214,9 @@ void EnsembleInputs::choose_template(const std::string& text, const Progress& pr
   const std::size_t n = plan_.n_frames();
   const bool of_group = text.rfind(kMedoidOf, 0) == 0;
   if (text == "medoid" || of_group || is_number(text)) {
-    const std::size_t number =
-        is_number(text) ? std::stoul(text)
-                        : medoid(of_group ? text.substr(std::string(kMedoidOf).size()) : "", progress);
+    const std::size_t number = is_number(text)
+                                   ? std::stoul(text)
+                                   : medoid(of_group ? text.substr(std::string(kMedoidOf).size()) : "", progress);
     if (number >= n)
       throw InputError(option("template", text) + ": there are " + std::to_string(n) +
                        " frames in all groups, numbered from 0");
@@ -264,7 +265,8 @@ void add_ensemble_inputs(CLI::App& p, EnsembleInputArguments& a) {
       ->group("Groups");
   p.add_option("--template", a.template_text,
                "The structure whose surface is mapped onto every frame. medoid: the frame nearest to all others (of at "
-               "most 200, evenly spread); medoid:GROUP: among the group's frames; a number: that frame, counted from 0 through all groups; a structure file")
+               "most 200, evenly spread); medoid:GROUP: among the group's frames; a number: that frame, counted from 0 "
+               "through all groups; a structure file")
       ->capture_default_str()
       ->group("Groups");
   add_structure_options(p, a.structure);

@@ -82,7 +82,8 @@ void add_scales(Legend& legend, const ComparisonScene& scene, const Paper& paper
   }
   const bool split = scene.scene().layout == Layout::kSplit;
   add(compared, 0.31, 0.66,
-      split ? short_title(compared.array(), scene.unit()) : with_groups(legend_title(compared.array(), scene.unit()), scene));
+      split ? short_title(compared.array(), scene.unit())
+            : with_groups(legend_title(compared.array(), scene.unit()), scene));
 }
 
 void add_keys(Legend& legend, const ComparisonScene& scene, const Paper& paper) {
