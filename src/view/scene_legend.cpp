@@ -28,6 +28,18 @@ std::string short_title(RenderArray array, const std::string& unit) {
   return legend_title(array, unit);
 }
 
+/// The groups of an ensemble instead of source and target.
+std::string with_groups(std::string title, const ComparisonScene& scene) {
+  const SurfaceFile& surface = scene.surface_file();
+  const auto name = [&](const std::string& side, const std::string& group) {
+    const std::size_t at = title.find(side);
+    if (at != std::string::npos && !group.empty()) title.replace(at, side.size(), group);
+  };
+  name("source", surface.source_group);
+  name("target", surface.target_group);
+  return title;
+}
+
 /// Pixels of the window.
 struct Paper {
   double width, height, text_height, bar_bottom, bar_top;
@@ -70,7 +82,8 @@ void add_scales(Legend& legend, const ComparisonScene& scene, const Paper& paper
   }
   const bool split = scene.scene().layout == Layout::kSplit;
   add(compared, 0.31, 0.66,
-      split ? short_title(compared.array(), scene.unit()) : legend_title(compared.array(), scene.unit()));
+      split ? short_title(compared.array(), scene.unit())
+            : with_groups(legend_title(compared.array(), scene.unit()), scene));
 }
 
 void add_keys(Legend& legend, const ComparisonScene& scene, const Paper& paper) {
@@ -78,7 +91,12 @@ void add_keys(Legend& legend, const ComparisonScene& scene, const Paper& paper) 
   const double left = second_scale(scene) != nullptr ? 0.82 : 0.79;
   const auto& sheets = scene.panels().back().sheets;
   const bool fades = std::any_of(sheets.begin(), sheets.end(), [](const Sheet& s) { return s.fades; });
-  if (fades) legend.opacity(paper.bar(left, 0.96), scene.scene().opacity);
+  if (fades && scene.shows_significance()) {
+    legend.key(paper.width * left, (paper.bar_bottom + paper.bar_top) / 2, kNoValueColour, scene.scene().opacity.least,
+               "not significant, p > " + readable_number(scene.alpha()));
+  } else if (fades) {
+    legend.opacity(paper.bar(left, 0.96), scene.scene().opacity);
+  }
   const bool shows_start =
       std::any_of(scene.panels().begin(), scene.panels().end(), [](const Panel& p) { return p.is_source(); });
   const bool no_value = scene.scale(sheets.front().array).has_missing();

@@ -23,19 +23,24 @@ struct SurfaceFile {
   std::vector<float> displacement;      ///< Angstrom
   std::vector<float> slip;              ///< Angstrom; NaN where it is not known; empty in files of older versions
   std::vector<float> potential_source, potential_target, potential_difference;  ///< NaN without a value
-  std::vector<float> sign_change;                                               ///< NaN without a value
-  std::vector<float> residue_index;   ///< of the source's residues; negative: none
-  std::vector<float> residue_number;  ///< as numbered in the structure file
-  std::string potential_unit;         ///< field data `potential_unit`
-  std::string written_by;             ///< field data `written_by`
-  std::string array_names;            ///< of the point arrays in the file, for messages
+  /// Of an ensemble: [vertex] family-wise p; 0 where a vertex was not tested, which has no values either. Empty in
+  /// files of pairs.
+  std::vector<float> p_family_wise;
+  double alpha = 0.05;                     ///< field data `alpha`
+  std::string source_group, target_group;  ///< of an ensemble, whose means the potentials are
+  std::vector<float> sign_change;          ///< NaN without a value
+  std::vector<float> residue_index;        ///< of the source's residues; negative: none
+  std::vector<float> residue_number;       ///< as numbered in the structure file
+  std::string potential_unit;              ///< field data `potential_unit`
+  std::string written_by;                  ///< field data `written_by`
+  std::string array_names;                 ///< of the point arrays in the file, for messages
 
   bool is_matched(std::size_t triangle) const { return unmatched.empty() || unmatched[triangle] == 0; }
   bool is_corrupt(std::size_t triangle) const { return !corrupt.empty() && corrupt[triangle] != 0; }
   /// The values that colour the surface.
   /// @throws InputError if the file lacks them, listing the arrays it has
   const std::vector<float>& values(RenderArray array) const;
-  /// What makes points uncertain: the slip, or the displacement where no slip is known.
+  /// What makes points uncertain: of an ensemble its p, otherwise the slip, or the displacement where no slip is known.
   const std::vector<float>& uncertainty() const;
 };
 
