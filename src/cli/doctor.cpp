@@ -50,8 +50,9 @@ int run() {
 #endif
   const std::string plugins = find_molfile_folder();
   line("trajectories", !plugins.empty(),
-       !plugins.empty() ? "by VMD's plugins in " + plugins
-                        : std::string("no molfile plugins of VMD, which read DCD, XTC, PSF and others; ") + kMolfileRemedy);
+       !plugins.empty()
+           ? "by VMD's plugins in " + plugins
+           : std::string("no molfile plugins of VMD, which read DCD, XTC, PSF and others; ") + kMolfileRemedy);
   line("maps", true, "DX, cube, VTI");
 #if defined(ESPDIFF_HAVE_VTK)
   const std::string problem = drawing_problem();

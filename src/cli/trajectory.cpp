@@ -104,7 +104,8 @@ SeriesHead head_of(const Arguments& a, const TrajectoryPlan& plan, const std::st
 class Sides {
  public:
   Sides(const Arguments& a, const CompareOptions& options, const Progress& progress)
-      : a_(a), options_(options.input),
+      : a_(a),
+        options_(options.input),
         progress_(progress),
         opener_(a.source, a.plugins),
         frames_(a.targets, [this](const std::string& path) { return opener_.open(path); }) {
@@ -231,7 +232,8 @@ Verb add_trajectory(CLI::App& app) {
   auto a = std::make_shared<Arguments>();
   CLI::App* parser = app.add_subcommand("trajectory", "Compare each frame with one structure, a row for each");
   parser->footer(
-      "Frames are the models of the given files, numbered from 0 through all of them; or the frames of trajectories that "
+      "Frames are the models of the given files, numbered from 0 through all of them; or the frames of trajectories "
+      "that "
       "VMD reads (DCD,\nXTC, TRR, NetCDF, ...), of the atoms of SOURCE, all of them and in its order. With a topology "
       "(PSF, prmtop, GRO, ...) as SOURCE\nthe first frame is what the others are compared with. Frames without charges "
       "and radii (PDB, mmCIF) take\n"
@@ -243,7 +245,8 @@ Verb add_trajectory(CLI::App& app) {
       "  espdiff trajectory closed.pqr frames.pdb -o motion.csv\n"
       "  espdiff trajectory closed.pqr frames.pdb --potential pb --frames 0:10:end -o motion.csv --resume\n"
       "  espdiff trajectory adk.psf adk.dcd --frames 0:10:end -o motion.csv");
-  parser->add_option("SOURCE", a->source, "Structure that each frame is compared with: PQR, PDB or mmCIF; or a topology")
+  parser
+      ->add_option("SOURCE", a->source, "Structure that each frame is compared with: PQR, PDB or mmCIF; or a topology")
       ->required();
   parser->add_option("FRAMES", a->targets, "Structure files whose models are the frames, or trajectories")->required();
   parser->add_option("-o,--output,--csv", a->output, "CSV file that gets a row for each frame")->required();

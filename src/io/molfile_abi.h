@@ -1,4 +1,5 @@
-// molfile_abi.h: the layouts that VMD's molfile plugin interface gives to plugins, atoms, frames and volumes, by version.
+// molfile_abi.h: the layouts that VMD's molfile plugin interface gives to plugins, atoms, frames and volumes, by
+// version.
 #pragma once
 
 #include <cstddef>

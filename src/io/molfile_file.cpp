@@ -29,8 +29,9 @@ void* open_with(const std::string& path, const MolfileReader& reader, int& n_ato
   const QuietOutput quiet;
   void* const handle = reader.functions->open_file_read(path.c_str(), reader.type.c_str(), &n_atoms);
   if (handle == nullptr)
-    throw FormatError(path, 0, "VMD's reader for " + reader.type +
-                                   " files cannot open it; is it complete, and of the kind that its name says?");
+    throw FormatError(path, 0,
+                      "VMD's reader for " + reader.type +
+                          " files cannot open it; is it complete, and of the kind that its name says?");
   return handle;
 }
 

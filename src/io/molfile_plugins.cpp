@@ -1,4 +1,5 @@
-// molfile_plugins.cpp: loads every plugin of a folder, as VMD does, and keeps those that read structures or coordinates.
+// molfile_plugins.cpp: loads every plugin of a folder, as VMD does, and keeps those that read structures or
+// coordinates.
 #include "io/molfile_plugins.h"
 
 #include <dlfcn.h>
@@ -88,7 +89,8 @@ void load_plugin(const fs::path& path, std::vector<MolfileReader>& readers) {
   void* const library = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
   if (library == nullptr) return;
   const auto init = reinterpret_cast<int (*)()>(dlsym(library, "vmdplugin_init"));
-  const auto announce = reinterpret_cast<int (*)(void*, molfile::RegisterCallback)>(dlsym(library, "vmdplugin_register"));
+  const auto announce =
+      reinterpret_cast<int (*)(void*, molfile::RegisterCallback)>(dlsym(library, "vmdplugin_register"));
   if (announce == nullptr || (init != nullptr && init() != molfile::kSuccess)) return;
   announce(&readers, add_reader);
 }
@@ -141,9 +143,10 @@ const MolfileReader* find_molfile_reader(const std::string& folder, const std::s
 }
 
 bool needs_molfile_reader(const std::string& path) {
-  static const char* const kEndings[] = {"dcd",    "xtc",   "trr", "nc",  "ncdf", "netcdf", "psf",      "prmtop",     "parm7", "top",
-                                         "rst7",   "gro",   "g96", "crd", "trj",  "mdcrd",  "crdbox",   "lammpstrj",  "xyz",   "h5",
-                                         "binpos", "coor",  "dtr", "stk", "mol2", "car",    "cor",      "namdbin"};
+  static const char* const kEndings[] = {"dcd",    "xtc",   "trr",    "nc",        "ncdf", "netcdf", "psf",
+                                         "prmtop", "parm7", "top",    "rst7",      "gro",  "g96",    "crd",
+                                         "trj",    "mdcrd", "crdbox", "lammpstrj", "xyz",  "h5",     "binpos",
+                                         "coor",   "dtr",   "stk",    "mol2",      "car",  "cor",    "namdbin"};
   const std::string ending = ending_of(path);
   return std::any_of(std::begin(kEndings), std::end(kEndings), [&](const char* known) { return ending == known; });
 }

@@ -12,7 +12,9 @@ namespace espdiff {
 std::unique_ptr<StructureFile> open_structure(const std::string& path) { return std::make_unique<StructureFile>(path); }
 
 TrajectoryOpener::TrajectoryOpener(std::string topology, std::string plugins)
-    : topology_(std::move(topology)), plugins_(std::move(plugins)), needs_coordinates_(needs_molfile_reader(topology_)) {}
+    : topology_(std::move(topology)),
+      plugins_(std::move(plugins)),
+      needs_coordinates_(needs_molfile_reader(topology_)) {}
 
 const MolfileReader& TrajectoryOpener::reader_of(const std::string& path) {
   plugins_ = find_molfile_folder(plugins_);

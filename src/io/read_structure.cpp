@@ -140,9 +140,8 @@ int StructureFile::n_models() const {
 std::optional<UnitCell> StructureFile::unit_cell(int model) const {
   if (frames_ != nullptr) return frames_->frame(model).cell;
   if (parsed_->is_mmcif) return std::nullopt;
-  std::call_once(parsed_->cells_are_read, [&] {
-    parsed_->cells = read_unit_cells(parsed_->file.content, parsed_->models, parsed_->file.path);
-  });
+  std::call_once(parsed_->cells_are_read,
+                 [&] { parsed_->cells = read_unit_cells(parsed_->file.content, parsed_->models, parsed_->file.path); });
   return parsed_->cells.at(static_cast<std::size_t>(model - 1));
 }
 

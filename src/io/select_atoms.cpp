@@ -8,7 +8,6 @@
 
 #include "base/error.h"
 #include "base/water.h"
-#include "base/water.h"
 #include "io/text_cursor.h"
 #ifdef ESPDIFF_HAVE_GEMMI
 #define USE_STD_SNPRINTF  // gemmi then needs no stb_sprintf.h, which gemmi-dev lacks

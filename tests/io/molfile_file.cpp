@@ -49,8 +49,7 @@ TEST_CASE("a topology and a trajectory are a structure file of many models") {
   // Any order.
   CHECK(file->read({3, true, true, {}}).positions[0].y == 2);
   CHECK(file->read({1, true, true, {}}).positions[0].y == 0);
-  CHECK(message_of([&] { file->read({4, true, true, {}}); }) ==
-        made.dcd + ": there is no frame 3; it has 3, from 0");
+  CHECK(message_of([&] { file->read({4, true, true, {}}); }) == made.dcd + ": there is no frame 3; it has 3, from 0");
 }
 
 TEST_CASE("a trajectory takes the atoms of a structure file, and its options") {
@@ -74,9 +73,11 @@ TEST_CASE("trajectories that cannot be read are refused by name, with the remedy
     return message_of([&] { made.opener.open(path)->read({1, true, true, {}}); });
   };
   const std::string b = made.folder.file("b.dcd");
-  CHECK(refused("3 30\n") ==
-        b + ": has 3 atoms in each frame, and the structure has 2; give the structure or topology that it was made with");
-  CHECK(refused("") == b + ": VMD's reader for dcd files cannot open it; is it complete, and of the kind that its name says?");
+  CHECK(
+      refused("3 30\n") ==
+      b + ": has 3 atoms in each frame, and the structure has 2; give the structure or topology that it was made with");
+  CHECK(refused("") ==
+        b + ": VMD's reader for dcd files cannot open it; is it complete, and of the kind that its name says?");
   CHECK(refused("2 30\n") == b + ": there are no frames");
   CHECK(refused("2 30\n0 0 0 nan 0 0\n") == b + ": frame 0 has a coordinate that is not finite");
   CHECK(message_of([&] { made.opener.open(made.folder.file("absent.dcd")); }) ==
@@ -88,8 +89,10 @@ TEST_CASE("trajectories that cannot be read are refused by name, with the remedy
           TrajectoryOpener opener(made.folder.write("d.psf", "3\nN ALA 1 PROT -0.5\n"), made_plugins());
           opener.open(made.dcd);
         }) == made.folder.file("d.psf") + ": VMD's reader for psf files finds no atoms; is it complete?");
-  CHECK(message_of([&] { molfile_readers(made.folder.file("")); })
-            .find("there are no molfile plugins of VMD 1.9 in this folder; set VMDDIR to the folder") != std::string::npos);
+  CHECK(message_of([&] {
+          molfile_readers(made.folder.file(""));
+        }).find("there are no molfile plugins of VMD 1.9 in this folder; set VMDDIR to the folder") !=
+        std::string::npos);
 }
 
 TEST_CASE("VMD's own readers: AdK's PSF and DCD against the files' bytes") {
