@@ -281,6 +281,9 @@ void Lines::add(const std::string& pointer, double recomputed, double tolerance)
   if (std::isnan(recorded) && !std::isfinite(recomputed)) return;
   result_.lines.push_back({pointer, recorded, recomputed, std::max(tolerance, kRelative * std::fabs(recorded))});
 }
+void Lines::add_sum(const std::string& pointer, double recomputed, double tolerance) {
+  result_.lines.push_back({pointer + ", sum", record_.sum(pointer), recomputed, tolerance});
+}
 void Lines::add_deviation(const std::string& name, double largest, double tolerance) {
   result_.lines.push_back({name, 0, largest, tolerance});
 }
