@@ -103,6 +103,15 @@ void print_residues(std::ostream& out, const EnsembleResult& result) {
   }
 }
 
+void print_template_checks(std::ostream& out, const EnsembleResult& result) {
+  if (result.template_checks.empty()) return;
+  out << print("\n%-44s %10s %10s %8s %14s\n", "through another template", "mean diff.", "area (A2)", "overlap",
+               "largest change");
+  for (const TemplateCheck& check : result.template_checks)
+    out << print("  %-42.42s %10.3f %10.1f %8s %14s\n", check.template_name.c_str(), check.mean_abs_difference,
+                 check.significant_area_A2, value(check.overlap).c_str(), value(check.largest_change).c_str());
+}
+
 }  // namespace
 
 void print_ensemble(std::ostream& out, const EnsembleFile& file, const EnsembleResult& result) {
@@ -122,6 +131,7 @@ void print_ensemble(std::ostream& out, const EnsembleFile& file, const EnsembleR
   if (result.compares) {
     print_patches(out, result, unit);
     print_residues(out, result);
+    print_template_checks(out, result);
   }
   for (const std::string& warning : result.warnings) out << "\nwarning: " << warning << '\n';
 }
