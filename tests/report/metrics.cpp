@@ -146,8 +146,8 @@ TEST_CASE("lines that are zero by construction say so, and what was removed stan
        {"  Corrupt area                                       0 %  by construction, see Removed\n",
         "  Flipped area                                       0 %  by construction, see Removed\n",
         "  Intersecting pairs of triangles                      0  by construction, see Removed\n",
-        "  Removed of the source as                     torn 2 %", "crossing 0.3 %", "flipped 0.04 %",
-        "    or for its place, as                    corrupt 1 %", "far 5 %", "grown 6 %\n"}) {
+        "  Removed of the source as                      torn 2 %", "crossing 0.3 %", "flipped 0.04 %",
+        "    or for its place, as                     corrupt 1 %", "far 5 %", "grown 6 %\n"}) {
     CAPTURE(std::string(text));
     CHECK(table.find(text) != std::string::npos);
   }
