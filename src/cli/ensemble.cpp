@@ -24,7 +24,7 @@ struct Arguments {
   EnsembleInputArguments inputs;
   EnsembleRun run;
   EnsembleOptions statistics;
-  bool check_template = false;
+  bool check_template = false, states = false;
   std::string from, shard = "1/1", on_error = "stop", equilibration = "none", control = "tfce";
   bool quiet = false;
   DeviceArguments device;
@@ -48,7 +48,12 @@ void finish(const Arguments& a, const EnsembleFile& file, const Context& context
   context.progress->report("statistics", 1.0);
   EnsembleResult result = analyse_ensemble(file, a.statistics);
   if (more) more(result);
-  const std::vector<std::string> written = write_ensemble(a.run.output, file, result);
+  if (a.states) result.states = compare_states(file, result);
+  std::vector<std::string> written = write_ensemble(a.run.output, file, result);
+  if (result.states) {
+    const std::vector<std::string> tables = write_states(a.run.output, file, *result.states);
+    written.insert(written.end(), tables.begin(), tables.end());
+  }
   if (a.quiet) return;
   print_ensemble(std::cout, file, result);
   std::cout << "\nwritten:";
@@ -163,6 +168,10 @@ void add_statistics_options(CLI::App& p, Arguments& a) {
   p.add_flag("--check-template", a.check_template,
              "Map the medoid of each group onto every frame as well, and tell how much of the answer stays. Takes as "
              "long again for each group; files OUT.template-GROUP.h5")
+      ->group(group);
+  p.add_flag("--states", a.states,
+             "Compare every frame with every other one through the template (OUT.states.csv), and find the principal "
+             "components of the potential: scores in OUT.components.csv, modes as component_1 to 3 in OUT.vtp")
       ->group(group);
   p.add_option("--control", a.control, "The family-wise p that patches are made of")
       ->check(CLI::IsMember({"tfce", "max-t"}))

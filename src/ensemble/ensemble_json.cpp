@@ -114,6 +114,12 @@ Json ensemble_json(const EnsembleFile& file, const EnsembleResult& result) {
   json["not_checked"] = {"slip", "round_trip", "residues"};
   if (result.compares) json["test"] = test_json(result);
   json["noise_floor"] = noise_json(result);
+  if (result.states) {
+    json["states"] = {{"n", result.states->size()}, {"area_fraction", result.states->area_fraction}};
+    json["states"]["component_shares"] = Json::array();
+    for (const auto& component : result.states->components)
+      json["states"]["component_shares"].push_back(number(component.share));
+  }
   if (!result.template_checks.empty()) {
     json["template_check"] = Json::array();
     for (const TemplateCheck& check : result.template_checks) {
