@@ -23,6 +23,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// What ends the names of topologies and trajectories.
+constexpr const char* kEndings[] = {"dcd",    "xtc",   "trr",    "nc",        "ncdf", "netcdf", "psf",
+                                    "prmtop", "parm7", "top",    "rst7",      "gro",  "g96",    "crd",
+                                    "trj",    "mdcrd", "crdbox", "lammpstrj", "xyz",  "h5",     "binpos",
+                                    "coor",   "dtr",   "stk",    "mol2",      "car",  "cor",    "namdbin"};
+
 std::string lower(std::string text) {
   for (char& letter : text) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
   return text;
@@ -143,10 +149,6 @@ const MolfileReader* find_molfile_reader(const std::string& folder, const std::s
 }
 
 bool needs_molfile_reader(const std::string& path) {
-  static const char* const kEndings[] = {"dcd",    "xtc",   "trr",    "nc",        "ncdf", "netcdf", "psf",
-                                         "prmtop", "parm7", "top",    "rst7",      "gro",  "g96",    "crd",
-                                         "trj",    "mdcrd", "crdbox", "lammpstrj", "xyz",  "h5",     "binpos",
-                                         "coor",   "dtr",   "stk",    "mol2",      "car",  "cor",    "namdbin"};
   const std::string ending = ending_of(path);
   return std::any_of(std::begin(kEndings), std::end(kEndings), [&](const char* known) { return ending == known; });
 }
