@@ -65,6 +65,11 @@ int run() {
 #else
   line("render", false, "VTK 9 was not found when this was built (Debian: libvtk9-dev)");
 #endif
+#if defined(ESPDIFF_HAVE_HDF5)
+  line("ensemble", true, "HDF5");
+#else
+  line("ensemble", false, "HDF5 was not found when this was built (Debian: libhdf5-dev)");
+#endif
   const std::string gnuplot = find_program("gnuplot");
   line("plot", !gnuplot.empty(),
        !gnuplot.empty() ? gnuplot : "no program `gnuplot` on PATH, which draws plots (Debian: gnuplot-nox)");
