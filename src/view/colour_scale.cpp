@@ -76,8 +76,9 @@ const char* array_name(RenderArray array) { return describe(array).name; }
 
 std::string legend_title(RenderArray array, const std::string& unit) {
   const std::string title = describe(array).title;
-  if (array == RenderArray::kSign || array >= RenderArray::kResidue) return title;
-  const std::string shown = array == RenderArray::kDisplacement ? "\xC3\x85" : unit;
+  const bool has_unit = array != RenderArray::kSign && array != RenderArray::kResidue && array != RenderArray::kPlain;
+  if (!has_unit) return title;
+  const std::string shown = is_length(array) ? "\xC3\x85" : unit;
   return shown.empty() ? title : title + " (" + shown + ")";
 }
 

@@ -12,6 +12,11 @@ namespace espdiff {
 /// The quantity that colours a mapped surface. The numbers are those of shaders/surface.frag.
 enum class RenderArray { kDifference, kSource, kTarget, kSign, kDisplacement, kMagnitude, kResidue, kPlain, kSlip };
 
+/// Whether an array is of lengths, in Angstrom; the others are potentials or have no unit.
+inline bool is_length(RenderArray array) {
+  return array == RenderArray::kDisplacement || array == RenderArray::kSlip;
+}
+
 /// @param text difference, source, target, sign, displacement, magnitude, residue, plain or slip (or uncertainty)
 /// @throws InputError listing them
 RenderArray parse_render_array(const std::string& text);
@@ -63,7 +68,7 @@ class ColourScale {
  private:
   double hue() const;
   bool is_sequential() const {
-    return array_ == RenderArray::kDisplacement || array_ == RenderArray::kMagnitude || array_ == RenderArray::kSlip;
+    return array_ == RenderArray::kMagnitude || is_length(array_);
   }
   void set_ends(std::vector<float> magnitudes, const ScaleRange& range);
 

@@ -30,7 +30,7 @@ std::string described(const ColourScale& scale, const std::string& unit) {
   char range[96];
   std::snprintf(range, sizeof range, ", scale %.6g to %.6g ", scale.low(), scale.high());
   return what + range +
-         (scale.array() == RenderArray::kDisplacement || scale.array() == RenderArray::kSlip ? "A" : unit);
+         (is_length(scale.array()) ? "A" : unit);
 }
 
 std::string description(const ComparisonScene& scene) {

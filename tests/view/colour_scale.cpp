@@ -81,6 +81,7 @@ TEST_CASE("array names are read, and errors list them") {
   CHECK(legend_title(RenderArray::kSource, "mV") == "potential of the source (mV)");
   CHECK(legend_title(RenderArray::kSource, "") == "potential of the source");
   CHECK(legend_title(RenderArray::kSign, "mV").find("mV") == std::string::npos);
+  CHECK(legend_title(RenderArray::kSlip, "mV") == "slip, distance from where the atoms went (\xC3\x85)");
   CHECK(espdiff_test::message_of([] { parse_render_array("charge"); }) ==
         "cannot colour by 'charge'; use difference, source, target, sign, displacement, magnitude, residue, plain or "
         "slip");
