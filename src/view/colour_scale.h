@@ -13,9 +13,7 @@ namespace espdiff {
 enum class RenderArray { kDifference, kSource, kTarget, kSign, kDisplacement, kMagnitude, kResidue, kPlain, kSlip };
 
 /// Whether an array is of lengths, in Angstrom; the others are potentials or have no unit.
-inline bool is_length(RenderArray array) {
-  return array == RenderArray::kDisplacement || array == RenderArray::kSlip;
-}
+inline bool is_length(RenderArray array) { return array == RenderArray::kDisplacement || array == RenderArray::kSlip; }
 
 /// @param text difference, source, target, sign, displacement, magnitude, residue, plain or slip (or uncertainty)
 /// @throws InputError listing them
@@ -67,9 +65,7 @@ class ColourScale {
 
  private:
   double hue() const;
-  bool is_sequential() const {
-    return array_ == RenderArray::kMagnitude || is_length(array_);
-  }
+  bool is_sequential() const { return array_ == RenderArray::kMagnitude || is_length(array_); }
   void set_ends(std::vector<float> magnitudes, const ScaleRange& range);
 
   RenderArray array_;

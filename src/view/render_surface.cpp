@@ -29,8 +29,7 @@ std::string described(const ColourScale& scale, const std::string& unit) {
   if (scale.two_classes()) return what;
   char range[96];
   std::snprintf(range, sizeof range, ", scale %.6g to %.6g ", scale.low(), scale.high());
-  return what + range +
-         (is_length(scale.array()) ? "A" : unit);
+  return what + range + (is_length(scale.array()) ? "A" : unit);
 }
 
 std::string description(const ComparisonScene& scene) {
