@@ -13,7 +13,9 @@
 #include "io/read_unit_cells.h"
 #include "io/structure_file.h"
 #ifdef ESPDIFF_HAVE_GEMMI
+#include "io/pdb_text.h"
 #include "io/read_gemmi.h"
+#include "io/text_cursor.h"
 #endif
 
 namespace espdiff {
@@ -109,6 +111,21 @@ int StructureFile::n_models() const {
 std::vector<std::optional<UnitCell>> StructureFile::unit_cells() const {
   if (parsed_->is_mmcif) return std::vector<std::optional<UnitCell>>(static_cast<std::size_t>(n_models()));
   return read_unit_cells(parsed_->file.content, parsed_->models, parsed_->file.path);
+}
+
+long StructureFile::line_of(int model, const Residue& residue) const {
+#ifdef ESPDIFF_HAVE_GEMMI
+  constexpr std::size_t kNumberAt = 22, kWidth = 5;
+  std::string number = std::to_string(residue.number);
+  if (residue.insertion_code != ' ') number += residue.insertion_code;
+  if (parsed_->is_mmcif) return 0;
+  for (const AtomLine& line : pick_model(parsed_->models, model, parsed_->file.path)) {
+    if (line.text.size() >= kNumberAt + kWidth && trimmed(line.text.substr(kNumberAt, kWidth)) == number &&
+        pdb_chain_name(line) == residue.chain)
+      return line.number;
+  }
+#endif
+  return 0;
 }
 
 Molecule StructureFile::read(const StructureOptions& options) const {

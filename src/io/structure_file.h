@@ -32,6 +32,8 @@ class StructureFile {
   /// The cell of each model, see read_unit_cells(); none of an mmCIF file.
   /// @throws FormatError (a CRYST1 record that cannot be read)
   std::vector<std::optional<UnitCell>> unit_cells() const;
+  /// The first line of a residue in a PDB file, from 1; 0 where it is not found, and of other formats.
+  long line_of(int model, const Residue& residue) const;
   /// @throws as read_structure()
   Molecule read(const StructureOptions& options) const;
 

@@ -134,8 +134,15 @@ LoadedState load_state(const StructureFile& file, const StateRequest& request, c
   }
   if (!select.empty())
     state.molecule = keep_atoms(state.molecule, select_some_atoms(state.molecule, select, select_option));
-  if (request.wants_charges)
-    state.preparation = charge_molecule(state.molecule, options, request, state.charge_files, progress);
+  if (request.wants_charges) {
+    try {
+      state.preparation = charge_molecule(state.molecule, options, request, state.charge_files, progress);
+    } catch (const UnchargedError& error) {
+      const long line = file.line_of(structure.model, error.residue);
+      if (line == 0) throw;
+      throw InputError(state.molecule.name + ":" + std::to_string(line) + ": " + error.text);
+    }
+  }
   for (const std::string& ligand : options.charges.ligands) {
     if (state.preparation) state.charge_files.push_back({"ligand", ligand, {}});
   }

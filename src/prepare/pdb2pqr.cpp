@@ -17,6 +17,7 @@
 #include <sstream>
 #include <tuple>
 
+#include "align/protonation.h"
 #include "align/residue_names.h"
 #include "base/error.h"
 #include "base/input_options.h"
@@ -278,14 +279,21 @@ Molecule read_output(const std::string& output, const Molecule& before, const Re
 void require_residues(const Molecule& molecule) {
   const std::vector<ResidueKind> kinds = residue_kinds(molecule, atoms_of_residues(molecule));
   if (std::any_of(kinds.begin(), kinds.end(), is_polymer)) return;
+  if (molecule.residues.empty())
+    throw InputError(molecule.name + ": has water only, and nothing that PDB2PQR could charge; give another structure");
   std::string names;
   std::set<std::string> seen;
+  constexpr std::size_t kMostShown = 4;
   for (const Residue& residue : molecule.residues) {
-    if (seen.insert(residue.name).second && seen.size() <= 4) names += (names.empty() ? "" : ", ") + residue.name;
+    if (!seen.insert(residue.name).second || seen.size() > kMostShown) continue;
+    if (!names.empty()) names += ", ";
+    names += (residue.name.empty() ? "an unnamed residue" : "") + residue_in_words(residue);
   }
-  throw InputError(molecule.name + ": has no charges, and no amino acids or nucleotides that PDB2PQR could charge (" +
-                   names + " only); give a PQR, or " + option("topology", "FILE") + " or " +
-                   option("charges-from", "FILE"));
+  throw UnchargedError(molecule.name,
+                       "has no charges, and no amino acids or nucleotides that PDB2PQR could charge, only " + names +
+                           "; give a PQR, or charges (" + option("topology", "FILE") + " or " +
+                           option("charges-from", "FILE") + ")",
+                       molecule.residues.front());
 }
 
 }  // namespace

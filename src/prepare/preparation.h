@@ -2,13 +2,25 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "base/error.h"
 #include "base/types.h"
 
 namespace espdiff {
 
 struct ChargeOptions;
+
+/// A residue that gets no charge. It is named, so that who knows the file can add the line.
+struct UnchargedError : InputError {
+  /// @param name of the molecule
+  UnchargedError(const std::string& name, const Message& message, Residue first)
+      : InputError(name + ": " + message), text(message), residue(std::move(first)) {}
+
+  Message text;  ///< without the molecule's name
+  Residue residue;
+};
 
 /// What PDB2PQR added, repaired and protonated.
 struct Preparation {
@@ -29,7 +41,7 @@ struct Preparation {
 
 /// Lists what differs between the molecule given to PDB2PQR and its answer.
 /// @param before as given to the program
-/// @throws InputError naming atoms of `before` without a charge, with three ways on
+/// @throws UnchargedError naming atoms of `before` without a charge, with three ways on
 void compare_with_input(const Molecule& before, const Molecule& after, const ChargeOptions& options,
                         Preparation& preparation);
 

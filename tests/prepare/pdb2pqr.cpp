@@ -277,7 +277,7 @@ TEST_CASE("prepare_molecule: no program, nothing to charge, cancelled") {
         "pdb2pqr)");
   unsetenv("ESPDIFF_PDB2PQR");
   if (!has_pdb2pqr()) return;
-  CHECK(message_of([&] { prepare(ion); }).find("no amino acids or nucleotides that PDB2PQR could charge (CA only)") !=
+  CHECK(message_of([&] { prepare(ion); }).find("no amino acids or nucleotides that PDB2PQR could charge, only CA ") !=
         std::string::npos);
   const std::string text = lysozyme(1, 40);
   if (text.empty()) return;
