@@ -32,7 +32,7 @@ using Lanes = float __attribute__((vector_size(64)));
 constexpr int kChains = 7, kSteps = 2000000;
 
 #if defined(__x86_64__)
-__attribute__((target_clones("default", "arch=haswell", "arch=skylake-avx512")))
+__attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
 #endif
 float
 multiply_and_add(float factor, float summand) {

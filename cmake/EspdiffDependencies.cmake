@@ -77,6 +77,16 @@ if(NOT ESPDIFF_ZLIB STREQUAL "OFF")
 endif()
 espdiff_resolve(ESPDIFF_ZLIB "${ZLIB_FOUND}" "Compressed text files" "zlib was not found (Debian: zlib1g-dev)")
 
+# HDF5 without MPI: VTK's may be another one in the same program, with symbols of another version.
+if(NOT ESPDIFF_HDF5 STREQUAL "OFF")
+  find_path(ESPDIFF_HDF5_INCLUDE hdf5.h PATH_SUFFIXES hdf5/serial)
+  find_library(ESPDIFF_HDF5_LIBRARY NAMES hdf5_serial hdf5 PATH_SUFFIXES hdf5/serial)
+endif()
+if(ESPDIFF_HDF5_INCLUDE AND ESPDIFF_HDF5_LIBRARY)
+  set(hdf5_found TRUE)
+endif()
+espdiff_resolve(ESPDIFF_HDF5 "${hdf5_found}" "Ensembles" "HDF5 was not found (Debian: libhdf5-dev)")
+
 if(NOT ESPDIFF_GEMMI STREQUAL "OFF")
   find_path(ESPDIFF_GEMMI_INCLUDE gemmi/cif.hpp)
   find_path(ESPDIFF_PEGTL_INCLUDE tao/pegtl.hpp)  # gemmi's CIF reader includes it

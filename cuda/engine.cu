@@ -37,6 +37,7 @@
 #include "cuda/surface/sample.h"
 #include "cuda/surface/subdivide.h"
 #include "cuda/surface/submesh.h"
+#include "cuda/surface/vertex_residues.h"
 #include "engine/certificate_stage.h"
 #include "engine/deform_stage.h"
 #include "engine/engine.h"

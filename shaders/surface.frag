@@ -16,6 +16,7 @@ in vec3 sourcePlaceFS;
 in vec3 targetPlaceFS;
 in vec3 vertexPotentialFS;
 in float displacementFS;
+in float slipFS;
 in float uncertaintyFS;
 flat in float residueIndexFS;
 
@@ -46,7 +47,7 @@ vec3 surfaceColour()
   if (colourBy == kPlain) return plainColour;
   if (colourBy == kResidue) return residueColour(residueIndexFS);
   if (colourBy == kDisplacement) return displacementFS < 0.0 ? noValueColour : scaleColour(displacementFS);
-  if (colourBy == kSlip) return uncertaintyFS < 0.0 ? noValueColour : scaleColour(uncertaintyFS);
+  if (colourBy == kSlip) return slipFS < 0.0 ? noValueColour : scaleColour(slipFS);
   vec3 both = potentials();
   if (both.z == 0.0) return noValueColour;
   if (colourBy == kReadBack) return bytesOf(both.y - both.x);

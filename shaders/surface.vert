@@ -7,7 +7,8 @@ in vec3 sourcePlace;         // the unsuperposed source position in the source's
 in vec3 targetPlace;         // the mapped position in the target's map
 in vec3 vertexPotential;     // source, target, and 1 where both have a value
 in float displacement;       // Angstrom; negative: unknown
-in float uncertainty;        // Angstrom; negative: unknown
+in float slip;               // Angstrom; negative: unknown
+in float uncertainty;        // Angstrom, smoothed; negative: unknown
 in float residueIndex;       // negative: none
 
 uniform mat4 MCDCMatrix;     // names that VTK's mapper sets
@@ -21,6 +22,7 @@ out vec3 sourcePlaceFS;
 out vec3 targetPlaceFS;
 out vec3 vertexPotentialFS;
 out float displacementFS;
+out float slipFS;
 out float uncertaintyFS;
 flat out float residueIndexFS;
 
@@ -34,6 +36,7 @@ void main()
   targetPlaceFS = targetPlace;
   vertexPotentialFS = vertexPotential;
   displacementFS = displacement;
+  slipFS = slip;
   uncertaintyFS = uncertainty;
   residueIndexFS = residueIndex;
 }

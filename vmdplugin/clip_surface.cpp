@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/smooth_field.h"
+
 namespace espdiff {
 namespace {
 
@@ -65,7 +67,7 @@ void ClippedSurface::append_fan(const Polygon& polygon, std::vector<Triangle>& t
 
 std::vector<float> flagged_share(const std::vector<Triangle>& triangles, const std::vector<std::uint8_t>& flags,
                                  std::size_t n_vertices) {
-  std::vector<float> share(n_vertices, 0), n_around(n_vertices, 0), sum(n_vertices);
+  std::vector<float> share(n_vertices, 0), n_around(n_vertices, 0);
   if (flags.empty()) return share;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (const std::uint32_t v : triangles[t]) {
@@ -74,16 +76,7 @@ std::vector<float> flagged_share(const std::vector<Triangle>& triangles, const s
     }
   }
   for (std::size_t v = 0; v < n_vertices; ++v) share[v] /= std::max(1.0F, n_around[v]);
-  for (int round = 0; round < 3; ++round) {
-    sum.assign(n_vertices, 0);
-    for (const Triangle& t : triangles) {
-      for (std::size_t corner = 0; corner < 3; ++corner)
-        sum[t[corner]] += 0.5F * (share[t[(corner + 1) % 3]] + share[t[(corner + 2) % 3]]);
-    }
-    for (std::size_t v = 0; v < n_vertices; ++v)
-      if (n_around[v] > 0) share[v] = 0.5F * (share[v] + sum[v] / n_around[v]);
-  }
-  return share;
+  return smoothed_over_neighbours(triangles, std::move(share), 3);
 }
 
 }  // namespace espdiff

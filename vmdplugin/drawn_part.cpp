@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/smooth_field.h"
+
 namespace espdiff::vmdplugin {
 namespace {
 
@@ -13,9 +15,12 @@ std::vector<float> relative_uncertainty(const DrawnSurface& surface, const Drawn
                                         const std::vector<float>& corrupt_share) {
   constexpr float kMost = 4;  // finite, so that it can be interpolated
   std::vector<float> result(surface.positions.size(), 0);
+  std::vector<float> uncertainty;
+  if (part.limit_A > 0 && surface.uncertainty != nullptr)
+    uncertainty = drawn_uncertainty(*surface.triangles, *surface.uncertainty);
   for (std::size_t v = 0; v < result.size(); ++v) {
-    if (part.limit_A > 0 && surface.uncertainty != nullptr) {
-      const float share = (*surface.uncertainty)[v] / static_cast<float>(part.limit_A);
+    if (!uncertainty.empty()) {
+      const float share = uncertainty[v] / static_cast<float>(part.limit_A);
       result[v] = std::isfinite(share) ? std::min(share, kMost) : kMost;
     }
     if (part.corrupt == "uncertain") result[v] = std::max(result[v], 2 * corrupt_share[v]);

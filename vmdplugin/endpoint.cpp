@@ -307,11 +307,14 @@ bool wants_everything(const Endpoint& endpoint) {
 namespace {
 
 /// Reads a structure file as the command line does.
+StateRole role_of(const Endpoint& endpoint) {
+  if (endpoint.role == "source") return StateRole::kSource;
+  return endpoint.role == "target" ? StateRole::kTarget : StateRole::kOnly;
+}
+
 void load_file(Endpoint& endpoint, const CompareOptions& options, const Endpoint* source, const Progress& progress) {
   const StructureFile file(endpoint.structure_path);
-  StateRequest request{endpoint.structure, endpoint.role == "source"   ? StateRole::kSource
-                                           : endpoint.role == "target" ? StateRole::kTarget
-                                                                       : StateRole::kOnly};
+  StateRequest request{endpoint.structure, role_of(endpoint)};
   request.wants_charges = endpoint.map_request.has_value();
   request.source = source != nullptr ? &*source->molecule : nullptr;
   try {
@@ -341,18 +344,8 @@ void load(Endpoint& endpoint, const CompareOptions& options, const Endpoint* sou
   if (!endpoint.molecule) {
     load_file(endpoint, options, source, progress);
   } else if (endpoint.structure_path.empty()) {
-    const InputOptions& input = options.input;
-    const bool is_target = endpoint.role == "target";
-    for (const auto& [name, text] :
-         {std::pair("select", &input.both.select),
-          {"leave-out", &input.leave_out},
-          {is_target ? "target-select" : "source-select", is_target ? &input.target.select : &input.source.select},
-          {"assembly", &input.assembly},
-          {"topology", &input.both.topology}}) {
-      if (text->empty()) continue;
-      throw InputError(option(name) + " is of structures in files, and the " + endpoint.role +
-                       " is a molecule of VMD; choose its atoms by `sel`");
-    }
+    refuse_options_of_files(options.input, role_of(endpoint),
+                            "the " + endpoint.role + " is a molecule of VMD; choose its atoms by `sel`");
   }
   if (endpoint.map || endpoint.computed_map) return;
   if (endpoint.map_request) {

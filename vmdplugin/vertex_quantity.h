@@ -13,10 +13,10 @@ struct VertexQuantity {
   std::string unit;           ///< "" for a sign
 };
 
-/// @param name of a comparison: difference (target - source), source, target, displacement, path_length, or sign, which
-/// is +1 where a negative potential became positive, -1 where a positive one became negative, otherwise 0; of a
+/// @param name of a comparison: difference (target - source), source, target, slip, displacement, path_length, or sign,
+/// which is +1 where a negative potential became positive, -1 where a positive one became negative, otherwise 0; of a
 /// surface: potential
-/// @throws InputError (another name; no potentials), and the failure of the object's job
+/// @throws InputError (another name; no potentials; no slip, since no atoms pair), and the failure of the object's job
 VertexQuantity vertex_quantity(const std::string& handle, const Object& object, const std::string& name);
 
 /// What a comparison calls the uncertainty of a vertex, Angstrom: its slip, or its displacement if no atoms pair; NaN

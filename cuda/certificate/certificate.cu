@@ -9,14 +9,11 @@
 #include "cuda/device/spatial_order.h"
 #include "cuda/surface/adjacency.h"
 #include "cuda/surface/density_at_points.h"
+#include "cuda/surface/distances_to_triangles.h"
 #include "engine/certificate_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
-
-/// Vertices processed consecutively: neighbours in the list are neighbours in space, so the previous vertex's triangle
-/// is a good guess.
-constexpr std::size_t kRun = 32;
 
 struct FitSums {
   double area = 0, corrupt = 0, flipped = 0;
@@ -38,21 +35,6 @@ double mean_umbrella_length(const SurfaceMesh& mesh) {
   return sum / static_cast<double>(mesh.n_vertices());
 }
 
-/// [point] distance to the tree's triangles.
-Buffer<float> distances_to(const TriangleTreeView& tree, const Vec4f* x, std::size_t n) {
-  Buffer<float> distances(n);
-  float* const distance = raw(distances);
-  for_each_index((n + kRun - 1) / kRun, [=] ESPDIFF_HD(std::size_t run) {
-    std::uint32_t guess = 0;
-    for (std::size_t v = run * kRun; v < (run + 1) * kRun && v < n; ++v) {
-      const NearestTriangle nearest = nearest_triangle(tree, x[v].xyz(), guess);
-      distance[v] = sqrtf(nearest.squared_distance);
-      guess = nearest.place;
-    }
-  });
-  return distances;
-}
-
 Buffer<Vec4f> triangle_centroids(const SurfaceMesh& mesh) {
   Buffer<Vec4f> centroids(mesh.n_triangles());
   const Corners* const corners = raw(mesh.topology->triangles);
@@ -65,6 +47,18 @@ Buffer<Vec4f> triangle_centroids(const SurfaceMesh& mesh) {
   return centroids;
 }
 
+/// Corners first, then the centroids of the triangles.
+Buffer<Vec4f> corners_and_centroids(const SurfaceMesh& mesh) {
+  const std::size_t n_vertices = mesh.n_vertices();
+  const Buffer<Vec4f> centroids = triangle_centroids(mesh);
+  Buffer<Vec4f> points(n_vertices + mesh.n_triangles());
+  const Vec4f *const x = raw(mesh.positions), *const centroid = raw(centroids);
+  Vec4f* const point = raw(points);
+  for_each_index(points.size(),
+                 [=] ESPDIFF_HD(std::size_t i) { point[i] = i < n_vertices ? x[i] : centroid[i - n_vertices]; });
+  return points;
+}
+
 /// Area-weighted sums over points of a surface.
 struct WeightedDistances {
   std::vector<std::pair<float, float>> points;  ///< distance, area
@@ -73,8 +67,8 @@ struct WeightedDistances {
 
   explicit WeightedDistances(float limit) : limit_A(limit) {}
 
-  void add(const std::vector<float>& distances, const std::vector<float>& areas, double share) {
-    for (std::size_t k = 0; k < distances.size(); ++k) {
+  void add(const float* distances, const std::vector<float>& areas, double share) {
+    for (std::size_t k = 0; k < areas.size(); ++k) {
       const double w = share * static_cast<double>(areas[k]), d = static_cast<double>(distances[k]);
       points.emplace_back(distances[k], static_cast<float>(w));
       area += w;
@@ -140,15 +134,11 @@ FitReport fit_to_density(const SurfaceMesh& mapped, const AtomCells& target, flo
 }
 
 DistanceSummary distance_summary(const SurfaceMesh& from, const SurfaceMesh& to, float limit_A) {
-  const TriangleTree tree_of_target = make_triangle_tree(to);
-  const TriangleTreeView tree = tree_of_target.view();
-  const Buffer<float> at_vertices = distances_to(tree, raw(from.positions), from.n_vertices());
-  const Buffer<Vec4f> centroids = triangle_centroids(from);
-  const Buffer<float> at_centroids = distances_to(tree, raw(centroids), from.n_triangles());
+  const Buffer<float> distances = distances_to_triangles(make_triangle_tree(to), corners_and_centroids(from));
   auto beyond_flags = std::make_shared<Scalars>();
   beyond_flags->values.resize(from.n_triangles());
   float* const beyond_limit = raw(beyond_flags->values);
-  const float* const distance = raw(at_vertices);
+  const float* const distance = raw(distances);
   const Corners* const corners = raw(from.topology->triangles);
   for_each_index(from.n_triangles(), [=] ESPDIFF_HD(std::size_t t) {
     const Corners c = corners[t];
@@ -159,8 +149,9 @@ DistanceSummary distance_summary(const SurfaceMesh& from, const SurfaceMesh& to,
   // alone lie on the surface's own lattice, where both surfaces are nearest to each other.
   const Buffer<float> areas = triangle_areas(from);
   WeightedDistances weighted(limit_A);
-  weighted.add(to_host(at_vertices), to_host(vertex_areas(from, areas, nullptr)), 0.25);
-  weighted.add(to_host(at_centroids), to_host(areas), 0.75);
+  const std::vector<float> all = to_host(distances);
+  weighted.add(all.data(), to_host(vertex_areas(from, areas, nullptr)), 0.25);
+  weighted.add(all.data() + from.n_vertices(), to_host(areas), 0.75);
   DistanceSummary summary = weighted.summary();
   summary.beyond = beyond_flags;
   return summary;

@@ -1,4 +1,4 @@
-// metrics.cu: area-weighted sums over the mapped mesh, and the residue at each vertex.
+// metrics.cu: area-weighted sums over the mapped mesh.
 #include "cuda/certificate/metrics.h"
 
 #include <cmath>
@@ -112,75 +112,6 @@ std::shared_ptr<Scalars> displacement(const SurfaceMesh& a, const SurfaceMesh& b
   float* const out = raw(result->values);
   for_each_index(a.n_vertices(), [=] ESPDIFF_HD(std::size_t v) { out[v] = norm(to[v].xyz() - from[v].xyz()); });
   return result;
-}
-
-namespace {
-
-/// Densities by residue at one point. If more residues reach the point than the table holds, the weakest is dropped; it
-/// is near the end of its atoms' reach.
-struct ResidueTally {
-  static constexpr int kCapacity = 64;
-  std::int32_t residue[kCapacity];
-  float density[kCapacity];
-  int n = 0;
-  int last = 0;
-
-  ESPDIFF_INLINE void add(std::int32_t which, float amount) {
-    if (n > 0 && residue[last] == which) {
-      density[last] += amount;
-      return;
-    }
-    int weakest = 0;
-    for (int i = 0; i < n; ++i) {
-      if (residue[i] == which) {
-        density[i] += amount;
-        last = i;
-        return;
-      }
-      if (density[i] < density[weakest]) weakest = i;
-    }
-    if (n < kCapacity) {
-      last = n++;
-    } else if (density[weakest] < amount) {
-      last = weakest;
-    } else {
-      return;
-    }
-    residue[last] = which;
-    density[last] = amount;
-  }
-
-  ESPDIFF_INLINE std::int32_t strongest() const {
-    int best = -1;
-    for (int i = 0; i < n; ++i) {
-      if (best < 0 || density[i] > density[best] || (density[i] == density[best] && residue[i] < residue[best]))
-        best = i;
-    }
-    return best < 0 ? -1 : residue[best];
-  }
-};
-
-ESPDIFF_INLINE std::int32_t residue_at(const AtomCellsView& atoms, Vec3f p) {
-  ResidueTally tally;
-  visit_atom_runs(atoms, p, atoms.max_reach, [&](std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t a = begin; a < end; ++a) {
-      const float dx = p.x - atoms.x[a], dy = p.y - atoms.y[a], dz = p.z - atoms.z[a];
-      const float exponent = atoms.exponent[a] * (dx * dx + dy * dy + dz * dz);
-      if (exponent > kCutoffExponent) tally.add(atoms.residue[a], exp_of_negative(exponent));
-    }
-  });
-  return tally.strongest();
-}
-
-}  // namespace
-
-Buffer<std::int32_t> vertex_residues(const SurfaceMesh& mesh, const AtomCells& atoms) {
-  Buffer<std::int32_t> residues(mesh.n_vertices());
-  const AtomCellsView view = atoms.view();
-  const Vec4f* const x = raw(mesh.positions);
-  std::int32_t* const out = raw(residues);
-  for_each_index(mesh.n_vertices(), [=] ESPDIFF_HD(std::size_t v) { out[v] = residue_at(view, x[v].xyz()); });
-  return residues;
 }
 
 double surface_area(const SurfaceMesh& mesh) {

@@ -1,7 +1,6 @@
-// metrics.h: area-weighted differences of two potentials, and counts by vertex.
+// metrics.h: area-weighted differences of two potentials.
 #pragma once
 
-#include "cuda/surface/atom_cells.h"
 #include "cuda/surface/mesh.h"
 #include "engine/certificate_stage.h"
 
@@ -13,9 +12,6 @@ Metrics compare_potentials(const SurfaceMesh& source, const SurfaceMesh& mapped,
 
 /// [vertex] |a - b|, Angstrom.
 std::shared_ptr<Scalars> displacement(const SurfaceMesh& a, const SurfaceMesh& b);
-
-/// [vertex] residue with the largest density, the smallest index on ties; -1 where no atom reaches.
-Buffer<std::int32_t> vertex_residues(const SurfaceMesh& mesh, const AtomCells& atoms);
 
 double surface_area(const SurfaceMesh& mesh);
 

@@ -5,8 +5,9 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "cuda/certificate/metrics.h"
+#include "cuda/device/spatial_order.h"
 #include "cuda/surface/point_sums.h"
+#include "cuda/surface/vertex_residues.h"
 #include "engine/morph_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
@@ -138,55 +139,180 @@ ESPDIFF_INLINE Vec3f nearest_around(const TopologyView& topology, const Vec4f* x
   return best;
 }
 
+/// What the slip of a vertex is made from.
+struct SlipInputs {
+  AtomCellsView cells;
+  const Motion* motion;        ///< [sorted atom]
+  const std::uint32_t* first;  ///< [pair + 1]
+  const std::uint32_t* place;  ///< vertices of the target
+  TopologyView target;
+  const Vec4f *from, *to, *there;  ///< source, mapped, target
+  float* slip;
+};
+
+/// Where the atoms carried a point, and the vertex of the target that their partners own nearest to it.
+struct Carried {
+  Vec3f to;
+  float square;  ///< infinite if the partners are buried and own no vertex
+  std::uint32_t vertex;
+};
+
+ESPDIFF_INLINE float slip_from(const SlipInputs& in, std::size_t v, const Carried& carried) {
+  // Then the point belongs where it was carried.
+  const Vec3f there =
+      carried.square < INFINITY ? nearest_around(in.target, in.there, carried.vertex, carried.to) : carried.to;
+  return norm(in.to[v].xyz() - there);
+}
+
+ESPDIFF_INLINE float slip_at(const SlipInputs& in, std::size_t v) {
+  const Vec3f p = in.from[v].xyz();
+  Vec3f sum{};
+  float all = 0.0F, paired = 0.0F;
+  sum_at_point(in.cells, p,
+               [&](std::uint32_t a, float, float, float, float, float, float gaussian) ESPDIFF_INLINE_LAMBDA {
+                 all += gaussian;
+                 if (in.cells.residue[a] < 0) return;
+                 paired += gaussian;
+                 sum += gaussian * in.motion[a].at(p);
+               });
+  if (!(paired > (1.0F - kMostUnpaired) * all)) return NAN;
+  Carried carried{(1.0F / paired) * sum, INFINITY, 0};
+  sum_at_point(in.cells, p,
+               [&](std::uint32_t a, float, float, float, float, float, float gaussian) ESPDIFF_INLINE_LAMBDA {
+                 const std::int32_t pair = in.cells.residue[a];
+                 if (pair < 0 || gaussian < kLeastShare * all) return;
+                 for (std::uint32_t k = in.first[pair]; k < in.first[pair + 1]; ++k) {
+                   const Vec3f d = in.there[in.place[k]].xyz() - carried.to;
+                   const float square = dot(d, d);
+                   if (square < carried.square || (square == carried.square && in.place[k] < carried.vertex)) {
+                     carried.square = square;
+                     carried.vertex = in.place[k];
+                   }
+                 }
+               });
+  return slip_from(in, v, carried);
+}
+
+#if !defined(__CUDACC__)
+
+/// Paired atoms that reach a block; in a block with more, its vertices are taken one by one.
+constexpr std::size_t kMostAtoms = 512;
+
+struct CarriedLanes {
+  Lanes x, y, z, square;
+  LaneMask vertex;
+};
+
+/// The nearest of a pair's places, in lanes in which the pair's atom has its share.
+ESPDIFF_INLINE void visit_places(const SlipInputs& in, std::int32_t pair, const Lanes& gaussian, const Lanes& least,
+                                 CarriedLanes& c) {
+  for (std::uint32_t k = in.first[pair]; k < in.first[pair + 1]; ++k) {
+    const std::uint32_t vertex = in.place[k];
+    const Vec4f& x = in.there[vertex];
+    const Lanes dx = x.x - c.x, dy = x.y - c.y, dz = x.z - c.z;
+    const Lanes square = chosen(gaussian < least, Lanes{} + INFINITY, dx * dx + dy * dy + dz * dz);
+    const LaneMask own = LaneMask{} + static_cast<std::int32_t>(vertex);
+    const LaneMask of_equal = smaller_lanes(own, c.vertex);
+    c.vertex = chosen(square == c.square, of_equal, chosen(square < c.square, own, c.vertex));
+    c.square = smaller_lanes(square, c.square);
+  }
+}
+
+ESPDIFF_INLINE void slip_of_block(const SlipInputs& in, const PointList& list, std::size_t block) {
+  std::int32_t pairs[kMostAtoms];
+  Lanes gaussians[kMostAtoms];
+  std::size_t n = 0;
+  const std::size_t begin = block * kBlock, end = std::min(begin + kBlock, list.n);
+  Lanes px, py, pz;
+  for (std::size_t lane = 0; lane < kBlock; ++lane) {
+    const Vec4f& p = list.points[list.list[std::min(begin + lane, end - 1)]];
+    px[lane] = p.x;
+    py[lane] = p.y;
+    pz[lane] = p.z;
+  }
+  Lanes all{}, paired{}, x{}, y{}, z{};
+  sum_at_block(in.cells, list, block,
+               [&](std::uint32_t a, float, const Lanes&, const Lanes&, const Lanes&, const Lanes&,
+                   const Lanes& gaussian) ESPDIFF_INLINE_LAMBDA {
+                 all += gaussian;
+                 if (in.cells.residue[a] < 0) return;
+                 paired += gaussian;
+                 const Motion& m = in.motion[a];
+                 x += gaussian * ((m.row[0].x * px + m.row[0].y * py + m.row[0].z * pz) + m.shift.x);
+                 y += gaussian * ((m.row[1].x * px + m.row[1].y * py + m.row[1].z * pz) + m.shift.y);
+                 z += gaussian * ((m.row[2].x * px + m.row[2].y * py + m.row[2].z * pz) + m.shift.z);
+                 if (n < kMostAtoms) {
+                   pairs[n] = in.cells.residue[a];
+                   gaussians[n] = gaussian;
+                 }
+                 ++n;
+               });
+  const Lanes inverse = 1.0F / paired;
+  CarriedLanes carried{inverse * x, inverse * y, inverse * z, Lanes{} + INFINITY, LaneMask{}};
+  const Lanes least = kLeastShare * all;
+  for (std::size_t k = 0; k < std::min(n, kMostAtoms); ++k) {
+    if (any_lane(gaussians[k] >= least)) visit_places(in, pairs[k], gaussians[k], least, carried);
+  }
+  for (std::size_t lane = 0; begin + lane < end; ++lane) {
+    const std::uint32_t v = list.list[begin + lane];
+    const Carried one{{carried.x[lane], carried.y[lane], carried.z[lane]},
+                      carried.square[lane],
+                      static_cast<std::uint32_t>(carried.vertex[lane])};
+    if (n > kMostAtoms) {
+      in.slip[v] = slip_at(in, v);
+    } else {
+      in.slip[v] = paired[lane] > (1.0F - kMostUnpaired) * all[lane] ? slip_from(in, v, one) : NAN;
+    }
+  }
+}
+
+ESPDIFF_MULTIVERSION void slip_of_blocks(const SlipInputs& in, const PointList& list, std::size_t first,
+                                         std::size_t last) {
+  for (std::size_t block = first; block < last; ++block) slip_of_block(in, list, block);
+}
+
+#endif
+
+void by_points(const SlipInputs& in, std::size_t n) {
+  for_each_index(n, [=] ESPDIFF_HD(std::size_t v) { in.slip[v] = slip_at(in, v); });
+}
+
+/// @param by_blocks  whether the CPU goes through blocks of neighbouring vertices
+std::vector<float> slip_in_form(const SurfaceMesh& source, const SurfaceMesh& mapped, const SurfaceMesh& target,
+                                const std::vector<MovingAtom>& atoms, bool by_blocks) {
+  if (source.n_vertices() != mapped.n_vertices()) throw GeometryError("slip: the meshes differ in topology");
+  const std::size_t n = source.n_vertices();
+  const Carriers carried_by = carriers(atoms);
+  const OwnedPlaces places = owned_places(target, atoms);
+  Buffer<float> slips(n);
+  const SlipInputs in{carried_by.cells->view(), raw(carried_by.motions), raw(places.first),
+                      raw(places.vertex),       target.view(),           raw(source.positions),
+                      raw(mapped.positions),    raw(target.positions),   raw(slips)};
+#if defined(__CUDACC__)
+  static_cast<void>(by_blocks);
+  by_points(in, n);
+#else
+  if (by_blocks) {
+    const Buffer<std::uint32_t> order = spatial_order(source.positions);
+    const PointList list{raw(source.positions), raw(order), n};
+    for_all_blocks(n, [=](std::size_t first, std::size_t last) { slip_of_blocks(in, list, first, last); });
+  } else {
+    by_points(in, n);
+  }
+#endif
+  return to_host(slips);
+}
+
 }  // namespace
 
 std::vector<float> slip(const SurfaceMesh& source, const SurfaceMesh& mapped, const SurfaceMesh& target,
                         const std::vector<MovingAtom>& atoms) {
-  if (source.n_vertices() != mapped.n_vertices()) throw GeometryError("slip: the meshes differ in topology");
-  const Carriers carried_by = carriers(atoms);
-  const OwnedPlaces places = owned_places(target, atoms);
-  const AtomCellsView cells = carried_by.cells->view();
-  const Motion* const motion = raw(carried_by.motions);
-  const std::uint32_t *const first = raw(places.first), *const place = raw(places.vertex);
-  const TopologyView target_topology = target.view();
-  const Vec4f *const from = raw(source.positions), *const to = raw(mapped.positions), *const x = raw(target.positions);
-  Buffer<float> slips(source.n_vertices());
-  float* const result = raw(slips);
-  for_each_index(source.n_vertices(), [=] ESPDIFF_HD(std::size_t v) {
-    const Vec3f p = from[v].xyz();
-    Vec3f sum{};
-    float all = 0.0F, paired = 0.0F;
-    sum_at_point(cells, p,
-                 [&](std::uint32_t a, float, float, float, float, float, float gaussian) ESPDIFF_INLINE_LAMBDA {
-                   all += gaussian;
-                   if (cells.residue[a] < 0) return;
-                   paired += gaussian;
-                   sum += gaussian * motion[a].at(p);
-                 });
-    result[v] = NAN;
-    if (!(paired > (1.0F - kMostUnpaired) * all)) return;
-    const Vec3f carried = (1.0F / paired) * sum;
-    // The nearest place that the partners own.
-    float least = INFINITY;
-    std::uint32_t nearest = 0;
-    sum_at_point(cells, p,
-                 [&](std::uint32_t a, float, float, float, float, float, float gaussian) ESPDIFF_INLINE_LAMBDA {
-                   const std::int32_t pair = cells.residue[a];
-                   if (pair < 0 || gaussian < kLeastShare * all) return;
-                   for (std::uint32_t k = first[pair]; k < first[pair + 1]; ++k) {
-                     const Vec3f d = x[place[k]].xyz() - carried;
-                     const float square = dot(d, d);
-                     if (square < least || (square == least && place[k] < nearest)) {
-                       least = square;
-                       nearest = place[k];
-                     }
-                   }
-                 });
-    // Partners that are buried own no place; then the point belongs where it was carried.
-    const Vec3f there = least < INFINITY ? nearest_around(target_topology, x, nearest, carried) : carried;
-    result[v] = norm(to[v].xyz() - there);
-  });
-  return to_host(slips);
+  return slip_in_form(source, mapped, target, atoms, true);
+}
+
+std::vector<float> slip_point_by_point(const SurfaceMesh& source, const SurfaceMesh& mapped, const SurfaceMesh& target,
+                                       const std::vector<MovingAtom>& atoms) {
+  return slip_in_form(source, mapped, target, atoms, false);
 }
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -15,4 +15,8 @@ namespace espdiff::ESPDIFF_BACKEND {
 std::vector<float> slip(const SurfaceMesh& source, const SurfaceMesh& mapped, const SurfaceMesh& target,
                         const std::vector<MovingAtom>& atoms);
 
+/// The general form, vertex by vertex; gives the same bits.
+std::vector<float> slip_point_by_point(const SurfaceMesh& source, const SurfaceMesh& mapped, const SurfaceMesh& target,
+                                       const std::vector<MovingAtom>& atoms);
+
 }  // namespace espdiff::ESPDIFF_BACKEND

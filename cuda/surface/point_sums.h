@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstring>
 
 #include "cuda/surface/atom_cells.h"
 
@@ -36,6 +37,24 @@ constexpr std::size_t kBlock = 16;
 using Lanes = float __attribute__((vector_size(kBlock * sizeof(float))));
 using LaneMask = std::int32_t __attribute__((vector_size(kBlock * sizeof(float))));
 using LaneBits = std::uint32_t __attribute__((vector_size(kBlock * sizeof(float))));
+
+/// `a` where the mask is set, otherwise `b`. The mask should be one comparison: GCC 12 takes a combination of
+/// comparisons apart into single lanes.
+ESPDIFF_INLINE Lanes chosen(const LaneMask& mask, const Lanes& a, const Lanes& b) {
+  return (Lanes)(((LaneMask)a & mask) | ((LaneMask)b & ~mask));
+}
+ESPDIFF_INLINE LaneMask chosen(const LaneMask& mask, const LaneMask& a, const LaneMask& b) {
+  return (a & mask) | (b & ~mask);
+}
+ESPDIFF_INLINE Lanes smaller_lanes(const Lanes& a, const Lanes& b) { return chosen(a < b, a, b); }
+ESPDIFF_INLINE LaneMask smaller_lanes(const LaneMask& a, const LaneMask& b) { return chosen(a < b, a, b); }
+
+ESPDIFF_INLINE bool any_lane(const LaneMask& mask) {
+  std::uint64_t words[sizeof(LaneMask) / sizeof(std::uint64_t)], any = 0;
+  std::memcpy(words, &mask, sizeof mask);
+  for (const std::uint64_t word : words) any |= word;
+  return any != 0;
+}
 
 /// exp_of_negative() per lane. Casts between vectors keep their bits.
 ESPDIFF_INLINE void exp_of_negative_lanes(const Lanes& x, Lanes& result) {

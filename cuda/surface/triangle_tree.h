@@ -81,6 +81,12 @@ struct NearestTriangle {
   float squared_distance;
 };
 
+/// Whether a box at this squared distance may hold a nearer triangle. A triangle's own distance can be rounded below
+/// its box's, so the box gets some slack: what is found does not depend on the order of the search.
+ESPDIFF_INLINE bool may_be_nearer(float box_squared_distance, float squared_distance) {
+  return box_squared_distance < 1.001F * squared_distance + 1e-9F;
+}
+
 /// Nearest triangle of the tree. `guess` is the place of any triangle: a closer guess visits less of the tree and does
 /// not change the distance.
 ESPDIFF_INLINE NearestTriangle nearest_triangle(const TriangleTreeView& tree, Vec3f p, std::uint32_t guess) {
@@ -95,7 +101,7 @@ ESPDIFF_INLINE NearestTriangle nearest_triangle(const TriangleTreeView& tree, Ve
   std::uint32_t node = 0;
   float node_distance = squared_distance_to_box(p, tree.boxes[0]);
   for (;;) {
-    if (node_distance < nearest.squared_distance) {
+    if (may_be_nearer(node_distance, nearest.squared_distance)) {
       if (node + 1 < tree.n_leaves) {
         const std::uint32_t left = 2 * node + 1;
         const float d_left = squared_distance_to_box(p, tree.boxes[left]),
@@ -125,7 +131,7 @@ ESPDIFF_INLINE NearestTriangle nearest_triangle(const TriangleTreeView& tree, Ve
     do {
       if (depth == 0) return nearest;
       --depth;
-    } while (!(stack[depth].distance < nearest.squared_distance));
+    } while (!may_be_nearer(stack[depth].distance, nearest.squared_distance));
     node = stack[depth].node;
     node_distance = stack[depth].distance;
   }

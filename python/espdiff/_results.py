@@ -65,6 +65,11 @@ class Comparison:
         return Certificate(self.to_dict()["certificate"])
 
     @property
+    def region(self):
+        """The numbers, certificate and residues of the region, a dict under the names of OUT.json; None without one."""
+        return self.to_dict()["region"]
+
+    @property
     def residues(self):
         """The residue table: a pandas.DataFrame where pandas is installed, else a dict of columns."""
         if self._residues is None:

@@ -6,7 +6,6 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -14,9 +13,13 @@
 #include "arrays.h"
 #include "base/error.h"
 #include "compare/compare.h"
+#include "compare/slip.h"
 #include "engine/engine.h"
 #include "io/check_outputs.h"
+#include "prepare/region.h"
+#include "prepare/surface_radii.h"
 #include "report/metrics.h"
+#include "report/state_report.h"
 #include "report/write_compare.h"
 #include "run.h"
 
@@ -33,27 +36,34 @@ std::shared_ptr<Comparison> compare_states(const StatePtr& source, const StatePt
   const Computation computation(settings, potential, pme_cell, device, threads);
   made->options = computation.options;
   run(progress, [&](const Progress& told) {
+    const InputOptions& input = made->options.input;
+    LoadedState a = load(*source, StateRole::kSource, computation, nullptr, told);
+    LoadedState b = load(*target, StateRole::kTarget, computation, &a.molecule, told);
+    if (source->file != nullptr || target->file != nullptr) check_left_out(input, {&a, &b});
     std::vector<InputFile> inputs;
-    const MapPlan plan(computation, {source.get(), target.get()});
-    const CompareInput a = plan.input_of(*source, "source", inputs), b = plan.input_of(*target, "target", inputs);
+    note_inputs(*source, a, "source", inputs);
+    note_inputs(*target, b, "target", inputs);
+    const PotentialPlan plan = plan_potential(computation, {source.get(), target.get()}, {&a, &b});
+    CompareInput source_side = side_of(*source, a, plan, "source", inputs);
+    const CompareInput target_side = side_of(*target, b, plan, "target", inputs);
+    for (const auto& [role, state] : {std::pair("source", &a), std::pair("target", &b)}) {
+      for (KeptFile& file : kept_structure(role, *state)) made->kept.push_back(std::move(file));
+    }
+    const std::string radii_note = set_surface_radii({&a.molecule, &b.molecule}, input.radii);
+    source_side.region = region_residues(a.molecule, a.whole, b.molecule, b.whole, input);
     const std::unique_ptr<Engine> engine = computation.make_engine();
     made->provenance = provenance_of(*engine, call, std::move(inputs));
-    made->result = compare(*engine, a, b, made->options, told);
+    for (const auto& [role, state] : {std::pair("source", &a), std::pair("target", &b)}) {
+      if (state->preparation)
+        made->provenance.preparations.emplace_back(role, std::make_shared<Preparation>(*state->preparation));
+    }
+    made->result = compare(*engine, source_side, target_side, made->options, told);
+    note_states(made->result, a, b, radii_note);
     if (!made->result.has_potential) made->result.shapes_because = plan.because();
+    made->source_molecule = std::move(a.molecule);
+    made->target_molecule = std::move(b.molecule);
   });
   return made;
-}
-
-/// [vertex] a third of the area of its triangles on the mapped surface, but for those that are unmatched or corrupt.
-std::vector<double> vertex_areas(const MappedSurface& s) {
-  std::vector<double> areas(s.positions.size(), 0.0);
-  for (std::size_t t = 0; t < s.triangles.size(); ++t) {
-    if (s.corrupt[t] != 0 || (!s.unmatched.empty() && s.unmatched[t] != 0)) continue;
-    const Triangle& v = s.triangles[t];
-    const double area = 0.5 * norm(cross(s.positions[v[1]] - s.positions[v[0]], s.positions[v[2]] - s.positions[v[0]]));
-    for (const std::uint32_t corner : v) areas[corner] += area / 3;
-  }
-  return areas;
 }
 
 std::vector<float> difference(const MappedSurface& s) {
@@ -66,7 +76,7 @@ nb::dict residue_columns(const Comparison& c) {
   nb::dict columns;
   nb::list chains, numbers, insertions, names;
   for (const ResidueRow& row : c.result.residues) {
-    const Residue& residue = c.source->molecule.residues.at(row.residue);
+    const Residue& residue = c.source_molecule.residues.at(row.residue);
     chains.append(residue.chain);
     numbers.append(residue.number);
     insertions.append(residue.insertion_code == ' ' ? std::string() : std::string(1, residue.insertion_code));
@@ -97,13 +107,13 @@ nb::dict metric_values(const Comparison& c) {
 }
 
 std::string json_text(const Comparison& c) {
-  return compare_json(c.source->molecule, c.target->molecule, c.result, c.options, c.provenance)
+  return compare_json(c.source_molecule, c.target_molecule, c.result, c.options, c.provenance)
       .dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 std::string table(const Comparison& c) {
   std::ostringstream out;
-  print_table(out, c.source->molecule, c.target->molecule, c.result, [](const NamedOption& option) {
+  print_table(out, c.source_molecule, c.target_molecule, c.result, [](const NamedOption& option) {
     std::string name = option.name;
     for (char& letter : name) letter = letter == '-' ? '_' : letter;
     return option.value.empty() ? name : name + "=" + option.value;
@@ -112,12 +122,13 @@ std::string table(const Comparison& c) {
 }
 
 std::vector<std::string> save(const Comparison& c, const std::string& prefix) {
-  const std::vector<std::string> files{prefix + ".json", prefix + ".vtp", prefix + ".residues.csv"};
+  std::vector<std::string> files{prefix + ".json", prefix + ".vtp", prefix + ".residues.csv"};
+  for (const KeptFile& file : c.kept) files.push_back(prefix + file.ending);
   std::vector<std::string> inputs;
   for (const InputFile& input : c.provenance.inputs) inputs.push_back(input.path);
   check_outputs(inputs, files);
   const nb::gil_scoped_release unlocked;
-  write_compare(prefix, c.source->molecule, c.target->molecule, c.result, c.options, c.provenance);
+  write_compare(prefix, c.source_molecule, c.target_molecule, c.result, c.options, c.provenance, c.kept);
   return files;
 }
 
@@ -159,14 +170,16 @@ void add_comparison(nb::module_& module) {
       .def_prop_ro("unmatched", array_of(&S::unmatched),
                    "(triangles) uint8: not 0 where there is no counterpart; empty where all have one.")
       .def_prop_ro(
-          "area", [](const Comparison& c) { return array_from(vertex_areas(c.result.surface)); },
+          "area", [](const Comparison& c) { return array_from(matched_areas(c.result.surface)); },
           "(vertices) float64, A^2: a third of a vertex's triangles, without unmatched and corrupt ones.")
       .def_prop_ro("metrics", &metric_values, "Every number of the comparison by name; NaN where there is none.")
       .def("residue_columns", &residue_columns, "The residue table by columns.")
       .def("json", &json_text, "The content of OUT.json.")
       .def("table", &table, "The table that the command line prints.")
       .def("save", &save, nb::arg("prefix"),
-           "Writes PREFIX.json, PREFIX.vtp and PREFIX.residues.csv, all or none. Raises IoError.");
+           "Writes PREFIX.json, PREFIX.vtp and PREFIX.residues.csv, and the states that no file holds as "
+           "PREFIX.source.pqr "
+           "and PREFIX.target.pqr; all or none. Returns their names. Raises IoError.");
   module.def("compare", &compare_states, nb::arg("source"), nb::arg("target"), nb::arg("settings"),
              nb::arg("potential"), nb::arg("pme_cell"), nb::arg("device"), nb::arg("threads"), nb::arg("call"),
              nb::arg("progress").none());

@@ -7,11 +7,14 @@
 
 #include "compare/result.h"
 #include "inputs.h"
+#include "report/write_compare.h"
 
 namespace espdiff::python {
 
 struct Comparison {
   StatePtr source, target;
+  Molecule source_molecule, target_molecule;  ///< as they were compared
+  std::vector<KeptFile> kept;                 ///< of the states that no file holds as they were compared
   CompareOptions options;
   Provenance provenance;
   CompareResult result;

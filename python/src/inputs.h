@@ -1,4 +1,4 @@
-// inputs.h: how a computation is to be made, and the two sides of it.
+// inputs.h: how a computation is to be made, and its states as they are compared.
 #pragma once
 
 #include <memory>
@@ -8,9 +8,7 @@
 
 #include "compare/input.h"
 #include "compare/options.h"
-#include "potential/choose_potential.h"
-#include "potential/computed_map.h"
-#include "potential/potential_settings.h"
+#include "potential/potential_plan.h"
 #include "report/provenance.h"
 #include "state.h"
 
@@ -22,39 +20,41 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 /// Where and how something is computed.
 struct Computation {
   CompareOptions options;
-  std::string potential = "auto", pme_cell = "auto";
-  GivenPotentialSettings given;  ///< of the potential
+  PotentialRequest potential;
   std::string device = "auto";
   int threads = 0;
 
   /// @param settings of comparisons and of potentials: each name belongs to one of them
   /// @throws InputError (unknown names, values)
-  Computation(const Settings& settings, std::string potential, std::string pme_cell, std::string device, int threads);
+  Computation(const Settings& settings, const std::string& potential, const std::string& pme_cell, std::string device,
+              int threads);
   std::unique_ptr<Engine> make_engine() const;
 };
 
-/// The potentials of states that are compared with each other.
-class MapPlan {
- public:
-  /// @throws InputError (a state without charges where a potential was asked for; maps given and computed)
-  MapPlan(const Computation& computation, const std::vector<const State*>& states);
+/// A state as it is compared: of a file read, selected and charged as the command line does; of arrays as it is.
+/// @param source the loaded source, for a target
+/// @throws as load_for(); InputError (an option of structures in files for a state of arrays)
+LoadedState load(const State& state, StateRole role, const Computation& computation, const Molecule* source,
+                 const Progress& progress);
 
-  /// Why there is none, where that was not asked for.
-  const std::string& because() const { return because_; }
-  /// For results: empty where none is computed.
-  std::string in_words() const { return options_ ? potential_in_words(*options_) : std::string(); }
-  /// One side. @throws as ComputedMap
-  CompareInput input_of(const State& state) const;
-  /// As input_of(); notes what the side is made of.
-  CompareInput input_of(const State& state, const std::string& role, std::vector<InputFile>& inputs) const;
+/// A frame against a source, as load_frame(): without charges of its own it takes the source's.
+/// @throws as load_frame(), load()
+LoadedState load_target(const State& state, const Computation& computation, const LoadedState& source,
+                        const Progress& progress);
 
- private:
-  std::optional<ComputedMap> map_of(const State& state) const;
+/// The potential of states that are compared; none where maps are given.
+/// @throws InputError as PotentialPlan; maps and options of computed potentials were given
+PotentialPlan plan_potential(const Computation& computation, const std::vector<const State*>& states,
+                             const std::vector<const LoadedState*>& loaded);
 
-  std::optional<PotentialOptions> options_;
-  bool own_cell_ = false;
-  std::string because_;
-};
+/// One side. Keeps references to both.
+/// @param inputs receives where the map comes from
+CompareInput side_of(const State& state, const LoadedState& loaded, const PotentialPlan& plan, const std::string& role,
+                     std::vector<InputFile>& inputs);
+
+/// Where a state comes from.
+void note_inputs(const State& state, const LoadedState& loaded, const std::string& role,
+                 std::vector<InputFile>& inputs);
 
 /// What made a result.
 /// @param inputs in any order; the result has the structures first, then the maps

@@ -13,6 +13,7 @@
 #include "inputs.h"
 #include "matrix/matrix_run.h"
 #include "matrix/write_matrix.h"
+#include "prepare/surface_radii.h"
 #include "run.h"
 
 namespace espdiff::python {
@@ -41,23 +42,35 @@ std::string compute(const std::vector<StatePtr>& states, const std::vector<std::
   if (!shard.empty()) order.shard = parse_shard(shard);
   std::string text;
   run(progress, [&](const Progress& told) {
-    std::vector<const State*> all;
-    for (const StatePtr& state : states) all.push_back(state.get());
-    const MapPlan plan(computation, all);
-    order.potential = plan.in_words();
-    std::vector<Variant> variants;
+    std::vector<const State*> given;
+    std::vector<LoadedState> loaded;
+    std::vector<const LoadedState*> all;
+    loaded.reserve(states.size());
+    for (const StatePtr& state : states) {
+      given.push_back(state.get());
+      const Molecule* const first = loaded.empty() ? nullptr : &loaded.front().molecule;
+      loaded.push_back(load(*state, StateRole::kOnly, computation, first, told));
+      loaded.back().whole = {};
+      all.push_back(&loaded.back());
+    }
+    const PotentialPlan plan = plan_potential(computation, given, all);
+    order.potential = plan.computes() ? plan.in_words() : "maps";
+    std::vector<Variant> variants(states.size());
+    std::vector<Molecule*> molecules;
     for (std::size_t i = 0; i < states.size(); ++i) {
-      Variant variant;
+      Variant& variant = variants[i];
       variant.label = labels[i];
       if (!groups.empty()) variant.group = groups[i];
-      variant.molecule = states[i]->molecule;
-      if (states[i]->map != nullptr) variant.map = *states[i]->map;
-      variant.make_map = plan.input_of(*states[i], "structure", variant.inputs).make_map;
+      note_inputs(*states[i], loaded[i], "structure", variant.inputs);
+      variant.make_map = side_of(*states[i], loaded[i], plan, "structure", variant.inputs).make_map;
       for (InputFile& input : variant.inputs) {
         if (input.role == "structure_map") input.role = "map";
       }
-      variants.push_back(std::move(variant));
+      variant.molecule = loaded[i].molecule;
+      if (states[i]->map != nullptr) variant.map = *states[i]->map;
+      molecules.push_back(&variant.molecule);
     }
+    set_surface_radii(molecules, computation.options.input.radii);
     check_labels(labels);
     unite_map_units(variants, computation.options.temperature_K);
     const std::unique_ptr<Engine> engine = computation.make_engine();

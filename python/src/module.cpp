@@ -57,12 +57,13 @@ nb::list list_metrics() {
 
 nb::dict status() {
   nb::dict all;
-  for (const espdiff::BackEndStatus& s :
-       {espdiff::cpu_status(), espdiff::cuda_status(), espdiff::cpu_fourier_status()}) {
+  for (const auto& [name, status] : {std::pair("cpu", espdiff::cpu_status()),
+                                     {"cuda", espdiff::cuda_status()},
+                                     {"fourier transforms", espdiff::cpu_fourier_status()}}) {
     nb::dict row;
-    row["available"] = s.available;
-    row["description"] = s.description.plain();
-    all[all.contains(nb::str(s.name.c_str())) ? nb::str("fourier") : nb::str(s.name.c_str())] = row;
+    row["available"] = status.available;
+    row["description"] = status.description.plain();
+    all[name] = row;
   }
   return all;
 }

@@ -28,14 +28,16 @@ std::shared_ptr<PyMap> make(const StatePtr& state, const Settings& settings, con
   auto made = std::make_shared<PyMap>();
   const Computation computation(settings, method, "auto", device, threads);
   run(progress, [&](const Progress& told) {
-    const PotentialChoice choice = choose_potential(method, "auto", {potential_facts(state->all(), state->cell)});
+    const LoadedState loaded = load(*state, StateRole::kOnly, computation, nullptr, told);
+    const PotentialChoice choice = choose_potential(method, "auto", {facts_of(loaded)});
     if (!choice.method) throw InputError(state->molecule.name + " has no charges, of which a potential could be made");
     const PotentialOptions options =
-        make_potential_options(*choice.method, computation.given, computation.options.temperature_K, true);
+        make_potential_options(*choice.method, computation.potential.given, computation.options.temperature_K, true);
     const std::unique_ptr<Engine> engine = computation.make_engine();
     PotentialSeries series(*engine, options);
     const bool in_cell = *choice.method == PotentialMethod::kPme && choice.own_cell;
-    made->grid = series.step(in_cell ? state->all() : state->molecule, in_cell ? state->cell : std::nullopt, told);
+    const bool all = in_cell && loaded.everything.size() > 0;
+    made->grid = series.step(all ? loaded.everything : loaded.molecule, in_cell ? loaded.cell : std::nullopt, told);
   });
   return made;
 }

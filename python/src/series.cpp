@@ -7,11 +7,11 @@
 #include <nanobind/stl/vector.h>
 
 #include <mutex>
-#include <optional>
 
 #include "base/error.h"
 #include "comparison.h"
 #include "engine/engine.h"
+#include "prepare/surface_radii.h"
 #include "run.h"
 #include "series.h"
 #include "trajectory/trajectory.h"
@@ -38,24 +38,34 @@ class PySeries {
     made->options = computation_.options;
     run(progress, [&](const Progress& told) {
       const std::lock_guard<std::mutex> lock(one_at_a_time_);
-      begin(*target);
-      std::vector<InputFile> inputs = source_files_;
-      const CompareInput side = plan_->input_of(*target, "target", inputs);
+      begin(told);
+      std::vector<InputFile> inputs = source_inputs_;
+      LoadedState loaded = load_target(*target, computation_, loaded_, told);
+      note_inputs(*target, loaded, "target", inputs);
+      const CompareInput side = side_of(*target, loaded, plan_, "target", inputs);
+      set_surface_radii({&loaded.molecule}, computation_.options.input.radii);
       made->provenance = provenance_of(*engine_, call_, std::move(inputs));
       made->result = series_->step(side, start_, told);
-      if (!made->result.has_potential) made->result.shapes_because = plan_->because();
+      if (!made->result.has_potential) made->result.shapes_because = plan_.because();
+      made->source_molecule = surface_;
+      made->target_molecule = std::move(loaded.molecule);
     });
     return made;
   }
 
  private:
-  /// The first target decides with the source which potential there is.
-  void begin(const State& target) {
+  /// Loads the source, at the first step.
+  void begin(const Progress& progress) {
     if (series_ != nullptr) return;
+    loaded_ = load(*source_, StateRole::kSource, computation_, nullptr, progress);
+    plan_ = plan_potential(computation_, {source_.get()}, {&loaded_});
+    source_inputs_.clear();
+    note_inputs(*source_, loaded_, "source", source_inputs_);
+    side_ = side_of(*source_, loaded_, plan_, "source", source_inputs_);
+    surface_ = loaded_.molecule;
+    set_surface_radii({&surface_}, computation_.options.input.radii);
+    side_.molecule = &surface_;
     engine_ = computation_.make_engine();
-    plan_.emplace(computation_, std::vector<const State*>{source_.get(), &target});
-    source_files_.clear();
-    side_ = plan_->input_of(*source_, "source", source_files_);
     series_ = std::make_unique<Series>(*engine_, side_, computation_.options);
   }
 
@@ -65,8 +75,10 @@ class PySeries {
   std::string call_;
   std::mutex one_at_a_time_;
   std::unique_ptr<Engine> engine_;
-  std::optional<MapPlan> plan_;
-  std::vector<InputFile> source_files_;
+  LoadedState loaded_;  // the source
+  Molecule surface_;    // the source with the radii of its surface
+  PotentialPlan plan_;
+  std::vector<InputFile> source_inputs_;
   CompareInput side_;
   std::unique_ptr<Series> series_;  // destroyed before what it refers to
 };

@@ -1,6 +1,7 @@
 // state.cpp: states from files and from arrays, checked argument by argument.
 #include "state.h"
 
+#include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
@@ -107,19 +108,19 @@ StatePtr from_arrays(const AnyArray& positions, const std::optional<AnyArray>& r
   return state;
 }
 
-StatePtr from_file(const std::string& path, int model, bool hetero, bool water) {
+StatePtr from_file(const std::filesystem::path& path, int model, bool hetero, bool water) {
   auto state = std::make_shared<State>();
-  const StructureFile file(path);
-  const StructureOptions options{model, hetero, water};
-  state->molecule = file.read(options);
-  state->everything = std::make_shared<const Molecule>(file.read({model, true, true}));
-  state->cell = file.unit_cells().at(static_cast<std::size_t>(model - 1));
-  state->input = {"", path, file.sha256(), nullptr, options};
+  state->file = std::make_shared<const StructureFile>(path.string());
+  state->structure = {model, hetero, water, {}};
+  state->molecule = state->file->read(state->structure);
+  state->input = {"", path.string(), state->file->sha256(), nullptr, state->structure};
   return state;
 }
 
 /// A copy with what surrounds the molecule: the water, ions and cell of another state.
 StatePtr surrounded_by(const State& state, const State& everything) {
+  if (state.file != nullptr)
+    throw InputError(state.molecule.name + ": the surroundings of a state from a file are in its file");
   auto copy = std::make_shared<State>(state);
   copy->everything = std::make_shared<const Molecule>(everything.molecule);
   copy->cell = everything.cell;

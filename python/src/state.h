@@ -7,23 +7,28 @@
 #include <optional>
 #include <string>
 
+#include "base/structure_options.h"
 #include "base/types.h"
 #include "base/unit_cell.h"
 #include "report/provenance.h"
+
+namespace espdiff {
+class StructureFile;
+}
 
 namespace espdiff::python {
 
 /// A molecule, what surrounds it, and its map where one is given. Never changed once it is made: computations on other
 /// threads share it.
 struct State {
-  Molecule molecule;  ///< what has the surface
-  /// With water and ions, where pme is to count their charges; null: the molecule alone.
+  Molecule molecule;                          ///< as it was read or given, before selections and charges
+  std::shared_ptr<const StructureFile> file;  ///< null for one of arrays
+  StructureOptions structure;                 ///< how the file is read
+  /// Of arrays: with water and ions, where pme is to count their charges; null: the molecule alone.
   std::shared_ptr<const Molecule> everything;
-  std::optional<UnitCell> cell;
+  std::optional<UnitCell> cell;  ///< of arrays
   std::shared_ptr<const Grid> map;
   InputFile input, map_input;  ///< without roles
-
-  const Molecule& all() const { return everything != nullptr ? *everything : molecule; }
 };
 
 using StatePtr = std::shared_ptr<const State>;

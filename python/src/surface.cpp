@@ -9,6 +9,7 @@
 #include "arrays.h"
 #include "engine/engine.h"
 #include "inputs.h"
+#include "prepare/surface_radii.h"
 #include "report/write_surface.h"
 #include "run.h"
 #include "surface.h"
@@ -17,7 +18,7 @@ namespace espdiff::python {
 namespace {
 
 struct PySurface {
-  StatePtr state;
+  Molecule molecule;  ///< as its surface was made
   SurfaceResult result;
 };
 
@@ -25,13 +26,16 @@ std::shared_ptr<PySurface> make(const StatePtr& state, const Settings& settings,
                                 const std::string& pme_cell, const std::string& device, int threads, bool regularize,
                                 const nb::object& progress) {
   auto made = std::make_shared<PySurface>();
-  made->state = state;
   const Computation computation(settings, potential, pme_cell, device, threads);
   run(progress, [&](const Progress& told) {
-    const MapPlan plan(computation, {state.get()});
-    const CompareInput input = plan.input_of(*state);
+    LoadedState loaded = load(*state, StateRole::kOnly, computation, nullptr, told);
+    const PotentialPlan plan = plan_potential(computation, {state.get()}, {&loaded});
+    std::vector<InputFile> ignored;
+    const CompareInput input = side_of(*state, loaded, plan, "source", ignored);
+    set_surface_radii({&loaded.molecule}, computation.options.input.radii);
     const std::unique_ptr<Engine> engine = computation.make_engine();
     made->result = make_surface(*engine, input, computation.options, regularize, told);
+    made->molecule = std::move(loaded.molecule);
   });
   return made;
 }
@@ -65,7 +69,7 @@ void add_surface(nb::module_& module) {
           "save",
           [](const PySurface& s, const std::string& path) {
             const nb::gil_scoped_release unlocked;
-            write_surface(path, s.state->molecule, s.result, s.result.unit);
+            write_surface(path, s.molecule, s.result, s.result.unit);
           },
           nb::arg("path"), "Writes a VTP file. Raises IoError.");
   module.def("surface", &make, nb::arg("state"), nb::arg("settings"), nb::arg("potential"), nb::arg("pme_cell"),

@@ -70,6 +70,10 @@ int run(int argc, char** argv) {
   app.require_subcommand(0, 1);
   std::vector<espdiff::cli::Verb> verbs = {
       espdiff::cli::add_compare(app),   espdiff::cli::add_trajectory(app), espdiff::cli::add_matrix(app),
+
+#ifdef ESPDIFF_HAVE_HDF5
+      espdiff::cli::add_ensemble(app),
+#endif
       espdiff::cli::add_merge(app),     espdiff::cli::add_plot(app),       espdiff::cli::add_surface(app),
       espdiff::cli::add_potential(app), espdiff::cli::add_prepare(app),    espdiff::cli::add_render(app),
       espdiff::cli::add_view(app),      espdiff::cli::add_verify(app),     espdiff::cli::add_doctor(app)};

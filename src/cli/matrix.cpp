@@ -23,7 +23,7 @@ namespace {
 struct Arguments {
   std::vector<std::string> files;
   std::string list, groups, map_array, shard = "1/1", on_error = "stop";
-  ComputedMapArguments potential;
+  PotentialRequest potential;
   MatrixRun run;
   bool quiet = false;
   StructureOptions structure;

@@ -2,6 +2,10 @@
 #include <iostream>
 
 #include "cli/verbs.h"
+#ifdef ESPDIFF_HAVE_HDF5
+#include "ensemble/ensemble_file.h"
+#include "ensemble/ensemble_run.h"
+#endif
 #include "matrix/matrix_run.h"
 #include "matrix/write_matrix.h"
 
@@ -14,7 +18,24 @@ struct Arguments {
   bool quiet = false;
 };
 
+#ifdef ESPDIFF_HAVE_HDF5
+/// Parts of an ensemble.
+int run_ensemble_merge(const Arguments& a) {
+  EnsembleRun run;
+  run.output = a.run.output;
+  run.overwrite = a.run.overwrite;
+  const EnsembleReport report = merge_ensemble(a.states, run);
+  if (a.quiet) return 0;
+  std::cout << report.n_frames << " frames merged into " << report.path << "; the statistics: espdiff ensemble --from "
+            << report.path << " -o " << a.run.output << '\n';
+  return 0;
+}
+#endif
+
 int run(const Arguments& a, const Context&) {
+#ifdef ESPDIFF_HAVE_HDF5
+  if (is_hdf5_file(a.states.front())) return run_ensemble_merge(a);
+#endif
   const MatrixReport report = merge_matrix(a.states, a.run);
   if (a.quiet) return 0;
   const Matrix& matrix = *report.matrix;
@@ -29,13 +50,14 @@ int run(const Arguments& a, const Context&) {
 
 Verb add_merge(CLI::App& app) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* parser = app.add_subcommand("merge", "Merge the parts of a matrix");
+  CLI::App* parser = app.add_subcommand("merge", "Merge the parts of a matrix or an ensemble");
   parser->footer(
-      "The parts are the state files of `espdiff matrix --shard I/N`. The results are those of one process, byte by "
-      "byte.\n\n"
+      "The parts are the state files of `espdiff matrix --shard I/N`, or the HDF5 files of `espdiff ensemble --shard "
+      "I/N`. The results are those of one process, byte by byte.\n\n"
       "Example:\n  espdiff merge part.shard-*-of-8.state -o all");
-  parser->add_option("STATE", a->states, "State files of all parts")->required();
-  parser->add_option("-o,--output", a->run.output, "Prefix of the results OUT.csv and OUT.json")->required();
+  parser->add_option("STATE", a->states, "State files, or HDF5 files, of all parts")->required();
+  parser->add_option("-o,--output", a->run.output, "Prefix of the results: OUT.csv and OUT.json, or OUT.h5")
+      ->required();
   parser->add_option("--cluster-by", a->run.cluster_by, "Metric for clustering, as in `espdiff matrix`");
   parser->add_flag("--overwrite", a->run.overwrite, "Replace results that exist");
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");

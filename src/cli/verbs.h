@@ -30,6 +30,9 @@ Verb add_compare(CLI::App& app);
 Verb add_trajectory(CLI::App& app);
 Verb add_matrix(CLI::App& app);
 Verb add_merge(CLI::App& app);
+#ifdef ESPDIFF_HAVE_HDF5
+Verb add_ensemble(CLI::App& app);
+#endif
 Verb add_surface(CLI::App& app);
 Verb add_plot(CLI::App& app);
 Verb add_potential(CLI::App& app);

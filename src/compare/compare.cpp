@@ -312,13 +312,16 @@ struct Series::Steps {
     clock.lap("certificate");
   }
 
-  /// [residue] one side's potentials on its own surface, at the first of the offsets.
-  std::vector<double> own_of(const GridPtr& map, const MeshPtr& mesh, const AtomsPtr& atoms,
-                             const Molecule& molecule) const {
-    const OutsideSamples samples = sample_outside(
-        engine, map, mesh, atoms, static_cast<float>(options.surface.isovalue), options.offsets_A.front());
-    return own_potentials(engine.download_shape(mesh), engine.vertex_residues(mesh, atoms), samples.values,
-                          molecule.residues.size());
+  /// [residue] the target's potentials on its own surface, at the first of the offsets.
+  std::vector<double> own_of_target(const GridPtr& map, const Surface& target_surface, const Molecule& target) const {
+    OutsideSamples samples = sample_outside(engine, map, target_surface.mesh, target_surface.atoms,
+                                            static_cast<float>(options.surface.isovalue), options.offsets_A.front());
+    for (std::size_t v = 0; v < samples.values.size(); ++v) {
+      if (samples.inside[v] != 0) samples.values[v] = std::numeric_limits<float>::quiet_NaN();
+    }
+    return own_potentials(engine.download_shape(target_surface.mesh),
+                          engine.vertex_residues(target_surface.mesh, target_surface.atoms), samples.values,
+                          target.residues.size());
   }
 
   /// Each residue's difference from its potentials on its own surfaces, and how the mapped differences agree.
@@ -330,9 +333,10 @@ struct Series::Steps {
       if (target_map != nullptr) result.certificate.not_checked.emplace_back("residues");
       return;
     }
-    const std::vector<double> own = own_of(source_map.map, mapping.source, surface.atoms, *source.molecule);
-    set_own_differences(result.residues, own,
-                        own_of(target_map, target_surface.mesh, target_surface.atoms, *target.molecule), target_of);
+    const MappedSurface& s = result.surface;
+    const std::vector<double> own = own_potentials(engine.download_shape(mapping.source), s.residue, s.potential_source,
+                                                   source.molecule->residues.size());
+    set_own_differences(result.residues, own, own_of_target(target_map, target_surface, *target.molecule), target_of);
     result.certificate.residues = check_residues(result.residues, own);
   }
 

@@ -22,9 +22,13 @@ bool copy_flags(std::vector<float>& unmatched, const std::vector<float>& marked)
   return any;
 }
 
+/// Fit and distances, which each triangle has by itself.
 void measure(Engine& engine, Mapping& mapping, const AtomsPtr& target_atoms, const MeshPtr& target, float isovalue) {
   mapping.fit = engine.fit(mapping.matched, target_atoms, isovalue);
   mapping.to_target = engine.distances(mapping.matched, target, kMatchLimit_A);
+}
+
+void measure_distortion(Engine& engine, Mapping& mapping) {
   mapping.distortion = engine.distortion(mapping.matched_source, mapping.matched, kAreaRatioLimit);
 }
 
@@ -60,14 +64,16 @@ void find_matched_part(Engine& engine, Mapping& mapping, const AtomsPtr& target_
     mapping.matched_source = mapping.source;
   }
   measure(engine, mapping, target_atoms, target, isovalue);
+  measure_distortion(engine, mapping);
   mapping.intersections = engine.self_intersections(mapping.matched);
-  while (has_flags && copy_flags(mapping.unmatched, invalid_triangles(engine, mapping))) {
+  if (!has_flags || !copy_flags(mapping.unmatched, invalid_triangles(engine, mapping))) return;
+  // Only the area growth depends on a triangle's surroundings and must be checked again: whatever fitted, fits still.
+  mapping.intersections = {};
+  do {
     extract_matched(engine, mapping);
-    // No intersecting pair remains after removing its triangles. Only the area growth must be checked again, because it
-    // depends on the surroundings.
-    mapping.intersections = {};
-    measure(engine, mapping, target_atoms, target, isovalue);
-  }
+    measure_distortion(engine, mapping);
+  } while (copy_flags(mapping.unmatched, engine.download(mapping.distortion.excessive)));
+  measure(engine, mapping, target_atoms, target, isovalue);
 }
 
 void drop_closed_cavities(Engine& engine, Mapping& mapping) {

@@ -169,6 +169,19 @@ LoadedState load_frame(const StructureFile& file, const StructureOptions& struct
   return state;
 }
 
+void refuse_options_of_files(const InputOptions& options, StateRole role, const std::string& whose) {
+  const bool is_target = role == StateRole::kTarget;
+  const SideInput& own = is_target ? options.target : options.source;
+  for (const auto& [name, text] : {std::pair("select", &options.both.select),
+                                   {"leave-out", &options.leave_out},
+                                   {is_target ? "target-select" : "source-select", &own.select},
+                                   {"assembly", &options.assembly},
+                                   {"topology", &options.both.topology},
+                                   {is_target ? "target-topology" : "source-topology", &own.topology}}) {
+    if (!text->empty()) throw InputError(option(name) + " is of structures in files, and " + whose);
+  }
+}
+
 void check_left_out(const InputOptions& options, const std::vector<const LoadedState*>& states) {
   if (options.leave_out.empty()) return;
   const bool some = std::any_of(states.begin(), states.end(), [](const LoadedState* s) { return s->n_left_out > 0; });

@@ -72,6 +72,11 @@ LoadedState load_frame(const StructureFile& file, const StructureOptions& struct
                        const Molecule& source, bool source_is_prepared, const InputOptions& options,
                        const Progress& progress);
 
+/// For a molecule that comes from no file.
+/// @param whose what the molecule is and what to do instead, for the message: "b is ...; choose ..."
+/// @throws InputError when an option is given that says how a file is read or what of it is taken
+void refuse_options_of_files(const InputOptions& options, StateRole role, const std::string& whose);
+
 /// @throws InputError when leave_out dropped no atom of any state
 void check_left_out(const InputOptions& options, const std::vector<const LoadedState*>& states);
 

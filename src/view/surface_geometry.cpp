@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/smooth_field.h"
 #include "view/map_sampling.h"
 
 namespace espdiff {
@@ -153,7 +154,8 @@ SurfaceGeometry::SurfaceGeometry(const SurfaceFile& surface, const RunRecord& re
   inside_maps_ = source_inside && target_inside;
   add_potentials(points_, surface);
   add_numbers(points_, "displacement", surface.displacement, -1);
-  add_numbers(points_, "uncertainty", surface.uncertainty(), -1);
+  add_numbers(points_, "slip", surface.slip, -1);
+  add_numbers(points_, "uncertainty", drawn_uncertainty(surface.triangles, surface.uncertainty()), -1);
   add_numbers(points_, "residueIndex", surface.residue_index, -1);
 }
 

@@ -17,8 +17,9 @@ namespace espdiff {
 enum class SurfacePart { kTrusted, kCorrupt, kUnmatched };
 
 /// Names of the point arrays that the shaders need besides positions and normals.
-inline constexpr const char* kSurfaceAttributes[] = {"startMC",         "startNormalMC", "sourcePlace", "targetPlace",
-                                                     "vertexPotential", "displacement",  "uncertainty", "residueIndex"};
+inline constexpr const char* kSurfaceAttributes[] = {"startMC",     "startNormalMC",   "sourcePlace",
+                                                     "targetPlace", "vertexPotential", "displacement",
+                                                     "slip",        "uncertainty",     "residueIndex"};
 
 /// How a surface is drawn; may change between pictures.
 struct SurfaceLook {

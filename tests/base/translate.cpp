@@ -33,7 +33,7 @@ TEST_CASE("an error of ours stays what it is") {
 }
 
 TEST_CASE("a failure of the file system names the file and the reason") {
-  const Error error = translation_of([] { std::filesystem::file_size("/no/such/file"); });
+  const Error error = translation_of([] { (void)std::filesystem::file_size("/no/such/file"); });
   CHECK(error.error_class() == ErrorClass::kIo);
   CHECK(error.what() ==
         std::string("/no/such/file: cannot be used: No such file or directory; check the path and its permissions"));

@@ -33,9 +33,9 @@ TEST_CASE("each setting accepts its own default and each choice") {
     }
     if (setting.kind == SettingKind::kNumber || setting.kind == SettingKind::kInteger) {
       const bool is_share = setting.help.find("0 to 1") != std::string::npos;
-      const std::string value = is_share ? "0.7" : "7";
-      setting.set(options, value);
-      CHECK(setting.get(options) == value);
+      const std::string number = is_share ? "0.7" : "7";
+      setting.set(options, number);
+      CHECK(setting.get(options) == number);
     }
   }
   CHECK(names.size() > 20);

@@ -70,8 +70,8 @@ def test_given_maps(made):
     given = espdiff.compare(*made, source_map=maps[0], target_map=maps[1], **QUICK)
     direct = espdiff.compare(*made, potential="coulomb", **QUICK)
     assert given.has_potential
-    # Interpolated from a lattice of 1 A, against the sum at each vertex.
-    assert given.metrics["mean_abs_difference"] == pytest.approx(direct.metrics["mean_abs_difference"], rel=0.2)
+    # Interpolated from a lattice of 1 A, against the sum at each vertex: 0.4 % measured.
+    assert given.metrics["mean_abs_difference"] == pytest.approx(direct.metrics["mean_abs_difference"], rel=0.02)
     with pytest.raises(espdiff.InputError, match="computed potentials, and maps were given"):
         espdiff.compare(*made, source_map=maps[0], target_map=maps[1], potential="pb")
 

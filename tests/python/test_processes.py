@@ -81,7 +81,7 @@ def test_memory_stays_flat(made):
         with open("/proc/self/statm") as statm:
             return int(statm.read().split()[1]) * resource.getpagesize()
 
-    series = 40
+    series = int(os.environ.get("ESPDIFF_COMPARISONS", "40"))
     for _ in range(10):
         espdiff.compare(*made, potential="none", **QUICK)
     before = resident()
@@ -92,7 +92,7 @@ def test_memory_stays_flat(made):
     assert grown < 5e6, f"{grown / series / 1e3:.1f} kB a comparison"
 
 
-def test_positions_are_copied_once():
+def test_numpy_copies_no_positions():
     import tracemalloc
 
     n = 100_000
@@ -103,4 +103,4 @@ def test_positions_are_copied_once():
     _, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     assert len(state) == n
-    assert peak < positions.nbytes / 4  # NumPy's allocations are traced: no copy of its own
+    assert peak < positions.nbytes / 4  # tracemalloc sees NumPy's copies, not the engine's one

@@ -1,0 +1,185 @@
+// distances_to_triangles.cu: nearest triangles of points, one by one or in blocks of lanes.
+#include "cuda/surface/distances_to_triangles.h"
+
+#include "cuda/device/spatial_order.h"
+#include "cuda/surface/point_sums.h"
+
+namespace espdiff::ESPDIFF_BACKEND {
+namespace {
+
+/// Points that one thread takes one after the other: the triangle of the point before is a good guess.
+constexpr std::size_t kRun = 32;
+
+#if !defined(__CUDACC__)
+
+/// Square of a distance that no two atoms have; its own square is finite.
+constexpr float kFarthest = 1e15F;
+
+struct LaneVector {
+  Lanes x, y, z;
+};
+
+struct Search {
+  TriangleTreeView tree;
+  PointList points;
+  float* distances;
+};
+
+ESPDIFF_INLINE LaneVector from_corner(const LaneVector& p, const Vec3f& corner) {
+  return {p.x - corner.x, p.y - corner.y, p.z - corner.z};
+}
+ESPDIFF_INLINE Lanes dot_lanes(const LaneVector& a, const Vec3f& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+ESPDIFF_INLINE LaneVector cross_lanes(const Vec3f& a, const LaneVector& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+ESPDIFF_INLINE Lanes outside_lanes(const Lanes& x, float lower, float upper) {
+  const Lanes below = lower - x, above = x - upper, gap = chosen(below > above, below, above);
+  return (Lanes)((LaneMask)gap & (gap > Lanes{}));
+}
+
+// Inlined into each instruction set's version, unlike those of Vec3.
+ESPDIFF_INLINE float dot_here(const Vec3f& a, const Vec3f& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+ESPDIFF_INLINE Vec3f cross_here(const Vec3f& a, const Vec3f& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+ESPDIFF_INLINE Vec3f minus(const Vec3f& a, const Vec3f& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+
+/// squared_distance_to_segment() per lane; a segment without length gives t = 0.
+ESPDIFF_INLINE Lanes segment_lanes(const LaneVector& ap, const Vec3f& ab) {
+  const float length_squared = dot_here(ab, ab);
+  Lanes t = dot_lanes(ap, ab) / (length_squared > 0 ? length_squared : 1.0F);
+  t = (Lanes)((LaneMask)t & (t > Lanes{}));
+  t = smaller_lanes(t, Lanes{} + 1.0F);
+  const Lanes dx = ap.x - t * ab.x, dy = ap.y - t * ab.y, dz = ap.z - t * ab.z;
+  return dx * dx + dy * dy + dz * dz;
+}
+
+/// squared_distance_to_triangle() per lane.
+ESPDIFF_INLINE Lanes triangle_lanes(const LaneVector& p, const PlacedTriangle& t) {
+  const Vec3f ab = minus(t.b, t.a), bc = minus(t.c, t.b), ca = minus(t.a, t.c);
+  const Vec3f n = cross_here(ab, minus(t.c, t.a));
+  const float nn = dot_here(n, n);
+  const LaneVector pa = from_corner(p, t.a), pb = from_corner(p, t.b), pc = from_corner(p, t.c);
+  const Lanes edges = smaller_lanes(segment_lanes(pa, ab), smaller_lanes(segment_lanes(pb, bc), segment_lanes(pc, ca)));
+  if (!(nn > 0)) return edges;
+  // Negative where the foot on the plane lies beside the face.
+  const Lanes inside =
+      smaller_lanes(dot_lanes(cross_lanes(ab, pa), n),
+                    smaller_lanes(dot_lanes(cross_lanes(bc, pb), n), dot_lanes(cross_lanes(ca, pc), n)));
+  const Lanes height = dot_lanes(pa, n);
+  return chosen(inside < Lanes{}, edges, height * height / nn);
+}
+
+ESPDIFF_INLINE Box box_of(const PlacedTriangle& t) {
+  return {
+      {smaller(t.a.x, smaller(t.b.x, t.c.x)), smaller(t.a.y, smaller(t.b.y, t.c.y)),
+       smaller(t.a.z, smaller(t.b.z, t.c.z))},
+      {larger(t.a.x, larger(t.b.x, t.c.x)), larger(t.a.y, larger(t.b.y, t.c.y)), larger(t.a.z, larger(t.b.z, t.c.z))}};
+}
+
+/// squared_distance_to_box() per lane.
+ESPDIFF_INLINE Lanes box_lanes(const LaneVector& p, const Box& box) {
+  const Lanes dx = outside_lanes(p.x, box.lower.x, box.upper.x), dy = outside_lanes(p.y, box.lower.y, box.upper.y),
+              dz = outside_lanes(p.z, box.lower.z, box.upper.z);
+  return dx * dx + dy * dy + dz * dz;
+}
+
+/// may_be_nearer() for any lane.
+ESPDIFF_INLINE bool any_may_be_nearer(const Lanes& box, const Lanes& nearest) {
+  return any_lane(box < 1.001F * nearest + 1e-9F);
+}
+
+/// Goes through the nodes that may hold a nearer triangle for any lane; the child nearer to the first lane comes first.
+ESPDIFF_INLINE Lanes nearest_of_lanes(const TriangleTreeView& tree, const LaneVector& p) {
+  struct Pending {
+    std::uint32_t node;
+    Lanes distance;
+  };
+  Pending stack[32];
+  int depth = 0;
+  Lanes nearest = Lanes{} + kFarthest;
+  std::uint32_t node = 0;
+  Lanes distance{};
+  for (;;) {
+    if (any_may_be_nearer(distance, nearest)) {
+      if (node + 1 < tree.n_leaves) {
+        const std::uint32_t left = 2 * node + 1;
+        const Lanes of_left = box_lanes(p, tree.boxes[left]), of_right = box_lanes(p, tree.boxes[left + 1]);
+        const bool left_first = of_left[0] <= of_right[0];
+        stack[depth].node = left_first ? left + 1 : left;
+        stack[depth++].distance = left_first ? of_right : of_left;
+        node = left_first ? left : left + 1;
+        distance = left_first ? of_left : of_right;
+        continue;
+      }
+      const std::uint32_t begin = (node + 1 - tree.n_leaves) * kTrianglesPerLeaf;
+      const std::uint32_t end = std::min(begin + kTrianglesPerLeaf, tree.n_triangles);
+      for (std::uint32_t t = begin; t < end; ++t) {
+        if (any_may_be_nearer(box_lanes(p, box_of(tree.triangles[t])), nearest))
+          nearest = smaller_lanes(triangle_lanes(p, tree.triangles[t]), nearest);
+      }
+    }
+    do {
+      if (depth == 0) return nearest;
+      --depth;
+    } while (!any_may_be_nearer(stack[depth].distance, nearest));
+    node = stack[depth].node;
+    distance = stack[depth].distance;
+  }
+}
+
+ESPDIFF_INLINE void search_block(const Search& in, std::size_t block) {
+  const std::size_t begin = block * kBlock, end = std::min(begin + kBlock, in.points.n);
+  LaneVector p{};
+  for (std::size_t lane = 0; lane < kBlock; ++lane) {
+    const Vec3f point = in.points.points[in.points.list[std::min(begin + lane, end - 1)]].xyz();
+    p.x[lane] = point.x;
+    p.y[lane] = point.y;
+    p.z[lane] = point.z;
+  }
+  const Lanes nearest = nearest_of_lanes(in.tree, p);
+  for (std::size_t lane = 0; begin + lane < end; ++lane)
+    in.distances[in.points.list[begin + lane]] = sqrtf(nearest[lane]);
+}
+
+ESPDIFF_MULTIVERSION void search_blocks(const Search& in, std::size_t first, std::size_t last) {
+  for (std::size_t block = first; block < last; ++block) search_block(in, block);
+}
+
+#endif
+
+}  // namespace
+
+Buffer<float> distances_point_by_point(const TriangleTree& tree, const Buffer<Vec4f>& points) {
+  const TriangleTreeView view = tree.view();
+  const std::size_t n = points.size();
+  const Buffer<std::uint32_t> order = spatial_order(points);
+  Buffer<float> distances(n);
+  const Vec4f* const x = raw(points);
+  const std::uint32_t* const list = raw(order);
+  float* const distance = raw(distances);
+  for_each_index((n + kRun - 1) / kRun, [=] ESPDIFF_HD(std::size_t run) {
+    std::uint32_t guess = 0;
+    for (std::size_t i = run * kRun; i < (run + 1) * kRun && i < n; ++i) {
+      const NearestTriangle nearest = nearest_triangle(view, x[list[i]].xyz(), guess);
+      distance[list[i]] = sqrtf(nearest.squared_distance);
+      guess = nearest.place;
+    }
+  });
+  return distances;
+}
+
+Buffer<float> distances_to_triangles(const TriangleTree& tree, const Buffer<Vec4f>& points) {
+#if defined(__CUDACC__)
+  return distances_point_by_point(tree, points);
+#else
+  const Buffer<std::uint32_t> order = spatial_order(points);
+  Buffer<float> distances(points.size());
+  const Search in{tree.view(), {raw(points), raw(order), points.size()}, raw(distances)};
+  for_all_blocks(points.size(), [=](std::size_t first, std::size_t last) { search_blocks(in, first, last); });
+  return distances;
+#endif
+}
+
+}  // namespace espdiff::ESPDIFF_BACKEND

@@ -1,0 +1,181 @@
+// ensemble.cpp: `espdiff ensemble --group NAME FILE... -o OUT`.
+#include <cstdio>
+#include <iostream>
+
+#include "base/error.h"
+#include "base/printable.h"
+#include "cli/ensemble_inputs.h"
+#include "cli/options.h"
+#include "cli/verbs.h"
+#include "engine/engine.h"
+#include "ensemble/ensemble_file.h"
+#include "ensemble/ensemble_result.h"
+#include "ensemble/ensemble_run.h"
+#include "ensemble/write_ensemble.h"
+#include "io/check_outputs.h"
+#include "matrix/matrix_run.h"
+
+namespace espdiff::cli {
+namespace {
+
+struct Arguments {
+  EnsembleInputArguments inputs;
+  EnsembleRun run;
+  EnsembleOptions statistics;
+  std::string from, shard = "1/1", on_error = "stop", equilibration = "none", control = "tfce";
+  bool quiet = false;
+  DeviceArguments device;
+  GivenSettings settings;
+};
+
+/// The statistics of a complete file.
+void finish(const Arguments& a, const EnsembleFile& file, const Context& context) {
+  context.progress->report("statistics", 1.0);
+  const EnsembleResult result = analyse_ensemble(file, a.statistics);
+  const std::vector<std::string> written = write_ensemble(a.run.output, file, result);
+  if (a.quiet) return;
+  print_ensemble(std::cout, file, result);
+  std::cout << "\nwritten:";
+  for (const std::string& path : written) std::cout << ' ' << path;
+  std::cout << '\n';
+}
+
+void print_run(const EnsembleReport& report, const Engine& engine) {
+  const std::size_t n = report.n_frames - report.n_resumed;
+  std::cout << n << " frames mapped in " << in_words(report.seconds);
+  if (n > 0 && report.seconds > 0) {
+    char each[32];
+    std::snprintf(each, sizeof each, "%.2f", report.seconds / static_cast<double>(n));
+    std::cout << ", " << each << " s a frame";
+  }
+  std::cout << " (" << engine.description() << ")";
+  if (report.n_resumed > 0) std::cout << "; " << report.n_resumed << " were there already";
+  if (report.n_damaged > 0) std::cout << "; " << report.n_damaged << " were incomplete, and computed again";
+  if (report.n_skipped > 0) std::cout << "; " << report.n_skipped << " could not be mapped and have no values";
+  std::cout << "\n" << report.path;
+  const char* separator = ", by stage: ";
+  for (const auto& [stage, ms] : report.time_ms) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%s%s %.0f ms", separator, stage.c_str(), ms / static_cast<double>(n));
+    std::cout << text;
+    separator = ", ";
+  }
+  std::cout << "\n\n";
+}
+
+int run_from(const Arguments& a, const Context& context) {
+  check_outputs({a.from}, ensemble_outputs(a.run.output, true));
+  const EnsembleFile file(a.from, false);
+  finish(a, file, context);
+  return 0;
+}
+
+int run(Arguments& a, const Context& context) {
+  a.statistics.equilibration = parse_equilibration(a.equilibration);
+  a.statistics.control = a.control == "tfce" ? ErrorControl::kTfce : ErrorControl::kMaxT;
+  const bool names_inputs = !a.inputs.groups.empty() || !a.inputs.list.empty();
+  if (!a.from.empty()) {
+    if (names_inputs) throw InputError("--from reads mapped frames from a file; leave out --group and --list");
+    return run_from(a, context);
+  }
+  const CompareOptions options = make_options(a.settings);
+  a.run.shard = parse_shard(a.shard);
+  a.run.skip_errors = a.on_error == "skip";
+  context.progress->report("read", 0.0);
+  EnsembleInputs inputs(a.inputs, options, *context.progress);
+  std::vector<std::string> outputs = ensemble_outputs(a.run.output, true);
+  outputs.push_back(ensemble_path(a.run.output, a.run.shard));
+  check_outputs(inputs.files(), outputs);
+  const std::string warning = design_warning(inputs.plan());
+  if (!warning.empty()) std::fprintf(stderr, "espdiff: warning: %s\n", printable(warning).c_str());
+  const std::unique_ptr<Engine> engine = make_engine(a.device);
+  inputs.choose_template(*context.progress);
+  EnsemblePlan plan = inputs.plan();
+  plan.device = engine->back_end();
+  const EnsembleReport report = run_ensemble(
+      *engine, plan, inputs.source(), options, a.run, [&](std::size_t frame) { return inputs.frame(frame); },
+      *context.progress);
+  if (!a.quiet) print_run(report, *engine);
+  if (a.run.shard.count > 1) return 0;
+  finish(a, EnsembleFile(report.path, false), context);
+  return 0;
+}
+
+void add_run_options(CLI::App& p, Arguments& a) {
+  p.add_flag("--resume", a.run.resume, "Go on with OUT.h5 of an interrupted run; a complete one gets new statistics")
+      ->group("Run");
+  p.add_flag("--overwrite", a.run.overwrite, "Replace OUT.h5 if it exists")->group("Run");
+  p.add_option("--on-error", a.on_error, "A frame that cannot be mapped stops the run, or has no values")
+      ->check(CLI::IsMember({"stop", "skip"}))
+      ->capture_default_str()
+      ->group("Run");
+  p.add_option("--shard", a.shard,
+               "Map part I of N of the frames, I/N, into OUT.shard-I-of-N.h5; `espdiff merge` merges the parts")
+      ->capture_default_str()
+      ->group("Run");
+}
+
+void add_statistics_options(CLI::App& p, Arguments& a) {
+  const char* const group = "Statistics";
+  p.add_option("--from", a.from, "Compute the statistics of this complete OUT.h5 again; maps nothing")->group(group);
+  p.add_option("--alpha", a.statistics.alpha, "Significance level; intervals have the confidence 1 - alpha")
+      ->check(CLI::Range(1e-6, 0.5))
+      ->capture_default_str()
+      ->group(group);
+  p.add_option("--control", a.control, "The family-wise p that patches are made of")
+      ->check(CLI::IsMember({"tfce", "max-t"}))
+      ->capture_default_str()
+      ->group(group);
+  p.add_option("--equilibration", a.equilibration,
+               "Frames to cut off at the start of each replicate: none, a number, or auto, which leaves the most "
+               "effective samples of RMSD and mean potential")
+      ->capture_default_str()
+      ->group(group);
+  p.add_option("--most-missing", a.statistics.most_missing,
+               "A vertex without a counterpart in a larger share of a group's frames is not tested")
+      ->check(CLI::Range(0.0, 0.9))
+      ->capture_default_str()
+      ->group(group);
+  p.add_option("--arrangements", a.statistics.test.most_arrangements,
+               "Exchanges of labels at most; all of them where there are fewer")
+      ->check(CLI::Range(20, 1000000))
+      ->capture_default_str()
+      ->group(group);
+  p.add_option("--bootstrap", a.statistics.test.n_bootstrap, "Samples, where a group has one replicate")
+      ->check(CLI::Range(99, 100000))
+      ->capture_default_str()
+      ->group(group);
+  p.add_option("--seed", a.statistics.test.seed, "Of random numbers; results name it")
+      ->capture_default_str()
+      ->group(group);
+}
+
+}  // namespace
+
+Verb add_ensemble(CLI::App& app) {
+  auto a = std::make_shared<Arguments>();
+  CLI::App* parser =
+      app.add_subcommand("ensemble", "Compare two groups of simulations: where the difference is more than noise");
+  parser->footer(
+      "One surface, the template, is mapped onto every frame. Each replicate of a group is one sample. Writes OUT.h5 "
+      "(potential of\n"
+      "each frame in each vertex; HDF5), OUT.vtp (means, difference, intervals, p), OUT.residues.csv, OUT.patches.csv, "
+      "OUT.json.\n"
+      "docs/ensembles.md explains them.\n\n"
+      "Examples:\n"
+      "  espdiff ensemble --group wild w1.pdb w2.pdb w3.pdb w4.pdb --group mutant m1.pdb m2.pdb m3.pdb m4.pdb \\\n"
+      "    --charges wild=wild.pqr --charges mutant=mutant.pqr -o mutant\n"
+      "  espdiff ensemble --list runs.csv -o mutant --resume\n"
+      "  espdiff ensemble --list runs.csv --shard 2/8 -o part     # one of eight; then:\n"
+      "  espdiff merge part.shard-*-of-8.h5 -o all && espdiff ensemble --from all.h5 -o all");
+  add_ensemble_inputs(*parser, a->inputs);
+  parser->add_option("-o,--output", a->run.output, "Prefix of the results")->required();
+  add_run_options(*parser, *a);
+  add_statistics_options(*parser, *a);
+  add_settings(*parser, a->settings, SettingsFor::kVariants);
+  add_device_options(*parser, a->device);
+  parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
+  return {parser, [a](const Context& context) { return run(*a, context); }};
+}
+
+}  // namespace espdiff::cli

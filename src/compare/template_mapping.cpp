@@ -1,0 +1,181 @@
+// template_mapping.cpp: the stages of a frame, in order.
+#include "compare/template_mapping.h"
+
+#include <limits>
+#include <utility>
+
+#include "align/superpose.h"
+#include "base/error.h"
+#include "compare/atom_paths.h"
+#include "compare/build_surface.h"
+#include "compare/certificate.h"
+#include "compare/common_frame.h"
+#include "compare/domain_motions.h"
+#include "compare/input.h"
+#include "compare/input_warnings.h"
+#include "compare/map_recipe.h"
+#include "compare/mapping.h"
+#include "compare/options.h"
+#include "compare/paired_residues.h"
+#include "compare/result.h"
+#include "compare/sample_outside.h"
+#include "compare/side_maps.h"
+#include "compare/stage_clock.h"
+#include "engine/engine.h"
+#include "engine/morph_stage.h"
+
+namespace espdiff {
+namespace {
+
+void check_options(const CompareOptions& options) {
+  if (options.method != Method::kMorph)
+    throw InputError(option("method", "deform") +
+                     ": a template is mapped by the morph, whose correspondence does not slide; leave the option out");
+  if (options.offsets_A.size() > 1)
+    throw InputError(option("offset") +
+                     ": a list of distances was given, and an ensemble has one value for a vertex; give one");
+  if (options.round_trip)
+    throw InputError(switched_on("round-trip") +
+                     ": frames of an ensemble are not mapped back; check some of them by a comparison of the pair");
+}
+
+}  // namespace
+
+struct TemplateMapping::Parts {
+  Engine& engine;
+  CompareInput source;
+  CompareOptions options;
+  RigidTransform to_common;
+  Surface surface{};
+  MeshPtr regularized{};
+  std::size_t n_vertices = 0;
+  GridPtr map{};
+  TemplateSurface described{};
+
+  float isovalue() const { return static_cast<float>(options.surface.isovalue); }
+
+  void prepare(const Progress& progress) {
+    std::vector<std::pair<std::string, double>> times;
+    StageClock clock(times);
+    to_common = principal_frame(source.molecule->positions);
+    surface = build_surface(engine, *source.molecule, to_common, options.surface, progress, clock);
+    regularized = regularize(engine, surface, surface.mesh, options, progress, nullptr);
+    n_vertices = engine.n_vertices(regularized);
+    describe();
+  }
+
+  void describe() {
+    const RigidTransform own = inverse(to_common);
+    Mesh mesh = engine.download_shape(regularized);
+    described.triangles = std::move(mesh.triangles);
+    for (const Vec3f& p : mesh.positions) described.positions.push_back(own.apply(static_cast<Vec3d>(p)));
+    for (const Vec3f& n : engine.level_set_normals(regularized, surface.atoms, isovalue()))
+      described.normals.push_back(static_cast<Vec3f>(own.rotate(static_cast<Vec3d>(n))));
+    described.residue = engine.vertex_residues(regularized, surface.atoms);
+    described.summary = surface.summary;
+  }
+
+  GridPtr frame_map(const CompareInput& frame, const RigidTransform& to_map, const Progress& progress) {
+    const PotentialUnit unit = unit_of(frame);
+    if (map == nullptr && source.make_map)
+      map = device_map(engine, source, inverse(to_common), nullptr, unit, options.temperature_K, progress).map;
+    return device_map(engine, frame, to_map, frame.make_map ? map : nullptr, unit, options.temperature_K, progress).map;
+  }
+
+  Mapping morph(const CompareInput& frame, const Surface& target, const CommonFrame& common, const AtomPairing& pairing,
+                const Progress& progress) {
+    MorphOptions morph = options.morph;
+    morph.isovalue = options.surface.isovalue;
+    morph.max_edge_A = options.morph_max_edge * options.surface.grid_spacing_A;
+    const auto paths = atom_paths(*source.molecule, *frame.molecule, pairing, common.from_source, common.from_target,
+                                  common.domains, options.surface.radius_scale, progress);
+    const MorphResult morphed = engine.morph(regularized, paths, surface.atoms, target.atoms, morph, "morph", progress);
+    Mapping mapping;
+    mapping.source = morphed.source;
+    mapping.mapped = morphed.mapped;
+    mapping.unmatched = engine.download(morphed.unmatched);
+    mapping.path_length = engine.download(morphed.path_length);
+    return mapping;
+  }
+
+  /// The potential at the template's own vertices; those that the morph added come after them.
+  std::vector<float> sample(const GridPtr& frame_map, const CompareInput& frame, const Mapping& mapping,
+                            const Surface& target, const std::vector<Triangle>& triangles, double& outside) const {
+    std::vector<bool> matched(n_vertices, false);
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      if (mapping.unmatched[t] != 0) continue;
+      for (const std::uint32_t v : triangles[t]) {
+        if (v < n_vertices) matched[v] = true;
+      }
+    }
+    OutsideSamples samples =
+        sample_outside(engine, frame_map, mapping.mapped, target.atoms, isovalue(), options.offsets_A.front());
+    samples.values.resize(n_vertices);
+    const std::size_t n_outside = count_outside(frame, samples.values, matched);
+    outside = static_cast<double>(n_outside) / static_cast<double>(n_vertices);
+    for (std::size_t v = 0; v < n_vertices; ++v) {
+      if (!matched[v] || samples.inside[v] != 0) samples.values[v] = std::numeric_limits<float>::quiet_NaN();
+    }
+    return std::move(samples.values);
+  }
+
+  double same_residue(const CompareInput& frame, const Mapping& mapping, const Surface& target,
+                      const CompareResult& result) const {
+    MappedSurface s;
+    Mesh mesh = engine.download_shape(mapping.mapped);
+    s.triangles = std::move(mesh.triangles);
+    for (const Vec3f& p : mesh.positions) s.positions.push_back(static_cast<Vec3d>(p));
+    s.unmatched.assign(mapping.unmatched.begin(), mapping.unmatched.end());
+    return same_residue_share(s, engine.vertex_residues(mapping.source, surface.atoms),
+                              engine.vertex_residues(mapping.mapped, target.atoms),
+                              paired_residues(*source.molecule, *frame.molecule, result.pairing));
+  }
+};
+
+TemplateMapping::TemplateMapping(Engine& engine, const CompareInput& source, const CompareOptions& options,
+                                 const Progress& progress)
+    : parts_(new Parts{engine, source, options, {}}) {
+  check_options(options);
+  parts_->prepare(progress);
+}
+
+TemplateMapping::~TemplateMapping() = default;
+
+const TemplateSurface& TemplateMapping::surface() const { return parts_->described; }
+
+TemplateFrame TemplateMapping::map(const CompareInput& frame, const Progress& progress) {
+  Parts& p = *parts_;
+  TemplateFrame out;
+  StageClock clock(out.time_ms);
+  CompareResult result;
+  const CommonFrame common = align(*p.source.molecule, *frame.molecule, p.options, result);
+  result.warnings = input_warnings(*p.source.molecule, *frame.molecule, result);
+  clock.lap("align");
+  const GridPtr map = p.frame_map(frame, inverse(common.from_target), progress);
+  clock.lap("potential");
+  const Surface target =
+      build_surface(p.engine, *frame.molecule, common.from_target, p.options.surface, progress, clock);
+  Mapping mapping = p.morph(frame, target, common, result.pairing, progress);
+  clock.lap("morph");
+  find_matched_part(p.engine, mapping, target.atoms, target.mesh, p.isovalue());
+  result.certificate = certify(p.engine, mapping, target.mesh);
+  result.certificate.converged = true;
+  result.certificate.same_residue_area_fraction = p.same_residue(frame, mapping, target, result);
+  clock.lap("certificate");
+  out.potential = p.sample(map, frame, mapping, target, p.engine.download_shape(mapping.mapped).triangles,
+                           result.certificate.outside_maps);
+  judge(result, *p.source.molecule);
+  out.unit = unit_of(frame);
+  out.rmsd_A = result.rmsd_A;
+  out.unmatched_template = result.certificate.unmatched_source;
+  out.unmatched_frame = result.certificate.unmatched_target;
+  out.distance_A = result.certificate.mapped_to_target.mean_within_limit;
+  out.same_residue_area_fraction = result.certificate.same_residue_area_fraction;
+  out.trustworthy = result.certificate.trustworthy;
+  if (!result.certificate.reasons.empty()) out.reason = result.certificate.reasons.front().plain();
+  clock.lap("sample");
+  clock.finish();
+  return out;
+}
+
+}  // namespace espdiff

@@ -1,0 +1,66 @@
+// template_mapping.h: one surface, the template, mapped onto many frames: the potential of each frame in its vertices.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/handles.h"
+#include "base/progress.h"
+#include "base/types.h"
+#include "base/units.h"
+#include "compare/surface_summary.h"
+
+namespace espdiff {
+
+struct CompareInput;
+struct CompareOptions;
+
+/// The template's surface, regularized, without closed cavities unless the options keep them.
+struct TemplateSurface {
+  std::vector<Vec3d> positions;  ///< [vertex] in the template molecule's own frame, Angstrom
+  std::vector<Vec3f> normals;    ///< [vertex] unit, outward
+  std::vector<Triangle> triangles;
+  std::vector<std::int32_t> residue;  ///< [vertex] index of the template's residue, -1 for none
+  SurfaceSummary summary;
+};
+
+/// One frame, seen from the template.
+struct TemplateFrame {
+  /// [vertex of the template] potential of the frame where the vertex is mapped to; NaN if the vertex is unmatched or
+  /// lies outside the map.
+  std::vector<float> potential;
+  PotentialUnit unit = PotentialUnit::kUnknown;
+  double rmsd_A = 0;                                   ///< to the template, of the paired atoms
+  double unmatched_template = 0, unmatched_frame = 0;  ///< fractions of the areas, as in a Certificate
+  double distance_A = 0;                               ///< mean, from the mapped surface to the frame's
+  double same_residue_area_fraction = 0;
+  bool trustworthy = false;
+  std::string reason;  ///< the first reason why not
+  std::vector<std::pair<std::string, double>> time_ms;
+};
+
+/// Maps one surface onto many frames by the morph. The template's surface and its regularization are made once; a frame
+/// costs its own surface, potential and mapping. Frames do not depend on each other, nor on their order.
+///
+/// A frame's certificate has the checks of the mapping (fit, distances, intersections, unmatched areas) and those of
+/// the input; slip, round trip and the residues' own potentials are not checked.
+class TemplateMapping {
+ public:
+  /// @param source the template; its potential, if it has one, is where an iterative potential of a frame starts
+  /// @throws InputError (a method other than morph; a list of offsets), and as compare()
+  TemplateMapping(Engine& engine, const CompareInput& source, const CompareOptions& options, const Progress& progress);
+  ~TemplateMapping();
+
+  const TemplateSurface& surface() const;
+  /// @param frame has a map. @throws as compare()
+  TemplateFrame map(const CompareInput& frame, const Progress& progress);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace espdiff

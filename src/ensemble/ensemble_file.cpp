@@ -1,0 +1,235 @@
+// ensemble_file.cpp: frames written to their places, with a checksum after them.
+#include "ensemble/ensemble_file.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "base/error.h"
+#include "base/system_message.h"
+#include "ensemble/hdf5_layout.h"
+
+namespace espdiff {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Never 0, which means that a frame was not written.
+std::uint64_t checksum(std::size_t frame, const std::vector<float>& values, const std::vector<double>& numbers,
+                       const std::string& note) {
+  std::uint64_t sum = add_to_checksum(kChecksumStart ^ frame, values.data(), values.size() * sizeof(float));
+  sum = add_to_checksum(sum, numbers.data(), numbers.size() * sizeof(double));
+  sum = add_to_checksum(sum, note.data(), note.size());
+  return sum == 0 ? 1 : sum;
+}
+
+void write_at(int descriptor, const std::string& path, std::uint64_t offset, const void* bytes, std::size_t n) {
+  const char* at = static_cast<const char*>(bytes);
+  while (n > 0) {
+    const ssize_t written = ::pwrite(descriptor, at, n, static_cast<off_t>(offset));
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) throw IoError(path, std::string("cannot be written: ") + system_message(errno));
+    at += written;
+    offset += static_cast<std::uint64_t>(written);
+    n -= static_cast<std::size_t>(written);
+  }
+}
+
+void read_at(int descriptor, const std::string& path, std::uint64_t offset, void* bytes, std::size_t n) {
+  char* at = static_cast<char*>(bytes);
+  while (n > 0) {
+    const ssize_t got = ::pread(descriptor, at, n, static_cast<off_t>(offset));
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0)
+      throw IoError(path, got == 0 ? "ends too early" : std::string("cannot be read: ") + system_message(errno));
+    at += got;
+    offset += static_cast<std::uint64_t>(got);
+    n -= static_cast<std::size_t>(got);
+  }
+}
+
+/// A note of exactly kNoteBytes.
+std::string padded(std::string note) {
+  note.resize(kNoteBytes, '\0');
+  return note;
+}
+
+void extend(int descriptor, const std::string& path) {
+  const std::uint64_t intended = intended_size(path);
+  if (intended <= fs::file_size(path)) return;
+  if (::ftruncate(descriptor, static_cast<off_t>(intended)) != 0)
+    throw IoError(path, std::string("lost its end, and cannot be extended: ") + system_message(errno));
+}
+
+/// Removes what killed processes left while they made this file.
+void remove_unfinished(const std::string& path) {
+  const fs::path file(path);
+  const std::string start = file.filename().string() + ".new-";
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(file.has_parent_path() ? file.parent_path() : ".", ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name.rfind(start, 0) != 0) continue;
+    const long process = std::strtol(name.c_str() + start.size(), nullptr, 10);
+    if (process > 0 && ::kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH) fs::remove(entry, ignored);
+  }
+}
+
+}  // namespace
+
+struct EnsembleFile::Contents {
+  std::string path;
+  int descriptor = -1;
+  EnsemblePlan plan;
+  TemplateSurface surface;
+  EnsembleLayout layout;
+  std::vector<char> done;
+  std::size_t n_damaged = 0;
+
+  ~Contents() {
+    if (descriptor >= 0) ::close(descriptor);
+  }
+
+  void open(bool for_writing) {
+    descriptor = ::open(path.c_str(), (for_writing ? O_RDWR : O_RDONLY) | O_CLOEXEC);
+    if (descriptor < 0) throw IoError(path, std::string("cannot be opened: ") + system_message(errno));
+    if (for_writing && ::flock(descriptor, LOCK_EX | LOCK_NB) != 0)
+      throw IoError(path, "another run is writing this file; wait for its end, or name another output");
+    const std::uint64_t intended = intended_size(path);
+    if (for_writing) {
+      extend(descriptor, path);
+    } else if (intended > fs::file_size(path)) {
+      throw FormatError(path, 0, "lost its end; " + switched_on("resume") + " computes again what is missing");
+    }
+  }
+
+  void read() {
+    EnsembleContents file = open_hdf5_file(path);
+    plan = parse_ensemble_plan(file.plan, path);
+    layout = std::move(file.layout);
+    surface.positions = std::move(file.positions);
+    surface.normals = std::move(file.normals);
+    surface.triangles = std::move(file.triangles);
+    surface.residue = std::move(file.residue);
+    if (plan.n_frames() != layout.n_frames)
+      throw FormatError(path, 0,
+                        "has places for " + std::to_string(layout.n_frames) + " frames, and describes " +
+                            std::to_string(plan.n_frames()) + "; it is damaged");
+    check_frames();
+  }
+
+  void check_frames() {
+    done.assign(layout.n_frames, 0);
+    std::vector<std::uint64_t> sums(layout.n_frames);
+    read_at(descriptor, path, layout.checksums, sums.data(), sums.size() * sizeof(std::uint64_t));
+    std::vector<float> values(layout.n_vertices);
+    for (std::size_t f = 0; f < layout.n_frames; ++f) {
+      if (sums[f] == 0) continue;
+      read_at(descriptor, path, layout.values[f], values.data(), values.size() * sizeof(float));
+      done[f] = sums[f] == checksum(f, values, numbers(f), note(f)) ? 1 : 0;
+      if (done[f] == 0) ++n_damaged;
+    }
+  }
+
+  std::vector<double> numbers(std::size_t frame) const {
+    std::vector<double> row(frame_columns().size());
+    read_at(descriptor, path, layout.numbers + frame * row.size() * sizeof(double), row.data(),
+            row.size() * sizeof(double));
+    return row;
+  }
+  std::string note(std::size_t frame) const {
+    std::string text(kNoteBytes, '\0');
+    read_at(descriptor, path, layout.notes + frame * kNoteBytes, text.data(), kNoteBytes);
+    return text;
+  }
+
+  void write(std::size_t frame, const std::vector<float>& values, const std::vector<double>& row,
+             const std::string& text) {
+    const std::uint64_t none = 0, sum = checksum(frame, values, row, text);
+    const std::uint64_t place = layout.checksums + frame * sizeof sum;
+    write_at(descriptor, path, place, &none, sizeof none);
+    write_at(descriptor, path, layout.values[frame], values.data(), values.size() * sizeof(float));
+    write_at(descriptor, path, layout.numbers + frame * row.size() * sizeof(double), row.data(),
+             row.size() * sizeof(double));
+    write_at(descriptor, path, layout.notes + frame * kNoteBytes, text.data(), text.size());
+    write_at(descriptor, path, place, &sum, sizeof sum);
+    done[frame] = 1;
+  }
+};
+
+void EnsembleFile::create(const std::string& path, const EnsemblePlan& plan, const TemplateSurface& surface) {
+  remove_unfinished(path);
+  const std::string temporary = path + ".new-" + std::to_string(::getpid());
+  try {
+    make_hdf5_file(temporary, plan_text(plan), surface, plan.potential_unit, plan.n_frames());
+  } catch (const FormatError&) {
+    std::remove(temporary.c_str());
+    throw IoError(path, "cannot be written; is the disk full?");
+  } catch (...) {
+    std::remove(temporary.c_str());
+    throw;
+  }
+  if (std::rename(temporary.c_str(), path.c_str()) != 0) {
+    const int error = errno;
+    std::remove(temporary.c_str());
+    throw IoError(path, std::string("cannot be written: ") + system_message(error));
+  }
+}
+
+EnsembleFile::EnsembleFile(const std::string& path, bool for_writing) : contents_(new Contents) {
+  contents_->path = path;
+  contents_->open(for_writing);
+  contents_->read();
+}
+EnsembleFile::EnsembleFile(EnsembleFile&&) noexcept = default;
+EnsembleFile::~EnsembleFile() = default;
+
+const std::string& EnsembleFile::path() const { return contents_->path; }
+const EnsemblePlan& EnsembleFile::plan() const { return contents_->plan; }
+const TemplateSurface& EnsembleFile::surface() const { return contents_->surface; }
+std::size_t EnsembleFile::n_vertices() const { return contents_->layout.n_vertices; }
+bool EnsembleFile::has(std::size_t frame) const { return contents_->done.at(frame) != 0; }
+std::size_t EnsembleFile::n_damaged() const { return contents_->n_damaged; }
+std::size_t EnsembleFile::n_done() const {
+  return static_cast<std::size_t>(std::count(contents_->done.begin(), contents_->done.end(), 1));
+}
+
+void EnsembleFile::write(std::size_t frame, const std::vector<float>& values, const EnsembleFrame& n) {
+  const std::vector<double> row = {
+      n.rmsd_A,         n.unmatched_template,     n.unmatched_frame, n.distance_A, n.same_residue_area_fraction,
+      n.mean_potential, n.trustworthy ? 1.0 : 0.0};
+  contents_->write(frame, values, row, padded(n.note));
+}
+
+EnsembleFrame EnsembleFile::numbers(std::size_t frame) const {
+  const std::vector<double> row = contents_->numbers(frame);
+  const std::string note = contents_->note(frame);
+  return {row[0], row[1], row[2], row[3], row[4], row[5], row[6] != 0, note.substr(0, note.find('\0'))};
+}
+
+void EnsembleFile::read_values(std::size_t frame, std::size_t begin, std::size_t end, float* values) const {
+  read_at(contents_->descriptor, contents_->path, contents_->layout.values[frame] + begin * sizeof(float), values,
+          (end - begin) * sizeof(float));
+}
+
+void EnsembleFile::copy(std::size_t frame, const EnsembleFile& from) {
+  std::vector<float> values(n_vertices());
+  from.read_values(frame, 0, n_vertices(), values.data());
+  contents_->write(frame, values, from.contents_->numbers(frame), from.contents_->note(frame));
+}
+
+bool is_hdf5_file(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  char head[8] = {};
+  return in.read(head, sizeof head) && std::memcmp(head, "\x89HDF\r\n\x1a\n", sizeof head) == 0;
+}
+
+}  // namespace espdiff

@@ -1,0 +1,120 @@
+// ensemble_json.cpp: OUT.json of an ensemble.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/version.h"
+#include "ensemble/ensemble_file.h"
+#include "ensemble/ensemble_result.h"
+#include "ensemble/write_ensemble.h"
+#include "statistics/arrangements.h"
+
+namespace espdiff {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json options_json(const EnsembleOptions& options) {
+  Json json;
+  json["alpha"] = options.alpha;
+  json["confidence"] = 1 - options.alpha;
+  json["most_missing"] = options.most_missing;
+  json["control"] = options.control == ErrorControl::kTfce ? "tfce" : "max-t";
+  json["most_arrangements"] = options.test.most_arrangements;
+  json["n_bootstrap"] = options.test.n_bootstrap;
+  json["seed"] = options.test.seed;
+  json["tfce"] = {{"extent_power", 0.5}, {"height_power", 2}, {"extent", "area"}};
+  return json;
+}
+
+Json replicates_json(const EnsembleResult& result) {
+  Json all = Json::array();
+  for (const ReplicateSummary& r : result.replicates)
+    all.push_back({{"group", r.group},
+                   {"name", r.name},
+                   {"n_frames", r.n_frames},
+                   {"n_cut_off", r.n_cut_off},
+                   {"n_failed", r.n_failed},
+                   {"n_not_trustworthy", r.n_not_trustworthy},
+                   {"median_inefficiency", number(r.inefficiency)},
+                   {"median_effective_samples", number(r.effective)},
+                   {"median_error_by_blocks_over_error", number(r.error_ratio)},
+                   {"mean_potential", number(r.mean_potential)},
+                   {"mean_rmsd_A", number(r.mean_rmsd_A)}});
+  return all;
+}
+
+Json test_json(const EnsembleResult& result) {
+  const SurfaceTest& test = result.test;
+  Json json;
+  const bool replicates = test.inference == Inference::kReplicates;
+  json["inference"] = replicates ? "replicates" : "within runs";
+  json["method"] =
+      replicates ? "Welch's t of replicates; exchange of their labels" : "circular block bootstrap within runs";
+  json["n_arrangements"] = test.n_arrangements;
+  json["exact"] = test.exact;
+  json["smallest_p"] = test.smallest_p;
+  if (!test.block_lengths.empty()) json["block_lengths"] = test.block_lengths;
+  json["mean_abs_difference"] = number(test.mean_abs_difference);
+  json["mean_abs_difference_p"] = number(test.mean_abs_difference_p);
+  json["mean_abs_difference_exchanged"] = number(test.mean_abs_difference_exchanged);
+  json["significant_area_A2"] = result.significant_area_A2;
+  json["significant_area_fraction"] = result.significant_area_A2 / result.tested_area_A2;
+  double smallest_max_t = 1, smallest_tfce = 1;
+  for (std::size_t v = 0; v < test.p_max_t.size(); ++v) {
+    if (test.p_max_t[v] < smallest_max_t) smallest_max_t = test.p_max_t[v];
+    if (test.p_tfce[v] < smallest_tfce) smallest_tfce = test.p_tfce[v];
+  }
+  json["smallest_p_max_t"] = smallest_max_t;
+  json["smallest_p_tfce"] = smallest_tfce;
+  return json;
+}
+
+Json noise_json(const EnsembleResult& result) {
+  Json json = Json::object();
+  for (std::size_t g = 0; g < result.groups.size(); ++g)
+    json[result.groups[g].name] = {{"halves", number(result.noise.halves[g])},
+                                   {"replicates", number(result.noise.replicates[g])}};
+  if (result.compares) json["replicates_across_groups"] = number(result.noise.across);
+  return json;
+}
+
+Json patches_json(const EnsembleFile& file, const EnsembleResult& result) {
+  Json all = Json::array();
+  for (std::size_t k = 0; k < result.patches.size(); ++k) {
+    const EnsemblePatch& patch = result.patches[k];
+    const Vec3d& peak = file.surface().positions[patch.patch.peak];
+    Json residues = Json::array();
+    for (const auto& [residue, share] : patch.residues) residues.push_back({{"residue", residue}, {"share", share}});
+    all.push_back({{"area_A2", patch.patch.area},
+                   {"difference", number(result.patch_tests.difference[k])},
+                   {"low", number(result.patch_tests.low[k])},
+                   {"high", number(result.patch_tests.high[k])},
+                   {"smallest_p", patch.smallest_p},
+                   {"peak_A", {peak.x, peak.y, peak.z}},
+                   {"residues", std::move(residues)}});
+  }
+  return all;
+}
+
+}  // namespace
+
+Json ensemble_json(const EnsembleFile& file, const EnsembleResult& result) {
+  Json json;
+  json["version"] = kVersion;
+  json["plan"] = Json::parse(plan_text(file.plan()));
+  json["options"] = options_json(result.options);
+  json["potential_unit"] = file.plan().potential_unit;
+  json["n_vertices"] = file.n_vertices();
+  json["area_A2"] = result.area_A2;
+  json["tested_area_A2"] = result.tested_area_A2;
+  json["replicates"] = replicates_json(result);
+  if (result.compares) json["test"] = test_json(result);
+  json["noise_floor"] = noise_json(result);
+  if (result.compares) json["patches"] = patches_json(file, result);
+  json["warnings"] = result.warnings;
+  return json;
+}
+
+}  // namespace espdiff

@@ -1,0 +1,182 @@
+// ensemble_plan.cpp: plans as JSON, compared and checked.
+#include "ensemble/ensemble_plan.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "statistics/arrangements.h"
+
+namespace espdiff {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string differ(const std::string& what, const std::string& there, const std::string& here) {
+  if (there == here) return "";
+  const auto shown = [](const std::string& text) { return text.empty() ? std::string("none") : text; };
+  return what + " is " + shown(there) + " there and " + shown(here) + " here";
+}
+
+std::string label(const EnsembleReplicate& r) { return "replicate " + r.name + " of " + r.group; }
+
+std::string replicates_differ(const EnsemblePlan& there, const EnsemblePlan& here) {
+  std::string text = differ("the number of replicates", std::to_string(there.replicates.size()),
+                            std::to_string(here.replicates.size()));
+  for (std::size_t i = 0; i < here.replicates.size() && text.empty(); ++i) {
+    const EnsembleReplicate &a = there.replicates[i], &b = here.replicates[i];
+    const std::string number = " of replicate " + std::to_string(i + 1);
+    text = differ("the group" + number, a.group, b.group);
+    if (text.empty()) text = differ("the name" + number, a.name, b.name);
+    if (text.empty())
+      text = differ("the number of frames of " + label(b), std::to_string(a.n_frames), std::to_string(b.n_frames));
+    if (text.empty() && a.sha256 != b.sha256) text = "the content of " + label(b) + " has changed";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::size_t EnsemblePlan::n_frames() const {
+  std::size_t n = 0;
+  for (const EnsembleReplicate& r : replicates) n += r.n_frames;
+  return n;
+}
+
+std::vector<std::string> EnsemblePlan::groups() const {
+  std::vector<std::string> names;
+  for (const EnsembleReplicate& r : replicates) {
+    if (std::find(names.begin(), names.end(), r.group) == names.end()) names.push_back(r.group);
+  }
+  return names;
+}
+
+std::vector<std::size_t> EnsemblePlan::replicates_of(const std::string& group) const {
+  std::vector<std::size_t> found;
+  for (std::size_t r = 0; r < replicates.size(); ++r) {
+    if (replicates[r].group == group) found.push_back(r);
+  }
+  return found;
+}
+
+std::pair<std::size_t, std::size_t> EnsemblePlan::place_of(std::size_t frame) const {
+  std::size_t replicate = 0;
+  while (frame >= replicates.at(replicate).n_frames) frame -= replicates[replicate++].n_frames;
+  return {replicate, frame};
+}
+
+std::string EnsemblePlan::name_of(std::size_t frame) const {
+  const auto [replicate, number] = place_of(frame);
+  return replicates[replicate].group + ", replicate " + replicates[replicate].name + ", frame " +
+         std::to_string(number);
+}
+
+std::string plan_text(const EnsemblePlan& plan) {
+  Json json;
+  json["version"] = plan.version;
+  json["device"] = plan.device;
+  json["settings"] = Json::object();
+  for (const auto& [name, value] : plan.settings) json["settings"][name] = value;
+  json["potential"] = plan.potential;
+  json["potential_unit"] = plan.potential_unit;
+  json["template"] = {{"name", plan.template_name}, {"sha256", plan.template_sha256}};
+  json["charges"] = Json::object();
+  for (const auto& [group, from] : plan.charges) json["charges"][group] = from;
+  json["replicates"] = Json::array();
+  for (const EnsembleReplicate& r : plan.replicates)
+    json["replicates"].push_back(
+        {{"group", r.group}, {"name", r.name}, {"files", r.files}, {"sha256", r.sha256}, {"n_frames", r.n_frames}});
+  json["residues"] = plan.residues;
+  return json.dump(1);
+}
+
+EnsemblePlan parse_ensemble_plan(const std::string& text, const std::string& path) {
+  try {
+    const Json json = Json::parse(text);
+    EnsemblePlan plan;
+    json.at("version").get_to(plan.version);
+    json.at("device").get_to(plan.device);
+    for (const auto& [name, value] : json.at("settings").items()) plan.settings.emplace_back(name, value);
+    json.at("potential").get_to(plan.potential);
+    json.at("potential_unit").get_to(plan.potential_unit);
+    json.at("template").at("name").get_to(plan.template_name);
+    json.at("template").at("sha256").get_to(plan.template_sha256);
+    for (const auto& [group, from] : json.at("charges").items()) plan.charges.emplace_back(group, from);
+    for (const Json& r : json.at("replicates"))
+      plan.replicates.push_back({r.at("group"), r.at("name"), r.at("files").get<std::vector<std::string>>(),
+                                 r.at("sha256").get<std::vector<std::string>>(), r.at("n_frames")});
+    json.at("residues").get_to(plan.residues);
+    return plan;
+  } catch (const Json::exception&) {
+    throw FormatError(
+        path, 0, "the description of the run in this file is damaged; " + switched_on("overwrite") + " begins anew");
+  }
+}
+
+std::string plan_difference(const EnsemblePlan& there, const EnsemblePlan& here) {
+  std::string text = differ("the version", there.version, here.version);
+  if (text.empty()) text = differ("the device", there.device, here.device);
+  if (text.empty()) text = differ("the potential", there.potential, here.potential);
+  if (text.empty()) text = differ("the unit", there.potential_unit, here.potential_unit);
+  const std::map<std::string, std::string> settings(there.settings.begin(), there.settings.end());
+  for (const auto& [name, value] : here.settings) {
+    const auto found = settings.find(name);
+    if (text.empty()) text = differ("the setting " + name, found == settings.end() ? "" : found->second, value);
+  }
+  if (text.empty()) text = replicates_differ(there, here);
+  if (text.empty() && there.template_sha256 != here.template_sha256)
+    text = "the template is " + there.template_name + " there and " + here.template_name + " here";
+  if (text.empty() && there.charges != here.charges) text = "the charges of a group have changed";
+  return text;
+}
+
+void check_replicates(const std::vector<EnsembleReplicate>& replicates) {
+  EnsemblePlan plan;
+  plan.replicates = replicates;
+  const std::vector<std::string> groups = plan.groups();
+  if (groups.empty()) throw InputError("no group was given; name one or two by " + option("group"));
+  if (groups.size() > 2)
+    throw InputError("there are " + std::to_string(groups.size()) + " groups (" + groups[0] + ", " + groups[1] + ", " +
+                     groups[2] + (groups.size() > 3 ? ", ...)" : ")") +
+                     "; two are compared at a time, and one is described alone");
+  std::map<std::string, std::string> seen;
+  for (std::size_t i = 0; i < replicates.size(); ++i) {
+    const EnsembleReplicate& r = replicates[i];
+    for (std::size_t j = 0; j < i; ++j) {
+      if (replicates[j].group == r.group && replicates[j].name == r.name)
+        throw InputError("group " + r.group + " has two replicates named " + r.name + "; name them apart");
+    }
+    for (std::size_t k = 0; k < r.files.size(); ++k) {
+      const auto [entry, is_new] = seen.emplace(r.sha256[k], label(r) + " (" + r.files[k] + ")");
+      if (!is_new)
+        throw InputError(r.files[k] + " of " + label(r) + " has the same content as " + entry->second +
+                         "; a replicate counts once");
+    }
+    if (r.n_frames < 2)
+      throw InputError(label(r) + " has " + std::to_string(r.n_frames) + " frame" + (r.n_frames == 1 ? "" : "s") +
+                       "; a replicate needs two or more" +
+                       (replicates.size() == 2 ? ", and two single structures are a pair for `espdiff compare`" : ""));
+  }
+}
+
+std::string design_warning(const EnsemblePlan& plan) {
+  const std::vector<std::string> groups = plan.groups();
+  if (groups.size() < 2) return "";
+  const std::size_t a = plan.replicates_of(groups[0]).size(), b = plan.replicates_of(groups[1]).size();
+  if (std::min(a, b) < 2)
+    return "a group has one replicate: p-values and intervals will be of these runs only (block bootstrap within "
+           "them), not of the states; four replicates or more of each state allow more";
+  const double p = smallest_p(a, b);
+  if (p < 0.05) return "";
+  char text[256];
+  std::snprintf(
+      text, sizeof text,
+      "%zu against %zu replicates can be exchanged in %llu ways: no family-wise p can be below %.3g, whatever "
+      "the frames are; 4 against 4 reach 0.029",
+      a, b, static_cast<unsigned long long>(count_arrangements(a, b)), p);
+  return text;
+}
+
+}  // namespace espdiff

@@ -1,0 +1,289 @@
+// ensemble_result.cpp: from columns to groups, tests, residues and patches.
+#include "ensemble/ensemble_result.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <map>
+
+#include "base/error.h"
+#include "ensemble/ensemble_file.h"
+#include "statistics/false_discovery.h"
+#include "statistics/replicate_columns.h"
+
+namespace espdiff {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kFewEffective = 20;
+using Means = std::vector<std::vector<double>>;
+
+double median(std::vector<double> values) {
+  values.erase(std::remove_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); }), values.end());
+  if (values.empty()) return kNaN;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double mean_abs_between(const std::vector<double>& a, const std::vector<double>& b, const MeshGraph& graph,
+                        const std::vector<char>& tested) {
+  double sum = 0, area = 0;
+  for (std::size_t v = 0; v < a.size(); ++v) {
+    if (tested[v] == 0 || !std::isfinite(a[v]) || !std::isfinite(b[v])) continue;
+    sum += graph.area[v] * std::fabs(a[v] - b[v]);
+    area += graph.area[v];
+  }
+  return sum / area;
+}
+
+/// The state of an analysis.
+struct Analysis {
+  const EnsembleFile& file;
+  EnsembleResult result{};
+  std::vector<ReplicateColumns> columns{};
+  Means means{};  ///< [replicate][vertex], NaN where not tested
+
+  const EnsemblePlan& plan() const { return file.plan(); }
+  std::size_t n_vertices() const { return file.n_vertices(); }
+
+  void check_complete() const {
+    const std::size_t n = plan().n_frames();
+    if (file.n_done() == n) return;
+    throw InputError(file.path() + " has " + std::to_string(file.n_done()) + " of " + std::to_string(n) + " frames; " +
+                     switched_on("resume") + " computes the others");
+  }
+
+  void check_varies() const {
+    for (std::size_t r = 0; r < columns.size(); ++r) {
+      const auto& all = columns[r].columns;
+      if (std::any_of(all.begin(), all.end(), [](const SeriesSummary& s) { return std::isfinite(s.inefficiency); }))
+        continue;
+      throw InputError("the potentials of replicate " + plan().replicates[r].name + " of " +
+                       plan().replicates[r].group +
+                       " do not change from frame to frame; are its frames copies of one structure?");
+    }
+  }
+
+  void make_group(const std::string& name) {
+    GroupColumns group;
+    group.name = name;
+    const std::vector<std::size_t> members = plan().replicates_of(name);
+    group.n_replicates = members.size();
+    for (std::size_t v = 0; v < n_vertices(); ++v) {
+      double mean = 0, variance = 0, effective = 0, present = 0, frames = 0;
+      for (const std::size_t r : members) {
+        const SeriesSummary& s = columns[r].columns[v];
+        mean += s.mean / static_cast<double>(members.size());
+        variance += s.variance / static_cast<double>(members.size());
+        effective += std::isfinite(s.effective) ? s.effective : 0;
+        present += static_cast<double>(s.n);
+        frames += static_cast<double>(columns[r].n_frames);
+      }
+      group.mean.push_back(mean);
+      group.deviation.push_back(std::sqrt(variance));
+      group.effective.push_back(effective);
+      group.present.push_back(present / frames);
+    }
+    result.groups.push_back(std::move(group));
+  }
+
+  void choose_tested() {
+    result.tested.assign(n_vertices(), 1);
+    for (std::size_t v = 0; v < n_vertices(); ++v) {
+      for (const GroupColumns& group : result.groups) {
+        if (1 - group.present[v] > result.options.most_missing || !std::isfinite(group.mean[v])) result.tested[v] = 0;
+      }
+      result.area_A2 += result.graph.area[v];
+      if (result.tested[v] != 0) result.tested_area_A2 += result.graph.area[v];
+    }
+    if (result.tested_area_A2 == 0)
+      throw InputError("no vertex of the template has a counterpart in " +
+                       std::to_string(std::lround(100 - 100 * result.options.most_missing)) +
+                       " % of each group's frames; the frames differ too much from the template");
+    for (const ReplicateColumns& replicate : columns) {
+      means.emplace_back();
+      for (std::size_t v = 0; v < n_vertices(); ++v)
+        means.back().push_back(result.tested[v] != 0 ? replicate.columns[v].mean : kNaN);
+    }
+  }
+
+  void summarize_replicate(std::size_t r, std::size_t first, std::size_t start) {
+    const EnsembleReplicate& replicate = plan().replicates[r];
+    ReplicateSummary s;
+    s.group = replicate.group;
+    s.name = replicate.name;
+    s.n_frames = replicate.n_frames;
+    s.n_cut_off = start;
+    std::vector<double> g, effective, ratio;
+    for (std::size_t v = 0; v < n_vertices(); ++v) {
+      if (result.tested[v] == 0) continue;
+      const SeriesSummary& column = columns[r].columns[v];
+      g.push_back(column.inefficiency);
+      effective.push_back(column.effective);
+      ratio.push_back(column.error_by_blocks / column.error);
+    }
+    s.inefficiency = median(g);
+    s.effective = median(effective);
+    s.error_ratio = median(ratio);
+    double potential = 0, rmsd = 0;
+    for (std::size_t f = start; f < replicate.n_frames; ++f) {
+      const EnsembleFrame frame = file.numbers(first + f);
+      if (!std::isfinite(frame.mean_potential)) {
+        ++s.n_failed;
+        continue;
+      }
+      s.n_not_trustworthy += frame.trustworthy ? 0U : 1U;
+      potential += frame.mean_potential;
+      rmsd += frame.rmsd_A;
+    }
+    const auto n = static_cast<double>(replicate.n_frames - start - s.n_failed);
+    s.mean_potential = potential / n;
+    s.mean_rmsd_A = rmsd / n;
+    result.replicates.push_back(s);
+  }
+
+  void measure_noise() {
+    NoiseFloor& noise = result.noise;
+    for (const GroupColumns& group : result.groups) {
+      const std::vector<std::size_t> members = plan().replicates_of(group.name);
+      std::vector<double> first(n_vertices(), 0), second(n_vertices(), 0);
+      for (const std::size_t r : members) {
+        for (std::size_t v = 0; v < n_vertices(); ++v) {
+          first[v] += columns[r].first_half[v] / static_cast<double>(members.size());
+          second[v] += columns[r].second_half[v] / static_cast<double>(members.size());
+        }
+      }
+      noise.halves.push_back(mean_abs_between(first, second, result.graph, result.tested));
+      double sum = 0;
+      std::size_t n = 0;
+      for (std::size_t i = 0; i < members.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j, ++n)
+          sum += mean_abs_between(means[members[i]], means[members[j]], result.graph, result.tested);
+      }
+      noise.replicates.push_back(n > 0 ? sum / static_cast<double>(n) : kNaN);
+    }
+    noise.across = kNaN;
+    if (result.groups.size() < 2) return;
+    double sum = 0, n = 0;
+    for (const std::size_t i : plan().replicates_of(result.groups[0].name)) {
+      for (const std::size_t j : plan().replicates_of(result.groups[1].name)) {
+        sum += mean_abs_between(means[i], means[j], result.graph, result.tested);
+        ++n;
+      }
+    }
+    noise.across = sum / n;
+  }
+
+  void test(const Columns& all) {
+    const std::size_t n_first = plan().replicates_of(result.groups[0].name).size();
+    const std::size_t n_second = columns.size() - n_first;
+    SurfaceTestOptions options = result.options.test;
+    options.confidence = 1 - result.options.alpha;
+    result.compares = true;
+    result.test = std::min(n_first, n_second) > 1
+                      ? test_replicates(means, n_first, result.graph, options)
+                      : test_within_runs(all, columns, n_first, result.tested, result.graph, options);
+    find_significant(n_first);
+  }
+
+  void find_significant(std::size_t n_first) {
+    const std::vector<double>& p = result.family_wise();
+    std::vector<std::vector<std::uint32_t>> members;
+    const auto& residue = file.surface().residue;
+    for (SignificantPatch& found :
+         find_patches(p, result.test.vertices.difference, result.options.alpha, result.graph)) {
+      EnsemblePatch patch;
+      std::map<std::int32_t, double> shares;
+      for (const std::uint32_t v : found.vertices) {
+        patch.smallest_p = std::min(patch.smallest_p, p[v]);
+        shares[residue[v]] += result.graph.area[v] / found.area;
+      }
+      for (const auto& [index, share] : shares)
+        patch.residues.emplace_back(index < 0 ? "none" : plan().residues.at(static_cast<std::size_t>(index)), share);
+      std::stable_sort(patch.residues.begin(), patch.residues.end(),
+                       [](const auto& a, const auto& b) { return a.second > b.second; });
+      members.push_back(found.vertices);
+      result.significant_area_A2 += found.area;
+      patch.patch = std::move(found);
+      result.patches.push_back(std::move(patch));
+    }
+    result.patch_tests = test_places(result.test, means, n_first, result.graph, members, 1 - result.options.alpha);
+  }
+
+  void summarize_residues() {
+    const auto& residue = file.surface().residue;
+    std::vector<std::vector<std::uint32_t>> members(plan().residues.size());
+    result.residues.resize(members.size());
+    for (std::uint32_t v = 0; v < n_vertices(); ++v) {
+      if (residue[v] < 0 || result.tested[v] == 0) continue;
+      const auto i = static_cast<std::size_t>(residue[v]);
+      members[i].push_back(v);
+      result.residues[i].area_A2 += result.graph.area[v];
+      if (result.compares && result.family_wise()[v] <= result.options.alpha)
+        result.residues[i].significant_area_A2 += result.graph.area[v];
+    }
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      result.residues[i].label = plan().residues[i];
+      for (const GroupColumns& group : result.groups) {
+        double sum = 0;
+        for (const std::uint32_t v : members[i]) sum += result.graph.area[v] * group.mean[v];
+        result.residues[i].means.push_back(members[i].empty() ? kNaN : sum / result.residues[i].area_A2);
+      }
+    }
+    if (!result.compares) return;
+    const std::size_t n_first = plan().replicates_of(result.groups[0].name).size();
+    result.residue_tests = test_places(result.test, means, n_first, result.graph, members, 1 - result.options.alpha);
+    const std::vector<double> adjusted = adjust_for_false_discovery(result.residue_tests.p);
+    for (std::size_t i = 0; i < members.size(); ++i) result.residues[i].adjusted_p = adjusted[i];
+  }
+
+  void warn() {
+    const std::string design = design_warning(plan());
+    if (!design.empty()) result.warnings.push_back(design);
+    char text[256];
+    for (const ReplicateSummary& r : result.replicates) {
+      if (r.effective >= kFewEffective) continue;
+      std::snprintf(
+          text, sizeof text,
+          "replicate %s of %s has %.0f effective samples (median over the surface), fewer than %.0f: its mean "
+          "may not have converged",
+          r.name.c_str(), r.group.c_str(), r.effective, kFewEffective);
+      result.warnings.emplace_back(text);
+    }
+    const double left_out = 1 - result.tested_area_A2 / result.area_A2;
+    if (left_out > 0.05) {
+      std::snprintf(
+          text, sizeof text,
+          "%.1f %% of the template's area has no counterpart in more than %.0f %% of a group's frames, and was "
+          "not tested",
+          100 * left_out, 100 * result.options.most_missing);
+      result.warnings.emplace_back(text);
+    }
+  }
+};
+
+}  // namespace
+
+EnsembleResult analyse_ensemble(const EnsembleFile& file, const EnsembleOptions& options) {
+  Analysis a{file};
+  a.check_complete();
+  a.result.options = options;
+  a.result.graph = make_mesh_graph(file.surface().positions, file.surface().triangles);
+  const std::vector<std::size_t> starts = equilibrated_starts(file, options.equilibration);
+  const EnsembleColumns columns(file, starts);
+  a.columns = summarize_columns(columns);
+  a.check_varies();
+  for (const std::string& group : file.plan().groups()) a.make_group(group);
+  a.choose_tested();
+  for (std::size_t r = 0, first = 0; r < starts.size(); first += file.plan().replicates[r++].n_frames)
+    a.summarize_replicate(r, first, starts[r]);
+  a.measure_noise();
+  if (a.result.groups.size() == 2) a.test(columns);
+  a.summarize_residues();
+  a.warn();
+  return std::move(a.result);
+}
+
+}  // namespace espdiff

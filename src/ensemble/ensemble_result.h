@@ -1,0 +1,96 @@
+// ensemble_result.h: what an ensemble says: means, differences, their errors, and where they are significant.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ensemble/ensemble_columns.h"
+#include "statistics/mesh_graph.h"
+#include "statistics/patches.h"
+#include "statistics/surface_test.h"
+
+namespace espdiff {
+
+class EnsembleFile;
+
+enum class ErrorControl { kTfce, kMaxT };
+
+/// Options of the statistics; they do not change the file's values.
+struct EnsembleOptions {
+  double alpha = 0.05;        ///< of patches, and 1 - confidence of intervals
+  double most_missing = 0.2;  ///< a vertex without a counterpart in a larger share of a group's frames is left out
+  ErrorControl control = ErrorControl::kTfce;  ///< the family-wise p of patches
+  Equilibration equilibration;
+  SurfaceTestOptions test;
+};
+
+/// A replicate in numbers.
+struct ReplicateSummary {
+  std::string group, name;
+  std::size_t n_frames = 0, n_cut_off = 0, n_failed = 0, n_not_trustworthy = 0;
+  double inefficiency = 0, effective = 0;  ///< medians over the tested vertices
+  double error_ratio = 0;                  ///< of the standard errors by blocks and by inefficiency: median; near 1
+  double mean_potential = 0, mean_rmsd_A = 0;
+};
+
+/// A group at each vertex.
+struct GroupColumns {
+  std::string name;
+  std::size_t n_replicates = 0;
+  std::vector<double> mean;       ///< [vertex] of the replicates' means
+  std::vector<double> deviation;  ///< [vertex] standard deviation of frames within replicates
+  std::vector<double> effective;  ///< [vertex] samples, over all replicates
+  std::vector<double> present;    ///< [vertex] share of frames with a counterpart
+};
+
+/// Mean absolute differences over the tested area that need no difference between the groups.
+struct NoiseFloor {
+  /// By group: of the means of first and second halves of the replicates; mean over pairs of replicates, NaN with one.
+  std::vector<double> halves, replicates;
+  double across = 0;  ///< mean over pairs of replicates of different groups, which compares with `replicates`
+};
+
+struct EnsembleResidue {
+  std::string label;
+  double area_A2 = 0, significant_area_A2 = 0;
+  std::vector<double> means;  ///< [group]
+  double adjusted_p = 0;      ///< for the false discovery rate
+};
+
+/// A patch, with each residue's share of its area, largest first.
+struct EnsemblePatch {
+  SignificantPatch patch;
+  double smallest_p = 1;
+  std::vector<std::pair<std::string, double>> residues;
+};
+
+struct EnsembleResult {
+  EnsembleOptions options;
+  MeshGraph graph;
+  std::vector<ReplicateSummary> replicates;
+  std::vector<GroupColumns> groups;
+  std::vector<char> tested;  ///< [vertex]
+  double area_A2 = 0, tested_area_A2 = 0, significant_area_A2 = 0;
+  bool compares = false;  ///< two groups; otherwise what follows is empty
+  SurfaceTest test;
+  NoiseFloor noise;
+  std::vector<EnsembleResidue> residues;  ///< of the template
+  PlaceTests residue_tests;
+  std::vector<EnsemblePatch> patches;
+  PlaceTests patch_tests;
+  std::vector<std::string> warnings;
+
+  /// [vertex] the family-wise p that the options ask for.
+  const std::vector<double>& family_wise() const {
+    return options.control == ErrorControl::kTfce ? test.p_tfce : test.p_max_t;
+  }
+};
+
+/// Computes the statistics of a complete file. The same bits at any number of threads.
+/// @throws InputError (frames are missing; values of a replicate that do not change; no vertex is left to test)
+EnsembleResult analyse_ensemble(const EnsembleFile& file, const EnsembleOptions& options);
+
+}  // namespace espdiff

@@ -1,0 +1,182 @@
+// ensemble_run.cpp: the missing frames, one after the other.
+#include "ensemble/ensemble_run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <optional>
+
+#include "base/error.h"
+#include "base/residue_label.h"
+#include "compare/options.h"
+#include "compare/template_mapping.h"
+#include "ensemble/ensemble_file.h"
+#include "matrix/matrix_run.h"
+#include "statistics/mesh_graph.h"
+
+namespace espdiff {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+/// Frames of a shard: a contiguous range; sizes differ by at most one.
+std::pair<std::size_t, std::size_t> shard_range(std::size_t n, const Shard& shard) {
+  const auto count = static_cast<std::size_t>(shard.count), index = static_cast<std::size_t>(shard.index) - 1;
+  return {n * index / count, n * (index + 1) / count};
+}
+
+void refuse_other_plan(const EnsembleFile& file, const EnsemblePlan& plan) {
+  const std::string difference = plan_difference(file.plan(), plan);
+  if (!difference.empty())
+    throw InputError(file.path() + " is of another run: " + difference + "; " + switched_on("overwrite") +
+                     " begins anew");
+}
+
+/// Opens the run's file, or makes it.
+EnsembleFile open_file(const std::string& path, const EnsemblePlan& plan, const TemplateSurface& surface,
+                       const EnsembleRun& run) {
+  if (run.resume && run.overwrite)
+    throw InputError(option("resume") + " and " + option("overwrite") + " exclude each other; leave one out");
+  const bool exists = fs::exists(path);
+  if (exists && !run.resume && !run.overwrite)
+    throw InputError("the ensemble file " + path + " exists; " + switched_on("resume") + " goes on with it, " +
+                     switched_on("overwrite") + " begins anew");
+  if (exists && run.resume) {
+    EnsembleFile file(path, true);
+    refuse_other_plan(file, plan);
+    if (file.n_vertices() != surface.positions.size())
+      throw InputError(path + " has a template of " + std::to_string(file.n_vertices()) +
+                       " vertices, and this one has " + std::to_string(surface.positions.size()) + "; " +
+                       switched_on("overwrite") + " begins anew");
+    return file;
+  }
+  EnsembleFile::create(path, plan, surface);
+  return {path, true};
+}
+
+double mean_over_area(const std::vector<float>& values, const MeshGraph& graph) {
+  double sum = 0, area = 0;
+  for (std::size_t v = 0; v < values.size(); ++v) {
+    if (!std::isfinite(values[v])) continue;
+    sum += graph.area[v] * static_cast<double>(values[v]);
+    area += graph.area[v];
+  }
+  return sum / area;
+}
+
+EnsembleFrame numbers_of(const TemplateFrame& frame, const MeshGraph& graph) {
+  return {frame.rmsd_A,
+          frame.unmatched_template,
+          frame.unmatched_frame,
+          frame.distance_A,
+          frame.same_residue_area_fraction,
+          mean_over_area(frame.potential, graph),
+          frame.trustworthy,
+          frame.reason};
+}
+
+void add_times(std::vector<std::pair<std::string, double>>& sums,
+               const std::vector<std::pair<std::string, double>>& times) {
+  for (const auto& [stage, ms] : times) {
+    const std::string name = stage;
+    const auto known = std::find_if(sums.begin(), sums.end(), [&](const auto& entry) { return entry.first == name; });
+    if (known == sums.end()) {
+      sums.emplace_back(stage, ms);
+    } else {
+      known->second += ms;
+    }
+  }
+}
+
+}  // namespace
+
+std::string ensemble_path(const std::string& prefix, const Shard& shard) {
+  if (shard.count == 1) return prefix + ".h5";
+  return prefix + ".shard-" + std::to_string(shard.index) + "-of-" + std::to_string(shard.count) + ".h5";
+}
+
+EnsembleReport run_ensemble(Engine& engine, EnsemblePlan plan, const CompareInput& source,
+                            const CompareOptions& options, const EnsembleRun& run,
+                            const std::function<CompareInput(std::size_t)>& read, const Progress& progress) {
+  for (const Residue& residue : source.molecule->residues) plan.residues.push_back(residue_label(residue));
+  TemplateMapping mapping(engine, source, options, progress);
+  const MeshGraph graph = make_mesh_graph(mapping.surface().positions, mapping.surface().triangles);
+  EnsembleReport report;
+  report.path = ensemble_path(run.output, run.shard);
+  EnsembleFile file = open_file(report.path, plan, mapping.surface(), run);
+  const auto [begin, end] = shard_range(plan.n_frames(), run.shard);
+  std::vector<std::size_t> missing;
+  for (std::size_t f = begin; f < end; ++f) {
+    if (!file.has(f)) missing.push_back(f);
+  }
+  report.n_frames = end - begin;
+  report.n_resumed = report.n_frames - missing.size();
+  report.n_damaged = file.n_damaged();
+  const Clock::time_point start = Clock::now();
+  const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  for (std::size_t i = 0; i < missing.size(); ++i) {
+    const std::size_t f = missing[i];
+    const std::string name = plan.name_of(f);
+    std::string text = "frame " + std::to_string(report.n_resumed + i + 1) + " of " + std::to_string(report.n_frames);
+    if (i > 0)
+      text += ", " + in_words(seconds() / static_cast<double>(i) * static_cast<double>(missing.size() - i)) + " left";
+    const double share = static_cast<double>(report.n_resumed + i) / static_cast<double>(report.n_frames);
+    const Progress inner(
+        [&](const std::string& stage, double) { progress.report(text + "; " + name + ": " + stage, share); });
+    try {
+      inner.report("read", 0.0);
+      const TemplateFrame frame = mapping.map(read(f), inner);
+      file.write(f, frame.potential, numbers_of(frame, graph));
+      add_times(report.time_ms, frame.time_ms);
+    } catch (const Cancelled&) {
+      throw Error(ErrorClass::kCancelled, "cancelled after " + std::to_string(report.n_resumed + i) + " of " +
+                                              std::to_string(report.n_frames) + " frames, which " + report.path +
+                                              " holds; " + switched_on("resume") + " goes on");
+    } catch (const Error& error) {
+      if (!run.skip_errors || error.error_class() == ErrorClass::kIo) {
+        if (file.n_done() == 0) fs::remove(report.path);  // nothing is lost
+        throw Error(error.error_class(), name + ": " + error.message());
+      }
+      constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+      file.write(f, std::vector<float>(file.n_vertices(), std::numeric_limits<float>::quiet_NaN()),
+                 {kNaN, 1, 1, kNaN, kNaN, kNaN, false, error.what()});
+      ++report.n_skipped;
+    }
+  }
+  report.seconds = seconds();
+  return report;
+}
+
+EnsembleReport merge_ensemble(const std::vector<std::string>& paths, const EnsembleRun& run) {
+  EnsembleReport report;
+  report.path = ensemble_path(run.output, {});
+  if (fs::exists(report.path) && !run.overwrite)
+    throw InputError("the ensemble file " + report.path + " exists; " + switched_on("overwrite") + " replaces it");
+  std::vector<EnsembleFile> parts;
+  for (const std::string& path : paths) {
+    parts.emplace_back(path, false);
+    const std::string difference = plan_difference(parts.back().plan(), parts.front().plan());
+    if (!difference.empty())
+      throw InputError(path + ": this is a part of another ensemble than " + paths.front() + ": " + difference);
+  }
+  const EnsemblePlan& plan = parts.front().plan();
+  std::vector<const EnsembleFile*> holder(plan.n_frames(), nullptr);
+  for (std::size_t f = 0; f < holder.size(); ++f) {
+    for (const EnsembleFile& part : parts) {
+      if (part.has(f)) holder[f] = &part;
+    }
+    if (holder[f] == nullptr)
+      throw InputError("none of the files has frame " + std::to_string(f) + " (" + plan.name_of(f) +
+                       "); resume the shard that lacks it, or name its file too");
+  }
+  EnsembleFile::create(report.path, plan, parts.front().surface());
+  EnsembleFile merged(report.path, true);
+  for (std::size_t f = 0; f < holder.size(); ++f) merged.copy(f, *holder[f]);
+  report.n_frames = report.n_resumed = holder.size();
+  return report;
+}
+
+}  // namespace espdiff

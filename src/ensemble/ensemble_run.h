@@ -1,0 +1,56 @@
+// ensemble_run.h: fills an ensemble file frame by frame; resumes, in shards that merge.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/handles.h"
+#include "base/progress.h"
+#include "compare/input.h"
+#include "ensemble/ensemble_plan.h"
+#include "matrix/matrix.h"
+
+namespace espdiff {
+
+struct CompareOptions;
+
+struct EnsembleRun {
+  std::string output;  ///< prefix of OUT.h5 and the results
+  Shard shard;
+  bool resume = false, overwrite = false;
+  bool skip_errors = false;  ///< a frame that cannot be mapped has no values, and the run goes on
+};
+
+struct EnsembleReport {
+  std::string path;                                     ///< of the file
+  std::size_t n_frames = 0;                             ///< of this run's shard
+  std::size_t n_resumed = 0;                            ///< of these, there before
+  std::size_t n_damaged = 0;                            ///< that were begun or damaged, and computed again
+  std::size_t n_skipped = 0;                            ///< with an error instead of values
+  double seconds = 0;                                   ///< for the frames that were computed
+  std::vector<std::pair<std::string, double>> time_ms;  ///< of the frames computed, by stage
+};
+
+/// OUT.h5, or OUT.shard-2-of-8.h5.
+std::string ensemble_path(const std::string& output_prefix, const Shard& shard);
+
+/// Maps the template onto every frame of the shard that the file lacks. The file is complete for these frames when this
+/// returns; after an error or a cancellation it has all finished ones.
+/// @param plan     all but residues
+/// @param source   the template
+/// @param read     a frame of all; it lives until the next one is asked for
+/// @param progress gets "frame 12 of 400, 3 min left; wild, replicate w1, frame 11: morph"
+/// @throws InputError (the file exists and neither resume nor overwrite was asked for; it is of another run), and as
+///         TemplateMapping; a frame's error names it
+EnsembleReport run_ensemble(Engine& engine, EnsemblePlan plan, const CompareInput& source,
+                            const CompareOptions& options, const EnsembleRun& run,
+                            const std::function<CompareInput(std::size_t)>& read, const Progress& progress);
+
+/// Merges the files of shards into OUT.h5, the same bytes as from one process.
+/// @throws InputError (parts of different runs; frames missing; OUT.h5 exists and `overwrite` is not set)
+EnsembleReport merge_ensemble(const std::vector<std::string>& paths, const EnsembleRun& run);
+
+}  // namespace espdiff

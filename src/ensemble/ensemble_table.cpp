@@ -1,0 +1,129 @@
+// ensemble_table.cpp: the printed answer.
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <ostream>
+
+#include "ensemble/ensemble_file.h"
+#include "ensemble/ensemble_result.h"
+#include "ensemble/write_ensemble.h"
+
+namespace espdiff {
+namespace {
+
+[[gnu::format(printf, 1, 2)]] std::string print(const char* format, ...) {
+  char text[512];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  return text;
+}
+
+/// Three decimals, "-" without a value.
+std::string value(double number) { return std::isfinite(number) ? print("%.3f", number) : "-"; }
+
+void print_replicates(std::ostream& out, const EnsembleResult& result) {
+  out << print("%-10s %-20s %7s %6s %7s %9s %9s %12s\n", "group", "replicate", "frames", "g", "eff.", "mean",
+               "RMSD (A)", "not trusted");
+  for (const ReplicateSummary& r : result.replicates)
+    out << print("%-10.10s %-20.20s %7zu %6.1f %7.1f %9.3f %9.2f %12zu\n", r.group.c_str(), r.name.c_str(),
+                 r.n_frames - r.n_cut_off - r.n_failed, r.inefficiency, r.effective, r.mean_potential, r.mean_rmsd_A,
+                 r.n_not_trustworthy);
+}
+
+void print_noise(std::ostream& out, const EnsembleResult& result, const std::string& unit) {
+  out << "\nmean absolute difference over the tested surface (" << unit << ")\n";
+  if (result.compares) {
+    const SurfaceTest& test = result.test;
+    const std::string groups = result.groups[1].name + " - " + result.groups[0].name;
+    const char* const null =
+        test.inference == Inference::kReplicates ? "with exchanged labels, median" : "of resampled runs, median";
+    out << print("  %-44.44s %8s   p = %.3g\n", groups.c_str(), value(test.mean_abs_difference).c_str(),
+                 test.mean_abs_difference_p);
+    out << print("  %-44s %8s\n", null, value(test.mean_abs_difference_exchanged).c_str());
+    out << print("  %-44s %8s\n", "one replicate of each group, mean of pairs", value(result.noise.across).c_str());
+  }
+  for (std::size_t g = 0; g < result.groups.size(); ++g) {
+    const std::string name = result.groups[g].name;
+    out << print("  %-44.44s %8s\n", ("two replicates of " + name + ", mean of pairs").c_str(),
+                 value(result.noise.replicates[g]).c_str());
+    out << print("  %-44.44s %8s\n", ("first and second halves, " + name).c_str(),
+                 value(result.noise.halves[g]).c_str());
+  }
+}
+
+/// The largest shares, until they are most of the patch.
+std::string main_residues(const EnsemblePatch& patch) {
+  std::string text;
+  double sum = 0;
+  for (std::size_t i = 0; i < patch.residues.size() && i < 3 && sum < 0.75; ++i) {
+    text += (text.empty() ? "" : ", ") + patch.residues[i].first + print(" %.0f %%", 100 * patch.residues[i].second);
+    sum += patch.residues[i].second;
+  }
+  return text;
+}
+
+void print_patches(std::ostream& out, const EnsembleResult& result, const std::string& unit) {
+  const double confidence = 100 * (1 - result.options.alpha);
+  out << print(
+      "\nsignificant: %.1f A2 of %.1f A2 tested (%.1f %%), family-wise p <= %.3g by %s; smallest possible p %.3g\n",
+      result.significant_area_A2, result.tested_area_A2, 100 * result.significant_area_A2 / result.tested_area_A2,
+      result.options.alpha, result.options.control == ErrorControl::kTfce ? "TFCE" : "max-t", result.test.smallest_p);
+  if (result.patches.empty()) return;
+  out << print("%-6s %9s %12s %20s %8s  %s\n", "patch", "area (A2)", ("diff. (" + unit + ")").c_str(),
+               print("%.0f %% interval", confidence).c_str(), "p", "residues");
+  constexpr std::size_t kMost = 10;
+  for (std::size_t k = 0; k < std::min(kMost, result.patches.size()); ++k) {
+    const PlaceTests& t = result.patch_tests;
+    out << print("%-6zu %9.1f %12.3f %20s %8.3g  %s\n", k + 1, result.patches[k].patch.area, t.difference[k],
+                 print("%.3f to %.3f", t.low[k], t.high[k]).c_str(), result.patches[k].smallest_p,
+                 main_residues(result.patches[k]).c_str());
+  }
+  if (result.patches.size() > kMost) out << "... and " << result.patches.size() - kMost << " smaller ones\n";
+}
+
+void print_residues(std::ostream& out, const EnsembleResult& result) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < result.residues.size(); ++i) {
+    if (result.residues[i].adjusted_p <= result.options.alpha) found.push_back(i);
+  }
+  const PlaceTests& t = result.residue_tests;
+  std::stable_sort(found.begin(), found.end(), [&](std::size_t a, std::size_t b) {
+    return std::fabs(t.difference[a]) > std::fabs(t.difference[b]);
+  });
+  out << "\nresidues with a false discovery rate of at most " << result.options.alpha << ": " << found.size() << " of "
+      << result.residues.size() << '\n';
+  constexpr std::size_t kMost = 10;
+  for (std::size_t k = 0; k < std::min(kMost, found.size()); ++k) {
+    const std::size_t i = found[k];
+    out << print("  %-24.24s %8.3f (%.3f to %.3f), adjusted p %.2g\n", result.residues[i].label.c_str(),
+                 t.difference[i], t.low[i], t.high[i], result.residues[i].adjusted_p);
+  }
+}
+
+}  // namespace
+
+void print_ensemble(std::ostream& out, const EnsembleFile& file, const EnsembleResult& result) {
+  const std::string& unit = file.plan().potential_unit;
+  out << print("template     %s, %zu vertices, %.1f A2\n", file.plan().template_name.c_str(), file.n_vertices(),
+               result.area_A2);
+  out << print("potential    %.70s\n", file.plan().potential.c_str());
+  if (result.compares && result.test.inference == Inference::kReplicates)
+    out << print("inference    of the states: Welch's t of replicates' means; labels exchanged in %s%zu ways\n",
+                 result.test.exact ? "all " : "", result.test.n_arrangements);
+  if (result.compares && result.test.inference == Inference::kWithinRuns)
+    out << print("inference    of these runs only, not of the states: block bootstrap, %zu samples\n",
+                 result.test.n_arrangements);
+  out << '\n';
+  print_replicates(out, result);
+  print_noise(out, result, unit);
+  if (result.compares) {
+    print_patches(out, result, unit);
+    print_residues(out, result);
+  }
+  for (const std::string& warning : result.warnings) out << "\nwarning: " << warning << '\n';
+}
+
+}  // namespace espdiff

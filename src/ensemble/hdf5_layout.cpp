@@ -1,0 +1,296 @@
+// hdf5_layout.cpp: the only file that calls HDF5.
+#include "ensemble/hdf5_layout.h"
+
+#include <hdf5.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <fstream>
+
+#include "base/error.h"
+#include "base/version.h"
+#include "compare/template_mapping.h"
+
+namespace espdiff {
+namespace {
+
+constexpr const char* kRemedy = "; begin anew with another output, or with ";
+
+/// An HDF5 identifier, closed at the end.
+class Handle {
+ public:
+  Handle(hid_t id, herr_t (*close)(hid_t), const std::string& path, const char* what) : id_(id), close_(close) {
+    if (id < 0)
+      throw FormatError(path, 0, std::string(what) + " is missing or damaged" + kRemedy + switched_on("overwrite"));
+  }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  ~Handle() { close_(id_); }
+  operator hid_t() const { return id_; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+/// HDF5 prints errors unless told not to, and ours name what matters.
+void be_silent() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
+/// Of everything that is written once.
+std::uint64_t head_checksum(const std::string& plan, const std::vector<Vec3d>& positions,
+                            const std::vector<Vec3f>& normals, const std::vector<Triangle>& triangles,
+                            const std::vector<std::int32_t>& residue) {
+  std::uint64_t sum = kChecksumStart;
+  sum = add_to_checksum(sum, plan.data(), plan.size());
+  sum = add_to_checksum(sum, positions.data(), positions.size() * sizeof(Vec3d));
+  sum = add_to_checksum(sum, normals.data(), normals.size() * sizeof(Vec3f));
+  sum = add_to_checksum(sum, triangles.data(), triangles.size() * sizeof(Triangle));
+  return add_to_checksum(sum, residue.data(), residue.size() * sizeof(std::int32_t));
+}
+
+/// Writes one file.
+class Maker {
+ public:
+  Maker(hid_t file, std::string path) : file_(file), path_(std::move(path)) {}
+
+  void group(const std::string& name) const {
+    const Handle options(H5Pcreate(H5P_GROUP_CREATE), H5Pclose, path_, "a property");
+    H5Pset_obj_track_times(options, 0);
+    const Handle made(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, options, H5P_DEFAULT), H5Gclose, path_, "a group");
+  }
+
+  /// @param values null reserves the space only; chunk 0: contiguous
+  void dataset(const std::string& name, hid_t type, const std::vector<hsize_t>& size, const void* values,
+               hsize_t chunk = 0) const {
+    const Handle options(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, path_, "a property");
+    H5Pset_obj_track_times(options, 0);
+    H5Pset_alloc_time(options, H5D_ALLOC_TIME_EARLY);
+    H5Pset_fill_time(options, H5D_FILL_TIME_NEVER);
+    if (chunk > 0) H5Pset_chunk(options, 1, &chunk);
+    const Handle space(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose, path_,
+                       "a size");
+    const Handle made(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, options, H5P_DEFAULT), H5Dclose, path_,
+                      name.c_str());
+    if (values != nullptr && H5Dwrite(made, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
+      throw IoError(path_, "cannot be written; is the disk full?");
+  }
+
+  template <typename T>
+  void dataset(const std::string& name, hid_t type, const std::vector<T>& values) const {
+    dataset(name, type, {values.size()}, values.data());
+  }
+
+  void attribute(const std::string& object, const char* name, hid_t type, hsize_t n, const void* value) const {
+    const Handle at(H5Oopen(file_, object.c_str(), H5P_DEFAULT), H5Oclose, path_, object.c_str());
+    const Handle space(n == 0 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &n, nullptr), H5Sclose, path_, "a size");
+    const Handle made(H5Acreate2(at, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, path_, name);
+    H5Awrite(made, type, value);
+  }
+  void text_attribute(const std::string& object, const char* name, const std::string& text) const {
+    const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, path_, "a type");
+    H5Tset_size(type, text.size());
+    attribute(object, name, type, 0, text.data());
+  }
+
+ private:
+  hid_t file_;
+  std::string path_;
+};
+
+/// The four kinds of cells of VTK's PolyData, of which only polygons are there.
+void make_cells(const Maker& make, const std::vector<Triangle>& triangles) {
+  for (const char* kind : {"Vertices", "Lines", "Strips", "Polygons"}) {
+    const std::string group = std::string("/VTKHDF/") + kind + "/";
+    make.group(group.substr(0, group.size() - 1));
+    std::vector<std::int64_t> connectivity, offsets = {0};
+    if (std::strcmp(kind, "Polygons") == 0) {
+      for (const Triangle& t : triangles) {
+        connectivity.insert(connectivity.end(), t.begin(), t.end());
+        offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+      }
+    }
+    const std::vector<std::int64_t> n_ids = {static_cast<std::int64_t>(connectivity.size())},
+                                    n_cells = {static_cast<std::int64_t>(offsets.size()) - 1};
+    make.dataset(group + "NumberOfConnectivityIds", H5T_STD_I64LE, n_ids);
+    make.dataset(group + "NumberOfCells", H5T_STD_I64LE, n_cells);
+    make.dataset(group + "Connectivity", H5T_STD_I64LE, connectivity);
+    make.dataset(group + "Offsets", H5T_STD_I64LE, offsets);
+  }
+}
+
+/// Every step has the same surface, and its own stretch of the values.
+void make_steps(const Maker& make, std::size_t n_frames, std::size_t n_vertices) {
+  make.group("/VTKHDF/Steps");
+  const auto n = static_cast<std::int64_t>(n_frames);
+  make.attribute("/VTKHDF/Steps", "NSteps", H5T_STD_I64LE, 0, &n);
+  std::vector<double> times;
+  std::vector<std::int64_t> offsets;
+  for (std::size_t f = 0; f < n_frames; ++f) {
+    times.push_back(static_cast<double>(f));
+    offsets.push_back(static_cast<std::int64_t>(f * n_vertices));
+  }
+  const std::vector<std::int64_t> zeros(n_frames, 0), ones(n_frames, 1), four(4 * n_frames, 0);
+  make.dataset("/VTKHDF/Steps/Values", H5T_IEEE_F64LE, times);
+  make.dataset("/VTKHDF/Steps/PartOffsets", H5T_STD_I64LE, zeros);
+  make.dataset("/VTKHDF/Steps/NumberOfParts", H5T_STD_I64LE, ones);
+  make.dataset("/VTKHDF/Steps/PointOffsets", H5T_STD_I64LE, zeros);
+  make.dataset("/VTKHDF/Steps/CellOffsets", H5T_STD_I64LE, {n_frames, 4}, four.data());
+  make.dataset("/VTKHDF/Steps/ConnectivityIdOffsets", H5T_STD_I64LE, {n_frames, 4}, four.data());
+  make.group("/VTKHDF/Steps/PointDataOffsets");
+  make.dataset("/VTKHDF/Steps/PointDataOffsets/potential", H5T_STD_I64LE, offsets);
+}
+
+void make_surface(const Maker& make, const TemplateSurface& surface, std::size_t n_frames) {
+  make.group("/VTKHDF");
+  make.text_attribute("/VTKHDF", "Type", "PolyData");
+  const std::array<std::int64_t, 2> version = {2, 0};
+  make.attribute("/VTKHDF", "Version", H5T_STD_I64LE, 2, version.data());
+  const std::size_t n = surface.positions.size();
+  make.dataset("/VTKHDF/NumberOfPoints", H5T_STD_I64LE, std::vector<std::int64_t>{static_cast<std::int64_t>(n)});
+  make.dataset("/VTKHDF/Points", H5T_IEEE_F64LE, {n, 3}, surface.positions.data());
+  make_cells(make, surface.triangles);
+  make_steps(make, n_frames, n);
+  make.group("/VTKHDF/PointData");
+}
+
+/// Reads a dataset whole.
+template <typename T>
+std::vector<T> read_dataset(hid_t file, const std::string& path, const std::string& name, hid_t type,
+                            std::size_t per_item = 1) {
+  const Handle set(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, path, name.c_str());
+  const Handle space(H5Dget_space(set), H5Sclose, path, name.c_str());
+  const hssize_t n = H5Sget_simple_extent_npoints(space);
+  std::vector<T> values(static_cast<std::size_t>(n) / per_item);
+  if (n < 0 || H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    throw FormatError(path, 0, name + " cannot be read: the file is damaged" + kRemedy + switched_on("overwrite"));
+  return values;
+}
+
+std::uint64_t offset_of(hid_t file, const std::string& path, const char* name) {
+  const Handle set(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose, path, name);
+  const haddr_t address = H5Dget_offset(set);
+  if (address == HADDR_UNDEF)
+    throw FormatError(path, 0, std::string(name) + " has no place in the file" + kRemedy + switched_on("overwrite"));
+  return address;
+}
+
+std::vector<std::uint64_t> frame_offsets(hid_t file, const std::string& path, EnsembleLayout& layout) {
+  const char* const name = "/VTKHDF/PointData/potential";
+  const Handle set(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose, path, name);
+  std::vector<std::uint64_t> offsets;
+  for (std::size_t f = 0; f < layout.n_frames; ++f) {
+    const hsize_t begin = f * layout.n_vertices;
+    unsigned filters = 0;
+    haddr_t address = HADDR_UNDEF;
+    hsize_t n_bytes = 0;
+    if (H5Dget_chunk_info_by_coord(set, &begin, &filters, &address, &n_bytes) < 0 || address == HADDR_UNDEF ||
+        n_bytes != layout.n_vertices * sizeof(float))
+      throw FormatError(
+          path, 0, "frame " + std::to_string(f) + " has no place in the file" + kRemedy + switched_on("overwrite"));
+    offsets.push_back(address);
+  }
+  return offsets;
+}
+
+}  // namespace
+
+const std::vector<std::string>& frame_columns() {
+  static const std::vector<std::string> columns = {"rmsd_A",     "unmatched_template",         "unmatched_frame",
+                                                   "distance_A", "same_residue_area_fraction", "mean_potential",
+                                                   "trustworthy"};
+  return columns;
+}
+
+void make_hdf5_file(const std::string& path, const std::string& plan, const TemplateSurface& surface,
+                    const std::string& unit, std::size_t n_frames) {
+  be_silent();
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path, "a property");
+  // The index of the chunks goes before the chunks, so that a file that lost its end can still be opened.
+  H5Pset_meta_block_size(access, (hsize_t{1} << 20) + 128 * n_frames);
+  const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  if (id < 0) throw IoError(path, "cannot be written");
+  const Handle file(id, H5Fclose, path, "the file");
+  const Maker make(file, path);
+  make.group("/espdiff");
+  make.text_attribute("/espdiff", "written_by", std::string("espdiff ") + kVersion);
+  make.dataset("/espdiff/plan", H5T_STD_U8LE, {plan.size()}, plan.data());
+  make.dataset("/espdiff/normals", H5T_IEEE_F32LE, {surface.normals.size(), 3}, surface.normals.data());
+  make.dataset("/espdiff/residue", H5T_STD_I32LE, surface.residue);
+  make_surface(make, surface, n_frames);
+  const std::vector<char> zeros(n_frames * std::max(kNoteBytes, frame_columns().size() * sizeof(double)), 0);
+  make.dataset("/espdiff/frame_checksums", H5T_STD_U64LE, {n_frames}, zeros.data());
+  make.dataset("/espdiff/frame_numbers", H5T_IEEE_F64LE, {n_frames, frame_columns().size()}, zeros.data());
+  make.dataset("/espdiff/frame_notes", H5T_STD_U8LE, {n_frames, kNoteBytes}, zeros.data());
+  const std::vector<std::uint64_t> sum = {
+      head_checksum(plan, surface.positions, surface.normals, surface.triangles, surface.residue)};
+  make.dataset("/espdiff/head_checksum", H5T_STD_U64LE, sum);
+  std::string names;
+  for (const std::string& column : frame_columns()) names += (names.empty() ? "" : " ") + column;
+  make.text_attribute("/espdiff/frame_numbers", "columns", names);
+  const hsize_t n = surface.positions.size();
+  make.dataset("/VTKHDF/PointData/potential", H5T_IEEE_F32LE, {n * n_frames}, nullptr, n);
+  make.text_attribute("/VTKHDF/PointData/potential", "unit", unit);
+  if (H5Fflush(file, H5F_SCOPE_GLOBAL) < 0) throw IoError(path, "cannot be written; is the disk full?");
+}
+
+EnsembleContents open_hdf5_file(const std::string& path) {
+  be_silent();
+  // We lock the file ourselves, with a message that HDF5 does not have.
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path, "a property");
+  H5Pset_file_locking(access, 0, 1);
+  const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
+  if (id < 0)
+    throw FormatError(
+        path, 0, std::string("not an HDF5 file, or its structure is damaged") + kRemedy + switched_on("overwrite"));
+  const Handle file(id, H5Fclose, path, "the file");
+  if (H5Lexists(file, "/espdiff", H5P_DEFAULT) <= 0)
+    throw FormatError(path, 0, "an HDF5 file, but not one of `espdiff ensemble`");
+  EnsembleContents contents;
+  const auto plan = read_dataset<char>(file, path, "/espdiff/plan", H5T_STD_U8LE);
+  contents.plan.assign(plan.begin(), plan.end());
+  contents.positions = read_dataset<Vec3d>(file, path, "/VTKHDF/Points", H5T_IEEE_F64LE, 3);
+  contents.normals = read_dataset<Vec3f>(file, path, "/espdiff/normals", H5T_IEEE_F32LE, 3);
+  contents.residue = read_dataset<std::int32_t>(file, path, "/espdiff/residue", H5T_STD_I32LE);
+  const auto ids = read_dataset<std::int64_t>(file, path, "/VTKHDF/Polygons/Connectivity", H5T_STD_I64LE);
+  for (std::size_t i = 0; i + 2 < ids.size(); i += 3)
+    contents.triangles.push_back({static_cast<std::uint32_t>(ids[i]), static_cast<std::uint32_t>(ids[i + 1]),
+                                  static_cast<std::uint32_t>(ids[i + 2])});
+  const auto sum = read_dataset<std::uint64_t>(file, path, "/espdiff/head_checksum", H5T_STD_U64LE);
+  if (sum.size() != 1 || sum[0] != head_checksum(contents.plan, contents.positions, contents.normals,
+                                                 contents.triangles, contents.residue))
+    throw FormatError(path, 0,
+                      std::string("the template or the description of the run in this file is damaged") + kRemedy +
+                          switched_on("overwrite"));
+  EnsembleLayout& layout = contents.layout;
+  layout.n_vertices = contents.positions.size();
+  layout.n_frames = read_dataset<double>(file, path, "/VTKHDF/Steps/Values", H5T_IEEE_F64LE).size();
+  layout.checksums = offset_of(file, path, "/espdiff/frame_checksums");
+  layout.numbers = offset_of(file, path, "/espdiff/frame_numbers");
+  layout.notes = offset_of(file, path, "/espdiff/frame_notes");
+  layout.values = frame_offsets(file, path, layout);
+  return contents;
+}
+
+std::uint64_t add_to_checksum(std::uint64_t sum, const void* bytes, std::size_t n) {
+  const auto* const b = static_cast<const unsigned char*>(bytes);
+  for (std::size_t i = 0; i < n; i += 4) {
+    std::uint32_t word = 0;
+    std::memcpy(&word, b + i, std::min<std::size_t>(4, n - i));
+    sum = (sum ^ word) * 0x100000001b3ULL;
+  }
+  return sum;
+}
+
+std::uint64_t intended_size(const std::string& path) {
+  // HDF5 file format specification, superblock version 0 with offsets of 8 bytes: the end of file is at byte 40.
+  std::array<unsigned char, 48> head{};
+  std::ifstream in(path, std::ios::binary);
+  if (!in.read(reinterpret_cast<char*>(head.data()), head.size())) return 0;
+  if (std::memcmp(head.data(), "\x89HDF\r\n\x1a\n", 8) != 0 || head[8] != 0 || head[13] != 8) return 0;
+  std::uint64_t size = 0;
+  std::memcpy(&size, head.data() + 40, sizeof size);
+  return size;
+}
+
+}  // namespace espdiff

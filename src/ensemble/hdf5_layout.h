@@ -1,0 +1,52 @@
+// hdf5_layout.h: where an ensemble file keeps what; made and found by HDF5, then read and written in place.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/types.h"
+
+namespace espdiff {
+
+struct TemplateSurface;
+
+/// Numbers of a frame, in the order of the file.
+const std::vector<std::string>& frame_columns();
+constexpr std::size_t kNoteBytes = 200;
+
+/// Fowler, Noll and Vo's hash (FNV-1a, 64 bits) over words of 32 bits, which finds any changed word.
+constexpr std::uint64_t kChecksumStart = 0xcbf29ce484222325ULL;
+std::uint64_t add_to_checksum(std::uint64_t sum, const void* bytes, std::size_t n);
+
+/// Byte offsets in the file.
+struct EnsembleLayout {
+  std::size_t n_frames = 0, n_vertices = 0;
+  std::vector<std::uint64_t> values;  ///< [frame] of [vertex] 32-bit floats
+  std::uint64_t numbers = 0;          ///< [frame][column] 64-bit floats
+  std::uint64_t notes = 0;            ///< [frame][kNoteBytes] text, filled up with zeros
+  std::uint64_t checksums = 0;        ///< [frame] 64 bits; 0: not written
+};
+
+/// Writes the file's metadata, plan and template, and reserves the rest.
+/// @throws IoError
+void make_hdf5_file(const std::string& path, const std::string& plan, const TemplateSurface& surface,
+                    const std::string& unit, std::size_t n_frames);
+
+/// What a file is made of.
+struct EnsembleContents {
+  std::string plan;
+  EnsembleLayout layout;
+  std::vector<Vec3d> positions;
+  std::vector<Vec3f> normals;
+  std::vector<Triangle> triangles;
+  std::vector<std::int32_t> residue;
+};
+/// @throws FormatError (not an ensemble file; damaged)
+EnsembleContents open_hdf5_file(const std::string& path);
+
+/// The size that a file should have, by its first bytes; 0 if it is no HDF5 file that we wrote.
+std::uint64_t intended_size(const std::string& path);
+
+}  // namespace espdiff

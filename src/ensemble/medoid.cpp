@@ -1,0 +1,59 @@
+// medoid.cpp: all pairs of a sample of the frames, superposed.
+#include "ensemble/medoid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "align/pair_atoms.h"
+#include "align/superpose.h"
+#include "base/error.h"
+
+namespace espdiff {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// [atom of the first frame] positions in another frame; NaN if it has no partner.
+std::vector<Vec3d> as_in_first(const Molecule& first, const Molecule& frame) {
+  std::vector<Vec3d> positions(first.size(), Vec3d{kNaN, kNaN, kNaN});
+  for (const auto& [a, b] : pair_atoms(first, frame).pairs) positions[a] = frame.positions[b];
+  return positions;
+}
+
+}  // namespace
+
+std::size_t find_medoid(std::size_t n_frames, const std::function<Molecule(std::size_t)>& read,
+                        const Progress& progress) {
+  const std::size_t n = std::min(n_frames, kMostMedoidFrames);
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < n; ++i) numbers.push_back(i * n_frames / n);
+  const Molecule first = read(numbers.front());
+  std::vector<std::vector<Vec3d>> frames;
+  for (std::size_t i = 0; i < n; ++i) {
+    progress.report("template: frame " + std::to_string(i + 1) + " of " + std::to_string(n), 0.0);
+    frames.push_back(as_in_first(first, read(numbers[i])));
+  }
+  std::vector<std::pair<std::size_t, std::size_t>> common;
+  for (std::size_t a = 0; a < first.size(); ++a) {
+    const bool everywhere =
+        std::all_of(frames.begin(), frames.end(), [&](const auto& frame) { return std::isfinite(frame[a].x); });
+    if (everywhere && first.atoms[a].element != "H") common.emplace_back(a, a);
+  }
+  if (common.size() < 3)
+    throw InputError("the frames share " + std::to_string(common.size()) +
+                     " atoms besides hydrogens, too few to superpose them; give a structure as " + option("template"));
+  std::vector<double> sums(n, 0);
+  for (std::size_t i = 0; i < n; ++i) {
+    progress.report("template: RMSD", static_cast<double>(i) / static_cast<double>(n));
+    for (std::size_t j = 0; j < i; ++j) {
+      const double rmsd_A = superpose(frames[i], frames[j], common).rmsd_A;
+      sums[i] += rmsd_A;
+      sums[j] += rmsd_A;
+    }
+  }
+  return numbers[static_cast<std::size_t>(std::min_element(sums.begin(), sums.end()) - sums.begin())];
+}
+
+}  // namespace espdiff

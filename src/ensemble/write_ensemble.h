@@ -1,0 +1,33 @@
+// write_ensemble.h: writes an ensemble's statistics as files and as a table.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace espdiff {
+
+class EnsembleFile;
+struct EnsembleResult;
+
+/// OUT.json, OUT.vtp, OUT.residues.csv, and with two groups OUT.patches.csv and OUT.patch_series.csv.
+std::vector<std::string> ensemble_outputs(const std::string& output_prefix, bool compares);
+
+/// Writes all outputs, or none. The bytes depend on the file's columns and the options only.
+///
+/// OUT.vtp: the template with means (`potential_source` is the first group's, `potential_target` the second's),
+/// `potential_difference`, its interval, standard error, t, p, `p_max_t`, `p_tfce`, effective samples, shares of frames
+/// with a counterpart, `patch` (from 1; 0: none). `no_counterpart` marks triangles with a vertex that was not tested.
+/// @returns the files' names
+/// @throws IoError
+std::vector<std::string> write_ensemble(const std::string& output_prefix, const EnsembleFile& file,
+                                        const EnsembleResult& result);
+
+/// Keys: version, plan, options, design, groups, replicates, area_A2, test, noise_floor, patches, warnings.
+nlohmann::ordered_json ensemble_json(const EnsembleFile& file, const EnsembleResult& result);
+
+/// The answer in at most 100 columns.
+void print_ensemble(std::ostream& out, const EnsembleFile& file, const EnsembleResult& result);
+
+}  // namespace espdiff

@@ -1,0 +1,64 @@
+// potential_plan.cpp: from what is asked for and the states' charges to one potential for all of them.
+#include "potential/potential_plan.h"
+
+#include "base/error.h"
+#include "io/structure_file.h"
+#include "prepare/pdb2pqr.h"
+
+namespace espdiff {
+
+LoadedState load_for(const PotentialRequest& asked, bool wants_charges, const StructureFile& file, StateRequest request,
+                     const InputOptions& options, const Progress& progress) {
+  request.wants_charges = wants_charges && asked.potential != "none";
+  const bool is_auto = asked.potential == "auto";
+  request.may_prepare = !is_auto || !find_pdb2pqr().empty();
+  try {
+    return load_state(file, request, options, progress);
+  } catch (const InputError& error) {
+    if (!is_auto || !request.wants_charges) throw;
+    // Was it the preparation?
+    request.wants_charges = false;
+    load_state(file, request, options, progress);
+    throw InputError(error.message() + "; " + option("potential", "none") + " compares shapes alone");
+  }
+}
+
+PotentialFacts facts_of(const LoadedState& state) {
+  return potential_facts(state.everything.size() > 0 ? state.everything : state.molecule, state.cell);
+}
+
+PotentialPlan::PotentialPlan(const PotentialRequest& asked, const std::vector<PotentialFacts>& facts,
+                             double temperature_K) {
+  const PotentialChoice choice = choose_potential(asked.potential, asked.cell, facts);
+  because_ = choice.because;
+  if (!choice.method && !because_.empty() && find_pdb2pqr().empty())
+    because_ += std::string(", and PDB2PQR, which assigns some, is not there; ") + kPdb2pqrRemedy;
+  own_cell_ = choice.method == PotentialMethod::kPme && choice.own_cell;
+  const bool usual_cell = choose_potential(asked.potential, "auto", facts).own_cell;
+  if (choice.method == PotentialMethod::kPme && choice.own_cell != usual_cell)
+    unusual_cell_ = choice.own_cell ? " cell own" : " cell box";
+  if (!choice.method) {
+    if (!asked.given.empty())
+      throw InputError(option(asked.given.front().first) + " is of computed potentials, and none is computed" +
+                       (because_.empty() ? "" : ": " + because_));
+    return;
+  }
+  options_ = make_potential_options(*choice.method, asked.given, temperature_K);
+  options_->because = because_;
+}
+
+std::string PotentialPlan::in_words() const {
+  if (!options_) return {};
+  return potential_in_words(*options_) + unusual_cell_;
+}
+
+ComputedMap PotentialPlan::map_of(const LoadedState& state) const {
+  if (!own_cell_) return {state.molecule, {std::nullopt, state.molecule.positions, false}, *options_};
+  if (!state.cell)
+    throw InputError(state.molecule.name +
+                     ": there is no cell (a CRYST1 record with edges above 1 A) before the atoms; add one, or take " +
+                     option("pme-cell", "box"));
+  return {state.everything.size() > 0 ? state.everything : state.molecule, {state.cell, {}, false}, *options_};
+}
+
+}  // namespace espdiff

@@ -1,0 +1,180 @@
+// ensemble.cpp: `espdiff ensemble`: groups, lists, charges, kills, shards, and what is refused.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "cli/run_espdiff.h"
+
+using namespace espdiff_test;  // NOLINT: a test
+
+namespace {
+
+constexpr int kAtoms = 8, kFrames = 4;
+
+/// A bent row of atoms that wriggles with the frame; the mutant's last atom has another charge.
+std::string models(int replicate, bool mutant, bool with_charges) {
+  std::string text;
+  for (int f = 0; f < kFrames; ++f) {
+    text += "MODEL     " + std::to_string(f + 1) + "\n";
+    for (int i = 0; i < kAtoms; ++i) {
+      const double x = 2.4 * i, y = 0.3 * std::sin(1.7 * i + f + 3 * replicate), z = 0.3 * std::cos(2.3 * i * (f + 1));
+      char line[128];
+      if (with_charges) {
+        std::snprintf(line, sizeof line, "ATOM %d CA ALA A %d %.3f %.3f %.3f %.4f 2.2\n", i + 1, i + 1, x, y, z,
+                      mutant && i == kAtoms - 1 ? -1.0 : 0.2);
+      } else {
+        std::snprintf(line, sizeof line, "ATOM  %5d  CA  ALA A%4d    %8.3f%8.3f%8.3f  1.00  0.00           C\n", i + 1,
+                      i + 1, x, y, z);
+      }
+      text += line;
+    }
+    text += "ENDMDL\n";
+  }
+  return text;
+}
+
+/// Two groups of four replicates.
+struct Runs {
+  ScratchFolder folder;
+  std::string groups = "--group wild", mutants = " --group mutant";
+  Runs() {
+    for (int r = 1; r <= 4; ++r) {
+      folder.write("w" + std::to_string(r) + ".pqr", models(r, false, true));
+      folder.write("m" + std::to_string(r) + ".pqr", models(r + 4, true, true));
+      groups += " w" + std::to_string(r) + ".pqr";
+      mutants += " m" + std::to_string(r) + ".pqr";
+    }
+    groups += mutants;
+  }
+  Outcome run(const std::string& arguments, const std::string& before = "") const {
+    return run_espdiff(arguments + " --device cpu --threads 1", "cd " + folder.file("") + " && " + before);
+  }
+  Outcome run_merge() const {
+    return run_espdiff("merge part.shard-1-of-3.h5 part.shard-2-of-3.h5 part.shard-3-of-3.h5 -q -o all",
+                       "cd " + folder.file("") + " && ");
+  }
+  Outcome from(const std::string& name) const { return run("ensemble --from " + name + ".h5 -q -o " + name); }
+  /// An ensemble on a coarse grid, quickly.
+  Outcome ensemble(const std::string& arguments, const std::string& before = "") const {
+    return run("ensemble --grid-spacing 1.5 --potential coulomb " + arguments, before);
+  }
+};
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+}  // namespace
+
+TEST_CASE("the mutant's charge is found at the mutant's residue, with its sign") {
+  const Runs in;
+  const Outcome out = in.ensemble(in.groups + " -o out");
+  INFO(out.err);
+  REQUIRE(out.status == 0);
+  CHECK(out.out.find("labels exchanged in all 70 ways") != std::string::npos);
+  CHECK(out.err.empty());
+  const auto json = nlohmann::json::parse(read_file(in.folder.file("out.json")));
+  REQUIRE(!json.at("patches").empty());
+  CHECK(json["patches"][0]["difference"].get<double>() < 0);
+  bool at_mutant = false;
+  for (const auto& residue : json["patches"][0]["residues"]) at_mutant |= residue["residue"] == "ALA 8 of chain A";
+  CHECK(at_mutant);
+  for (const char* ending : {".vtp", ".h5", ".residues.csv", ".patches.csv", ".patch_series.csv"})
+    CHECK(std::filesystem::exists(in.folder.file(std::string("out") + ending)));
+}
+
+TEST_CASE("kill -9 at any time: the run resumes to the same bytes; shards merge to them") {
+  const Runs in;
+  const std::string run = in.groups + " -q -o ";
+  REQUIRE(in.ensemble(run + "whole").status == 0);
+  const std::string expected = read_file(in.folder.file("whole.h5"));
+  int n_killed = 0;
+  for (int i = 0; i < 10; ++i) {
+    char delay[32];
+    std::snprintf(delay, sizeof delay, "timeout -s KILL %.2f ", 0.15 + 0.1 * i);
+    n_killed += in.ensemble(run + "killed --resume", delay).status != 0 ? 1 : 0;
+  }
+  CHECK(n_killed > 0);
+  REQUIRE(in.ensemble(run + "killed --resume").status == 0);
+  CHECK(read_file(in.folder.file("killed.h5")) == expected);
+  for (const char* ending : {".json", ".vtp", ".residues.csv", ".patches.csv", ".patch_series.csv"})
+    CHECK(read_file(in.folder.file(std::string("killed") + ending)) ==
+          read_file(in.folder.file(std::string("whole") + ending)));
+
+  for (const char* shard : {"1", "2", "3"}) {
+    INFO(shard);
+    REQUIRE(in.ensemble(in.groups + " -q -o part --shard " + shard + "/3").status == 0);
+  }
+  const Outcome merged = in.run_merge();
+  INFO(merged.err);
+  REQUIRE(merged.status == 0);
+  CHECK(read_file(in.folder.file("all.h5")) == expected);
+  REQUIRE(in.from("all").status == 0);
+  CHECK(read_file(in.folder.file("all.json")) == read_file(in.folder.file("whole.json")));
+}
+
+TEST_CASE("a list names groups, replicates of several files, and charges") {
+  const Runs in;
+  in.folder.write("w.pdb", models(1, false, false));
+  in.folder.write("list.csv",
+                  "group,replicate,structure,charges\nwild,1,w.pdb,w1.pqr\nwild,1,w2.pqr,\nmutant,1,m1.pqr,\n");
+  const Outcome out = in.ensemble("--list list.csv -o out --template 2");
+  INFO(out.err);
+  REQUIRE(out.status == 0);
+  CHECK(out.err.find("espdiff: warning: a group has one replicate") == 0);
+  const auto json = nlohmann::json::parse(read_file(in.folder.file("out.json")));
+  CHECK(json["plan"]["replicates"].size() == 2);
+  CHECK(json["plan"]["replicates"][0]["n_frames"] == 2 * kFrames);
+  CHECK(json["plan"]["template"]["name"] == "wild, replicate 1, frame 2");
+  CHECK(json["test"]["inference"] == "within runs");
+}
+
+TEST_CASE("what cannot be an ensemble is refused in one line") {
+  const Runs in;
+  in.folder.write("one.pqr", models(1, false, true).substr(0, models(1, false, true).find("MODEL     2")));
+  in.folder.write("bare.pdb", models(1, false, false));
+  in.folder.write("copy.pqr", models(1, false, true));
+  in.folder.write("other.pqr", "ATOM 1 ZN ZN B 1 0 0 0 2 1\nATOM 2 ZN ZN B 2 3 0 0 2 1\nATOM 3 ZN ZN B 3 0 3 0 2 1\n");
+  const auto refused = [&](const std::string& arguments) {
+    const Outcome out = in.ensemble(arguments + " -o bad");
+    CHECK(out.status == 2);
+    CHECK(n_lines(out.err) <= 2);  // perhaps a warning about the design before it
+    for (const auto& entry : std::filesystem::directory_iterator(in.folder.file("")))
+      CHECK(entry.path().filename().string().rfind("bad", 0) != 0);
+    return first_line(out.err.rfind("espdiff: warning", 0) == 0 ? out.err.substr(out.err.find('\n') + 1) : out.err);
+  };
+  CHECK(refused("") == "espdiff: no group was given; name one or two by --group, or a --list of them");
+  CHECK(refused("--group wild") ==
+        "espdiff: --group takes a name and one file or more, each a replicate; 'wild' stands alone");
+  CHECK(refused("--group w1.pqr w2.pqr") ==
+        "espdiff: --group: 'w1.pqr' is a file; the first word is the group's name, such as wild");
+  CHECK(refused("--group wild w1.pqr one.pqr --group mutant m1.pqr m2.pqr") ==
+        "espdiff: replicate one of wild has 1 frame; a replicate needs two or more");
+  CHECK(
+      refused("--group wild w1.pqr copy.pqr --group mutant m1.pqr m2.pqr") ==
+      "espdiff: copy.pqr of replicate copy of wild has the same content as replicate w1 of wild (w1.pqr); a replicate "
+      "counts once");
+  CHECK(refused("--group a w1.pqr --group b w2.pqr --group c w3.pqr") ==
+        "espdiff: there are 3 groups (a, b, c); two are compared at a time, and one is described alone");
+  CHECK(refused(in.groups + " --template 99") ==
+        "espdiff: --template 99: there are 32 frames in all groups, numbered from 0");
+  CHECK(refused(in.groups + " --charges wild.pqr") ==
+        "espdiff: --charges wild.pqr is not GROUP=FILE with one of the groups, such as wild=wild.pqr");
+  CHECK(refused(in.groups + " --template other.pqr").find("wild, replicate w1, frame 0: ") != std::string::npos);
+  CHECK(refused(in.groups + " --method deform").find("a template is mapped by the morph") != std::string::npos);
+  CHECK(refused("--group wild bare.pdb w1.pqr --group mutant m1.pqr m2.pqr").find("bare.pdb") != std::string::npos);
+}
+
+TEST_CASE("a file of other settings, of another template, or in the way is refused") {
+  const Runs in;
+  REQUIRE(in.ensemble(in.groups + " -q -o out --template 0").status == 0);
+  const std::string bytes = read_file(in.folder.file("out.h5"));
+  CHECK(in.ensemble(in.groups + " -q -o out --template 0").err ==
+        "espdiff: the ensemble file out.h5 exists; --resume goes on with it, --overwrite begins anew\n");
+  CHECK(in.ensemble(in.groups + " -q -o out --template 1 --resume").err ==
+        "espdiff: out.h5 is of another run: the template is wild, replicate w1, frame 0 there and wild, replicate w1, "
+        "frame 1 here; --overwrite begins anew\n");
+  CHECK(in.ensemble(in.groups + " -q -o out --template 0 --offset 2 --resume").err ==
+        "espdiff: out.h5 is of another run: the setting offset is 0 there and 2 here; --overwrite begins anew\n");
+  CHECK(read_file(in.folder.file("out.h5")) == bytes);
+}

@@ -1,0 +1,161 @@
+// certificate_forms.cpp: the certificate's stages give the same bits by blocks of points and point by point. Compiled
+// with the CPU back end's flags, because the engine's interface offers only one of them.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "cuda/certificate/slip.h"
+#include "cuda/device/unwrap.h"
+#include "cuda/surface/back_ends.h"
+#include "cuda/surface/distances_to_triangles.h"
+#include "cuda/surface/oracles.h"
+#include "cuda/surface/read_atoms.h"
+#include "cuda/surface/shapes.h"
+#include "cuda/surface/vertex_residues.h"
+#include "engine/engine.h"
+#include "engine/morph_stage.h"
+#include "support/random.h"
+#include "support/test_data.h"
+
+using namespace espdiff_test;
+using namespace espdiff::cpu_backend;
+using espdiff::MeshPtr;
+using espdiff::MovingAtom;
+
+namespace {
+
+std::unique_ptr<espdiff::Engine> cpu() { return espdiff::select_engine(espdiff::DeviceChoice::kCpu, 0); }
+const SurfaceMesh& mesh_of(const MeshPtr& mesh) { return unwrap<SurfaceMesh>(mesh); }
+
+template <typename Number>
+std::size_t n_different(const std::vector<Number>& a, const std::vector<Number>& b) {
+  REQUIRE(a.size() == b.size());
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) n += std::memcmp(&a[i], &b[i], sizeof(Number)) == 0 ? 0 : 1;
+  return n;
+}
+
+Mesh noisy_sphere(int levels, double radius, std::uint64_t seed) {
+  Random random(seed);
+  return moved(icosphere(levels, radius), [&](Vec3d p) { return p + random.in_box(0.3); });
+}
+
+/// Atoms that move by a little, paired one by one; one in `unpaired_share` has no partner at either end.
+std::vector<MovingAtom> moving(const AtomSet& atoms, std::size_t unpaired_share, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<MovingAtom> paths;
+  for (std::size_t i = 0; i < atoms.size(); ++i) {
+    MovingAtom path;
+    path.start = atoms.positions[i];
+    path.end = path.start + random.in_box(0.5);
+    path.start_width = path.end_width = static_cast<double>(atoms.widths[i]);
+    path.own_rotation = random.in_box(0.3);
+    path.pair = static_cast<std::int32_t>(i);
+    if (unpaired_share > 0 && i % unpaired_share == 0) {
+      path.pair = -1;
+      path.at_end = i % 2 == 0;
+      path.at_start = !path.at_end;
+    }
+    paths.push_back(path);
+  }
+  return paths;
+}
+
+std::size_t n_slips_that_differ(espdiff::Engine& engine, const AtomSet& atoms, std::size_t unpaired_share) {
+  const auto mesh = engine.isosurface(engine.density(upload(engine, atoms), 0.8), 0.5F);
+  Random random(31);
+  Mesh shape = engine.download(mesh);
+  for (auto& p : shape.positions) p = p + static_cast<Vec3f>(random.in_box(0.4));
+  const auto target = engine.upload_mesh(shape);
+  const auto paths = moving(atoms, unpaired_share, 32);
+  const SurfaceMesh& source = mesh_of(mesh);
+  return n_different(slip(source, mesh_of(target), mesh_of(target), paths),
+                     slip_point_by_point(source, mesh_of(target), mesh_of(target), paths));
+}
+
+/// Atoms in a small box, so that all of them reach every point.
+AtomSet crowd(std::size_t n) {
+  Random random(33);
+  AtomSet atoms;
+  for (std::size_t i = 0; i < n; ++i) atoms.add(random.in_box(2.0), 1.7, static_cast<std::int32_t>(i));
+  return atoms;
+}
+
+std::size_t n_labels_that_differ(espdiff::Engine& engine, const AtomSet& atoms) {
+  const auto mesh = engine.isosurface(engine.density(upload(engine, atoms), 0.8), 0.5F);
+  const auto cells = make_atom_cells(atoms.positions, atoms.widths, atoms.residues);
+  return n_different(to_host(vertex_residues(mesh_of(mesh), *cells)),
+                     to_host(vertex_residues_point_by_point(mesh_of(mesh), *cells)));
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("certificate forms");
+
+TEST_CASE("distances to triangles: blocks, single points and all triangles agree, wherever the points lie") {
+  const auto engine = cpu();
+  for (const int levels : {0, 2, 4}) {
+    const MeshPtr mesh = engine->upload_mesh(noisy_sphere(levels, 6.0, 40));
+    const TriangleTree tree = make_triangle_tree(mesh_of(mesh));
+    const std::vector<PlacedTriangle> triangles = to_host(tree.triangles);
+    for (const double half_side : {0.5, 7.0, 60.0}) {  // inside, around, mostly far away
+      Random random(41);
+      std::vector<espdiff::Vec4f> where;
+      for (int i = 0; i < 501; ++i)
+        where.push_back(espdiff::make_vec4(static_cast<Vec3f>(random.in_box(half_side)), 0));
+      for (const PlacedTriangle& t : triangles) where.push_back(espdiff::make_vec4(t.b, 0));  // on the surface
+      const Buffer<espdiff::Vec4f> points = to_device(where);
+      const std::vector<float> a = to_host(distances_to_triangles(tree, points));
+      CAPTURE(levels);
+      CAPTURE(half_side);
+      CHECK(n_different(a, to_host(distances_point_by_point(tree, points))) == 0);
+      std::size_t n_wrong = 0;
+      for (std::size_t i = 0; i < where.size(); i += 7) {
+        float least = std::numeric_limits<float>::infinity();
+        for (const PlacedTriangle& t : triangles)
+          least = std::fmin(least, squared_distance_to_triangle(where[i].xyz(), t));
+        n_wrong += std::sqrt(least) == a[i] ? 0 : 1;
+      }
+      CHECK(n_wrong == 0);
+    }
+  }
+}
+
+TEST_CASE("distances between real surfaces agree in both forms") {
+  const auto path = real_input("ubq/ubq.pqr"), other = real_input("series19_ubq_2k39/m03.pqr");
+  if (!path || !other) return;
+  const auto engine = cpu();
+  const auto surface = [&](const std::string& file) {
+    return engine->isosurface(engine->density(upload(*engine, read_atoms(file)), 1.0), 0.5F);
+  };
+  const MeshPtr a = surface(*path), b = surface(*other);
+  const TriangleTree tree = make_triangle_tree(mesh_of(b));
+  CHECK(n_different(to_host(distances_to_triangles(tree, mesh_of(a).positions)),
+                    to_host(distances_point_by_point(tree, mesh_of(a).positions))) == 0);
+}
+
+TEST_CASE("vertex residues agree in both forms, with few labels and with more than a table holds") {
+  const auto engine = cpu();
+  CHECK(n_labels_that_differ(*engine, crowd(200)) == 0);
+  CHECK(n_labels_that_differ(*engine, crowd(400)) == 0);
+  AtomSet unlabelled = crowd(60);
+  for (std::size_t i = 0; i < unlabelled.size(); i += 2) unlabelled.residues[i] = -1;
+  CHECK(n_labels_that_differ(*engine, unlabelled) == 0);
+  const auto path = real_input("ubq/ubq.pqr");
+  if (path) CHECK(n_labels_that_differ(*engine, read_atoms(*path)) == 0);
+}
+
+TEST_CASE("slip agrees in both forms, with unpaired atoms and with more atoms than a block holds") {
+  const auto engine = cpu();
+  CHECK(n_slips_that_differ(*engine, crowd(100), 0) == 0);
+  CHECK(n_slips_that_differ(*engine, crowd(100), 2) == 0);
+  CHECK(n_slips_that_differ(*engine, crowd(700), 0) == 0);
+  const auto path = real_input("ubq/ubq.pqr");
+  if (path) CHECK(n_slips_that_differ(*engine, read_atoms(*path), 5) == 0);
+}
+
+TEST_SUITE_END();

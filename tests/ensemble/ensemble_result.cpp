@@ -1,0 +1,184 @@
+// ensemble_result.cpp: from a file of known values to patches, residues, noise and warnings.
+#include "ensemble/ensemble_result.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "ensemble/planted_file.h"
+#include "ensemble/write_ensemble.h"
+
+using namespace espdiff;
+using namespace espdiff_test;  // NOLINT: a test
+
+TEST_SUITE_BEGIN("ensemble result");
+
+TEST_CASE("the planted patch is found where it is, with its size, its residue and its sign") {
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5");
+  plant_file(path, planted_plan(4, 4, 100), -1, 5);
+  const EnsembleFile file(path, false);
+  const EnsembleResult result = analyse_ensemble(file, {});
+  REQUIRE(result.patches.size() == 1);
+  const EnsemblePatch& patch = result.patches[0];
+  double planted_area = 0, found = 0;
+  for (std::size_t v = 0; v < file.n_vertices(); ++v) {
+    const Vec3d& p = file.surface().positions[v];
+    if (p.x > 0 && p.y > 8) planted_area += result.graph.area[v];
+  }
+  for (const std::uint32_t v : patch.patch.vertices) {
+    const Vec3d& p = file.surface().positions[v];
+    if (p.x > 0 && p.y > 8) found += result.graph.area[v];
+  }
+  CHECK(found > 0.85 * planted_area);
+  CHECK(patch.patch.area < 1.2 * planted_area);
+  CHECK(patch.residues.front().first == "ALA 1");
+  CHECK(patch.residues.front().second > 0.8);
+  CHECK(patch.smallest_p == doctest::Approx(2.0 / 70));
+  CHECK(result.patch_tests.difference[0] == doctest::Approx(-1).epsilon(0.15));
+  CHECK(result.patch_tests.low[0] < -0.9);
+  CHECK(result.patch_tests.high[0] > -1.1);
+  CHECK(result.residues[0].adjusted_p < 0.01);
+  // One replicate against another differs by noise, and more where the effect is.
+  CHECK(result.noise.across > result.noise.replicates[0]);
+  for (const ReplicateSummary& r : result.replicates) {
+    CHECK(r.inefficiency == doctest::Approx(3).epsilon(0.2));  // (1 + 0.5) / (1 - 0.5)
+    CHECK(r.error_ratio == doctest::Approx(1).epsilon(0.25));
+  }
+  CHECK(result.warnings.empty());
+}
+
+TEST_CASE("without an effect nothing is found") {
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5");
+  plant_file(path, planted_plan(4, 4, 100), 0, 6);
+  const EnsembleResult result = analyse_ensemble(EnsembleFile(path, false), {});
+  CHECK(result.patches.empty());
+  CHECK(result.test.mean_abs_difference_p > 0.05);
+  CHECK(result.noise.across == doctest::Approx(result.noise.replicates[0]).epsilon(0.1));
+}
+
+TEST_CASE("vertices without a counterpart in too many frames of a group are left out, and said") {
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5");
+  plant_file(path, planted_plan(4, 4, 100), -1, 7);
+  {
+    EnsembleFile file(path, true);
+    std::vector<float> values(file.n_vertices());
+    for (std::size_t f = 400; f < 800; f += 4) {  // a quarter of the mutants' frames
+      file.read_values(f, 0, values.size(), values.data());
+      for (std::size_t v = 0; v < values.size() / 2; ++v) values[v] = std::numeric_limits<float>::quiet_NaN();
+      file.write(f, values, file.numbers(f));
+    }
+  }
+  const EnsembleFile file(path, false);
+  const EnsembleResult result = analyse_ensemble(file, {});
+  CHECK(result.tested[0] == 0);
+  CHECK(result.tested.back() == 1);
+  CHECK(std::isnan(result.test.p_tfce[0]));
+  CHECK(result.groups[1].present[0] == doctest::Approx(0.75));
+  REQUIRE(result.warnings.size() == 1);
+  CHECK(result.warnings[0].find("% of the template's area has no counterpart in more than 20 %") != std::string::npos);
+  EnsembleOptions lenient;
+  lenient.most_missing = 0.3;
+  CHECK(analyse_ensemble(file, lenient).tested[0] == 1);
+}
+
+TEST_CASE("one replicate a group is a statement about the runs, and says so") {
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5");
+  plant_file(path, planted_plan(1, 1, 600), -1, 8);
+  const EnsembleResult result = analyse_ensemble(EnsembleFile(path, false), {});
+  CHECK(result.test.inference == Inference::kWithinRuns);
+  REQUIRE(!result.patches.empty());
+  CHECK(result.patches[0].residues.front().first == "ALA 1");
+  REQUIRE(result.warnings.size() == 1);
+  CHECK(result.warnings[0].find("a group has one replicate: p-values and intervals will be of these runs only") == 0);
+  CHECK(result.patch_tests.difference[0] == doctest::Approx(-1).epsilon(0.15));
+}
+
+TEST_CASE("one group is described without a test") {
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5");
+  plant_file(path, planted_plan(3, 0, 100), 0, 9);
+  const EnsembleFile file(path, false);
+  const EnsembleResult result = analyse_ensemble(file, {});
+  CHECK_FALSE(result.compares);
+  CHECK(result.groups[0].deviation[0] == doctest::Approx(1).epsilon(0.2));
+  const std::vector<std::string> written = write_ensemble(folder.file("out"), file, result);
+  CHECK(written.size() == 3);
+}
+
+TEST_CASE("results are the same bytes at any number of threads and again") {
+  const ScratchFolder folder;
+  plant_file(folder.file("a.h5"), planted_plan(4, 4, 50), -1, 10);
+  const EnsembleFile file(folder.file("a.h5"), false);
+  for (const char* name : {"x", "y"}) write_ensemble(folder.file(name), file, analyse_ensemble(file, {}));
+  for (const char* ending : {".json", ".vtp", ".residues.csv", ".patches.csv", ".patch_series.csv"})
+    CHECK(read_file(folder.file(std::string("x") + ending)) == read_file(folder.file(std::string("y") + ending)));
+  const auto json = nlohmann::json::parse(read_file(folder.file("x.json")));
+  CHECK(json.at("test").at("n_arrangements") == 70);
+  CHECK(json.at("patches").at(0).at("residues").at(0).at("residue") == "ALA 1");
+  std::ostringstream table;
+  print_ensemble(table, file, analyse_ensemble(file, {}));
+  CHECK(table.str().find("labels exchanged in all 70 ways") != std::string::npos);
+  std::string line;
+  for (std::istringstream lines(table.str()); std::getline(lines, line);) {
+    CAPTURE(line);
+    CHECK((line.size() <= 100 || line.rfind("warning", 0) == 0 || line.rfind("significant", 0) == 0));
+  }
+}
+
+TEST_CASE("values that do not change, and missing frames, are refused") {
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5");
+  EnsembleFile::create(path, planted_plan(2, 2, 5), planted_template(1));
+  EnsembleFile file(path, true);
+  CHECK(message_of([&] { analyse_ensemble(file, {}); }) == path + " has 0 of 20 frames; resume computes the others");
+  for (std::size_t f = 0; f < 20; ++f) file.write(f, std::vector<float>(file.n_vertices(), 0.5F), {});
+  CHECK(message_of([&] { analyse_ensemble(file, {}); }) ==
+        "the potentials of replicate 1 of wild do not change from frame to frame; are its frames copies of one "
+        "structure?");
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (std::size_t f = 0; f < 20; ++f) {
+    std::vector<float> values(file.n_vertices(), nan);
+    values[f % 5] = static_cast<float>(f);
+    values[(f + 1) % 5] = 2;
+    values[(f + 2) % 5] = 3 * static_cast<float>(f * f);
+    file.write(f, values, {});
+  }
+  CHECK(message_of([&] {
+          analyse_ensemble(file, {});
+        }).find("no vertex of the template has a counterpart in 80 % of each group's frames") == 0);
+  EnsembleOptions options;
+  options.equilibration = parse_equilibration("4");
+  CHECK(message_of([&] { analyse_ensemble(file, options); }) ==
+        "equilibration 4 leaves fewer than two of the 5 frames of replicate 1 of wild; cut off less");
+  CHECK(message_of([&] { parse_equilibration("-3"); }) ==
+        "equilibration: '-3' is not none, auto, or a number of frames");
+}
+
+TEST_CASE("designs that cannot show anything are named beforehand") {
+  CHECK(design_warning(planted_plan(4, 4, 5)).empty());
+  CHECK(design_warning(planted_plan(3, 0, 5)).empty());
+  CHECK(design_warning(planted_plan(3, 3, 5)) ==
+        "3 against 3 replicates can be exchanged in 20 ways: no family-wise p can be below 0.1, whatever the frames "
+        "are; 4 against 4 reach 0.029");
+  EnsemblePlan plan = planted_plan(2, 2, 5);
+  plan.replicates[1].name = "1";
+  CHECK(message_of([&] { check_replicates(plan.replicates); }) ==
+        "group wild has two replicates named 1; name them apart");
+  plan = planted_plan(2, 2, 5);
+  plan.replicates[3].sha256 = plan.replicates[0].sha256;
+  CHECK(message_of([&] { check_replicates(plan.replicates); }) ==
+        "2 of replicate 2 of mutant has the same content as replicate 1 of wild (1); a replicate counts once");
+  plan = planted_plan(2, 2, 5);
+  plan.replicates[2].n_frames = 1;
+  CHECK(message_of([&] { check_replicates(plan.replicates); }) ==
+        "replicate 1 of mutant has 1 frame; a replicate needs two or more");
+}
