@@ -39,6 +39,8 @@ const char* const kPdb2pqrRemedy = "install it (Debian: pdb2pqr; PyPI: pdb2pqr)"
 namespace {
 
 constexpr double kTimeLimitSeconds = 3600;
+/// Of the file it writes: a line for each of the most atoms that are read.
+constexpr std::uintmax_t kMostBytes = std::uintmax_t{512} << 20;
 
 /// A folder that is deleted at the end.
 class TemporaryFolder {
@@ -48,7 +50,9 @@ class TemporaryFolder {
     const char* const named = std::getenv("TMPDIR");
     std::error_code ignored;
     const bool is_there = named != nullptr && std::filesystem::is_directory(named, ignored);
-    for (const std::string& folder : {std::string(is_there ? named : "/tmp"), std::string("/tmp")}) {
+    // Absolute, since the program works in this folder, and a name that begins with a dash would be an option of it.
+    const std::string wanted = is_there ? std::filesystem::absolute(named, ignored).string() : std::string();
+    for (const std::string& folder : {wanted.empty() ? std::string("/tmp") : wanted, std::string("/tmp")}) {
       path_ = folder + "/espdiff-XXXXXX";
       if (mkdtemp(path_.data()) != nullptr) return;
     }
@@ -242,7 +246,10 @@ std::string run_pdb2pqr(const std::string& program, const std::string& name, con
                         const std::string& ligand, const std::vector<std::string>& options, const Progress& progress) {
   const TemporaryFolder folder;
   const auto write = [&](const char* file, const std::string& content) {
-    std::ofstream(folder.file(file), std::ios::binary) << content;
+    std::ofstream stream(folder.file(file), std::ios::binary);
+    stream << content;
+    stream.close();
+    if (!stream) throw IoError(folder.file(file), "cannot be written; is the disk full? Name another folder in TMPDIR");
     return folder.file(file);
   };
   ProgramCall call;
@@ -252,7 +259,13 @@ std::string run_pdb2pqr(const std::string& program, const std::string& name, con
   call.words.insert(call.words.end(), {write("input.pdb", pdb), folder.file("output.pqr")});
   call.folder = folder.path();
   call.time_limit_s = kTimeLimitSeconds;
-  call.while_running = [&] { progress.check_cancelled(); };
+  call.while_running = [&] {
+    progress.check_cancelled();
+    std::error_code missing;
+    const auto n_bytes = std::filesystem::file_size(folder.file("output.pqr"), missing);
+    if (!missing && n_bytes > kMostBytes)
+      throw DeviceError(name + ": PDB2PQR wrote more than " + std::to_string(kMostBytes >> 20) + " MB and was ended");
+  };
   const ProgramResult result = run_program(call);
   std::error_code ignored;
   const std::string log = result.output + result.messages;

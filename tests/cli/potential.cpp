@@ -263,6 +263,25 @@ TEST_CASE("a molecule that Poisson-Boltzmann cannot take is refused by one line 
   CHECK(contains(read_file(out + ".json"), " e, which is not a whole number: atoms or charges may be missing"));
 }
 
+TEST_CASE("a molecule without charges is refused by each verb that was asked for pb, in one line") {
+  const ScratchFolder folder;
+  std::string text = row_of_atoms(8);
+  for (std::size_t at = text.find(" 0.5000"); at != std::string::npos; at = text.find(" 0.5000")) text[at + 3] = '0';
+  const std::string zero = folder.write("zero.pqr", text), charged = folder.write("a.pqr", row_of_atoms(8));
+  const std::size_t n_before = folder.n_files();
+  for (const std::string& call :
+       {"compare " + charged + " " + zero, "trajectory " + charged + " " + zero, "matrix " + charged + " " + zero}) {
+    const Outcome outcome = run_espdiff(call + " --potential pb --device cpu -o " + folder.file("out"));
+    CAPTURE(call);
+    CHECK(outcome.status == 2);
+    CHECK_MESSAGE(contains(outcome.err, "zero.pqr"), outcome.err);
+    CHECK_MESSAGE(contains(outcome.err, "charge"), outcome.err);
+    CHECK(n_lines(outcome.err) == 1);
+    CHECK(outcome.out.empty());
+    CHECK(folder.n_files() == n_before);
+  }
+}
+
 TEST_CASE("options of potentials that cannot be are refused in one line, and nothing is written") {
   const ScratchFolder folder;
   const std::string molecule = folder.write("a.pqr", row_of_atoms(8)),
