@@ -83,9 +83,14 @@ int run(Arguments& a, const Context& context) {
   a.run.skip_errors = a.on_error == "skip";
   context.progress->report("read", 0.0);
   EnsembleInputs inputs(a.inputs, options, *context.progress);
+  if (options.input.has_region())
+    throw InputError(option("region") + ": an ensemble tells residues and patches of the whole surface; leave it out");
   std::vector<std::string> outputs = ensemble_outputs(a.run.output, true);
   outputs.push_back(ensemble_path(a.run.output, a.run.shard));
-  check_outputs(inputs.files(), outputs);
+  std::vector<std::string> read = input_files(a.settings);
+  const std::vector<std::string> files = inputs.files();
+  read.insert(read.end(), files.begin(), files.end());
+  check_outputs(read, outputs);
   const std::string warning = design_warning(inputs.plan());
   if (!warning.empty()) std::fprintf(stderr, "espdiff: warning: %s\n", printable(warning).c_str());
   const std::unique_ptr<Engine> engine = make_engine(a.device);

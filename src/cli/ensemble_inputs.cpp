@@ -7,6 +7,8 @@
 
 #include "base/error.h"
 #include "base/version.h"
+#include "cli/map_options.h"
+#include "cli/options.h"
 #include "compare/settings.h"
 #include "ensemble/medoid.h"
 #include "io/read_csv.h"

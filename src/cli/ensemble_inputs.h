@@ -1,6 +1,7 @@
 // ensemble_inputs.h: the groups, replicates and frames that the command line names, and how a frame is loaded.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <map>
 #include <memory>
 #include <optional>
@@ -8,10 +9,10 @@
 #include <vector>
 
 #include "base/structure_options.h"
-#include "cli/map_options.h"
 #include "compare/input.h"
 #include "compare/options.h"
 #include "ensemble/ensemble_plan.h"
+#include "potential/potential_plan.h"
 #include "trajectory/frame_files.h"
 
 namespace espdiff::cli {
@@ -21,7 +22,7 @@ struct EnsembleInputArguments {
   std::vector<std::vector<std::string>> groups;  ///< NAME FILE...
   std::string list, frames = "all", template_text = "medoid";
   std::vector<std::string> charges;  ///< GROUP=FILE
-  ComputedMapArguments potential;
+  PotentialRequest potential;
   StructureOptions structure;
 };
 

@@ -79,7 +79,7 @@ void write_surface(std::ostream& out, const EnsembleFile& file, const EnsembleRe
     for (const std::uint32_t v : corners) any = any || result.tested[v] == 0;
     untested.push_back(any ? 1 : 0);
   }
-  vtp.cell_arrays = {{"no_counterpart", untested}};
+  vtp.cell_arrays = {{"untested", untested}};
   vtp.texts.emplace_back("potential_unit", file.plan().potential_unit);
   vtp.texts.emplace_back("written_by", std::string("espdiff ") + kVersion + " ensemble");
   vtp.active_normals = "normal";

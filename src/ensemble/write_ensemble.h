@@ -18,7 +18,7 @@ std::vector<std::string> ensemble_outputs(const std::string& output_prefix, bool
 ///
 /// OUT.vtp: the template with means (`potential_source` is the first group's, `potential_target` the second's),
 /// `potential_difference`, its interval, standard error, t, p, `p_max_t`, `p_tfce`, effective samples, shares of frames
-/// with a counterpart, `patch` (from 1; 0: none). `no_counterpart` marks triangles with a vertex that was not tested.
+/// with a counterpart, `patch` (from 1; 0: none). `untested` marks triangles with a vertex that was not tested.
 /// @returns the files' names
 /// @throws IoError
 std::vector<std::string> write_ensemble(const std::string& output_prefix, const EnsembleFile& file,

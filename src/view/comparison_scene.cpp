@@ -118,6 +118,10 @@ SurfaceLook ComparisonScene::look_of(const Panel& panel, const Sheet& sheet) con
   SurfaceLook look;
   look.scale = scale(sheet.array);
   look.opacity = scene_.opacity;
+  if (shows_significance()) {
+    look.opacity.opaque_below_A = files_.surface.alpha;
+    look.opacity.faint_above_A = 1.2 * files_.surface.alpha;
+  }
   // Linked views keep the two sides opaque; only the third fades.
   if (scene_.layout == Layout::kLinked && &panel != &panels_.back()) look.opacity.greatest = 1;
   look.fades = sheet.fades;

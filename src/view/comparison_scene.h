@@ -42,6 +42,9 @@ class ComparisonScene {
   /// Updates what depends on the camera: length bar and axes.
   void camera_moved();
 
+  /// Whether the surface is of an ensemble, and fades by p instead of slip.
+  bool shows_significance() const { return !files_.surface.p_family_wise.empty(); }
+  double alpha() const { return files_.surface.alpha; }
   const Scene& scene() const { return scene_; }
   const std::vector<Panel>& panels() const { return panels_; }
   /// The scale of an array; source and target share one.

@@ -68,6 +68,8 @@ RunRecord read_run_record(const std::string& vtp_path) {
   if (!in) return record;
   try {
     const Json json = Json::parse(in);
+    // An ensemble has no two structures.
+    if (json.contains("plan") && json.contains("noise_floor")) return record;
     read_inputs(json.at("inputs"), path.parent_path(), record);
     read_superposition(json.at("superposition"), record.source_to_target);
     const Json& options = json.at("options");

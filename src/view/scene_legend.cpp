@@ -78,7 +78,12 @@ void add_keys(Legend& legend, const ComparisonScene& scene, const Paper& paper) 
   const double left = second_scale(scene) != nullptr ? 0.82 : 0.79;
   const auto& sheets = scene.panels().back().sheets;
   const bool fades = std::any_of(sheets.begin(), sheets.end(), [](const Sheet& s) { return s.fades; });
-  if (fades) legend.opacity(paper.bar(left, 0.96), scene.scene().opacity);
+  if (fades && scene.shows_significance()) {
+    legend.key(paper.width * left, (paper.bar_bottom + paper.bar_top) / 2, kNoValueColour, scene.scene().opacity.least,
+               "not significant, p > " + readable_number(scene.alpha()));
+  } else if (fades) {
+    legend.opacity(paper.bar(left, 0.96), scene.scene().opacity);
+  }
   const bool shows_start =
       std::any_of(scene.panels().begin(), scene.panels().end(), [](const Panel& p) { return p.is_source(); });
   const bool no_value = scene.scale(sheets.front().array).has_missing();

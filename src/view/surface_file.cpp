@@ -11,6 +11,7 @@
 #include "io/file_kind.h"
 #include "io/read_input.h"
 #include "io/read_vtp.h"
+#include "io/text_cursor.h"
 
 namespace espdiff {
 namespace {
@@ -102,6 +103,9 @@ void read_arrays(SurfaceFile& file, const VtpContent& surface) {
       if (std::isnan(file.potential_difference[i])) file.sign_change[i] = std::numeric_limits<float>::quiet_NaN();
     }
   }
+  file.p_family_wise = numbers_of(surface, "p_family_wise");
+  for (float& p : file.p_family_wise) p = std::isnan(p) ? 0 : p;
+  if (const std::string alpha = text_of(surface, "alpha"); !alpha.empty()) parse_number(alpha, file.alpha);
   file.residue_index = numbers_of(surface, "residue_index");
   for (float& index : file.residue_index) {
     if (!(index >= 0 && index < 2e9F)) index = -1;  // becomes an integer later
@@ -117,6 +121,7 @@ void read_arrays(SurfaceFile& file, const VtpContent& surface) {
 }  // namespace
 
 const std::vector<float>& SurfaceFile::uncertainty() const {
+  if (!p_family_wise.empty()) return p_family_wise;
   const bool knows_slip = std::any_of(slip.begin(), slip.end(), [](float value) { return std::isfinite(value); });
   return knows_slip ? slip : displacement;
 }

@@ -23,7 +23,11 @@ struct SurfaceFile {
   std::vector<float> displacement;      ///< Angstrom
   std::vector<float> slip;              ///< Angstrom; NaN where it is not known; empty in files of older versions
   std::vector<float> potential_source, potential_target, potential_difference;  ///< NaN without a value
-  std::vector<float> sign_change;                                               ///< NaN without a value
+  /// Of an ensemble: [vertex] family-wise p; 0 where a vertex was not tested, which has no values either. Empty in
+  /// files of pairs.
+  std::vector<float> p_family_wise;
+  double alpha = 0.05;                ///< field data `alpha`
+  std::vector<float> sign_change;     ///< NaN without a value
   std::vector<float> residue_index;   ///< of the source's residues; negative: none
   std::vector<float> residue_number;  ///< as numbered in the structure file
   std::string potential_unit;         ///< field data `potential_unit`
@@ -35,7 +39,7 @@ struct SurfaceFile {
   /// The values that colour the surface.
   /// @throws InputError if the file lacks them, listing the arrays it has
   const std::vector<float>& values(RenderArray array) const;
-  /// What makes points uncertain: the slip, or the displacement where no slip is known.
+  /// What makes points uncertain: of an ensemble its p, otherwise the slip, or the displacement where no slip is known.
   const std::vector<float>& uncertainty() const;
 };
 

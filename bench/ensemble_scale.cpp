@@ -1,0 +1,104 @@
+// ensemble_scale.cpp: the file and the statistics of an ensemble of any size, with its peak of memory.
+//
+//     espdiff_ensemble_scale 10000 5000 /tmp/scale.h5
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "ensemble/ensemble_file.h"
+#include "ensemble/ensemble_result.h"
+#include "statistics/counter_random.h"
+
+using namespace espdiff;
+
+namespace {
+
+double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+double peak_MB() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+/// A sphere of 20 A with about n vertices, by longitude and latitude.
+TemplateSurface sphere(std::size_t n) {
+  constexpr double kPi = 3.14159265358979323846;
+  const auto rows = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(n) / 2)), columns = 2 * rows;
+  TemplateSurface surface;
+  for (std::uint32_t i = 0; i < rows; ++i) {
+    for (std::uint32_t j = 0; j < columns; ++j) {
+      const double a = kPi * (i + 0.5) / rows, b = 2 * kPi * j / columns;
+      const Vec3d p{std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a)};
+      surface.positions.push_back(20.0 * p);
+      surface.normals.push_back(static_cast<Vec3f>(p));
+      surface.residue.push_back(static_cast<std::int32_t>(i));
+    }
+  }
+  for (std::uint32_t i = 0; i + 1 < rows; ++i) {
+    for (std::uint32_t j = 0; j < columns; ++j) {
+      const std::uint32_t a = i * columns + j, b = i * columns + (j + 1) % columns, c = a + columns, d = b + columns;
+      surface.triangles.push_back({a, c, b});
+      surface.triangles.push_back({b, c, d});
+    }
+  }
+  return surface;
+}
+
+EnsemblePlan plan_of(std::size_t n_frames, std::size_t n_residues) {
+  EnsemblePlan plan;
+  plan.version = "bench";
+  plan.device = "cpu";
+  plan.potential = "synthetic";
+  plan.potential_unit = "kT/e";
+  plan.template_name = "a sphere";
+  for (std::size_t i = 0; i < n_residues; ++i) plan.residues.push_back("ALA " + std::to_string(i + 1));
+  for (std::size_t r = 0; r < 8; ++r)
+    plan.replicates.push_back(
+        {r < 4 ? "wild" : "mutant", std::to_string(r), {std::to_string(r)}, {std::to_string(r)}, n_frames / 8});
+  return plan;
+}
+
+/// Noise that remembers the frame before, different in each replicate.
+void write_frames(EnsembleFile& file) {
+  std::vector<float> values(file.n_vertices(), 0);
+  for (std::size_t f = 0; f < file.plan().n_frames(); ++f) {
+    for (std::size_t v = 0; v < values.size(); ++v) {
+      const double noise = static_cast<double>(random_bits(1, f, v) >> 11) / 9007199254740992.0 - 0.5;
+      values[v] = static_cast<float>(0.8 * static_cast<double>(values[v]) + noise);
+    }
+    file.write(f, values, {1, 0, 0, 0, 1, static_cast<double>(values[0]), true, ""});
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 4) {
+    std::fprintf(stderr, "usage: espdiff_ensemble_scale FRAMES VERTICES FILE.h5\n");
+    return 2;
+  }
+  const TemplateSurface surface = sphere(std::strtoul(argv[2], nullptr, 10));
+  const std::string path = argv[3];
+  const double start = seconds();
+  EnsembleFile::create(path, plan_of(std::strtoul(argv[1], nullptr, 10), surface.residue.back() + 1U), surface);
+  {
+    EnsembleFile file(path, true);
+    write_frames(file);
+  }
+  const double written = seconds();
+  std::printf("%s frames of %zu vertices\nwrite       %7.1f s  %7.0f MB peak\n", argv[1], surface.positions.size(),
+              written - start, peak_MB());
+  const EnsembleFile file(path, false);
+  const double opened = seconds();
+  std::printf("check       %7.1f s  %7.0f MB peak\n", opened - written, peak_MB());
+  const EnsembleResult result = analyse_ensemble(file, {});
+  std::printf("statistics  %7.1f s  %7.0f MB peak\n", seconds() - opened, peak_MB());
+  std::printf("smallest p  %g; median g of the first replicate %.1f (9 planted)\n", result.test.smallest_p,
+              result.replicates[0].inefficiency);
+  return 0;
+}
