@@ -143,8 +143,9 @@ LoadedState load_state(const StructureFile& file, const StateRequest& request, c
       throw InputError(state.molecule.name + ":" + std::to_string(line) + ": " + error.text);
     }
   }
-  for (const std::string& ligand : options.charges.ligands) {
-    if (state.preparation) state.charge_files.push_back({"ligand", ligand, {}});
+  if (state.preparation) {
+    for (const std::string& ligand : state.preparation->ligands)
+      state.charge_files.push_back({"ligand", ligand, {}});
   }
   state.is_changed = !select.empty() || state.n_left_out > 0 || !structure.assembly.empty() ||
                      state.preparation.has_value() || !state.charge_files.empty();
@@ -182,7 +183,30 @@ void refuse_options_of_files(const InputOptions& options, StateRole role, const 
   }
 }
 
+namespace {
+
+void check_ligands(const InputOptions& options, const std::vector<const LoadedState*>& states) {
+  for (const std::string& path : options.charges.ligands) {
+    const auto has = [&](const LoadedState* state) {
+      if (!state->preparation) return false;
+      const std::vector<std::string>& used = state->preparation->ligands;
+      return std::find(used.begin(), used.end(), path) != used.end();
+    };
+    if (states.empty() || std::any_of(states.begin(), states.end(), has)) continue;
+    const bool any = std::any_of(states.begin(), states.end(), [](const auto* s) { return s->preparation.has_value(); });
+    const Molecule& whole = states.front()->whole;
+    throw InputError(path + ": " +
+                     (any ? "no residue that is prepared has heavy atoms of its names; " + whole.name + " has " +
+                                describe_chains(whole)
+                          : "no structure is prepared that this ligand could be in") +
+                     "; leave " + option("ligand") + " out, or name its atoms as the structure does");
+  }
+}
+
+}  // namespace
+
 void check_left_out(const InputOptions& options, const std::vector<const LoadedState*>& states) {
+  check_ligands(options, states);
   if (options.leave_out.empty()) return;
   const bool some = std::any_of(states.begin(), states.end(), [](const LoadedState* s) { return s->n_left_out > 0; });
   if (some || states.empty()) return;

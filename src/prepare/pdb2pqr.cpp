@@ -289,6 +289,16 @@ Molecule read_output(const std::string& output, const Molecule& before, const Re
   return molecule;
 }
 
+/// Paths of the files that describe a residue.
+std::vector<std::string> used_files(const std::vector<Mol2File>& ligands, const std::vector<std::int32_t>& ligand_of) {
+  std::vector<std::string> paths;
+  for (std::size_t i = 0; i < ligands.size(); ++i) {
+    if (std::find(ligand_of.begin(), ligand_of.end(), static_cast<std::int32_t>(i)) != ligand_of.end())
+      paths.push_back(ligands[i].path);
+  }
+  return paths;
+}
+
 void require_residues(const Molecule& molecule) {
   const std::vector<ResidueKind> kinds = residue_kinds(molecule, atoms_of_residues(molecule));
   if (std::any_of(kinds.begin(), kinds.end(), is_polymer)) return;
@@ -434,7 +444,7 @@ Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options
   done.program = run.version();
   done.force_field = options.force_field;
   done.ph = options.ph;
-  done.ligands = options.ligands;
+  done.ligands = used_files(ligands, ligands_of_residues(before, ligands));
   done.from_cache = run.all_from_cache();
   compare_with_input(before, prepared.molecule, options, done);
   done.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();

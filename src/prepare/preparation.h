@@ -27,7 +27,7 @@ struct Preparation {
   std::string program;      ///< "PDB2PQR v3.5.2"
   std::string force_field;  ///< lower case
   double ph = 7;
-  std::vector<std::string> ligands;  ///< MOL2 files
+  std::vector<std::string> ligands;  ///< MOL2 files of residues that were there
   bool from_cache = false;
   double seconds = 0;
   std::size_t n_atoms_before = 0, n_atoms = 0, n_hydrogens_added = 0;

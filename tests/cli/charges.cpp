@@ -155,7 +155,7 @@ TEST_CASE("potential and surface prepare a structure without charges, as prepare
     CHECK(read_file(folder.file("direct" + ending)) == read_file(folder.file("step" + ending)));
     return direct.out;
   };
-  both("potential", "--method pb --spacing 1.5", ".dx");
+  both("potential", "--method pb --pb-spacing 1.5", ".dx");
   both("potential", "--method pme --grid 2", ".vti");
   const std::string printed = both("surface", "--potential pb --pb-spacing 1.5 --grid-spacing 2", ".vtp");
   CHECK_MESSAGE(contains(printed, "kT/e, Poisson-Boltzmann, 0.15 mol/l"), printed);

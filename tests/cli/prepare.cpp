@@ -82,6 +82,12 @@ TEST_CASE("prepare: an atom without charge, an unknown chain, a word that drops 
       contains(refused("--select //C"), "--select '//C' selects no atom; the file has chain A (1-214, AP5), chain B"));
   CHECK(contains(refused("--select '//A;polymer' --leave-out '(HEM)'"), "drops no atom"));
   CHECK(contains(refused("--select '//A;polymer' --ligand " + *path), "a ligand is read from a Tripos MOL2 file"));
+  const std::string ligand = folder.write("benzene.mol2",
+                                          "@<TRIPOS>MOLECULE\nBNZ\n2 1\n@<TRIPOS>ATOM\n1 CX1 0 0 0 C.ar\n2 CX2 1.4 0 0 "
+                                          "C.ar\n@<TRIPOS>BOND\n1 1 2 ar\n");
+  CHECK(contains(refused("--select '//A;polymer' --ligand " + ligand),
+                 "benzene.mol2: no residue that is prepared has heavy atoms of its names; "));
+  std::filesystem::remove(ligand);
   CHECK(contains(refused("--assembly 7"), "there is no assembly '7'"));
   CHECK(folder.n_files() == 0);
 }
