@@ -11,6 +11,7 @@
 
 #include "ensemble/ensemble_file.h"
 #include "ensemble/ensemble_result.h"
+#include "ensemble/states.h"
 #include "statistics/counter_random.h"
 
 using namespace espdiff;
@@ -98,6 +99,12 @@ int main(int argc, char** argv) {
   std::printf("check       %7.1f s  %7.0f MB peak\n", opened - written, peak_MB());
   const EnsembleResult result = analyse_ensemble(file, {});
   std::printf("statistics  %7.1f s  %7.0f MB peak\n", seconds() - opened, peak_MB());
+  if (file.plan().n_frames() <= 2000) {
+    const double before = seconds();
+    const StateTable states = compare_states(file, result);
+    std::printf("states      %7.1f s  %7.0f MB peak, %zu frames with each other\n", seconds() - before, peak_MB(),
+                states.size());
+  }
   std::printf("smallest p  %g; median g of the first replicate %.1f (9 planted)\n", result.test.smallest_p,
               result.replicates[0].inefficiency);
   return 0;

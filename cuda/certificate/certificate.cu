@@ -26,13 +26,41 @@ struct FitSums {
   }
 };
 
+struct UmbrellaSum {
+  double length = 0, n = 0;
+
+  ESPDIFF_HD UmbrellaSum& operator+=(const UmbrellaSum& o) {
+    length += o.length;
+    n += o.n;
+    return *this;
+  }
+};
+
+/// Whether triangles surround the vertex. At the border of removed triangles its one-ring is open.
+ESPDIFF_INLINE bool is_surrounded(const TopologyView& topology, std::uint32_t v) {
+  const std::uint32_t begin = topology.first[v], end = topology.first[v + 1];
+  for (std::uint32_t i = begin; i < end; ++i) {
+    const Corners c = topology.triangles[topology.incident[i]];
+    const std::uint32_t before = c.v[0] == v ? c.v[2] : c.v[1] == v ? c.v[0] : c.v[1];
+    bool found = false;
+    for (std::uint32_t k = begin; k < end; ++k) found = found || topology.neighbour[k] == before;
+    if (!found) return false;
+  }
+  return begin < end;
+}
+
+/// Over the surrounded vertices: elsewhere the mean of the neighbours lies to one side.
 double mean_umbrella_length(const SurfaceMesh& mesh) {
   const TopologyView topology = mesh.view();
   const Vec4f* const x = raw(mesh.positions);
-  const double sum = sum_over<double>(mesh.n_vertices(), [=] ESPDIFF_HD(std::size_t v) {
-    return static_cast<double>(norm(umbrella(topology, x, v).xyz()));
+  const UmbrellaSum sum = sum_over<UmbrellaSum>(mesh.n_vertices(), [=] ESPDIFF_HD(std::size_t v) {
+    UmbrellaSum one;
+    if (!is_surrounded(topology, static_cast<std::uint32_t>(v))) return one;
+    one.length = static_cast<double>(norm(umbrella(topology, x, v).xyz()));
+    one.n = 1;
+    return one;
   });
-  return sum / static_cast<double>(mesh.n_vertices());
+  return sum.length / sum.n;
 }
 
 Buffer<Vec4f> triangle_centroids(const SurfaceMesh& mesh) {

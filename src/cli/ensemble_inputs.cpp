@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <set>
 
+#include "align/pair_atoms.h"
+#include "align/superpose.h"
 #include "base/error.h"
 #include "base/version.h"
 #include "cli/map_options.h"
@@ -23,6 +25,8 @@ namespace espdiff::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kMedoidOf = "medoid:";
 
 /// "wild_1" of "runs/wild_1.pdb.gz".
 std::string name_of_file(const std::string& path) {
@@ -189,18 +193,36 @@ LoadedState EnsembleInputs::load(std::size_t number) {
 
 MapMaker EnsembleInputs::maker_of(const LoadedState& state) const { return potential_.map_of(state).maker(); }
 
-void EnsembleInputs::choose_template(const Progress& progress) {
-  const std::string& text = a_.template_text;
+/// @param group empty for all
+std::size_t EnsembleInputs::medoid(const std::string& group, const Progress& progress) {
+  std::size_t first = 0, n = 0;
+  for (const EnsembleReplicate& r : plan_.replicates) {
+    if (n == 0 && !group.empty() && r.group != group) first += r.n_frames;
+    if (group.empty() || r.group == group) n += r.n_frames;
+  }
+  if (n == 0) throw InputError(option("template", kMedoidOf + group) + ": there is no group of this name");
+  return first + find_medoid(
+                     n, [&](std::size_t f) { return load(first + f).molecule; }, progress);
+}
+
+RigidTransform EnsembleInputs::onto(const Molecule& earlier) const {
+  const Molecule& present = template_.molecule;
+  return superpose(present.positions, earlier.positions, pair_atoms(present, earlier).pairs).transform;
+}
+
+void EnsembleInputs::choose_template(const std::string& text, const Progress& progress) {
   const std::size_t n = plan_.n_frames();
-  if (text == "medoid" || is_number(text)) {
-    const std::size_t number = is_number(text) ? std::stoul(text)
-                                               : find_medoid(
-                                                     n, [&](std::size_t f) { return load(f).molecule; }, progress);
+  const bool of_group = text.rfind(kMedoidOf, 0) == 0;
+  if (text == "medoid" || of_group || is_number(text)) {
+    const std::size_t number = is_number(text)
+                                   ? std::stoul(text)
+                                   : medoid(of_group ? text.substr(std::string(kMedoidOf).size()) : "", progress);
     if (number >= n)
       throw InputError(option("template", text) + ": there are " + std::to_string(n) +
                        " frames in all groups, numbered from 0");
     template_ = load(number);
-    plan_.template_name = (text == "medoid" ? "medoid: " : "") + plan_.name_of(number);
+    const std::string what = of_group ? "medoid of its group: " : text == "medoid" ? "medoid: " : "";
+    plan_.template_name = what + plan_.name_of(number);
   } else {
     const StructureFile file(text);
     StateRequest request{a_.structure};
@@ -208,6 +230,7 @@ void EnsembleInputs::choose_template(const Progress& progress) {
     template_ = load_state(file, request, options_.input, progress);
     plan_.template_name = text;
   }
+  template_map_ = nullptr;
   if (has_charges(template_.molecule) && !potential_.takes_everything()) template_map_ = maker_of(template_);
   set_surface_radii({&template_.molecule}, options_.input.radii);
   plan_.template_sha256 = sha256_of_molecule(template_.molecule);
@@ -242,7 +265,8 @@ void add_ensemble_inputs(CLI::App& p, EnsembleInputArguments& a) {
       ->group("Groups");
   p.add_option("--template", a.template_text,
                "The structure whose surface is mapped onto every frame. medoid: the frame nearest to all others (of at "
-               "most 200, evenly spread); a number: that frame, counted from 0 through all groups; a structure file")
+               "most 200, evenly spread); medoid:GROUP: among the group's frames; a number: that frame, counted from 0 "
+               "through all groups; a structure file")
       ->capture_default_str()
       ->group("Groups");
   add_structure_options(p, a.structure);

@@ -37,8 +37,12 @@ class EnsembleInputs {
   const EnsemblePlan& plan() const { return plan_; }
   /// Every file that is read.
   std::vector<std::string> files() const;
-  /// Reads the template; searches for the medoid. @throws InputError (no such frame), as find_medoid()
-  void choose_template(const Progress& progress);
+  /// Reads the template; searches for the medoid.
+  /// @param text medoid, medoid:GROUP, a frame, or a file
+  /// @throws InputError (no such frame or group), as find_medoid()
+  void choose_template(const std::string& text, const Progress& progress);
+  /// The superposition of the present template onto an earlier one. @throws as superpose()
+  RigidTransform onto(const Molecule& earlier) const;
   CompareInput source() const;
   /// A frame of all; it lives until the next one is asked for.
   CompareInput frame(std::size_t number);
@@ -55,6 +59,7 @@ class EnsembleInputs {
   void count_frames();
   void read_references();
   LoadedState load(std::size_t frame);
+  std::size_t medoid(const std::string& group, const Progress& progress);
   MapMaker maker_of(const LoadedState& state) const;
 
   const EnsembleInputArguments& a_;

@@ -14,12 +14,12 @@ namespace {
 
 int run(const std::string& prefix) {
   const Verification verification = verify(prefix);
-  std::printf("%-58s %14s %14s %10s\n", "Number", "recorded", "recomputed", "");
+  std::printf("%-58s %12s %12s %10s\n", "Number", "recorded", "recomputed", "tolerance");
   std::size_t n_different = 0;
   for (const VerifiedLine& line : verification.lines) {
     n_different += line.agrees() ? 0 : 1;
-    std::printf("%-58s %14.6g %14.6g %10s\n", line.name.c_str(), line.recorded, line.recomputed,
-                line.agrees() ? "agrees" : "DIFFERS");
+    std::printf("%-58s %12.6g %12.6g %10.2g%s\n", line.name.c_str(), line.recorded, line.recomputed, line.tolerance,
+                line.agrees() ? "" : "  DIFFERS");
   }
   std::printf("\nNot recomputed:\n");
   for (const std::string& name : verification.not_recomputed) std::printf("  - %s\n", name.c_str());

@@ -37,7 +37,7 @@ struct FitReport {
   double corrupt_area_fraction =
       0;  ///< triangles whose analytic density at the centroid is off the isovalue by more than 0.1
   double flipped_area_fraction = 0;  ///< triangles whose normal opposes the density's outward normal at their centroid
-  double irregularity_A = 0;         ///< mean length of the umbrella Laplacian
+  double irregularity_A = 0;         ///< mean length of the umbrella Laplacian where triangles surround a vertex
   double area_A2 = 0;
   ScalarsPtr corrupt;  ///< [triangle] 1 if corrupt, otherwise 0
   ScalarsPtr flipped;  ///< [triangle] 1 if flipped, otherwise 0

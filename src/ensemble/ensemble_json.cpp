@@ -110,8 +110,29 @@ Json ensemble_json(const EnsembleFile& file, const EnsembleResult& result) {
   json["area_A2"] = result.area_A2;
   json["tested_area_A2"] = result.tested_area_A2;
   json["replicates"] = replicates_json(result);
+  // What a frame's `trustworthy` says nothing about.
+  json["not_checked"] = {"slip", "round_trip", "residues"};
   if (result.compares) json["test"] = test_json(result);
   json["noise_floor"] = noise_json(result);
+  if (result.states) {
+    json["states"] = {{"n", result.states->size()}, {"area_fraction", result.states->area_fraction}};
+    json["states"]["component_shares"] = Json::array();
+    for (const auto& component : result.states->components)
+      json["states"]["component_shares"].push_back(number(component.share));
+  }
+  if (!result.template_checks.empty()) {
+    json["template_check"] = Json::array();
+    for (const TemplateCheck& check : result.template_checks) {
+      Json differences = Json::array();
+      for (const double difference : check.patch_differences) differences.push_back(number(difference));
+      json["template_check"].push_back({{"template", check.template_name},
+                                        {"mean_abs_difference", number(check.mean_abs_difference)},
+                                        {"significant_area_A2", check.significant_area_A2},
+                                        {"overlap", number(check.overlap)},
+                                        {"patch_differences", std::move(differences)},
+                                        {"largest_change", number(check.largest_change)}});
+    }
+  }
   if (result.compares) json["patches"] = patches_json(file, result);
   json["warnings"] = result.warnings;
   return json;

@@ -3,11 +3,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "ensemble/ensemble_columns.h"
+#include "ensemble/states.h"
+#include "ensemble/template_check.h"
 #include "statistics/mesh_graph.h"
 #include "statistics/patches.h"
 #include "statistics/surface_test.h"
@@ -81,6 +84,8 @@ struct EnsembleResult {
   PlaceTests residue_tests;
   std::vector<EnsemblePatch> patches;
   PlaceTests patch_tests;
+  std::vector<TemplateCheck> template_checks;  ///< where they were asked for; see check_template()
+  std::optional<StateTable> states;            ///< where they were asked for; see compare_states()
   std::vector<std::string> warnings;
 
   /// [vertex] the family-wise p that the options ask for.

@@ -103,6 +103,37 @@ void print_residues(std::ostream& out, const EnsembleResult& result) {
   }
 }
 
+void print_template_checks(std::ostream& out, const EnsembleResult& result) {
+  if (result.template_checks.empty()) return;
+  out << print("\n%-44s %10s %10s %8s %14s\n", "through another template", "mean diff.", "area (A2)", "overlap",
+               "largest change");
+  for (const TemplateCheck& check : result.template_checks)
+    out << print("  %-42.42s %10.3f %10.1f %8s %14s\n", check.template_name.c_str(), check.mean_abs_difference,
+                 check.significant_area_A2, value(check.overlap).c_str(), value(check.largest_change).c_str());
+}
+
+/// Mean scores of the groups beside each component's share.
+void print_states(std::ostream& out, const EnsembleFile& file, const EnsembleResult& result) {
+  if (!result.states) return;
+  const StateTable& states = *result.states;
+  out << print("\nprincipal components of %zu frames, over %.1f %% of the area; mean scores in standard deviations\n",
+               states.size(), 100 * states.area_fraction);
+  for (std::size_t k = 0; k < states.components.size(); ++k) {
+    out << print("  component %zu: %4.1f %% of the variance", k + 1, 100 * states.components[k].share);
+    for (const GroupColumns& group : result.groups) {
+      double sum = 0, n = 0;
+      for (std::size_t i = 0; i < states.size(); ++i) {
+        const auto replicate = file.plan().place_of(states.frames[i]).first;
+        if (file.plan().replicates[replicate].group != group.name) continue;
+        sum += states.components[k].scores[i];
+        ++n;
+      }
+      out << print(";  %s %.2f", group.name.c_str(), sum / n);
+    }
+    out << '\n';
+  }
+}
+
 }  // namespace
 
 void print_ensemble(std::ostream& out, const EnsembleFile& file, const EnsembleResult& result) {
@@ -122,7 +153,9 @@ void print_ensemble(std::ostream& out, const EnsembleFile& file, const EnsembleR
   if (result.compares) {
     print_patches(out, result, unit);
     print_residues(out, result);
+    print_template_checks(out, result);
   }
+  print_states(out, file, result);
   for (const std::string& warning : result.warnings) out << "\nwarning: " << warning << '\n';
 }
 

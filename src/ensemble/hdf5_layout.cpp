@@ -218,10 +218,10 @@ void make_hdf5_file(const std::string& path, const std::string& plan, const Temp
   make.dataset("/espdiff/normals", H5T_IEEE_F32LE, {surface.normals.size(), 3}, surface.normals.data());
   make.dataset("/espdiff/residue", H5T_STD_I32LE, surface.residue);
   make_surface(make, surface, n_frames);
-  const std::vector<char> zeros(n_frames * std::max(kNoteBytes, frame_columns().size() * sizeof(double)), 0);
-  make.dataset("/espdiff/frame_checksums", H5T_STD_U64LE, {n_frames}, zeros.data());
-  make.dataset("/espdiff/frame_numbers", H5T_IEEE_F64LE, {n_frames, frame_columns().size()}, zeros.data());
-  make.dataset("/espdiff/frame_notes", H5T_STD_U8LE, {n_frames, kNoteBytes}, zeros.data());
+  // Not written yet, they read as zeros.
+  make.dataset("/espdiff/frame_checksums", H5T_STD_U64LE, {n_frames}, nullptr);
+  make.dataset("/espdiff/frame_numbers", H5T_IEEE_F64LE, {n_frames, frame_columns().size()}, nullptr);
+  make.dataset("/espdiff/frame_notes", H5T_STD_U8LE, {n_frames, kNoteBytes}, nullptr);
   const std::vector<std::uint64_t> sum = {
       head_checksum(plan, surface.positions, surface.normals, surface.triangles, surface.residue)};
   make.dataset("/espdiff/head_checksum", H5T_STD_U64LE, sum);

@@ -73,6 +73,11 @@ void write_surface(std::ostream& out, const EnsembleFile& file, const EnsembleRe
   } else {
     vtp.active_scalars = "potential_source";
   }
+  for (std::size_t k = 0; result.states && k < result.states->components.size(); ++k) {
+    const std::vector<double>& mode = result.states->components[k].mode;
+    kept.push_back(std::make_unique<std::vector<float>>(mode.begin(), mode.end()));
+    vtp.point_arrays.emplace_back("component_" + std::to_string(k + 1), *kept.back());
+  }
   std::vector<std::uint8_t> untested;
   for (const Triangle& corners : surface.triangles) {
     bool any = false;

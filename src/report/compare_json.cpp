@@ -1,4 +1,5 @@
 // compare_json.cpp: a comparison's result as JSON.
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -109,6 +110,19 @@ Json domains(const Molecule& source, const std::vector<RigidDomain>& all) {
   return json;
 }
 
+/// Runs [first atom of the source, first atom of the target, number of atoms], so that a file stays short.
+Json paired_atoms(const AtomPairing& pairing) {
+  std::vector<std::array<std::size_t, 3>> runs;
+  for (const auto& [s, t] : pairing.pairs) {
+    if (!runs.empty() && s == runs.back()[0] + runs.back()[2] && t == runs.back()[1] + runs.back()[2]) {
+      ++runs.back()[2];
+    } else {
+      runs.push_back({s, t, 1});
+    }
+  }
+  return runs;
+}
+
 Json superposition(const Molecule& source, const CompareResult& result) {
   const RigidTransform& t = result.source_to_target;
   Json rotation = Json::array();
@@ -121,6 +135,7 @@ Json superposition(const Molecule& source, const CompareResult& result) {
   json["rotation_row_major"] = std::move(rotation);
   json["translation_A"] = {number(t.translation.x), number(t.translation.y), number(t.translation.z)};
   json["domains"] = domains(source, result.domains);
+  json["paired_atoms"] = paired_atoms(result.pairing);
   return json;
 }
 

@@ -18,7 +18,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
+
+#include "base/error.h"
 
 namespace espdiff {
 namespace {
@@ -50,8 +53,10 @@ GaussianAtoms::GaussianAtoms(const std::vector<Vec3d>& positions, const std::vec
     if (!(widths[i] > 0)) continue;
     positions_.push_back(positions[i]);
     widths_.push_back(widths[i]);
+    kept_.push_back(i);
     reach_ = std::max(reach_, kReachInWidths * widths[i]);
   }
+  if (positions_.empty()) throw InputError("verify: no atom has a radius, so that there is no surface");
   lower_ = upper_ = positions_.front();
   for (const Vec3d& p : positions_) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -74,9 +79,8 @@ std::size_t GaussianAtoms::cell_of(const Vec3d& p, int axis) const {
   return static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(size_[axis] - 1)));
 }
 
-double GaussianAtoms::at(const Vec3d& p, Vec3d& gradient) const {
-  double sum = 0;
-  gradient = {};
+template <typename Visit>
+void GaussianAtoms::visit(const Vec3d& p, Visit visit) const {
   std::size_t low[3], high[3];
   for (int axis = 0; axis < 3; ++axis) {
     Vec3d a = p, b = p;
@@ -91,15 +95,34 @@ double GaussianAtoms::at(const Vec3d& p, Vec3d& gradient) const {
         for (const std::size_t i : cells_[x + size_[0] * (y + size_[1] * z)]) {
           const Vec3d d = p - positions_[i];
           const double s2 = widths_[i] * widths_[i], square = dot(d, d);
-          if (square > kReachInWidths * kReachInWidths * s2) continue;
-          const double value = std::exp(-square / (2 * s2));
-          sum += value;
-          gradient += (-value / s2) * d;
+          if (square <= kReachInWidths * kReachInWidths * s2) visit(i, d, std::exp(-square / (2 * s2)));
         }
       }
     }
   }
+}
+
+double GaussianAtoms::at(const Vec3d& p, Vec3d& gradient) const {
+  double sum = 0;
+  gradient = {};
+  visit(p, [&](std::size_t i, const Vec3d& d, double value) {
+    sum += value;
+    gradient += (-value / (widths_[i] * widths_[i])) * d;
+  });
   return sum;
+}
+
+std::int32_t GaussianAtoms::strongest(const Vec3d& p, const std::vector<std::int32_t>& labels) const {
+  std::map<std::int32_t, double> density;
+  visit(p, [&](std::size_t i, const Vec3d&, double value) { density[labels[kept_[i]]] += value; });
+  std::int32_t best = -1;
+  double most = 0;
+  for (const auto& [label, value] : density) {
+    if (value <= most) continue;
+    most = value;
+    best = label;
+  }
+  return best;
 }
 
 vtkSmartPointer<vtkPolyData> GaussianAtoms::surface(double isovalue, double spacing_A) const {

@@ -1,326 +1,292 @@
 // verify.cpp: reads a result's files and computes its numbers again.
 #include "verify/verify.h"
 
-#include <vtkDoubleArray.h>
-#include <vtkImageData.h>
-#include <vtkPointData.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
-#include <nlohmann/json.hpp>
+#include <map>
 #include <utility>
 
 #include "base/error.h"
-#include "io/read_grid.h"
-#include "io/read_vtp.h"
 #include "io/structure_file.h"
+#include "verify/lines.h"
+#include "verify/map_deviation.h"
+#include "verify/mapped_file.h"
+#include "verify/result_record.h"
 #include "verify/target_surface.h"
+#include "verify/triangle_meetings.h"
 
 namespace espdiff {
 namespace {
 
-using Json = nlohmann::json;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 /// The engine's target surface lies on a lattice of 1 A and is projected, ours on half of it and is not: they differ by
 /// hundredths of an Angstrom.
-constexpr double kDistanceTolerance_A = 0.03, kMaxTolerance_A = 0.3, kShareTolerance = 0.01, kAreaTolerance = 0.01;
+constexpr double kDistanceTolerance_A = 0.03, kShareTolerance = 0.01, kAreaTolerance = 0.01;
+/// Of the spacing: what triangles may cut off at a crease.
+constexpr double kMaxTolerance = 0.6;
 /// Sums in single precision against sums in double precision.
 constexpr double kRelative = 2e-4;
 constexpr double kMatchLimit_A = 1, kCorruptDensity = 0.1;
+/// Vertices where two residues are equally strong go either way.
+constexpr double kResidueTolerance = 2e-3;
 
-Json read_json(const std::string& path) {
-  std::ifstream in(path);
-  if (!in) throw IoError(path, "cannot be read; give the prefix of a result: OUT of OUT.json and OUT.vtp");
-  const Json json = Json::parse(in, nullptr, false);
-  if (json.is_discarded() || !json.contains("certificate") || !json.contains("inputs"))
-    throw InputError(path + ": is not the record of a comparison; run `espdiff compare` again");
-  return json;
-}
-
-/// The mapped surface's file, by vertex and by triangle.
-struct MappedFile {
-  VtpContent content;
-
-  std::vector<double> numbers(const std::string& name) const {
-    const VtpNumbers* const found = find_array(content.point_arrays, name);
-    return found == nullptr ? std::vector<double>() : found->values;
-  }
-  std::vector<double> flags(const std::string& name) const {
-    const VtpNumbers* const found = find_array(content.cell_arrays, name);
-    return found == nullptr ? std::vector<double>(content.triangles.size(), 0) : found->values;
-  }
-  std::vector<Vec3d> source_positions() const {
-    std::vector<Vec3d> positions;
-    const std::vector<double> values = numbers("source_position");
-    for (std::size_t k = 0; k + 2 < values.size(); k += 3)
-      positions.push_back({values[k], values[k + 1], values[k + 2]});
-    return positions;
-  }
+/// The atoms that were compared.
+struct Side {
+  Molecule molecule;
+  std::vector<std::int32_t> residues;  ///< [atom]
+  GaussianAtoms atoms;
 };
 
-double triangle_area(const std::vector<Vec3d>& p, const Triangle& t) {
-  return 0.5 * norm(cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]));
+std::vector<double> widths_of(const Molecule& molecule, double radius_scale) {
+  std::vector<double> widths;
+  for (const float radius : molecule.radii) widths.push_back(radius_scale * static_cast<double>(radius));
+  return widths;
 }
 
-/// The value below which this share of the weight lies.
-double quantile(std::vector<std::pair<double, double>> weighted, double share) {
-  std::sort(weighted.begin(), weighted.end());
-  double all = 0, below = 0;
-  for (const auto& entry : weighted) all += entry.second;
-  for (const auto& [value, weight] : weighted) {
-    if ((below += weight) >= share * all) return value;
-  }
-  return weighted.empty() ? kNan : weighted.back().first;
+Side make_side(Molecule molecule, double radius_scale) {
+  std::vector<std::int32_t> residues;
+  for (const auto& atom : molecule.atoms) residues.push_back(atom.residue);
+  GaussianAtoms atoms(molecule.positions, widths_of(molecule, radius_scale));
+  return {std::move(molecule), std::move(residues), std::move(atoms)};
 }
 
 class Verifier {
  public:
   explicit Verifier(const std::string& prefix)
-      : json_(read_json(prefix + ".json")), file_{read_vtp(prefix + ".vtp")}, folder_(folder_of(prefix)) {}
+      : prefix_(prefix), record_(prefix), file_(prefix + ".vtp"), lines_(record_, result_) {}
 
   Verification run() {
-    areas();
-    potentials();
-    slip();
-    target_surface();
+    add_mapped_lines(file_, record_, lines_);
+    add_residue_lines(file_, prefix_ + ".residues.csv", lines_);
+    lines_.add("certificate/self_intersecting_pairs",
+               static_cast<double>(count_meetings(file_.positions, file_.matched())),
+               0.01 * record_.number("certificate/self_intersecting_pairs").value_or(0));
+    verdict();
+    const std::string why = atoms_not_read();
+    if (why.empty()) {
+      const double scale = record_.number("options/radius_scale").value_or(1);
+      const Side source = make_side(molecule("source"), scale), target = make_side(molecule("target"), scale);
+      fit(target);
+      surfaces(source, target);
+      pairs(source, target);
+    } else {
+      lines_.leave_out("certificate: corrupt, flipped and unmatched area, distances, area on the same residue; RMSD",
+                       why);
+    }
     maps();
-    result_.not_recomputed = {"certificate/self_intersecting_pairs (the tests count them with CGAL)",
-                              "certificate/irregularity_A",
-                              "certificate/dirichlet_energy",
-                              "certificate/same_residue_area_fraction and slip at the vertices (they need the pairs)",
-                              "certificate/round_trip",
-                              "mean_path_length_A (its path is in no file)"};
+    lines_.leave_out("slip at the vertices", "its quantiles follow from OUT.vtp; the atoms' rotations are in no file");
+    if (record_.size("certificate/round_trip") > 0)
+      lines_.leave_out("certificate/round_trip", "the mapping back is in no file");
+    if (record_.text("options/method") == "deform")
+      lines_.leave_out("certificate/converged", "the iteration is in no file");
+    if (record_.size("by_offset") > 1)
+      lines_.leave_out("by_offset beyond the first", "their potentials are in no file");
+    if (record_.size("region") > 0) lines_.leave_out("region", "which triangles belong to it is in no file");
     return std::move(result_);
   }
 
  private:
-  static std::string folder_of(const std::string& prefix) {
-    return std::filesystem::path(prefix).parent_path().string();
+  /// A result is trustworthy if, and only if, nothing speaks against it.
+  void verdict() {
+    const double n_reasons = static_cast<double>(record_.size("certificate/reasons"));
+    const bool trustworthy = record_.flag("certificate/trustworthy");
+    lines_.add_deviation("certificate/trustworthy, against its reasons", trustworthy == (n_reasons == 0) ? 0 : 1, 0);
   }
 
-  void add(const std::string& pointer, double recomputed, double tolerance) {
-    const Json::json_pointer at("/" + pointer);
-    if (!json_.contains(at) || !json_.at(at).is_number()) return;
-    const double recorded = json_.at(at).get<double>();
-    result_.lines.push_back({pointer, recorded, recomputed, std::max(tolerance, kRelative * std::fabs(recorded))});
-  }
-
-  bool is_matched(std::size_t t) const { return unmatched_[t] == 0; }
-  bool is_valid(std::size_t t) const { return is_matched(t) && corrupt_[t] == 0; }
-
-  void areas() {
-    unmatched_ = file_.flags("no_counterpart");
-    corrupt_ = file_.flags("corrupt");
-    source_ = file_.source_positions();
-    double mapped = 0, of_source = 0, matched_source = 0;
-    std::vector<std::pair<double, double>> ratios;
-    for (std::size_t t = 0; t < file_.content.triangles.size(); ++t) {
-      const double before = triangle_area(source_, file_.content.triangles[t]);
-      of_source += before;
-      if (!is_matched(t)) continue;
-      const double after = triangle_area(file_.content.positions, file_.content.triangles[t]);
-      mapped += after;
-      matched_source += before;
-      matched_.push_back(file_.content.triangles[t]);
-      if (before > 0) ratios.emplace_back(after / before, before);
+  /// Why the compared atoms cannot be read from the recorded inputs; empty if they can.
+  std::string atoms_not_read() const {
+    for (const char* const option : {"select", "source_select", "target_select", "leave_out", "assembly"}) {
+      if (!record_.text(std::string("options/") + option).empty())
+        return std::string("the compared atoms are a selection (options/") + option + ")";
     }
-    add("area_A2/mapped", mapped, 0);
-    unmatched_source_ = 1 - matched_source / of_source;
-    add("certificate/area_ratio/p05", quantile(ratios, 0.05), 1e-3);
-    add("certificate/area_ratio/median", quantile(ratios, 0.5), 1e-3);
-    add("certificate/area_ratio/p95", quantile(ratios, 0.95), 1e-3);
-  }
-
-  /// [vertex] a third of the area of each valid triangle whose corners all have potentials.
-  std::vector<double> weights(const std::vector<double>& a, const std::vector<double>& b) const {
-    std::vector<double> weight(file_.content.positions.size(), 0.0);
-    for (std::size_t t = 0; t < file_.content.triangles.size(); ++t) {
-      const Triangle& v = file_.content.triangles[t];
-      const bool counts = is_valid(t) && (a.empty() || std::all_of(v.begin(), v.end(), [&](std::uint32_t c) {
-                                            return std::isfinite(a[c]) && std::isfinite(b[c]);
-                                          }));
-      if (!counts) continue;
-      for (const std::uint32_t c : v) weight[c] += triangle_area(file_.content.positions, v) / 3;
+    for (const char* const role : {"source", "target"}) {
+      const auto entry = record_.input(role);
+      if (!entry) return std::string("OUT.json names no file for the ") + role;
+      const char* const own = molecule(role).radii_origin == ValueOrigin::kFile ? "file" : "element";
+      if (record_.text(std::string("radii_origin/") + role) != own)
+        return "the radii of the " + std::string(role) + " are not those of its file (options/radii)";
     }
-    return weight;
-  }
-
-  void potentials() {
-    const std::vector<double> a = file_.numbers("potential_source"), b = file_.numbers("potential_target"),
-                              displacement = file_.numbers("displacement");
-    const std::vector<double> weight = weights(a, b);
-    double area = 0, sum = 0, absolute = 0, square = 0, aa = 0, bb = 0, ab = 0, changes = 0, moved = 0;
-    for (std::size_t v = 0; v < weight.size(); ++v) {
-      if (weight[v] <= 0) continue;
-      area += weight[v];
-      moved += weight[v] * displacement[v];
-      if (a.empty()) continue;
-      const double d = b[v] - a[v];
-      sum += weight[v] * d;
-      absolute += weight[v] * std::fabs(d);
-      square += weight[v] * d * d;
-      aa += weight[v] * a[v] * a[v];
-      bb += weight[v] * b[v] * b[v];
-      ab += weight[v] * a[v] * b[v];
-      changes += a[v] * b[v] < 0 ? weight[v] : 0;
-    }
-    add("area_A2/valid", area, 0);
-    add("mean_displacement_A", moved / area, 1e-4);
-    if (a.empty()) return;
-    add("mean_abs_difference", absolute / area, 0);
-    add("rms_difference", std::sqrt(square / area), 0);
-    add("mean_signed_difference", sum / area, kRelative * absolute / area);
-    add("sign_change_area_fraction", changes / area, 1e-4);
-    add("hodgkin_index", 2 * ab / (aa + bb), 1e-4);
-    add("carbo_index", ab / std::sqrt(aa * bb), 1e-4);
-  }
-
-  void slip() {
-    const std::vector<double> slip = file_.numbers("slip");
-    if (slip.empty()) return;
-    const std::vector<double> weight = weights({}, {});
-    std::vector<std::pair<double, double>> weighted;
-    double area = 0, sum = 0, medium = 0, large = 0, most = 0;
-    for (std::size_t v = 0; v < slip.size(); ++v) {
-      if (weight[v] <= 0 || !std::isfinite(slip[v])) continue;
-      weighted.emplace_back(slip[v], weight[v]);
-      area += weight[v];
-      sum += weight[v] * slip[v];
-      medium += slip[v] > 2 ? weight[v] : 0;
-      large += slip[v] > 3 ? weight[v] : 0;
-      most = std::max(most, slip[v]);
-    }
-    if (area == 0) return;
-    add("certificate/slip/mean_A", sum / area, 1e-4);
-    add("certificate/slip/median_A", quantile(weighted, 0.5), 1e-3);
-    add("certificate/slip/p95_A", quantile(weighted, 0.95), 1e-3);
-    add("certificate/slip/max_A", most, 1e-4);
-    add("certificate/slip/beyond_2A_area_fraction", medium / area, 1e-4);
-    add("certificate/slip/beyond_3A_area_fraction", large / area, 1e-4);
-  }
-
-  /// The input of this role; null where it was not read from a file.
-  const Json* input(const std::string& role) const {
-    for (const Json& entry : json_.at("inputs")) {
-      if (entry.value("role", "") == role && !entry.contains("computed")) return &entry;
-    }
-    return nullptr;
-  }
-  std::string path_of(const Json& entry) const {
-    const std::string path = entry.value("path", "");
-    const std::string beside = (std::filesystem::path(folder_) / std::filesystem::path(path).filename()).string();
-    return std::filesystem::exists(path) ? path : beside;
+    return "";
   }
 
   Molecule molecule(const std::string& role) const {
-    const Json* const entry = input(role);
-    if (entry == nullptr) throw InputError("OUT.json names no file for the " + role + ", which verify needs");
+    const RecordedInput entry = *record_.input(role);
     StructureOptions options;
-    options.model = entry->value("model", 1);
-    options.include_hetero = entry->value("hetero", true);
-    options.include_water = entry->value("water", false);
-    const StructureFile file(path_of(*entry));
-    if (file.sha256() != entry->value("sha256", ""))
-      throw InputError(path_of(*entry) + ": has changed since the comparison; compare again");
+    options.model = entry.model;
+    options.include_hetero = entry.hetero;
+    options.include_water = entry.water;
+    const StructureFile file(entry.path);
+    if (file.sha256() != entry.sha256)
+      throw InputError(entry.path + ": has changed since the comparison; compare again");
     return file.read(options);
   }
 
-  void target_surface() {
-    const Molecule target = molecule("target");
-    const Json& options = json_.at("options");
-    const double isovalue = options.value("isovalue", 0.5), spacing = options.value("grid_spacing_A", 1.0);
-    std::vector<double> widths;
-    for (const float radius : target.radii)
-      widths.push_back(options.value("radius_scale", 1.0) * static_cast<double>(radius));
-    const GaussianAtoms atoms(target.positions, widths);
+  void fit(const Side& target) {
+    const double isovalue = record_.number("options/isovalue").value_or(0.5);
     double corrupt = 0, flipped = 0, area = 0;
-    for (const Triangle& t : matched_) {
-      const auto& p = file_.content.positions;
+    for (std::size_t k = 0; k < file_.triangles.size(); ++k) {
+      if (!file_.is_matched[k]) continue;
+      const Triangle& t = file_.triangles[k];
+      const auto& p = file_.positions;
       Vec3d gradient;
-      const double density = atoms.at((1.0 / 3) * (p[t[0]] + p[t[1]] + p[t[2]]), gradient);
-      const double own = triangle_area(p, t);
+      const double density = target.atoms.at((1.0 / 3) * (p[t[0]] + p[t[1]] + p[t[2]]), gradient);
+      const double own = file_.area(k);
       area += own;
       corrupt += std::fabs(density - isovalue) > kCorruptDensity ? own : 0;
       flipped += dot(cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]), gradient) > 0 ? own : 0;
     }
-    add("certificate/corrupt_area_fraction", corrupt / area, 1e-4);
-    add("certificate/flipped_area_fraction", flipped / area, 1e-5);
-    const auto rebuilt = atoms.surface(isovalue, spacing / 2);
-    const auto mapped = polydata(file_.content.positions, matched_);
-    add("area_A2/target", area_of(rebuilt), kAreaTolerance * area_of(rebuilt));
+    lines_.add("certificate/corrupt_area_fraction", corrupt / area, 1e-4);
+    lines_.add("certificate/flipped_area_fraction", flipped / area, 1e-4);
+  }
+
+  void surfaces(const Side& source, const Side& target) {
+    if (record_.flag("options/cavities")) {
+      lines_.leave_out("distances, unmatched area and areas of the surfaces",
+                       "they include cavities (options/cavities)");
+      return;
+    }
+    const double isovalue = record_.number("options/isovalue").value_or(0.5),
+                 spacing = record_.number("options/grid_spacing_A").value_or(1);
+    const double area_of_source = area_of(source.atoms.surface(isovalue, spacing / 2));
+    lines_.add("area_A2/source", area_of_source, kAreaTolerance * area_of_source);
+    const auto rebuilt = target.atoms.surface(isovalue, spacing / 2);
+    const auto mapped = polydata(file_.positions, file_.matched());
+    lines_.add("area_A2/target", area_of(rebuilt), kAreaTolerance * area_of(rebuilt));
     const SurfaceDistances there = distances(mapped, rebuilt, kMatchLimit_A),
                            back = distances(rebuilt, mapped, kMatchLimit_A);
     for (const auto& [name, d] : {std::pair("mapped_to_target_A", there), std::pair("target_to_mapped_A", back)}) {
       const std::string at = std::string("certificate/") + name;
-      add(at + "/mean", d.mean, kDistanceTolerance_A);
-      add(at + "/p95", d.p95, 2 * kDistanceTolerance_A);
-      add(at + "/max", d.max, kMaxTolerance_A);
-      add(at + "/mean_within_limit", d.mean_within, kDistanceTolerance_A);
+      lines_.add(at + "/mean", d.mean, kDistanceTolerance_A);
+      lines_.add(at + "/p95", d.p95, 2 * kDistanceTolerance_A);
+      lines_.add(at + "/max", d.max, kMaxTolerance * spacing);
+      lines_.add(at + "/mean_within_limit", d.mean_within, kDistanceTolerance_A);
     }
-    add("certificate/no_counterpart_area_fraction/source", 1 - (1 - unmatched_source_) * (1 - there.beyond), 1e-3);
-    add("certificate/no_counterpart_area_fraction/target", back.beyond, kShareTolerance);
+    double all = 0, matched = 0;
+    for (std::size_t t = 0; t < file_.triangles.size(); ++t) {
+      all += file_.source_area(t);
+      matched += file_.is_matched[t] ? file_.source_area(t) : 0;
+    }
+    lines_.add("certificate/no_counterpart_area_fraction/source", 1 - matched / all * (1 - there.beyond), 1e-3);
+    lines_.add("certificate/no_counterpart_area_fraction/target", back.beyond, kShareTolerance);
   }
 
-  /// The potentials at the vertices, from given map files; the largest deviation is compared with zero.
-  void maps() {
-    check_map("source_map", "potential_source", source_);
-    check_map("target_map", "potential_target", file_.content.positions);
-  }
-  void check_map(const std::string& role, const std::string& array, const std::vector<Vec3d>& points) {
-    const Json* const entry = input(role);
-    const std::vector<double> recorded = file_.numbers(array);
-    const auto offsets = json_.value("by_offset", Json::array());
-    const bool at_surface = !offsets.empty() && offsets[0].value("offset_A", 1.0) == 0;
-    if (entry == nullptr || recorded.empty() || !at_surface) return;
-    const Grid map = read_grid(path_of(*entry));
-    const auto& step = map.lattice.step;
-    const bool is_straight = step[0].y == 0 && step[0].z == 0 && step[1].x == 0 && step[1].z == 0 && step[2].x == 0 &&
-                             step[2].y == 0 && step[0].x > 0 && step[1].y > 0 && step[2].z > 0;
-    if (!is_straight || to_string(map.unit) != json_.value("potential_unit", "")) return;
-    vtkNew<vtkImageData> image;
-    image->SetDimensions(map.lattice.size.data());
-    image->SetOrigin(map.lattice.origin.x, map.lattice.origin.y, map.lattice.origin.z);
-    image->SetSpacing(step[0].x, step[1].y, step[2].z);
-    vtkNew<vtkDoubleArray> values;
-    for (const float value : map.values) values->InsertNextValue(static_cast<double>(value));
-    image->GetPointData()->SetScalars(values);
-    double largest = 0, scale = 0;
-    for (std::size_t v = 0; v < points.size(); ++v) {
-      if (!std::isfinite(recorded[v])) continue;
-      int cell[3];
-      double x[3] = {points[v].x, points[v].y, points[v].z}, within[3], sum = 0;
-      if (image->ComputeStructuredCoordinates(x, cell, within) == 0) continue;
-      for (int corner = 0; corner < 8; ++corner) {
-        double weight = 1;
-        int at[3];
-        for (int axis = 0; axis < 3; ++axis) {
-          const bool upper = ((corner >> axis) & 1) != 0;
-          at[axis] = std::min(cell[axis] + (upper ? 1 : 0), map.lattice.size[static_cast<std::size_t>(axis)] - 1);
-          weight *= upper ? within[axis] : 1 - within[axis];
-        }
-        sum += weight * image->GetScalarComponentAsDouble(at[0], at[1], at[2], 0);
+  /// RMSD, displacements and the area on the same residue, from the recorded pairs.
+  void pairs(const Side& source, const Side& target) {
+    std::map<std::int32_t, std::map<std::int32_t, int>> counts;
+    double sum = 0, n = 0;
+    const std::vector<double> r = record_.numbers("superposition/rotation_row_major"),
+                              t = record_.numbers("superposition/translation_A");
+    if (r.size() != 9 || t.size() != 3) throw InputError(record_.path() + ": has no superposition; compare again");
+    const auto superposed = [&](const Vec3d& p) {
+      return Vec3d{r[0] * p.x + r[1] * p.y + r[2] * p.z + t[0], r[3] * p.x + r[4] * p.y + r[5] * p.z + t[1],
+                   r[6] * p.x + r[7] * p.y + r[8] * p.z + t[2]};
+    };
+    for (const auto& run : record_.triples("superposition/paired_atoms")) {
+      if (run[0] + run[2] > source.residues.size() || run[1] + run[2] > target.residues.size())
+        throw InputError(record_.path() +
+                         ": superposition/paired_atoms names atoms that the structures lack; compare again");
+      for (std::size_t k = 0; k < run[2]; ++k) {
+        const Vec3d d = superposed(source.molecule.positions[run[0] + k]) - target.molecule.positions[run[1] + k];
+        sum += dot(d, d);
+        ++n;
+        ++counts[source.residues[run[0] + k]][target.residues[run[1] + k]];
       }
-      largest = std::max(largest, std::fabs(sum - recorded[v]));
-      scale = std::max(scale, std::fabs(recorded[v]));
     }
-    result_.lines.push_back({array + ", largest deviation from the map", 0, largest, 1e-4 * scale});
+    lines_.add("n_paired_atoms", n, 0);
+    if (n == record_.number("superposition/n_superposed_atoms")) {
+      lines_.add("rmsd_A", std::sqrt(sum / n), 1e-4);
+    } else {
+      lines_.leave_out("rmsd_A", "it is that of some of the pairs (options/align)");
+    }
+    if (record_.size("superposition/domains") == 0) {
+      double largest = 0;
+      for (std::size_t v = 0; v < file_.positions.size(); ++v) {
+        if (std::isfinite(file_.displacement[v]))
+          largest = std::max(largest, std::fabs(norm(file_.positions[v] - superposed(file_.source_positions[v])) -
+                                                file_.displacement[v]));
+      }
+      lines_.add_deviation("displacement at the vertices, largest deviation", largest, 1e-3);
+    } else {
+      lines_.leave_out("displacement at the vertices", "the domains' motions are in no file");
+    }
+    same_residue(source, target, counts);
   }
 
-  Json json_;
+  void same_residue(const Side& source, const Side& target,
+                    const std::map<std::int32_t, std::map<std::int32_t, int>>& counts) {
+    std::map<std::int32_t, std::int32_t> partner;
+    for (const auto& [residue, partners] : counts) {
+      int most = 0;
+      for (const auto& [other, n] : partners) {
+        if (n <= most) continue;
+        most = n;
+        partner[residue] = other;
+      }
+    }
+    const std::vector<double> weight = file_.weights(file_.is_matched);
+    double all = 0, same = 0, wrong = 0, compared = 0;
+    for (std::size_t v = 0; v < weight.size(); ++v) {
+      if (weight[v] <= 0) continue;
+      const std::int32_t own = source.atoms.strongest(file_.source_positions[v], source.residues);
+      all += weight[v];
+      wrong += own == static_cast<std::int32_t>(file_.residue[v]) ? 0 : weight[v];
+      const auto found = partner.find(own);
+      if (found == partner.end()) continue;
+      compared += weight[v];
+      same += target.atoms.strongest(file_.positions[v], target.residues) == found->second ? weight[v] : 0;
+    }
+    lines_.add_deviation("residues of the vertices, share of the area that differs", wrong / all, kResidueTolerance);
+    lines_.add("certificate/same_residue_area_fraction",
+               compared > 0 ? same / compared : std::numeric_limits<double>::quiet_NaN(), kResidueTolerance);
+  }
+
+  /// The potentials at the vertices, from given map files.
+  void maps() {
+    if (file_.potential_source.empty()) return;
+    for (const bool is_source : {true, false}) {
+      const std::string role = is_source ? "source" : "target", array = "potential_" + role;
+      const auto entry = record_.input(role + "_map");
+      const double offset = record_.number("by_offset/0/offset_A").value_or(0);
+      std::string why;
+      double largest = 0, scale = 0;
+      if (!entry || entry->computed) {
+        why = "the map was computed and is in no file";
+      } else if (offset != 0) {
+        why = "it was read outside the surface (options/offset)";
+      } else {
+        why =
+            map_deviation(*entry, record_.text("potential_unit"), is_source ? file_.source_positions : file_.positions,
+                          is_source ? file_.potential_source : file_.potential_target, largest, scale);
+      }
+      if (why.empty()) {
+        lines_.add_deviation(array + " at the vertices, largest deviation from the map", largest, 1e-4 * scale);
+      } else {
+        lines_.leave_out(array + " at the vertices", why);
+      }
+    }
+  }
+
+  std::string prefix_;
+  ResultRecord record_;
   MappedFile file_;
-  std::string folder_;
-  std::vector<Vec3d> source_;
-  std::vector<double> unmatched_, corrupt_;
-  std::vector<Triangle> matched_;
-  double unmatched_source_ = 0;
   Verification result_;
+  Lines lines_;
 };
 
 }  // namespace
+
+void Lines::add(const std::string& pointer, double recomputed, double tolerance) {
+  const double recorded = record_.number(pointer).value_or(std::numeric_limits<double>::quiet_NaN());
+  if (std::isnan(recorded) && !std::isfinite(recomputed)) return;
+  result_.lines.push_back({pointer, recorded, recomputed, std::max(tolerance, kRelative * std::fabs(recorded))});
+}
+void Lines::add_deviation(const std::string& name, double largest, double tolerance) {
+  result_.lines.push_back({name, 0, largest, tolerance});
+}
+void Lines::leave_out(const std::string& name, const std::string& why) {
+  result_.not_recomputed.push_back(name + ": " + why);
+}
 
 bool VerifiedLine::agrees() const { return std::fabs(recorded - recomputed) <= tolerance; }
 

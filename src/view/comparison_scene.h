@@ -44,6 +44,7 @@ class ComparisonScene {
 
   /// Whether the surface is of an ensemble, and fades by p instead of slip.
   bool shows_significance() const { return !files_.surface.p_family_wise.empty(); }
+  const SurfaceFile& surface_file() const { return files_.surface; }
   double alpha() const { return files_.surface.alpha; }
   const Scene& scene() const { return scene_; }
   const std::vector<Panel>& panels() const { return panels_; }

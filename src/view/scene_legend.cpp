@@ -28,6 +28,18 @@ std::string short_title(RenderArray array, const std::string& unit) {
   return legend_title(array, unit);
 }
 
+/// The groups of an ensemble instead of source and target.
+std::string with_groups(std::string title, const ComparisonScene& scene) {
+  const SurfaceFile& surface = scene.surface_file();
+  const auto name = [&](const std::string& side, const std::string& group) {
+    const std::size_t at = title.find(side);
+    if (at != std::string::npos && !group.empty()) title.replace(at, side.size(), group);
+  };
+  name("source", surface.source_group);
+  name("target", surface.target_group);
+  return title;
+}
+
 /// Pixels of the window.
 struct Paper {
   double width, height, text_height, bar_bottom, bar_top;
@@ -70,7 +82,8 @@ void add_scales(Legend& legend, const ComparisonScene& scene, const Paper& paper
   }
   const bool split = scene.scene().layout == Layout::kSplit;
   add(compared, 0.31, 0.66,
-      split ? short_title(compared.array(), scene.unit()) : legend_title(compared.array(), scene.unit()));
+      split ? short_title(compared.array(), scene.unit())
+            : with_groups(legend_title(compared.array(), scene.unit()), scene));
 }
 
 void add_keys(Legend& legend, const ComparisonScene& scene, const Paper& paper) {

@@ -114,6 +114,8 @@ void read_arrays(SurfaceFile& file, const VtpContent& surface) {
   file.corrupt = flags_of(surface, "corrupt");
   file.unmatched = flags_of(surface, "no_counterpart");
   file.potential_unit = text_of(surface, "potential_unit");
+  file.source_group = text_of(surface, "source_group");
+  file.target_group = text_of(surface, "target_group");
   file.written_by = text_of(surface, "written_by");
   file.array_names = names_of(surface);
 }

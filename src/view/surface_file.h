@@ -26,13 +26,14 @@ struct SurfaceFile {
   /// Of an ensemble: [vertex] family-wise p; 0 where a vertex was not tested, which has no values either. Empty in
   /// files of pairs.
   std::vector<float> p_family_wise;
-  double alpha = 0.05;                ///< field data `alpha`
-  std::vector<float> sign_change;     ///< NaN without a value
-  std::vector<float> residue_index;   ///< of the source's residues; negative: none
-  std::vector<float> residue_number;  ///< as numbered in the structure file
-  std::string potential_unit;         ///< field data `potential_unit`
-  std::string written_by;             ///< field data `written_by`
-  std::string array_names;            ///< of the point arrays in the file, for messages
+  double alpha = 0.05;                     ///< field data `alpha`
+  std::string source_group, target_group;  ///< of an ensemble, whose means the potentials are
+  std::vector<float> sign_change;          ///< NaN without a value
+  std::vector<float> residue_index;        ///< of the source's residues; negative: none
+  std::vector<float> residue_number;       ///< as numbered in the structure file
+  std::string potential_unit;              ///< field data `potential_unit`
+  std::string written_by;                  ///< field data `written_by`
+  std::string array_names;                 ///< of the point arrays in the file, for messages
 
   bool is_matched(std::size_t triangle) const { return unmatched.empty() || unmatched[triangle] == 0; }
   bool is_corrupt(std::size_t triangle) const { return !corrupt.empty() && corrupt[triangle] != 0; }

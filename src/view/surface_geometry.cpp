@@ -155,7 +155,11 @@ SurfaceGeometry::SurfaceGeometry(const SurfaceFile& surface, const RunRecord& re
   add_potentials(points_, surface);
   add_numbers(points_, "displacement", surface.displacement, -1);
   add_numbers(points_, "slip", surface.slip, -1);
-  add_numbers(points_, "uncertainty", drawn_uncertainty(surface.triangles, surface.uncertainty()), -1);
+  // Significance ends at a line and is not smoothed.
+  add_numbers(points_, "uncertainty",
+              surface.p_family_wise.empty() ? drawn_uncertainty(surface.triangles, surface.uncertainty())
+                                            : surface.p_family_wise,
+              -1);
   add_numbers(points_, "residueIndex", surface.residue_index, -1);
 }
 

@@ -113,6 +113,24 @@ TEST_CASE("kill -9 at any time: the run resumes to the same bytes; shards merge 
   CHECK(read_file(in.folder.file("all.json")) == read_file(in.folder.file("whole.json")));
 }
 
+TEST_CASE("the answer through the medoids of the groups is beside that of the first template") {
+  const Runs in;
+  const Outcome out = in.ensemble(in.groups + " -o out --check-template");
+  INFO(out.err);
+  REQUIRE(out.status == 0);
+  CHECK(contains(out.out, "through another template"));
+  const auto json = nlohmann::json::parse(read_file(in.folder.file("out.json")));
+  const auto& checks = json.at("template_check");
+  REQUIRE(checks.size() == 2);
+  for (const auto& check : checks) {
+    CHECK(check.at("overlap").get<double>() > 0.3);
+    CHECK(check.at("patch_differences").at(0).get<double>() ==
+          doctest::Approx(json.at("patches").at(0).at("difference").get<double>()).epsilon(0.2));
+  }
+  CHECK(contains(checks[1].at("template").get<std::string>(), "medoid of its group: mutant"));
+  CHECK(contains(in.ensemble(in.groups + " -o out2 --shard 1/2 --check-template").err, "in one process; leave it out"));
+}
+
 TEST_CASE("a list names groups, replicates of several files, and charges") {
   const Runs in;
   in.folder.write("w.pdb", models(1, false, false));
@@ -158,6 +176,8 @@ TEST_CASE("what cannot be an ensemble is refused in one line") {
         "espdiff: there are 3 groups (a, b, c); two are compared at a time, and one is described alone");
   CHECK(refused(in.groups + " --template 99") ==
         "espdiff: --template 99: there are 32 frames in all groups, numbered from 0");
+  CHECK(refused(in.groups + " --template medoid:apo") ==
+        "espdiff: --template medoid:apo: there is no group of this name");
   CHECK(refused(in.groups + " --charges wild.pqr") ==
         "espdiff: --charges wild.pqr is not GROUP=FILE with one of the groups, such as wild=wild.pqr");
   CHECK(refused(in.groups + " --template other.pqr").find("wild, replicate w1, frame 0: ") != std::string::npos);

@@ -134,6 +134,55 @@ TEST_CASE("results are the same bytes at any number of threads and again") {
   }
 }
 
+TEST_CASE("frames against frames, and the component that was planted") {
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5");
+  plant_file(path, planted_plan(2, 2, 20), -4, 11);
+  const EnsembleFile file(path, false);
+  const EnsembleResult result = analyse_ensemble(file, {});
+  const StateTable states = compare_states(file, result);
+  REQUIRE(states.size() == 80);
+  CHECK(states.area_fraction == doctest::Approx(1));
+  // One pair from the values.
+  std::vector<float> a(file.n_vertices()), b(file.n_vertices());
+  file.read_values(3, 0, a.size(), a.data());
+  file.read_values(61, 0, b.size(), b.data());
+  double difference = 0, squares = 0, product = 0, norms = 0;
+  for (std::size_t v = 0; v < a.size(); ++v) {
+    const double x = a[v], y = b[v], w = result.graph.area[v] / result.area_A2;
+    difference += w * std::fabs(x - y);
+    squares += w * (x - y) * (x - y);
+    product += w * x * y;
+    norms += w * (x * x + y * y);
+  }
+  CHECK(states.mean_abs[3 * 80 + 61] == doctest::Approx(difference));
+  CHECK(states.mean_abs[61 * 80 + 3] == states.mean_abs[3 * 80 + 61]);
+  CHECK(states.rms[3 * 80 + 61] == doctest::Approx(std::sqrt(squares)));
+  CHECK(states.hodgkin[3 * 80 + 61] == doctest::Approx(2 * product / norms));
+  CHECK(states.mean_abs[5 * 80 + 5] == 0);
+  // The effect of -4 is the first component: 2 for one standard deviation, since half of the frames have it.
+  const auto& first = states.components[0];
+  CHECK(first.share > 2 * states.components[1].share);
+  double sum = 0, spread = 0;
+  for (const double score : first.scores) {
+    sum += score;
+    spread += score * score;
+  }
+  CHECK(sum == doctest::Approx(0).scale(1));
+  CHECK(spread / 80 == doctest::Approx(1));
+  double inside = 0, outside = 0, area_inside = 0, area_outside = 0;
+  for (std::size_t v = 0; v < a.size(); ++v) {
+    const Vec3d& p = file.surface().positions[v];
+    const bool planted = p.x > 0 && p.y > 8;
+    (planted ? inside : outside) += result.graph.area[v] * first.mode[v];
+    (planted ? area_inside : area_outside) += result.graph.area[v];
+  }
+  CHECK(inside / area_inside == doctest::Approx(2).epsilon(0.1));
+  CHECK(std::fabs(outside / area_outside) < 0.1);
+  CHECK(write_states(folder.file("out"), file, states).size() == 2);
+  CHECK(read_file(folder.file("out.components.csv")).rfind("group,replicate,frame,component_1", 0) == 0);
+}
+
 TEST_CASE("values that do not change, and missing frames, are refused") {
   const ScratchFolder folder;
   const std::string path = folder.file("a.h5");

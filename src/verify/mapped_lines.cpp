@@ -1,0 +1,251 @@
+// mapped_lines.cpp: numbers that follow from OUT.vtp and OUT.residues.csv alone.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "io/read_csv.h"
+#include "verify/mapped_file.h"
+
+namespace espdiff {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kRelative = 2e-4;  ///< of a mean whose sign may cancel
+constexpr double kMediumSlip_A = 2, kLargeSlip_A = 3;
+constexpr double kLeastResidueArea_A2 = 5;
+
+void add_areas(const MappedFile& file, Lines& lines) {
+  double mapped = 0;
+  std::vector<std::pair<double, double>> ratios, energies;
+  for (std::size_t t = 0; t < file.triangles.size(); ++t) {
+    if (!file.is_matched[t]) continue;
+    const double after = file.area(t), before = file.source_area(t);
+    mapped += after;
+    if (!(before > 0)) continue;
+    ratios.emplace_back(after / before, before);
+    // Singular values of the triangle's linear map, by its sides in orthonormal frames of both planes.
+    const auto sides = [&](const std::vector<Vec3d>& p) {
+      const Triangle& v = file.triangles[t];
+      const Vec3d a = p[v[1]] - p[v[0]], b = p[v[2]] - p[v[0]];
+      const double length = norm(a), along = dot(a, b) / length;
+      return std::array<double, 3>{length, along, std::sqrt(std::max(0.0, dot(b, b) - along * along))};
+    };
+    const auto [p, q, h] = sides(file.source_positions);
+    const auto [u, v, w] = sides(file.positions);
+    const double scale = u / p, shear = (v - q * scale) / h, height = w / h;  // columns (scale, 0), (shear, height)
+    const double squared = scale * scale + shear * shear + height * height, determinant = scale * height;
+    const double inverse = squared / (determinant * determinant);
+    energies.emplace_back(determinant > 0 ? 0.25 * (squared + inverse) : std::numeric_limits<double>::infinity(),
+                          before);
+  }
+  lines.add("area_A2/mapped", mapped, 0);
+  for (const auto& [name, share] : {std::pair("p05", 0.05), std::pair("median", 0.5), std::pair("p95", 0.95)})
+    lines.add(std::string("certificate/area_ratio/") + name, weighted_quantile(ratios, share), 1e-3);
+  for (const auto& [name, share] : {std::pair("median", 0.5), std::pair("p95", 0.95)}) {
+    const double energy = weighted_quantile(energies, share);
+    lines.add(std::string("certificate/symmetric_dirichlet/") + name, energy, 1e-3 * energy);
+  }
+}
+
+/// Mean distance of the matched vertices from the mean of their neighbours, where triangles surround them: each edge
+/// from there belongs to two.
+double irregularity(const MappedFile& file) {
+  std::vector<std::map<std::uint32_t, int>> edges(file.positions.size());
+  for (const Triangle& t : file.matched()) {
+    for (const std::uint32_t a : t) {
+      for (const std::uint32_t b : t) {
+        if (a != b) ++edges[a][b];
+      }
+    }
+  }
+  double sum = 0, n = 0;
+  for (std::size_t v = 0; v < edges.size(); ++v) {
+    Vec3d mean{};
+    bool surrounded = !edges[v].empty();
+    for (const auto& [other, n_triangles] : edges[v]) {
+      surrounded = surrounded && n_triangles == 2;
+      mean += file.positions[other];
+    }
+    if (!surrounded) continue;
+    sum += norm((1 / static_cast<double>(edges[v].size())) * mean - file.positions[v]);
+    ++n;
+  }
+  return sum / n;
+}
+
+/// The metrics over these triangles. @param at where they stand: "" or "metrics_all_triangles/"
+void add_metrics(const MappedFile& file, const std::vector<bool>& counts, const std::string& at,
+                 const std::string& area_name, Lines& lines) {
+  const std::vector<double> weight = file.weights(counts), &a = file.potential_source, &b = file.potential_target;
+  double area = 0, sum = 0, absolute = 0, square = 0, aa = 0, bb = 0, ab = 0, changes = 0, moved = 0, path = 0;
+  for (std::size_t v = 0; v < weight.size(); ++v) {
+    if (weight[v] <= 0) continue;
+    const double w = weight[v];
+    area += w;
+    moved += w * file.displacement[v];
+    path += w * file.path_length[v];
+    if (a.empty()) continue;
+    const double d = b[v] - a[v];
+    sum += w * d;
+    absolute += w * std::fabs(d);
+    square += w * d * d;
+    aa += w * a[v] * a[v];
+    bb += w * b[v] * b[v];
+    ab += w * a[v] * b[v];
+    changes += a[v] * b[v] < 0 ? w : 0;
+  }
+  lines.add(at + area_name, area, 0);
+  lines.add(at + "mean_displacement_A", moved / area, 1e-4);
+  lines.add(at + "mean_path_length_A", path / area, 1e-4);
+  if (a.empty()) return;
+  lines.add(at + "mean_abs_difference", absolute / area, 0);
+  lines.add(at + "rms_difference", std::sqrt(square / area), 0);
+  lines.add(at + "mean_signed_difference", sum / area, kRelative * absolute / area);
+  lines.add(at + "sign_change_area_fraction", changes / area, 1e-4);
+  lines.add(at + "hodgkin_index", 2 * ab / (aa + bb), 1e-4);
+  lines.add(at + "carbo_index", ab / std::sqrt(aa * bb), 1e-4);
+}
+
+void add_slip(const MappedFile& file, Lines& lines) {
+  const std::vector<double> weight = file.weights(file.is_valid);
+  std::vector<std::pair<double, double>> weighted;
+  double all = 0, known = 0, sum = 0, medium = 0, large = 0, most = 0;
+  for (std::size_t v = 0; v < file.slip.size(); ++v) {
+    all += weight[v];
+    if (weight[v] <= 0 || !std::isfinite(file.slip[v])) continue;
+    weighted.emplace_back(file.slip[v], weight[v]);
+    known += weight[v];
+    sum += weight[v] * file.slip[v];
+    medium += file.slip[v] > kMediumSlip_A ? weight[v] : 0;
+    large += file.slip[v] > kLargeSlip_A ? weight[v] : 0;
+    most = std::max(most, file.slip[v]);
+  }
+  if (weighted.empty()) return;
+  const std::string at = "certificate/slip/";
+  lines.add(at + "mean_A", sum / known, 1e-4);
+  lines.add(at + "median_A", weighted_quantile(weighted, 0.5), 1e-3);
+  lines.add(at + "p95_A", weighted_quantile(weighted, 0.95), 1e-3);
+  lines.add(at + "max_A", most, 1e-4);
+  lines.add(at + "beyond_2A_area_fraction", medium / known, 1e-4);
+  lines.add(at + "beyond_3A_area_fraction", large / known, 1e-4);
+  lines.add(at + "unpaired_area_fraction", 1 - known / all, 1e-6);
+}
+
+/// Triangles whose mean slip is at most 2 A.
+std::vector<bool> without_slip(const MappedFile& file) {
+  std::vector<bool> counts = file.with_potentials(file.is_valid);
+  for (std::size_t t = 0; t < counts.size(); ++t) {
+    const Triangle& v = file.triangles[t];
+    counts[t] = counts[t] && (file.slip[v[0]] + file.slip[v[1]] + file.slip[v[2]]) / 3 <= kMediumSlip_A;
+  }
+  return counts;
+}
+
+void add_outside_maps(const MappedFile& file, Lines& lines) {
+  const std::vector<double> weight = file.weights(file.is_valid);
+  double all = 0, outside = 0;
+  for (std::size_t v = 0; v < weight.size(); ++v) {
+    all += weight[v];
+    if (!std::isfinite(file.potential_source[v]) || !std::isfinite(file.potential_target[v])) outside += weight[v];
+  }
+  lines.add("certificate/outside_maps_area_fraction", outside / all, 1e-6);
+}
+
+/// The column that begins with this name, whatever its unit; -1 if there is none.
+int column(const CsvTable& table, const std::string& name) {
+  for (std::size_t k = 0; k < table.columns.size(); ++k) {
+    if (table.columns[k] == name || table.columns[k].rfind(name + " [", 0) == 0) return static_cast<int>(k);
+  }
+  return -1;
+}
+
+/// Largest deviation of a column from the means at the vertices, in shares of the column's largest value.
+double deviation(const CsvTable& table, int at, const std::vector<double>& expected) {
+  double largest = 0, scale = 1e-12;
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
+    const double value = table.number(r, static_cast<std::size_t>(at));
+    if (std::isnan(value) != std::isnan(expected[r])) return 1;
+    if (std::isnan(value)) continue;
+    largest = std::max(largest, std::fabs(value - expected[r]));
+    scale = std::max(scale, std::fabs(expected[r]));
+  }
+  return largest / scale;
+}
+
+double correlation(const CsvTable& table, int area, int own, int mapped) {
+  std::vector<std::pair<double, double>> values;
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
+    const auto at = [&](int c) { return table.number(r, static_cast<std::size_t>(c)); };
+    if (at(area) >= kLeastResidueArea_A2 && std::isfinite(at(own))) values.emplace_back(at(own), at(mapped));
+  }
+  double x = 0, y = 0, xx = 0, yy = 0, xy = 0;
+  const double n = static_cast<double>(values.size());
+  if (n < 5) return kNan;
+  for (const auto& [a, b] : values) {
+    x += a / n;
+    y += b / n;
+  }
+  for (const auto& [a, b] : values) {
+    xx += (a - x) * (a - x);
+    yy += (b - y) * (b - y);
+    xy += (a - x) * (b - y);
+  }
+  return xy / std::sqrt(xx * yy);
+}
+
+}  // namespace
+
+void add_mapped_lines(const MappedFile& file, const ResultRecord& record, Lines& lines) {
+  add_areas(file, lines);
+  lines.add("certificate/irregularity_A", irregularity(file), 1e-4);
+  add_metrics(file, file.with_potentials(file.is_valid), "", "area_A2/valid", lines);
+  add_slip(file, lines);
+  if (file.potential_source.empty()) return;
+  add_metrics(file, file.with_potentials(file.is_matched), "metrics_all_triangles/", "area_A2", lines);
+  if (record.size("metrics_without_slip") > 0)
+    add_metrics(file, without_slip(file), "metrics_without_slip/", "area_A2", lines);
+  add_outside_maps(file, lines);
+}
+
+void add_residue_lines(const MappedFile& file, const std::string& path, Lines& lines) {
+  const CsvTable table = read_csv(path);
+  const std::vector<double> weight = file.weights(file.with_potentials(file.is_valid));
+  const std::size_t n = table.rows.size();
+  std::vector<double> area(n, 0.0), slip(n, 0.0), slip_area(n, 0.0), difference(n, 0.0), absolute(n, 0.0);
+  for (std::size_t v = 0; v < weight.size(); ++v) {
+    if (!(file.residue[v] >= 0) || weight[v] <= 0) continue;
+    const auto r = static_cast<std::size_t>(file.residue[v]);
+    if (r >= n) {
+      lines.add_deviation("OUT.residues.csv, residues that it lacks", 1, 0);
+      return;
+    }
+    area[r] += weight[v];
+    if (std::isfinite(file.slip[v])) {
+      slip[r] += weight[v] * file.slip[v];
+      slip_area[r] += weight[v];
+    }
+    if (file.potential_source.empty()) continue;
+    difference[r] += weight[v] * (file.potential_target[v] - file.potential_source[v]);
+    absolute[r] += weight[v] * std::fabs(file.potential_target[v] - file.potential_source[v]);
+  }
+  const auto means = [&](std::vector<double> sums, const std::vector<double>& areas) {
+    for (std::size_t r = 0; r < n; ++r) sums[r] = areas[r] > 0 ? sums[r] / areas[r] : kNan;
+    return sums;
+  };
+  const auto check = [&](const char* name, const std::vector<double>& expected) {
+    const int at = column(table, name);
+    if (at >= 0) lines.add_deviation(std::string("OUT.residues.csv, ") + name, deviation(table, at, expected), 1e-4);
+  };
+  check("area", area);
+  check("mean_slip", means(slip, slip_area));
+  if (file.potential_source.empty()) return;
+  check("mean_signed_difference", means(difference, area));
+  check("mean_abs_difference", means(absolute, area));
+  const int own = column(table, "own_difference"), mapped = column(table, "mean_signed_difference");
+  if (own >= 0 && mapped >= 0)
+    lines.add("certificate/residues/correlation", correlation(table, column(table, "area"), own, mapped), 1e-4);
+}
+
+}  // namespace espdiff

@@ -1,0 +1,227 @@
+// verify.cpp: `espdiff verify` agrees with 20 real comparisons, finds a wrong number wherever it stands, and refuses
+// damaged files.
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/run_espdiff.h"
+
+using namespace espdiff_test;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+void write_file(const std::string& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
+
+/// Sets up a comparison of a small protein's models in a folder of its own; empty prefix without real inputs.
+struct SmallResult {
+  ScratchFolder folder;
+  std::string prefix;
+
+  explicit SmallResult(const std::string& options = "--potential none") {
+    const auto file = real_input("nmr/1l2y.pdb");
+    if (!file) return;
+    prefix = folder.file("result");
+    const Outcome compared =
+        run_espdiff("compare " + *file + " " + *file + " --target-model 5 " + options + " -q -o " + prefix);
+    REQUIRE(compared.status == 0);
+  }
+  Json record() const { return Json::parse(read_file(prefix + ".json")); }
+  void set(const char* pointer, const Json& value) const {
+    Json json = record();
+    REQUIRE(json.contains(Json::json_pointer(pointer)));
+    json[Json::json_pointer(pointer)] = value;
+    write_file(prefix + ".json", json.dump(2));
+  }
+  Outcome verified() const { return run_espdiff("verify " + prefix); }
+};
+
+bool differs(const Outcome& outcome, const std::string& name) {
+  std::size_t at = outcome.out.find("\n" + name + " ");
+  if (at == std::string::npos) return false;
+  const std::string line = outcome.out.substr(at + 1, outcome.out.find('\n', at + 1) - at - 1);
+  return contains(line, "DIFFERS");
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("verify");
+
+TEST_CASE("20 real comparisons are verified") {
+  const auto models = real_input("nmr/1l2y.pdb"), ph2 = real_input("pqr_pdb2pqr/1AJJ_pH2_AMBER.pqr"),
+             ph7 = real_input("pqr_pdb2pqr/1AJJ_pH7_AMBER.pqr"), ph14 = real_input("pqr_pdb2pqr/1AJJ_pH14_AMBER.pqr"),
+             m00 = real_input("series19_ubq_2k39/m00.pqr"), m07 = real_input("series19_ubq_2k39/m07.pqr"),
+             hiv = real_input("pairs/1hhp.pdb"), other_hiv = real_input("pairs/3phv.pdb"),
+             aaf = real_input("pairs/1aaf.pdb"), tim = real_input("pair_tim_maps/scTIM_chainA.pqr"),
+             mutant = real_input("pair_tim_maps/dTIM_chainA.pqr");
+  if (!models || !ph2 || !ph7 || !ph14 || !m00 || !m07 || !hiv || !other_hiv || !aaf || !tim || !mutant) return;
+  std::vector<std::string> pairs;
+  for (const char* const options : {"2", "9 --method deform", "17", "23 --align backbone", "31", "38 --domains auto"})
+    pairs.push_back(*models + " " + *models + " --potential none --target-model " + options);
+  pairs.push_back(*models + " " + *models + " --source-model 7 --target-model 21 --potential none --cavities");
+  pairs.push_back(*models + " " + *models + " --source-model 3 --target-model 30 --potential none --grid-spacing 0.7");
+  for (const char* const options : {"", "--method deform", "--offset 1.4", "--offset 0,3"}) {
+    pairs.push_back(*ph2 + " " + *ph7 + " --potential coulomb " + options);
+    pairs.push_back(*ph14 + " " + *ph7 + " --potential coulomb " + options);
+  }
+  pairs.push_back(*m00 + " " + *m07 + " --potential none");
+  pairs.push_back(*aaf + " " + *aaf + " --target-model 10 --potential none");  // far, and not trustworthy
+  pairs.push_back(*hiv + " " + *other_hiv + " --potential none");
+  pairs.push_back(*tim + " " + *mutant + " --source-map " + *real_input("pair_tim_maps/scTIM_chainA_pot-PE0.dx") +
+                  " --target-map " + *real_input("pair_tim_maps/dTIM_chainA_pot-PE0.dx") +
+                  " --source-map-unit kT/e --target-map-unit kT/e");
+  CHECK(pairs.size() == 20);
+  const ScratchFolder folder;
+  const std::string prefix = folder.file("result");
+  for (const std::string& pair : pairs) {
+    CAPTURE(pair);
+    const Outcome compared = run_espdiff("compare " + pair + " -q -o " + prefix);
+    REQUIRE(compared.status == 0);
+    const Outcome verified = run_espdiff("verify " + prefix);
+    CAPTURE(verified.out);
+    CAPTURE(verified.err);
+    CHECK(verified.status == 0);
+    CHECK(contains(verified.out, "\nVERIFIED: "));
+    CHECK_FALSE(contains(verified.out, "DIFFERS"));
+  }
+}
+
+TEST_CASE("a wrong number in OUT.json is found, wherever it stands") {
+  const SmallResult result("--potential none --method deform");
+  if (result.prefix.empty()) return;
+  REQUIRE(result.verified().status == 0);
+  const Json right = result.record();
+  const struct {
+    const char* pointer;
+    double change;
+  } changes[] = {{"/certificate/corrupt_area_fraction", 0.001},
+                 {"/certificate/flipped_area_fraction", 0.001},
+                 {"/certificate/self_intersecting_pairs", 1000},
+                 {"/certificate/no_counterpart_area_fraction/source", 0.01},
+                 {"/certificate/no_counterpart_area_fraction/target", 0.03},
+                 {"/certificate/mapped_to_target_A/mean", 0.05},
+                 {"/certificate/target_to_mapped_A/max", -0.9},
+                 {"/certificate/slip/mean_A", 0.01},
+                 {"/certificate/slip/beyond_3A_area_fraction", -0.001},
+                 {"/certificate/slip/max_A", 1},
+                 {"/certificate/area_ratio/p95", 0.01},
+                 {"/certificate/symmetric_dirichlet/median", 0.01},
+                 {"/certificate/irregularity_A", 0.001},
+                 {"/certificate/same_residue_area_fraction", 0.01},
+                 {"/area_A2/mapped", 5},
+                 {"/area_A2/source", 50},
+                 {"/mean_displacement_A", 0.01},
+                 {"/mean_path_length_A", 0.01},
+                 {"/rmsd_A", -0.01}};
+  for (const auto& change : changes) {
+    write_file(result.prefix + ".json", right.dump(2));
+    const double recorded = right[Json::json_pointer(change.pointer)].get<double>();
+    result.set(change.pointer, recorded + change.change);
+    const Outcome verified = result.verified();
+    CAPTURE(std::string(change.pointer));
+    CAPTURE(verified.out);
+    CHECK(verified.status == 1);
+    CHECK(differs(verified, change.pointer + 1));
+    CHECK(contains(verified.out, "\nNOT VERIFIED: 1 of "));
+  }
+  // A number that is gone, a verdict against its reasons, and pairs of other atoms.
+  write_file(result.prefix + ".json", right.dump(2));
+  result.set("/certificate/irregularity_A", nullptr);
+  CHECK(differs(result.verified(), "certificate/irregularity_A"));
+  write_file(result.prefix + ".json", right.dump(2));
+  result.set("/certificate/trustworthy", !right["certificate"]["trustworthy"].get<bool>());
+  CHECK(differs(result.verified(), "certificate/trustworthy, against its reasons"));
+  write_file(result.prefix + ".json", right.dump(2));
+  const std::size_t n = right["superposition"]["paired_atoms"][0][2].get<std::size_t>();
+  result.set("/superposition/paired_atoms", {{0, 1, 1}, {1, 0, 1}, {2, 2, n - 2}});
+  CHECK(differs(result.verified(), "rmsd_A"));
+}
+
+TEST_CASE("a wrong number in OUT.vtp or OUT.residues.csv is found") {
+  const SmallResult result;
+  if (result.prefix.empty()) return;
+  const std::string right = read_file(result.prefix + ".vtp");
+  // The arrays stand in binary, one after the other, each behind its length.
+  const std::size_t data = right.find("encoding=\"raw\"");
+  REQUIRE(data != std::string::npos);
+  const auto offset_of = [&](const std::string& name) {
+    const std::size_t at = right.find("Name=\"" + name + "\"");
+    return right.find('_', data) + 1 + 8 + std::stoul(right.substr(right.find("offset=\"", at) + 8));
+  };
+  const auto with_number = [&](const std::string& array, std::size_t place, float value) {
+    std::string text = right;
+    std::memcpy(&text[offset_of(array) + place * sizeof value], &value, sizeof value);
+    write_file(result.prefix + ".vtp", text);
+    return result.verified();
+  };
+  Outcome verified = with_number("slip", 100, 50.0F);
+  CAPTURE(verified.out);
+  CHECK(verified.status == 1);
+  CHECK(differs(verified, "certificate/slip/max_A"));
+  verified = with_number("displacement", 100, 4.5F);
+  CHECK(differs(verified, "displacement at the vertices, largest deviation"));
+  std::string text = right;
+  const double away = 3e3;
+  std::memcpy(&text[offset_of("Points") + 24 * 100], &away, sizeof away);  // one vertex lies elsewhere
+  write_file(result.prefix + ".vtp", text);
+  verified = result.verified();
+  CHECK(verified.status == 1);
+  CHECK(differs(verified, "area_A2/mapped"));
+  CHECK(differs(verified, "certificate/mapped_to_target_A/max"));
+
+  write_file(result.prefix + ".vtp", right);
+  const std::string path = result.prefix + ".residues.csv";
+  std::string table = read_file(path);
+  const std::size_t second_row = table.find('\n') + 1, area = table.find("ASN,", second_row) + 4;
+  table.insert(area, "9");
+  write_file(path, table);
+  CHECK(differs(result.verified(), "OUT.residues.csv, area"));
+}
+
+TEST_CASE("damaged results are refused with the file and the remedy") {
+  const SmallResult result;
+  if (result.prefix.empty()) return;
+  const std::string json = result.prefix + ".json", vtp = result.prefix + ".vtp";
+  const std::string right = read_file(json), surface = read_file(vtp);
+  const auto refused = [&](const std::string& text) {
+    const Outcome verified = result.verified();
+    CAPTURE(verified.err);
+    CHECK(verified.status == 2);
+    CHECK(contains(verified.err, text));
+    CHECK(n_lines(verified.err) == 1);
+  };
+  write_file(json, right.substr(0, right.size() / 2));
+  refused(json + ": is not JSON, or is cut off; compare again");
+  write_file(json, "[1, 2]");
+  refused(json + ": is not the record of a comparison: it has no certificate, or no inputs; compare again");
+  write_file(json, R"({"certificate": {}, "inputs": {}})");
+  refused(json + ": is not the record of a comparison: it has no certificate, or no inputs; compare again");
+  write_file(json, right);
+  result.set("/superposition/paired_atoms", Json::array({Json::array({0, 0, 100000})}));
+  refused(json + ": superposition/paired_atoms names atoms that the structures lack; compare again");
+  result.set("/superposition/paired_atoms", Json::array({Json::array({0, -1, 2})}));
+  refused(json + ": superposition/paired_atoms has an entry that is not three whole numbers; compare again");
+  write_file(json, right);
+  result.set("/inputs/0/sha256", "abc");
+  refused("has changed since the comparison; compare again");
+  write_file(json, right);
+
+  std::string without_slip = surface;
+  without_slip.replace(without_slip.find("Name=\"slip\""), 11, "Name=\"slap\"");
+  write_file(vtp, without_slip);
+  refused(vtp + ": has no array \"slip\", which a comparison writes; compare again");
+  write_file(vtp, surface.substr(0, surface.size() / 2));
+  refused(vtp);
+  write_file(vtp, surface);
+  CHECK(result.verified().status == 0);
+
+  const Outcome absent = run_espdiff("verify " + result.folder.file("nothing"));
+  CHECK(absent.status == 2);
+  CHECK(contains(absent.err, "give the prefix of a result: OUT of OUT.json and OUT.vtp"));
+}
+
+TEST_SUITE_END();
