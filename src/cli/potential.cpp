@@ -245,7 +245,10 @@ Verb add_potential(CLI::App& app) {
       "  espdiff potential protein.pqr -o protein.dx\n"
       "  espdiff potential entry.pdb --select '//A;polymer' --method pb -o entry.dx\n"
       "  espdiff potential frames.pqr --align ca --variance variance.dx -o mean.dx");
-  parser->add_option("MOLECULE", a->molecule, "Structure: PQR, or PDB and mmCIF, which PDB2PQR gives charges; several models are frames")->required();
+  parser
+      ->add_option("MOLECULE", a->molecule,
+                   "Structure: PQR, or PDB and mmCIF, which PDB2PQR gives charges; several models are frames")
+      ->required();
   parser->add_option("-o,--output,--dxfile", a->output, "Map to write: .dx (APBS, VMD, PyMOL) or .vti (ParaView)")
       ->required();
   add_method_options(*parser, *a);

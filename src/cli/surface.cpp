@@ -113,7 +113,8 @@ int run(const Arguments& a, const Context& context) {
 
 Verb add_surface(CLI::App& app) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* parser = app.add_subcommand("surface", "Write a molecule's surface, with its potential if one is given or asked for");
+  CLI::App* parser =
+      app.add_subcommand("surface", "Write a molecule's surface, with its potential if one is given or asked for");
   parser->footer(
       "Examples:\n"
       "  espdiff surface protein.pqr --map protein.dx --regularize -o surface.vtp\n"

@@ -47,10 +47,10 @@ class ModelSplitter {
 
   std::vector<AtomModel> finish() {
     if (has_model_records_ && first_outside_ > 0) {
-      throw FormatError(
-          path_, first_outside_,
-          "an atom outside of MODEL ... ENDMDL (" + in_quotes(trimmed(first_outside_text_)) + "), in a file that has MODEL records; move it into a model, or "
-          "delete the MODEL and ENDMDL lines");
+      throw FormatError(path_, first_outside_,
+                        "an atom outside of MODEL ... ENDMDL (" + in_quotes(trimmed(first_outside_text_)) +
+                            "), in a file that has MODEL records; move it into a model, or "
+                            "delete the MODEL and ENDMDL lines");
     }
     if (models_.empty()) {
       throw InputError(path_ + ": has no ATOM or HETATM records; give a structure with atoms");
@@ -93,8 +93,8 @@ class ModelSplitter {
   bool is_inside_ = false;  // between MODEL and its end
   long first_outside_ = 0;  // line of the first atom beside the models
   std::string_view first_outside_text_;
-  long last_end_ = 0;       // line of the last END
-  long split_by_end_ = 0;   // line of the first END that atoms follow
+  long last_end_ = 0;      // line of the last END
+  long split_by_end_ = 0;  // line of the first END that atoms follow
 };
 
 bool is_number(std::string_view text) {

@@ -144,8 +144,7 @@ LoadedState load_state(const StructureFile& file, const StateRequest& request, c
     }
   }
   if (state.preparation) {
-    for (const std::string& ligand : state.preparation->ligands)
-      state.charge_files.push_back({"ligand", ligand, {}});
+    for (const std::string& ligand : state.preparation->ligands) state.charge_files.push_back({"ligand", ligand, {}});
   }
   state.is_changed = !select.empty() || state.n_left_out > 0 || !structure.assembly.empty() ||
                      state.preparation.has_value() || !state.charge_files.empty();
@@ -193,7 +192,8 @@ void check_ligands(const InputOptions& options, const std::vector<const LoadedSt
       return std::find(used.begin(), used.end(), path) != used.end();
     };
     if (states.empty() || std::any_of(states.begin(), states.end(), has)) continue;
-    const bool any = std::any_of(states.begin(), states.end(), [](const auto* s) { return s->preparation.has_value(); });
+    const bool any =
+        std::any_of(states.begin(), states.end(), [](const auto* s) { return s->preparation.has_value(); });
     const Molecule& whole = states.front()->whole;
     throw InputError(path + ": " +
                      (any ? "no residue that is prepared has heavy atoms of its names; " + whole.name + " has " +

@@ -79,13 +79,14 @@ struct Uncharged {
 [[noreturn]] void refuse(const Molecule& before, const ChargeOptions& options, const Uncharged& uncharged) {
   std::string names;
   for (const std::string& name : uncharged.names) names += (names.empty() ? "" : ",") + name;
-  throw UnchargedError(before.name, std::to_string(uncharged.n_atoms) +
-                   (uncharged.n_atoms == 1 ? " atom gets no charge" : " atoms get no charges") +
-                   " from PDB2PQR's force field " + options.force_field + ": " + joined(uncharged.residues) +
-                   " (first atom " + uncharged.first_atom + "); give a MOL2 file of it with hydrogens (" +
-                   option("ligand", "FILE") + "), charges for all atoms (" + option("topology", "FILE") + ", " +
-                   option("charges-from", "FILE") + " or a PQR), or drop it (" +
-                   option("leave-out", "(" + names + ")") + ")", uncharged.first);
+  throw UnchargedError(
+      before.name,
+      std::to_string(uncharged.n_atoms) + (uncharged.n_atoms == 1 ? " atom gets no charge" : " atoms get no charges") +
+          " from PDB2PQR's force field " + options.force_field + ": " + joined(uncharged.residues) + " (first atom " +
+          uncharged.first_atom + "); give a MOL2 file of it with hydrogens (" + option("ligand", "FILE") +
+          "), charges for all atoms (" + option("topology", "FILE") + ", " + option("charges-from", "FILE") +
+          " or a PQR), or drop it (" + option("leave-out", "(" + names + ")") + ")",
+      uncharged.first);
 }
 
 void add_protonation(const Molecule& after, Preparation& preparation) {

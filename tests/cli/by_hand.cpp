@@ -73,14 +73,12 @@ TEST_CASE("charges are those of pdb2pqr to the last digit, and a difference that
     return json::parse(read_file(folder.file(output + ".json")));
   };
   const auto file = [&](const std::string& name) { return folder.file(name); };
-  const json by_hand =
-      compared(file("hand7.pqr") + " " + file("hand2.pqr") + " --source-map " + file("hand7.pqr-PE0.dx") +
-                   " --target-map " + file("hand2.pqr-PE0.dx"),
-               "by_hand");
+  const json by_hand = compared(file("hand7.pqr") + " " + file("hand2.pqr") + " --source-map " +
+                                    file("hand7.pqr-PE0.dx") + " --target-map " + file("hand2.pqr-PE0.dx"),
+                                "by_hand");
   // That input has no salt, and 298.15 K.
-  const json ours = compared(file("ours7.pqr") + " " + file("ours2.pqr") +
-                                 " --potential pb --ionic-strength 0 --temperature 298.15",
-                             "ours");
+  const json ours = compared(
+      file("ours7.pqr") + " " + file("ours2.pqr") + " --potential pb --ionic-strength 0 --temperature 298.15", "ours");
   for (std::size_t i = 0; i < 3; ++i) {
     const json &a = by_hand["by_offset"][i], &b = ours["by_offset"][i];
     const double difference = a["mean_abs_difference"], own = b["mean_abs_difference"];

@@ -73,8 +73,7 @@ TEST_CASE("compare, trajectory and matrix --charges-from: the numbers of files t
     is_listed = is_listed || input["path"] == *first;  // beside the states that were kept
   CHECK_MESSAGE(is_listed, taken["inputs"].dump());
   const auto trajectory = [&](const std::string& arguments, const std::string& name) {
-    const Outcome outcome =
-        run_espdiff("trajectory " + arguments + " --potential pb" + kQuick + folder.file(name));
+    const Outcome outcome = run_espdiff("trajectory " + arguments + " --potential pb" + kQuick + folder.file(name));
     REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
     return rows(folder.file(name));
   };
@@ -119,8 +118,8 @@ TEST_CASE("compare and trajectory --topology: a PSF's charges beside coordinates
   const json sides =
       run("compare " + pair + " --source-topology " + *psf + " --target-topology " + *psf, folder.file("sides"));
   CHECK(sides["mean_abs_difference"] == both["mean_abs_difference"]);
-  const Outcome trajectory = run_espdiff("trajectory " + pair + " --topology " + *psf + " --potential pb" + kQuick +
-                                         folder.file("t.csv"));
+  const Outcome trajectory =
+      run_espdiff("trajectory " + pair + " --topology " + *psf + " --potential pb" + kQuick + folder.file("t.csv"));
   REQUIRE_MESSAGE(trajectory.status == 0, trajectory.err);
   const espdiff::CsvTable table = espdiff::read_csv(folder.file("t.csv"));
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
@@ -131,8 +130,7 @@ TEST_CASE("compare and trajectory --topology: a PSF's charges beside coordinates
   CHECK(refused.status == 2);
   CHECK_MESSAGE(contains(refused.err, "ubq.pdb"), refused.err);
   const std::string cut = folder.write("cut.pdb", bent.substr(0, bent.find("ATOM   1000")));
-  const Outcome fewer =
-      run_espdiff("compare " + *pdb + " " + cut + " --topology " + *psf + kQuick + folder.file("no"));
+  const Outcome fewer = run_espdiff("compare " + *pdb + " " + cut + " --topology " + *psf + kQuick + folder.file("no"));
   CHECK(fewer.status == 2);
   CHECK(n_lines(fewer.err) == 1);
   CHECK_MESSAGE(contains(fewer.err, "1231"), fewer.err);
@@ -145,12 +143,12 @@ TEST_CASE("potential and surface prepare a structure without charges, as prepare
   const std::string pqr = folder.file("p.pqr");
   REQUIRE(run_espdiff("prepare " + *entry + " -q --ph 5 -o " + pqr).status == 0);
   const auto both = [&](const std::string& verb, const std::string& options, const std::string& ending) {
-    const Outcome direct = run_espdiff(verb + " " + *entry + " --ph 5 " + options + " --device cpu -o " +
-                                       folder.file("direct" + ending));
+    const Outcome direct =
+        run_espdiff(verb + " " + *entry + " --ph 5 " + options + " --device cpu -o " + folder.file("direct" + ending));
     REQUIRE_MESSAGE(direct.status == 0, direct.err);
     CHECK_MESSAGE(contains(direct.out, "prepared by     PDB2PQR v"), direct.out);
-    const Outcome step = run_espdiff(verb + " " + pqr + " " + options + " --device cpu -o " +
-                                     folder.file("step" + ending));
+    const Outcome step =
+        run_espdiff(verb + " " + pqr + " " + options + " --device cpu -o " + folder.file("step" + ending));
     REQUIRE_MESSAGE(step.status == 0, step.err);
     CHECK_FALSE(contains(step.out, "prepared by"));
     CHECK(read_file(folder.file("direct" + ending)) == read_file(folder.file("step" + ending)));

@@ -41,7 +41,8 @@ TEST_CASE("prepare: untidy files give an answer or one line that names file, pla
   const std::map<std::string, std::string> answers = {
       {"bad_parmed/2igd.pdb", "net charge      -2.0000 e"},
       {"bad_biopython/a_structure.pdb",
-       ":20: an atom outside of MODEL ... ENDMDL ('ATOM     22  C   CYS A   0'), in a file that has MODEL records; move "
+       ":20: an atom outside of MODEL ... ENDMDL ('ATOM     22  C   CYS A   0'), in a file that has MODEL records; "
+       "move "
        "it into a model, or delete the MODEL and ENDMDL lines\n"},
       {"bad_pdb/insertion-code.pdb", ":1:" + cannot + "XXX 1a of chain X" + remedy},
       {"bad_pdb/odd-start.pdb", ":1:" + cannot + "EST 600 of chain A" + remedy},
@@ -76,7 +77,8 @@ TEST_CASE("prepare: an atom without charge, an unknown chain, a word that drops 
     return outcome.err;
   };
   const std::string uncharged = refused("--select //A");
-  CHECK(contains(uncharged, "1ake.pdb:3796: 57 atoms get no charges from PDB2PQR's force field parse: AP5 215 of chain A"));
+  CHECK(contains(uncharged,
+                 "1ake.pdb:3796: 57 atoms get no charges from PDB2PQR's force field parse: AP5 215 of chain A"));
   CHECK(contains(uncharged, "or drop it (--leave-out '(AP5)')"));
   CHECK(
       contains(refused("--select //C"), "--select '//C' selects no atom; the file has chain A (1-214, AP5), chain B"));

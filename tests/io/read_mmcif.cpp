@@ -102,8 +102,9 @@ TEST_CASE("read_mmcif: columns that may be missing: occupancy, alternate locatio
   std::string without_occupancy = kHead;
   without_occupancy.erase(without_occupancy.find("_atom_site.occupancy\n"), 21);
   // Two locations without an occupancy are equal: the first counts.
-  CHECK(read(without_occupancy + "ATOM 1 C CA A ALA A ? 1.5 2.0 3.0 5 7 X 1\nATOM 2 C CA B ALA A ? 1.6 2.0 3.0 5 7 X 1\n")
-            .positions == std::vector<Vec3d>{{1.5, 2, 3}});
+  CHECK(
+      read(without_occupancy + "ATOM 1 C CA A ALA A ? 1.5 2.0 3.0 5 7 X 1\nATOM 2 C CA B ALA A ? 1.6 2.0 3.0 5 7 X 1\n")
+          .positions == std::vector<Vec3d>{{1.5, 2, 3}});
 }
 
 TEST_CASE("read_mmcif: a mistake in another category does no harm") {
