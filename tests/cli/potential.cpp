@@ -128,7 +128,7 @@ TEST_CASE("potential: wrong input gives one line and leaves nothing") {
     std::string arguments;
     const char* expected;
   };
-  for (const Case& c : {Case{no_charge, "every atom has charge 0, and a potential needs them; give a PQR file"},
+  for (const Case& c : {Case{no_charge, "zero.pqr: has no charges"},
                         {plain, "has no charges"},
                         {molecule + " --frames 2", "frame 2 is not among the frames 0 to 1"},
                         {molecule + " --cell '0 0 0'", "has 3 numbers; give twelve"},
