@@ -12,9 +12,6 @@ constexpr std::size_t kRun = 32;
 
 #if !defined(__CUDACC__)
 
-/// Square of a distance that no two atoms have; its own square is finite.
-constexpr float kFarthest = 1e15F;
-
 struct LaneVector {
   Lanes x, y, z;
 };
@@ -91,14 +88,15 @@ ESPDIFF_INLINE bool any_may_be_nearer(const Lanes& box, const Lanes& nearest) {
 }
 
 /// Goes through the nodes that may hold a nearer triangle for any lane; the child nearer to the first lane comes first.
-ESPDIFF_INLINE Lanes nearest_of_lanes(const TriangleTreeView& tree, const LaneVector& p) {
+/// @param guess the place of any triangle; a near one saves time. Becomes that of one near to these points.
+ESPDIFF_INLINE Lanes nearest_of_lanes(const TriangleTreeView& tree, const LaneVector& p, std::uint32_t& guess) {
   struct Pending {
     std::uint32_t node;
     Lanes distance;
   };
   Pending stack[32];
   int depth = 0;
-  Lanes nearest = Lanes{} + kFarthest;
+  Lanes nearest = triangle_lanes(p, tree.triangles[guess]);
   std::uint32_t node = 0;
   Lanes distance{};
   for (;;) {
@@ -116,8 +114,10 @@ ESPDIFF_INLINE Lanes nearest_of_lanes(const TriangleTreeView& tree, const LaneVe
       const std::uint32_t begin = (node + 1 - tree.n_leaves) * kTrianglesPerLeaf;
       const std::uint32_t end = std::min(begin + kTrianglesPerLeaf, tree.n_triangles);
       for (std::uint32_t t = begin; t < end; ++t) {
-        if (any_may_be_nearer(box_lanes(p, box_of(tree.triangles[t])), nearest))
-          nearest = smaller_lanes(triangle_lanes(p, tree.triangles[t]), nearest);
+        if (!any_may_be_nearer(box_lanes(p, box_of(tree.triangles[t])), nearest)) continue;
+        const Lanes found = triangle_lanes(p, tree.triangles[t]);
+        if (found[0] < nearest[0]) guess = t;
+        nearest = smaller_lanes(found, nearest);
       }
     }
     do {
@@ -129,7 +129,7 @@ ESPDIFF_INLINE Lanes nearest_of_lanes(const TriangleTreeView& tree, const LaneVe
   }
 }
 
-ESPDIFF_INLINE void search_block(const Search& in, std::size_t block) {
+ESPDIFF_INLINE void search_block(const Search& in, std::size_t block, std::uint32_t& guess) {
   const std::size_t begin = block * kBlock, end = std::min(begin + kBlock, in.points.n);
   LaneVector p{};
   for (std::size_t lane = 0; lane < kBlock; ++lane) {
@@ -138,13 +138,14 @@ ESPDIFF_INLINE void search_block(const Search& in, std::size_t block) {
     p.y[lane] = point.y;
     p.z[lane] = point.z;
   }
-  const Lanes nearest = nearest_of_lanes(in.tree, p);
+  const Lanes nearest = nearest_of_lanes(in.tree, p, guess);
   for (std::size_t lane = 0; begin + lane < end; ++lane)
     in.distances[in.points.list[begin + lane]] = sqrtf(nearest[lane]);
 }
 
 ESPDIFF_MULTIVERSION void search_blocks(const Search& in, std::size_t first, std::size_t last) {
-  for (std::size_t block = first; block < last; ++block) search_block(in, block);
+  std::uint32_t guess = 0;
+  for (std::size_t block = first; block < last; ++block) search_block(in, block, guess);
 }
 
 #endif

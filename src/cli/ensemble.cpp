@@ -15,6 +15,7 @@
 #include "ensemble/ensemble_run.h"
 #include "ensemble/write_ensemble.h"
 #include "io/check_outputs.h"
+#include "io/select_atoms.h"
 #include "matrix/matrix_run.h"
 
 namespace espdiff::cli {
@@ -24,6 +25,7 @@ struct Arguments {
   EnsembleInputArguments inputs;
   EnsembleRun run;
   EnsembleOptions statistics;
+  std::vector<std::string> patches;  ///< NAME=SELECTION
   bool check_template = false, states = false;
   std::string from, shard = "1/1", on_error = "stop", equilibration = "none", control = "tfce";
   bool quiet = false;
@@ -39,6 +41,28 @@ CompareOptions options_of(const GivenSettings& given) {
       std::any_of(given.begin(), given.end(), [](const auto& setting) { return setting.first == "max-step"; });
   if (!has_step) options.morph.max_step_A = 0.7;
   return options;
+}
+
+std::pair<std::string, std::string> name_and_selection(const std::string& text) {
+  const std::size_t sign = text.find('=');
+  if (sign == std::string::npos || sign == 0 || sign + 1 == text.size())
+    throw InputError("--patch " + text + " is not NAME=SELECTION, such as site=//A/8-12");
+  return {text.substr(0, sign), text.substr(sign + 1)};
+}
+
+/// The residues of each patch on the template.
+std::vector<FixedPatch> fixed_patches(const Arguments& a, const Molecule& molecule) {
+  std::vector<FixedPatch> patches;
+  for (const std::string& text : a.patches) {
+    const auto [name, selection] = name_and_selection(text);
+    FixedPatch patch{name, std::vector<char>(molecule.residues.size(), 0)};
+    const std::vector<bool> selected = select_some_atoms(molecule, selection, "patch");
+    for (std::size_t i = 0; i < selected.size(); ++i) {
+      if (selected[i]) patch.residues[static_cast<std::size_t>(molecule.atoms[i].residue)] = 1;
+    }
+    patches.push_back(std::move(patch));
+  }
+  return patches;
 }
 
 /// The statistics of a complete file.
@@ -96,6 +120,9 @@ int run(Arguments& a, const Context& context) {
   a.statistics.control = a.control == "tfce" ? ErrorControl::kTfce : ErrorControl::kMaxT;
   const bool names_inputs = !a.inputs.groups.empty() || !a.inputs.list.empty();
   if (!a.from.empty()) {
+    if (!a.patches.empty())
+      throw InputError(
+          "--patch selects atoms of the template, which --from does not read; name the groups, with --resume");
     if (names_inputs) throw InputError("--from reads mapped frames from a file; leave out --group and --list");
     return run_from(a, context);
   }
@@ -119,6 +146,8 @@ int run(Arguments& a, const Context& context) {
   const std::unique_ptr<Engine> engine = make_engine(a.device);
   const auto map_onto = [&](const std::string& text, const EnsembleRun& part) {
     inputs.choose_template(text, *context.progress);
+    // A wrong selection is refused before the work. Patches are of the first template.
+    if (part.output == a.run.output) a.statistics.fixed_patches = fixed_patches(a, *inputs.source().molecule);
     EnsemblePlan plan = inputs.plan();
     plan.device = engine->back_end();
     const EnsembleReport report = run_ensemble(
@@ -133,12 +162,14 @@ int run(Arguments& a, const Context& context) {
   finish(a, file, context, [&](EnsembleResult& result) {
     if (!a.check_template) return;
     const Molecule first = *inputs.source().molecule;
+    EnsembleOptions statistics = a.statistics;
+    statistics.fixed_patches.clear();
     for (const std::string& group : inputs.plan().groups()) {
       EnsembleRun part = a.run;
       part.output += ".template-" + group;
       const EnsembleFile other(map_onto("medoid:" + group, part), false);
       result.template_checks.push_back(
-          check_template(file, result, other, analyse_ensemble(other, a.statistics), inputs.onto(first)));
+          check_template(file, result, other, analyse_ensemble(other, statistics), inputs.onto(first)));
     }
   });
   return 0;
@@ -168,6 +199,10 @@ void add_statistics_options(CLI::App& p, Arguments& a) {
   p.add_flag("--check-template", a.check_template,
              "Map the medoid of each group onto every frame as well, and tell how much of the answer stays. Takes as "
              "long again for each group; files OUT.template-GROUP.h5")
+      ->group(group);
+  p.add_option("--patch", a.patches,
+               "NAME=SELECTION: residues of the template, in gemmi's syntax (site=//A/8-12), whose surface is measured "
+               "as a whole, with a p of its own; may be given again")
       ->group(group);
   p.add_flag("--states", a.states,
              "Compare every frame with every other one through the template (OUT.states.csv), and find the principal "

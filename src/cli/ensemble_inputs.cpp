@@ -221,7 +221,7 @@ void EnsembleInputs::choose_template(const std::string& text, const Progress& pr
       throw InputError(option("template", text) + ": there are " + std::to_string(n) +
                        " frames in all groups, numbered from 0");
     template_ = load(number);
-    const std::string what = of_group ? "medoid of its group: " : text == "medoid" ? "medoid: " : "";
+    const std::string what = of_group ? "medoid of " : text == "medoid" ? "medoid: " : "";
     plan_.template_name = what + plan_.name_of(number);
   } else {
     const StructureFile file(text);

@@ -43,6 +43,29 @@ bool disagrees(const std::optional<ResidueCheck>& check) {
          check->rms_error > Limits::kResidueNoise * check->rms_potential;
 }
 
+/// By the source's area, since removed triangles have no place on the target.
+RemovedArea removed_area(Engine& engine, const Mapping& mapping) {
+  RemovedArea removed;
+  if (mapping.removed_for.empty()) return removed;
+  const Mesh source = engine.download_shape(mapping.source);
+  double by_reason[7] = {}, all = 0;
+  for (std::size_t t = 0; t < source.triangles.size(); ++t) {
+    const Triangle& v = source.triangles[t];
+    const Vec3f &a = source.positions[v[0]], &b = source.positions[v[1]], &c = source.positions[v[2]];
+    const double area = 0.5 * static_cast<double>(norm(cross(b - a, c - a)));
+    by_reason[static_cast<std::size_t>(mapping.removed_for[t])] += area;
+    all += area;
+  }
+  const auto share = [&](Removal reason) { return by_reason[static_cast<std::size_t>(reason)] / all; };
+  removed.torn = share(Removal::kTorn);
+  removed.intersecting = share(Removal::kIntersecting);
+  removed.flipped = share(Removal::kFlipped);
+  removed.corrupt = share(Removal::kCorrupt);
+  removed.far = share(Removal::kFar);
+  removed.grown = share(Removal::kGrown);
+  return removed;
+}
+
 }  // namespace
 
 Certificate certify(Engine& engine, const Mapping& mapping, const MeshPtr& target) {
@@ -57,6 +80,8 @@ Certificate certify(Engine& engine, const Mapping& mapping, const MeshPtr& targe
   const double kept = engine.area(mapping.matched_source) / engine.area(mapping.source);
   c.unmatched_source = 1 - kept * (1 - c.mapped_to_target.area_fraction_beyond_limit);
   c.unmatched_target = c.target_to_mapped.area_fraction_beyond_limit;
+  c.removed = removed_area(engine, mapping);
+  c.zero_by_construction = !mapping.removed_for.empty();
   return c;
 }
 

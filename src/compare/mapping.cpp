@@ -2,6 +2,8 @@
 #include "compare/mapping.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <utility>
 
 #include "base/handles.h"
 #include "engine/engine.h"
@@ -10,13 +12,32 @@
 namespace espdiff {
 namespace {
 
-/// Copies the flags of the matched part to the full mesh; returns whether any was new.
-bool copy_flags(std::vector<float>& unmatched, const std::vector<float>& marked) {
+/// Copies a reason of the matched part to the full mesh, where there is none yet.
+/// @param matched [triangle] of the full mesh: its place in the matched part, or -1
+void set_reason(Engine& engine, const ScalarsPtr& flags, Removal reason, const std::vector<std::ptrdiff_t>& matched,
+                std::vector<Removal>& removed_for) {
+  if (flags == nullptr) return;
+  const std::vector<float> marked = engine.download(flags);
+  for (std::size_t t = 0; t < removed_for.size(); ++t) {
+    if (matched[t] >= 0 && removed_for[t] == Removal::kNone && marked[static_cast<std::size_t>(matched[t])] != 0)
+      removed_for[t] = reason;
+  }
+}
+
+/// [triangle] its place in the matched part, -1 if it is unmatched.
+std::vector<std::ptrdiff_t> places_in_matched(const std::vector<float>& unmatched) {
+  std::vector<std::ptrdiff_t> places;
+  std::ptrdiff_t n = 0;
+  for (const float flag : unmatched) places.push_back(flag != 0 ? -1 : n++);
+  return places;
+}
+
+/// Makes triangles unmatched that have a reason; returns whether any was not yet.
+bool remove_marked(Mapping& mapping) {
   bool any = false;
-  std::size_t k = 0;
-  for (float& flag : unmatched) {
-    if (flag != 0 || marked[k++] == 0) continue;
-    flag = 1;
+  for (std::size_t t = 0; t < mapping.unmatched.size(); ++t) {
+    if (mapping.unmatched[t] != 0 || mapping.removed_for[t] == Removal::kNone) continue;
+    mapping.unmatched[t] = 1;
     any = true;
   }
   return any;
@@ -32,17 +53,18 @@ void measure_distortion(Engine& engine, Mapping& mapping) {
   mapping.distortion = engine.distortion(mapping.matched_source, mapping.matched, kAreaRatioLimit);
 }
 
-/// [triangle of the matched part] nonzero if it must be removed.
-std::vector<float> invalid_triangles(Engine& engine, const Mapping& mapping) {
-  std::vector<float> marked = engine.download(mapping.fit.corrupt);
-  for (const ScalarsPtr& flags : {mapping.fit.flipped, mapping.intersections.intersecting, mapping.to_target.beyond,
-                                  mapping.distortion.excessive}) {
-    if (flags == nullptr) continue;
-    const std::vector<float> other = engine.download(flags);
-    std::transform(marked.begin(), marked.end(), other.begin(), marked.begin(),
-                   [](float a, float b) { return std::max(a, b); });
-  }
-  return marked;
+void mark_faults(Engine& engine, Mapping& mapping) {
+  const std::vector<std::ptrdiff_t> places = places_in_matched(mapping.unmatched);
+  for (const auto& [flags, reason] :
+       {std::pair(mapping.intersections.intersecting, Removal::kIntersecting),
+        std::pair(mapping.fit.flipped, Removal::kFlipped), std::pair(mapping.fit.corrupt, Removal::kCorrupt),
+        std::pair(mapping.to_target.beyond, Removal::kFar), std::pair(mapping.distortion.excessive, Removal::kGrown)})
+    set_reason(engine, flags, reason, places, mapping.removed_for);
+}
+
+void mark_growth(Engine& engine, Mapping& mapping) {
+  set_reason(engine, mapping.distortion.excessive, Removal::kGrown, places_in_matched(mapping.unmatched),
+             mapping.removed_for);
 }
 
 /// Extracts the matched part of both meshes.
@@ -58,6 +80,9 @@ void find_matched_part(Engine& engine, Mapping& mapping, const AtomsPtr& target_
                        float isovalue) {
   const bool has_flags = !mapping.unmatched.empty();
   if (has_flags) {
+    mapping.removed_for.clear();
+    for (const float flag : mapping.unmatched)
+      mapping.removed_for.push_back(flag != 0 ? Removal::kTorn : Removal::kNone);
     extract_matched(engine, mapping);
   } else {
     mapping.matched = mapping.mapped;
@@ -66,13 +91,16 @@ void find_matched_part(Engine& engine, Mapping& mapping, const AtomsPtr& target_
   measure(engine, mapping, target_atoms, target, isovalue);
   measure_distortion(engine, mapping);
   mapping.intersections = engine.self_intersections(mapping.matched);
-  if (!has_flags || !copy_flags(mapping.unmatched, invalid_triangles(engine, mapping))) return;
+  if (!has_flags) return;
+  mark_faults(engine, mapping);
+  if (!remove_marked(mapping)) return;
   // Only the area growth depends on a triangle's surroundings and must be checked again: whatever fitted, fits still.
   mapping.intersections = {};
   do {
     extract_matched(engine, mapping);
     measure_distortion(engine, mapping);
-  } while (copy_flags(mapping.unmatched, engine.download(mapping.distortion.excessive)));
+    mark_growth(engine, mapping);
+  } while (remove_marked(mapping));
   measure(engine, mapping, target_atoms, target, isovalue);
 }
 
@@ -82,10 +110,13 @@ void drop_closed_cavities(Engine& engine, Mapping& mapping) {
   if (std::none_of(components.begin(), components.end(), is_cavity)) return;
   const Mesh source = engine.download(mapping.source);
   std::vector<float> dropped(mapping.unmatched.size()), unmatched;
+  std::vector<Removal> removed_for;
   for (std::size_t t = 0; t < dropped.size(); ++t) {
     const bool cavity = is_cavity(components[source.component[source.triangles[t][0]]]);
     dropped[t] = cavity && mapping.unmatched[t] != 0 ? 1.0F : 0.0F;
-    if (dropped[t] == 0) unmatched.push_back(mapping.unmatched[t]);
+    if (dropped[t] != 0) continue;
+    unmatched.push_back(mapping.unmatched[t]);
+    removed_for.push_back(mapping.removed_for[t]);
   }
   const ScalarsPtr flags = engine.upload_scalars(dropped);
   mapping.source = engine.without(mapping.source, flags);
@@ -93,6 +124,7 @@ void drop_closed_cavities(Engine& engine, Mapping& mapping) {
   mapping.mapped =
       engine.with_positions(mapping.source, engine.download_positions(engine.without(mapping.mapped, flags)));
   mapping.unmatched = std::move(unmatched);
+  mapping.removed_for = std::move(removed_for);
   std::vector<bool> left(source.positions.size(), false);
   for (std::size_t t = 0; t < dropped.size(); ++t) {
     if (dropped[t] != 0) continue;

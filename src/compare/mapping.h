@@ -17,12 +17,16 @@ constexpr double kMatchLimit_A = 1.0;
 /// metrics weight by the mapped area.
 constexpr double kAreaRatioLimit = 10;
 
+/// Why a triangle was removed from the mapping; the first that holds.
+enum class Removal : std::uint8_t { kNone, kTorn, kIntersecting, kFlipped, kCorrupt, kFar, kGrown };
+
 /// Two meshes of one topology: each vertex on the source, and its position on the target.
 struct Mapping {
   MeshPtr source, mapped;
   /// [triangle] nonzero if unmatched; empty if the method does not report it.
   std::vector<float> unmatched;
-  std::vector<float> path_length;  ///< [vertex] Angstrom
+  std::vector<Removal> removed_for;  ///< [triangle] set by find_matched_part(); empty if the method removes nothing
+  std::vector<float> path_length;    ///< [vertex] Angstrom
 
   // The matched part, and how well it fits the target; see find_matched_part().
   MeshPtr matched_source, matched;

@@ -50,7 +50,7 @@ MeshPtr cut(Engine& engine, const MeshPtr& mesh, const std::vector<float>& exclu
 }  // namespace
 
 const std::vector<std::string>& unchecked_in_regions() {
-  static const std::vector<std::string> names = {"round_trip", "slip", "residues"};
+  static const std::vector<std::string> names = {"round_trip", "slip", "residues", "removed"};
   return names;
 }
 
@@ -82,6 +82,7 @@ std::shared_ptr<CompareResult> region_result(Engine& engine, const Region& regio
   Certificate& c = result->certificate;
   c.converged = whole.certificate.converged;
   c.not_checked = unchecked_in_regions();
+  c.zero_by_construction = whole.certificate.zero_by_construction;
   std::vector<float> excluded = region.outside;
   for (std::size_t t = 0; t < mapping.unmatched.size(); ++t) excluded[t] = std::max(excluded[t], mapping.unmatched[t]);
   const MeshPtr source = cut(engine, mapping.source, region.outside), matched = cut(engine, mapping.mapped, excluded),

@@ -64,6 +64,13 @@ struct RoundTrip {
   double unmatched_target_area_fraction = 0;  ///< of the target's surface, by the mapping back
 };
 
+/// What the mapping removed of itself, as shares of the source's area by the first reason that holds: surface torn or
+/// crushed on the way, and triangles at its end that intersect, are flipped, corrupt, farther than 1 A from the target,
+/// or have grown more than tenfold.
+struct RemovedArea {
+  double torn = 0, intersecting = 0, flipped = 0, corrupt = 0, far = 0, grown = 0;
+};
+
 /// How well the matched part of the mapping fits the target. With the morph, corrupt, flipped and intersecting
 /// triangles become unmatched (see find_matched_part()), so unmatched_source measures its quality. target_to_mapped
 /// covers all of the target's surface; its mean_within_limit excludes unmatched parts.
@@ -84,6 +91,9 @@ struct Certificate {
   /// Fraction of the mapped area whose residue on the target (of highest density) is paired with its residue on the
   /// source; NaN if no residues pair.
   double same_residue_area_fraction = 0;
+  RemovedArea removed;
+  /// Whether corrupt, flipped and intersecting triangles were removed, so that these numbers cannot be other than 0.
+  bool zero_by_construction = false;
   double outside_maps = 0;  ///< fraction of the mapped area at vertices outside a map
   bool converged = false;
   bool trustworthy = false;

@@ -114,6 +114,20 @@ Json ensemble_json(const EnsembleFile& file, const EnsembleResult& result) {
   json["not_checked"] = {"slip", "round_trip", "residues"};
   if (result.compares) json["test"] = test_json(result);
   json["noise_floor"] = noise_json(result);
+  for (std::size_t k = 0; k < result.fixed_patches.size(); ++k) {
+    const FixedPatch& patch = result.fixed_patches[k];
+    Json entry = {{"name", patch.name}, {"area_A2", patch.area_A2}, {"means", Json::object()}};
+    for (std::size_t g = 0; g < result.groups.size(); ++g)
+      entry["means"][result.groups[g].name] = number(patch.means[g]);
+    if (result.compares) {
+      const PlaceTests& t = result.fixed_patch_tests;
+      entry["difference"] = number(t.difference[k]);
+      entry["low"] = number(t.low[k]);
+      entry["high"] = number(t.high[k]);
+      entry["p"] = number(t.p[k]);
+    }
+    json["fixed_patches"].push_back(std::move(entry));
+  }
   if (result.states) {
     json["states"] = {{"n", result.states->size()}, {"area_fraction", result.states->area_fraction}};
     json["states"]["component_shares"] = Json::array();

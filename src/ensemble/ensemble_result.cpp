@@ -239,6 +239,32 @@ struct Analysis {
     for (std::size_t i = 0; i < members.size(); ++i) result.residues[i].adjusted_p = adjusted[i];
   }
 
+  void measure_fixed_patches() {
+    std::vector<std::vector<std::uint32_t>> members;
+    for (FixedPatch patch : result.options.fixed_patches) {
+      members.emplace_back();
+      for (std::uint32_t v = 0; v < n_vertices(); ++v) {
+        const std::int32_t residue = file.surface().residue[v];
+        if (residue < 0 || result.tested[v] == 0 || patch.residues.at(static_cast<std::size_t>(residue)) == 0) continue;
+        members.back().push_back(v);
+        patch.area_A2 += result.graph.area[v];
+      }
+      if (members.back().empty())
+        throw InputError(option("patch") + " " + patch.name +
+                         ": none of its residues has surface that was tested; choose others");
+      for (const GroupColumns& group : result.groups) {
+        double sum = 0;
+        for (const std::uint32_t v : members.back()) sum += result.graph.area[v] * group.mean[v];
+        patch.means.push_back(sum / patch.area_A2);
+      }
+      result.fixed_patches.push_back(std::move(patch));
+    }
+    if (!result.compares) return;
+    const std::size_t n_first = plan().replicates_of(result.groups[0].name).size();
+    result.fixed_patch_tests =
+        test_places(result.test, means, n_first, result.graph, members, 1 - result.options.alpha);
+  }
+
   void warn() {
     const std::string design = design_warning(plan());
     if (!design.empty()) result.warnings.push_back(design);
@@ -282,6 +308,7 @@ EnsembleResult analyse_ensemble(const EnsembleFile& file, const EnsembleOptions&
   a.measure_noise();
   if (a.result.groups.size() == 2) a.test(columns);
   a.summarize_residues();
+  a.measure_fixed_patches();
   a.warn();
   return std::move(a.result);
 }

@@ -21,6 +21,14 @@ class EnsembleFile;
 
 enum class ErrorControl { kTfce, kMaxT };
 
+/// A part of the surface that the user chose before seeing the result.
+struct FixedPatch {
+  std::string name;
+  std::vector<char> residues;   ///< [residue of the template] nonzero in the patch
+  double area_A2 = 0;           ///< tested
+  std::vector<double> means{};  ///< [group]
+};
+
 /// Options of the statistics; they do not change the file's values.
 struct EnsembleOptions {
   double alpha = 0.05;        ///< of patches, and 1 - confidence of intervals
@@ -28,6 +36,7 @@ struct EnsembleOptions {
   ErrorControl control = ErrorControl::kTfce;  ///< the family-wise p of patches
   Equilibration equilibration;
   SurfaceTestOptions test;
+  std::vector<FixedPatch> fixed_patches;  ///< names and residues
 };
 
 /// A replicate in numbers.
@@ -84,6 +93,8 @@ struct EnsembleResult {
   PlaceTests residue_tests;
   std::vector<EnsemblePatch> patches;
   PlaceTests patch_tests;
+  std::vector<FixedPatch> fixed_patches;
+  PlaceTests fixed_patch_tests;                ///< p of each alone: a patch chosen beforehand needs no correction
   std::vector<TemplateCheck> template_checks;  ///< where they were asked for; see check_template()
   std::optional<StateTable> states;            ///< where they were asked for; see compare_states()
   std::vector<std::string> warnings;

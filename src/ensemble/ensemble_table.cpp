@@ -54,6 +54,22 @@ void print_noise(std::ostream& out, const EnsembleResult& result, const std::str
   }
 }
 
+void print_fixed_patches(std::ostream& out, const EnsembleResult& result, const std::string& unit) {
+  if (result.fixed_patches.empty()) return;
+  out << "\nfixed patches (" << unit << ")\n";
+  const PlaceTests& t = result.fixed_patch_tests;
+  for (std::size_t k = 0; k < result.fixed_patches.size(); ++k) {
+    const FixedPatch& patch = result.fixed_patches[k];
+    out << print("  %-20.20s %8.1f A2", patch.name.c_str(), patch.area_A2);
+    for (std::size_t g = 0; g < result.groups.size(); ++g)
+      out << print("  %.12s %s", result.groups[g].name.c_str(), value(patch.means[g]).c_str());
+    if (result.compares)
+      out << print("  diff. %s (%s to %s), p %.2g", value(t.difference[k]).c_str(), value(t.low[k]).c_str(),
+                   value(t.high[k]).c_str(), t.p[k]);
+    out << '\n';
+  }
+}
+
 /// The largest shares, until they are most of the patch.
 std::string main_residues(const EnsemblePatch& patch) {
   std::string text;
@@ -105,10 +121,10 @@ void print_residues(std::ostream& out, const EnsembleResult& result) {
 
 void print_template_checks(std::ostream& out, const EnsembleResult& result) {
   if (result.template_checks.empty()) return;
-  out << print("\n%-44s %10s %10s %8s %14s\n", "through another template", "mean diff.", "area (A2)", "overlap",
+  out << print("\n%-54s %10s %10s %8s %14s\n", "through another template", "mean diff.", "area (A2)", "overlap",
                "largest change");
   for (const TemplateCheck& check : result.template_checks)
-    out << print("  %-42.42s %10.3f %10.1f %8s %14s\n", check.template_name.c_str(), check.mean_abs_difference,
+    out << print("  %-52.52s %10.3f %10.1f %8s %14s\n", check.template_name.c_str(), check.mean_abs_difference,
                  check.significant_area_A2, value(check.overlap).c_str(), value(check.largest_change).c_str());
 }
 
@@ -155,6 +171,7 @@ void print_ensemble(std::ostream& out, const EnsembleFile& file, const EnsembleR
     print_residues(out, result);
     print_template_checks(out, result);
   }
+  print_fixed_patches(out, result, unit);
   print_states(out, file, result);
   for (const std::string& warning : result.warnings) out << "\nwarning: " << warning << '\n';
 }

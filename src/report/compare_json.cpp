@@ -60,6 +60,10 @@ Json warnings(const CompareResult& result) {
 }
 
 void add_verdict(Json& json, const Certificate& c) {
+  json["zero_by_construction"] = Json::array();
+  for (const Metric& metric : metrics()) {
+    if (c.zero_by_construction && (metric.flags & kRemovable) != 0) json["zero_by_construction"].push_back(metric.name);
+  }
   json["converged"] = c.converged;
   json["trustworthy"] = c.trustworthy;
   json["reasons"] = Json::array();

@@ -1,6 +1,7 @@
 // compare_table.cpp: a comparison's result as a table for a terminal.
 #include <algorithm>
 #include <cstdio>
+#include <sstream>
 
 #include "align/compared_chains.h"
 #include "align/rigid_domains.h"
@@ -33,6 +34,21 @@ void row(std::ostream& out, const std::string& label, const std::string& unit, c
   out << left("  " + label, kLabelWidth) << left(unit, kUnitWidth);
   for (const std::string& value : values) out << right(value, kColumnWidth);
   out << '\n';
+}
+
+/// "  - TEXT", its further lines indented like the first.
+void item(std::ostream& out, const std::string& text, std::size_t indent = 2) {
+  constexpr std::size_t kTextWidth = 100;
+  std::string current = std::string(indent, ' ') + "-";
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (current.size() + 1 + word.size() > kTextWidth && current.size() > indent + 1) {
+      out << current << '\n';
+      current = std::string(indent + 1, ' ');
+    }
+    current += " " + word;
+  }
+  out << current << '\n';
 }
 
 /// A heading over such lines.
@@ -124,6 +140,9 @@ void print_lines(std::ostream& out, const CompareResult& result, MetricSection s
       ++i;
     } while (shares_line());
     if (first.section != section || is_unchecked(first, result)) continue;
+    // Such a line is no evidence, so the reader must know.
+    if (result.certificate.zero_by_construction && (first.flags & kRemovable) != 0)
+      values.emplace_back(" by construction, see Removed");
     row(out, *first.line != '\0' ? first.line : first.label, unit_of(first, to_string(result.unit)), values);
   }
 }
@@ -257,13 +276,13 @@ void print_region(std::ostream& out, const CompareResult& result, const OptionSp
       {"source " + number("%.3g", 100 * region.certificate.unmatched_source) + " %",
        "target " + number("%.3g", 100 * region.certificate.unmatched_target) + " %"});
   line(out, "Verdict", region.certificate.trustworthy ? "trustworthy" : "not trustworthy");
-  for (const Message& reason : region.certificate.reasons) out << "    - " << reason.spelled(spelling) << '\n';
+  for (const Message& reason : region.certificate.reasons) item(out, reason.spelled(spelling), 4);
 }
 
 void print_warnings(std::ostream& out, const CompareResult& result, const OptionSpelling& spelling) {
   if (result.warnings.empty()) return;
   out << "\nWarnings\n";
-  for (const Warning& warning : result.warnings) out << "  - " << warning.text.spelled(spelling) << '\n';
+  for (const Warning& warning : result.warnings) item(out, warning.text.spelled(spelling));
 }
 
 void print_verdict(std::ostream& out, const CompareResult& result, const OptionSpelling& spelling) {
@@ -273,7 +292,7 @@ void print_verdict(std::ostream& out, const CompareResult& result, const OptionS
     out << "TRUSTWORTHY: the mapping is within every limit that was checked\n";
   } else {
     out << "NOT TRUSTWORTHY:\n";
-    for (const Message& reason : c.reasons) out << "  - " << reason.spelled(spelling) << '\n';
+    for (const Message& reason : c.reasons) item(out, reason.spelled(spelling));
   }
 }
 

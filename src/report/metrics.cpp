@@ -33,6 +33,11 @@ double of_round_trip(const CompareResult& result) {
   return result.certificate.round_trip ? (*result.certificate.round_trip).*Member : kNan;
 }
 
+template <double RemovedArea::*Member>
+double of_removed(const CompareResult& result) {
+  return result.certificate.removed.*Member;
+}
+
 double residue_correlation(const CompareResult& result) {
   return result.certificate.residues ? result.certificate.residues->correlation : kNan;
 }
@@ -136,15 +141,33 @@ std::vector<Metric> make_metrics() {
       {"area_mapped_A2", "Area of the mapped surface", S::kSurface, U::kSquareAngstrom, kBoth,
        "Area of the source's surface after it was mapped onto the target", mapped_area, "/area_A2/mapped", "Area",
        "mapped"},
-      {"corrupt_area_fraction", "Corrupt area", S::kCertificate, U::kFraction, kBoth,
-       "Share of the mapped area that does not lie on the target's surface", of_certificate<&C::corrupt_area_fraction>,
-       "/certificate/corrupt_area_fraction"},
-      {"flipped_area_fraction", "Flipped area", S::kCertificate, U::kFraction, kBoth,
-       "Share of the mapped area that is turned inside out", of_certificate<&C::flipped_area_fraction>,
-       "/certificate/flipped_area_fraction"},
-      {"self_intersecting_pairs", "Intersecting pairs of triangles", S::kCertificate, U::kCount, kInMatrix,
-       "Pairs of triangles of the mapped surface that intersect", intersecting_pairs,
+      {"corrupt_area_fraction", "Corrupt area", S::kCertificate, U::kFraction, kBoth | kRemovable,
+       "Share of the mapped area that does not lie on the target's surface; the morph removes it",
+       of_certificate<&C::corrupt_area_fraction>, "/certificate/corrupt_area_fraction"},
+      {"flipped_area_fraction", "Flipped area", S::kCertificate, U::kFraction, kBoth | kRemovable,
+       "Share of the mapped area that is turned inside out; the morph removes it",
+       of_certificate<&C::flipped_area_fraction>, "/certificate/flipped_area_fraction"},
+      {"self_intersecting_pairs", "Intersecting pairs of triangles", S::kCertificate, U::kCount, kInMatrix | kRemovable,
+       "Pairs of triangles of the mapped surface that intersect; the morph removes them", intersecting_pairs,
        "/certificate/self_intersecting_pairs"},
+      {"removed_torn", "Removed area, torn", S::kCertificate, U::kFraction, kNowhere,
+       "Share of the source's area that was torn or crushed while its atoms moved", of_removed<&RemovedArea::torn>,
+       "/certificate/removed/torn", "Removed of the source as", "torn"},
+      {"removed_intersecting", "Removed area, intersecting", S::kCertificate, U::kFraction, kNowhere,
+       "Share of the source's area whose triangles would intersect", of_removed<&RemovedArea::intersecting>,
+       "/certificate/removed/intersecting", "Removed of the source as", "crossing"},
+      {"removed_flipped", "Removed area, flipped", S::kCertificate, U::kFraction, kNowhere,
+       "Share of the source's area that would be turned inside out", of_removed<&RemovedArea::flipped>,
+       "/certificate/removed/flipped", "Removed of the source as", "flipped"},
+      {"removed_corrupt", "Removed area, corrupt", S::kCertificate, U::kFraction, kNowhere,
+       "Share of the source's area that would not lie on the target's surface", of_removed<&RemovedArea::corrupt>,
+       "/certificate/removed/corrupt", "  or for its place, as", "corrupt"},
+      {"removed_far", "Removed area, far", S::kCertificate, U::kFraction, kNowhere,
+       "Share of the source's area farther than 1 A from the target", of_removed<&RemovedArea::far>,
+       "/certificate/removed/far", "  or for its place, as", "far"},
+      {"removed_grown", "Removed area, grown", S::kCertificate, U::kFraction, kNowhere,
+       "Share of the source's area that grew more than tenfold", of_removed<&RemovedArea::grown>,
+       "/certificate/removed/grown", "  or for its place, as", "grown"},
       {"no_counterpart_source", "Unmatched area, source", S::kCertificate, U::kFraction, kBoth,
        "Share of the source's area that has no place on the target", of_certificate<&C::unmatched_source>,
        "/certificate/no_counterpart_area_fraction/source", "Unmatched area", "source"},

@@ -24,6 +24,7 @@ enum MetricFlag : unsigned {
   kInMatrix = 2,       ///< a table of a matrix
   kAntisymmetric = 4,  ///< the value of target to source is its negative; otherwise it should be the same
   kOfRegion = 8,       ///< of the region alone
+  kRemovable = 16,     ///< 0 by construction where Certificate::zero_by_construction
 };
 
 /// Where the value of a metric comes from: the whole comparison, the row of a residue, or both.

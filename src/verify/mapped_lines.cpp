@@ -17,11 +17,14 @@ constexpr double kMediumSlip_A = 2, kLargeSlip_A = 3;
 constexpr double kLeastResidueArea_A2 = 5;
 
 void add_areas(const MappedFile& file, Lines& lines) {
-  double mapped = 0;
+  double mapped = 0, all = 0, matched = 0;
   std::vector<std::pair<double, double>> ratios, energies;
   for (std::size_t t = 0; t < file.triangles.size(); ++t) {
+    const double before = file.source_area(t);
+    all += before;
     if (!file.is_matched[t]) continue;
-    const double after = file.area(t), before = file.source_area(t);
+    const double after = file.area(t);
+    matched += before;
     mapped += after;
     if (!(before > 0)) continue;
     ratios.emplace_back(after / before, before);
@@ -41,6 +44,7 @@ void add_areas(const MappedFile& file, Lines& lines) {
                           before);
   }
   lines.add("area_A2/mapped", mapped, 0);
+  lines.add_sum("certificate/removed", 1 - matched / all, 1e-5);
   for (const auto& [name, share] : {std::pair("p05", 0.05), std::pair("median", 0.5), std::pair("p95", 0.95)})
     lines.add(std::string("certificate/area_ratio/") + name, weighted_quantile(ratios, share), 1e-3);
   for (const auto& [name, share] : {std::pair("median", 0.5), std::pair("p95", 0.95)}) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -68,6 +69,14 @@ std::vector<std::vector<std::size_t>> ResultRecord::triples(const std::string& p
     }
     all.push_back(entry.get<std::vector<std::size_t>>());
   }
+  return all;
+}
+
+double ResultRecord::sum(const std::string& pointer) const {
+  const Json* const found = at(pointer);
+  if (found == nullptr || !found->is_object()) return std::numeric_limits<double>::quiet_NaN();
+  double all = 0;
+  for (const Json& value : *found) all += value.is_number() ? value.get<double>() : 0;
   return all;
 }
 

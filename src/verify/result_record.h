@@ -32,6 +32,8 @@ class ResultRecord {
   /// Arrays of three whole numbers.
   /// @throws InputError (others)
   std::vector<std::vector<std::size_t>> triples(const std::string& pointer) const;
+  /// Of the numbers in an object; NaN if there is none.
+  double sum(const std::string& pointer) const;
   std::vector<double> numbers(const std::string& pointer) const;
   /// The number of entries of an array or object; 0 if there is none.
   std::size_t size(const std::string& pointer) const;

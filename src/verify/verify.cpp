@@ -96,8 +96,10 @@ class Verifier {
 
   /// Why the compared atoms cannot be read from the recorded inputs; empty if they can.
   std::string atoms_not_read() const {
+    // Prepared states lie beside the result, with the compared atoms alone.
+    const bool kept = record_.input("source_file") && record_.input("target_file");
     for (const char* const option : {"select", "source_select", "target_select", "leave_out", "assembly"}) {
-      if (!record_.text(std::string("options/") + option).empty())
+      if (!kept && !record_.text(std::string("options/") + option).empty())
         return std::string("the compared atoms are a selection (options/") + option + ")";
     }
     for (const char* const role : {"source", "target"}) {
@@ -280,6 +282,9 @@ void Lines::add(const std::string& pointer, double recomputed, double tolerance)
   const double recorded = record_.number(pointer).value_or(std::numeric_limits<double>::quiet_NaN());
   if (std::isnan(recorded) && !std::isfinite(recomputed)) return;
   result_.lines.push_back({pointer, recorded, recomputed, std::max(tolerance, kRelative * std::fabs(recorded))});
+}
+void Lines::add_sum(const std::string& pointer, double recomputed, double tolerance) {
+  result_.lines.push_back({pointer + ", sum", record_.sum(pointer), recomputed, tolerance});
 }
 void Lines::add_deviation(const std::string& name, double largest, double tolerance) {
   result_.lines.push_back({name, 0, largest, tolerance});

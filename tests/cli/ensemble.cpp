@@ -127,8 +127,26 @@ TEST_CASE("the answer through the medoids of the groups is beside that of the fi
     CHECK(check.at("patch_differences").at(0).get<double>() ==
           doctest::Approx(json.at("patches").at(0).at("difference").get<double>()).epsilon(0.2));
   }
-  CHECK(contains(checks[1].at("template").get<std::string>(), "medoid of its group: mutant"));
+  CHECK(contains(checks[1].at("template").get<std::string>(), "medoid of mutant"));
   CHECK(contains(in.ensemble(in.groups + " -o out2 --shard 1/2 --check-template").err, "in one process; leave it out"));
+}
+
+TEST_CASE("a patch that was chosen beforehand has its means, its difference and its own p") {
+  const Runs in;
+  REQUIRE(in.ensemble(in.groups + " -q -o out --patch site=//A/8 --patch 'far end=//A/1-2'").status == 0);
+  const auto json = nlohmann::json::parse(read_file(in.folder.file("out.json")));
+  REQUIRE(json.at("fixed_patches").size() == 2);
+  const auto& site = json["fixed_patches"][0];
+  CHECK(site.at("name") == "site");
+  CHECK(site.at("difference").get<double>() ==
+        doctest::Approx(site["means"]["mutant"].get<double>() - site["means"]["wild"].get<double>()));
+  CHECK(site.at("p").get<double>() < 0.001);
+  CHECK(site.at("high").get<double>() < 0);
+  CHECK(json["fixed_patches"][1].at("name") == "far end");
+  CHECK(in.ensemble("--from out.h5 -o out2 --patch site=//A/8").err ==
+        "espdiff: --patch selects atoms of the template, which --from does not read; name the groups, with --resume\n");
+  CHECK(contains(in.ensemble(in.groups + " -o out3 --patch site").err, "is not NAME=SELECTION"));
+  CHECK(contains(in.ensemble(in.groups + " -o out3 --patch site=//Z").err, "Z"));
 }
 
 TEST_CASE("a list names groups, replicates of several files, and charges") {

@@ -129,3 +129,44 @@ TEST_CASE("without potentials the numbers of the shape come from the residues") 
   result.residues.clear();
   CHECK(std::isnan(value_of(*find_metric_or_null("mean_displacement_A"), result)));
 }
+
+TEST_CASE("lines that are zero by construction say so, and what was removed stands below them") {
+  CompareResult result = full_result();
+  CHECK(json_of(result)["certificate"]["zero_by_construction"].empty());
+  CHECK(table_of(result).find("by construction") == std::string::npos);
+  result.certificate.zero_by_construction = true;
+  result.certificate.removed = {0.02, 0.003, 0.0004, 0.01, 0.05, 0.06};
+  const Json certificate = json_of(result)["certificate"];
+  CHECK(certificate["zero_by_construction"] ==
+        Json({"corrupt_area_fraction", "flipped_area_fraction", "self_intersecting_pairs"}));
+  CHECK(certificate["removed"]["torn"] == 0.02);
+  CHECK(certificate["removed"]["grown"] == 0.06);
+  const std::string table = table_of(result);
+  for (const char* const text :
+       {"  Corrupt area                                       0 %  by construction, see Removed\n",
+        "  Flipped area                                       0 %  by construction, see Removed\n",
+        "  Intersecting pairs of triangles                      0  by construction, see Removed\n",
+        "  Removed of the source as                      torn 2 %", "crossing 0.3 %", "flipped 0.04 %",
+        "    or for its place, as                     corrupt 1 %", "far 5 %", "grown 6 %\n"}) {
+    CAPTURE(std::string(text));
+    CHECK(table.find(text) != std::string::npos);
+  }
+}
+
+TEST_CASE("warnings and reasons end within 100 columns") {
+  CompareResult result = full_result();
+  std::string names;
+  for (int i = 1; i < 60; ++i) names += (i == 1 ? "" : ", ") + std::string("residue ") + std::to_string(i);
+  result.warnings.push_back({"much differs: " + names, true});
+  result.certificate.reasons.push_back("much differs: " + names);
+  const std::string table = table_of(result);
+  std::istringstream lines(table);
+  std::size_t longest = 0;
+  for (std::string line; std::getline(lines, line);) longest = std::max(longest, line.size());
+  CHECK(longest <= 100);
+  const std::size_t begin = table.find("  - much differs: residue 1, residue 2");
+  REQUIRE(begin != std::string::npos);
+  const std::string second = table.substr(table.find('\n', begin) + 1, 11);
+  CHECK(second == "    residue");
+  CHECK(table.find("residue 59\n", begin) != std::string::npos);
+}

@@ -41,6 +41,7 @@ struct Paint {
   std::function<double(Vec3d)> difference = [](Vec3d n) { return 4 * n.x; };
   std::function<double(Vec3d)> displacement = [](Vec3d) { return 0.1; };
   std::function<bool(Vec3d)> corrupt = [](Vec3d) { return false; };
+  std::function<double(Vec3d)> p_family_wise = nullptr;  // of an ensemble
 };
 
 vtkFloatArray* add_array(vtkPolyData* surface, const char* name, int n_components) {
@@ -62,6 +63,7 @@ std::string write_sphere(const std::string& path, const Paint& paint) {
   vtkFloatArray* difference = add_array(surface, "potential_difference", 1);
   vtkFloatArray* sign_change = add_array(surface, "sign_change", 1);
   vtkFloatArray* displacement = add_array(surface, "displacement", 1);
+  vtkFloatArray* p_family_wise = paint.p_family_wise ? add_array(surface, "p_family_wise", 1) : nullptr;
   constexpr vtkIdType kRings = 24, kSegments = 48;
   for (vtkIdType i = 0; i < (kRings + 1) * kSegments; ++i) {
     const double polar = kPi * static_cast<double>(i / kSegments) / kRings;
@@ -72,6 +74,7 @@ std::string write_sphere(const std::string& path, const Paint& paint) {
     difference->InsertNextValue(static_cast<float>(paint.difference(n)));
     sign_change->InsertNextValue(n.y > 0.3 ? 1.0F : 0.0F);
     displacement->InsertNextValue(static_cast<float>(paint.displacement(n)));
+    if (p_family_wise != nullptr) p_family_wise->InsertNextValue(static_cast<float>(paint.p_family_wise(n)));
   }
   const auto add_triangle = [&](vtkIdType a, vtkIdType b, vtkIdType c) {
     triangles->InsertNextCell({a, b, c});
@@ -173,6 +176,18 @@ TEST_CASE("large displacements and corrupt triangles are paler than trusted part
   CHECK(faint.count(0, 0.25, 1, 0.9, [](int r, int g, int b) { return !is_white(r, g, b); }) > 5000);
   const Picture grey = draw(scratch, corrupt, small_picture());
   CHECK(grey.count(0, 0.25, 1, 0.9, [](int r, int g, int b) { return r != g || g != b; }) == 0);
+}
+
+TEST_CASE("the surface of an ensemble is pale where its difference is not significant") {
+  if (!can_draw()) return;
+  const ScratchFolder scratch;
+  Paint nowhere, everywhere;
+  nowhere.p_family_wise = [](Vec3d) { return 0.1; };
+  everywhere.p_family_wise = [](Vec3d) { return 0.04; };
+  everywhere.displacement = [](Vec3d) { return 9.0; };  // which does not count here
+  const int significant = draw(scratch, everywhere, small_picture()).count(0, 0.25, 1, 0.9, is_blue);
+  CHECK(significant == draw(scratch, {}, small_picture()).count(0, 0.25, 1, 0.9, is_blue));
+  CHECK(draw(scratch, nowhere, small_picture()).count(0, 0.25, 1, 0.9, is_blue) < significant / 10);
 }
 
 TEST_CASE("vertices without a value are grey") {
