@@ -20,7 +20,7 @@ namespace {
 
 double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-double peak_MB() {
+double peak_megabytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) / 1024;
@@ -93,17 +93,17 @@ int main(int argc, char** argv) {
   }
   const double written = seconds();
   std::printf("%s frames of %zu vertices\nwrite       %7.1f s  %7.0f MB peak\n", argv[1], surface.positions.size(),
-              written - start, peak_MB());
+              written - start, peak_megabytes());
   const EnsembleFile file(path, false);
   const double opened = seconds();
-  std::printf("check       %7.1f s  %7.0f MB peak\n", opened - written, peak_MB());
+  std::printf("check       %7.1f s  %7.0f MB peak\n", opened - written, peak_megabytes());
   const EnsembleResult result = analyse_ensemble(file, {});
-  std::printf("statistics  %7.1f s  %7.0f MB peak\n", seconds() - opened, peak_MB());
+  std::printf("statistics  %7.1f s  %7.0f MB peak\n", seconds() - opened, peak_megabytes());
   if (file.plan().n_frames() <= 2000) {
     const double before = seconds();
     const StateTable states = compare_states(file, result);
-    std::printf("states      %7.1f s  %7.0f MB peak, %zu frames with each other\n", seconds() - before, peak_MB(),
-                states.size());
+    std::printf("states      %7.1f s  %7.0f MB peak, %zu frames with each other\n", seconds() - before,
+                peak_megabytes(), states.size());
   }
   std::printf("smallest p  %g; median g of the first replicate %.1f (9 planted)\n", result.test.smallest_p,
               result.replicates[0].inefficiency);

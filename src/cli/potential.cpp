@@ -207,7 +207,6 @@ int run(const Arguments& a, const Context& context) {
   context.progress->report("read", 0.0);
   const StructureFile file(a.molecule);
   const std::vector<int> frames = parse_frames(a.frames, {file.n_models()});
-  const std::vector<std::optional<UnitCell>> cells = file.unit_cells();
   if (frames.size() < 2 && !(a.variance.empty() && a.standard_error.empty()))
     throw InputError("--variance and --standard-error need at least 2 frames; there is " +
                      std::to_string(frames.size()));
@@ -220,7 +219,7 @@ int run(const Arguments& a, const Context& context) {
     require_charges(molecule);
     if (!outputs) outputs = std::make_unique<Outputs>(a, frames);
     // A crystal's cell is no cell of a molecule without its water.
-    const auto cell = states.preparation() ? std::nullopt : cells[static_cast<std::size_t>(frames[i])];
+    const auto cell = states.preparation() ? std::nullopt : file.unit_cell(frames[i] + 1);
     outputs->write_frame(i, series.step(molecule, cell, *context.progress));
     context.progress->report("frames", static_cast<double>(i + 1) / static_cast<double>(frames.size()));
   }

@@ -58,7 +58,7 @@ struct Deviations {
 
 double inefficiency(const double* values, std::size_t n_values) {
   const Moments m = moments_of(values, n_values);
-  if (m.n < 3 || is_constant(m)) return kNaN;
+  if (m.n < 2 || is_constant(m)) return kNaN;
   Deviations d;
   d.values.resize(n_values);
   d.present.resize(n_values);

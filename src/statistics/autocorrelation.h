@@ -13,7 +13,7 @@ namespace espdiff {
 /// autocovariances are added while they are positive, none larger than the one before. Autocovariances at lag k are
 /// divided by the number of frames, which damps long lags.
 /// @param values [frame]; NaN is a missing value: products with it count as zero, scaled by the number of pairs present
-/// @returns NaN for less than three values, and where they are all equal
+/// @returns NaN for less than two values, and where they are all equal
 double statistical_inefficiency(const std::vector<double>& values);
 
 /// One time series in numbers. Missing values (NaN) do not count.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "cli/run_espdiff.h"
 
@@ -163,6 +164,33 @@ TEST_CASE("a list names groups, replicates of several files, and charges") {
   CHECK(json["plan"]["replicates"][0]["n_frames"] == 2 * kFrames);
   CHECK(json["plan"]["template"]["name"] == "wild, replicate 1, frame 2");
   CHECK(json["test"]["inference"] == "within runs");
+}
+
+TEST_CASE("models of ubiquitin: through the template, a pair differs as compare says") {
+  const auto models = real_input("series19_ubq_2k39");
+  if (!models) return;
+  const Runs in;
+  std::string list = "group,replicate,structure\n";
+  for (int i = 0; i < 4; ++i)
+    list += "ubiquitin," + std::to_string(i / 2 + 1) + "," + *models + "/m0" + std::to_string(i) + ".pqr\n";
+  in.folder.write("ubiquitin.csv", list);
+  const Outcome out = in.ensemble("--list ubiquitin.csv -o ubq --states --template 0");
+  INFO(out.err);
+  REQUIRE(out.status == 0);
+  CHECK(contains(out.out, "principal components of 4 frames"));
+  const std::string states = read_file(in.folder.file("ubq.states.csv"));
+  std::istringstream rows(states);
+  double through_template = 0;
+  for (std::string row; std::getline(rows, row);) {
+    if (row.rfind("ubiquitin,1,1,ubiquitin,2,0,", 0) == 0)
+      through_template = std::stod(row.substr(std::string("ubiquitin,1,1,ubiquitin,2,0,").size()));
+  }
+  // Neither of the two is the template.
+  REQUIRE(in.run("compare " + *models + "/m01.pqr " + *models +
+                 "/m02.pqr --grid-spacing 1.5 --potential coulomb -q -o pair")
+              .status == 0);
+  const auto pair = nlohmann::json::parse(read_file(in.folder.file("pair.json")));
+  CHECK(through_template == doctest::Approx(pair.at("mean_abs_difference").get<double>()).epsilon(0.15));
 }
 
 TEST_CASE("what cannot be an ensemble is refused in one line") {
