@@ -190,7 +190,7 @@ Tcl_Obj* facts_of_file(const Call& call) {
   const int model = to_int(call.arguments[1], "model");
   const StructureFile file(call.text(0));
   const Molecule everything = file.read({model, true, true});
-  const PotentialFacts facts = potential_facts(everything, file.unit_cells().at(static_cast<std::size_t>(model - 1)));
+  const PotentialFacts facts = potential_facts(everything, file.unit_cell(model));
   // Structures without charges get some.
   const bool charges = facts.has_charges || !find_pdb2pqr().empty();
   return to_dict({{"charges", to_obj(charges)}, {"solvent", to_obj(facts.has_solvent)}});

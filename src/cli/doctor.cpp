@@ -9,6 +9,7 @@
 #include "cli/spelling.h"
 #include "cli/verbs.h"
 #include "engine/select_engine.h"
+#include "io/molfile_plugins.h"
 #include "io/run_program.h"
 #include "prepare/pdb2pqr.h"
 #if defined(ESPDIFF_HAVE_VTK)
@@ -47,6 +48,11 @@ int run() {
 #else
   line("structures", false, "PQR only: gemmi was not found when this was built (Debian: gemmi-dev)");
 #endif
+  const std::string plugins = find_molfile_folder();
+  line("trajectories", !plugins.empty(),
+       !plugins.empty()
+           ? "by VMD's plugins in " + plugins
+           : std::string("no molfile plugins of VMD, which read DCD, XTC, PSF and others; ") + kMolfileRemedy);
   line("maps", true, "DX, cube, VTI");
 #if defined(ESPDIFF_HAVE_VTK)
   const std::string problem = drawing_problem();

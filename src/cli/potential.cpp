@@ -166,7 +166,6 @@ int run(const Arguments& a, const Context& context) {
   context.progress->report("read", 0.0);
   const StructureFile file(a.molecule);
   const std::vector<int> frames = parse_frames(a.frames, {file.n_models()});
-  const std::vector<std::optional<UnitCell>> cells = file.unit_cells();
   if (frames.size() < 2 && !(a.variance.empty() && a.standard_error.empty()))
     throw InputError("--variance and --standard-error need at least 2 frames; there is " +
                      std::to_string(frames.size()));
@@ -181,8 +180,7 @@ int run(const Arguments& a, const Context& context) {
     molecule = file.read(structure);
     require_charges(molecule);
     if (!outputs) outputs = std::make_unique<Outputs>(a, frames);
-    const auto& cell = cells[static_cast<std::size_t>(frames[i])];
-    outputs->write_frame(i, series.step(molecule, cell, *context.progress));
+    outputs->write_frame(i, series.step(molecule, file.unit_cell(structure.model), *context.progress));
     context.progress->report("frames", static_cast<double>(i + 1) / static_cast<double>(frames.size()));
   }
   context.progress->report("write", 0.0);

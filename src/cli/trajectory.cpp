@@ -12,6 +12,9 @@
 #include "cli/verbs.h"
 #include "compare/options.h"
 #include "io/check_outputs.h"
+#include "io/molfile_plugins.h"
+#include "io/open_structure.h"
+#include "io/sha256.h"
 #include "io/structure_file.h"
 #include "io/write_csv.h"
 #include "prepare/load_state.h"
@@ -27,7 +30,7 @@ namespace espdiff::cli {
 namespace {
 
 struct Arguments {
-  std::string source, output, frames = "all", start = "auto", on_error = "stop";
+  std::string source, output, plugins, frames = "all", start = "auto", on_error = "stop";
   std::vector<std::string> targets;
   int source_model = 1;
   bool resume = false, overwrite = false, quiet = false;
@@ -58,7 +61,12 @@ void add_run_options(CLI::App& p, Arguments& a) {
       ->check(CLI::IsMember({"stop", "skip"}))
       ->capture_default_str()
       ->group(group);
-  p.add_option("--source-model", a.source_model, "Model of a multi-model source file, from 1")
+  p.add_option("--plugins", a.plugins,
+               "Folder of VMD's molfile plugins, which read trajectories and topologies (that of $VMDDIR, or of the "
+               "`vmd` on PATH)")
+      ->group(group);
+  p.add_option("--source-model", a.source_model,
+               "Model of a multi-model source file, from 1; with a topology as SOURCE, frame of the first trajectory")
       ->check(CLI::PositiveNumber)
       ->capture_default_str()
       ->group("Molecules");
@@ -71,7 +79,8 @@ std::string map_words(const MapArguments& m, const std::string& path, const std:
 }
 
 std::string reference_words(const Arguments& a) {
-  return "file " + a.source + (a.source_model == 1 ? "" : " model " + std::to_string(a.source_model));
+  const std::string model = a.source_model == 1 ? "" : " model " + std::to_string(a.source_model);
+  return "file " + a.source + (needs_molfile_reader(a.source) ? " coordinates " + a.targets.front() : "") + model;
 }
 
 /// @param potential the computed potential in words; empty for none
@@ -95,12 +104,12 @@ SeriesHead head_of(const Arguments& a, const TrajectoryPlan& plan, const std::st
 class Sides {
  public:
   Sides(const Arguments& a, const CompareOptions& options, const Progress& progress)
-      : a_(a), options_(options.input), progress_(progress), frames_(a.targets) {
-    const StructureFile file(a.source);
-    StateRequest request{with_model(a.structure), StateRole::kSource};
-    source_ = load_for(a.maps, !has_given_maps(a.maps), file, request, options_, progress);
-    check_left_out(options_, {&source_});
-    inputs_ = state_inputs("source", {"source", a.source, file.sha256()}, source_);
+      : a_(a),
+        options_(options.input),
+        progress_(progress),
+        opener_(a.source, a.plugins),
+        frames_(a.targets, [this](const std::string& path) { return opener_.open(path); }) {
+    load_source();
     surface_ = source_.molecule;
     region_ = region_residues(source_.molecule, source_.whole, source_.molecule, source_.whole, options_);
     set_surface_radii({&surface_}, options_.radii);
@@ -130,9 +139,20 @@ class Sides {
   }
 
  private:
-  StructureOptions with_model(StructureOptions options) const {
-    options.model = a_.source_model;
-    return options;
+  /// From its file; of a topology with the coordinates of a frame.
+  void load_source() {
+    const bool is_topology = opener_.needs_coordinates();
+    if (is_topology && !needs_molfile_reader(a_.targets.front()))
+      throw InputError(a_.source + ": is a topology without coordinates, and " + a_.targets.front() +
+                       " is no trajectory; give a structure first, and the topology as " + option("topology"));
+    const auto file = opener_.open(is_topology ? a_.targets.front() : a_.source);
+    StateRequest request{a_.structure, StateRole::kSource};
+    request.structure.model = a_.source_model;
+    source_ = load_for(a_.maps, !has_given_maps(a_.maps), *file, request, options_, progress_);
+    check_left_out(options_, {&source_});
+    InputFile input{"source", a_.source, is_topology ? sha256_of_file(a_.source) : file->sha256()};
+    inputs_ = state_inputs("source", std::move(input), source_);
+    if (is_topology) inputs_.push_back({"source_coordinates", a_.targets.front(), file->sha256()});
   }
 
   LoadedState read(int number) {
@@ -153,6 +173,7 @@ class Sides {
   const Arguments& a_;
   const InputOptions& options_;
   const Progress& progress_;
+  TrajectoryOpener opener_;
   FrameFiles frames_;
   LoadedState target_;
   LoadedState source_;
@@ -211,17 +232,23 @@ Verb add_trajectory(CLI::App& app) {
   auto a = std::make_shared<Arguments>();
   CLI::App* parser = app.add_subcommand("trajectory", "Compare each frame with one structure, a row for each");
   parser->footer(
-      "Frames are the models of the given files, numbered from 0 through all of them. Frames without charges and radii "
-      "(PDB, mmCIF) take\n"
+      "Frames are the models of the given files, numbered from 0 through all of them; or the frames of trajectories "
+      "that "
+      "VMD reads (DCD,\nXTC, TRR, NetCDF, ...), of the atoms of SOURCE, all of them and in its order. With a topology "
+      "(PSF, prmtop, GRO, ...) as SOURCE\nthe first frame is what the others are compared with. Frames without charges "
+      "and radii (PDB, mmCIF) take\n"
       "those of a PQR source, whose atoms must be theirs, one to one. The source's surface and potential are computed "
       "once. An interrupted\n"
       "run can be resumed; OUT.csv.state holds its last mapping meanwhile. The columns are explained in docs/tcl.md, "
       "Trajectories.\n\n"
       "Examples:\n"
       "  espdiff trajectory closed.pqr frames.pdb -o motion.csv\n"
-      "  espdiff trajectory closed.pqr frames.pdb --potential pb --frames 0:10:end -o motion.csv --resume");
-  parser->add_option("SOURCE", a->source, "Structure that each frame is compared with: PQR, PDB or mmCIF")->required();
-  parser->add_option("FRAMES", a->targets, "Structure files whose models are the frames")->required();
+      "  espdiff trajectory closed.pqr frames.pdb --potential pb --frames 0:10:end -o motion.csv --resume\n"
+      "  espdiff trajectory adk.psf adk.dcd --frames 0:10:end -o motion.csv");
+  parser
+      ->add_option("SOURCE", a->source, "Structure that each frame is compared with: PQR, PDB or mmCIF; or a topology")
+      ->required();
+  parser->add_option("FRAMES", a->targets, "Structure files whose models are the frames, or trajectories")->required();
   parser->add_option("-o,--output,--csv", a->output, "CSV file that gets a row for each frame")->required();
   add_run_options(*parser, *a);
   add_map_options(*parser, a->maps);

@@ -2,15 +2,19 @@
 #include "io/read_structure.h"
 
 #include <algorithm>
+#include <mutex>
 #include <string_view>
 #include <utility>
 
 #include "base/error.h"
 #include "io/atom_records.h"
 #include "io/file_kind.h"
+#include "io/molfile_file.h"
 #include "io/read_input.h"
 #include "io/read_pqr.h"
 #include "io/read_unit_cells.h"
+#include "io/select_atoms.h"
+#include "io/sha256.h"
 #include "io/structure_file.h"
 #ifdef ESPDIFF_HAVE_GEMMI
 #include "io/read_gemmi.h"
@@ -32,7 +36,9 @@ namespace {
     case FileKind::kPrmtop:
     case FileKind::kDcd:
     case FileKind::kNetcdf:
-      remedy = "load topology and coordinates in VMD and use espdiff there, or write a PQR from VMD and give that";
+      remedy =
+          "the command line's trajectories take topology and frames as they are; otherwise load both in VMD and use "
+          "espdiff there, or write a PQR from VMD and give that";
       break;
     case FileKind::kBinaryCif:
     case FileKind::kMmtf:
@@ -74,6 +80,22 @@ struct StructureFile::Parsed {
   FileContent file;
   bool is_mmcif = false;
   std::vector<AtomModel> models;  // of files with atom records; they point into the content
+  /// [model] read when the first of them is asked for.
+  std::once_flag cells_are_read;
+  std::vector<std::optional<UnitCell>> cells;
+};
+
+struct StructureFile::Frames {
+  std::unique_ptr<CoordinateFile> file;
+  std::shared_ptr<const Molecule> atoms;
+  std::string sha256;  // when it was asked for
+
+  const CoordinateFrame& frame(int model) const {
+    if (model < 1 || model > file->n_frames())
+      throw InputError(file->path() + ": there is no frame " + std::to_string(model - 1) + "; it has " +
+                       std::to_string(file->n_frames()) + ", from 0");
+    return file->frame(model - 1);
+  }
 };
 
 StructureFile::StructureFile(const std::string& path) {
@@ -88,16 +110,25 @@ StructureFile::StructureFile(const std::string& path) {
   parsed_ = std::move(parsed);
 }
 
+StructureFile::StructureFile(std::unique_ptr<CoordinateFile> frames, std::shared_ptr<const Molecule> atoms)
+    : frames_(new Frames{std::move(frames), std::move(atoms), {}}) {}
+
 StructureFile::~StructureFile() = default;
 
-const std::string& StructureFile::sha256() const { return parsed_->file.sha256; }
+const std::string& StructureFile::sha256() const {
+  if (parsed_ != nullptr) return parsed_->file.sha256;
+  if (frames_->sha256.empty()) frames_->sha256 = sha256_of_file(frames_->file->path());
+  return frames_->sha256;
+}
 
 void StructureFile::require_unchanged(const std::string& before) const {
   if (before.empty() || before == sha256()) return;
-  throw IoError(parsed_->file.path, "the file was changed while it was in use; start again");
+  throw IoError(parsed_ != nullptr ? parsed_->file.path : frames_->file->path(),
+                "the file was changed while it was in use; start again");
 }
 
 int StructureFile::n_models() const {
+  if (frames_ != nullptr) return frames_->file->n_frames();
   if (!parsed_->is_mmcif) return static_cast<int>(parsed_->models.size());
 #ifdef ESPDIFF_HAVE_GEMMI
   return count_mmcif_models(parsed_->file.path, parsed_->file.content);
@@ -106,12 +137,25 @@ int StructureFile::n_models() const {
 #endif
 }
 
-std::vector<std::optional<UnitCell>> StructureFile::unit_cells() const {
-  if (parsed_->is_mmcif) return std::vector<std::optional<UnitCell>>(static_cast<std::size_t>(n_models()));
-  return read_unit_cells(parsed_->file.content, parsed_->models, parsed_->file.path);
+std::optional<UnitCell> StructureFile::unit_cell(int model) const {
+  if (frames_ != nullptr) return frames_->frame(model).cell;
+  if (parsed_->is_mmcif) return std::nullopt;
+  std::call_once(parsed_->cells_are_read,
+                 [&] { parsed_->cells = read_unit_cells(parsed_->file.content, parsed_->models, parsed_->file.path); });
+  return parsed_->cells.at(static_cast<std::size_t>(model - 1));
 }
 
 Molecule StructureFile::read(const StructureOptions& options) const {
+  if (frames_ != nullptr) {
+    Molecule molecule = *frames_->atoms;
+    const CoordinateFrame& frame = frames_->frame(options.model);
+    for (std::size_t i = 0; i < molecule.size(); ++i) molecule.positions[i] = static_cast<Vec3d>(frame.positions[i]);
+    molecule.name = frames_->file->path() + ", frame " + std::to_string(options.model - 1);
+    if (!options.assembly.empty())
+      throw InputError(frames_->file->path() + ": is a trajectory, which describes no assemblies; leave " +
+                       option("assembly") + " out");
+    return keep_kinds(molecule, options);
+  }
   const auto& [path, text, sha256] = parsed_->file;
 #ifdef ESPDIFF_HAVE_GEMMI
   if (parsed_->is_mmcif) return read_mmcif(path, text, options);

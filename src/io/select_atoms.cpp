@@ -170,6 +170,15 @@ Molecule keep_atoms(const Molecule& molecule, const std::vector<bool>& keep) {
   return kept;
 }
 
+Molecule keep_kinds(const Molecule& molecule, const StructureOptions& options) {
+  std::vector<bool> keep;
+  for (const Atom& atom : molecule.atoms) {
+    const bool water = is_water_name(molecule.residues[static_cast<std::size_t>(atom.residue)].name);
+    keep.push_back(water ? options.include_water : options.include_hetero || !atom.hetero);
+  }
+  return keep_atoms(molecule, keep);
+}
+
 Molecule without_repeated_atoms(const Molecule& molecule) {
   std::set<std::pair<std::int32_t, std::string>> seen;
   std::vector<bool> keep;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/structure_options.h"
 #include "base/types.h"
 
 namespace espdiff {
@@ -26,6 +27,9 @@ std::string describe_chains(const Molecule& molecule);
 
 /// The molecule without the other atoms, and without residues that have none left.
 Molecule keep_atoms(const Molecule& molecule, const std::vector<bool>& keep);
+
+/// The part of a molecule that the options of reading keep: without water, without HETATM records.
+Molecule keep_kinds(const Molecule& molecule, const StructureOptions& options);
 
 /// The molecule with the first atom of each name in a residue: VMD loads all alternate locations of a file.
 Molecule without_repeated_atoms(const Molecule& molecule);

@@ -1,4 +1,4 @@
-// structure_file.h: a structure file of one or more models, read once.
+// structure_file.h: the models of a structure file, or the frames of a trajectory with the atoms of another file.
 #pragma once
 
 #include <memory>
@@ -12,32 +12,39 @@
 
 namespace espdiff {
 
+class CoordinateFile;
+
 /// A structure file whose models are read one after the other, such as the frames of a trajectory: the file itself is
 /// read once, and its text kept.
 class StructureFile {
  public:
   /// @throws as read_structure()
   explicit StructureFile(const std::string& path);
+  /// The frames of a trajectory as models; one of them is in memory.
+  /// @param atoms all atoms, in the trajectory's order
+  StructureFile(std::unique_ptr<CoordinateFile> frames, std::shared_ptr<const Molecule> atoms);
   ~StructureFile();
   StructureFile(const StructureFile&) = delete;
   StructureFile& operator=(const StructureFile&) = delete;
 
-  /// Of the file as it was read.
+  /// Of the file as it was read. A trajectory's is computed when it is asked for.
   const std::string& sha256() const;
   /// For a file that is read again, such as frames too large to be kept: results tell of one content only.
   /// @param sha256 of the earlier reading; empty passes
   /// @throws IoError (the content is another one)
   void require_unchanged(const std::string& sha256) const;
   int n_models() const;
-  /// The cell of each model, see read_unit_cells(); none of an mmCIF file.
-  /// @throws FormatError (a CRYST1 record that cannot be read)
-  std::vector<std::optional<UnitCell>> unit_cells() const;
+  /// The cell of a model, see read_unit_cells(); none of an mmCIF file.
+  /// @param model from 1. @throws FormatError (a CRYST1 record or a frame that cannot be read)
+  std::optional<UnitCell> unit_cell(int model) const;
   /// @throws as read_structure()
   Molecule read(const StructureOptions& options) const;
 
  private:
   struct Parsed;
-  std::unique_ptr<const Parsed> parsed_;
+  struct Frames;
+  std::unique_ptr<Parsed> parsed_;  // null for a trajectory
+  std::unique_ptr<Frames> frames_;  // null for a structure file
 };
 
 }  // namespace espdiff

@@ -7,7 +7,6 @@
 #include "align/pair_residues.h"
 #include "align/protonation.h"
 #include "base/error.h"
-#include "base/water.h"
 #include "io/read_structure.h"
 #include "io/read_topology.h"
 #include "io/select_atoms.h"
@@ -20,16 +19,6 @@ namespace {
 
 bool is_charged(const Molecule& molecule) {
   return std::any_of(molecule.charges.begin(), molecule.charges.end(), [](float q) { return q != 0; });
-}
-
-/// The part of a molecule that the options of reading keep.
-Molecule filtered(const Molecule& everything, const StructureOptions& options) {
-  std::vector<bool> keep;
-  for (const Atom& atom : everything.atoms) {
-    const bool water = is_water_name(everything.residues[static_cast<std::size_t>(atom.residue)].name);
-    keep.push_back(water ? options.include_water : options.include_hetero || !atom.hetero);
-  }
-  return keep_atoms(everything, keep);
 }
 
 /// Drops the atoms of a selection, which may be none.
@@ -118,14 +107,14 @@ LoadedState load_state(const StructureFile& file, const StateRequest& request, c
     const Topology charges = read_topology(topology);
     state.everything = file.read({structure.model, true, true, {}});
     take_topology(state.everything, charges);
-    state.molecule = filtered(state.everything, structure);
+    state.molecule = keep_kinds(state.everything, structure);
     state.charge_files.push_back({"topology", topology, charges.sha256});
   } else {
     state.molecule = file.read(structure);
     if (request.wants_charges && is_charged(state.molecule))
       state.everything = file.read({structure.model, true, true, structure.assembly});
   }
-  state.cell = file.unit_cells().at(static_cast<std::size_t>(structure.model - 1));
+  state.cell = file.unit_cell(structure.model);
   state.whole = state.molecule;
   if (!options.leave_out.empty()) {
     leave_out(state.molecule, options.leave_out, state.n_left_out);

@@ -8,7 +8,8 @@
 #include "io/structure_file.h"
 
 namespace espdiff {
-FrameFiles::FrameFiles(std::vector<std::string> paths) : paths_(std::move(paths)) {
+FrameFiles::FrameFiles(std::vector<std::string> paths, OpenStructure open)
+    : paths_(std::move(paths)), open_(std::move(open)) {
   if (paths_.empty()) throw InputError("no file of frames was given");
   first_.push_back(0);
   for (std::size_t i = 0; i < paths_.size(); ++i) {
@@ -25,8 +26,7 @@ std::size_t FrameFiles::file_of(int frame) const {
 void FrameFiles::load(std::size_t file) {
   if (file_ != nullptr && loaded_ == file) return;
   file_ = nullptr;  // frees the old text first
-  cells_.reset();
-  file_ = std::make_unique<StructureFile>(paths_[file]);
+  file_ = open_(paths_[file]);
   if (file < sha256_.size()) file_->require_unchanged(sha256_[file]);
   loaded_ = file;
 }
@@ -51,8 +51,7 @@ Molecule FrameFiles::read(int frame, StructureOptions options) {
 std::optional<UnitCell> FrameFiles::cell(int frame) {
   const std::size_t file = file_of(frame);
   load(file);
-  if (!cells_) cells_ = file_->unit_cells();
-  return cells_->at(static_cast<std::size_t>(frame - first_[file]));
+  return file_->unit_cell(frame - first_[file] + 1);
 }
 
 }  // namespace espdiff

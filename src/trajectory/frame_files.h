@@ -8,16 +8,18 @@
 #include <vector>
 
 #include "base/types.h"
-#include "io/structure_file.h"
+#include "io/open_structure.h"
 
 namespace espdiff {
 
-/// Models of PQR, PDB or mmCIF files as frames, numbered from 0 through all files. One file at a time is in memory.
+/// Models of PQR, PDB or mmCIF files, or frames of trajectories, as frames, numbered from 0 through all files. One file
+/// at a time is in memory.
 class FrameFiles {
  public:
   /// Reads every file, to count its models. A file that is read again must have the same content.
-  /// @throws as read_structure(); InputError without a file
-  explicit FrameFiles(std::vector<std::string> paths);
+  /// @param open how a file is opened, for trajectories
+  /// @throws as `open`; InputError without a file
+  explicit FrameFiles(std::vector<std::string> paths, OpenStructure open = open_structure);
 
   int n_frames() const { return first_.back(); }
   const std::vector<std::string>& paths() const { return paths_; }
@@ -30,7 +32,7 @@ class FrameFiles {
   /// @param options all but the model
   /// @throws as read_structure(); IoError (the file was changed since)
   Molecule read(int frame, StructureOptions options);
-  /// The cell that the frame's file gives it. @throws as StructureFile::unit_cells()
+  /// The cell that the frame's file gives it. @throws as StructureFile::unit_cell()
   std::optional<UnitCell> cell(int frame);
 
  private:
@@ -38,11 +40,11 @@ class FrameFiles {
   void load(std::size_t file);
 
   std::vector<std::string> paths_;
+  OpenStructure open_;
   std::vector<int> first_;           // [file + 1] number of its first frame
   std::vector<std::string> sha256_;  // [file] of the first reading
   std::size_t loaded_ = 0;
   std::unique_ptr<StructureFile> file_;
-  std::optional<std::vector<std::optional<UnitCell>>> cells_;  // of the loaded file
 };
 
 }  // namespace espdiff

@@ -15,7 +15,12 @@ namespace {
 
 const char* const kAtom = "ATOM      1  CA  ALA A   1       1.000   2.000   3.000  0.5000 2.0000\n";
 
-std::vector<std::optional<UnitCell>> cells_of(const std::string& path) { return StructureFile(path).unit_cells(); }
+std::vector<std::optional<UnitCell>> cells_of(const std::string& path) {
+  const StructureFile file(path);
+  std::vector<std::optional<UnitCell>> cells;
+  for (int model = 1; model <= file.n_models(); ++model) cells.push_back(file.unit_cell(model));
+  return cells;
+}
 
 std::string cryst1(const char* numbers) { return std::string("CRYST1") + numbers + " P 1           1\n"; }
 

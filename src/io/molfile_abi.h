@@ -1,4 +1,5 @@
-// molfile_abi.h: the layouts that VMD's molfile plugin interface gives to a plugin and to a volume, by version.
+// molfile_abi.h: the layouts that VMD's molfile plugin interface gives to plugins, atoms, frames and volumes, by
+// version.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +8,9 @@ namespace espdiff::molfile {
 
 inline constexpr int kSuccess = 0;
 inline constexpr int kError = -1;
-inline constexpr int kNoAtoms = 0;  ///< returned by open_file_read for files with volumes only
+inline constexpr int kNoAtoms = 0;        ///< returned by open_file_read for files with volumes only
+inline constexpr int kUnknownAtoms = -1;  ///< the same, for files of coordinates that do not say how many
+inline constexpr int kEndOfFile = -1;
 inline constexpr const char* kPluginType = "mol file reader";  ///< writers are of this type, too
 
 /// The versions known here, newest first. VMD takes plugins of its own version only, and has one: 18 is that of 1.9.4,
@@ -29,6 +32,25 @@ struct PluginHead {
 
 /// Returns kSuccess if VMD accepts the plugin or has one of this name and version; kError if it refuses the version.
 using RegisterCallback = int (*)(void* registrar, PluginHead* plugin);
+
+/// One atom of read_structure(); texts end with a zero.
+struct AtomRecord {
+  char name[16], type[16], resname[8];
+  int resid;
+  char segid[8], chain[2], altloc[2], insertion[2];
+  float occupancy, bfactor, mass, charge, radius;
+  int atomicnumber;
+};
+/// Which optional members read_structure() has set.
+enum AtomFlags { kHasInsertion = 0x1, kHasCharge = 0x10, kHasRadius = 0x20 };
+
+/// One frame. Lengths in Angstrom, angles in degrees.
+struct Timestep {
+  float* coords = nullptr;  ///< x y z of each atom, to be filled
+  float* velocities = nullptr;
+  float a = 0, b = 0, c = 0, alpha = 90, beta = 90, gamma = 90;
+  double physical_time = 0;
+};
 
 /// One volume. Axes are whole edges: direction times (number of points - 1) times spacing; values x fastest.
 template <int Version>
@@ -60,9 +82,9 @@ template <int Version>
 struct FileFunctions {
   const char* filename_extension = "";
   void* (*open_file_read)(const char* path, const char* type, int* n_atoms) = nullptr;
-  void* read_structure = nullptr;
+  int (*read_structure)(void* handle, int* flags, AtomRecord* atoms) = nullptr;
   void* read_bonds = nullptr;
-  void* read_next_timestep = nullptr;
+  int (*read_next_timestep)(void* handle, int n_atoms, Timestep* frame) = nullptr;
   void (*close_file_read)(void* handle) = nullptr;
   void* (*open_file_write)(const char* path, const char* type, int n_atoms) = nullptr;
   void* write_structure = nullptr;  // VMD crashes on one that fails, or that it calls for a volume without atoms
@@ -131,6 +153,7 @@ struct Plugin<16> {
 // 64-bit systems only: the offsets below are those of a C compiler for VMD's declarations.
 inline constexpr std::size_t kPointer = 8;
 static_assert(sizeof(void*) == kPointer, "VMD's 32-bit builds are not supported");
+static_assert(sizeof(AtomRecord) == 84 && offsetof(AtomRecord, occupancy) == 60 && sizeof(Timestep) == 48);
 static_assert(sizeof(PluginHead) == 7 * kPointer && offsetof(PluginHead, majorv) == 5 * kPointer);
 static_assert(sizeof(FileFunctions<18>) == 12 * kPointer && sizeof(OtherFunctions<18>) == 4 * kPointer);
 static_assert(offsetof(Plugin<18>, file.read_volumetric_data) == 18 * kPointer);

@@ -1,0 +1,47 @@
+// open_structure.cpp: which reader opens a file: ours for structures, VMD's for everything else.
+#include "io/open_structure.h"
+
+#include <utility>
+
+#include "base/error.h"
+#include "io/molfile_file.h"
+#include "io/molfile_plugins.h"
+
+namespace espdiff {
+
+std::unique_ptr<StructureFile> open_structure(const std::string& path) { return std::make_unique<StructureFile>(path); }
+
+TrajectoryOpener::TrajectoryOpener(std::string topology, std::string plugins)
+    : topology_(std::move(topology)),
+      plugins_(std::move(plugins)),
+      needs_coordinates_(needs_molfile_reader(topology_)) {}
+
+const MolfileReader& TrajectoryOpener::reader_of(const std::string& path) {
+  plugins_ = find_molfile_folder(plugins_);
+  if (plugins_.empty())
+    throw DeviceError(path + ": is read by VMD's molfile plugins, and none were found; " + kMolfileRemedy + " as " +
+                      option("plugins"));
+  const MolfileReader* const reader = find_molfile_reader(plugins_, path);
+  if (reader == nullptr)
+    throw InputError(path + ": no plugin of VMD in " + plugins_ +
+                     " reads files with this ending; give them the usual one (dcd, xtc, trr, nc, ...)");
+  return *reader;
+}
+
+std::shared_ptr<const Molecule> TrajectoryOpener::atoms() {
+  if (atoms_ == nullptr) {
+    Molecule all = needs_coordinates_ ? read_molfile_atoms(topology_, reader_of(topology_))
+                                      : StructureFile(topology_).read({1, true, true, {}});
+    atoms_ = std::make_shared<const Molecule>(std::move(all));
+  }
+  return atoms_;
+}
+
+std::unique_ptr<StructureFile> TrajectoryOpener::open(const std::string& path) {
+  if (!needs_molfile_reader(path)) return open_structure(path);
+  const MolfileReader& reader = reader_of(path);
+  const std::shared_ptr<const Molecule> all = atoms();
+  return std::make_unique<StructureFile>(std::make_unique<CoordinateFile>(path, reader, all->size()), all);
+}
+
+}  // namespace espdiff
