@@ -79,6 +79,9 @@ States read_states(const Arguments& a, const std::vector<VariantFiles>& files, c
     const auto inputs = state_inputs("structure", all.variants.back().inputs.front(), states.back());
     all.variants.back().inputs.insert(all.variants.back().inputs.end(), inputs.begin() + 1, inputs.end());
   }
+  std::vector<const LoadedState*> loaded;
+  for (const LoadedState& state : states) loaded.push_back(&state);
+  check_left_out(options.input, loaded);
   if (wants_charges && a.potential.potential != "none") {
     std::vector<PotentialFacts> facts;
     for (const LoadedState& state : states) facts.push_back(facts_of(state));

@@ -3,11 +3,13 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <iostream>
 #include <memory>
 
 #include "align/pair_atoms.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
+#include "compare/options.h"
 #include "engine/engine.h"
 #include "io/atomic_file.h"
 #include "io/check_outputs.h"
@@ -15,7 +17,10 @@
 #include "io/structure_file.h"
 #include "io/write_grid.h"
 #include "potential/potential.h"
+#include "potential/potential_plan.h"
 #include "potential/potential_series.h"
+#include "prepare/load_state.h"
+#include "report/preparation_json.h"
 #include "trajectory/frame_range.h"
 
 namespace espdiff::cli {
@@ -29,6 +34,7 @@ struct Arguments {
   GivenPotentialSettings given;
   std::size_t frames_per_block = 1;
   bool quiet = false;
+  GivenSettings settings;
   StructureOptions structure{1, true, true};  ///< Poisson-Boltzmann leaves water out
   DeviceArguments device;
 };
@@ -118,7 +124,9 @@ class Outputs {
     for (const std::string* path : {&a.variance, &a.standard_error}) {
       if (!path->empty()) paths.push_back(*path);
     }
-    check_outputs({a.molecule, a.xsc_file}, paths);
+    std::vector<std::string> inputs = input_files(a.settings);
+    inputs.insert(inputs.end(), {a.molecule, a.xsc_file});
+    check_outputs(inputs, paths);
     for (const std::string& path : paths) open(path);
   }
 
@@ -160,6 +168,39 @@ void print_summary(const Molecule& molecule, const Grid& map, std::size_t n_fram
   std::printf("time           %.0f ms\n", ms);
 }
 
+/// The molecules of the frames, with charges.
+class Frames {
+ public:
+  Frames(const Arguments& a, const StructureFile& file, const Progress& progress)
+      : a_(a), options_(make_options(a.settings).input), file_(file), progress_(progress) {
+    if (a.method == "pb") structure_.include_water = false;
+  }
+
+  /// The first one is loaded as by `compare`, further ones like it.
+  Molecule read(int frame) {
+    structure_.model = frame + 1;
+    if (!first_) {
+      first_ = load_for({a_.method, "auto", {}}, true, file_, {structure_, StateRole::kOnly}, options_, progress_);
+      check_left_out(options_, {&*first_});
+      return first_->molecule;
+    }
+    const std::string name = first_->molecule.name + ", frame " + std::to_string(frame);
+    return load_frame(file_, structure_, name, first_->molecule, preparation().has_value(), options_, progress_)
+        .molecule;
+  }
+  /// @pre read() was called
+  const Molecule& first() const { return first_->molecule; }
+  const std::optional<Preparation>& preparation() const { return first_->preparation; }
+
+ private:
+  const Arguments& a_;
+  const InputOptions options_;
+  const StructureFile& file_;
+  const Progress& progress_;
+  StructureOptions structure_ = a_.structure;
+  std::optional<LoadedState> first_;
+};
+
 int run(const Arguments& a, const Context& context) {
   const PotentialOptions options = options_from(a);
   const auto start = std::chrono::steady_clock::now();
@@ -172,22 +213,23 @@ int run(const Arguments& a, const Context& context) {
   const std::unique_ptr<Engine> engine = make_engine(a.device);
   PotentialSeries series(*engine, options);
   std::unique_ptr<Outputs> outputs;
-  Molecule molecule;
+  Frames states(a, file, *context.progress);
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    StructureOptions structure = a.structure;
-    structure.model = frames[i] + 1;
-    if (options.method == PotentialMethod::kPoissonBoltzmann) structure.include_water = false;
-    molecule = file.read(structure);
+    const Molecule molecule = states.read(frames[i]);
     require_charges(molecule);
     if (!outputs) outputs = std::make_unique<Outputs>(a, frames);
-    outputs->write_frame(i, series.step(molecule, file.unit_cell(structure.model), *context.progress));
+    // A crystal's cell is no cell of a molecule without its water.
+    const auto cell = states.preparation() ? std::nullopt : file.unit_cell(frames[i] + 1);
+    outputs->write_frame(i, series.step(molecule, cell, *context.progress));
     context.progress->report("frames", static_cast<double>(i + 1) / static_cast<double>(frames.size()));
   }
   context.progress->report("write", 0.0);
   outputs->finish(a, series.average());
   context.progress->report("write", 1.0);
   const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  if (!a.quiet) print_summary(molecule, series.average().mean(), frames.size(), ms);
+  if (a.quiet) return 0;
+  if (states.preparation()) print_preparation(std::cout, *states.preparation());
+  print_summary(states.first(), series.average().mean(), frames.size(), ms);
   return 0;
 }
 
@@ -200,11 +242,16 @@ Verb add_potential(CLI::App& app) {
   parser->footer(
       "Options shared with PMEPot have its names and meanings.\n\nExamples:\n"
       "  espdiff potential protein.pqr -o protein.dx\n"
+      "  espdiff potential entry.pdb --select '//A;polymer' --method pb -o entry.dx\n"
       "  espdiff potential frames.pqr --align ca --variance variance.dx -o mean.dx");
-  parser->add_option("MOLECULE", a->molecule, "Structure with charges: PQR; several models are frames")->required();
+  parser
+      ->add_option("MOLECULE", a->molecule,
+                   "Structure: PQR, or PDB and mmCIF, which PDB2PQR gives charges; several models are frames")
+      ->required();
   parser->add_option("-o,--output,--dxfile", a->output, "Map to write: .dx (APBS, VMD, PyMOL) or .vti (ParaView)")
       ->required();
   add_method_options(*parser, *a);
+  add_settings(*parser, a->settings, SettingsFor::kPreparation);
   add_cell_options(*parser, *a);
   add_frame_options(*parser, *a);
   parser->add_flag("!--no-hetero", a->structure.include_hetero, "Ignore HETATM records (ligands, ions)")

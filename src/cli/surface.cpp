@@ -1,17 +1,25 @@
 // surface.cpp: `espdiff surface MOLECULE -o OUT.vtp`.
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <limits>
 
+#include "cli/map_options.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
 #include "compare/input.h"
+#include "compare/map_recipe.h"
 #include "compare/options.h"
 #include "compare/surface.h"
 #include "engine/engine.h"
 #include "io/atomic_file.h"
 #include "io/check_outputs.h"
-#include "io/read_structure.h"
+#include "io/structure_file.h"
 #include "io/write_grid.h"
+#include "prepare/load_state.h"
+#include "prepare/surface_radii.h"
+#include "report/preparation_json.h"
 #include "report/write_surface.h"
 
 namespace espdiff::cli {
@@ -22,9 +30,21 @@ struct Arguments {
   bool regularize = false;
   bool quiet = false;
   StructureOptions structure;
+  PotentialRequest potential;
   DeviceArguments device;
   GivenSettings settings;
 };
+
+/// The structure with charges where a potential is asked for.
+LoadedState load(const Arguments& a, const InputOptions& options, const Progress& progress) {
+  const bool asks = a.potential.potential != "none";
+  if (!a.map.empty() && asks)
+    throw InputError(option("potential") + " computes the map, and --map was given; leave out one of them");
+  const StructureFile file(a.molecule);
+  LoadedState state = load_for(a.potential, a.map.empty(), file, {a.structure, StateRole::kOnly}, options, progress);
+  check_left_out(options, {&state});
+  return state;
+}
 
 void print_summary(const SurfaceResult& result) {
   std::printf("surface        %zu vertices, %zu triangles, %zu component%s\n", result.summary.n_vertices,
@@ -34,6 +54,17 @@ void print_summary(const SurfaceResult& result) {
     std::printf("cavities       %zu removed, %.1f A^2 (--cavities keeps them)\n", result.summary.n_cavities_left_out,
                 result.summary.cavity_area_A2);
   }
+  if (!result.potential.empty()) {
+    float least = std::numeric_limits<float>::infinity(), most = -least;
+    for (const float value : result.potential) {
+      if (std::isnan(value)) continue;
+      least = std::min(least, value);
+      most = std::max(most, value);
+    }
+    std::printf("potential      %.3f to %.3f %s%s%s\n", static_cast<double>(least), static_cast<double>(most),
+                to_string(result.unit).c_str(), result.is_vacuum ? kInVacuum : "",
+                result.potential_label.empty() ? "" : (", " + result.potential_label).c_str());
+  }
   for (const auto& [stage, ms] : result.time_ms) {
     if (stage == "total") std::printf("time           %.0f ms\n", ms);
   }
@@ -41,14 +72,20 @@ void print_summary(const SurfaceResult& result) {
 
 int run(const Arguments& a, const Context& context) {
   const CompareOptions options = make_options(a.settings);
-  check_outputs({a.molecule, a.map}, {a.output, a.density});
+  std::vector<std::string> inputs = input_files(a.settings);
+  inputs.insert(inputs.end(), {a.molecule, a.map});
+  check_outputs(inputs, {a.output, a.density});
   // Outputs that cannot be written are better found before the work than after it.
   AtomicFile surface(a.output);
   std::unique_ptr<AtomicFile> density;
   if (!a.density.empty()) density = std::make_unique<AtomicFile>(a.density);
   context.progress->report("read", 0.0);
-  const Molecule molecule = read_structure(a.molecule, a.structure);
+  LoadedState state = load(a, options.input, *context.progress);
+  Molecule& molecule = state.molecule;
   CompareInput input{&molecule, nullptr};
+  const PotentialPlan plan(a.potential, {facts_of(state)}, options.temperature_K);
+  if (plan.computes()) input.make_map = plan.map_of(state).maker();
+  const std::string note = set_surface_radii({&molecule}, options.input.radii);
   Grid map;
   if (!a.map.empty()) {
     map = read_map(a.map, a.map_array, a.map_unit).grid;
@@ -64,7 +101,11 @@ int run(const Arguments& a, const Context& context) {
   }
   commit_all(files);
   context.progress->report("write", 1.0);
-  if (!a.quiet) print_summary(result);
+  if (a.quiet) return 0;
+  if (state.preparation) print_preparation(std::cout, *state.preparation);
+  if (!plan.because().empty()) std::cout << "potential      none: " << plan.because() << '\n';
+  if (!note.empty()) std::cout << "radii          " << note << '\n';
+  print_summary(result);
   return 0;
 }
 
@@ -72,8 +113,13 @@ int run(const Arguments& a, const Context& context) {
 
 Verb add_surface(CLI::App& app) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* parser = app.add_subcommand("surface", "Write a molecule's surface, with its potential if a map is given");
-  parser->footer("Example:\n  espdiff surface protein.pqr --map protein.dx --regularize -o surface.vtp");
+  CLI::App* parser =
+      app.add_subcommand("surface", "Write a molecule's surface, with its potential if one is given or asked for");
+  parser->footer(
+      "Examples:\n"
+      "  espdiff surface protein.pqr --map protein.dx --regularize -o surface.vtp\n"
+      "  espdiff surface entry.pdb --select '//A;polymer' --potential pb -o surface.vtp\n\n"
+      "A structure without charges is prepared by PDB2PQR where a potential is asked for, as by `espdiff compare`.");
   parser->add_option("MOLECULE", a->molecule, "Structure: PQR, PDB or mmCIF")->required();
   parser->add_option("-o,--output", a->output, "Surface to write (.vtp)")->required();
   parser->add_option("--map", a->map, "Potential map: DX, VTI or cube")->group("Potentials");
@@ -86,6 +132,8 @@ Verb add_surface(CLI::App& app) {
   parser->add_option("--density", a->density, "Also write the surface's density (.dx, for VMD)");
   parser->add_flag("--regularize", a->regularize, "Regularize the triangles");
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
+  a->potential.potential = "none";
+  add_computed_map_options(*parser, a->potential);
   add_structure_options(*parser, a->structure);
   add_settings(*parser, a->settings, SettingsFor::kSurface);
   add_device_options(*parser, a->device);

@@ -107,9 +107,12 @@ SurfaceResult make_surface(Engine& engine, const CompareInput& input, const Comp
   result.residue = engine.vertex_residues(surface.mesh, surface.atoms);
   if (has_map(input)) {
     result.unit = unit_of(input);
-    const GridPtr map =
-        device_map(engine, input, from_common, nullptr, result.unit, options.temperature_K, progress).map;
-    result.potential = engine.download(engine.sample(map, surface.mesh));
+    const MadeMap made = device_map(engine, input, from_common, nullptr, result.unit, options.temperature_K, progress);
+    if (input.make_map) {
+      result.potential_label = potential_label(made.recipe);
+      result.is_vacuum = is_vacuum(made.recipe);
+    }
+    result.potential = engine.download(engine.sample(made.map, surface.mesh));
     count_outside(input, result.potential);
   }
   clock.lap("attributes");

@@ -136,34 +136,34 @@ void add_structure_rows(std::vector<Setting>& all) {
 
 void add_charge_rows(std::vector<Setting>& all) {
   const char* const group = kChargeGroup;
-  all.push_back(choice_row(
+  all.push_back(of_surface(choice_row(
       "force-field", group, {"parse", "amber", "charmm", "tyl06", "peoepb", "swanson"},
       [](InputOptions& o, const std::string& text) { o.charges.force_field = text; },
       [](const InputOptions& o) { return o.charges.force_field; },
-      "Charges and radii for structures without charges, assigned by PDB2PQR"));
-  all.push_back(number_row(
+      "Charges and radii for structures without charges, assigned by PDB2PQR")));
+  all.push_back(of_surface(number_row(
       "ph", group, 0, 14, "a pH from 0 to 14", [](auto& o) -> auto& { return o.charges.ph; },
-      "pH at which PROPKA chooses protonation states"));
-  all.push_back(ligand_row());
+      "pH at which PROPKA chooses protonation states")));
+  all.push_back(of_surface(ligand_row()));
   all.push_back(boolean_row(
       "same-protonation", group, [](auto& o) -> auto& { return o.charges.same_protonation; },
       "Residues of the target take the protonation states of the source's residues they pair with"));
-  all.push_back(boolean_row(
+  all.push_back(of_surface(boolean_row(
       "cache", group, [](auto& o) -> auto& { return o.charges.use_cache; },
-      "Reuse prepared structures from the cache (XDG_CACHE_HOME), by their content"));
-  all.push_back(text_row(
+      "Reuse prepared structures from the cache (XDG_CACHE_HOME), by their content")));
+  all.push_back(of_surface(text_row(
       "topology", group, [](auto& o) -> auto& { return o.both.topology; },
-      "PSF or Amber prmtop with the charges of both files' atoms, in their order", true));
+      "PSF or Amber prmtop with the charges of both files' atoms, in their order", true)));
   all.push_back(text_row(
       "source-topology", group, [](auto& o) -> auto& { return o.source.topology; }, "The same, for the source alone",
       true));
   all.push_back(text_row(
       "target-topology", group, [](auto& o) -> auto& { return o.target.topology; }, "The same, for the target alone",
       true));
-  all.push_back(text_row(
+  all.push_back(of_surface(text_row(
       "charges-from", group, [](auto& o) -> auto& { return o.charges_from; },
       "PQR file of another state of the molecule; states without charges take its charges and radii, atom by atom",
-      true));
+      true)));
 }
 
 void add_region_rows(std::vector<Setting>& all) {

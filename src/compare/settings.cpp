@@ -293,9 +293,9 @@ std::vector<Setting> make_settings() {
   all.push_back(domains);
   add_input_settings(all);
   all.push_back(offset_setting());
-  all.push_back(number(
+  all.push_back(of_surface(number(
       "temperature", "Potentials", kPositive, [](auto& o) -> auto& { return o.temperature_K; },
-      "Temperature for converting between kT/e and other units, K"));
+      "Temperature of kT in potentials and units, K")));
   add_surface_settings(all);
   add_mapping_settings(all);
   const std::size_t first = all.size();

@@ -25,6 +25,8 @@ struct SurfaceResult {
   std::vector<std::int32_t> residue;  ///< [vertex]
   std::vector<float> potential;       ///< [vertex], empty without a map
   PotentialUnit unit = PotentialUnit::kUnknown;
+  std::string potential_label;  ///< of a computed potential: "Poisson-Boltzmann, 0.15 mol/l"; empty otherwise
+  bool is_vacuum = false;       ///< a computed potential that sees neither water nor a dielectric
   SurfaceSummary summary;
   std::vector<ComponentSummary> components;  ///< all, cavities included
   DeformReport regularize_report;

@@ -47,10 +47,10 @@ class ModelSplitter {
 
   std::vector<AtomModel> finish() {
     if (has_model_records_ && first_outside_ > 0) {
-      throw FormatError(
-          path_, first_outside_,
-          "an atom outside of MODEL ... ENDMDL, in a file that has MODEL records; move it into a model, or "
-          "delete the MODEL and ENDMDL lines");
+      throw FormatError(path_, first_outside_,
+                        "an atom outside of MODEL ... ENDMDL (" + in_quotes(trimmed(first_outside_text_)) +
+                            "), in a file that has MODEL records; move it into a model, or "
+                            "delete the MODEL and ENDMDL lines");
     }
     if (models_.empty()) {
       throw InputError(path_ + ": has no ATOM or HETATM records; give a structure with atoms");
@@ -61,7 +61,11 @@ class ModelSplitter {
 
  private:
   void add_atom(const AtomLine& atom) {
-    if (!is_inside_ && first_outside_ == 0) first_outside_ = atom.number;
+    if (!is_inside_ && first_outside_ == 0) {
+      first_outside_ = atom.number;
+      constexpr std::size_t kUpToResidue = 27;
+      first_outside_text_ = atom.text.substr(0, kUpToResidue);
+    }
     if (!is_open_) {
       if (last_end_ > 0 && split_by_end_ == 0) split_by_end_ = last_end_;
       models_.emplace_back();
@@ -88,8 +92,9 @@ class ModelSplitter {
   bool is_open_ = false;    // the last model takes more atoms
   bool is_inside_ = false;  // between MODEL and its end
   long first_outside_ = 0;  // line of the first atom beside the models
-  long last_end_ = 0;       // line of the last END
-  long split_by_end_ = 0;   // line of the first END that atoms follow
+  std::string_view first_outside_text_;
+  long last_end_ = 0;      // line of the last END
+  long split_by_end_ = 0;  // line of the first END that atoms follow
 };
 
 bool is_number(std::string_view text) {

@@ -17,7 +17,9 @@
 #include "io/sha256.h"
 #include "io/structure_file.h"
 #ifdef ESPDIFF_HAVE_GEMMI
+#include "io/pdb_text.h"
 #include "io/read_gemmi.h"
+#include "io/text_cursor.h"
 #endif
 
 namespace espdiff {
@@ -143,6 +145,21 @@ std::optional<UnitCell> StructureFile::unit_cell(int model) const {
   std::call_once(parsed_->cells_are_read,
                  [&] { parsed_->cells = read_unit_cells(parsed_->file.content, parsed_->models, parsed_->file.path); });
   return parsed_->cells.at(static_cast<std::size_t>(model - 1));
+}
+
+long StructureFile::line_of(int model, const Residue& residue) const {
+#ifdef ESPDIFF_HAVE_GEMMI
+  if (frames_ != nullptr || parsed_->is_mmcif) return 0;
+  constexpr std::size_t kNumberAt = 22, kWidth = 5;
+  std::string number = std::to_string(residue.number);
+  if (residue.insertion_code != ' ') number += residue.insertion_code;
+  for (const AtomLine& line : pick_model(parsed_->models, model, parsed_->file.path)) {
+    if (line.text.size() >= kNumberAt + kWidth && trimmed(line.text.substr(kNumberAt, kWidth)) == number &&
+        pdb_chain_name(line) == residue.chain)
+      return line.number;
+  }
+#endif
+  return 0;
 }
 
 Molecule StructureFile::read(const StructureOptions& options) const {

@@ -23,6 +23,9 @@ extern "C" char** environ;  // NOLINT: POSIX declares no header for it
 namespace espdiff {
 namespace {
 
+/// What a program may print: it is in memory.
+constexpr std::size_t kMostOutput = std::size_t{64} << 20;
+
 [[noreturn]] void cannot_start(const std::string& program, int error_number) {
   throw DeviceError(program + " cannot be started: " + system_message(error_number));
 }
@@ -49,6 +52,10 @@ class MemoryFile {
   MemoryFile& operator=(const MemoryFile&) = delete;
 
   int descriptor() const { return descriptor_; }
+  std::size_t size() const {
+    struct stat status {};
+    return ::fstat(descriptor_, &status) == 0 ? static_cast<std::size_t>(status.st_size) : 0;
+  }
   std::string content() const {
     std::string text;
     std::array<char, 65536> block{};
@@ -97,7 +104,7 @@ void wait_for(pid_t pid, int& status) {
 }
 
 /// Waits, and kills the program's group if it may not go on.
-int wait_with_checks(const ProgramCall& call, pid_t pid) {
+int wait_with_checks(const ProgramCall& call, pid_t pid, const MemoryFile& output, const MemoryFile& messages) {
   const auto begun = std::chrono::steady_clock::now();
   int status = 0;
   try {
@@ -106,6 +113,11 @@ int wait_with_checks(const ProgramCall& call, pid_t pid) {
       if (ended == pid) return status;
       if (ended < 0 && errno != EINTR) throw DeviceError(call.words.front() + ": " + system_message(errno));
       if (call.while_running) call.while_running();
+      for (const MemoryFile* file : {&output, &messages}) {
+        if (file->size() <= kMostOutput) continue;
+        throw DeviceError(call.words.front() + " printed more than " + std::to_string(kMostOutput >> 20) +
+                          " MB and was ended");
+      }
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
       if (call.time_limit_s > 0 && seconds > call.time_limit_s)
         throw DeviceError(call.words.front() + " ran for more than " +
@@ -139,7 +151,7 @@ std::string find_program(const std::string& name) {
 ProgramResult run_program(const ProgramCall& call) {
   const MemoryFile input(call.words.front(), call.input), output(call.words.front(), {}),
       messages(call.words.front(), {});
-  const int status = wait_with_checks(call, start(call, input, output, messages));
+  const int status = wait_with_checks(call, start(call, input, output, messages), output, messages);
   constexpr int kSignalled = 128;
   return {WIFSIGNALED(status) ? kSignalled + WTERMSIG(status) : WEXITSTATUS(status), output.content(),
           messages.content()};

@@ -27,7 +27,7 @@ std::string find_program(const std::string& name);
 
 /// Runs a program and waits for it. It gets its own process group, default signals, and none of our files. Its
 /// group is killed if the time is over or `while_running` throws, so that no child of it stays.
-/// @throws DeviceError (not found, cannot be started, longer than the time limit)
+/// @throws DeviceError (not found, cannot be started, longer than the time limit, more than 64 MB printed)
 ProgramResult run_program(const ProgramCall& call);
 
 }  // namespace espdiff

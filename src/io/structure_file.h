@@ -37,6 +37,8 @@ class StructureFile {
   /// The cell of a model, see read_unit_cells(); none of an mmCIF file.
   /// @param model from 1. @throws FormatError (a CRYST1 record or a frame that cannot be read)
   std::optional<UnitCell> unit_cell(int model) const;
+  /// The first line of a residue in a PDB file, from 1; 0 where it is not found, and of other formats.
+  long line_of(int model, const Residue& residue) const;
   /// @throws as read_structure()
   Molecule read(const StructureOptions& options) const;
 

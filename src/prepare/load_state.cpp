@@ -123,10 +123,17 @@ LoadedState load_state(const StructureFile& file, const StateRequest& request, c
   }
   if (!select.empty())
     state.molecule = keep_atoms(state.molecule, select_some_atoms(state.molecule, select, select_option));
-  if (request.wants_charges)
-    state.preparation = charge_molecule(state.molecule, options, request, state.charge_files, progress);
-  for (const std::string& ligand : options.charges.ligands) {
-    if (state.preparation) state.charge_files.push_back({"ligand", ligand, {}});
+  if (request.wants_charges) {
+    try {
+      state.preparation = charge_molecule(state.molecule, options, request, state.charge_files, progress);
+    } catch (const UnchargedError& error) {
+      const long line = file.line_of(structure.model, error.residue);
+      if (line == 0) throw;
+      throw InputError(state.molecule.name + ":" + std::to_string(line) + ": " + error.text);
+    }
+  }
+  if (state.preparation) {
+    for (const std::string& ligand : state.preparation->ligands) state.charge_files.push_back({"ligand", ligand, {}});
   }
   state.is_changed = !select.empty() || state.n_left_out > 0 || !structure.assembly.empty() ||
                      state.preparation.has_value() || !state.charge_files.empty();
@@ -164,7 +171,31 @@ void refuse_options_of_files(const InputOptions& options, StateRole role, const 
   }
 }
 
+namespace {
+
+void check_ligands(const InputOptions& options, const std::vector<const LoadedState*>& states) {
+  for (const std::string& path : options.charges.ligands) {
+    const auto has = [&](const LoadedState* state) {
+      if (!state->preparation) return false;
+      const std::vector<std::string>& used = state->preparation->ligands;
+      return std::find(used.begin(), used.end(), path) != used.end();
+    };
+    if (states.empty() || std::any_of(states.begin(), states.end(), has)) continue;
+    const bool any =
+        std::any_of(states.begin(), states.end(), [](const auto* s) { return s->preparation.has_value(); });
+    const Molecule& whole = states.front()->whole;
+    throw InputError(path + ": " +
+                     (any ? "no residue that is prepared has heavy atoms of its names; " + whole.name + " has " +
+                                describe_chains(whole)
+                          : "no structure is prepared that this ligand could be in") +
+                     "; leave " + option("ligand") + " out, or name its atoms as the structure does");
+  }
+}
+
+}  // namespace
+
 void check_left_out(const InputOptions& options, const std::vector<const LoadedState*>& states) {
+  check_ligands(options, states);
   if (options.leave_out.empty()) return;
   const bool some = std::any_of(states.begin(), states.end(), [](const LoadedState* s) { return s->n_left_out > 0; });
   if (some || states.empty()) return;

@@ -77,7 +77,8 @@ LoadedState load_frame(const StructureFile& file, const StructureOptions& struct
 /// @throws InputError when an option is given that says how a file is read or what of it is taken
 void refuse_options_of_files(const InputOptions& options, StateRole role, const std::string& whose);
 
-/// @throws InputError when leave_out dropped no atom of any state
+/// Whether options did what they are for.
+/// @throws InputError when leave_out dropped no atom of any state, or a MOL2 file describes no residue of any
 void check_left_out(const InputOptions& options, const std::vector<const LoadedState*>& states);
 
 }  // namespace espdiff

@@ -17,6 +17,7 @@
 #include <sstream>
 #include <tuple>
 
+#include "align/protonation.h"
 #include "align/residue_names.h"
 #include "base/error.h"
 #include "base/input_options.h"
@@ -38,6 +39,8 @@ const char* const kPdb2pqrRemedy = "install it (Debian: pdb2pqr; PyPI: pdb2pqr)"
 namespace {
 
 constexpr double kTimeLimitSeconds = 3600;
+/// Of the file it writes: a line for each of the most atoms that are read.
+constexpr std::uintmax_t kMostBytes = std::uintmax_t{512} << 20;
 
 /// A folder that is deleted at the end.
 class TemporaryFolder {
@@ -47,7 +50,9 @@ class TemporaryFolder {
     const char* const named = std::getenv("TMPDIR");
     std::error_code ignored;
     const bool is_there = named != nullptr && std::filesystem::is_directory(named, ignored);
-    for (const std::string& folder : {std::string(is_there ? named : "/tmp"), std::string("/tmp")}) {
+    // Absolute, since the program works in this folder, and a name that begins with a dash would be an option of it.
+    const std::string wanted = is_there ? std::filesystem::absolute(named, ignored).string() : std::string();
+    for (const std::string& folder : {wanted.empty() ? std::string("/tmp") : wanted, std::string("/tmp")}) {
       path_ = folder + "/espdiff-XXXXXX";
       if (mkdtemp(path_.data()) != nullptr) return;
     }
@@ -241,7 +246,10 @@ std::string run_pdb2pqr(const std::string& program, const std::string& name, con
                         const std::string& ligand, const std::vector<std::string>& options, const Progress& progress) {
   const TemporaryFolder folder;
   const auto write = [&](const char* file, const std::string& content) {
-    std::ofstream(folder.file(file), std::ios::binary) << content;
+    std::ofstream stream(folder.file(file), std::ios::binary);
+    stream << content;
+    stream.close();
+    if (!stream) throw IoError(folder.file(file), "cannot be written; is the disk full? Name another folder in TMPDIR");
     return folder.file(file);
   };
   ProgramCall call;
@@ -251,7 +259,13 @@ std::string run_pdb2pqr(const std::string& program, const std::string& name, con
   call.words.insert(call.words.end(), {write("input.pdb", pdb), folder.file("output.pqr")});
   call.folder = folder.path();
   call.time_limit_s = kTimeLimitSeconds;
-  call.while_running = [&] { progress.check_cancelled(); };
+  call.while_running = [&] {
+    progress.check_cancelled();
+    std::error_code missing;
+    const auto n_bytes = std::filesystem::file_size(folder.file("output.pqr"), missing);
+    if (!missing && n_bytes > kMostBytes)
+      throw DeviceError(name + ": PDB2PQR wrote more than " + std::to_string(kMostBytes >> 20) + " MB and was ended");
+  };
   const ProgramResult result = run_program(call);
   std::error_code ignored;
   const std::string log = result.output + result.messages;
@@ -275,17 +289,34 @@ Molecule read_output(const std::string& output, const Molecule& before, const Re
   return molecule;
 }
 
+/// Paths of the files that describe a residue.
+std::vector<std::string> used_files(const std::vector<Mol2File>& ligands, const std::vector<std::int32_t>& ligand_of) {
+  std::vector<std::string> paths;
+  for (std::size_t i = 0; i < ligands.size(); ++i) {
+    if (std::find(ligand_of.begin(), ligand_of.end(), static_cast<std::int32_t>(i)) != ligand_of.end())
+      paths.push_back(ligands[i].path);
+  }
+  return paths;
+}
+
 void require_residues(const Molecule& molecule) {
   const std::vector<ResidueKind> kinds = residue_kinds(molecule, atoms_of_residues(molecule));
   if (std::any_of(kinds.begin(), kinds.end(), is_polymer)) return;
+  if (molecule.residues.empty())
+    throw InputError(molecule.name + ": has water only, and nothing that PDB2PQR could charge; give another structure");
   std::string names;
   std::set<std::string> seen;
+  constexpr std::size_t kMostShown = 4;
   for (const Residue& residue : molecule.residues) {
-    if (seen.insert(residue.name).second && seen.size() <= 4) names += (names.empty() ? "" : ", ") + residue.name;
+    if (!seen.insert(residue.name).second || seen.size() > kMostShown) continue;
+    if (!names.empty()) names += ", ";
+    names += (residue.name.empty() ? "an unnamed residue" : "") + residue_in_words(residue);
   }
-  throw InputError(molecule.name + ": has no charges, and no amino acids or nucleotides that PDB2PQR could charge (" +
-                   names + " only); give a PQR, or " + option("topology", "FILE") + " or " +
-                   option("charges-from", "FILE"));
+  throw UnchargedError(molecule.name,
+                       "has no charges, and no amino acids or nucleotides that PDB2PQR could charge, only " + names +
+                           "; give a PQR, or charges (" + option("topology", "FILE") + " or " +
+                           option("charges-from", "FILE") + ")",
+                       molecule.residues.front());
 }
 
 }  // namespace
@@ -413,7 +444,7 @@ Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options
   done.program = run.version();
   done.force_field = options.force_field;
   done.ph = options.ph;
-  done.ligands = options.ligands;
+  done.ligands = used_files(ligands, ligands_of_residues(before, ligands));
   done.from_cache = run.all_from_cache();
   compare_with_input(before, prepared.molecule, options, done);
   done.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();

@@ -63,9 +63,13 @@ struct Uncharged {
   std::set<std::string> names;        ///< of residues
   std::size_t n_atoms = 0;
   std::string first_atom;
+  Residue first;
 
   void add(const Residue& residue, const std::vector<std::string>& atoms) {
-    if (n_atoms == 0) first_atom = atoms.front();
+    if (n_atoms == 0) {
+      first_atom = atoms.front();
+      first = residue;
+    }
     residues.push_back(residue_in_words(residue));
     names.insert(residue.name);
     n_atoms += atoms.size();
@@ -75,13 +79,14 @@ struct Uncharged {
 [[noreturn]] void refuse(const Molecule& before, const ChargeOptions& options, const Uncharged& uncharged) {
   std::string names;
   for (const std::string& name : uncharged.names) names += (names.empty() ? "" : ",") + name;
-  throw InputError(before.name + ": " + std::to_string(uncharged.n_atoms) +
-                   (uncharged.n_atoms == 1 ? " atom gets no charge" : " atoms get no charges") +
-                   " from PDB2PQR's force field " + options.force_field + ": " + joined(uncharged.residues) +
-                   " (first atom " + uncharged.first_atom + "); give a MOL2 file of it with hydrogens (" +
-                   option("ligand", "FILE") + "), charges for all atoms (" + option("topology", "FILE") + ", " +
-                   option("charges-from", "FILE") + " or a PQR), or drop it (" +
-                   option("leave-out", "(" + names + ")") + ")");
+  throw UnchargedError(
+      before.name,
+      std::to_string(uncharged.n_atoms) + (uncharged.n_atoms == 1 ? " atom gets no charge" : " atoms get no charges") +
+          " from PDB2PQR's force field " + options.force_field + ": " + joined(uncharged.residues) + " (first atom " +
+          uncharged.first_atom + "); give a MOL2 file of it with hydrogens (" + option("ligand", "FILE") +
+          "), charges for all atoms (" + option("topology", "FILE") + ", " + option("charges-from", "FILE") +
+          " or a PQR), or drop it (" + option("leave-out", "(" + names + ")") + ")",
+      uncharged.first);
 }
 
 void add_protonation(const Molecule& after, Preparation& preparation) {

@@ -2,20 +2,32 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "base/error.h"
 #include "base/types.h"
 
 namespace espdiff {
 
 struct ChargeOptions;
 
+/// A residue that gets no charge. It is named, so that who knows the file can add the line.
+struct UnchargedError : InputError {
+  /// @param name of the molecule
+  UnchargedError(const std::string& name, const Message& message, Residue first)
+      : InputError(name + ": " + message), text(message), residue(std::move(first)) {}
+
+  Message text;  ///< without the molecule's name
+  Residue residue;
+};
+
 /// What PDB2PQR added, repaired and protonated.
 struct Preparation {
   std::string program;      ///< "PDB2PQR v3.5.2"
   std::string force_field;  ///< lower case
   double ph = 7;
-  std::vector<std::string> ligands;  ///< MOL2 files
+  std::vector<std::string> ligands;  ///< MOL2 files of residues that were there
   bool from_cache = false;
   double seconds = 0;
   std::size_t n_atoms_before = 0, n_atoms = 0, n_hydrogens_added = 0;
@@ -29,7 +41,7 @@ struct Preparation {
 
 /// Lists what differs between the molecule given to PDB2PQR and its answer.
 /// @param before as given to the program
-/// @throws InputError naming atoms of `before` without a charge, with three ways on
+/// @throws UnchargedError naming atoms of `before` without a charge, with three ways on
 void compare_with_input(const Molecule& before, const Molecule& after, const ChargeOptions& options,
                         Preparation& preparation);
 

@@ -1,6 +1,7 @@
 // write_surface.cpp: one molecule's surface as a .vtp file.
 #include "report/write_surface.h"
 
+#include "compare/map_recipe.h"
 #include "compare/surface.h"
 #include "io/atomic_file.h"
 #include "io/write_vtp.h"
@@ -23,7 +24,7 @@ void write_surface(AtomicFile& file, const Molecule& molecule, const SurfaceResu
   if (!result.potential.empty()) {
     surface.point_arrays.emplace_back("potential", result.potential);
     surface.active_scalars = "potential";
-    surface.texts = {{"potential_unit", to_string(unit)}};
+    surface.texts = {{"potential_unit", std::string(to_string(unit)) + (result.is_vacuum ? kInVacuum : "")}};
   }
   write_vtp(file.stream(), surface);
 }

@@ -12,7 +12,7 @@ struct SurfaceResult;
 
 /// Point arrays: normal, component, residue_number (0 where no atom reaches) and, with a map, potential (NaN outside
 /// the map).
-/// @param unit of the potential
+/// @param unit of the potential; the file says where it is in vacuum
 /// @throws IoError; then nothing is written
 /// The first form leaves it to the caller to commit.
 void write_surface(AtomicFile& file, const Molecule& molecule, const SurfaceResult& result, PotentialUnit unit);

@@ -128,7 +128,7 @@ TEST_CASE("potential: wrong input gives one line and leaves nothing") {
     std::string arguments;
     const char* expected;
   };
-  for (const Case& c : {Case{no_charge, "every atom has charge 0, and a potential needs them; give a PQR file"},
+  for (const Case& c : {Case{no_charge, "zero.pqr: has no charges"},
                         {plain, "has no charges"},
                         {molecule + " --frames 2", "frame 2 is not among the frames 0 to 1"},
                         {molecule + " --cell '0 0 0'", "has 3 numbers; give twelve"},
@@ -261,6 +261,25 @@ TEST_CASE("a molecule that Poisson-Boltzmann cannot take is refused by one line 
   REQUIRE_MESSAGE(noted.status == 0, noted.err);
   CHECK(contains(read_file(out + ".json"), "the charges of the target add up to "));
   CHECK(contains(read_file(out + ".json"), " e, which is not a whole number: atoms or charges may be missing"));
+}
+
+TEST_CASE("a molecule without charges is refused by each verb that was asked for pb, in one line") {
+  const ScratchFolder folder;
+  std::string text = row_of_atoms(8);
+  for (std::size_t at = text.find(" 0.5000"); at != std::string::npos; at = text.find(" 0.5000")) text[at + 3] = '0';
+  const std::string zero = folder.write("zero.pqr", text), charged = folder.write("a.pqr", row_of_atoms(8));
+  const std::size_t n_before = folder.n_files();
+  for (const std::string& call :
+       {"compare " + charged + " " + zero, "trajectory " + charged + " " + zero, "matrix " + charged + " " + zero}) {
+    const Outcome outcome = run_espdiff(call + " --potential pb --device cpu -o " + folder.file("out"));
+    CAPTURE(call);
+    CHECK(outcome.status == 2);
+    CHECK_MESSAGE(contains(outcome.err, "zero.pqr"), outcome.err);
+    CHECK_MESSAGE(contains(outcome.err, "charge"), outcome.err);
+    CHECK(n_lines(outcome.err) == 1);
+    CHECK(outcome.out.empty());
+    CHECK(folder.n_files() == n_before);
+  }
 }
 
 TEST_CASE("options of potentials that cannot be are refused in one line, and nothing is written") {

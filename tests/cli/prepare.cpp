@@ -1,7 +1,10 @@
 // `espdiff prepare` and comparisons of PDB entries: every file of the folders bad_*, selections, regions, errors.
 #include <doctest/doctest.h>
 
+#include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "run_espdiff.h"
 
@@ -32,21 +35,35 @@ TEST_CASE("prepare: untidy files give an answer or one line that names file, pla
   const auto prepared = [&](const std::string& file) {
     return run_espdiff("prepare " + *data + file + " --no-cache -o " + folder.file("out.pqr"));
   };
-  Outcome outcome = prepared("bad_parmed/2igd.pdb");
-  CHECK(outcome.status == 0);
-  CHECK(contains(outcome.out, "net charge      -2.0000 e"));
-  CHECK(json_of(folder.file("out.json"))["preparation"]["n_atoms"] == 927);
-  for (const auto& [file, words] :
-       {std::pair("bad_biopython/a_structure.pdb", "a_structure.pdb:20: an atom outside of MODEL ... ENDMDL"),
-        {"bad_pdb/insertion-code.pdb", "insertion-code.pdb: has no charges, and no amino acids or nucleotides"},
-        {"bad_pdb/odd-start.pdb", "PDB2PQR could charge (EST only); give a PQR, or --topology FILE"},
-        {"bad_pdb/short-atom.pdb", "short-atom.pdb: has no charges, and no amino acids"}}) {
-    outcome = prepared(file);
+  const std::string cannot = " has no charges, and no amino acids or nucleotides that PDB2PQR could charge, only ",
+                    remedy = "; give a PQR, or charges (--topology FILE or --charges-from FILE)\n";
+  // What each file is answered: a net charge, or all that follows its name in the error.
+  const std::map<std::string, std::string> answers = {
+      {"bad_parmed/2igd.pdb", "net charge      -2.0000 e"},
+      {"bad_biopython/a_structure.pdb",
+       ":20: an atom outside of MODEL ... ENDMDL ('ATOM     22  C   CYS A   0'), in a file that has MODEL records; "
+       "move "
+       "it into a model, or delete the MODEL and ENDMDL lines\n"},
+      {"bad_pdb/insertion-code.pdb", ":1:" + cannot + "XXX 1a of chain X" + remedy},
+      {"bad_pdb/odd-start.pdb", ":1:" + cannot + "EST 600 of chain A" + remedy},
+      {"bad_pdb/short-atom.pdb", ":1:" + cannot + "an unnamed residue 1 of chain X" + remedy}};
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(*data)) {
+    const std::string file = entry.path().lexically_relative(*data).string();
+    if (!entry.is_regular_file() || file.rfind("bad_", 0) != 0) continue;
+    const auto answer = answers.find(file);
+    REQUIRE_MESSAGE(answer != answers.end(), "no answer is expected of " << file);
+    CAPTURE(file);
+    const Outcome outcome = prepared(file);
+    if (outcome.status == 0) {
+      CHECK(contains(outcome.out, answer->second));
+      continue;
+    }
     CHECK(outcome.status == 2);
-    CHECK(contains(outcome.err, words));
-    CHECK(n_lines(outcome.err) == 1);
+    CHECK(outcome.err == "espdiff: " + entry.path().string() + answer->second);
     CHECK(outcome.out.empty());
   }
+  CHECK(json_of(folder.file("out.json"))["preparation"]["n_atoms"] == 927);
+  CHECK(folder.n_files() == 2);
 }
 
 TEST_CASE("prepare: an atom without charge, an unknown chain, a word that drops nothing, a wrong ligand") {
@@ -60,12 +77,19 @@ TEST_CASE("prepare: an atom without charge, an unknown chain, a word that drops 
     return outcome.err;
   };
   const std::string uncharged = refused("--select //A");
-  CHECK(contains(uncharged, "57 atoms get no charges from PDB2PQR's force field parse: AP5 215 of chain A"));
+  CHECK(contains(uncharged,
+                 "1ake.pdb:3796: 57 atoms get no charges from PDB2PQR's force field parse: AP5 215 of chain A"));
   CHECK(contains(uncharged, "or drop it (--leave-out '(AP5)')"));
   CHECK(
       contains(refused("--select //C"), "--select '//C' selects no atom; the file has chain A (1-214, AP5), chain B"));
   CHECK(contains(refused("--select '//A;polymer' --leave-out '(HEM)'"), "drops no atom"));
   CHECK(contains(refused("--select '//A;polymer' --ligand " + *path), "a ligand is read from a Tripos MOL2 file"));
+  const std::string ligand = folder.write("benzene.mol2",
+                                          "@<TRIPOS>MOLECULE\nBNZ\n2 1\n@<TRIPOS>ATOM\n1 CX1 0 0 0 C.ar\n2 CX2 1.4 0 0 "
+                                          "C.ar\n@<TRIPOS>BOND\n1 1 2 ar\n");
+  CHECK(contains(refused("--select '//A;polymer' --ligand " + ligand),
+                 "benzene.mol2: no residue that is prepared has heavy atoms of its names; "));
+  std::filesystem::remove(ligand);
   CHECK(contains(refused("--assembly 7"), "there is no assembly '7'"));
   CHECK(folder.n_files() == 0);
 }

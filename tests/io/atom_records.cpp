@@ -43,7 +43,8 @@ TEST_CASE("atom_records: END parts frames as VMD writes them, and nothing else")
 
 TEST_CASE("atom_records: atoms beside the models are refused with their line") {
   CHECK(message_of([] { sizes("MODEL 1\n" + kAtom + "ENDMDL\n" + kAtom); }) ==
-        "f.pdb:4: an atom outside of MODEL ... ENDMDL, in a file that has MODEL records; move it into a model, or "
+        "f.pdb:4: an atom outside of MODEL ... ENDMDL ('ATOM      1  N   MET A   1'), in a file that has MODEL "
+        "records; move it into a model, or "
         "delete the "
         "MODEL and ENDMDL lines");
   CHECK_THROWS_AS(sizes(kAtom + "MODEL 1\n" + kAtom + "ENDMDL\n"), FormatError);

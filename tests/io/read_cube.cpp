@@ -47,6 +47,19 @@ TEST_CASE("read_cube: negative counts mean Angstrom") {
         "f.cube:6: the three counts differ in sign; positive means Bohr, negative Angstrom");
 }
 
+TEST_CASE("read_cube: columns that touch, with exponents of three digits and without their letter") {
+  const std::vector<float> values = {0.5F, -1e-2F, -2.5e-5F, 0, -3, 1e-3F, 1, -10};
+  const std::vector<float> in_memory = {values[0], values[4], values[2], values[6],
+                                        values[1], values[5], values[3], values[7]};
+  // Fortran writes 1PE13.5 and, where an exponent needs three digits, no letter.
+  CHECK(read_cube("f.cube", cube("1 0 0 0", "2 2 2",
+                                 kAtomLine + "  5.00000E-01-1.00000E-02-2.50000E-05 1.00000-120\n"
+                                             " -3.00000E+00 1.00000E-03 1.00000D+00-1.00000D+01\n"))
+            .values == in_memory);
+  CHECK(error(cube("1 0 0 0", "2 2 2", kAtomLine + "5.0E-01x1.0E-02 0 0 0 0 0 0\n"))
+            .find("f.cube:8: value 1 is '5.0E-01x1.0E-02'; a finite number was expected") == 0);
+}
+
 TEST_CASE("read_cube: of several volumes the first") {
   std::string two;
   for (int i = 0; i < 8; ++i) two += std::to_string(i) + " " + std::to_string(-i) + "\n";

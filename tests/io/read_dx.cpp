@@ -81,6 +81,17 @@ TEST_CASE("read_dx: flavours") {
   check_values(read_dx("f", dos));
 }
 
+TEST_CASE("read_dx: words parted by other blanks and line ends") {
+  std::string tabs, lines;
+  for (const char c : kHeader) tabs += c == ' ' ? std::string("\t  ") : std::string(1, c);
+  check_values(read_dx("f", tabs + values()));
+  lines = replaced(replaced(kHeader, "class gridpositions", "class\n  gridpositions"), "rank 0", "\nrank\n0");
+  check_values(read_dx("f", lines + values()));
+  lines = replaced(kHeader, "data follows", "\ndata\nfollows");
+  check_values(read_dx("f", lines + values()));
+  check_values(read_dx("f", replaced(kHeader, "origin ", "  origin\t") + values()));
+}
+
 TEST_CASE("read_dx: the unit from APBS' comment, PMEPot's comment or field name, or none") {
   const auto unit = [](const std::string& before, const std::string& after = {}) {
     return read_dx("f", before + kHeader + values() + after).unit;

@@ -88,6 +88,25 @@ TEST_CASE("read_mmcif: bad syntax, no atoms, missing columns, missing model") {
         }).find("a.cif: model 3 was asked for, but the file has models 1 to 2") != std::string::npos);
 }
 
+TEST_CASE("read_mmcif: columns that may be missing: occupancy, alternate locations, B factors") {
+  std::string head = kHead;
+  for (const char* column : {"_atom_site.label_alt_id\n", "_atom_site.occupancy\n", "_atom_site.B_iso_or_equiv\n"})
+    head.erase(head.find(column), std::string(column).size());
+  const Molecule m = read(head +
+                          "ATOM 1 N N ALA A ? 1.0 2.0 3.0 7 X 1\nATOM 2 C CA ALA A ? 1.5 2.0 3.0 7 X 1\n"
+                          "ATOM 1 N N ALA A ? 11.0 2.0 3.0 7 X 2\n");
+  REQUIRE(m.size() == 2);
+  CHECK(m.positions[1] == Vec3d{1.5, 2, 3});
+  CHECK(m.atoms[1].name == "CA");
+  CHECK(m.residues[0].number == 7);
+  std::string without_occupancy = kHead;
+  without_occupancy.erase(without_occupancy.find("_atom_site.occupancy\n"), 21);
+  // Two locations without an occupancy are equal: the first counts.
+  CHECK(
+      read(without_occupancy + "ATOM 1 C CA A ALA A ? 1.5 2.0 3.0 5 7 X 1\nATOM 2 C CA B ALA A ? 1.6 2.0 3.0 5 7 X 1\n")
+          .positions == std::vector<Vec3d>{{1.5, 2, 3}});
+}
+
 TEST_CASE("read_mmcif: a mistake in another category does no harm") {
   CHECK(read(kHead + kRows +
              "loop_\n_struct_conn.id\n_struct_conn.conn_type_id\n_struct_conn.ptnr1_label_comp_id\n"

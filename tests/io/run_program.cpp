@@ -38,6 +38,14 @@ TEST_CASE("run_program: a signal, a missing program") {
   CHECK(find_program("sh").find("/sh") != std::string::npos);
 }
 
+TEST_CASE("run_program: names are words, whatever they contain; a program that never stops printing is ended") {
+  const ScratchFolder folder;
+  for (const char* name : {"with blank", "-dash", "quote'\"", "$(touch left)", "semi;colon", "new\nline"})
+    CHECK(run_program({{"printf", "%s", name}, {}, folder.file(""), 0, {}}).output == name);
+  CHECK(folder.n_files() == 0);
+  CHECK(message_of([] { run_program({{"yes"}, {}, {}, 60, {}}); }) == "yes printed more than 64 MB and was ended");
+}
+
 TEST_CASE("run_program: ends the program and its children when it may not go on") {
   const ScratchFolder folder;
   const auto begun = std::chrono::steady_clock::now();

@@ -4,7 +4,11 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
 #include <map>
+#include <thread>
 
 #include "align/protonation.h"
 #include "base/error.h"
@@ -277,13 +281,64 @@ TEST_CASE("prepare_molecule: no program, nothing to charge, cancelled") {
         "pdb2pqr)");
   unsetenv("ESPDIFF_PDB2PQR");
   if (!has_pdb2pqr()) return;
-  CHECK(message_of([&] { prepare(ion); }).find("no amino acids or nucleotides that PDB2PQR could charge (CA only)") !=
+  CHECK(message_of([&] { prepare(ion); }).find("no amino acids or nucleotides that PDB2PQR could charge, only CA ") !=
         std::string::npos);
   const std::string text = lysozyme(1, 40);
   if (text.empty()) return;
   Progress progress;
   progress.request_cancel();
   CHECK_THROWS_AS(prepare_molecule(read(folder, text), without_cache(), {}, progress), Cancelled);
+}
+
+TEST_CASE("prepare_molecule: the program gets fixed names in a folder of its own, which does not stay") {
+  const std::string text = lysozyme(1, 40);
+  if (text.empty()) return;
+  const ScratchFolder folder;
+  const Molecule molecule = read(folder, text, "-it's $(touch here).pdb");
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.file(""));
+  std::filesystem::create_directory("-temporary folder");
+  setenv("TMPDIR", "-temporary folder", 1);
+  const auto program = [&](const std::string& body) {
+    const std::string path = folder.write("a program", "#!/bin/sh\n" + body + "\n");
+    std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+    setenv("ESPDIFF_PDB2PQR", path.c_str(), 1);
+  };
+  program("for word; do echo \"$word\"; done > '" + folder.file("words") + "'; pwd >> '" + folder.file("words") +
+          "'; stat -c %a . >> '" + folder.file("words") + "'; exit 1");
+  CHECK(message_of([&] { prepare(molecule); }).find("PDB2PQR cannot prepare it: it gave no reason; ") !=
+        std::string::npos);
+  std::istringstream words(espdiff_test::read_file(folder.file("words")));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(words, line);) lines.push_back(line);
+  REQUIRE(lines.size() == 8);
+  CHECK(lines[0] == "--ff=PARSE");
+  const std::string& place = lines[6];
+  CHECK(place.find(folder.file("") + "-temporary folder/espdiff-") == 0);
+  CHECK(lines[4] == place + "/input.pdb");
+  CHECK(lines[5] == place + "/output.pqr");
+  CHECK(lines[7] == "700");
+  const auto is_empty = [&] { return std::filesystem::is_empty("-temporary folder"); };
+  CHECK(is_empty());
+  program("truncate -s 600M output.pqr; sleep 60");
+  CHECK(message_of([&] { prepare(molecule); }).find("PDB2PQR wrote more than 512 MB and was ended") !=
+        std::string::npos);
+  CHECK(is_empty());
+  program("sleep 60");
+  Progress* handle = nullptr;
+  Progress progress([&](const std::string&, double) { handle->request_cancel(); });
+  handle = &progress;
+  std::thread cancel([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    progress.request_cancel();
+  });
+  CHECK_THROWS_AS(prepare_molecule(molecule, without_cache(), {}, progress), Cancelled);
+  cancel.join();
+  CHECK(is_empty());
+  unsetenv("ESPDIFF_PDB2PQR");
+  unsetenv("TMPDIR");
+  std::filesystem::current_path(before);
+  CHECK_FALSE(std::filesystem::exists(folder.file("here")));
 }
 
 TEST_CASE("load_state: the target takes the source's protonation states") {

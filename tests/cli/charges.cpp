@@ -1,0 +1,195 @@
+// charges.cpp: charges from other files than the structures: --topology and --charges-from, from the files to the
+// numbers; and structures that are prepared on the way, in potential and surface.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "cli/run_espdiff.h"
+#include "io/read_csv.h"
+#include "io/read_vtp.h"
+
+using namespace espdiff_test;  // NOLINT: a test
+using nlohmann::json;
+
+namespace {
+
+const std::string kQuick = " --grid-spacing 2 --pb-spacing 1.5 --device cpu -q -o ";
+
+/// The atoms of a PQR file as PDB, without charges and radii.
+std::string as_pdb(const std::string& pqr) {
+  std::string pdb;
+  std::istringstream lines(pqr);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("ATOM", 0) == 0) pdb += line.substr(0, 54) + "  1.00  0.00\n";
+  }
+  return pdb;
+}
+
+json run(const std::string& arguments, const std::string& output) {
+  const Outcome outcome = run_espdiff(arguments + kQuick + output);
+  REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  return json::parse(read_file(output + ".json"));
+}
+
+/// The rows of a trajectory without its head.
+std::string rows(const std::string& csv) {
+  const espdiff::CsvTable table = espdiff::read_csv(csv);
+  std::string text;
+  for (const auto& row : table.rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      if (table.columns[i] != "reference_frame") text += row[i] + ",";
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+bool has_pdb2pqr() {
+  if (contains(run_espdiff("doctor").out, "prepare        ok")) return true;
+  MESSAGE("SKIPPED: no PDB2PQR on PATH");
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("compare, trajectory and matrix --charges-from: the numbers of files that have these charges") {
+  const auto first = real_input("series19_ubq_2k39/m00.pqr"), second = real_input("series19_ubq_2k39/m05.pqr");
+  if (!first || !second) return;
+  const ScratchFolder folder;
+  const std::string a = folder.write("a.pdb", as_pdb(read_file(*first))),
+                    b = folder.write("b.pdb", as_pdb(read_file(*second)));
+  const std::string from = " --charges-from " + *first;
+  const json given = run("compare " + *first + " " + *second, folder.file("given")),
+             taken = run("compare " + a + " " + b + from, folder.file("taken"));
+  for (const char* metric : {"mean_abs_difference", "hodgkin_index", "mean_displacement_A", "rmsd_A"})
+    CHECK(taken[metric] == given[metric]);
+  CHECK(given["mean_abs_difference"].get<double>() > 0.1);
+  bool is_listed = false;
+  for (const json& input : taken["inputs"])
+    is_listed = is_listed || input["path"] == *first;  // beside the states that were kept
+  CHECK_MESSAGE(is_listed, taken["inputs"].dump());
+  const auto trajectory = [&](const std::string& arguments, const std::string& name) {
+    const Outcome outcome = run_espdiff("trajectory " + arguments + " --potential pb" + kQuick + folder.file(name));
+    REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    return rows(folder.file(name));
+  };
+  CHECK(trajectory(*first + " " + *second, "given.csv") == trajectory(a + " " + b + from, "taken.csv"));
+  const json matrix = run("matrix " + a + " " + b + from + " --potential pb", folder.file("m"));
+  CHECK(matrix["metrics"]["mean_abs_difference"]["values"][0][1] == given["mean_abs_difference"]);
+  // A state of other atoms.
+  const std::string cut = folder.write("cut.pdb", as_pdb(read_file(*second)).substr(0, 81 * 600));
+  const Outcome refused = run_espdiff("compare " + a + " " + cut + from + kQuick + folder.file("no"));
+  CHECK(refused.status == 2);
+  CHECK(n_lines(refused.err) == 1);
+  CHECK_MESSAGE(contains(refused.err, "cut.pdb"), refused.err);
+}
+
+TEST_CASE("compare and trajectory --topology: a PSF's charges beside coordinates, each side's own too") {
+  const auto pdb = real_input("ubq/ubq.pdb"), psf = real_input("ubq/ubq.psf");
+  if (!pdb || !psf) return;
+  const ScratchFolder folder;
+  // The same atoms, bent a little.
+  std::string bent;
+  std::istringstream lines(read_file(*pdb));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("ATOM", 0) == 0) {
+      char x[16];
+      const double z = std::stod(line.substr(46, 8));
+      std::snprintf(x, sizeof x, "%8.3f", std::stod(line.substr(30, 8)) + 0.002 * z * z);
+      line.replace(30, 8, x);
+    }
+    bent += line + "\n";
+  }
+  const std::string target = folder.write("bent.pdb", bent), pair = *pdb + " " + target;
+  const json both = run("compare " + pair + " --topology " + *psf, folder.file("both"));
+  CHECK(both["potential"]["label"] == "Poisson-Boltzmann, 0.15 mol/l");
+  CHECK(both["mean_abs_difference"].get<double>() > 0.001);
+  double charge = 1, n = 0;
+  for (const json& input : both["inputs"]) {
+    if (input["role"] == "source_map") charge = input["computed"]["net_charge"];
+    n += input["role"] == "source_topology" || input["role"] == "target_topology" ? 1 : 0;
+  }
+  CHECK(std::fabs(charge) < 1e-3);
+  CHECK_MESSAGE(n == 2, both["inputs"].dump());
+  const json sides =
+      run("compare " + pair + " --source-topology " + *psf + " --target-topology " + *psf, folder.file("sides"));
+  CHECK(sides["mean_abs_difference"] == both["mean_abs_difference"]);
+  const Outcome trajectory =
+      run_espdiff("trajectory " + pair + " --topology " + *psf + " --potential pb" + kQuick + folder.file("t.csv"));
+  REQUIRE_MESSAGE(trajectory.status == 0, trajectory.err);
+  const espdiff::CsvTable table = espdiff::read_csv(folder.file("t.csv"));
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    if (table.columns[i] == "mean_abs_difference")
+      CHECK(std::stod(table.rows.at(0).at(i)) == both["mean_abs_difference"].get<double>());
+  }
+  const Outcome refused = run_espdiff("compare " + pair + " --topology " + *pdb + kQuick + folder.file("no"));
+  CHECK(refused.status == 2);
+  CHECK_MESSAGE(contains(refused.err, "ubq.pdb"), refused.err);
+  const std::string cut = folder.write("cut.pdb", bent.substr(0, bent.find("ATOM   1000")));
+  const Outcome fewer = run_espdiff("compare " + *pdb + " " + cut + " --topology " + *psf + kQuick + folder.file("no"));
+  CHECK(fewer.status == 2);
+  CHECK(n_lines(fewer.err) == 1);
+  CHECK_MESSAGE(contains(fewer.err, "1231"), fewer.err);
+}
+
+TEST_CASE("potential and surface prepare a structure without charges, as prepare does") {
+  const auto entry = real_input("bad_parmed/2igd.pdb");
+  if (!entry || !has_pdb2pqr()) return;
+  const ScratchFolder folder;
+  const std::string pqr = folder.file("p.pqr");
+  REQUIRE(run_espdiff("prepare " + *entry + " -q --ph 5 -o " + pqr).status == 0);
+  const auto both = [&](const std::string& verb, const std::string& options, const std::string& ending) {
+    const Outcome direct =
+        run_espdiff(verb + " " + *entry + " --ph 5 " + options + " --device cpu -o " + folder.file("direct" + ending));
+    REQUIRE_MESSAGE(direct.status == 0, direct.err);
+    CHECK_MESSAGE(contains(direct.out, "prepared by     PDB2PQR v"), direct.out);
+    const Outcome step =
+        run_espdiff(verb + " " + pqr + " " + options + " --device cpu -o " + folder.file("step" + ending));
+    REQUIRE_MESSAGE(step.status == 0, step.err);
+    CHECK_FALSE(contains(step.out, "prepared by"));
+    CHECK(read_file(folder.file("direct" + ending)) == read_file(folder.file("step" + ending)));
+    return direct.out;
+  };
+  both("potential", "--method pb --pb-spacing 1.5", ".dx");
+  both("potential", "--method pme --grid 2", ".vti");
+  const std::string printed = both("surface", "--potential pb --pb-spacing 1.5 --grid-spacing 2", ".vtp");
+  CHECK_MESSAGE(contains(printed, "kT/e, Poisson-Boltzmann, 0.15 mol/l"), printed);
+  const std::string vacuum = both("surface", "--potential coulomb --grid-spacing 2", ".vtp");
+  CHECK_MESSAGE(contains(vacuum, "kT/e in vacuum, vacuum (Coulomb)"), vacuum);
+  const std::vector<std::pair<std::string, std::string>> texts = espdiff::read_vtp(folder.file("direct.vtp")).texts;
+  REQUIRE(texts.size() == 1);
+  CHECK(texts[0].second == "kT/e in vacuum");
+  const Outcome shape = run_espdiff("surface " + *entry + " --device cpu -o " + folder.file("shape.vtp"));
+  CHECK(shape.status == 0);
+  CHECK_FALSE(contains(shape.out, "prepared by"));
+}
+
+TEST_CASE("surface takes selections; what potential and surface cannot do is one line, and nothing is written") {
+  const auto entry = real_input("pairs/1ake.pdb");
+  if (!entry) return;
+  const ScratchFolder folder;
+  const std::string output = " --device cpu --grid-spacing 2 -o " + folder.file("s.vtp");
+  const auto area = [](const std::string& out) { return std::stod(out.substr(out.find("area") + 4)); };
+  const Outcome all = run_espdiff("surface " + *entry + output),
+                chain = run_espdiff("surface " + *entry + " --select '//A;polymer'" + output);
+  REQUIRE_MESSAGE(chain.status == 0, chain.err);
+  CHECK(area(chain.out) < 0.6 * area(all.out));
+  std::filesystem::remove(folder.file("s.vtp"));
+  const auto refused = [&](const std::string& arguments, int status, const std::string& words) {
+    const Outcome outcome = run_espdiff(arguments);
+    CHECK(outcome.status == status);
+    CHECK(n_lines(outcome.err) == 1);
+    CHECK_MESSAGE(contains(outcome.err, words), outcome.err);
+    CHECK(folder.n_files() == 0);
+  };
+  refused("surface " + *entry + " --select //Q" + output, 2, "--select '//Q' selects no atom");
+  refused("surface " + *entry + " --ionic-strength 0.1" + output, 2, "is of computed potentials, and none is computed");
+  refused("surface " + *entry + " --potential pb --map x.dx" + output, 2, "leave out one of them");
+  refused("potential " + *entry + " --select //Q -o " + folder.file("p.dx"), 2, "--select '//Q' selects no atom");
+  refused("potential " + *entry + " --leave-out '(HEM)' -o " + folder.file("p.dx"), 2,
+          has_pdb2pqr() ? "get no charges" : "");
+}
