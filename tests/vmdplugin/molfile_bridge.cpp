@@ -127,9 +127,9 @@ TEST_CASE("no file type has a structure, to read or to write") {
   for (const char* name : {kVolumeWriter, kVolumeReader}) {
     const auto& plugin = plugin_named<18>(name);
     CHECK(plugin.head.type == std::string("mol file reader"));
-    CHECK(plugin.file.read_structure == nullptr);
-    CHECK(plugin.file.write_structure == nullptr);
-    CHECK(plugin.file.read_next_timestep == nullptr);
+    CHECK_FALSE(static_cast<bool>(plugin.file.read_structure));
+    CHECK_FALSE(static_cast<bool>(plugin.file.write_structure));
+    CHECK_FALSE(static_cast<bool>(plugin.file.read_next_timestep));
     CHECK(plugin.file.filename_extension == std::string());  // VMD copies it: not null
     CHECK(plugin.head.majorv + plugin.head.minorv > 0);
   }
