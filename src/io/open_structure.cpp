@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "io/molfile_file.h"
 #include "io/molfile_plugins.h"
+#include "io/read_topology.h"
 
 namespace espdiff {
 
@@ -32,6 +33,8 @@ std::shared_ptr<const Molecule> TrajectoryOpener::atoms() {
   if (atoms_ == nullptr) {
     Molecule all = needs_coordinates_ ? read_molfile_atoms(topology_, reader_of(topology_))
                                       : StructureFile(topology_).read({1, true, true, {}});
+    // As for a topology beside a structure: a prmtop's radii come with its charges.
+    if (needs_coordinates_ && is_topology(topology_)) take_topology(all, read_topology(topology_));
     atoms_ = std::make_shared<const Molecule>(std::move(all));
   }
   return atoms_;

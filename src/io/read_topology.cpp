@@ -2,6 +2,7 @@
 #include "io/read_topology.h"
 
 #include <algorithm>
+#include <fstream>
 #include <map>
 #include <utility>
 
@@ -130,6 +131,16 @@ void read_prmtop(const std::string& text, Topology& topology) {
 }
 
 }  // namespace
+
+bool is_topology(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw IoError(path, "the file cannot be opened");
+  std::string head(kRecogniseBytes, '\0');
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  const FileKind kind = recognise(head);
+  return kind == FileKind::kPsf || kind == FileKind::kPrmtop;
+}
 
 Topology read_topology(const std::string& path) {
   Topology topology;

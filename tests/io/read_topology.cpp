@@ -36,6 +36,8 @@ TEST_CASE("read_topology: a PSF's and a prmtop's atoms") {
   CHECK(psf.names == std::vector<std::string>{"N", "HT1"});
   CHECK(psf.charges == std::vector<float>{-0.3F, 0.33F});
   CHECK(psf.radii.empty());
+  CHECK(is_topology(folder.file("a.psf")));
+  CHECK_FALSE(is_topology(folder.write("a.txt", "no topology\n")));
   const Topology prmtop = read_topology(folder.write("a.prmtop", kPrmtop));
   CHECK(prmtop.names == std::vector<std::string>{"N", "H1"});
   CHECK(prmtop.charges[1] == doctest::Approx(1).epsilon(1e-6));
