@@ -177,9 +177,8 @@ void add_comparison(nb::module_& module) {
       .def("json", &json_text, "The content of OUT.json.")
       .def("table", &table, "The table that the command line prints.")
       .def("save", &save, nb::arg("prefix"),
-           "Writes PREFIX.json, PREFIX.vtp and PREFIX.residues.csv, and the states that no file holds as "
-           "PREFIX.source.pqr "
-           "and PREFIX.target.pqr; all or none. Returns their names. Raises IoError.");
+           "Writes PREFIX.json, PREFIX.vtp, PREFIX.residues.csv, and the states that no file holds as "
+           "PREFIX.source.pqr and PREFIX.target.pqr; all or none. Returns their names. Raises IoError.");
   module.def("compare", &compare_states, nb::arg("source"), nb::arg("target"), nb::arg("settings"),
              nb::arg("potential"), nb::arg("pme_cell"), nb::arg("device"), nb::arg("threads"), nb::arg("call"),
              nb::arg("progress").none());

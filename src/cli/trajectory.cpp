@@ -14,7 +14,6 @@
 #include "io/check_outputs.h"
 #include "io/molfile_plugins.h"
 #include "io/open_structure.h"
-#include "io/sha256.h"
 #include "io/structure_file.h"
 #include "io/write_csv.h"
 #include "prepare/load_state.h"
@@ -107,7 +106,7 @@ class Sides {
       : a_(a),
         options_(options.input),
         progress_(progress),
-        opener_(a.source, a.plugins),
+        opener_(a.source, a.plugins, progress),
         frames_(a.targets, [this](const std::string& path) { return opener_.open(path); }) {
     load_source();
     surface_ = source_.molecule;
@@ -145,14 +144,17 @@ class Sides {
     if (is_topology && !needs_molfile_reader(a_.targets.front()))
       throw InputError(a_.source + ": is a topology without coordinates, and " + a_.targets.front() +
                        " is no trajectory; give a structure first, and the topology as " + option("topology"));
-    const auto file = opener_.open(is_topology ? a_.targets.front() : a_.source);
+    // A trajectory that is open already is not read again.
+    const auto structure = is_topology ? nullptr : open_structure(a_.source);
+    const StructureFile& file = is_topology ? *frames_.file_of_frame(0).first : *structure;
     StateRequest request{a_.structure, StateRole::kSource};
     request.structure.model = a_.source_model;
-    source_ = load_for(a_.maps, !has_given_maps(a_.maps), *file, request, options_, progress_);
+    source_ = load_for(a_.maps, !has_given_maps(a_.maps), file, request, options_, progress_);
     check_left_out(options_, {&source_});
-    InputFile input{"source", a_.source, is_topology ? sha256_of_file(a_.source) : file->sha256()};
-    inputs_ = state_inputs("source", std::move(input), source_);
-    if (is_topology) inputs_.push_back({"source_coordinates", a_.targets.front(), file->sha256()});
+    if (!is_topology) file.require_unchanged(opener_.sha256());
+    const InputFile input{"source", a_.source, is_topology ? opener_.sha256() : file.sha256()};
+    inputs_ = state_inputs("source", input, source_);
+    if (is_topology) inputs_.push_back({"source_coordinates", a_.targets.front(), file.sha256()});
   }
 
   LoadedState read(int number) {
@@ -232,15 +234,13 @@ Verb add_trajectory(CLI::App& app) {
   auto a = std::make_shared<Arguments>();
   CLI::App* parser = app.add_subcommand("trajectory", "Compare each frame with one structure, a row for each");
   parser->footer(
-      "Frames are the models of the given files, numbered from 0 through all of them; or the frames of trajectories "
-      "that "
-      "VMD reads (DCD,\nXTC, TRR, NetCDF, ...), of the atoms of SOURCE, all of them and in its order. With a topology "
-      "(PSF, prmtop, GRO, ...) as SOURCE\nthe first frame is what the others are compared with. Frames without charges "
-      "and radii (PDB, mmCIF) take\n"
-      "those of a PQR source, whose atoms must be theirs, one to one. The source's surface and potential are computed "
-      "once. An interrupted\n"
-      "run can be resumed; OUT.csv.state holds its last mapping meanwhile. The columns are explained in docs/tcl.md, "
-      "Trajectories.\n\n"
+      "Frames are the models of the given files, numbered from 0 through all of them, or the frames of trajectories\n"
+      "that VMD reads (DCD, XTC, TRR, NetCDF, ...), with all atoms of SOURCE in its order. With a topology (PSF,\n"
+      "prmtop, GRO, ...) as SOURCE, the others are compared with the first frame. Frames without charges and radii\n"
+      "(PDB, mmCIF) take those of a PQR source, whose atoms must be theirs, one to one. The source's surface and\n"
+      "potential are computed once. An interrupted run can be resumed; OUT.csv.state holds its last mapping "
+      "meanwhile.\n"
+      "The columns are explained in docs/tcl.md, Trajectories.\n\n"
       "Examples:\n"
       "  espdiff trajectory closed.pqr frames.pdb -o motion.csv\n"
       "  espdiff trajectory closed.pqr frames.pdb --potential pb --frames 0:10:end -o motion.csv --resume\n"

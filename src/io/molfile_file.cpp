@@ -56,7 +56,8 @@ AtomEntry entry_of(const molfile::AtomRecord& atom, int flags) {
 
 }  // namespace
 
-CoordinateFile::CoordinateFile(std::string path, const MolfileReader& reader, std::size_t n_atoms)
+CoordinateFile::CoordinateFile(std::string path, const MolfileReader& reader, std::size_t n_atoms,
+                               const Progress& progress)
     : path_(std::move(path)), reader_(reader), n_atoms_(n_atoms) {
   require_file(path_);
   if (reader_.functions->read_next_timestep == nullptr)
@@ -64,7 +65,10 @@ CoordinateFile::CoordinateFile(std::string path, const MolfileReader& reader, st
   open();
   try {
     // Every frame is read: asked to skip one, some readers go on behind the end of the file.
-    while (next()) ++n_frames_;
+    while (next()) {
+      ++n_frames_;
+      progress.check_cancelled();
+    }
   } catch (...) {
     close();
     throw;

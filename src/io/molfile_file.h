@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/progress.h"
 #include "base/types.h"
 #include "base/unit_cell.h"
 #include "io/molfile_plugins.h"
@@ -24,9 +25,10 @@ class CoordinateFile {
  public:
   /// Reads through the file once, to count its frames.
   /// @param n_atoms that each frame must have
+  /// @param progress can cancel the count
   /// @throws IoError (missing), InputError (another number of atoms; the reader has no coordinates), FormatError (it
   ///         cannot be opened by the reader; no frame)
-  CoordinateFile(std::string path, const MolfileReader& reader, std::size_t n_atoms);
+  CoordinateFile(std::string path, const MolfileReader& reader, std::size_t n_atoms, const Progress& progress);
   ~CoordinateFile();
   CoordinateFile(const CoordinateFile&) = delete;
   CoordinateFile& operator=(const CoordinateFile&) = delete;

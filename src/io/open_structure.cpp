@@ -7,14 +7,16 @@
 #include "io/molfile_file.h"
 #include "io/molfile_plugins.h"
 #include "io/read_topology.h"
+#include "io/sha256.h"
 
 namespace espdiff {
 
 std::unique_ptr<StructureFile> open_structure(const std::string& path) { return std::make_unique<StructureFile>(path); }
 
-TrajectoryOpener::TrajectoryOpener(std::string topology, std::string plugins)
+TrajectoryOpener::TrajectoryOpener(std::string topology, std::string plugins, const Progress& progress)
     : topology_(std::move(topology)),
       plugins_(std::move(plugins)),
+      progress_(progress),
       needs_coordinates_(needs_molfile_reader(topology_)) {}
 
 const MolfileReader& TrajectoryOpener::reader_of(const std::string& path) {
@@ -30,13 +32,19 @@ const MolfileReader& TrajectoryOpener::reader_of(const std::string& path) {
 }
 
 std::shared_ptr<const Molecule> TrajectoryOpener::atoms() {
-  if (atoms_ == nullptr) {
-    Molecule all = needs_coordinates_ ? read_molfile_atoms(topology_, reader_of(topology_))
-                                      : StructureFile(topology_).read({1, true, true, {}});
+  if (atoms_ != nullptr) return atoms_;
+  Molecule all;
+  if (!needs_coordinates_) {
+    const StructureFile file(topology_);
+    all = file.read({1, true, true, {}});
+    sha256_ = file.sha256();
+  } else {
+    all = read_molfile_atoms(topology_, reader_of(topology_));
+    sha256_ = sha256_of_file(topology_);
     // As for a topology beside a structure: a prmtop's radii come with its charges.
-    if (needs_coordinates_ && is_topology(topology_)) take_topology(all, read_topology(topology_));
-    atoms_ = std::make_shared<const Molecule>(std::move(all));
+    if (is_topology(topology_)) take_topology(all, read_topology(topology_));
   }
+  atoms_ = std::make_shared<const Molecule>(std::move(all));
   return atoms_;
 }
 
@@ -44,7 +52,7 @@ std::unique_ptr<StructureFile> TrajectoryOpener::open(const std::string& path) {
   if (!needs_molfile_reader(path)) return open_structure(path);
   const MolfileReader& reader = reader_of(path);
   const std::shared_ptr<const Molecule> all = atoms();
-  return std::make_unique<StructureFile>(std::make_unique<CoordinateFile>(path, reader, all->size()), all);
+  return std::make_unique<StructureFile>(std::make_unique<CoordinateFile>(path, reader, all->size(), progress_), all);
 }
 
 }  // namespace espdiff

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "base/progress.h"
 #include "base/types.h"
 #include "io/structure_file.h"
 
@@ -23,19 +24,24 @@ class TrajectoryOpener {
  public:
   /// @param topology a structure file, or a topology that VMD reads (PSF, prmtop, GRO, ...)
   /// @param plugins  folder of VMD's molfile plugins; empty: find_molfile_folder()
-  /// @throws as StructureFile, read_molfile_atoms(); DeviceError (no readers for a topology)
-  TrajectoryOpener(std::string topology, std::string plugins);
+  /// @param progress stays; can cancel open()
+  TrajectoryOpener(std::string topology, std::string plugins, const Progress& progress);
 
   /// Whether the topology has no coordinates that are read here, so that they come from a trajectory.
   bool needs_coordinates() const { return needs_coordinates_; }
-  /// A file of frames. @throws as StructureFile, CoordinateFile; DeviceError (no reader for a trajectory)
+  /// Of the topology as its atoms were read; empty as long as no trajectory needed them.
+  const std::string& sha256() const { return sha256_; }
+  /// A file of frames.
+  /// @throws as StructureFile, CoordinateFile, read_molfile_atoms(), take_topology(); DeviceError (VMD's readers are
+  ///         not found); InputError (none of them reads this ending)
   std::unique_ptr<StructureFile> open(const std::string& path);
 
  private:
   const MolfileReader& reader_of(const std::string& path);
   std::shared_ptr<const Molecule> atoms();
 
-  std::string topology_, plugins_;
+  std::string topology_, plugins_, sha256_;
+  const Progress& progress_;
   bool needs_coordinates_ = false;
   std::shared_ptr<const Molecule> atoms_;  // all of the topology's, once a trajectory needs them
 };

@@ -27,7 +27,8 @@ std::string made_plugins() { return ESPDIFF_MADE_PLUGINS; }
 struct Made {
   ScratchFolder folder;
   std::string psf = folder.write("a.psf", kAtoms), dcd = folder.write("a.dcd", kFrames);
-  TrajectoryOpener opener{psf, made_plugins()};
+  Progress progress;
+  TrajectoryOpener opener{psf, made_plugins(), progress};
 };
 
 }  // namespace
@@ -52,12 +53,19 @@ TEST_CASE("a topology and a trajectory are a structure file of many models") {
   CHECK(message_of([&] { file->read({4, true, true, {}}); }) == made.dcd + ": there is no frame 3; it has 3, from 0");
 }
 
+TEST_CASE("counting the frames of a long trajectory can be cancelled") {
+  Made made;
+  made.progress.request_cancel();
+  CHECK_THROWS_AS(made.opener.open(made.dcd), Cancelled);
+}
+
 TEST_CASE("a trajectory takes the atoms of a structure file, and its options") {
   const ScratchFolder folder;
   const std::string pqr = folder.write("a.pqr",
                                        "ATOM 1 N ALA 1 5 5 5 -0.5 1.5\n"
                                        "ATOM 2 OH2 HOH 2 6 6 6 0.25 1.6\n");
-  TrajectoryOpener opener(pqr, made_plugins());
+  const Progress progress;
+  TrajectoryOpener opener(pqr, made_plugins(), progress);
   CHECK_FALSE(opener.needs_coordinates());
   CHECK(opener.open(pqr)->n_models() == 1);
   const auto file = opener.open(folder.write("a.dcd", kFrames));
@@ -86,7 +94,7 @@ TEST_CASE("trajectories that cannot be read are refused by name, with the remedy
         made.folder.file("c.xtc") + ": no plugin of VMD in " + made_plugins() +
             " reads files with this ending; give them the usual one (dcd, xtc, trr, nc, ...)");
   CHECK(message_of([&] {
-          TrajectoryOpener opener(made.folder.write("d.psf", "3\nN ALA 1 PROT -0.5\n"), made_plugins());
+          TrajectoryOpener opener(made.folder.write("d.psf", "3\nN ALA 1 PROT -0.5\n"), made_plugins(), made.progress);
           opener.open(made.dcd);
         }) == made.folder.file("d.psf") + ": VMD's reader for psf files finds no atoms; is it complete?");
   CHECK(message_of([&] {
@@ -103,7 +111,8 @@ TEST_CASE("VMD's own readers: AdK's PSF and DCD against the files' bytes") {
   }
   const auto psf = real_input("traj_adk/adk.psf"), dcd = real_input("traj_adk/adk_dims.dcd");
   if (!psf || !dcd) return;
-  TrajectoryOpener opener(*psf, plugins);
+  const Progress progress;
+  TrajectoryOpener opener(*psf, plugins, progress);
   const auto file = opener.open(*dcd);
   CHECK(file->n_models() == 98);
   const Molecule last = file->read({98, true, true, {}});
