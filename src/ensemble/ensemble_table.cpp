@@ -174,6 +174,10 @@ void print_ensemble(std::ostream& out, const EnsembleFile& file, const EnsembleR
   print_fixed_patches(out, result, unit);
   print_states(out, file, result);
   for (const std::string& warning : result.warnings) out << "\nwarning: " << warning << '\n';
+  if (result.not_equilibrium.empty()) return;
+  out << "\nNOT AN EQUILIBRIUM ANSWER: what is significant above says that these runs differ, not that the\n"
+         "states do.\n";
+  for (const std::string& reason : result.not_equilibrium) out << "  " << reason << '\n';
 }
 
 }  // namespace espdiff
