@@ -113,9 +113,9 @@ struct EnsembleResult {
 std::vector<float> where_tested(const std::vector<double>& values, const std::vector<char>& tested);
 
 /// A replicate drifts where its trend has at most this p, divided by the number of replicates, and at least this share
-/// of the variance between its blocks. The share matters: with many independent places a p can be small for the little
-/// that neighbouring blocks always have in common.
-constexpr double kDriftLevel = 0.01, kDriftShare = 1.0 / 3;
+/// of the variance between its tenths: 1/9 is expected of a run that samples a state, 0.6 of diffusion that has no
+/// state at all (1 - (1/15) / (1/6), the variances of Brownian motion about its trend and about its mean).
+constexpr double kDriftLevel = 0.01, kDriftShare = 0.5;
 
 /// Computes the statistics of a complete file. The same bits at any number of threads.
 /// @throws InputError (frames are missing; values of a replicate that do not change; no vertex is left to test)
