@@ -10,8 +10,8 @@
 #include "io/structure_file.h"
 #include "prepare/region.h"
 #include "prepare/surface_radii.h"
-#include "prepare/take_charges.h"
 #include "report/state_report.h"
+#include "trajectory/frame_state.h"
 
 namespace espdiff::cli {
 
@@ -60,19 +60,8 @@ void MovingState::load(const std::string& topology, const std::vector<std::strin
   if (is_topology) inputs_.push_back({name + "_coordinates", files.front(), file.sha256()});
 }
 
-LoadedState MovingState::read(int number, StateRole role, bool whole) {
-  const auto [file, model] = frames_->file_of_frame(number);
-  const std::string name = frames_->name(number);
-  StructureOptions structure = a_.structure;
-  structure.model = model;
-  LoadedState state =
-      load_frame(*file, structure, name, state_.molecule, state_.preparation.has_value(), options_, progress_, role);
-  if (whole && state.everything.size() == 0) {
-    state.everything = file->read({model, true, true});
-    if (!state_.everything.charges.empty()) take_values(state.everything, state_.everything, name);
-    state.everything.name = name;
-  }
-  return state;
+LoadedState MovingState::read(int number, StateRole role, const PotentialPlan& potential) {
+  return load_frame_state(*frames_, number, a_.structure, state_, potential, options_, progress_, role);
 }
 
 namespace {
@@ -128,7 +117,7 @@ int TrajectorySides::n_frames() const {
 
 StepInput TrajectorySides::step(const TrajectoryStep& step) {
   if (step.source) {
-    source_ = first_.read(*step.source, StateRole::kSource, plan_.takes_everything());
+    source_ = first_.read(*step.source, StateRole::kSource, plan_);
     use_source();
   }
   const CompareInput source{&surface_, source_map_ ? &*source_map_ : nullptr,
@@ -145,7 +134,7 @@ void TrajectorySides::use_source() {
 }
 
 CompareInput TrajectorySides::frame(int number) {
-  target_ = targets().read(number, StateRole::kTarget, plan_.takes_everything());
+  target_ = targets().read(number, StateRole::kTarget, plan_);
   CompareInput input{&target_.molecule, target_map_ ? &*target_map_ : nullptr, nullptr, {}};
   if (plan_.computes()) input.make_map = plan_.map_of(target_).maker();
   set_surface_radii({&target_.molecule}, options_.radii);

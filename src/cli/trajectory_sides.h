@@ -48,8 +48,8 @@ class MovingState {
   /// The files that the state is from.
   const std::vector<InputFile>& inputs() const { return inputs_; }
   int n_frames() const { return frames_->n_frames(); }
-  /// @param whole with everything that the file has, for a potential in its cell
-  LoadedState read(int number, StateRole role, bool whole);
+  /// @throws as load_frame_state()
+  LoadedState read(int number, StateRole role, const PotentialPlan& potential);
 
  private:
   void open(const std::vector<std::string>& files);
