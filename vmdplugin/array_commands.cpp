@@ -28,7 +28,7 @@ constexpr const char* kType<std::uint8_t> = "u1";
 /// other languages unharmed, but not bytes.
 template <typename T>
 Tcl_Obj* array(const T* values, std::size_t n, int columns) {
-  static const char* const kDigits = "0123456789abcdef";
+  constexpr const char* kDigits = "0123456789abcdef";
   const auto* const bytes = reinterpret_cast<const unsigned char*>(values);
   std::string digits(2 * n * sizeof(T), '0');
   for (std::size_t i = 0; i < n * sizeof(T); ++i) {

@@ -124,6 +124,7 @@ int command_line(std::vector<std::string> arguments, const std::string& reader) 
   set_frame_reader(std::move(frames));
   arguments.insert(arguments.begin(), "espdiff");
   std::vector<char*> words;
+  words.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) words.push_back(argument.data());
   words.push_back(nullptr);
   const nb::gil_scoped_release unlocked;
