@@ -45,10 +45,11 @@ const Rooms kAllowed = {
      {"base", "align", "engine", "io", "statistics", "compare", "prepare", "potential", "plot", "view", "verify",
       "report", "trajectory", "matrix", "ensemble"}},
     {"vmdplugin",
-     {"base", "align", "engine", "io", "compare", "prepare", "potential", "plot", "report", "trajectory", "matrix"}},
+     {"base", "align", "engine", "io", "statistics", "compare", "prepare", "potential", "plot", "report", "trajectory",
+      "matrix", "ensemble"}},
     {"python/src",
-     {"base", "align", "engine", "io", "statistics", "compare", "prepare", "potential", "report", "trajectory", "matrix",
-      "ensemble", "cli"}},
+     {"base", "align", "engine", "io", "statistics", "compare", "prepare", "potential", "report", "trajectory",
+      "matrix", "ensemble", "cli"}},
 };
 
 std::string quoted_include(const std::string& line) {
