@@ -75,7 +75,7 @@ nlohmann::ordered_json json_result(const Call& call) {
     require_done(handle, *preparation);
     return preparation_result(*preparation);
   }
-  if (const auto ensemble = ensemble_result(handle, *object)) return to_obj(*ensemble);
+  if (const auto ensemble = ensemble_result(handle, *object)) return *ensemble;
   const auto comparison = call.handles.finished_comparison(handle);
   auto json = json_of(*comparison);
   auto& reasons = json["certificate"]["reasons"] = nlohmann::ordered_json::array();
