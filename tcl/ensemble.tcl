@@ -216,6 +216,17 @@ namespace eval ::espdiff {
         return $options
     }
 
+    # The quantity by the groups' names, for the legend.
+    proc ensemble_title {handle color} {
+        set groups {}
+        foreach replicate [dict get [core::result $handle] replicates] {
+            if {[dict get $replicate group] ni $groups} { lappend groups [dict get $replicate group] }
+        }
+        lassign $groups first second
+        dict get [dict create source "Mean potential, $first" target "Mean potential, $second" \
+            difference "Potential difference, $second - $first" t "Welch's t, $second - $first" none ""] $color
+    }
+
     # What faded colours and stripes mean, for the legend.
     proc ensemble_key {handle options} {
         set words {}

@@ -145,14 +145,21 @@ namespace eval ::espdiff::gui {
         if {$row eq ""} return
         lassign [frame_in_vmd $row] mol frame
         if {$mol eq ""} return
-        foreach other [molinfo list] {
-            if {$other != $mol && [molinfo $other get numframes] > 0} { mol off $other }
-        }
-        mol on $mol
-        molinfo $mol set frame $frame
+        show_molecule_alone $mol $frame
         $widget(ensemble,plot) delete now
         $widget(ensemble,plot) create line $x [dict get $::espdiff::gui::series_frame top] $x \
             [expr {[dict get $::espdiff::gui::series_frame top] + [dict get $::espdiff::gui::series_frame height]}] \
             -dash {4 3} -fill gray60 -tags now
+    }
+
+    # One of the run's molecules at a frame, the others of it hidden.
+    proc show_molecule_alone {mol frame} {
+        variable ensemble_run
+        foreach replicate [dict get $ensemble_run replicates] {
+            set other [::espdiff::value_or [dict get $replicate endpoint] mol ""]
+            if {$other ne "" && $other != $mol && $other in [molinfo list]} { mol off $other }
+        }
+        mol on $mol
+        molinfo $mol set frame $frame
     }
 }

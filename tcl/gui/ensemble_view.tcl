@@ -161,7 +161,7 @@ namespace eval ::espdiff::gui {
             "[format %.2f $low] to [format %.2f $high]" [format %.3g $smallest_p] [join $residues {, }]]
     }
 
-    # The whole surface, with the molecule of the template at its frame.
+    # The whole surface, with the molecule of the template at its frame; the others are hidden.
     proc draw_ensemble {} {
         variable widget
         variable ensemble_shown
@@ -174,7 +174,7 @@ namespace eval ::espdiff::gui {
     proc draw_patch {patch} {
         variable ensemble_shown
         lassign [::espdiff::ensemble_template $ensemble_shown] mol frame
-        if {$mol ne ""} { molinfo $mol set frame $frame }
+        if {$mol ne ""} { show_molecule_alone $mol $frame }
         set options [list -patch $patch]
         espdiff draw $ensemble_shown {*}$options
         remember ensemble draw [concat draw $options]

@@ -35,6 +35,7 @@ test "it is drawn: the difference, faded where it is not significant" {
     check "molecules" {[llength $molecules] >= 2}
     check_equal view [molinfo [lindex $molecules 0] get center_matrix] \
         [molinfo [lindex $runs(wild) 0 1] get center_matrix]
+    check_equal title [::espdiff::ensemble_title $h difference] "Potential difference, mutant - wild"
     set n [llength [espdiff patches $h]]
     check_refused { espdiff draw $h -patch 99 } {ESPDIFF INPUT} "has $n patch"
     check_refused { espdiff draw $h -view linked } {ESPDIFF INPUT} "-view linked"

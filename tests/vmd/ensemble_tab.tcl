@@ -32,7 +32,7 @@ test "fits a screen of 1280 x 800" {
 test "the run, stopped and gone on with" {
     form ensemble,potential "Coulomb, vacuum" ensemble,output $scratch/tab
     press ensemble,compute
-    wait_until {[string match "frame 3 of 40*" [message_line]]}
+    wait_until {[regexp {^frame ([3-9]|1\d) of 40} [message_line]]}
     press ensemble,cancel
     wait_until {$::espdiff::gui::ensemble_running eq ""}
     check "said" {[string match "Stopped. With*resume*" [message_line]]}
@@ -50,6 +50,7 @@ test "the difference is drawn on the template's molecule, at its frame" {
     lassign [::espdiff::ensemble_template $h] mol frame
     check "template" {$mol in $mols}
     check_equal frame [molinfo $mol get frame] $frame
+    foreach other $mols { check_equal "shown $other" [molinfo $other get displayed] [expr {$other == $mol}] }
     set all [atomselect $mol all]
     set center [measure center $all]
     $all delete
@@ -102,7 +103,7 @@ test "a molecule that is deleted during the run ends it with a message" {
     form ensemble,output $scratch/gone ensemble,resume 0
     array set ::espdiff::gui::setting {grid-spacing 0.8}
     press ensemble,compute
-    wait_until {[string match "frame 2 of 40*" [message_line]]}
+    wait_until {[regexp {^frame ([2-9]|1\d) of 40} [message_line]]}
     mol delete [lindex $mols 7]
     mol delete [lindex $mols 0]
     wait_until {$::espdiff::gui::ensemble_running eq ""}
