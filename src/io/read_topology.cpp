@@ -144,7 +144,7 @@ void read_prmtop(const std::string& text, Topology& topology) {
     throw FormatError(path, pointers.line, "%FLAG POINTERS does not begin with the number of atoms");
   check_count(path, pointers.line, n);
   const auto n_atoms = static_cast<std::size_t>(n);
-  topology.charges = 
+  topology.charges =
       numbers_of(path, "CHARGE", sections["CHARGE"], n_atoms, 1 / kAmberCharge, -kMostCharge, kMostCharge);
   if (sections.count("RADII") > 0)
     topology.radii = numbers_of(path, "RADII", sections["RADII"], n_atoms, 1, 0, kMostRadius_A);

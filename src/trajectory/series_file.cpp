@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "io/atomic_file.h"
+#include "io/read_input.h"
 #include "io/sha256.h"
 
 namespace espdiff {
@@ -106,9 +107,8 @@ SeriesState state_of(const Json& json) {
 
 template <typename T>
 bool are_finite(const std::vector<Vec3<T>>& positions) {
-  return std::all_of(positions.begin(), positions.end(), [](const Vec3<T>& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-  });
+  return std::all_of(positions.begin(), positions.end(),
+                     [](const Vec3<T>& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); });
 }
 
 /// Whether indices and sizes fit each other: a check sum says that the file is whole, not that it is ours.
@@ -141,6 +141,7 @@ FormatError damaged(const std::string& path) {
 }
 
 std::string read_all(const std::string& path) {
+  require_memory_for_json(path);
   std::ifstream in(path, std::ios::binary);
   if (!in) throw IoError(path, "cannot be read; without it the run starts from the source");
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};

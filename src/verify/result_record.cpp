@@ -31,6 +31,7 @@ ResultRecord::ResultRecord(const std::string& prefix) : path_(prefix + ".json") 
   if (!std::filesystem::exists(path_, ignored))
     throw IoError(path_, "cannot be read; give the prefix of a result: OUT of OUT.json and OUT.vtp");
   require_regular_file(path_);
+  require_memory_for_json(path_);
   std::ifstream in(path_);
   if (!in) throw IoError(path_, "cannot be read; check its permissions");
   Json json = Json::parse(in, nullptr, false);

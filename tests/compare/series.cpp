@@ -245,7 +245,8 @@ TEST_CASE("a series restored from its saved state gives the same bits") {
 TEST_CASE("a state whose parts do not fit each other is refused, though its check sum fits") {
   const ScratchFolder folder;
   SeriesState good{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 0, 0}}, std::nullopt};
-  SeriesState::Morph morph{good.mapped, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}, {0, 0, 0, 0}, {0, 0, 0, 0}, {}, 0, 0};
+  SeriesState::Morph morph{
+      good.mapped, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}, {0, 0, 0, 0}, {0, 0, 0, 0}, {}, 0, 0};
   morph.target.residues.push_back({"ALA", "A", 1, ' '});
   morph.target.atoms = {{"N", "N", 0, false}};
   morph.target.positions = {{0, 0, 0}};

@@ -1,4 +1,5 @@
-// fuzz_series_csv.cpp: the rows of a trajectory that is resumed. Behind the line of columns, unless an input begins with
+// fuzz_series_csv.cpp: the rows of a trajectory that is resumed. Behind the line of columns, unless an input begins
+// with
 // '#' or 'f', which is then the whole file.
 #include <fstream>
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "ensemble/ensemble_file.h"
+#include "planted_ensemble.h"
 #include "trajectory/series_csv.h"
 #include "trajectory/series_file.h"
 
@@ -29,8 +29,8 @@ void write_series_states(const std::string& folder) {
   const std::string path = folder + "/whole";
   for (const char* const name : {"deform", "morph"}) {
     if (std::string(name) == "morph") {
-      SeriesState::Morph morph{state.mapped, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}, {0, 0, 1, 0}, {0, 1, 2, 3},
-                               {},           0.01,                                         0.005};
+      SeriesState::Morph morph{
+          state.mapped, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}, {0, 0, 1, 0}, {0, 1, 2, 3}, {}, 0.01, 0.005};
       morph.target.name = "a";
       morph.target.residues.push_back({"ALA", "A", 1, ' '});
       morph.target.atoms = {{"N", "N", 0, false}, {"CA", "C", 0, false}};
@@ -57,29 +57,16 @@ void write_series_csv(const std::string& folder) {
   write(folder + "/row_only", text.substr(text.find("\n1,") + 1));
 }
 
+/// The beginning of the file, with all that is in it but the frames; and the description of the run.
 void write_ensemble(const std::string& folder) {
   std::filesystem::create_directories(folder);
-  EnsemblePlan plan;
-  plan.version = "test";
-  plan.device = "cpu";
-  plan.settings = {{"grid-spacing", "1"}};
-  plan.potential = "planted";
-  plan.potential_unit = "kT/e";
-  plan.template_name = "a tetrahedron";
-  plan.template_sha256 = "0";
-  plan.residues = {"ALA 1"};
-  plan.charges = {{"wild", "a.pqr"}};
-  for (const char* const group : {"wild", "mutant"}) plan.replicates.push_back({group, "1", {"f"}, {group}, 2});
-  write(folder + "_plan/plan.json", plan_text(plan));
-  TemplateSurface surface;
-  surface.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  surface.normals = {{-1, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  surface.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
-  surface.residue = {0, 0, 0, 0};
-  const std::string path = folder + "/tetrahedron.h5";
-  EnsembleFile::create(path, plan, surface);
-  EnsembleFile file(path, true);
-  for (std::size_t f = 0; f < 3; ++f) file.write(f, {1, 2, 3, 4}, {0.5, 0, 0, 0.1, 1, 2.5, true, "a note"});
+  const std::string path = folder + "/whole.h5";
+  espdiff_fuzz::plant_ensemble(path);
+  std::string head = bytes_of(path).substr(0, 8192);
+  std::filesystem::remove(path);
+  head.resize(head.find_last_not_of('\0') + 1);
+  write(folder + "/tetrahedron", head);
+  write(folder + "_plan/plan.json", plan_text(espdiff_fuzz::planted_plan()));
 }
 
 }  // namespace

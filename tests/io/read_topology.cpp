@@ -66,7 +66,7 @@ TEST_CASE("read_topology: cut and wrong files are refused with the line") {
   CHECK(refused("h.psf", "PSF\n\n 10000000 !NATOM\n") ==
         ":3: the number of atoms is 10000000; 1 to 5000000 were expected");
   CHECK(refused("i.prmtop", replaced(prmtop, "  1.30000000E+00", " -1.30000000E+00")) ==
-        ":13: %FLAG RADII: value 2 is -1.3; 0 to 1000 were expected");
+        ":14: %FLAG RADII: value 2 is -1.3; 0 to 1000 were expected");
   CHECK(refused("j.prmtop", replaced(prmtop, "       2       1", "10000000       1")) ==
         ":5: the number of atoms is 10000000; 1 to 5000000 were expected");
   CHECK(refused("k.prmtop", replaced(prmtop, "(5E16.8)\n  2.9", "(5E9223372036854775807.8)\n  2.9"))

@@ -42,9 +42,9 @@ struct Preparation {
   }
   /// @param before a shell's words before the program's name
   Outcome run(const std::string& before = "") const {
-    return run_espdiff("prepare a.pdb -o out.pqr -q", "cd " + folder.file("") + " && export TMPDIR=" +
-                                                             folder.file("tmp") +
-                                                             " ESPDIFF_PDB2PQR=./program XDG_CACHE_HOME=/proc/none && " + before);
+    return run_espdiff("prepare a.pdb -o out.pqr -q",
+                       "cd " + folder.file("") + " && export TMPDIR=" + folder.file("tmp") +
+                           " ESPDIFF_PDB2PQR=./program XDG_CACHE_HOME=/proc/none && " + before);
   }
   bool nothing_left() const {
     return files_in(folder.file("tmp")).empty() && !std::filesystem::exists(folder.file("out.pqr"));
@@ -52,7 +52,8 @@ struct Preparation {
   /// Whether the program that wrote its number still runs.
   bool program_runs() const {
     const std::string number = read_file(folder.file("number"));
-    return !number.empty() && std::system(("kill -0 " + number.substr(0, number.find('\n')) + " 2>/dev/null").c_str()) == 0;
+    return !number.empty() &&
+           std::system(("kill -0 " + number.substr(0, number.find('\n')) + " 2>/dev/null").c_str()) == 0;
   }
 };
 
@@ -68,9 +69,11 @@ struct Ensemble {
     }
   }
   Outcome run(const std::string& before = "", const std::string& more = "") const {
-    return run_espdiff("ensemble --group a r0.pqr r1.pqr --group b r2.pqr r3.pqr --grid-spacing 1 --potential coulomb "
-                       "--device cpu --threads 1 -q -o out " + more,
-                       "cd " + folder.file("") + " && " + before);
+    return run_espdiff(
+        "ensemble --group a r0.pqr r1.pqr --group b r2.pqr r3.pqr --grid-spacing 1 --potential coulomb "
+        "--device cpu --threads 1 -q -o out " +
+            more,
+        "cd " + folder.file("") + " && " + before);
   }
 };
 
@@ -185,8 +188,9 @@ TEST_CASE("trajectory: an absurd number of atoms in a DCD or topology of VMD's r
   folder.write("a.pqr", row_of_atoms(2));
   folder.write("b.dcd", "2000000000 30\n0 0 0\n");
   const auto run = [&](const std::string& topology) {
-    return run_espdiff("trajectory " + topology + " b.dcd --plugins " ESPDIFF_MADE_PLUGINS " --device cpu -q -o out.csv",
-                       "cd " + folder.file("") + " && ulimit -v 2000000 &&");
+    return run_espdiff(
+        "trajectory " + topology + " b.dcd --plugins " ESPDIFF_MADE_PLUGINS " --device cpu -q -o out.csv",
+        "cd " + folder.file("") + " && ulimit -v 2000000 &&");
   };
   const Outcome dcd = run("a.pqr");
   CHECK(dcd.status == 2);
@@ -205,8 +209,9 @@ TEST_CASE("verify: records that name what is not there, or what no memory holds,
   folder.write("a.pqr", row_of_atoms(6));
   folder.write("b.pqr", row_of_atoms(6, 0.3));
   const std::string in_folder = "cd " + folder.file("") + " && ulimit -v 4000000 &&";
-  REQUIRE(run_espdiff("compare a.pqr b.pqr --grid-spacing 1.5 --potential none --device cpu -q -o out", in_folder)
-              .status == 0);
+  REQUIRE(
+      run_espdiff("compare a.pqr b.pqr --grid-spacing 1.5 --potential none --device cpu -q -o out", in_folder).status ==
+      0);
   const Outcome whole = run_espdiff("verify out", in_folder);
   if (contains(whole.err, "VTK")) {
     MESSAGE("SKIPPED: ", whole.err);
