@@ -124,13 +124,16 @@ namespace eval ::espdiff {
                 {uncertain mark hide}}
             {-surface choice mapped "mapped: on the target; source: on the source" {mapped source}}
             {-legend boolean 1 "A colour bar with title and unit at the window's bottom"}
+            {-patch count 0 "Of an ensemble: the only patch that is not faded; 0 for all that is significant"}
             {-view choice single "linked: three surfaces side by side that the mouse rotates together, the source and\
                 the target coloured by their potentials, the third on the target by -color; until `undraw` other\
                 molecules are hidden and the projection is orthographic" {single linked}}
             {-potential-range range auto "For both potentials with -view linked; auto covers 98 % of the points of\
                 each on each side"}
         } \
-        summary {Draws the surface in VMD and replaces an older drawing of the same handle. Parts meet in smooth lines;
+        summary {Draws the surface in VMD and replaces an older drawing of the same handle. Of an ensemble: the template with
+            the difference of the groups (-color also source, target: means of the groups, and t), faded where it is
+            not significant. Parts meet in smooth lines;
             parts without a counterpart are grey and hatched. View, top molecule and colour settings do not change. A
             drawing is several graphics molecules of one name, which are shown, hidden and deleted together.} \
         returns {the graphics molecules' ids} example {espdiff draw comparison1 -color difference -range {-5 5}}]
@@ -197,6 +200,54 @@ namespace eval ::espdiff {
         returns {a handle, such as matrix1; `espdiff result` has the content of OUT.json, and pairs, resumed, seconds,
             files} \
         example {espdiff matrix {{mol 0 frames 0:10:end map pme} {file open.pqr map pme group open}} -output adk}]
+
+    command ensemble [dict create arguments {groups} settings variants run ::espdiff::ensemble options [concat {
+            {-output file required "Prefix of the results: OUT.h5 (the potential of each frame), OUT.json, OUT.vtp,\
+                OUT.residues.csv, OUT.patches.csv, OUT.patch_series.csv"}
+            {-frames text all "Frames of each replicate that names none"}
+            {-charges text {} "{GROUP FILE ...}: PQR files of the same atoms, whose charges and radii frames of files\
+                take; without it, they keep their own, or PDB2PQR makes them from the group's first frame"}
+            {-template text medoid "The structure whose surface is mapped onto every frame: medoid, medoid:GROUP, the\
+                number of a frame, counted from 0 through all groups, or a structure file"}
+            {-map text auto "Potential of every frame: auto, pb, pme, coulomb, or with settings, such as\
+                {pb ionic_strength 0.1}"}
+            {-resume boolean 0 "Go on with OUT.h5 of an interrupted run; a complete one gets new statistics"}
+            {-overwrite boolean 0 "Replace OUT.h5 if it exists"}
+            {-on-error choice stop "A frame that cannot be mapped stops the run, or has no values" {stop skip}}
+            {-shard text 1/1 "Map part I of N of the frames, I/N, into OUT.shard-I-of-N.h5; the command line's\
+                `espdiff merge` merges the parts"}
+            {-from file {} "Compute the statistics of this complete OUT.h5 again, with {} as groups"}
+            {-alpha positive 0.05 "Significance level; intervals have the confidence 1 - alpha"}
+            {-control choice tfce "The family-wise p that patches are made of" {tfce max-t}}
+            {-equilibration text none "Frames to cut off at the start of each replicate: none, a number, or auto"}
+            {-most-missing text 0.2 "A vertex without a counterpart in a larger share of a group's frames is not\
+                tested"}
+            {-patch text {} "{NAME SELECTION ...}: residues of the template, in gemmi's syntax (//A/8-12), measured\
+                as a whole"}
+            {-check-template boolean 0 "Also map the medoid of each group onto every frame, and tell how much of the\
+                answer stays"}
+            {-states boolean 0 "Also compare every frame with every other one, and find the principal components of\
+                the potential"}
+            {-arrangements count 10000 "Exchanges of labels at most; all of them where there are fewer"}
+            {-bootstrap count 999 "Samples, where a group has one replicate"}
+            {-seed count 20221 "Of random numbers; results name it"}
+        } $computing] \
+        summary {Compares two groups of simulations: where is the difference more than noise? One surface, the template,
+            is mapped onto every frame, and each replicate is one sample. Groups are a list of a name and its
+            replicates, once or twice. A replicate is {mol ID ?sel TEXT? ?frames FRAMES?}, {file PATH} (its models), or
+            {file DCD topology PSF}; `label` names it. docs/ensembles.md explains the answer. Unlike in other commands,
+            -max-step is 0.7 unless it is given.} \
+        returns {a handle, such as ensemble1; `espdiff result` has the content of OUT.json, and frames, resumed,
+            seconds, files} \
+        example {espdiff ensemble {wild {{mol 0} {mol 1}} mutant {{mol 2} {mol 3}}} -output mutant}]
+
+    command patches [dict create arguments {handle} settings none run ::espdiff::patches options {
+            {-series boolean 0 "Also the mean of each patch in each frame, {group replicate frame value} under\
+                `series`"}
+        } \
+        summary {The connected pieces of an ensemble's surface whose difference is significant, the largest first.} \
+        returns {a list of dictionaries: patch area_A2 difference low high smallest_p peak_A residues} \
+        example {foreach patch [espdiff patches ensemble1] { puts [dict get $patch area_A2] }}]
 
     command plot [dict create arguments {input} settings none run ::espdiff::plot options {
             {-metrics text auto "Names of columns; auto is mean_abs_difference, or without potentials\

@@ -32,6 +32,7 @@ namespace eval ::espdiff {
         require_core_handle $handle
         core::check $handle
         advise_rendermode $options
+        if {[dict get [core::status $handle] kind] eq "ensemble"} { set options [ensemble_drawing $options $handle] }
         if {[dict get $options view] eq "linked"} { return [draw_linked $options $handle] }
         end_linked_view
         set plan [drawing_plan $options $handle]
@@ -90,7 +91,7 @@ namespace eval ::espdiff {
         set side [expr {[dict get $options surface] eq "mapped" ? "target" : "source"}]
         set core [dict create color $color low [dict get $range low] high [dict get $range high] \
             corrupt [dict get $options corrupt] plain $plain_color marked $marked_color \
-            surface [dict get $options surface]]
+            surface [dict get $options surface] patch [dict get $options patch]]
         set is_plain [expr {$is_surface || [dict get $options uncertain] eq "plain"}]
         if {!$is_plain} { dict set core limit [dict get $options uncertainty-limit] }
         return [dict merge $range [dict create handle $handle color $color core $core \
@@ -103,6 +104,7 @@ namespace eval ::espdiff {
     proc legend_key {handle options is_surface} {
         if {$is_surface} { return "" }
         set words {}
+        if {[dict get [core::status $handle] kind] eq "ensemble"} { return [ensemble_key $handle $options] }
         if {[dict get $options uncertain] ne "plain"} {
             set how [dict get {fade grey transparent transparent} [dict get $options uncertain]]
             lappend words "$how: uncertain, slipped by [format %.3g [dict get $options uncertainty-limit]] A or more"

@@ -1,7 +1,8 @@
 # jobs.tcl: computations from start to end: waiting, progress, background, cancellation, deletion.
 
 namespace eval ::espdiff {
-    # By handle: command and progress (the user's), temporary (files to delete at the end), source_mol and target_mol
+    # By handle: command and progress (the user's), temporary (files to delete at the end), serve (see
+    # serve), source_mol and target_mol
     # (VMD's molecules, or empty), source_frame and target_frame, call (the words that began it).
     variable jobs [dict create]
 
@@ -19,10 +20,11 @@ namespace eval ::espdiff {
         variable jobs
         variable slice_ms
         variable call
-        dict set jobs $handle [dict merge {temporary {} source_mol {} target_mol {}} $description [list call $call] \
+        dict set jobs $handle [dict merge {temporary {} serve {} source_mol {} target_mol {}} $description [list call $call] \
             [dict create command [dict get $options command] progress [dict get $options progress]]]
         if {[dict get $options command] ne ""} {
             after $slice_ms [list ::espdiff::poll $handle]
+            if {[dict get $jobs $handle serve] ne ""} { after 0 [list ::espdiff::serve_often $handle] }
             return $handle
         }
         if {[catch { wait_for $handle [dict get $options progress] } message error]} {
@@ -33,11 +35,37 @@ namespace eval ::espdiff {
         return $handle
     }
 
+    # Gives a computation what it needs from this thread, such as frames of VMD; it stands still until then.
+    proc serve {handle} {
+        variable jobs
+        if {[dict exists $jobs $handle] && [dict get $jobs $handle serve] ne ""} { {*}[dict get $jobs $handle serve] }
+    }
+
+    # The same from the event loop, until it ends.
+    proc serve_often {handle} {
+        variable jobs
+        if {![exists $handle] || ![dict exists $jobs $handle] || [core::wait $handle 0]} return
+        after 5 [list ::espdiff::serve_often $handle]
+        serve $handle
+    }
+
+    # Waits for the end at most so long; returns whether it has come.
+    proc wait_slice {handle milliseconds} {
+        variable jobs
+        if {[dict get $jobs $handle serve] eq ""} { return [core::wait $handle $milliseconds] }
+        set end [expr {[clock milliseconds] + $milliseconds}]
+        while {![core::wait $handle 5]} {
+            serve $handle
+            if {[clock milliseconds] >= $end} { return 0 }
+        }
+        return 1
+    }
+
     # Waits for the end without processing events, and throws the computation's error.
     proc wait_for {handle progress} {
         variable slice_ms
         report_progress $handle $progress
-        while {![core::wait $handle $slice_ms]} { report_progress $handle $progress }
+        while {![wait_slice $handle $slice_ms]} { report_progress $handle $progress }
         core::check $handle
         if {$progress ne ""} { catch { call_user $progress done 1.0 } }
     }
@@ -74,6 +102,7 @@ namespace eval ::espdiff {
         if {![dict exists $jobs $handle]} return
         foreach path [dict get $jobs $handle temporary] { file delete -force $path }
         dict set jobs $handle temporary {}
+        dict set jobs $handle serve {}
     }
 
     # Frees a handle of the core and everything that belongs to it.
@@ -138,7 +167,7 @@ namespace eval ::espdiff {
     # Whether it has ended, after waiting at most this long.
     proc finished {handle milliseconds} {
         if {[is_trajectory $handle]} { return [trajectory_advance $handle $milliseconds] }
-        return [core::wait $handle $milliseconds]
+        return [wait_slice $handle $milliseconds]
     }
 
     proc cancel {options handle} {

@@ -29,7 +29,7 @@ namespace {
 Tcl_Obj* version(const Call&) { return to_obj(kVersion); }
 
 Tcl_Obj* build(const Call&) {
-  bool cuda = false, vtk = false, gemmi = false;
+  bool cuda = false, vtk = false, gemmi = false, hdf5 = false;
 #if defined(ESPDIFF_HAVE_CUDA)
   cuda = true;
 #endif
@@ -39,9 +39,13 @@ Tcl_Obj* build(const Call&) {
 #if defined(ESPDIFF_HAVE_GEMMI)
   gemmi = true;
 #endif
+#if defined(ESPDIFF_HAVE_HDF5)
+  hdf5 = true;
+#endif
   return to_dict({{"cuda", to_obj(cuda)},
                   {"vtk", to_obj(vtk)},
                   {"gemmi", to_obj(gemmi)},
+                  {"hdf5", to_obj(hdf5)},
                   {"compiler", to_obj("g++ " __VERSION__)},
                   {"tcl", to_obj(TCL_PATCH_LEVEL)}});
 }

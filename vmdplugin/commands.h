@@ -40,6 +40,8 @@ std::unique_ptr<Engine> engine_for(const Computation& computation);
 
 /// matrix_commands.cpp: many variants, each with each.
 std::vector<Command> matrix_commands();
+/// ensemble_commands.cpp: groups of simulations.
+std::vector<Command> ensemble_commands();
 /// potential_commands.cpp: potentials of frames, and their average.
 std::vector<Command> potential_commands();
 /// trajectory_commands.cpp: runs over frames, and tables as text.

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "commands.h"
 #include "drawn_part.h"
+#include "ensemble_views.h"
 #include "graphics_draw.h"
 #include "io/check_outputs.h"
 #include "io/write_grid.h"
@@ -53,7 +54,7 @@ DrawnSurface drawn_surface(const std::string& handle, const Object& object, cons
     return drawn;
   }
   const auto* comparison = dynamic_cast<const ComparisonObject*>(&object);
-  if (comparison == nullptr) throw InputError(handle + " is a " + object.kind() + ", which has no surface");
+  if (comparison == nullptr) throw InputError(handle + " is " + kind_in_words(object) + ", which has no surface");
   const MappedSurface& s = comparison->result.surface;
   if (which == "mapped") {
     drawn.positions = single_precision(s.positions);
@@ -113,7 +114,9 @@ Tcl_Obj* triangles(const Call& call) {
   const int mol = to_int(call.arguments[1], "graphics molecule");
   DictReader reader(call.arguments[2], "options");
   const std::string color = reader.text("color", "none");
-  const DrawnSurface surface = drawn_surface(handle, *object, reader.text("surface", "mapped"));
+  const std::string which = reader.text("surface", "mapped");
+  const auto of_ensemble = ensemble_surface(handle, *object, reader.integer("patch", 0));
+  const DrawnSurface surface = of_ensemble ? *of_ensemble : drawn_surface(handle, *object, which);
   const double low = reader.number("low", -1), high = reader.number("high", 1);
   if (!(high > low))
     throw InputError("range: " + std::to_string(low) + " to " + std::to_string(high) +

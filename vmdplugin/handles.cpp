@@ -8,7 +8,7 @@ namespace {
 template <typename Kind>
 std::shared_ptr<Kind> as(const std::shared_ptr<Object>& object, const std::string& handle, const char* wanted) {
   auto found = std::dynamic_pointer_cast<Kind>(object);
-  if (found == nullptr) throw InputError(handle + " is a " + object->kind() + "; this needs a " + wanted);
+  if (found == nullptr) throw InputError(handle + " is " + kind_in_words(*object) + "; this needs a " + wanted);
   return found;
 }
 
@@ -19,6 +19,11 @@ void stop(const Object& object) {
 }
 
 }  // namespace
+
+std::string kind_in_words(const Object& object) {
+  const std::string kind = object.kind();
+  return (kind.find_first_of("aeiou") == 0 ? "an " : "a ") + kind;
+}
 
 Error error_of_class(const std::string& name, const Message& message) {
   for (const ErrorClass error_class :

@@ -120,6 +120,9 @@ class Handles {
   std::map<std::string, int> last_number_;  ///< by kind
 };
 
+/// "a comparison", "an ensemble"
+std::string kind_in_words(const Object& object);
+
 /// An error by the name of its class, such as "INPUT"; of an unknown one an internal error.
 Error error_of_class(const std::string& name, const Message& message);
 

@@ -6,6 +6,7 @@
 #include "compare/paired_residues.h"
 #include "compare/result.h"
 #include "compare/surface.h"
+#include "ensemble_views.h"
 #include "io/check_outputs.h"
 #include "matrix/write_matrix.h"
 #include "option_spelling.h"
@@ -76,6 +77,7 @@ Tcl_Obj* result(const Call& call) {
     require_done(handle, *preparation);
     return preparation_result(*preparation);
   }
+  if (const auto ensemble = ensemble_result(handle, *object)) return to_obj(*ensemble);
   const auto comparison = call.handles.finished_comparison(handle);
   auto json = json_of(*comparison);
   auto& reasons = json["certificate"]["reasons"] = nlohmann::ordered_json::array();
@@ -114,6 +116,7 @@ Tcl_Obj* residues(const Call& call) {
 
 Tcl_Obj* table(const Call& call) {
   const auto object = call.handles.find(call.text(0));
+  if (const auto text = ensemble_table(call.text(0), *object)) return to_obj(*text);
   if (dynamic_cast<const MatrixObject*>(object.get()) != nullptr) {
     const auto matrix = call.handles.finished_matrix(call.text(0));
     if (!matrix->report.matrix)

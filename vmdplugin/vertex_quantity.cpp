@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "compare/result.h"
+#include "ensemble_views.h"
 #include "report/potential_json.h"
 
 namespace espdiff::vmdplugin {
@@ -48,8 +49,9 @@ VertexQuantity vertex_quantity(const std::string& handle, const Object& object, 
   require_done(handle, object);
   if (const auto* comparison = dynamic_cast<const ComparisonObject*>(&object))
     return of_comparison(handle, comparison->result, name);
+  if (auto ensemble = ensemble_quantity(handle, object, name)) return std::move(*ensemble);
   const auto* surface = dynamic_cast<const SurfaceObject*>(&object);
-  if (surface == nullptr) throw InputError(handle + " is a " + object.kind() + ", which has no surface");
+  if (surface == nullptr) throw InputError(handle + " is " + kind_in_words(object) + ", which has no surface");
   if (name != "potential") throw InputError("'" + name + "' is not potential, which is all a surface has");
   require_potentials(handle, name, !surface->result.potential.empty());
   return {surface->result.potential, to_string(surface->result.unit)};

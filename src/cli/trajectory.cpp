@@ -19,10 +19,10 @@
 #include "prepare/load_state.h"
 #include "prepare/region.h"
 #include "prepare/surface_radii.h"
-#include "prepare/take_charges.h"
 #include "report/state_report.h"
 #include "trajectory/frame_files.h"
 #include "trajectory/frame_range.h"
+#include "trajectory/frame_state.h"
 #include "trajectory/series_head.h"
 
 namespace espdiff::cli {
@@ -158,18 +158,7 @@ class Sides {
   }
 
   LoadedState read(int number) {
-    const auto [file, model] = frames_.file_of_frame(number);
-    const std::string name = frames_.name(number);
-    StructureOptions structure = a_.structure;
-    structure.model = model;
-    LoadedState state =
-        load_frame(*file, structure, name, source_.molecule, source_.preparation.has_value(), options_, progress_);
-    if (plan_.takes_everything() && state.everything.size() == 0) {
-      state.everything = file->read({model, true, true});
-      if (!source_.everything.charges.empty()) take_values(state.everything, source_.everything, name);
-      state.everything.name = name;
-    }
-    return state;
+    return load_frame_state(frames_, number, a_.structure, source_, plan_, options_, progress_);
   }
 
   const Arguments& a_;

@@ -20,6 +20,7 @@
 #include "compare/input_warnings.h"
 #include "compare/last_step.h"
 #include "compare/map_by_deform.h"
+#include "compare/map_by_morph.h"
 #include "compare/map_recipe.h"
 #include "compare/map_warnings.h"
 #include "compare/mapping.h"
@@ -130,7 +131,8 @@ struct Series::Steps {
     Mapping mapping;
     if (options.method == Method::kMorph) {
       const auto paths = back.paths_to(*source.molecule, reversed, scratch.pairing, progress);
-      mapping = mapping_of(back.morph(*source.molecule, surface, reversed, paths, nullptr, scratch, progress, clock));
+      mapping =
+          mapping_of(engine, back.morph(*source.molecule, surface, reversed, paths, nullptr, scratch, progress, clock));
     } else {
       mapping = back.deform(surface, reversed.domains.carry(engine, back.regularized, target_surface.atoms), reversed,
                             scratch, progress, clock);
@@ -151,9 +153,7 @@ struct Series::Steps {
   MorphResult morph(const Molecule& target, const Surface& target_surface, const CommonFrame& frame,
                     const std::vector<MovingAtom>& paths, const LastStep* from, CompareResult& result,
                     const Progress& progress, StageClock& clock) const {
-    MorphOptions morph = options.morph;
-    morph.isovalue = options.surface.isovalue;
-    morph.max_edge_A = options.morph_max_edge * options.surface.grid_spacing_A;
+    const MorphOptions morph = morph_options(options);
     MorphResult morphed;
     if (from != nullptr) {
       const auto step_paths =
@@ -167,15 +167,6 @@ struct Series::Steps {
     result.morph_report.n_vertices_added = engine.n_vertices(morphed.source) - engine.n_vertices(regularized);
     clock.lap("morph");
     return morphed;
-  }
-
-  Mapping mapping_of(const MorphResult& morphed) const {
-    Mapping mapping;
-    mapping.source = morphed.source;
-    mapping.mapped = morphed.mapped;
-    mapping.unmatched = engine.download(morphed.unmatched);
-    mapping.path_length = engine.download(morphed.path_length);
-    return mapping;
   }
 
   Mapping deform(const Surface& target, const MeshPtr& start, const CommonFrame& frame, CompareResult& result,
@@ -476,7 +467,7 @@ struct Series::Steps {
     clock.lap("atom paths");
     if (options.method == Method::kMorph) {
       morphed = morph(*target.molecule, target_surface, frame, paths, before, result, progress, clock);
-      mapping = mapping_of(morphed);
+      mapping = mapping_of(engine, morphed);
     } else {
       const MeshPtr begin =
           before != nullptr ? before->mapped : frame.domains.carry(engine, regularized, surface.atoms);

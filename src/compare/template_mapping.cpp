@@ -13,6 +13,7 @@
 #include "compare/domain_motions.h"
 #include "compare/input.h"
 #include "compare/input_warnings.h"
+#include "compare/map_by_morph.h"
 #include "compare/map_recipe.h"
 #include "compare/mapping.h"
 #include "compare/options.h"
@@ -84,18 +85,10 @@ struct TemplateMapping::Parts {
 
   Mapping morph(const CompareInput& frame, const Surface& target, const CommonFrame& common, const AtomPairing& pairing,
                 const Progress& progress) {
-    MorphOptions morph = options.morph;
-    morph.isovalue = options.surface.isovalue;
-    morph.max_edge_A = options.morph_max_edge * options.surface.grid_spacing_A;
     const auto paths = atom_paths(*source.molecule, *frame.molecule, pairing, common.from_source, common.from_target,
                                   common.domains, options.surface.radius_scale, progress);
-    const MorphResult morphed = engine.morph(regularized, paths, surface.atoms, target.atoms, morph, "morph", progress);
-    Mapping mapping;
-    mapping.source = morphed.source;
-    mapping.mapped = morphed.mapped;
-    mapping.unmatched = engine.download(morphed.unmatched);
-    mapping.path_length = engine.download(morphed.path_length);
-    return mapping;
+    return mapping_of(engine, engine.morph(regularized, paths, surface.atoms, target.atoms, morph_options(options),
+                                           "morph", progress));
   }
 
   /// The potential at the template's own vertices; those that the morph added come after them.

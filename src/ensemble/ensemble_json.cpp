@@ -40,6 +40,8 @@ Json replicates_json(const EnsembleResult& result) {
                    {"median_inefficiency", number(r.inefficiency)},
                    {"median_effective_samples", number(r.effective)},
                    {"median_error_by_blocks_over_error", number(r.error_ratio)},
+                   {"trend_share", number(r.drift.share)},
+                   {"trend_p", number(r.drift.p)},
                    {"mean_potential", number(r.mean_potential)},
                    {"mean_rmsd_A", number(r.mean_rmsd_A)}});
   return all;
@@ -148,6 +150,7 @@ Json ensemble_json(const EnsembleFile& file, const EnsembleResult& result) {
     }
   }
   if (result.compares) json["patches"] = patches_json(file, result);
+  json["equilibrium"] = {{"holds", result.not_equilibrium.empty()}, {"reasons", result.not_equilibrium}};
   json["warnings"] = result.warnings;
   return json;
 }

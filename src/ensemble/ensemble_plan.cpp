@@ -7,18 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "matrix/plan_difference.h"
 #include "statistics/arrangements.h"
 
 namespace espdiff {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string differ(const std::string& what, const std::string& there, const std::string& here) {
-  if (there == here) return "";
-  const auto shown = [](const std::string& text) { return text.empty() ? std::string("none") : text; };
-  return what + " is " + shown(there) + " there and " + shown(here) + " here";
-}
 
 std::string label(const EnsembleReplicate& r) { return "replicate " + r.name + " of " + r.group; }
 
@@ -33,6 +28,7 @@ std::string replicates_differ(const EnsemblePlan& there, const EnsemblePlan& her
     if (text.empty())
       text = differ("the number of frames of " + label(b), std::to_string(a.n_frames), std::to_string(b.n_frames));
     if (text.empty() && a.sha256 != b.sha256) text = "the content of " + label(b) + " has changed";
+    if (text.empty() && a.topology_sha256 != b.topology_sha256) text = "the topology of " + label(b) + " has changed";
   }
   return text;
 }
@@ -96,9 +92,13 @@ std::string plan_text(const EnsemblePlan& plan) {
   json["charges"] = Json::object();
   for (const auto& [group, from] : plan.charges) json["charges"][group] = from;
   json["replicates"] = Json::array();
-  for (const EnsembleReplicate& r : plan.replicates)
+  for (const EnsembleReplicate& r : plan.replicates) {
     json["replicates"].push_back(
         {{"group", r.group}, {"name", r.name}, {"files", r.files}, {"sha256", r.sha256}, {"n_frames", r.n_frames}});
+    if (r.topology.empty()) continue;
+    json["replicates"].back()["topology"] = r.topology;
+    json["replicates"].back()["topology_sha256"] = r.topology_sha256;
+  }
   json["residues"] = plan.residues;
   return json.dump(1);
 }
@@ -119,7 +119,8 @@ EnsemblePlan parse_ensemble_plan(const std::string& text, const std::string& pat
     for (const auto& [group, from] : json.at("charges").items()) plan.charges.emplace_back(group, from);
     for (const Json& r : json.at("replicates"))
       plan.replicates.push_back({r.at("group"), r.at("name"), r.at("files").get<std::vector<std::string>>(),
-                                 r.at("sha256").get<std::vector<std::string>>(), r.at("n_frames")});
+                                 r.at("sha256").get<std::vector<std::string>>(), r.at("n_frames"),
+                                 r.value("topology", std::string()), r.value("topology_sha256", std::string())});
     json.at("residues").get_to(plan.residues);
     if (!holds_together(plan)) throw damaged;
     return plan;

@@ -8,11 +8,12 @@
 
 namespace espdiff {
 
-/// One simulation: the models of its files, in order.
+/// One simulation: the models of its files, in order; or where its frames are from, in words, instead of files.
 struct EnsembleReplicate {
   std::string group, name;
   std::vector<std::string> files, sha256;
   std::size_t n_frames = 0;
+  std::string topology{}, topology_sha256{};  ///< of the atoms of trajectories; empty for none
 };
 
 /// Everything that the values depend on; it identifies an ensemble file, and shards of one run.

@@ -127,6 +127,9 @@ struct Analysis {
     s.inefficiency = median(g);
     s.effective = median(effective);
     s.error_ratio = median(ratio);
+    std::vector<double> weights(n_vertices());
+    for (std::size_t v = 0; v < n_vertices(); ++v) weights[v] = result.tested[v] != 0 ? result.graph.area[v] : 0;
+    s.drift = measure_drift(columns[r].blocks, weights);
     double potential = 0, rmsd = 0;
     for (std::size_t f = start; f < replicate.n_frames; ++f) {
       const EnsembleFrame frame = file.numbers(first + f);
@@ -265,6 +268,25 @@ struct Analysis {
         test_places(result.test, means, n_first, result.graph, members, 1 - result.options.alpha);
   }
 
+  /// A run that drifts, or a single run of a state with few effective samples, says nothing about a state.
+  void judge_equilibrium() {
+    char text[256];
+    const double level = kDriftLevel / static_cast<double>(result.replicates.size());
+    for (const ReplicateSummary& r : result.replicates) {
+      const bool alone = plan().replicates_of(r.group).size() == 1;
+      if (r.drift.p <= level && r.drift.share >= kDriftShare) {
+        std::snprintf(text, sizeof text,
+                      "replicate %s of %s drifts: %.0f %% of the variance between its tenths is a trend",
+                      r.name.c_str(), r.group.c_str(), 100 * r.drift.share);
+        result.not_equilibrium.emplace_back(text);
+      } else if (alone && r.effective < kFewEffective) {
+        std::snprintf(text, sizeof text, "%s has one replicate, of %.0f effective samples", r.group.c_str(),
+                      r.effective);
+        result.not_equilibrium.emplace_back(text);
+      }
+    }
+  }
+
   void warn() {
     const std::string design = design_warning(plan());
     if (!design.empty()) result.warnings.push_back(design);
@@ -292,6 +314,13 @@ struct Analysis {
 
 }  // namespace
 
+std::vector<float> where_tested(const std::vector<double>& values, const std::vector<char>& tested) {
+  std::vector<float> out;
+  for (std::size_t v = 0; v < values.size(); ++v)
+    out.push_back(tested[v] != 0 ? static_cast<float>(values[v]) : std::numeric_limits<float>::quiet_NaN());
+  return out;
+}
+
 EnsembleResult analyse_ensemble(const EnsembleFile& file, const EnsembleOptions& options) {
   Analysis a{file};
   a.check_complete();
@@ -309,6 +338,7 @@ EnsembleResult analyse_ensemble(const EnsembleFile& file, const EnsembleOptions&
   if (a.result.groups.size() == 2) a.test(columns);
   a.summarize_residues();
   a.measure_fixed_patches();
+  a.judge_equilibrium();
   a.warn();
   return std::move(a.result);
 }

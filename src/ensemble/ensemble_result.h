@@ -11,6 +11,7 @@
 #include "ensemble/ensemble_columns.h"
 #include "ensemble/states.h"
 #include "ensemble/template_check.h"
+#include "statistics/drift.h"
 #include "statistics/mesh_graph.h"
 #include "statistics/patches.h"
 #include "statistics/surface_test.h"
@@ -46,6 +47,7 @@ struct ReplicateSummary {
   double inefficiency = 0, effective = 0;  ///< medians over the tested vertices
   double error_ratio = 0;                  ///< of the standard errors by blocks and by inefficiency: median; near 1
   double mean_potential = 0, mean_rmsd_A = 0;
+  Drift drift;  ///< NaN with fewer than kBlocks frames
 };
 
 /// A group at each vertex.
@@ -97,6 +99,8 @@ struct EnsembleResult {
   PlaceTests fixed_patch_tests;                ///< p of each alone: a patch chosen beforehand needs no correction
   std::vector<TemplateCheck> template_checks;  ///< where they were asked for; see check_template()
   std::optional<StateTable> states;            ///< where they were asked for; see compare_states()
+  /// Why the replicates are not samples of states in equilibrium; empty where nothing speaks against it.
+  std::vector<std::string> not_equilibrium;
   std::vector<std::string> warnings;
 
   /// [vertex] the family-wise p that the options ask for.
@@ -104,6 +108,14 @@ struct EnsembleResult {
     return options.control == ErrorControl::kTfce ? test.p_tfce : test.p_max_t;
   }
 };
+
+/// Values of vertices as floats; NaN where a vertex was not tested.
+std::vector<float> where_tested(const std::vector<double>& values, const std::vector<char>& tested);
+
+/// A replicate drifts where its trend has at most this p, divided by the number of replicates, and at least this share
+/// of the variance between its tenths: 1/9 is expected of a run that samples a state, 0.6 of diffusion that has no
+/// state at all (1 - (1/15) / (1/6), the variances of Brownian motion about its trend and about its mean).
+constexpr double kDriftLevel = 0.01, kDriftShare = 0.5;
 
 /// Computes the statistics of a complete file. The same bits at any number of threads.
 /// @throws InputError (frames are missing; values of a replicate that do not change; no vertex is left to test)

@@ -24,13 +24,16 @@ namespace {
 /// Three decimals, "-" without a value.
 std::string value(double number) { return std::isfinite(number) ? print("%.3f", number) : "-"; }
 
+/// "43 %", "-" without a value.
+std::string percent(double share) { return std::isfinite(share) ? print("%.0f %%", 100 * share) : "-"; }
+
 void print_replicates(std::ostream& out, const EnsembleResult& result) {
-  out << print("%-10s %-20s %7s %6s %7s %9s %9s %12s\n", "group", "replicate", "frames", "g", "eff.", "mean",
-               "RMSD (A)", "not trusted");
+  out << print("%-10s %-20s %7s %6s %7s %6s %9s %9s %12s\n", "group", "replicate", "frames", "g", "eff.", "trend",
+               "mean", "RMSD (A)", "not trusted");
   for (const ReplicateSummary& r : result.replicates)
-    out << print("%-10.10s %-20.20s %7zu %6.1f %7.1f %9.3f %9.2f %12zu\n", r.group.c_str(), r.name.c_str(),
-                 r.n_frames - r.n_cut_off - r.n_failed, r.inefficiency, r.effective, r.mean_potential, r.mean_rmsd_A,
-                 r.n_not_trustworthy);
+    out << print("%-10.10s %-20.20s %7zu %6.1f %7.1f %6s %9.3f %9.2f %12zu\n", r.group.c_str(), r.name.c_str(),
+                 r.n_frames - r.n_cut_off - r.n_failed, r.inefficiency, r.effective, percent(r.drift.share).c_str(),
+                 r.mean_potential, r.mean_rmsd_A, r.n_not_trustworthy);
 }
 
 void print_noise(std::ostream& out, const EnsembleResult& result, const std::string& unit) {
@@ -174,6 +177,10 @@ void print_ensemble(std::ostream& out, const EnsembleFile& file, const EnsembleR
   print_fixed_patches(out, result, unit);
   print_states(out, file, result);
   for (const std::string& warning : result.warnings) out << "\nwarning: " << warning << '\n';
+  if (result.not_equilibrium.empty()) return;
+  out << "\nNOT AN EQUILIBRIUM ANSWER: what is significant above says that these runs differ, not that the\n"
+         "states do.\n";
+  for (const std::string& reason : result.not_equilibrium) out << "  " << reason << '\n';
 }
 
 }  // namespace espdiff

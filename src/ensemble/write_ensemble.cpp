@@ -16,14 +16,6 @@
 namespace espdiff {
 namespace {
 
-/// As floats, NaN where a vertex was not tested.
-std::vector<float> where_tested(const std::vector<double>& values, const std::vector<char>& tested) {
-  std::vector<float> out;
-  for (std::size_t v = 0; v < values.size(); ++v)
-    out.push_back(tested[v] != 0 ? static_cast<float>(values[v]) : std::numeric_limits<float>::quiet_NaN());
-  return out;
-}
-
 std::vector<std::int32_t> patch_numbers(const EnsembleResult& result) {
   std::vector<std::int32_t> numbers(result.tested.size(), 0);
   for (std::size_t k = 0; k < result.patches.size(); ++k) {

@@ -24,7 +24,8 @@ std::vector<std::string> ensemble_outputs(const std::string& output_prefix, bool
 std::vector<std::string> write_ensemble(const std::string& output_prefix, const EnsembleFile& file,
                                         const EnsembleResult& result);
 
-/// Keys: version, plan, options, design, groups, replicates, area_A2, test, noise_floor, patches, warnings.
+/// Keys: version, plan, options, design, groups, replicates, area_A2, test, noise_floor, patches, equilibrium,
+/// warnings.
 nlohmann::ordered_json ensemble_json(const EnsembleFile& file, const EnsembleResult& result);
 
 /// The answer in at most 100 columns.

@@ -10,25 +10,12 @@
 #include "compare/options.h"
 #include "compare/settings.h"
 #include "engine/engine.h"
+#include "matrix/plan_difference.h"
 
 namespace espdiff {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string differ(const std::string& what, const std::string& there, const std::string& here) {
-  if (there == here) return "";
-  const auto shown = [](const std::string& text) { return text.empty() ? std::string("none") : text; };
-  return what + " is " + shown(there) + " there and " + shown(here) + " here";
-}
-
-/// The first nonempty entry of a list.
-std::string first_of(std::initializer_list<std::string> differences) {
-  for (const std::string& difference : differences) {
-    if (!difference.empty()) return difference;
-  }
-  return "";
-}
 
 std::string sha256_in(const MatrixPlan::Item& item, const std::string& role) {
   for (const InputFile& input : item.inputs) {

@@ -33,6 +33,8 @@ std::vector<ReplicateColumns> summarize_columns(const Columns& columns) {
     replicate.columns.resize(n);
     replicate.first_half.resize(n);
     replicate.second_half.resize(n);
+    replicate.blocks.resize(n * kBlocks);
+    const std::size_t block_length = n_frames / kBlocks, left_out = n_frames - block_length * kBlocks;
     const std::size_t at_once =
         std::max<std::size_t>(1, kColumnBytes / sizeof(float) / std::max<std::size_t>(1, n_frames));
     for (std::size_t begin = 0; begin < n; begin += at_once) {
@@ -45,6 +47,10 @@ std::vector<ReplicateColumns> summarize_columns(const Columns& columns) {
         replicate.columns[c] = summarize_series(series);
         replicate.first_half[c] = mean_of(series, 0, n_frames / 2);
         replicate.second_half[c] = mean_of(series, n_frames / 2, n_frames);
+        for (std::size_t b = 0; b < kBlocks; ++b) {
+          const std::size_t start = left_out + b * block_length;
+          replicate.blocks[c * kBlocks + b] = mean_of(series, start, start + block_length);
+        }
       }
     }
   }

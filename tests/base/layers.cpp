@@ -45,7 +45,8 @@ const Rooms kAllowed = {
      {"base", "align", "engine", "io", "statistics", "compare", "prepare", "potential", "plot", "view", "verify",
       "report", "trajectory", "matrix", "ensemble"}},
     {"vmdplugin",
-     {"base", "align", "engine", "io", "compare", "prepare", "potential", "plot", "report", "trajectory", "matrix"}},
+     {"base", "align", "engine", "io", "statistics", "compare", "prepare", "potential", "plot", "report", "trajectory",
+      "matrix", "ensemble"}},
     {"python/src",
      {"base", "align", "engine", "io", "compare", "prepare", "potential", "report", "trajectory", "matrix"}},
 };

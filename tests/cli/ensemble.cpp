@@ -1,12 +1,18 @@
 // ensemble.cpp: `espdiff ensemble`: groups, lists, charges, kills, shards, and what is refused.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "cli/run_espdiff.h"
+#include "io/molfile_plugins.h"
 
 using namespace espdiff_test;  // NOLINT: a test
 
@@ -164,6 +170,114 @@ TEST_CASE("a list names groups, replicates of several files, and charges") {
   CHECK(json["plan"]["replicates"][0]["n_frames"] == 2 * kFrames);
   CHECK(json["plan"]["template"]["name"] == "wild, replicate 1, frame 2");
   CHECK(json["test"]["inference"] == "within runs");
+}
+
+namespace {
+
+void add_record(std::string& bytes, const std::string& record) {
+  const auto size = static_cast<std::int32_t>(record.size());
+  const std::string length(reinterpret_cast<const char*>(&size), sizeof size);
+  bytes += length + record + length;
+}
+
+/// The coordinates of models() as a DCD file, in CHARMM's layout without cells.
+std::string dcd(const std::string& pqr) {
+  std::vector<std::array<std::vector<float>, 3>> frames;
+  std::istringstream lines(pqr);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("MODEL", 0) == 0) frames.emplace_back();
+    if (line.rfind("ATOM", 0) != 0) continue;
+    std::istringstream words(line);
+    std::string word;
+    for (int i = 0; i < 6; ++i) words >> word;
+    for (auto& axis : frames.back()) {
+      words >> word;
+      axis.push_back(std::stof(word));
+    }
+  }
+  std::array<std::int32_t, 20> control{};
+  control[0] = static_cast<std::int32_t>(frames.size());
+  control[1] = control[2] = 1;
+  control[19] = 24;
+  std::string bytes, title(84, ' ');
+  add_record(bytes, "CORD" + std::string(reinterpret_cast<const char*>(control.data()), sizeof control));
+  const std::int32_t n_titles = 1, n_atoms = kAtoms;
+  std::memcpy(title.data(), &n_titles, sizeof n_titles);
+  add_record(bytes, title);
+  add_record(bytes, std::string(reinterpret_cast<const char*>(&n_atoms), sizeof n_atoms));
+  for (const auto& frame : frames) {
+    for (const auto& axis : frame)
+      add_record(bytes, std::string(reinterpret_cast<const char*>(axis.data()), axis.size() * sizeof(float)));
+  }
+  return bytes;
+}
+
+}  // namespace
+
+TEST_CASE("trajectories with the atoms of a structure: the answer of the same frames as models") {
+  if (espdiff::find_molfile_folder().empty()) {
+    MESSAGE("SKIPPED: VMD's molfile plugins were not found; set $VMDDIR");
+    return;
+  }
+  const Runs in;
+  std::string groups, list = "group,replicate,topology,structure\n";
+  for (const bool mutant : {false, true}) {
+    groups += std::string(" --group ") + (mutant ? "mutant m1.pqr" : "wild w1.pqr");
+    for (int r = 1; r <= 4; ++r) {
+      const std::string name = (mutant ? "m" : "w") + std::to_string(r);
+      in.folder.write(name + ".dcd", dcd(models(mutant ? r + 4 : r, mutant, true)));
+      groups += " " + name + ".dcd";
+      list += (mutant ? "mutant," : "wild,") + name + (mutant ? ",m1.pqr," : ",w1.pqr,") + name + ".dcd\n";
+    }
+  }
+  in.folder.write("runs.csv", list);
+  REQUIRE(in.ensemble(in.groups + " -q -o models --template 3").status == 0);
+  const Outcome out = in.ensemble(groups + " -q -o frames --template 3");
+  INFO(out.err);
+  REQUIRE(out.status == 0);
+  const auto answer = [&](const std::string& name) {
+    return nlohmann::json::parse(read_file(in.folder.file(name + ".json")));
+  };
+  const auto json = answer("frames"), expected = answer("models");
+  REQUIRE(json["patches"].size() == expected["patches"].size());
+  // The trajectory's coordinates are of single precision.
+  for (const char* key : {"area_A2", "difference", "low", "high"})
+    CHECK(json["patches"][0][key].get<double>() ==
+          doctest::Approx(expected["patches"][0][key].get<double>()).epsilon(1e-4));
+  CHECK(json["plan"]["replicates"][0]["topology"] == "w1.pqr");
+  REQUIRE(in.ensemble("--list runs.csv -q -o list --template 3").status == 0);
+  CHECK(read_file(in.folder.file("list.h5")) == read_file(in.folder.file("frames.h5")));
+  // Another topology is another ensemble.
+  in.folder.write("w1.pqr", models(9, false, true));
+  CHECK(in.ensemble(groups + " -q -o frames --template 3 --resume").err ==
+        "espdiff: frames.h5 is of another run: the topology of replicate w1 of wild has changed; --overwrite begins "
+        "anew\n");
+  CHECK(in.ensemble("--group wild w1.dcd -o bad").err ==
+        "espdiff: w1.dcd: a trajectory or topology has no structure of its own; name the structure or topology of its "
+        "atoms first in the group, then the trajectories\n");
+  in.folder.write("short.pqr", "ATOM 1 CA ALA A 1 0 0 0 0.2 2.2\n");
+  CHECK(contains(in.ensemble("--group wild short.pqr w1.dcd -o bad").err, "w1.dcd"));
+}
+
+TEST_CASE("outside of the surface the differences are smaller") {
+  const Runs in;
+  REQUIRE(in.ensemble(in.groups + " -q -o at --template 3").status == 0);
+  REQUIRE(in.ensemble(in.groups + " -q -o outside --template 3 --offset 3").status == 0);
+  const auto difference = [&](const std::string& name) {
+    const auto json = nlohmann::json::parse(read_file(in.folder.file(name + ".json")));
+    return json["test"]["mean_abs_difference"].get<double>();
+  };
+  // The charge of -1.2 e is 2 A below the surface, so its potential falls from 1 / 2 to 1 / 5 right above it.
+  MESSAGE("mean absolute difference at the surface ", difference("at"), ", 3 A outside ", difference("outside"));
+  CHECK(difference("outside") < 0.9 * difference("at"));
+  CHECK(difference("outside") > 0.2 * difference("at"));
+  CHECK(contains(in.ensemble(in.groups + " -o bad --offset 0,3").err, "give one"));
+}
+
+TEST_CASE("given maps are refused by their name, pme without water takes a box") {
+  const Runs in;
+  CHECK(contains(in.ensemble(in.groups + " -o bad --potential maps").err, "--potential"));
+  CHECK(in.run("ensemble --grid-spacing 1.5 --potential pme --group wild w1.pqr w2.pqr -q -o pme").status == 0);
 }
 
 TEST_CASE("models of ubiquitin: through the template, a pair differs as compare says") {

@@ -8,6 +8,7 @@
 #include <limits>
 #include <sstream>
 
+#include <boost/math/distributions/non_central_t.hpp>
 #include <nlohmann/json.hpp>
 
 #include "ensemble/planted_file.h"
@@ -18,6 +19,26 @@ using namespace espdiff_test;  // NOLINT: a test
 
 TEST_SUITE_BEGIN("ensemble result");
 
+namespace {
+
+bool is_planted(const Vec3d& p) { return p.x > 0 && p.y > 8; }
+
+/// Planted vertices with a property, and their number.
+template <typename Holds>
+std::pair<double, double> share_of_planted(const EnsembleFile& file, Holds holds) {
+  double n = 0, n_holding = 0;
+  for (std::size_t v = 0; v < file.n_vertices(); ++v) {
+    if (!is_planted(file.surface().positions[v])) continue;
+    ++n;
+    n_holding += holds(v) ? 1 : 0;
+  }
+  return {n_holding / n, n};
+}
+
+double three_deviations(double share, double n) { return 3 * std::sqrt(share * (1 - share) / n); }
+
+}  // namespace
+
 TEST_CASE("the planted patch is found where it is, with its size, its residue and its sign") {
   const ScratchFolder folder;
   const std::string path = folder.file("a.h5");
@@ -26,16 +47,9 @@ TEST_CASE("the planted patch is found where it is, with its size, its residue an
   const EnsembleResult result = analyse_ensemble(file, {});
   REQUIRE(result.patches.size() == 1);
   const EnsemblePatch& patch = result.patches[0];
-  double planted_area = 0, found = 0;
-  for (std::size_t v = 0; v < file.n_vertices(); ++v) {
-    const Vec3d& p = file.surface().positions[v];
-    if (p.x > 0 && p.y > 8) planted_area += result.graph.area[v];
-  }
-  for (const std::uint32_t v : patch.patch.vertices) {
-    const Vec3d& p = file.surface().positions[v];
-    if (p.x > 0 && p.y > 8) found += result.graph.area[v];
-  }
-  CHECK(found > 0.85 * planted_area);
+  double planted_area = 0;
+  for (std::size_t v = 0; v < file.n_vertices(); ++v)
+    planted_area += is_planted(file.surface().positions[v]) ? result.graph.area[v] : 0;
   CHECK(patch.patch.area < 1.2 * planted_area);
   CHECK(patch.residues.front().first == "ALA 1");
   CHECK(patch.residues.front().second > 0.8);
@@ -51,6 +65,74 @@ TEST_CASE("the planted patch is found where it is, with its size, its residue an
     CHECK(r.error_ratio == doctest::Approx(1).epsilon(0.25));
   }
   CHECK(result.warnings.empty());
+  CHECK(result.not_equilibrium.empty());
+}
+
+TEST_CASE("as much of the planted patch is found as the noncentral t distribution says") {
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5");
+  plant_file(path, planted_plan(4, 4, 100), -1, 5, 4);
+  const EnsembleFile file(path, false);
+  const EnsembleResult result = analyse_ensemble(file, {});
+  const PlaceTests& t = result.test.vertices;
+  // The noise of vertices is independent, so counts are binomial. With groups of equal size, Welch's t is Student's
+  // with 6 degrees of freedom, around the effect over its error: the variance of a mean of 100 frames of the series is
+  // ((1 + phi) / (1 - phi) - 2 phi / (100 (1 - phi)^2)) / 100.
+  const double variance = (3 - 1 / (100 * 0.25)) / 100, shift = 1 / std::sqrt(variance / 2);
+  double threshold = 1e9;  // of |t|, that exchanged labels gave
+  for (std::size_t v = 0; v < file.n_vertices(); ++v) {
+    if (result.test.p_max_t[v] <= 0.05) threshold = std::min(threshold, std::fabs(t.t[v]));
+  }
+  const boost::math::non_central_t around(6, shift);
+  const double nominal = cdf(complement(around, threshold)) + cdf(around, -threshold);
+  const auto [by_max_t, n] = share_of_planted(file, [&](std::size_t v) { return result.test.p_max_t[v] <= 0.05; });
+  const auto [by_tfce, same] = share_of_planted(file, [&](std::size_t v) { return result.test.p_tfce[v] <= 0.05; });
+  MESSAGE("found of ", n, " planted vertices: ", by_max_t, " by max-t, ", nominal, " expected; ", by_tfce, " by TFCE");
+  CHECK(std::fabs(by_max_t - nominal) < three_deviations(nominal, n));
+  // Neighbours help: no less than by max-t.
+  CHECK(by_tfce > nominal - three_deviations(nominal, n));
+  // Intervals hold the effect in 95 % of cases or slightly more: with so few replicates Welch's degrees of freedom are
+  // conservative, by less than one percent.
+  const auto [covered, all] = share_of_planted(file, [&](std::size_t v) { return t.low[v] < -1 && t.high[v] > -1; });
+  MESSAGE("intervals that hold the effect: ", covered);
+  CHECK(covered > 0.95 - three_deviations(0.95, all));
+  CHECK(covered < 0.96 + three_deviations(0.95, all));
+}
+
+TEST_CASE("a run that drifts is no sample of a state, and the answer says so") {
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5");
+  plant_file(path, planted_plan(4, 4, 100), -1, 12);
+  {
+    EnsembleFile file(path, true);
+    std::vector<float> values(file.n_vertices());
+    for (std::size_t f = 0; f < 100; ++f) {  // of the first replicate
+      file.read_values(f, 0, values.size(), values.data());
+      for (float& value : values) value += 0.02F * static_cast<float>(f);
+      file.write(f, values, file.numbers(f));
+    }
+  }
+  const EnsembleFile file(path, false);
+  const EnsembleResult result = analyse_ensemble(file, {});
+  REQUIRE(result.not_equilibrium.size() == 1);
+  CHECK(result.not_equilibrium[0].find("replicate 1 of wild drifts: ") == 0);
+  CHECK(result.replicates[0].drift.p <= 0.01 / 8);
+  CHECK(result.replicates[1].drift.p > 0.01 / 8);
+  std::ostringstream table;
+  print_ensemble(table, file, result);
+  CHECK(table.str().find("NOT AN EQUILIBRIUM ANSWER") != std::string::npos);
+  const auto json = ensemble_json(file, result);
+  CHECK(json.at("equilibrium").at("holds") == false);
+  CHECK(json.at("equilibrium").at("reasons").size() == 1);
+}
+
+TEST_CASE("a single run of few effective samples is no sample of a state") {
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5");
+  plant_file(path, planted_plan(1, 1, 45), -1, 13);
+  const EnsembleResult result = analyse_ensemble(EnsembleFile(path, false), {});
+  REQUIRE(result.not_equilibrium.size() == 2);
+  CHECK(result.not_equilibrium[0].find("wild has one replicate, of ") == 0);
 }
 
 TEST_CASE("without an effect nothing is found") {

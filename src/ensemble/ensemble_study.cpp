@@ -1,0 +1,152 @@
+// ensemble_study.cpp: the order of an ensemble's parts.
+#include "ensemble/ensemble_study.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/error.h"
+#include "compare/settings.h"
+#include "engine/engine.h"
+#include "ensemble/ensemble_file.h"
+#include "ensemble/write_ensemble.h"
+#include "io/check_outputs.h"
+#include "io/select_atoms.h"
+
+namespace espdiff {
+namespace {
+
+std::pair<std::string, std::string> name_and_selection(const std::string& text) {
+  const std::size_t sign = text.find('=');
+  if (sign == std::string::npos || sign == 0 || sign + 1 == text.size())
+    throw InputError(option("patch") + " " + text + " is not NAME=SELECTION, such as site=//A/8-12");
+  return {text.substr(0, sign), text.substr(sign + 1)};
+}
+
+/// The residues of each patch on the template.
+std::vector<FixedPatch> fixed_patches(const std::vector<std::string>& asked, const Molecule& molecule) {
+  std::vector<FixedPatch> patches;
+  for (const std::string& text : asked) {
+    const auto [name, selection] = name_and_selection(text);
+    FixedPatch patch{name, std::vector<char>(molecule.residues.size(), 0)};
+    const std::vector<bool> selected = select_some_atoms(molecule, selection, "patch");
+    for (std::size_t i = 0; i < selected.size(); ++i) {
+      if (selected[i]) patch.residues[static_cast<std::size_t>(molecule.atoms[i].residue)] = 1;
+    }
+    patches.push_back(std::move(patch));
+  }
+  return patches;
+}
+
+/// A study while it runs.
+class Study {
+ public:
+  Study(const EnsembleStudy& study, const Progress& progress)
+      : study_(study), progress_(progress), inputs_(study.inputs, study.options, progress) {
+    if (study.options.input.has_region())
+      throw InputError(option("region") +
+                       ": an ensemble tells residues and patches of the whole surface; leave it out");
+    std::vector<std::string> outputs = ensemble_outputs(study.run.output, true);
+    outputs.push_back(ensemble_path(study.run.output, study.run.shard));
+    std::vector<std::string> read = study.read_files;
+    const std::vector<std::string> files = inputs_.files();
+    read.insert(read.end(), files.begin(), files.end());
+    check_outputs(read, outputs);
+    if (study.check_template && (inputs_.plan().groups().size() < 2 || study.run.shard.count > 1))
+      throw InputError(option("check-template") + " compares the answers of two groups, in one process; leave it out");
+  }
+
+  std::string design() const { return design_warning(inputs_.plan()); }
+
+  void run(Engine& engine, EnsembleAnswer& answer) {
+    answer.device = engine.description();
+    EnsembleOptions statistics = study_.statistics;
+    inputs_.choose_template(study_.inputs.template_text, progress_);
+    // A wrong selection is refused before the work. Patches are of the first template.
+    statistics.fixed_patches = fixed_patches(study_.patches, *inputs_.source().molecule);
+    map(engine, study_.run, answer);
+    if (study_.run.shard.count > 1) return;
+    answer.file = std::make_unique<EnsembleFile>(answer.reports.back().path, false);
+    progress_.report("statistics", 1.0);
+    answer.result = std::make_unique<EnsembleResult>(analyse_ensemble(*answer.file, statistics));
+    if (study_.check_template) check_templates(engine, answer);
+  }
+
+ private:
+  void map(Engine& engine, const EnsembleRun& run, EnsembleAnswer& answer) {
+    EnsemblePlan plan = inputs_.plan();
+    plan.device = engine.back_end();
+    answer.reports.push_back(run_ensemble(
+        engine, plan, inputs_.source(), study_.options, run, [this](std::size_t frame) { return inputs_.frame(frame); },
+        progress_));
+  }
+
+  void check_templates(Engine& engine, EnsembleAnswer& answer) {
+    const Molecule first = *inputs_.source().molecule;
+    for (const std::string& group : inputs_.plan().groups()) {
+      EnsembleRun part = study_.run;
+      part.output += ".template-" + group;
+      inputs_.choose_template("medoid:" + group, progress_);
+      map(engine, part, answer);
+      const EnsembleFile other(answer.reports.back().path, false);
+      const EnsembleResult result = analyse_ensemble(other, study_.statistics);
+      answer.result->template_checks.push_back(
+          check_template(*answer.file, *answer.result, other, result, inputs_.onto(first)));
+    }
+  }
+
+  const EnsembleStudy& study_;
+  const Progress& progress_;
+  EnsembleInputs inputs_;
+};
+
+void open_earlier(const EnsembleStudy& study, const Progress& progress, EnsembleAnswer& answer) {
+  if (!study.patches.empty())
+    throw InputError(option("patch") + " selects atoms of the template, which " + option("from") +
+                     " does not read; name the groups, with " + switched_on("resume"));
+  if (!study.inputs.replicates.empty())
+    throw InputError(option("from") + " reads mapped frames from a file; leave out the groups");
+  check_outputs({study.from}, ensemble_outputs(study.run.output, true));
+  answer.file = std::make_unique<EnsembleFile>(study.from, false);
+  progress.report("statistics", 1.0);
+  answer.result = std::make_unique<EnsembleResult>(analyse_ensemble(*answer.file, study.statistics));
+}
+
+}  // namespace
+
+EnsembleAnswer::EnsembleAnswer() = default;
+EnsembleAnswer::EnsembleAnswer(EnsembleAnswer&&) noexcept = default;
+EnsembleAnswer& EnsembleAnswer::operator=(EnsembleAnswer&&) noexcept = default;
+EnsembleAnswer::~EnsembleAnswer() = default;
+
+CompareOptions ensemble_options(const std::vector<std::pair<std::string, std::string>>& given) {
+  CompareOptions options = make_options(given);
+  const bool has_step =
+      std::any_of(given.begin(), given.end(), [](const auto& setting) { return setting.first == "max-step"; });
+  if (!has_step) options.morph.max_step_A = 0.7;
+  return options;
+}
+
+EnsembleAnswer run_study(const EnsembleStudy& study, const std::function<std::unique_ptr<Engine>()>& make_engine,
+                         const Progress& progress, const std::function<void(const Message&)>& warn) {
+  EnsembleAnswer answer;
+  if (!study.from.empty()) {
+    open_earlier(study, progress, answer);
+  } else {
+    progress.report("read", 0.0);
+    Study part(study, progress);
+    const std::string warning = part.design();
+    if (!warning.empty()) warn(warning);
+    part.run(*make_engine(), answer);
+  }
+  if (answer.result == nullptr) return answer;
+  EnsembleResult& result = *answer.result;
+  if (study.states) result.states = compare_states(*answer.file, result);
+  answer.written = write_ensemble(study.run.output, *answer.file, result);
+  if (result.states) {
+    const std::vector<std::string> tables = write_states(study.run.output, *answer.file, *result.states);
+    answer.written.insert(answer.written.end(), tables.begin(), tables.end());
+  }
+  return answer;
+}
+
+}  // namespace espdiff

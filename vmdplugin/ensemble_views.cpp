@@ -1,0 +1,125 @@
+// ensemble_views.cpp: an ensemble as values and as a surface.
+#include "ensemble_views.h"
+
+#include <nlohmann/json.hpp>
+#ifdef ESPDIFF_HAVE_HDF5
+#include <sstream>
+
+#include "base/error.h"
+#include "ensemble/ensemble_file.h"
+#include "ensemble/write_ensemble.h"
+#include "ensemble_object.h"
+#endif
+
+namespace espdiff::vmdplugin {
+#ifdef ESPDIFF_HAVE_HDF5
+namespace {
+
+/// A finished one; null for other kinds.
+const EnsembleObject* finished(const std::string& handle, const Object& object) {
+  const auto* ensemble = dynamic_cast<const EnsembleObject*>(&object);
+  if (ensemble != nullptr) require_done(handle, object);
+  return ensemble;
+}
+
+/// With an answer, which a part lacks.
+const EnsembleObject* answered(const std::string& handle, const Object& object) {
+  const EnsembleObject* const ensemble = finished(handle, object);
+  if (ensemble != nullptr && ensemble->answer.result == nullptr)
+    throw InputError(handle + " is a part of an ensemble; `espdiff merge` puts the parts together");
+  return ensemble;
+}
+
+std::vector<float> faded(const EnsembleResult& result, int patch) {
+  std::vector<float> values(result.tested.size(), kFaded);
+  for (std::size_t k = 0; k < result.patches.size(); ++k) {
+    if (patch > 0 && k + 1 != static_cast<std::size_t>(patch)) continue;
+    for (const std::uint32_t v : result.patches[k].patch.vertices) values[v] = 0;
+  }
+  return values;
+}
+
+}  // namespace
+
+std::optional<nlohmann::ordered_json> ensemble_result(const std::string& handle, const Object& object) {
+  const EnsembleObject* const ensemble = finished(handle, object);
+  if (ensemble == nullptr) return std::nullopt;
+  const EnsembleAnswer& answer = ensemble->answer;
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  if (answer.result != nullptr) json = ensemble_json(*answer.file, *answer.result);
+  std::size_t n_frames = 0, n_resumed = 0, n_skipped = 0;
+  double seconds = 0;
+  json["files"] = answer.written;
+  for (const EnsembleReport& report : answer.reports) {
+    n_frames += report.n_frames;
+    n_resumed += report.n_resumed;
+    n_skipped += report.n_skipped;
+    seconds += report.seconds;
+    json["files"].push_back(report.path);
+  }
+  json["frames"] = n_frames;
+  json["resumed"] = n_resumed;
+  json["skipped"] = n_skipped;
+  json["seconds"] = seconds;
+  return json;
+}
+
+std::optional<std::string> ensemble_table(const std::string& handle, const Object& object) {
+  const EnsembleObject* const ensemble = answered(handle, object);
+  if (ensemble == nullptr) return std::nullopt;
+  std::ostringstream text;
+  print_ensemble(text, *ensemble->answer.file, *ensemble->answer.result);
+  return text.str();
+}
+
+std::optional<DrawnSurface> ensemble_surface(const std::string& handle, const Object& object, int patch) {
+  const EnsembleObject* const ensemble = answered(handle, object);
+  if (ensemble == nullptr) return std::nullopt;
+  const EnsembleResult& result = *ensemble->answer.result;
+  const TemplateSurface& surface = ensemble->answer.file->surface();
+  if (patch < 0 || static_cast<std::size_t>(patch) > result.patches.size())
+    throw InputError(option("patch", std::to_string(patch)) + ": " + handle + " has " +
+                     std::to_string(result.patches.size()) + " patches, numbered from 1; 0 draws all");
+  DrawnSurface drawn;
+  for (const Vec3d& p : surface.positions) drawn.positions.push_back(static_cast<Vec3f>(p));
+  drawn.normals = surface.normals;
+  drawn.triangles = &surface.triangles;
+  if (ensemble->untested.empty()) {
+    for (const Triangle& t : surface.triangles)
+      ensemble->untested.push_back(result.tested[t[0]] == 0 || result.tested[t[1]] == 0 || result.tested[t[2]] == 0);
+  }
+  drawn.unmatched = &ensemble->untested;
+  drawn.has_unmatched_positions = true;
+  if (!result.compares) return drawn;
+  if (ensemble->faded.count(patch) == 0) ensemble->faded[patch] = faded(result, patch);
+  drawn.uncertainty = &ensemble->faded[patch];
+  return drawn;
+}
+
+std::optional<VertexQuantity> ensemble_quantity(const std::string& handle, const Object& object,
+                                                const std::string& name) {
+  const EnsembleObject* const ensemble = answered(handle, object);
+  if (ensemble == nullptr) return std::nullopt;
+  const EnsembleResult& result = *ensemble->answer.result;
+  const std::string& unit = ensemble->answer.file->plan().potential_unit;
+  if (name == "source") return VertexQuantity{where_tested(result.groups[0].mean, result.tested), unit};
+  if (name != "target" && name != "difference" && name != "t")
+    throw InputError("'" + name + "' is not difference, source, target or t");
+  if (!result.compares) throw InputError(handle + " has one group, and so no " + name + "; take source");
+  if (name == "target") return VertexQuantity{where_tested(result.groups[1].mean, result.tested), unit};
+  const PlaceTests& vertices = result.test.vertices;
+  if (name == "t") return VertexQuantity{where_tested(vertices.t, result.tested), ""};
+  return VertexQuantity{where_tested(vertices.difference, result.tested), unit};
+}
+
+#else
+
+std::optional<nlohmann::ordered_json> ensemble_result(const std::string&, const Object&) { return std::nullopt; }
+std::optional<std::string> ensemble_table(const std::string&, const Object&) { return std::nullopt; }
+std::optional<DrawnSurface> ensemble_surface(const std::string&, const Object&, int) { return std::nullopt; }
+std::optional<VertexQuantity> ensemble_quantity(const std::string&, const Object&, const std::string&) {
+  return std::nullopt;
+}
+
+#endif
+}  // namespace espdiff::vmdplugin

@@ -1,0 +1,33 @@
+// ensemble_views.h: what is told and drawn of an ensemble. Each function returns nothing for other kinds of objects.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+#include "drawn_part.h"
+#include "handles.h"
+#include "vertex_quantity.h"
+
+namespace espdiff::vmdplugin {
+
+/// How much the colours of surface without significance fade, of a limit of 1.
+constexpr float kFaded = 0.92F;
+
+/// JSON of the result, as OUT.json has it, and how the run went. @throws the failure of the object's job
+std::optional<nlohmann::ordered_json> ensemble_result(const std::string& handle, const Object& object);
+
+/// The printed answer. @throws the same; InputError (a part)
+std::optional<std::string> ensemble_table(const std::string& handle, const Object& object);
+
+/// The template. Parts that were not tested are unmatched; uncertainty is 0 where the difference is significant, and
+/// kFaded elsewhere.
+/// @param patch 0, or the number of the only patch that counts as significant
+std::optional<DrawnSurface> ensemble_surface(const std::string& handle, const Object& object, int patch);
+
+/// @param name difference, source (the first group's mean), target (the second's), or t
+/// @throws the same; InputError (another name; one group has no difference)
+std::optional<VertexQuantity> ensemble_quantity(const std::string& handle, const Object& object,
+                                                const std::string& name);
+
+}  // namespace espdiff::vmdplugin
