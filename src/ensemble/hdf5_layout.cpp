@@ -37,8 +37,13 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
-/// HDF5 prints errors unless told not to, and ours name what matters.
-void be_silent() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+/// HDF5 prints errors unless told not to, and ours name what matters. At the process' end it closes once more what it
+/// could not close on a full disk, and crashes.
+void be_silent() {
+  static const herr_t no_cleanup = H5dont_atexit();
+  static_cast<void>(no_cleanup);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
 
 /// Of everything that is written once.
 std::uint64_t head_checksum(const std::string& plan, const std::vector<Vec3d>& positions,
