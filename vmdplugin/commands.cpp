@@ -52,9 +52,9 @@ extern "C" void delete_handles(ClientData client, Tcl_Interp*) {
 
 std::vector<Command> all_commands() {
   std::vector<Command> all;
-  for (const auto& group :
-       {compute_commands(), result_commands(), matrix_commands(), ensemble_commands(), potential_commands(),
-        trajectory_commands(), drawing_commands(), plot_commands(), program_commands(), about_commands()})
+  for (const auto& group : {compute_commands(), result_commands(), array_commands(), matrix_commands(),
+                            ensemble_commands(), potential_commands(), trajectory_commands(), drawing_commands(),
+                            plot_commands(), program_commands(), about_commands()})
     all.insert(all.end(), group.begin(), group.end());
   return all;
 }

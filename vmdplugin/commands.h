@@ -31,6 +31,8 @@ struct Command {
 std::vector<Command> compute_commands();
 /// result_commands.cpp: what came out, as values and as files.
 std::vector<Command> result_commands();
+/// array_commands.cpp: surfaces as arrays, for other languages.
+std::vector<Command> array_commands();
 /// parse_computation() of compute_commands.cpp: reads what is common to all computations from OPTIONS, the settings of
 /// the comparison included; a regularize key is given to `regularize` where that is not null, else refused. Keys that
 /// were read before are left alone.

@@ -27,42 +27,40 @@ nlohmann::ordered_json json_of(const ComparisonObject& comparison) {
                       comparison.computation.options, comparison.provenance);
 }
 
-Tcl_Obj* surface_result(const SurfaceObject& surface) {
+nlohmann::ordered_json surface_result(const SurfaceObject& surface) {
   const SurfaceResult& r = surface.result;
-  Tcl_Obj* const times = Tcl_NewDictObj();
-  for (const auto& [stage, ms] : r.time_ms) Tcl_DictObjPut(nullptr, times, to_obj(stage), to_obj(ms));
-  return to_dict({{"n_vertices", to_obj(r.summary.n_vertices)},
-                  {"n_triangles", to_obj(r.summary.n_triangles)},
-                  {"n_components", to_obj(r.summary.n_components)},
-                  {"n_cavities_left_out", to_obj(r.summary.n_cavities_left_out)},
-                  {"area_A2", to_obj(r.summary.area_A2)},
-                  {"cavity_area_A2", to_obj(r.summary.cavity_area_A2)},
-                  {"time_ms", times}});
+  auto times = nlohmann::ordered_json::object();
+  for (const auto& [stage, ms] : r.time_ms) times[stage] = ms;
+  return {{"n_vertices", r.summary.n_vertices},
+          {"n_triangles", r.summary.n_triangles},
+          {"n_components", r.summary.n_components},
+          {"n_cavities_left_out", r.summary.n_cavities_left_out},
+          {"area_A2", r.summary.area_A2},
+          {"cavity_area_A2", r.summary.cavity_area_A2},
+          {"time_ms", times}};
 }
 
-/// The result as JSON with the run's statistics; a shard has no matrix.
-Tcl_Obj* matrix_result(const MatrixObject& object) {
+/// The content of OUT.json with the run's statistics; a shard has no matrix.
+nlohmann::ordered_json matrix_result(const MatrixObject& object) {
   const MatrixReport& report = object.report;
-  Tcl_Obj* const dict = report.matrix
-                            ? to_obj(matrix_json(*report.matrix, metric_to_cluster_by(object.run, *report.matrix)))
-                            : Tcl_NewDictObj();
-  const std::pair<const char*, Tcl_Obj*> about[] = {{"pairs", to_obj(report.n_pairs)},
-                                                    {"resumed", to_obj(report.n_resumed)},
-                                                    {"seconds", to_obj(report.seconds)},
-                                                    {"files", to_list(report.files)}};
-  for (const auto& [key, value] : about) Tcl_DictObjPut(nullptr, dict, to_obj(key), value);
-  return dict;
+  auto json = report.matrix ? matrix_json(*report.matrix, metric_to_cluster_by(object.run, *report.matrix))
+                            : nlohmann::ordered_json::object();
+  json["pairs"] = report.n_pairs;
+  json["resumed"] = report.n_resumed;
+  json["seconds"] = report.seconds;
+  json["files"] = report.files;
+  return json;
 }
 
 /// What was written, and what PDB2PQR did; without `preparation` where the molecule had charges.
-Tcl_Obj* preparation_result(const PreparationObject& object) {
+nlohmann::ordered_json preparation_result(const PreparationObject& object) {
   nlohmann::ordered_json json{{"file", object.path}, {"n_atoms", object.molecule.state.molecule.size()}};
   json["preparation"] = object.molecule.state.preparation ? preparation_json(*object.molecule.state.preparation)
                                                           : nlohmann::ordered_json(nullptr);
-  return to_obj(json);
+  return json;
 }
 
-Tcl_Obj* result(const Call& call) {
+nlohmann::ordered_json json_result(const Call& call) {
   const std::string handle = call.text(0);
   const auto object = call.handles.find(handle);
   if (const auto* matrix = dynamic_cast<const MatrixObject*>(object.get())) {
@@ -77,14 +75,21 @@ Tcl_Obj* result(const Call& call) {
     require_done(handle, *preparation);
     return preparation_result(*preparation);
   }
-  if (const auto ensemble = ensemble_result(handle, *object)) return to_obj(*ensemble);
+  if (const auto ensemble = ensemble_result(handle, *object)) return *ensemble;
   const auto comparison = call.handles.finished_comparison(handle);
   auto json = json_of(*comparison);
   auto& reasons = json["certificate"]["reasons"] = nlohmann::ordered_json::array();
   for (const Message& reason : comparison->result.certificate.reasons) reasons.push_back(spelled(call.interp, reason));
   for (std::size_t k = 0; k < comparison->result.warnings.size(); ++k)
     json["warnings"][k]["text"] = spelled(call.interp, comparison->result.warnings[k].text);
-  return to_obj(json);
+  return json;
+}
+
+Tcl_Obj* result(const Call& call) { return to_obj(json_result(call)); }
+
+/// The result as a text that keeps the values' types, for other languages.
+Tcl_Obj* result_json(const Call& call) {
+  return to_obj(json_result(call).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 std::string name_of_partner(const Molecule& target, std::int32_t residue) {
@@ -211,6 +216,7 @@ Tcl_Obj* residue_pdb(const Call& call) {
 
 std::vector<Command> result_commands() {
   return {{"result", 1, 1, "handle", result},
+          {"result_json", 1, 1, "handle", result_json},
           {"residues", 1, 1, "handle", residues},
           {"residue_quantity", 2, 2, "handle quantity", residue_quantity},
           {"residue_pdb", 3, 3, "handle quantity file", residue_pdb},

@@ -8,7 +8,23 @@ A state is a file (PQR, PDB, mmCIF), a `State`, an AtomGroup of MDAnalysis or on
 the command line with underscores; `help_options()` lists them.
 """
 
-from ._core import (
+try:
+    from ._core import Map, State, Surface, __version__
+except ImportError as _missing:
+    # VMD's Python has espdiff.vmd without it.
+    _reason = str(_missing)
+
+    def __getattr__(name):
+        if name not in __all__:
+            raise AttributeError(f"module 'espdiff' has no attribute {name!r}")
+        raise ImportError(
+            f"espdiff.{name} needs the engine's extension, which this Python does not have ({_reason}); "
+            "`pip install .` in a clone builds it, and inside VMD espdiff.vmd does without it")
+else:
+    from ._inputs import state
+    from ._functions import Series, compare, help_options, matrix, merge, potential, status, surface
+    from ._results import Certificate, Comparison, Matrix
+from ._errors import (
     Cancelled,
     ConvergenceError,
     DeviceError,
@@ -18,17 +34,11 @@ from ._core import (
     InputError,
     InternalError,
     IoError,
-    Map,
     OutOfMemoryError,
-    State,
-    Surface,
-    __version__,
 )
-from ._functions import Series, compare, help_options, matrix, potential, status, surface
-from ._results import Certificate, Comparison, Matrix
 
 __all__ = [
     "Cancelled", "Certificate", "Comparison", "ConvergenceError", "DeviceError", "Error", "FormatError",
     "GeometryError", "InputError", "InternalError", "IoError", "Map", "Matrix", "OutOfMemoryError", "Series", "State",
-    "Surface", "__version__", "compare", "help_options", "matrix", "potential", "status", "surface",
+    "Surface", "__version__", "compare", "help_options", "matrix", "merge", "potential", "state", "status", "surface",
 ]

@@ -4,7 +4,7 @@ import os
 import tempfile
 
 from . import _core
-from ._inputs import state_of
+from ._inputs import refuse_the_same_atoms, state_of
 from ._results import Comparison, Matrix
 
 
@@ -88,8 +88,10 @@ def compare(source, target, *, potential="auto", source_map=None, target_map=Non
     Returns a Comparison. Raises espdiff.Error: InputError, FormatError, IoError, GeometryError, ...; Ctrl-C raises
     KeyboardInterrupt and ends the computation.
     """
-    a = _with_map(state_of(source, "source"), source_map, source_map_unit, "source")
-    b = _with_map(state_of(target, "target"), target_map, target_map_unit, "target")
+    if source_map is None and target_map is None:
+        refuse_the_same_atoms(source, target)
+    a = _with_map(state_of(source, "source", potential, options), source_map, source_map_unit, "source")
+    b = _with_map(state_of(target, "target", potential, options), target_map, target_map_unit, "target")
     call = _call("compare", {"potential": potential, **options})
     with _Progress(progress, "compare") as listener:
         return Comparison(_core.compare(a, b, _as_settings(options), potential, pme_cell, device, threads, call, listener))
@@ -101,7 +103,7 @@ def surface(state, *, potential="auto", pme_cell="auto", map=None, map_unit=None
 
     Arguments as of compare(). regularize: even out the triangles, as for the source of a comparison.
     """
-    given = _with_map(state_of(state), map, map_unit, "state")
+    given = _with_map(state_of(state, "state", potential, options), map, map_unit, "state")
     with _Progress(progress, "surface") as listener:
         return _core.surface(given, _as_settings(options), potential, pme_cell, device, threads, regularize, listener)
 
@@ -112,7 +114,13 @@ def potential(state, method="auto", *, device="auto", threads=0, progress=None, 
     Returns a Map: values (nx, ny, nz), origin, steps, unit; save("map.dx").
     """
     with _Progress(progress, "potential") as listener:
-        return _core.potential(state_of(state), _as_settings(options), method, device, threads, listener)
+        return _core.potential(state_of(state, "state", method, options), _as_settings(options), method, device, threads, listener)
+
+
+def labels_of_states(states):
+    """A file's name without its ending; "state3" for what is no file."""
+    return [os.path.splitext(os.path.basename(os.fspath(s)))[0] if isinstance(s, (str, os.PathLike)) else f"state{i}"
+            for i, s in enumerate(states)]
 
 
 def matrix(states, labels=None, *, groups=None, potential="auto", pme_cell="auto", output=None, resume=False,
@@ -127,16 +135,23 @@ def matrix(states, labels=None, *, groups=None, potential="auto", pme_cell="auto
     """
     states = list(states)
     if labels is None:
-        labels = [os.path.splitext(os.path.basename(os.fspath(s)))[0] if isinstance(s, (str, os.PathLike)) else f"state{i}"
-                  for i, s in enumerate(states)]
+        labels = labels_of_states(states)
     if (shard or resume) and output is None:
         raise _core.InputError("output: a part of a matrix, or one to go on with, needs files")
-    given = [state_of(state, f"states[{i}]") for i, state in enumerate(states)]
+    given = [state_of(state, f"states[{i}]", potential, options) for i, state in enumerate(states)]
     with _Progress(progress, "matrix") as listener, tempfile.TemporaryDirectory(prefix="espdiff-") as scratch:
         prefix = os.fspath(output) if output is not None else os.path.join(scratch, "matrix")
         text = _core.matrix(given, list(labels), list(groups or []), _as_settings(options), potential, pme_cell, device,
                             threads, prefix, resume, overwrite, skip_errors, shard or "", listener)
     return Matrix(text) if text else None
+
+
+def merge(parts, output, *, overwrite=False):
+    """Merges the parts of a matrix, OUT.shard-*.state of `shard=`, as `espdiff merge` does: the bytes of one process.
+
+    Writes OUT.csv and OUT.json; returns the Matrix.
+    """
+    return Matrix(_core.merge_matrix([os.fspath(part) for part in parts], os.fspath(output), overwrite, None))
 
 
 class Series:
@@ -151,7 +166,7 @@ class Series:
 
     def __init__(self, source, *, potential="auto", pme_cell="auto", start="auto", device="auto", threads=0, **options):
         call = _call("Series", {"potential": potential, "start": start, **options})
-        self._series = _core.Series(state_of(source, "source"), _as_settings(options), potential, pme_cell, start, device,
+        self._series = _core.Series(state_of(source, "source", potential, options), _as_settings(options), potential, pme_cell, start, device,
                                     threads, call)
 
     def step(self, target, progress=None):

@@ -1,20 +1,68 @@
-"""States from what other libraries hold: MDAnalysis' and ProDy's atoms."""
+"""States from what other libraries hold: MDAnalysis' and ProDy's atoms; states that go to other processes."""
 
+import copyreg
 import os
 
 from ._core import InputError, State
 
 
-def state_of(given, role="state"):
+def state(given):
+    """The State of a path, or of an AtomGroup of MDAnalysis or ProDy as it is now.
+
+    A State is a copy: it stays when the universe moves on to another frame.
+    """
+    return state_of(given)
+
+
+def is_atomgroup(given):
+    """Whether it is MDAnalysis' AtomGroup, or a ResidueGroup and the like."""
+    return hasattr(given, "universe") and hasattr(given, "atoms")
+
+
+def refuse_the_same_atoms(source, target):
+    """An AtomGroup's positions are those of its universe's present frame, however long ago it was selected."""
+    if not (is_atomgroup(source) and is_atomgroup(target)) or source.universe is not target.universe:
+        return
+    if len(source.atoms) == len(target.atoms) and (source.atoms.ix == target.atoms.ix).all():
+        frame = getattr(source.universe.trajectory, "frame", 0)
+        raise InputError(
+            f"target: the AtomGroup has the source's own atoms, and their universe shows frame {frame} alone; keep a frame "
+            "before the universe moves on, first = espdiff.state(atoms), and compare first with atoms")
+
+
+def _rebuild(parts):
+    if "path" in parts:
+        made = State.read(parts["path"], model=parts["model"], hetero=parts["hetero"], water=parts["water"])
+        if made.sha256 != parts["sha256"]:
+            raise InputError(f"{parts['path']}: it has changed since the State was made of it; read it again")
+    else:
+        made = State.from_arrays(**parts["arrays"])
+    if parts.get("everything") is not None:
+        made = made.surrounded_by(State.from_arrays(**parts["everything"]))
+    if "map_path" in parts:
+        made = made.with_map(parts["map_path"], unit=parts["unit"], array=parts["array"])
+    elif "map" in parts:
+        made = made.with_map(*parts["map"])
+    return made
+
+
+# States go to workers in other processes by their arrays, or by the path of their file.
+copyreg.pickle(State, lambda given: (_rebuild, (given._parts(),)))
+
+
+def state_of(given, role="state", potential="auto", options=()):
     """The State of a path, a State, or an AtomGroup of MDAnalysis or ProDy.
 
+    potential, options: of the computation; an AtomGroup without charges is refused where it needs them.
     Raises InputError naming `role` for anything else.
     """
+    if potential in ("pb", "pme", "coulomb") and "charges_from" not in options:
+        _require_charges(given, role, potential)
     if isinstance(given, State):
         return given
     if isinstance(given, (str, os.PathLike)):
         return State.read(os.fspath(given))
-    if hasattr(given, "universe") and hasattr(given, "atoms"):
+    if is_atomgroup(given):
         return _from_mdanalysis(given.atoms, role)
     if hasattr(given, "getCoords") and hasattr(given, "getNames"):
         return _from_prody(given, role)
@@ -24,11 +72,23 @@ def state_of(given, role="state"):
     )
 
 
+def _require_charges(given, role, potential):
+    if is_atomgroup(given) and not hasattr(given.atoms, "charges"):
+        raise InputError(
+            f"{role}: the AtomGroup has no charges, which potential={potential!r} needs; load a topology that has them "
+            "(PSF, TPR, prmtop), add them, universe.add_TopologyAttr('charges', values), or take them from a PQR file, "
+            "charges_from=")
+    if hasattr(given, "getCharges") and given.getCharges() is None:
+        raise InputError(
+            f"{role}: the atoms have no charges, which potential={potential!r} needs; set them, atoms.setCharges(values), or "
+            "take them from a PQR file, charges_from=")
+
+
 def _texts(values):
     return [str(value) for value in values]
 
 
-def _labels(atoms):
+def labels_of(atoms):
     """Names and residues of MDAnalysis' atoms, as far as the topology has them."""
     labels = {"names": _texts(atoms.names)} if hasattr(atoms, "names") else {}
     if hasattr(atoms, "elements"):
@@ -48,20 +108,29 @@ def _labels(atoms):
 def _state_of_atoms(atoms, name):
     radii = atoms.radii if hasattr(atoms, "radii") else None
     charges = atoms.charges if hasattr(atoms, "charges") else None
+    if radii is None and not hasattr(atoms, "names") and not hasattr(atoms, "elements"):
+        raise InputError("radii: the topology has none, and neither names nor elements to take them from; add one, "
+                         "universe.add_TopologyAttr('radii', values)")
+    # The frame's own array: `atoms.positions` would be a copy.
     return State.from_arrays(
-        atoms.positions, radii, charges, cell=atoms.universe.dimensions, name=name, **_labels(atoms)
-    )
+        atoms.universe.trajectory.ts.positions, radii, charges, rows=atoms.ix, cell=atoms.universe.dimensions, name=name,
+        **labels_of(atoms))
 
 
 def _from_mdanalysis(atoms, role):
     universe = atoms.universe
     if len(atoms) == 0:
         raise InputError(f"{role}: the AtomGroup is empty")
+    if not hasattr(universe, "trajectory"):
+        raise InputError(f"{role}: the universe has no coordinates; load a trajectory or a structure")
     name = str(getattr(universe, "filename", None) or "universe")
     frame = getattr(universe.trajectory, "frame", 0)
     if universe.trajectory.n_frames > 1:
         name += f", frame {frame}"
-    state = _state_of_atoms(atoms, name)
+    try:
+        state = _state_of_atoms(atoms, name)
+    except InputError as error:
+        raise InputError(f"{role}: {error}") from None
     # Water and ions outside the group count for pme in the universe's cell.
     if universe.dimensions is not None and len(atoms) < len(universe.atoms) and hasattr(universe.atoms, "charges"):
         state = state.surrounded_by(_state_of_atoms(universe.atoms, name))

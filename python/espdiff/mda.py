@@ -12,7 +12,7 @@ from MDAnalysis.analysis.base import AnalysisBase
 
 from ._core import InputError, metrics as list_metrics
 from ._functions import Series
-from ._inputs import state_of
+from ._inputs import is_atomgroup, state_of
 
 try:
     from MDAnalysis.analysis.results import ResultsGroup
@@ -20,20 +20,28 @@ except ImportError:  # before MDAnalysis 2.8 analyses run in one process
     ResultsGroup = None
 
 
+def _joined(parts):
+    """The columns of all workers' frames, in their order."""
+    return {name: [value for part in parts for value in part[name]] for name in parts[0]}
+
+
 class SurfacePotential(AnalysisBase):
     """Compares the surface of an AtomGroup in every frame with that of a reference.
 
     atomgroup: what has the surface; its universe may hold water, whose charges count for pme in a periodic cell.
-    reference: a frame's number, a path, a State, or another AtomGroup.
-    residues: keep the residues' mean absolute differences of every frame, too.
+    reference: a frame's number, a path, a State, or an AtomGroup of another universe.
+    residues: keep the residues' values of every frame, too.
     threads: of each process; with several workers 1 is usual.
     options: those of espdiff.compare().
 
     Every mapping starts from the reference, so that a frame's numbers depend on nothing but that frame, and several
     workers give the same bits as one.
 
-    results.metrics: {name: (frames) float64}. results.trustworthy: (frames) bool. results.reasons: [frame] list.
-    results.residues: (frames, residues) float64, with `residues`. results.frames, results.times.
+    results.metrics: {name: (frames) float64}; NaN where there is no value. results.unit: of potentials.
+    results.trustworthy: (frames) bool. results.reasons, results.warnings: [frame] list of texts.
+    With `residues`: results.residue_values: {name: (frames, residues) float64}; results.residues: those of
+    mean_abs_difference, of shapes alone mean_displacement_A; results.residue_labels: (residues), such as A:LYS33.
+    results.frames, results.times.
     """
 
     _analysis_algorithm_is_parallelizable = True
@@ -43,25 +51,38 @@ class SurfacePotential(AnalysisBase):
         return ("serial", "multiprocessing", "dask")
 
     def __init__(self, atomgroup, reference=0, *, residues=False, threads=0, verbose=False, **options):
+        if not is_atomgroup(atomgroup):
+            raise InputError(f"atomgroup: a {type(atomgroup).__name__} is no AtomGroup; give universe.select_atoms(...)")
         if len(atomgroup) == 0:
             raise InputError("atomgroup: it is empty")
         if "start" in options:
             raise InputError("start: every frame starts from the reference here; espdiff.Series has small steps")
         super().__init__(atomgroup.universe.trajectory, verbose=verbose)
         self._atoms = atomgroup.atoms
-        self._reference = reference
+        self._reference = self._checked(reference)
         self._keeps_residues = residues
         self._options = {"threads": threads, **options}
         self._series = None
 
-    def _reference_state(self):
-        if not isinstance(self._reference, (int, np.integer)):
-            return state_of(self._reference, "reference")
+    def _checked(self, reference):
+        """A frame's number, or a State, which stays when universes move on."""
         trajectory = self._atoms.universe.trajectory
-        if not -len(trajectory) <= self._reference < len(trajectory):
-            raise InputError(f"reference: there is no frame {self._reference}; the trajectory has {len(trajectory)}")
+        if isinstance(reference, (int, np.integer)):
+            if not -len(trajectory) <= reference < len(trajectory):
+                raise InputError(f"reference: there is no frame {reference}; the trajectory has {len(trajectory)}")
+            return int(reference)
+        if is_atomgroup(reference) and reference.universe is self._atoms.universe:
+            raise InputError(
+                "reference: the AtomGroup is of the universe whose frames are compared, and moves with them; give the "
+                "frame's number, or keep that frame, espdiff.state(atoms)")
+        return state_of(reference, "reference")
+
+    def _reference_state(self):
+        if not isinstance(self._reference, int):
+            return self._reference
+        trajectory = self._atoms.universe.trajectory
         here = trajectory.frame
-        trajectory[int(self._reference)]
+        trajectory[self._reference]
         state = state_of(self._atoms, "reference")
         trajectory[here]
         return state
@@ -69,31 +90,48 @@ class SurfacePotential(AnalysisBase):
     def _prepare(self):
         # Workers get the analysis by pickle, and make their own series.
         self._series = None
-        self.results.table = []
+        self.results.columns = {"metrics": [], "trustworthy": [], "reasons": [], "warnings": [], "unit": [],
+                                "residue_labels": [], "residue_values": []}
 
     def _single_frame(self):
         if self._series is None:
             self._series = Series(self._reference_state(), start="source", **self._options)
         comparison = self._series.step(state_of(self._atoms, f"frame {self._ts.frame}"))
+        record = comparison.to_dict()
         row = {"metrics": dict(comparison.metrics), "trustworthy": comparison.trustworthy,
-               "reasons": comparison.certificate.reasons}
+               "reasons": record["certificate"]["reasons"],
+               "warnings": [warning["text"] for warning in record["warnings"]],
+               "unit": comparison.unit if comparison.has_potential else ""}
         if self._keeps_residues:
-            row["residues"] = np.array(comparison.residue_columns()["mean_abs_difference"])
-        self.results.table.append(row)
+            columns = comparison.residue_columns()
+            row["residue_labels"] = [
+                f"{chain}{':' if chain else ''}{name}{number}{code}" for chain, name, number, code in zip(
+                    columns["chain"], columns["name"], columns["number"], columns["insertion_code"])]
+            row["residue_values"] = {
+                name: np.array(values) for name, values in columns.items() if isinstance(values, np.ndarray)}
+        for name, value in row.items():
+            self.results.columns[name].append(value)
 
     def _get_aggregator(self):
-        return ResultsGroup(lookup={"table": lambda parts: [row for part in parts for row in part]})
+        return ResultsGroup(lookup={"columns": _joined})
 
     def _conclude(self):
-        table = self.results.table
+        columns = self.results.columns
+        del self.results["columns"]
         names = [row["name"] for row in list_metrics()]
         self.results.metrics = {
-            name: np.array([row["metrics"][name] for row in table]) for name in names if table and name in table[0]["metrics"]
-        }
-        self.results.trustworthy = np.array([row["trustworthy"] for row in table], dtype=bool)
-        self.results.reasons = [row["reasons"] for row in table]
-        if self._keeps_residues:
-            self.results.residues = np.array([row["residues"] for row in table])
+            name: np.array([row[name] for row in columns["metrics"]])
+            for name in names if columns["metrics"] and name in columns["metrics"][0]}
+        self.results.trustworthy = np.array(columns["trustworthy"], dtype=bool)
+        self.results.reasons = columns["reasons"]
+        self.results.warnings = columns["warnings"]
+        self.results.unit = columns["unit"][0] if columns["unit"] else ""
+        if self._keeps_residues and columns["residue_values"]:
+            self.results.residue_labels = columns["residue_labels"][0]
+            self.results.residue_values = {
+                name: np.array([row[name] for row in columns["residue_values"]]) for name in columns["residue_values"][0]}
+            main = "mean_abs_difference" if self.results.unit else "mean_displacement_A"
+            self.results.residues = self.results.residue_values[main]
         self.results.frames = self.frames
         self.results.times = self.times
         self._series = None

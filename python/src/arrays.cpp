@@ -63,21 +63,36 @@ std::vector<float> read_numbers(const AnyArray& array, const std::string& name, 
   return values;
 }
 
-std::vector<Vec3d> read_positions(const AnyArray& array, const std::string& name) {
-  const Element read = reader_of(array, name);
+PositionRows::PositionRows(const AnyArray& array, const std::optional<AnyArray>& rows, std::string name)
+    : array_(array), rows_(rows), name_(std::move(name)), read_(reader_of(array, name_)) {
   if (array.ndim() != 2 || array.shape(1) != 3)
-    throw InputError(name + ": the array has the shape " + shape_of(array) + "; (number of atoms, 3) is needed");
-  if (array.shape(0) == 0) throw InputError(name + ": there are no atoms");
-  std::vector<Vec3d> positions(array.shape(0));
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const std::int64_t at = static_cast<std::int64_t>(i) * array.stride(0) + axis * array.stride(1);
-      positions[i][axis] = read(array.data(), at);
-      if (!std::isfinite(positions[i][axis]))
-        throw InputError(name + ": atom " + std::to_string(i) + " has a coordinate that is not finite");
-    }
+    throw InputError(name_ + ": the array has the shape " + shape_of(array) + "; (number of atoms, 3) is needed");
+  if (rows) {
+    if (rows->ndim() != 1 || rows->dtype().code == static_cast<std::uint8_t>(nb::dlpack::dtype_code::Float))
+      throw InputError("rows: the array has the shape " + shape_of(*rows) +
+                       "; one whole number for each atom is needed");
+    read_row_ = reader_of(*rows, "rows");
   }
-  return positions;
+  if (size() == 0) throw InputError(name_ + ": there are no atoms");
+}
+
+std::size_t PositionRows::size() const { return rows_ ? rows_->shape(0) : array_.shape(0); }
+
+Vec3d PositionRows::operator[](std::size_t i) const {
+  auto row = static_cast<std::int64_t>(i);
+  if (rows_) {
+    row = static_cast<std::int64_t>(read_row_(rows_->data(), row * rows_->stride(0)));
+    if (row < 0 || row >= static_cast<std::int64_t>(array_.shape(0)))
+      throw InputError("rows: " + name_ + " has no row " + std::to_string(row) + "; there are " +
+                       std::to_string(array_.shape(0)));
+  }
+  Vec3d position{};
+  for (int axis = 0; axis < 3; ++axis) {
+    position[axis] = read_(array_.data(), row * array_.stride(0) + axis * array_.stride(1));
+    if (!std::isfinite(position[axis]))
+      throw InputError(name_ + ": atom " + std::to_string(i) + " has a coordinate that is not finite");
+  }
+  return position;
 }
 
 std::vector<float> read_values(const AnyArray& array, const std::string& name) {

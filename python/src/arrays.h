@@ -4,6 +4,8 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,8 +46,24 @@ using AnyArray = nb::ndarray<nb::ro, nb::device::cpu>;
 /// @param n    expected
 /// @throws InputError (shape, type, values that are not finite)
 std::vector<float> read_numbers(const AnyArray& array, const std::string& name, std::size_t n);
-/// @throws as read_numbers(), for an array of shape (n, 3)
-std::vector<Vec3d> read_positions(const AnyArray& array, const std::string& name);
+/// Rows of an array of shape (n, 3), read one by one where they are needed, so that nothing is copied on the way.
+class PositionRows {
+ public:
+  /// @param rows which of them, in this order, (m) integers; none: all
+  /// @throws InputError (shape, type, no rows, a row that the array lacks)
+  PositionRows(const AnyArray& array, const std::optional<AnyArray>& rows, std::string name);
+  std::size_t size() const;
+  /// @throws InputError (a coordinate that is not finite)
+  Vec3d operator[](std::size_t i) const;
+
+ private:
+  using Element = double (*)(const void*, std::int64_t);
+
+  const AnyArray& array_;
+  const std::optional<AnyArray>& rows_;
+  std::string name_;
+  Element read_ = nullptr, read_row_ = nullptr;
+};
 /// @throws as read_numbers(), for an array of any shape; in C order
 std::vector<float> read_values(const AnyArray& array, const std::string& name);
 

@@ -82,9 +82,26 @@ std::string compute(const std::vector<StatePtr>& states, const std::vector<std::
   return text;
 }
 
+/// @returns the content of OUT.json
+std::string merge(const std::vector<std::string>& parts, const std::string& output, bool overwrite,
+                  const nb::object& progress) {
+  MatrixRun order;
+  order.output = output;
+  order.overwrite = overwrite;
+  std::string text;
+  run(progress, [&](const Progress&) {
+    const MatrixReport report = merge_matrix(parts, order);
+    text = matrix_json(*report.matrix, metric_to_cluster_by(order, *report.matrix))
+               .dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+  });
+  return text;
+}
+
 }  // namespace
 
 void add_matrix(nb::module_& module) {
+  module.def("merge_matrix", &merge, nb::arg("parts"), nb::arg("output"), nb::arg("overwrite"),
+             nb::arg("progress").none());
   module.def("matrix", &compute, nb::arg("states"), nb::arg("labels"), nb::arg("groups"), nb::arg("settings"),
              nb::arg("potential"), nb::arg("pme_cell"), nb::arg("device"), nb::arg("threads"), nb::arg("output"),
              nb::arg("resume"), nb::arg("overwrite"), nb::arg("skip_errors"), nb::arg("shard"),

@@ -5,6 +5,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "base/version.h"
+#include "command_line.h"
 #include "compare/options.h"
 #include "compare/settings.h"
 #include "comparison.h"
@@ -80,6 +81,7 @@ NB_MODULE(_core, module) {
   espdiff::python::add_surface(module);
   espdiff::python::add_potential(module);
   espdiff::python::add_matrix(module);
+  espdiff::python::add_command_line(module);
   module.def("settings", &list_settings,
              "Every option of compare() and its like: name, group, choices, default, help.");
   module.def("metrics", &list_metrics, "Every number of a comparison: name, label, unit, help.");

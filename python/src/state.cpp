@@ -17,26 +17,30 @@
 #include "io/read_grid.h"
 #include "io/sha256.h"
 #include "io/structure_file.h"
+#include "state_parts.h"
 
 namespace espdiff::python {
 namespace {
 
 template <typename T>
-void append_bytes(std::string& bytes, const std::vector<T>& values) {
-  bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+void add_values(Sha256& sum, const std::vector<T>& values) {
+  sum.update(values.data(), values.size() * sizeof(T));
 }
+
+void add_text(Sha256& sum, const std::string& text) { sum.update(text.data(), text.size()); }
 
 /// Of all that a result depends on. Positions, radii and charges have no padding.
 std::string fingerprint(const Molecule& molecule) {
-  std::string bytes;
-  append_bytes(bytes, molecule.positions);
-  append_bytes(bytes, molecule.radii);
-  append_bytes(bytes, molecule.charges);
-  for (const Atom& atom : molecule.atoms) bytes += atom.name + "\n" + std::to_string(atom.residue) + "\n";
-  for (const Residue& residue : molecule.residues)
-    bytes +=
-        residue.chain + "\n" + residue.name + "\n" + std::to_string(residue.number) + residue.insertion_code + "\n";
-  return sha256_of(bytes);
+  Sha256 sum;
+  add_values(sum, molecule.positions);
+  add_values(sum, molecule.radii);
+  add_values(sum, molecule.charges);
+  for (const Atom& atom : molecule.atoms) add_text(sum, atom.name + "\n" + std::to_string(atom.residue) + "\n");
+  for (const Residue& residue : molecule.residues) {
+    add_text(sum, residue.chain + "\n" + residue.name + "\n" + std::to_string(residue.number) + residue.insertion_code +
+                      "\n");
+  }
+  return sum.finish();
 }
 
 template <typename T>
@@ -66,11 +70,11 @@ struct Labels {
   std::vector<int> residue_numbers;
 };
 
-StatePtr from_arrays(const AnyArray& positions, const std::optional<AnyArray>& radii,
-                     const std::optional<AnyArray>& charges, Labels labels, const std::optional<AnyArray>& cell,
-                     const std::string& name) {
+StatePtr from_arrays(const AnyArray& positions, const std::optional<AnyArray>& rows,
+                     const std::optional<AnyArray>& radii, const std::optional<AnyArray>& charges, Labels labels,
+                     const std::optional<AnyArray>& cell, const std::string& name) {
   auto state = std::make_shared<State>();
-  const std::vector<Vec3d> at = read_positions(positions, "positions");
+  const PositionRows at(positions, rows, "positions");
   const std::size_t n = at.size();
   check_size(labels.names, "names", n);
   check_size(labels.elements, "elements", n);
@@ -81,6 +85,7 @@ StatePtr from_arrays(const AnyArray& positions, const std::optional<AnyArray>& r
   if (!radii && labels.names.empty() && labels.elements.empty())
     throw InputError("radii: none are given, and neither names nor elements to take them from");
   MoleculeBuilder builder(name, {});
+  builder.reserve(n);
   for (std::size_t i = 0; i < n; ++i) {
     AtomEntry entry;
     // Atoms without names pair by their places in the arrays.
@@ -118,13 +123,13 @@ StatePtr from_file(const std::filesystem::path& path, int model, bool hetero, bo
 }
 
 /// A copy with what surrounds the molecule: the water, ions and cell of another state.
-StatePtr surrounded_by(const State& state, const State& everything) {
+StatePtr surrounded_by(const State& state, const StatePtr& everything) {
   if (state.file != nullptr)
     throw InputError(state.molecule.name + ": the surroundings of a state from a file are in its file");
   auto copy = std::make_shared<State>(state);
-  copy->everything = std::make_shared<const Molecule>(everything.molecule);
-  copy->cell = everything.cell;
-  copy->input.sha256 = sha256_of(state.input.sha256 + everything.input.sha256);
+  copy->everything = std::shared_ptr<const Molecule>(everything, &everything->molecule);
+  copy->cell = everything->cell;
+  copy->input.sha256 = sha256_of(state.input.sha256 + everything->input.sha256);
   return copy;
 }
 
@@ -136,6 +141,8 @@ StatePtr with_map_file(const State& state, const std::string& path, const std::s
   if (!unit.empty()) map.grid.unit = parse_potential_unit(unit);
   copy->map = std::make_shared<const Grid>(std::move(map.grid));
   copy->map_input = {"", path, map.sha256};
+  copy->map_from_file = true;
+  copy->map_array = array;
   return copy;
 }
 
@@ -167,11 +174,12 @@ StatePtr with_map(const State& state, const AnyArray& values, const std::vector<
   }
   grid->unit = parse_potential_unit(unit);
   grid->name = "map of " + state.molecule.name;
-  std::string bytes;
-  append_bytes(bytes, grid->values);
+  Sha256 sum;
+  add_values(sum, grid->values);
   auto copy = std::make_shared<State>(state);
-  copy->map_input = {"", grid->name, sha256_of(bytes)};
+  copy->map_input = {"", grid->name, sum.finish()};
   copy->map = grid;
+  copy->map_from_file = false;
   return copy;
 }
 
@@ -190,22 +198,23 @@ void add_state(nb::module_& module) {
       .def_static(
           "from_arrays",
           [](const AnyArray& positions, const std::optional<AnyArray>& radii, const std::optional<AnyArray>& charges,
-             std::vector<std::string> names, std::vector<std::string> elements, std::vector<std::string> residue_names,
-             std::vector<int> residue_numbers, std::vector<std::string> chains,
+             const std::optional<AnyArray>& rows, std::vector<std::string> names, std::vector<std::string> elements,
+             std::vector<std::string> residue_names, std::vector<int> residue_numbers, std::vector<std::string> chains,
              std::vector<std::string> insertion_codes, const std::optional<AnyArray>& cell, const std::string& name) {
-            return from_arrays(positions, radii, charges,
+            return from_arrays(positions, rows, radii, charges,
                                {std::move(names), std::move(elements), std::move(residue_names), std::move(chains),
                                 std::move(insertion_codes), std::move(residue_numbers)},
                                cell, name);
           },
           nb::arg("positions"), nb::arg("radii").none() = nb::none(), nb::arg("charges").none() = nb::none(),
-          nb::kw_only(), nb::arg("names") = std::vector<std::string>(),
+          nb::kw_only(), nb::arg("rows").none() = nb::none(), nb::arg("names") = std::vector<std::string>(),
           nb::arg("elements") = std::vector<std::string>(), nb::arg("residue_names") = std::vector<std::string>(),
           nb::arg("residue_numbers") = std::vector<int>(), nb::arg("chains") = std::vector<std::string>(),
           nb::arg("insertion_codes") = std::vector<std::string>(), nb::arg("cell").none() = nb::none(),
           nb::arg("name") = "arrays",
           "A state from arrays, which are copied once, in any floating-point type and order.\n\n"
-          "positions: (n, 3), A. radii: (n), A; without, van der Waals radii by element. charges: (n), elementary "
+          "positions: (n, 3), A; with rows, (m) integers, those rows of it, such as an AtomGroup's of its universe's. "
+          "radii: (n), A; without, van der Waals radii by element. charges: (n), elementary "
           "charges; without, shapes alone are compared. cell: three lengths (A), three angles (degrees).\n"
           "Raises InputError, which names the argument.")
       .def("surrounded_by", &surrounded_by, nb::arg("everything"),
@@ -215,6 +224,7 @@ void add_state(nb::module_& module) {
            "The same molecule with the potential of a map file: DX, VTI or cube.")
       .def("with_map", &with_map, nb::arg("values"), nb::arg("origin"), nb::arg("step"), nb::arg("unit") = "kT/e",
            "The same molecule with a potential: values (nx, ny, nz), origin and step in A.")
+      .def("_parts", &parts_of, "What another process makes the same state of.")
       .def("__len__", [](const State& s) { return s.molecule.size(); })
       .def("__repr__",
            [](const State& s) {

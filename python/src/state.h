@@ -29,6 +29,8 @@ struct State {
   std::optional<UnitCell> cell;  ///< of arrays
   std::shared_ptr<const Grid> map;
   InputFile input, map_input;  ///< without roles
+  bool map_from_file = false;
+  std::string map_array;  ///< of a file that has several
 };
 
 using StatePtr = std::shared_ptr<const State>;

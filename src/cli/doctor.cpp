@@ -9,6 +9,7 @@
 #include "cli/spelling.h"
 #include "cli/verbs.h"
 #include "engine/select_engine.h"
+#include "io/frame_reader.h"
 #include "io/molfile_plugins.h"
 #include "io/run_program.h"
 #include "prepare/pdb2pqr.h"
@@ -49,10 +50,12 @@ int run() {
   line("structures", false, "PQR only: gemmi was not found when this was built (Debian: gemmi-dev)");
 #endif
   const std::string plugins = find_molfile_folder();
-  line("trajectories", !plugins.empty(),
-       !plugins.empty()
-           ? "by VMD's plugins in " + plugins
-           : std::string("no molfile plugins of VMD, which read DCD, XTC, PSF and others; ") + kMolfileRemedy);
+  const FrameReader* const other = frame_reader();
+  line("trajectories", !plugins.empty() || other != nullptr,
+       !plugins.empty()   ? "by VMD's plugins in " + plugins
+       : other != nullptr ? "by " + other->name + "; VMD's plugins are not found"
+                          : std::string("no molfile plugins of VMD, which read DCD, XTC, PSF and others; ") +
+                                kMolfileRemedy + frame_reader_remedy());
   line("maps", true, "DX, cube, VTI");
 #if defined(ESPDIFF_HAVE_VTK)
   const std::string problem = drawing_problem();

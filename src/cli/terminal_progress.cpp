@@ -20,9 +20,9 @@ extern "C" void on_interrupt(int) {
 /// A closed terminal ends a run as Ctrl-C does; under nohup the signal is ignored, and stays so.
 constexpr int kCancelling[] = {SIGINT, SIGTERM, SIGHUP};
 
-void set_handler(int signal, void (*handler)(int)) {
-  struct sigaction action {
-  }, before{};
+/// @param before receives the action that is to come back
+void set_handler(int signal, void (*handler)(int), struct sigaction& before) {
+  struct sigaction action {};
   if (sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) return;
   action.sa_handler = handler;  // no SA_RESTART: a call that blocks returns
   sigemptyset(&action.sa_mask);
@@ -38,14 +38,15 @@ TerminalProgress::TerminalProgress()
     : is_terminal_(isatty(STDERR_FILENO) != 0),
       progress_([this](const std::string& stage, double fraction) { draw(stage, fraction); }) {
   interruptible = &progress_;
-  for (const int signal : kCancelling) set_handler(signal, on_interrupt);
+  for (const int signal : kCancelling) set_handler(signal, on_interrupt, before_[signal]);
   // A reader that is gone and a file at its limit of size are errors of write(), which are told and tidied up after.
-  for (const int signal : {SIGPIPE, SIGXFSZ}) set_handler(signal, SIG_IGN);
+  struct sigaction ignored {};
+  for (const int signal : {SIGPIPE, SIGXFSZ}) set_handler(signal, SIG_IGN, ignored);
 }
 
 TerminalProgress::~TerminalProgress() {
   clear();
-  for (const int signal : kCancelling) set_handler(signal, SIG_DFL);
+  for (const auto& [signal, action] : before_) sigaction(signal, &action, nullptr);
   interruptible = nullptr;
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <chrono>
+#include <csignal>
+#include <map>
 #include <string>
 
 #include "base/progress.h"
@@ -29,6 +31,7 @@ class TerminalProgress {
   std::string stage_;
   std::chrono::steady_clock::time_point last_draw_{};
   Progress progress_;
+  std::map<int, struct sigaction> before_;  // [signal that cancels] the action that comes back
 };
 
 }  // namespace espdiff::cli

@@ -47,6 +47,12 @@ MoleculeBuilder::MoleculeBuilder(std::string path, const StructureOptions& optio
   molecule_.name = path_;
 }
 
+void MoleculeBuilder::reserve(std::size_t n_atoms) {
+  molecule_.atoms.reserve(n_atoms);
+  molecule_.positions.reserve(n_atoms);
+  molecule_.radii.reserve(n_atoms);
+}
+
 bool MoleculeBuilder::wants(const std::string& residue_name, bool hetero) {
   if (!options_.include_water && is_water_name(residue_name)) {
     ++n_water_;

@@ -38,6 +38,9 @@ class MoleculeBuilder {
  public:
   MoleculeBuilder(std::string path, const StructureOptions& options);
 
+  /// Makes room for so many atoms, where the number is known.
+  void reserve(std::size_t n_atoms);
+
   /// Whether the options keep this atom; counts those they drop, for finish()'s message.
   bool wants(const std::string& residue_name, bool hetero);
 

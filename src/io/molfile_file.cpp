@@ -56,8 +56,8 @@ AtomEntry entry_of(const molfile::AtomRecord& atom, int flags) {
 
 }  // namespace
 
-CoordinateFile::CoordinateFile(std::string path, const MolfileReader& reader, std::size_t n_atoms,
-                               const Progress& progress)
+MolfileFrames::MolfileFrames(std::string path, const MolfileReader& reader, std::size_t n_atoms,
+                             const Progress& progress)
     : path_(std::move(path)), reader_(reader), n_atoms_(n_atoms) {
   require_file(path_);
   if (reader_.functions->read_next_timestep == nullptr)
@@ -77,9 +77,9 @@ CoordinateFile::CoordinateFile(std::string path, const MolfileReader& reader, st
   if (n_frames_ == 0) throw FormatError(path_, 0, "there are no frames");
 }
 
-CoordinateFile::~CoordinateFile() { close(); }
+MolfileFrames::~MolfileFrames() { close(); }
 
-void CoordinateFile::open() {
+void MolfileFrames::open() {
   int n_atoms = molfile::kUnknownAtoms;
   handle_ = open_with(path_, reader_, n_atoms);
   at_ = 0;
@@ -89,13 +89,13 @@ void CoordinateFile::open() {
                    std::to_string(n_atoms_) + "; give the structure or topology that it was made with");
 }
 
-void CoordinateFile::close() {
+void MolfileFrames::close() {
   if (handle_ == nullptr) return;
   const QuietOutput quiet;
   reader_.functions->close_file_read(std::exchange(handle_, nullptr));
 }
 
-bool CoordinateFile::next() {
+bool MolfileFrames::next() {
   frame_.positions.resize(n_atoms_);
   molfile::Timestep step;
   step.coords = reinterpret_cast<float*>(frame_.positions.data());
@@ -116,7 +116,7 @@ bool CoordinateFile::next() {
   return true;
 }
 
-const CoordinateFrame& CoordinateFile::frame(int number) {
+const CoordinateFrame& MolfileFrames::frame(int number) {
   if (number == held_) return frame_;
   held_ = -1;
   if (handle_ == nullptr || at_ > number) {

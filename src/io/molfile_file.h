@@ -2,42 +2,32 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "base/progress.h"
 #include "base/types.h"
-#include "base/unit_cell.h"
+#include "io/coordinate_file.h"
 #include "io/molfile_plugins.h"
 
 namespace espdiff {
 
-/// One frame of a trajectory.
-struct CoordinateFrame {
-  std::vector<Vec3f> positions;  ///< [atom] Angstrom
-  std::optional<UnitCell> cell;  ///< none where the file has none, or edges of 1 A and less
-};
-
-/// A file of coordinates. Frames are read in any order; going back begins at the file's first again. A reader of VMD's
-/// runs in this process: it is trusted as VMD trusts it.
-class CoordinateFile {
+/// A trajectory through one of VMD's readers. Going back begins at the file's first frame again. The reader runs in
+/// this process: it is trusted as VMD trusts it.
+class MolfileFrames : public CoordinateFile {
  public:
   /// Reads through the file once, to count its frames.
   /// @param n_atoms that each frame must have
   /// @param progress can cancel the count
   /// @throws IoError (missing), InputError (another number of atoms; the reader has no coordinates), FormatError (it
   ///         cannot be opened by the reader; no frame)
-  CoordinateFile(std::string path, const MolfileReader& reader, std::size_t n_atoms, const Progress& progress);
-  ~CoordinateFile();
-  CoordinateFile(const CoordinateFile&) = delete;
-  CoordinateFile& operator=(const CoordinateFile&) = delete;
+  MolfileFrames(std::string path, const MolfileReader& reader, std::size_t n_atoms, const Progress& progress);
+  ~MolfileFrames() override;
+  MolfileFrames(const MolfileFrames&) = delete;
+  MolfileFrames& operator=(const MolfileFrames&) = delete;
 
-  const std::string& path() const { return path_; }
-  int n_frames() const { return n_frames_; }
-  /// A frame, which stays until another one is asked for.
-  /// @param number from 0. @throws FormatError (the frame is damaged; a coordinate is not finite)
-  const CoordinateFrame& frame(int number);
+  const std::string& path() const override { return path_; }
+  int n_frames() const override { return n_frames_; }
+  const CoordinateFrame& frame(int number) override;
 
  private:
   void open();

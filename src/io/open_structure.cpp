@@ -4,12 +4,25 @@
 #include <utility>
 
 #include "base/error.h"
+#include "io/frame_reader.h"
 #include "io/molfile_file.h"
 #include "io/molfile_plugins.h"
 #include "io/read_topology.h"
 #include "io/sha256.h"
 
 namespace espdiff {
+namespace {
+
+FrameReader& the_frame_reader() {
+  static FrameReader reader;
+  return reader;
+}
+
+}  // namespace
+
+const FrameReader* frame_reader() { return the_frame_reader().open ? &the_frame_reader() : nullptr; }
+const std::string& frame_reader_remedy() { return the_frame_reader().remedy; }
+void set_frame_reader(FrameReader reader) { the_frame_reader() = std::move(reader); }
 
 std::unique_ptr<StructureFile> open_structure(const std::string& path) { return std::make_unique<StructureFile>(path); }
 
@@ -19,11 +32,17 @@ TrajectoryOpener::TrajectoryOpener(std::string topology, std::string plugins, co
       progress_(progress),
       needs_coordinates_(needs_molfile_reader(topology_)) {}
 
+/// The surrounding program's reader, where VMD's are neither named nor found.
+const FrameReader* TrajectoryOpener::other_reader() {
+  plugins_ = find_molfile_folder(plugins_);
+  return plugins_.empty() ? frame_reader() : nullptr;
+}
+
 const MolfileReader& TrajectoryOpener::reader_of(const std::string& path) {
   plugins_ = find_molfile_folder(plugins_);
   if (plugins_.empty())
     throw DeviceError(path + ": is read by VMD's molfile plugins, and none were found; " + kMolfileRemedy + " as " +
-                      option("plugins"));
+                      option("plugins") + frame_reader_remedy());
   const MolfileReader* const reader = find_molfile_reader(plugins_, path);
   if (reader == nullptr)
     throw InputError(path + ": no plugin of VMD in " + plugins_ +
@@ -39,7 +58,8 @@ std::shared_ptr<const Molecule> TrajectoryOpener::atoms() {
     all = file.read({1, true, true, {}});
     sha256_ = file.sha256();
   } else {
-    all = read_molfile_atoms(topology_, reader_of(topology_));
+    const FrameReader* const other = other_reader();
+    all = other != nullptr ? other->read_atoms(topology_) : read_molfile_atoms(topology_, reader_of(topology_));
     sha256_ = sha256_of_file(topology_);
     // As for a topology beside a structure: a prmtop's radii come with its charges.
     if (is_topology(topology_)) take_topology(all, read_topology(topology_));
@@ -50,9 +70,13 @@ std::shared_ptr<const Molecule> TrajectoryOpener::atoms() {
 
 std::unique_ptr<StructureFile> TrajectoryOpener::open(const std::string& path) {
   if (!needs_molfile_reader(path)) return open_structure(path);
+  if (const FrameReader* const other = other_reader(); other != nullptr) {
+    const std::shared_ptr<const Molecule> all = atoms();
+    return std::make_unique<StructureFile>(other->open(path, all->size()), all);
+  }
   const MolfileReader& reader = reader_of(path);
   const std::shared_ptr<const Molecule> all = atoms();
-  return std::make_unique<StructureFile>(std::make_unique<CoordinateFile>(path, reader, all->size(), progress_), all);
+  return std::make_unique<StructureFile>(std::make_unique<MolfileFrames>(path, reader, all->size(), progress_), all);
 }
 
 }  // namespace espdiff

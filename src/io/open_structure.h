@@ -11,6 +11,7 @@
 
 namespace espdiff {
 
+struct FrameReader;
 struct MolfileReader;
 
 /// How a file is opened as a StructureFile.
@@ -19,7 +20,8 @@ using OpenStructure = std::function<std::unique_ptr<StructureFile>(const std::st
 /// A structure file: PQR, PDB or mmCIF. @throws as StructureFile
 std::unique_ptr<StructureFile> open_structure(const std::string& path);
 
-/// Opens what VMD's readers read as well. Trajectories get the atoms of a structure or topology.
+/// Opens what VMD's readers read as well, or where they are absent frame_reader(). Trajectories get the atoms of a
+/// structure or topology.
 class TrajectoryOpener {
  public:
   /// @param topology a structure file, or a topology that VMD reads (PSF, prmtop, GRO, ...)
@@ -37,6 +39,7 @@ class TrajectoryOpener {
   std::unique_ptr<StructureFile> open(const std::string& path);
 
  private:
+  const FrameReader* other_reader();
   const MolfileReader& reader_of(const std::string& path);
   std::shared_ptr<const Molecule> atoms();
 

@@ -8,8 +8,8 @@
 
 #include "base/error.h"
 #include "io/atom_records.h"
+#include "io/coordinate_file.h"
 #include "io/file_kind.h"
-#include "io/molfile_file.h"
 #include "io/read_input.h"
 #include "io/read_pqr.h"
 #include "io/read_unit_cells.h"

@@ -48,7 +48,8 @@ const Rooms kAllowed = {
      {"base", "align", "engine", "io", "statistics", "compare", "prepare", "potential", "plot", "report", "trajectory",
       "matrix", "ensemble"}},
     {"python/src",
-     {"base", "align", "engine", "io", "compare", "prepare", "potential", "report", "trajectory", "matrix"}},
+     {"base", "align", "engine", "io", "statistics", "compare", "prepare", "potential", "report", "trajectory",
+      "matrix", "ensemble", "cli"}},
 };
 
 std::string quoted_include(const std::string& line) {

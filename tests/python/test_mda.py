@@ -21,7 +21,7 @@ def universe(data):
 
 def test_an_atomgroup_is_a_state(universe, tmp_path):
     atoms = universe.select_atoms("protein")
-    result = espdiff.compare(atoms, atoms, potential="none", grid_spacing=2)
+    result = espdiff.compare(espdiff.state(atoms), atoms, potential="none", grid_spacing=2)
     assert result.metrics["mean_displacement_A"] < 0.01
     assert len(result.source) == len(atoms)
     assert np.allclose(result.source.positions, atoms.positions)

@@ -1,0 +1,38 @@
+"""`python -m espdiff`: the command line, in this Python."""
+
+import os
+import sys
+
+
+def _start_again_without_spinning():
+    """As the program does: OpenMP's threads spin while they wait unless the environment says otherwise at the start."""
+    if "OMP_WAIT_POLICY" in os.environ or "GOMP_SPINCOUNT" in os.environ:
+        return
+    os.environ["OMP_WAIT_POLICY"] = "passive"
+    words = getattr(sys, "orig_argv", None) or [sys.executable, "-m", "espdiff", *sys.argv[1:]]
+    os.execv(sys.executable, [sys.executable, *words[1:]])
+
+
+def _reader():
+    """MDAnalysis' name and version; empty where it is not installed."""
+    from importlib import metadata
+
+    try:
+        return "MDAnalysis " + metadata.version("MDAnalysis")
+    except metadata.PackageNotFoundError:
+        return ""
+
+
+def main(arguments=None):
+    """Runs `espdiff ARGUMENTS...` in this process (sys.argv without any); returns the exit status."""
+    from ._core import command_line
+
+    for stream in (sys.stdout, sys.stderr):
+        if stream is not None:
+            stream.flush()
+    return command_line([os.fspath(word) for word in (sys.argv[1:] if arguments is None else arguments)], _reader())
+
+
+if __name__ == "__main__":
+    _start_again_without_spinning()
+    sys.exit(main())

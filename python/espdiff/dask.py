@@ -1,0 +1,91 @@
+"""Matrices and trajectories on the workers of a dask.distributed Client, on one machine or by a queue such as Slurm.
+
+    >>> from dask.distributed import Client, LocalCluster
+    >>> import espdiff.dask
+    >>> client = Client(LocalCluster(n_workers=4, threads_per_worker=1))
+    >>> m = espdiff.dask.matrix(client, ["a.pqr", "b.pqr", "c.pqr"], output="abc")
+    >>> run.run(backend=espdiff.dask.Backend(client), unsupported_backend=True)    # of espdiff.mda
+
+Results have the same bytes with any number of workers. docs/examples/matrix_dask.py is a whole program for Slurm.
+"""
+
+import os
+
+from . import _functions
+from ._core import InputError
+from ._inputs import state_of
+
+
+def _check(client):
+    if not all(hasattr(client, name) for name in ("submit", "gather", "scheduler_info")):
+        raise InputError(f"client: a {type(client).__name__} is no dask.distributed.Client")
+
+
+def _n_workers(client):
+    return max(1, len(client.scheduler_info(n_workers=-1)["workers"]))
+
+
+def _with_threads(options):
+    """As many threads as the worker has, unless the user gives a number."""
+    if options.get("threads"):
+        return options
+    from distributed import get_worker
+
+    return {**options, "threads": get_worker().state.nthreads}
+
+
+def _gather(client, futures):
+    """Results in order; what fails, and Ctrl-C, ends all of it."""
+    try:
+        return client.gather(futures)
+    except BaseException:
+        client.cancel(futures)
+        raise
+
+
+def _matrix_part(states, labels, options):
+    _functions.matrix(states, labels, **_with_threads(options))
+
+
+def matrix(client, states, labels=None, *, output, parts=None, resume=False, overwrite=False, **options):
+    """espdiff.matrix() by the workers of a Client.
+
+    output: prefix of the files, in a folder that all workers see. parts: how many there are, 4 for each worker without
+    it. resume: parts that broke off go on. Other arguments as of espdiff.matrix(). Returns a Matrix.
+    """
+    _check(client)
+    states = [os.path.abspath(s) if isinstance(s, (str, os.PathLike)) else state_of(s, f"states[{i}]")
+              for i, s in enumerate(states)]
+    labels = _functions.labels_of_states(states) if labels is None else list(labels)
+    n_parts = min(parts or 4 * _n_workers(client), max(1, len(states) * (len(states) - 1)))
+    prefix = os.path.abspath(output)
+    done = [prefix + ending for ending in (".csv", ".json")]
+    if not overwrite and any(os.path.exists(path) for path in done):
+        raise InputError(f"output: {done[0]} or {done[1]} exists; set overwrite=True, or name another prefix")
+    options = {**options, "output": prefix, "resume": resume, "overwrite": overwrite}
+    futures = [client.submit(_matrix_part, states, labels, {**options, "shard": f"{i + 1}/{n_parts}"}, pure=False)
+               for i in range(n_parts)]
+    _gather(client, futures)
+    files = [f"{prefix}.shard-{i + 1}-of-{n_parts}.state" for i in range(n_parts)]
+    made = _functions.merge(files, prefix, overwrite=overwrite)
+    for path in files:
+        os.remove(path)
+    return made
+
+
+def Backend(client):
+    """A backend of MDAnalysis' analyses (2.8 and newer): frames by the workers of a Client.
+
+    run(backend=espdiff.dask.Backend(client), unsupported_backend=True)
+    """
+    from MDAnalysis.analysis.backends import BackendBase
+
+    class ClientBackend(BackendBase):
+        def apply(self, func, computations):
+            return _gather(client, [client.submit(func, part, pure=False) for part in computations])
+
+    _check(client)
+    return ClientBackend(_n_workers(client))
+
+
+__all__ = ["Backend", "matrix"]

@@ -1,0 +1,108 @@
+// command_line.cpp: parses the command line, runs the command, and turns errors into one line and an exit status.
+#include "cli/command_line.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/printable.h"
+#include "base/translate.h"
+#include "base/version.h"
+#include "cli/spelling.h"
+#include "cli/terminal_progress.h"
+#include "cli/verbs.h"
+
+namespace {
+
+std::string joined(int argc, char** argv) {
+  std::string line = "espdiff";
+  for (int i = 1; i < argc; ++i) line += std::string(" ") + argv[i];
+  return line;
+}
+
+/// Where a standard stream is closed, the next file that is opened gets its number, and what is printed its content.
+void open_standard_streams() {
+  for (int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(descriptor, F_GETFD) < 0 && open("/dev/null", O_RDWR) != descriptor) std::_Exit(1);
+  }
+}
+
+/// Runs the chosen command; errors become one line on standard error.
+int run_verb(const espdiff::cli::Verb& verb, const std::string& command_line) {
+  espdiff::cli::TerminalProgress terminal;
+  const auto fail = [&](const char* message, int status) {
+    terminal.clear();
+    std::fprintf(stderr, "espdiff: %s\n", espdiff::printable(message).c_str());
+    return status;
+  };
+  try {
+    espdiff::cli::Context context;
+    context.command_line = command_line;
+    context.progress = &terminal.progress();
+    return verb.run(context);
+  } catch (const std::exception& error) {
+    const espdiff::Error ours = espdiff::translated(error);
+    return fail(espdiff::cli::spelled(ours.message()).c_str(), ours.exit_status());
+  } catch (...) {
+    return fail("internal error: an exception of unknown type; please report it with the command", 1);
+  }
+}
+
+int run(int argc, char** argv) {
+  CLI::App app(
+      "espdiff shows where and by how much the electrostatic surface potential differs between two states of a "
+      "molecule, and how "
+      "far the answer can be trusted.");
+  app.name("espdiff");
+  app.set_version_flag("--version", std::string("espdiff ") + espdiff::kVersion);
+  app.require_subcommand(0, 1);
+  std::vector<espdiff::cli::Verb> verbs = {
+      espdiff::cli::add_compare(app),   espdiff::cli::add_trajectory(app), espdiff::cli::add_matrix(app),
+
+#ifdef ESPDIFF_HAVE_HDF5
+      espdiff::cli::add_ensemble(app),
+#endif
+      espdiff::cli::add_merge(app),     espdiff::cli::add_plot(app),       espdiff::cli::add_surface(app),
+      espdiff::cli::add_potential(app), espdiff::cli::add_prepare(app),    espdiff::cli::add_render(app),
+      espdiff::cli::add_view(app),      espdiff::cli::add_verify(app),     espdiff::cli::add_doctor(app)};
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    std::fprintf(stderr, "espdiff: %s\nTry 'espdiff --help' or 'espdiff VERB --help'.\n",
+                 espdiff::printable(error.what()).c_str());
+    return 2;
+  }
+  for (const auto& verb : verbs) {
+    if (verb.parser->parsed()) return run_verb(verb, joined(argc, argv));
+  }
+  std::fputs(
+      "espdiff: a subcommand is missing: compare, trajectory, matrix, merge, plot, surface, potential, prepare, "
+      "render, view or doctor\nTry 'espdiff --help'.\n",
+      stderr);
+  return 2;
+}
+
+}  // namespace
+
+namespace espdiff::cli {
+
+int run_command_line(int argc, char** argv) {
+  open_standard_streams();
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "espdiff: internal error: %s; please report it with the command\n", error.what());
+  } catch (...) {
+    std::fputs("espdiff: internal error: an exception of unknown type; please report it with the command\n", stderr);
+  }
+  return 1;
+}
+
+}  // namespace espdiff::cli
