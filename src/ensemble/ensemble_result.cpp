@@ -196,6 +196,7 @@ struct Analysis {
     std::map<std::int32_t, double> shares;
     for (const std::uint32_t v : patch.vertices) shares[file.surface().residue[v]] += result.graph.area[v] / patch.area;
     std::vector<std::pair<std::string, double>> residues;
+    residues.reserve(shares.size());
     for (const auto& [index, share] : shares)
       residues.emplace_back(index < 0 ? "none" : plan().residues.at(static_cast<std::size_t>(index)), share);
     std::stable_sort(residues.begin(), residues.end(),

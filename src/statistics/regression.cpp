@@ -103,6 +103,7 @@ class Regressed {
   std::vector<double> t_of(const std::vector<double>& r) const {
     const double degrees = static_cast<double>(counted_.size()) - 2;
     std::vector<double> t;
+    t.reserve(r.size());
     for (const double c : r) t.push_back(c * std::sqrt(degrees / std::max(1e-300, 1 - c * c)));
     return t;
   }
