@@ -161,7 +161,8 @@ namespace eval ::espdiff {
             {-sel text "not water" "Atoms of the molecule; chosen once, in the reference frame"}
             {-frames text all "all, now, a frame, begin:end or begin:step:end, such as 0:10:end; see Frames"}
             {-reference text {frame 0} "What each frame is compared with: {frame N}, previous (the frame before it in\
-                the run), or an endpoint"}
+                the run), an endpoint, or an endpoint with `frame same`: frame i with frame i of another trajectory,\
+                such as {mol 1 frame same}"}
             {-map text auto "Potential of each frame; auto computes the usual one, none compares shapes alone; see\
                 Trajectories"}
             {-reference-map text {} "Potential of the reference; without it by the rule of -map for its frame, or\
@@ -172,6 +173,9 @@ namespace eval ::espdiff {
                 nearer: small steps; auto: source by -method morph, previous by deform; see Trajectories"\
                 {auto previous source}}
             {-csv file required "File that gets one row for each frame"}
+            {-residues file {} "CSV file that gets one value of each residue of the source for each frame, a row a frame"}
+            {-residue-quantity text {} "Column of the residue table for -residues; mean_abs_difference, or without\
+                potentials mean_displacement_A"}
             {-resume boolean 0 "Go on where an interrupted run left the file"}
             {-overwrite boolean 0 "Replace the file if it exists"}
             {-on-error choice stop "skip writes a row with the error in its column `error`, and goes on" {stop skip}}

@@ -17,10 +17,12 @@ namespace eval ::espdiff {
         if {$run(map) ne "auto"} return
         set run(map) none
         set endpoints [list $run(endpoint)]
-        set is_endpoint [expr {[lindex $run(reference) 0] ne "frame" && $run(reference) ne "previous"}]
+        set is_endpoint [expr {[lindex $run(reference) 0] ne "frame" && $run(against) ne "previous"}]
+        set reference $run(reference)
+        if {$run(against) eq "same"} { dict unset reference frame }
         # Frames of a file take the charges of the reference where they have none.
         if {$is_endpoint && $run(mol) eq ""} { set endpoints {} }
-        if {$is_endpoint} { lappend endpoints $run(reference) }
+        if {$is_endpoint} { lappend endpoints $reference }
         if {$run(reference_map) eq ""} {
             set chosen [with_usual_maps $endpoints]
             set run(map) [value_or [lindex $chosen end] map none]

@@ -10,6 +10,8 @@ namespace eval ::espdiff {
     #   structure             what vmd_structure found, for all frames
     #   frames, where         frames of the run; the molecule or file for messages
     #   reference, map, reference_map, unit, last_map       see frame_maps.tcl
+    #   against               one source, previous (the frame before), or same: the frame of its number of another trajectory
+    #   sources               of `same`: an array of what the other trajectory is, with the keys of this one
     #   because               why this potential, where the user named none
     #   temporary, source_temporary             files to delete after the step, and after the run
     #   in_step, busy         a frame is being compared; a step is being looked after
@@ -44,7 +46,7 @@ namespace eval ::espdiff {
     proc begin_trajectory {options} {
         array set run {temporary {} source_temporary {} last_map {} in_step 0 busy 0 state running message {} error {}
             told 0 fraction 0 stage {} structure {} seconds 0
-            because {}}
+            because {} sources {}}
         set run(begun) [clock milliseconds]
         foreach key {mol file map unit reference command progress callback} { set run($key) [dict get $options $key] }
         set run(reference_map) [dict get $options reference-map]
@@ -52,17 +54,19 @@ namespace eval ::espdiff {
         if {($run(mol) eq "") == ($run(file) eq "")} {
             fail "espdiff trajectory: give one of -mol ID and -file FILE"
         }
+        set run(against) [reference_kind $run(reference)]
         prepare_frames run $options
         usual_run_maps run
         check_frame_maps run
+        if {$run(against) eq "same"} { source_map run }
         set csv [dict get $options csv]
         core::check_outputs [named_files [list file $run(file) mol $run(mol) map $run(map)] $run(reference) \
-            $run(reference_map)] [list $csv $csv.state]
+            $run(reference_map)] [list $csv $csv.state [dict get $options residues]]
         set handle [core::trajectory [trajectory_plan run $options] [core_options $options]]
         if {[catch {
             set warning [core::trajectory_warning $handle]
             if {$warning ne ""} { say $warning }
-            if {$run(reference) ne "previous" && [core::trajectory_next $handle] ne ""} { give_source run $handle }
+            if {$run(against) eq "one" && [core::trajectory_next $handle] ne ""} { give_source run $handle }
             set run(summary) [core::trajectory_summary $handle]
         } message error]} {
             core::delete $handle
@@ -70,6 +74,12 @@ namespace eval ::espdiff {
         }
         array set ::espdiff::$handle [array get run]
         return $handle
+    }
+
+    proc reference_kind {reference} {
+        if {$reference eq "previous"} { return previous }
+        if {![string is list $reference] || [llength $reference] % 2} { return one }
+        return [expr {[value_or $reference frame ""] eq "same" ? "same" : "one"}]
     }
 
     proc prepare_frames {run_name options} {
@@ -96,13 +106,50 @@ namespace eval ::espdiff {
             set in_frame [core::frames -reference [lindex $run(reference) 1] $n $now $run(where)]
             if {[llength $in_frame] != 1} { fail "-reference: '$run(reference)' is not {frame N}" }
             set run(reference) [list frame $in_frame]
-        } elseif {$run(reference) ne "previous"} {
+        } elseif {$run(against) eq "same"} {
+            prepare_sources run $options $n
+        } elseif {$run(against) eq "one"} {
             set endpoint [parse_endpoint $run(reference) -reference]
             if {[dict exists $endpoint file]} { existing_file [dict get $endpoint file] reference }
         }
         if {$run(mol) ne ""} {
             set run(structure) [vmd_structure [dict merge $run(endpoint) [list frame $in_frame]] -mol]
         }
+    }
+
+    # The other trajectory, whose frame of the same number is each frame's source.
+    proc prepare_sources {run_name options n_frames} {
+        upvar 1 $run_name run
+        set endpoint [parse_endpoint [dict remove $run(reference) frame] -reference]
+        array set sources [list mol "" file "" path "" structure {} last_map {} frames $run(frames) reference_map "" \
+            unit [value_or $endpoint unit $run(unit)] endpoint $endpoint]
+        if {[dict exists $endpoint mol]} {
+            set sources(mol) [vmd_molecule_id [dict get $endpoint mol] -reference]
+            set name "molecule $sources(mol) ([molinfo $sources(mol) get name])"
+            set n [molinfo $sources(mol) get numframes]
+        } else {
+            set sources(file) [dict get $endpoint file]
+            set sources(path) [existing_file $sources(file) -reference]
+            set name "'$sources(file)'"
+            set n [core::models $sources(path)]
+        }
+        if {$n != $n_frames && [dict get $options frames] eq "all"} {
+            fail "-reference: $name has $n frames, and $run(where) has $n_frames; choose those of both:\
+                [spelled frames] 0:[expr {min($n, $n_frames) - 1}]"
+        }
+        foreach frame $run(frames) {
+            if {$frame >= $n} { fail "-reference: $name has no frame $frame; it has $n, from 0" }
+        }
+        if {$sources(mol) ne ""} {
+            foreach key {sel radii whole} {
+                if {![dict exists $endpoint $key] && [dict exists $run(endpoint) $key]} {
+                    dict set sources(endpoint) $key [dict get $run(endpoint) $key]
+                }
+            }
+            set first [lindex $run(frames) 0]
+            set sources(structure) [vmd_structure [dict merge $sources(endpoint) [list frame $first]] -reference]
+        }
+        set run(sources) [array get sources]
     }
 
     # The run as the core takes it. What names a file is its full name: in the background the working folder may change.
@@ -115,8 +162,19 @@ namespace eval ::espdiff {
             dict set plan reference_map [map_in_words $run(reference_map) $run(unit)]
         }
         foreach key {resume overwrite start} { dict set plan $key [dict get $options $key] }
+        dict set plan against $run(against)
+        if {$run(against) eq "same"} {
+            set path [dict get $run(sources) path]
+            if {$path ne ""} { dict set plan source_file $path }
+        }
+        if {[dict get $options residues] ne ""} {
+            dict set plan residues [file normalize [dict get $options residues]]
+            dict set plan residue_quantity [dict get $options residue-quantity]
+        } elseif {[dict get $options residue-quantity] ne ""} {
+            fail "-residue-quantity needs [spelled residues]"
+        }
         if {[lindex $run(reference) 0] eq "frame"} { dict set plan row_reference [lindex $run(reference) 1] }
-        if {$run(reference) ne "previous"} { dict set plan region [dict exists $run(reference) region] }
+        if {$run(against) ne "previous"} { dict set plan region [dict exists $run(reference) region] }
         if {$run(mol) eq ""} {
             dict set plan file $run(path)
         } else {
@@ -148,6 +206,32 @@ namespace eval ::espdiff {
             core::trajectory_source $handle $source
         }
         set run(source_temporary) $temporary
+    }
+
+    # The source of a frame in a run where each has its own.
+    proc source_endpoint {run_name frame temporary_name} {
+        upvar 1 $run_name run $temporary_name temporary
+        if {$run(against) ne "same"} { return [frame_endpoint run $frame reference temporary] }
+        array set sources $run(sources)
+        set sources(map) [source_map run]
+        set endpoint [frame_endpoint sources $frame reference temporary]
+        unset sources(map)
+        set run(sources) [array get sources]
+        if {[dict exists $sources(endpoint) region] && $sources(mol) ne ""} {
+            dict set endpoint region \
+                [vmd_region $sources(mol) [dict get $sources(endpoint) region] $frame reference]
+        }
+        return $endpoint
+    }
+
+    # The rule by which frames of the other trajectory get their maps: their own, -reference-map, or a computed one.
+    proc source_map {run_name} {
+        upvar 1 $run_name run
+        set endpoint [dict get $run(sources) endpoint]
+        if {[dict exists $endpoint map]} { return [dict get $endpoint map] }
+        if {$run(reference_map) ne ""} { return $run(reference_map) }
+        if {$run(map) in {none ""} || [is_computed $run(map)] || [lindex $run(map) 0] eq "command"} { return $run(map) }
+        fail "-map: '$run(map)' is of one trajectory; [spelled reference-map] gives the other's"
     }
 
     # A frame of the trajectory with its map as the core's endpoint.

@@ -42,8 +42,8 @@ namespace eval ::espdiff {
         submit temporary {
             # The reference first: its map, from a user's command, may be gone when the next one is made.
             set source {}
-            if {[dict get $next previous] ne ""} {
-                set source [list [frame_endpoint run [dict get $next previous] reference temporary]]
+            if {[dict get $next source] ne ""} {
+                set source [list [source_endpoint run [dict get $next source] temporary]]
             }
             set target [frame_endpoint run [dict get $next frame] target temporary]
             core::trajectory_step $handle $target {*}$source

@@ -76,9 +76,10 @@ struct MatrixObject : Object {
 struct TrajectoryObject : Object {
   const char* kind() const override { return "trajectory"; }
   Computation computation;
-  bool against_previous = false;      ///< each frame with the one before it
-  bool one_map = false;               ///< the target's map is the same for all frames
-  std::unique_ptr<FrameFiles> files;  ///< of a run over a file's models
+  Reference against = Reference::kOne;
+  bool one_map = false;  ///< the target's map is the same for all frames
+  /// Of a run over a file's models, and against those of another.
+  std::unique_ptr<FrameFiles> files, source_files;
   Endpoint source, target;
   std::unique_ptr<Engine> engine;      // made by the first step's job
   std::unique_ptr<TrajectoryRun> run;  // destroyed before what it points to

@@ -64,9 +64,17 @@ SeriesDescription parse_description(DictReader& reader, double temperature_K) {
   return run;
 }
 
-/// PLAN: csv FILE ?resume B? ?overwrite B? frames LIST reference TEXT ?row_reference TEXT? ?map TEXT?
-/// ?reference_map TEXT? ?one_map B? ?start S? ?on_error E? ?region B? (the reference has one) and file PATH or molecule
-/// {NAME TEXT ...}, lines of the head.
+Reference parse_reference(const std::string& text) {
+  if (text == "one") return Reference::kOne;
+  if (text == "previous") return Reference::kPrevious;
+  if (text == "same") return Reference::kSame;
+  throw InputError("against: '" + text + "' is not one, previous or same");
+}
+
+/// PLAN: csv FILE ?resume B? ?overwrite B? frames LIST reference TEXT ?row_reference TEXT? ?against one|previous|same?
+/// ?source_file PATH? (whose frames are the sources) ?map TEXT? ?reference_map TEXT? ?one_map B? ?start S? ?on_error E?
+/// ?region B? (the reference has one) ?residues FILE? ?residue_quantity Q? and file PATH or molecule {NAME TEXT ...},
+/// lines of the head.
 Tcl_Obj* trajectory(const Call& call) {
   auto object = std::make_shared<TrajectoryObject>();
   DictReader options(call.arguments[1], "options");
@@ -78,17 +86,23 @@ Tcl_Obj* trajectory(const Call& call) {
   TrajectoryPlan plan;
   plan.options = object->computation.options;
   plan.frames = run.frames;
-  plan.against_previous = run.reference == "previous";
+  plan.against = parse_reference(reader.text("against", "one"));
   plan.reference = reader.text("row_reference", run.reference);
   plan.start = run.start = parse_start(reader.text("start", "auto"), plan.options);
   plan.skip_errors = reader.text("on_error", "stop") == "skip";
   plan.has_region = reader.boolean("region", false) || plan.options.input.has_region();
   object->one_map = reader.boolean("one_map", false);
-  object->against_previous = plan.against_previous;
+  object->against = plan.against;
+  const std::string source_file = reader.text("source_file", ""), residues = reader.text("residues", ""),
+                    quantity = reader.text("residue_quantity", "");
   reader.finish();
+  if (!source_file.empty()) run.reference_files = {source_file};
   const SeriesHead head = series_head(run, plan.options);
-  object->run = std::make_unique<TrajectoryRun>(std::move(plan), SeriesCsv(csv, head, existing));
+  std::optional<ResidueCsv> table;
+  if (!residues.empty()) table.emplace(residues, quantity, existing);
+  object->run = std::make_unique<TrajectoryRun>(std::move(plan), SeriesCsv(csv, head, existing), std::move(table));
   if (!run.files.empty()) object->files = std::make_unique<FrameFiles>(run.files);
+  if (!source_file.empty()) object->source_files = std::make_unique<FrameFiles>(std::vector{source_file});
   return to_obj(call.handles.add(object));
 }
 
@@ -100,15 +114,15 @@ std::shared_ptr<TrajectoryObject> resting(const Call& call) {
   return object;
 }
 
-/// The next step, {frame N reference R previous P}; empty after the last one. P is the frame to compare with, in a run
-/// against the previous frame.
+/// The next step, {frame N reference R source S}; empty after the last one. S is the frame that is the source, unless
+/// all frames have one.
 Tcl_Obj* trajectory_next(const Call& call) {
   const auto object = resting(call);
   if (object->run->is_done()) return Tcl_NewObj();
   const TrajectoryStep& step = object->run->next();
   return to_dict({{"frame", to_obj(step.frame)},
                   {"reference", to_obj(step.reference)},
-                  {"previous", step.previous ? to_obj(*step.previous) : Tcl_NewObj()}});
+                  {"source", step.source ? to_obj(*step.source) : Tcl_NewObj()}});
 }
 
 /// The source of all frames.
@@ -121,20 +135,22 @@ Tcl_Obj* trajectory_source(const Call& call) {
 void load_side(TrajectoryObject& object, Endpoint& side, std::optional<int> frame, const Progress& progress) {
   const CompareOptions& options = object.computation.options;
   const bool is_source = &side == &object.source;
-  if (frame && object.files != nullptr && !side.molecule) {
-    const auto [file, model] = object.files->file_of_frame(*frame);
+  FrameFiles* const files =
+      is_source && object.against == Reference::kSame ? object.source_files.get() : object.files.get();
+  if (frame && files != nullptr && !side.molecule) {
+    const auto [file, model] = files->file_of_frame(*frame);
     StructureOptions structure = side.structure;
     structure.model = model;
     static const Molecule none;
     const Molecule& source = !is_source && object.source.molecule ? *object.source.molecule : none;
-    const std::string name = object.files->name(*frame);
+    const std::string name = files->name(*frame);
     side.state = load_frame(*file, structure, name, source, object.source.state.preparation.has_value(), options.input,
                             progress);
     side.molecule = side.state.molecule;
     if (is_source && side.map_request)
       side.state.preparation = charge_molecule(*side.molecule, options.input, {}, side.state.charge_files, progress);
     if (wants_everything(side)) {
-      side.everything = Everything{file->read({model, true, true}), object.files->cell(*frame)};
+      side.everything = Everything{file->read({model, true, true}), files->cell(*frame)};
       side.everything->molecule.name = name;
       if (!is_source && object.source.everything && !object.source.everything->molecule.charges.empty())
         take_values(side.everything->molecule, object.source.everything->molecule, name);
@@ -144,9 +160,10 @@ void load_side(TrajectoryObject& object, Endpoint& side, std::optional<int> fram
   if (options.input.radii == RadiiChoice::kElement) set_surface_radii({&*side.molecule}, RadiiChoice::kElement);
 }
 
-/// Reads the inputs of all rows: the source, and a map of all frames.
+/// The inputs of all rows: the one source, and a map of all frames.
 std::vector<InputFile> common_inputs(const TrajectoryObject& object) {
-  std::vector<InputFile> inputs = object.source.inputs;
+  std::vector<InputFile> inputs;
+  if (object.against == Reference::kOne) inputs = object.source.inputs;
   for (const InputFile& input : object.target.inputs) {
     if (object.one_map && input.role == "target_map") inputs.push_back(input);
   }
@@ -168,14 +185,15 @@ void run_step(TrajectoryObject& object, const Progress& progress) {
   TrajectoryRun& run = *object.run;
   if (object.engine == nullptr) object.engine = engine_for(object.computation);
   // A failure of the common source ends the run, even with -on-error skip.
-  if (!object.against_previous) {
+  const bool has_one_source = object.against == Reference::kOne;
+  if (has_one_source) {
     load_side(object, object.source, std::nullopt, progress);
     set_region(object);
   }
   const auto read = [&] {
     const TrajectoryStep& step = run.next();
-    if (object.against_previous) {
-      load_side(object, object.source, step.previous, progress);
+    if (!has_one_source) {
+      load_side(object, object.source, step.source, progress);
       set_region(object);
     }
     load_side(object, object.target, step.frame, progress);
@@ -184,13 +202,13 @@ void run_step(TrajectoryObject& object, const Progress& progress) {
   if (const SeriesRow* const row = run.step(*object.engine, read, progress)) object.row = *row;
 }
 
-/// The sides of a frame: TARGET, and SOURCE of a run against the frame before.
+/// The sides of a frame: TARGET, and SOURCE unless all frames have one.
 Tcl_Obj* trajectory_step(const Call& call) {
   const auto object = resting(call);
-  if (object->against_previous != (call.arguments.size() > 2))
-    throw InputError("a source is given for each frame of a run against the frame before, and no other");
+  if ((object->against != Reference::kOne) != (call.arguments.size() > 2))
+    throw InputError("a source is given for each frame, unless all frames have one");
   object->target = parse_endpoint(call.arguments[1], "target");
-  if (object->against_previous) object->source = parse_endpoint(call.arguments[2], "source");
+  if (object->against != Reference::kOne) object->source = parse_endpoint(call.arguments[2], "source");
   object->job = Worker::instance().submit([keep = std::weak_ptr<TrajectoryObject>(object)](const Progress& progress) {
     if (const auto alive = keep.lock()) run_step(*alive, progress);
   });

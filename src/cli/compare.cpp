@@ -160,8 +160,8 @@ int run(const Arguments& a, const Context& context) {
   std::unique_ptr<AtomicFile> pdb;
   if (!a.residue_pdb.empty()) {
     pdb = std::make_unique<AtomicFile>(a.residue_pdb);
-    const std::string usual = result.has_potential ? "mean_abs_difference" : "mean_displacement_A";
-    write_residue_pdb(*pdb, source_molecule, result, a.residue_quantity.empty() ? usual : a.residue_quantity);
+    write_residue_pdb(*pdb, source_molecule, result,
+                      a.residue_quantity.empty() ? usual_residue_quantity(result) : a.residue_quantity);
   }
   write_compare(a.output, source_molecule, target_molecule, result, options, provenance, kept, pdb.get());
   context.progress->report("write", 1.0);

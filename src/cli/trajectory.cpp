@@ -1,6 +1,5 @@
 // trajectory.cpp: `espdiff trajectory SOURCE FRAMES... -o OUT.csv`.
 #include "trajectory/trajectory.h"
-#include "engine/engine.h"
 
 #include <chrono>
 #include <cstdio>
@@ -8,38 +7,20 @@
 #include <utility>
 
 #include "base/printable.h"
-#include "cli/map_options.h"
+#include "cli/trajectory_sides.h"
 #include "cli/verbs.h"
 #include "compare/options.h"
+#include "engine/engine.h"
 #include "io/check_outputs.h"
 #include "io/molfile_plugins.h"
-#include "io/open_structure.h"
-#include "io/structure_file.h"
-#include "io/write_csv.h"
-#include "prepare/load_state.h"
-#include "prepare/region.h"
-#include "prepare/surface_radii.h"
-#include "report/state_report.h"
-#include "trajectory/frame_files.h"
+#include "report/residue_values.h"
 #include "trajectory/frame_range.h"
-#include "trajectory/frame_state.h"
 #include "trajectory/series_head.h"
 
 namespace espdiff::cli {
 namespace {
 
-struct Arguments {
-  std::string source, output, plugins, frames = "all", start = "auto", on_error = "stop";
-  std::vector<std::string> targets;
-  int source_model = 1;
-  bool resume = false, overwrite = false, quiet = false;
-  MapArguments maps;
-  StructureOptions structure;
-  DeviceArguments device;
-  GivenSettings settings;
-};
-
-void add_run_options(CLI::App& p, Arguments& a) {
+void add_run_options(CLI::App& p, TrajectoryArguments& a) {
   const char* const group = "Frames";
   p.add_option("--frames", a.frames,
                "Frames to compare, from 0: all, a frame, begin:end or begin:step:end, or several of these with commas; "
@@ -53,6 +34,25 @@ void add_run_options(CLI::App& p, Arguments& a) {
        "source by --method morph, previous by deform")
       ->check(CLI::IsMember({"auto", "previous", "source"}))
       ->capture_default_str()
+      ->group(group);
+  p.add_option("--reference", a.reference, "Compare each frame with SOURCE, or with the frame before it")
+      ->check(CLI::IsMember({"source", "previous"}))
+      ->capture_default_str()
+      ->group(group);
+  p.add_option("--source-frames", a.source_frames,
+               "Frames of SOURCE, in files as FRAMES: frame i is compared with frame i of these (trajectory against "
+               "trajectory)")
+      ->group(group);
+  p.add_option("--frames-of", a.frames_of,
+               "Structure or topology whose atoms, charges and radii FRAMES have, where they are not SOURCE's")
+      ->group(group);
+  p.add_option("--residues", a.residues,
+               "CSV file that gets one value of each residue of SOURCE for each frame: a row a frame")
+      ->group(group);
+  p.add_option("--residue-quantity", a.residue_quantity,
+               "Column of the residue table for --residues (mean_abs_difference; without potentials "
+               "mean_displacement_A)")
+      ->check(CLI::IsMember(residue_quantities()))
       ->group(group);
   p.add_flag("--resume", a.resume, "Go on where an interrupted run left the file")->group(group);
   p.add_flag("--overwrite", a.overwrite, "Replace the file if it exists")->group(group);
@@ -77,18 +77,27 @@ std::string map_words(const MapArguments& m, const std::string& path, const std:
   return "file " + path + (unit.empty() ? "" : " unit " + unit) + (m.map_array.empty() ? "" : " array " + m.map_array);
 }
 
-std::string reference_words(const Arguments& a) {
-  const std::string model = a.source_model == 1 ? "" : " model " + std::to_string(a.source_model);
-  return "file " + a.source + (needs_molfile_reader(a.source) ? " coordinates " + a.targets.front() : "") + model;
+/// "file a.pqr"
+std::string reference_words(const TrajectoryArguments& a) {
+  const Reference reference = reference_of(a);
+  if (reference == Reference::kPrevious) return "previous";
+  std::string words = "file " + a.source;
+  if (reference == Reference::kSame) {
+    for (const std::string& path : a.source_frames) words += " " + path;
+    return words + " frame same";
+  }
+  if (needs_molfile_reader(a.source)) words += " coordinates " + a.targets.front();
+  return a.source_model == 1 ? words : words + " model " + std::to_string(a.source_model);
 }
 
 /// @param potential the computed potential in words; empty for none
-SeriesHead head_of(const Arguments& a, const TrajectoryPlan& plan, const std::string& potential) {
+SeriesHead head_of(const TrajectoryArguments& a, const TrajectoryPlan& plan, const std::string& potential) {
   SeriesDescription run;
   run.files = a.targets;
   run.structure = a.structure;
   run.frames = plan.frames;
   run.reference = plan.reference;
+  run.reference_files = a.source_frames;
   run.start = plan.start;
   if (!potential.empty()) {
     run.map = potential;
@@ -99,95 +108,23 @@ SeriesHead head_of(const Arguments& a, const TrajectoryPlan& plan, const std::st
   return series_head(run, plan.options);
 }
 
-/// Source and frames, and how their molecules become a comparison's inputs.
-class Sides {
- public:
-  Sides(const Arguments& a, const CompareOptions& options, const Progress& progress)
-      : a_(a),
-        options_(options.input),
-        progress_(progress),
-        opener_(a.source, a.plugins, progress),
-        frames_(a.targets, [this](const std::string& path) { return opener_.open(path); }) {
-    load_source();
-    surface_ = source_.molecule;
-    region_ = region_residues(source_.molecule, source_.whole, source_.molecule, source_.whole, options_);
-    set_surface_radii({&surface_}, options_.radii);
-    source_map_ = given_map(a.maps, "source", inputs_);
-    target_map_ = given_map(a.maps, "target", inputs_);
-    if (has_given_maps(a.maps) || a.maps.potential == "none") return;
-    plan_ = PotentialPlan(a.maps, {facts_of(source_)}, options.temperature_K);
-    if (!plan_.computes()) return;
-    computed_ = plan_.map_of(source_);
-    inputs_.push_back(computed_input("source_map", *computed_));
-  }
-
-  int n_frames() const { return frames_.n_frames(); }
-  const std::vector<InputFile>& inputs() const { return inputs_; }
-  std::string potential() const { return plan_.in_words(); }
-  CompareInput source() const {
-    return {&surface_, source_map_ ? &*source_map_ : nullptr, computed_ ? computed_->maker() : MapMaker(), region_};
-  }
-
-  /// A frame, which stays until the next one is asked for.
-  CompareInput frame(int number) {
-    target_ = read(number);
-    CompareInput input{&target_.molecule, target_map_ ? &*target_map_ : nullptr, nullptr, {}};
-    if (plan_.computes()) input.make_map = plan_.map_of(target_).maker();
-    set_surface_radii({&target_.molecule}, options_.radii);
-    return input;
-  }
-
- private:
-  /// From its file; of a topology with the coordinates of a frame.
-  void load_source() {
-    const bool is_topology = opener_.needs_coordinates();
-    if (is_topology && !needs_molfile_reader(a_.targets.front()))
-      throw InputError(a_.source + ": is a topology without coordinates, and " + a_.targets.front() +
-                       " is no trajectory; give a structure first, and the topology as " + option("topology"));
-    // A trajectory that is open already is not read again.
-    const auto structure = is_topology ? nullptr : open_structure(a_.source);
-    const StructureFile& file = is_topology ? *frames_.file_of_frame(0).first : *structure;
-    StateRequest request{a_.structure, StateRole::kSource};
-    request.structure.model = a_.source_model;
-    source_ = load_for(a_.maps, !has_given_maps(a_.maps), file, request, options_, progress_);
-    check_left_out(options_, {&source_});
-    if (!is_topology) file.require_unchanged(opener_.sha256());
-    const InputFile input{"source", a_.source, is_topology ? opener_.sha256() : file.sha256()};
-    inputs_ = state_inputs("source", input, source_);
-    if (is_topology) inputs_.push_back({"source_coordinates", a_.targets.front(), file.sha256()});
-  }
-
-  LoadedState read(int number) {
-    return load_frame_state(frames_, number, a_.structure, source_, plan_, options_, progress_);
-  }
-
-  const Arguments& a_;
-  const InputOptions& options_;
-  const Progress& progress_;
-  TrajectoryOpener opener_;
-  FrameFiles frames_;
-  LoadedState target_;
-  LoadedState source_;
-  Molecule surface_;  // the source's, with the radii of its surface
-  std::vector<std::uint8_t> region_;
-  PotentialPlan plan_;
-  std::optional<Grid> source_map_, target_map_;
-  std::optional<ComputedMap> computed_;
-  std::vector<InputFile> inputs_;
-};
-
-int run(const Arguments& a, const Context& context) {
+int run(const TrajectoryArguments& a, const Context& context) {
   check_map_options(a.maps);
   if (a.resume && a.overwrite) throw InputError("--resume and --overwrite exclude each other");
+  if (a.residues.empty() && !a.residue_quantity.empty()) throw InputError("--residue-quantity needs --residues FILE");
+  if (!a.source_frames.empty() && a.reference == "previous")
+    throw InputError("--source-frames and --reference previous exclude each other");
   std::vector<std::string> inputs = input_files(a.settings);
   inputs.insert(inputs.end(), a.targets.begin(), a.targets.end());
-  inputs.insert(inputs.end(), {a.source, a.maps.source_map, a.maps.target_map});
-  check_outputs(inputs, {a.output, a.output + ".state"});
+  inputs.insert(inputs.end(), a.source_frames.begin(), a.source_frames.end());
+  inputs.insert(inputs.end(), {a.source, a.frames_of, a.maps.source_map, a.maps.target_map});
+  check_outputs(inputs, {a.output, a.output + ".state", a.residues});
   const auto begun = std::chrono::steady_clock::now();
   TrajectoryPlan plan;
   plan.options = make_options(a.settings);
   context.progress->report("read", 0.0);
-  Sides sides(a, plan.options, *context.progress);
+  TrajectorySides sides(a, plan.options, *context.progress);
+  plan.against = reference_of(a);
   plan.reference = reference_words(a);
   plan.frames = parse_frames(a.frames, {sides.n_frames()});
   plan.start = parse_start(a.start, plan.options);
@@ -197,16 +134,14 @@ int run(const Arguments& a, const Context& context) {
                                 : a.overwrite ? ExistingFile::kReplace
                                               : ExistingFile::kRefuse;
   const std::unique_ptr<Engine> engine = make_engine(a.device);
-  TrajectoryRun run(plan, SeriesCsv(a.output, head_of(a, plan, sides.potential()), existing));
+  std::optional<ResidueCsv> residues;
+  if (!a.residues.empty()) residues.emplace(a.residues, a.residue_quantity, existing);
+  TrajectoryRun run(plan, SeriesCsv(a.output, head_of(a, plan, sides.potential()), existing), std::move(residues));
   if (!run.warning().empty()) std::fprintf(stderr, "espdiff: %s\n", printable(run.warning()).c_str());
   run.note_inputs(sides.inputs());
   while (!run.is_done())
     run.step(
-        *engine,
-        [&] {
-          return StepInput{sides.source(), sides.frame(run.next().frame), {}};
-        },
-        *context.progress);
+        *engine, [&] { return sides.step(run.next()); }, *context.progress);
   const TrajectorySummary summary = run.summary();
   if (a.quiet) return 0;
   const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
@@ -220,7 +155,7 @@ int run(const Arguments& a, const Context& context) {
 }  // namespace
 
 Verb add_trajectory(CLI::App& app) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<TrajectoryArguments>();
   CLI::App* parser = app.add_subcommand("trajectory", "Compare each frame with one structure, a row for each");
   parser->footer(
       "Frames are the models of the given files, numbered from 0 through all of them, or the frames of trajectories\n"

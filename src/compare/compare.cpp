@@ -304,15 +304,15 @@ struct Series::Steps {
   }
 
   /// [residue] the target's potentials on its own surface, at the first of the offsets.
-  std::vector<double> own_of_target(const GridPtr& map, const Surface& target_surface, const Molecule& target) const {
+  std::vector<OwnPotential> own_of_target(const GridPtr& map, const Surface& target_surface,
+                                          const std::vector<std::int32_t>& source_of) const {
     OutsideSamples samples = sample_outside(engine, map, target_surface.mesh, target_surface.atoms,
                                             static_cast<float>(options.surface.isovalue), options.offsets_A.front());
     for (std::size_t v = 0; v < samples.values.size(); ++v) {
       if (samples.inside[v] != 0) samples.values[v] = std::numeric_limits<float>::quiet_NaN();
     }
     return own_potentials(engine.download_shape(target_surface.mesh),
-                          engine.vertex_residues(target_surface.mesh, target_surface.atoms), samples.values,
-                          target.residues.size());
+                          engine.vertex_residues(target_surface.mesh, target_surface.atoms), samples.values, source_of);
   }
 
   /// Each residue's difference from its potentials on its own surfaces, and how the mapped differences agree.
@@ -320,15 +320,21 @@ struct Series::Steps {
                          const Surface& target_surface, const std::vector<std::int32_t>& target_of,
                          CompareResult& result) const {
     if (target_map == nullptr || result.pairing.pairs.empty()) {
-      for (ResidueRow& row : result.residues) row.own_difference = std::numeric_limits<double>::quiet_NaN();
+      for (ResidueRow& row : result.residues)
+        row.own_difference = row.own_area_A2 = std::numeric_limits<double>::quiet_NaN();
       if (target_map != nullptr) result.certificate.not_checked.emplace_back("residues");
       return;
     }
     const MappedSurface& s = result.surface;
-    const std::vector<double> own = own_potentials(engine.download_shape(mapping.source), s.residue, s.potential_source,
-                                                   source.molecule->residues.size());
-    set_own_differences(result.residues, own, own_of_target(target_map, target_surface, *target.molecule), target_of);
-    result.certificate.residues = check_residues(result.residues, own);
+    const std::vector<OwnPotential> own =
+        own_potentials(engine.download_shape(mapping.source), s.residue, s.potential_source, target_of);
+    const std::vector<std::int32_t> source_of = source_residues(target_of, target.molecule->residues.size());
+    set_own_differences(result.residues, own, own_of_target(target_map, target_surface, source_of), target_of);
+    const ResidueCheck check = check_residues(result.residues, own);
+    if (check.n_residues >= kLeastComparedResidues)
+      result.certificate.residues = check;
+    else
+      result.certificate.not_checked.emplace_back("residues");
   }
 
   /// Slip by vertex and over the area.

@@ -1,6 +1,7 @@
 // own_potentials.cpp: area-weighted means by residue, and their correlation with the mapped differences.
 #include "compare/own_potentials.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -10,55 +11,78 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 /// Residues with less surface have no potential worth comparing.
 constexpr double kLeastArea_A2 = 5;
-constexpr std::size_t kLeastResidues = 5;
+
+/// [residue] whether a residue without a partner touches it.
+std::vector<bool> border_residues(const Mesh& surface, const std::vector<std::int32_t>& residue,
+                                  const std::vector<std::int32_t>& partner_of) {
+  std::vector<bool> borders(partner_of.size(), false);
+  const auto lacks_partner = [&](std::uint32_t v) {
+    return residue[v] >= 0 && partner_of[static_cast<std::size_t>(residue[v])] < 0;
+  };
+  for (const Triangle& t : surface.triangles) {
+    if (!std::any_of(t.begin(), t.end(), lacks_partner)) continue;
+    for (const std::uint32_t v : t) {
+      if (residue[v] >= 0) borders[static_cast<std::size_t>(residue[v])] = true;
+    }
+  }
+  return borders;
+}
 
 }  // namespace
 
-std::vector<double> own_potentials(const Mesh& surface, const std::vector<std::int32_t>& residue,
-                                   const std::vector<float>& potential, std::size_t n_residues) {
-  std::vector<double> sum(n_residues, 0.0), area(n_residues, 0.0);
+std::vector<OwnPotential> own_potentials(const Mesh& surface, const std::vector<std::int32_t>& residue,
+                                         const std::vector<float>& potential,
+                                         const std::vector<std::int32_t>& partner_of) {
+  std::vector<OwnPotential> own(partner_of.size());
   for (const Triangle& t : surface.triangles) {
     const Vec3f &a = surface.positions[t[0]], &b = surface.positions[t[1]], &c = surface.positions[t[2]];
     const double third = static_cast<double>(norm(cross(b - a, c - a))) / 6;
     for (const std::uint32_t v : t) {
       if (residue[v] < 0 || !std::isfinite(potential[v])) continue;
-      sum[static_cast<std::size_t>(residue[v])] += third * static_cast<double>(potential[v]);
-      area[static_cast<std::size_t>(residue[v])] += third;
+      OwnPotential& at = own[static_cast<std::size_t>(residue[v])];
+      at.mean += third * static_cast<double>(potential[v]);
+      at.area_A2 += third;
     }
   }
-  for (std::size_t r = 0; r < n_residues; ++r) sum[r] = area[r] < kLeastArea_A2 ? kNan : sum[r] / area[r];
-  return sum;
+  const std::vector<bool> borders = border_residues(surface, residue, partner_of);
+  for (std::size_t r = 0; r < own.size(); ++r)
+    own[r].mean = borders[r] || own[r].area_A2 < kLeastArea_A2 ? kNan : own[r].mean / own[r].area_A2;
+  return own;
 }
 
-void set_own_differences(std::vector<ResidueRow>& rows, const std::vector<double>& source,
-                         const std::vector<double>& target, const std::vector<std::int32_t>& target_of) {
+void set_own_differences(std::vector<ResidueRow>& rows, const std::vector<OwnPotential>& source,
+                         const std::vector<OwnPotential>& target, const std::vector<std::int32_t>& target_of) {
   for (ResidueRow& row : rows) {
+    row.own_difference = row.own_area_A2 = kNan;
     const std::int32_t partner = target_of[row.residue];
-    row.own_difference = partner < 0 ? kNan : target[static_cast<std::size_t>(partner)] - source[row.residue];
+    if (partner < 0) continue;
+    const OwnPotential &a = source[row.residue], &b = target[static_cast<std::size_t>(partner)];
+    row.own_difference = b.mean - a.mean;
+    if (std::isfinite(row.own_difference)) row.own_area_A2 = 2 / (1 / a.area_A2 + 1 / b.area_A2);
   }
 }
 
-ResidueCheck check_residues(const std::vector<ResidueRow>& rows, const std::vector<double>& source) {
-  double x = 0, y = 0, xx = 0, yy = 0, xy = 0, errors = 0, potentials = 0;
+ResidueCheck check_residues(const std::vector<ResidueRow>& rows, const std::vector<OwnPotential>& source) {
+  double area = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0, errors = 0, potentials = 0;
   ResidueCheck check{kNan, kNan, kNan, 0};
   for (const ResidueRow& row : rows) {
     if (!(row.area_A2 >= kLeastArea_A2) || !std::isfinite(row.own_difference)) continue;
-    const double a = row.own_difference, b = row.mean_signed_difference;
-    x += a;
-    y += b;
-    xx += a * a;
-    yy += b * b;
-    xy += a * b;
-    errors += (b - a) * (b - a);
-    potentials += source[row.residue] * source[row.residue];
+    const double w = row.own_area_A2, a = row.own_difference, b = row.mean_signed_difference;
+    area += w;
+    x += w * a;
+    y += w * b;
+    xx += w * a * a;
+    yy += w * b * b;
+    xy += w * a * b;
+    errors += w * (b - a) * (b - a);
+    potentials += w * source[row.residue].mean * source[row.residue].mean;
     ++check.n_residues;
   }
-  if (check.n_residues < kLeastResidues) return check;
-  const double n = static_cast<double>(check.n_residues);
-  check.rms_error = std::sqrt(errors / n);
-  check.rms_potential = std::sqrt(potentials / n);
-  const double square = (xx - x * x / n) * (yy - y * y / n);
-  if (square > 0) check.correlation = (xy - x * y / n) / std::sqrt(square);
+  if (check.n_residues < kLeastComparedResidues) return check;
+  check.rms_error = std::sqrt(errors / area);
+  check.rms_potential = std::sqrt(potentials / area);
+  const double square = (xx - x * x / area) * (yy - y * y / area);
+  if (square > 0) check.correlation = (xy - x * y / area) / std::sqrt(square);
   return check;
 }
 

@@ -10,20 +10,34 @@
 
 namespace espdiff {
 
-/// [residue] mean potential over the residue's surface, weighted by area; NaN if that is less than 5 A^2.
+/// A residue's mean potential over its own surface, weighted by area.
+struct OwnPotential {
+  double mean = 0;  ///< NaN where it is not used
+  double area_A2 = 0;
+};
+
+/// [residue] NaN if the surface is less than 5 A^2, or if a residue without a partner touches it there: where that one
+/// is absent, the residue shows another part of itself, so that its potentials on the two surfaces are of different
+/// places.
 /// @param residue   [vertex] -1 for none  @param potential [vertex] NaN outside a map
-std::vector<double> own_potentials(const Mesh& surface, const std::vector<std::int32_t>& residue,
-                                   const std::vector<float>& potential, std::size_t n_residues);
+/// @param partner_of [residue] -1 for none
+std::vector<OwnPotential> own_potentials(const Mesh& surface, const std::vector<std::int32_t>& residue,
+                                         const std::vector<float>& potential,
+                                         const std::vector<std::int32_t>& partner_of);
 
 /// Sets own_difference of each row: the potential of the paired residue on the target's surface minus that of the
-/// residue on the source's. No mapping is involved.
+/// residue on the source's; and own_area_A2, the harmonic mean of the two areas. No mapping is involved.
 /// @param source, target from own_potentials()  @param target_of [source residue] from paired_residues()
-void set_own_differences(std::vector<ResidueRow>& rows, const std::vector<double>& source,
-                         const std::vector<double>& target, const std::vector<std::int32_t>& target_of);
+void set_own_differences(std::vector<ResidueRow>& rows, const std::vector<OwnPotential>& source,
+                         const std::vector<OwnPotential>& target, const std::vector<std::int32_t>& target_of);
+
+/// Fewer have no correlation.
+constexpr std::size_t kLeastComparedResidues = 5;
 
 /// Pearson's correlation of the rows' mean_signed_difference with own_difference over the residues with at least 5 A^2
-/// of compared surface, and the size of their disagreement; NaN with fewer than 5 residues.
+/// of compared surface, and the size of their disagreement; NaN with fewer than kLeastComparedResidues. The weights are
+/// own_area_A2: the variance of a mean falls with its area, so that these are the inverse variances of the differences.
 /// @param source from own_potentials()
-ResidueCheck check_residues(const std::vector<ResidueRow>& rows, const std::vector<double>& source);
+ResidueCheck check_residues(const std::vector<ResidueRow>& rows, const std::vector<OwnPotential>& source);
 
 }  // namespace espdiff

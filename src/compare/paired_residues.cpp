@@ -22,4 +22,12 @@ std::vector<std::int32_t> paired_residues(const Molecule& source, const Molecule
   return paired;
 }
 
+std::vector<std::int32_t> source_residues(const std::vector<std::int32_t>& target_of, std::size_t n_target_residues) {
+  std::vector<std::int32_t> source_of(n_target_residues, -1);
+  for (std::size_t r = 0; r < target_of.size(); ++r) {
+    if (target_of[r] >= 0) source_of[static_cast<std::size_t>(target_of[r])] = static_cast<std::int32_t>(r);
+  }
+  return source_of;
+}
+
 }  // namespace espdiff

@@ -37,6 +37,7 @@ struct ResidueRow {
   double mean_slip_A = 0;         ///< NaN if no atom of the residue has a partner
   double slip_area_fraction = 0;  ///< farther than kLargeSlip_A
   double own_difference = 0;      ///< of the residue's potentials on its own surfaces; see set_own_differences()
+  double own_area_A2 = 0;         ///< of these surfaces
 };
 
 /// Slip beyond these is medium, and large: a side chain's width, and the distance between neighbouring residues.

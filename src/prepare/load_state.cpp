@@ -142,8 +142,8 @@ LoadedState load_state(const StructureFile& file, const StateRequest& request, c
 
 LoadedState load_frame(const StructureFile& file, const StructureOptions& structure, const std::string& name,
                        const Molecule& source, bool source_is_prepared, const InputOptions& options,
-                       const Progress& progress) {
-  StateRequest request{structure, StateRole::kTarget, false, true, &source};
+                       const Progress& progress, StateRole role) {
+  StateRequest request{structure, role, false, true, &source};
   LoadedState state = load_state(file, request, options, progress);
   state.molecule.name = name;
   if (source.charges.empty() || is_charged(state.molecule)) return state;

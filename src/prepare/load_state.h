@@ -66,11 +66,11 @@ std::optional<Preparation> charge_molecule(Molecule& molecule, const InputOption
 
 /// Loads a frame of a series. A frame without charges takes the source's where it has the same atoms. If PDB2PQR
 /// prepared the source, other frames are prepared like it, with its protonation states.
-/// @param name of the frame, for messages
+/// @param name of the frame, for messages  @param role whose selection and topology count
 /// @throws as load_state(), take_values()
 LoadedState load_frame(const StructureFile& file, const StructureOptions& structure, const std::string& name,
                        const Molecule& source, bool source_is_prepared, const InputOptions& options,
-                       const Progress& progress);
+                       const Progress& progress, StateRole role = StateRole::kTarget);
 
 /// For a molecule that comes from no file.
 /// @param whose what the molecule is and what to do instead, for the message: "b is ...; choose ..."

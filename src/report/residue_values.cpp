@@ -30,6 +30,12 @@ std::vector<std::string> residue_quantities() {
   return names;
 }
 
+void require_residue_quantity(const std::string& name) { find_quantity(name); }
+
+std::string usual_residue_quantity(const CompareResult& result) {
+  return result.has_potential ? "mean_abs_difference" : "mean_displacement_A";
+}
+
 std::vector<double> residue_values(const CompareResult& result, const std::string& quantity) {
   const Metric& metric = find_quantity(quantity);
   if (metric.section == MetricSection::kPotential && !result.has_potential)

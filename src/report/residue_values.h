@@ -14,6 +14,11 @@ struct CompareResult;
 /// The quantities of a residue: the names of the metrics that it has.
 std::vector<std::string> residue_quantities();
 
+/// @throws InputError with those there are
+void require_residue_quantity(const std::string& name);
+/// mean_abs_difference, or without potentials mean_displacement_A.
+std::string usual_residue_quantity(const CompareResult& result);
+
 /// [residue] of the source; NaN where it has no surface that is counted.
 /// @throws InputError (unknown name, with those there are; one of potentials where there are none)
 std::vector<double> residue_values(const CompareResult& result, const std::string& quantity);

@@ -8,12 +8,13 @@
 namespace espdiff {
 
 LoadedState load_frame_state(FrameFiles& files, int frame, StructureOptions structure, const LoadedState& reference,
-                             const PotentialPlan& potential, const InputOptions& options, const Progress& progress) {
+                             const PotentialPlan& potential, const InputOptions& options, const Progress& progress,
+                             StateRole role) {
   const auto [file, model] = files.file_of_frame(frame);
   const std::string name = files.name(frame);
   structure.model = model;
-  LoadedState state =
-      load_frame(*file, structure, name, reference.molecule, reference.preparation.has_value(), options, progress);
+  LoadedState state = load_frame(*file, structure, name, reference.molecule, reference.preparation.has_value(), options,
+                                 progress, role);
   if (!potential.takes_everything() || state.everything.size() > 0) return state;
   state.everything = file->read({model, true, true});
   if (!reference.everything.charges.empty()) take_values(state.everything, reference.everything, name);

@@ -5,15 +5,13 @@
 #include <utility>
 #include <vector>
 
+#include "io/appended_file.h"
 #include "trajectory/series_row.h"
 
 namespace espdiff {
 
 /// Everything that the rows depend on, by name; in the file as lines `# NAME: TEXT`.
 using SeriesHead = std::vector<std::pair<std::string, std::string>>;
-
-/// What to do with an existing file.
-enum class ExistingFile { kRefuse, kResume, kReplace };
 
 /// The file, locked: one run at a time writes it. It is empty until its first row; every row is in the file when add()
 /// returns, whatever happens to the process then.
@@ -23,12 +21,8 @@ class SeriesCsv {
   /// @throws IoError (the file exists, cannot be written, or another run is writing it), FormatError (another file, a
   ///         damaged line), InputError (made with something else; says what)
   SeriesCsv(std::string path, SeriesHead head, ExistingFile existing);
-  SeriesCsv(SeriesCsv&& other) noexcept;
-  SeriesCsv& operator=(SeriesCsv&&) = delete;
-  /// Removes the file if it has no row.
-  ~SeriesCsv();
 
-  const std::string& path() const { return path_; }
+  const std::string& path() const { return file_.path(); }
   /// Rows in the file: of earlier runs and of this one.
   const std::vector<SeriesRow>& rows() const { return rows_; }
   /// Fingerprint of the head.
@@ -41,17 +35,13 @@ class SeriesCsv {
   void add(const SeriesRow& row);
 
  private:
-  void open_and_lock();
   void read_rows();
   void check_same(const std::string& name, const std::string& in_file, const std::string& now) const;
-  void write(const std::string& text);
 
-  std::string path_;
+  AppendedFile file_;
   SeriesHead head_;
   std::vector<SeriesRow> rows_;
-  int descriptor_ = -1;
   bool has_head_ = false;  ///< the file begins with this run's head
-  bool is_new_ = false;    ///< it was not there
 };
 
 }  // namespace espdiff

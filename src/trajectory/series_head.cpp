@@ -56,6 +56,7 @@ SeriesHead series_head(const SeriesDescription& run, const CompareOptions& optio
   head.emplace_back("start", run.start == StartFrom::kPrevious ? "previous" : "source");
   head.emplace_back("settings", settings_in_words(options));
   if (!run.files.empty()) head.emplace_back("file_sha256", joined(run.files, sha256_of_file));
+  if (!run.reference_files.empty()) head.emplace_back("reference_sha256", joined(run.reference_files, sha256_of_file));
   return head;
 }
 

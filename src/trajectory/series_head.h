@@ -17,9 +17,10 @@ struct SeriesDescription {
   StructureOptions structure;      ///< how they are read
   SeriesHead molecule;             ///< instead of files: a molecule of VMD
   std::vector<int> frames;
-  std::string reference;      ///< `file PATH`, `frame N`, `previous`, ...
-  std::string map = "none";   ///< of each frame
-  std::string reference_map;  ///< of the reference; empty: as `map`
+  std::string reference;                     ///< `file PATH`, `frame N`, `previous`, ...
+  std::vector<std::string> reference_files;  ///< whose frames are the sources
+  std::string map = "none";                  ///< of each frame
+  std::string reference_map;                 ///< of the reference; empty: as `map`
   StartFrom start = StartFrom::kPrevious;
 };
 

@@ -77,6 +77,13 @@ std::string cell_of(const Json& value) {
   return text;
 }
 
+/// The value in OUT.json; null where it is part of what was not checked, which is null as a whole.
+const Json& value_at(const Json& json, const std::string& pointer) {
+  const Json::json_pointer at(pointer);
+  const Json& parent = json.at(at.parent_pointer());
+  return parent.is_null() ? parent : json.at(at);
+}
+
 std::size_t index_of(const std::string& column) {
   const auto& names = series_columns(true);
   const auto found = std::find(names.begin(), names.end(), column);
@@ -102,7 +109,7 @@ SeriesRow::SeriesRow(int frame, const std::string& reference, const Molecule& so
                      const CompareResult& result, const CompareOptions& options) {
   const Json json = compare_json(source, target, result, options, {});
   for (const Column& column : table_of_columns(result.region != nullptr))
-    cells_.push_back(column.pointer.empty() ? std::string() : cell_of(json.at(Json::json_pointer(column.pointer))));
+    cells_.push_back(column.pointer.empty() ? std::string() : cell_of(value_at(json, column.pointer)));
   at("frame") = std::to_string(frame);
   at("reference_frame") = one_line(reference);
 }

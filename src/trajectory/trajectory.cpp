@@ -27,16 +27,18 @@ std::vector<TrajectoryStep> steps_of(const TrajectoryPlan& plan) {
   std::vector<TrajectoryStep> steps;
   std::optional<int> previous;
   for (const int frame : plan.frames) {
-    if (!plan.against_previous) {
+    const std::optional<int> source = plan.against == Reference::kSame ? frame : previous;
+    if (plan.against == Reference::kOne) {
       steps.push_back({frame, std::nullopt, plan.reference});
-    } else if (previous) {
-      steps.push_back({frame, previous, std::to_string(*previous)});
+    } else if (source) {
+      steps.push_back({frame, source, std::to_string(*source)});
     }
     previous = frame;
   }
   if (steps.empty())
-    throw InputError(plan.against_previous ? option("reference", "previous") + " needs two frames or more"
-                                           : Message("there are no frames to compare"));
+    throw InputError(plan.against == Reference::kPrevious
+                         ? option("reference", "previous") + " needs two frames or more"
+                         : Message("there are no frames to compare"));
   return steps;
 }
 
@@ -68,12 +70,13 @@ StartFrom parse_start(const std::string& text, const CompareOptions& options) {
   throw InputError("start: '" + text + "' is not auto, previous or source");
 }
 
-TrajectoryRun::TrajectoryRun(TrajectoryPlan plan, SeriesCsv file)
-    : plan_(std::move(plan)), file_(std::move(file)), steps_(steps_of(plan_)) {
+TrajectoryRun::TrajectoryRun(TrajectoryPlan plan, SeriesCsv file, std::optional<ResidueCsv> residues)
+    : plan_(std::move(plan)), file_(std::move(file)), residues_(std::move(residues)), steps_(steps_of(plan_)) {
   if (plan_.options.offsets_A.size() > 1)
     throw InputError(option("offset") +
                      ": a list of distances was given, and a trajectory has one row for a frame; give one");
   check_earlier_rows();
+  resume_residues();
   position_ = n_resumed_ = file_.rows().size();
   remove_leftovers(state_path());  // temporary files of a killed run; the lock excludes others
   if (position_ == 0 || is_done()) {
@@ -98,7 +101,19 @@ void TrajectoryRun::check_earlier_rows() const {
   }
 }
 
-bool TrajectoryRun::keeps_mappings() const { return plan_.start == StartFrom::kPrevious && !plan_.against_previous; }
+/// The rows of residues are those of the frames with numbers.
+void TrajectoryRun::resume_residues() {
+  if (!residues_) return;
+  std::vector<std::string> frames;
+  for (const SeriesRow& row : file_.rows()) {
+    if (row["error"].empty()) frames.push_back(row["frame"]);
+  }
+  residues_->resume(frames, file_.fingerprint());
+}
+
+bool TrajectoryRun::keeps_mappings() const {
+  return plan_.start == StartFrom::kPrevious && plan_.against == Reference::kOne;
+}
 
 void TrajectoryRun::remove_state() const { std::remove(state_path().c_str()); }
 
@@ -133,7 +148,6 @@ void TrajectoryRun::restore_mapping() {
 }
 
 void TrajectoryRun::note_inputs(const std::vector<InputFile>& inputs) {
-  if (plan_.against_previous) return;
   for (const InputFile& input : inputs) file_.note(input.role + "_sha256", input.sha256);
 }
 
@@ -175,15 +189,17 @@ const SeriesRow* TrajectoryRun::skip(const Error& why) {
 /// After a failed frame the mapping starts from the source, as in a run that is resumed there.
 StartFrom TrajectoryRun::start_of_step() const {
   const bool follows_error = position_ > 0 && !file_.rows()[position_ - 1]["error"].empty();
-  return follows_error || plan_.against_previous ? StartFrom::kSource : plan_.start;
+  return follows_error || plan_.against != Reference::kOne ? StartFrom::kSource : plan_.start;
 }
 
 SeriesRow TrajectoryRun::compare(Engine& engine, const StepInput& input, const Progress& progress) {
-  if (series_ == nullptr || plan_.against_previous)
+  if (series_ == nullptr || plan_.against != Reference::kOne)
     series_ = std::make_unique<Series>(engine, input.source, plan_.options);
   if (restored_) series_->restore(std::move(*restored_));
   restored_.reset();
   const CompareResult result = series_->step(input.target, start_of_step(), progress);
+  residue_line_.reset();
+  if (residues_) residue_line_ = residues_->row(next().frame, *input.source.molecule, result);
   return {next().frame, next().reference, *input.source.molecule, *input.target.molecule, result, plan_.options};
 }
 
@@ -193,6 +209,9 @@ const SeriesRow* TrajectoryRun::end_step(const SeriesRow& row) {
   if (is_there) {
     compare_again(row);
   } else {
+    // First, since the frame's own row says that it is done.
+    if (residue_line_) residues_->add(*residue_line_, file_.fingerprint());
+    residue_line_.reset();
     file_.add(row);
     const auto state =
         keeps_mappings() && !is_last && row["error"].empty() ? series_->state() : std::optional<SeriesState>();

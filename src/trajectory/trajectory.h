@@ -13,15 +13,20 @@
 #include "compare/options.h"
 #include "compare/series.h"
 #include "report/provenance.h"
+#include "trajectory/residue_csv.h"
 #include "trajectory/series_csv.h"
 
 namespace espdiff {
 
+/// What each frame is compared with: one source, the frame before it, or the frame of the same number of another
+/// trajectory.
+enum class Reference { kOne, kPrevious, kSame };
+
 /// Frames of a run, and what they are compared with.
 struct TrajectoryPlan {
-  std::vector<int> frames;        ///< in the order of comparison
-  std::string reference;          ///< the source of all frames, as the rows name it
-  bool against_previous = false;  ///< compare each frame with the one before it instead
+  std::vector<int> frames;  ///< in the order of comparison
+  Reference against = Reference::kOne;
+  std::string reference;  ///< the one source, as the rows name it
   CompareOptions options;
   StartFrom start = StartFrom::kPrevious;
   bool skip_errors = false;  ///< a frame that fails becomes a row with the error, and the run goes on
@@ -36,8 +41,8 @@ StartFrom parse_start(const std::string& text, const CompareOptions& options);
 /// One frame to compare.
 struct TrajectoryStep {
   int frame = 0;
-  std::optional<int> previous;  ///< its source, in a run against the frame before
-  std::string reference;        ///< the source, as the row names it
+  std::optional<int> source;  ///< frame that is its source, unless all have one
+  std::string reference;      ///< the source, as the row names it
 };
 
 /// The two sides of a step. The objects they point to must live until the step ends; the common source of all frames
@@ -62,8 +67,9 @@ struct TrajectorySummary {
 /// warning() says so.
 class TrajectoryRun {
  public:
-  /// @throws InputError (no frames; rows of other frames)
-  TrajectoryRun(TrajectoryPlan plan, SeriesCsv file);
+  /// @throws InputError (no frames; rows of other frames), as ResidueCsv::resume()
+  /// @param residues gets the residues of each frame as well
+  TrajectoryRun(TrajectoryPlan plan, SeriesCsv file, std::optional<ResidueCsv> residues = std::nullopt);
 
   bool is_done() const { return position_ == steps_.size(); }
   /// The next step. @pre !is_done()
@@ -98,6 +104,7 @@ class TrajectoryRun {
   std::string state_path() const { return file_.path() + ".state"; }
   std::string state_fingerprint(const std::string& frame) const;
   void remove_state() const;
+  void resume_residues();
   SeriesRow compare(Engine& engine, const StepInput& input, const Progress& progress);
   StartFrom start_of_step() const;
   const SeriesRow* end_step(const SeriesRow& row);
@@ -105,6 +112,8 @@ class TrajectoryRun {
 
   TrajectoryPlan plan_;
   SeriesCsv file_;
+  std::optional<ResidueCsv> residues_;
+  std::optional<ResidueLine> residue_line_;  ///< of the step
   std::vector<TrajectoryStep> steps_;
   std::size_t position_ = 0, n_resumed_ = 0, n_skipped_ = 0;
   std::optional<SeriesState> restored_;  ///< state that the first step continues from

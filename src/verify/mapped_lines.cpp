@@ -178,23 +178,25 @@ double deviation(const CsvTable& table, int at, const std::vector<double>& expec
   return largest / scale;
 }
 
-double correlation(const CsvTable& table, int area, int own, int mapped) {
-  std::vector<std::pair<double, double>> values;
+/// Pearson's over the residues whose own difference is known, weighted by the area that it rests on.
+double correlation(const CsvTable& table, int area, int weight, int own, int mapped) {
+  std::vector<std::array<double, 3>> values;
+  double total = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const auto at = [&](int c) { return table.number(r, static_cast<std::size_t>(c)); };
-    if (at(area) >= kLeastResidueArea_A2 && std::isfinite(at(own))) values.emplace_back(at(own), at(mapped));
+    if (!(at(area) >= kLeastResidueArea_A2) || !std::isfinite(at(own))) continue;
+    values.push_back({at(weight), at(own), at(mapped)});
+    total += at(weight);
   }
-  double x = 0, y = 0, xx = 0, yy = 0, xy = 0;
-  const double n = static_cast<double>(values.size());
-  if (n < 5) return kNan;
-  for (const auto& [a, b] : values) {
-    x += a / n;
-    y += b / n;
+  if (values.size() < 5) return kNan;
+  for (const auto& [w, a, b] : values) {
+    x += w * a / total;
+    y += w * b / total;
   }
-  for (const auto& [a, b] : values) {
-    xx += (a - x) * (a - x);
-    yy += (b - y) * (b - y);
-    xy += (a - x) * (b - y);
+  for (const auto& [w, a, b] : values) {
+    xx += w * (a - x) * (a - x);
+    yy += w * (b - y) * (b - y);
+    xy += w * (a - x) * (b - y);
   }
   return xy / std::sqrt(xx * yy);
 }
@@ -220,11 +222,11 @@ void add_residue_lines(const MappedFile& file, const std::string& path, Lines& l
   std::vector<double> area(n, 0.0), slip(n, 0.0), slip_area(n, 0.0), difference(n, 0.0), absolute(n, 0.0);
   for (std::size_t v = 0; v < weight.size(); ++v) {
     if (!(file.residue[v] >= 0) || weight[v] <= 0) continue;
-    const auto r = static_cast<std::size_t>(file.residue[v]);
-    if (r >= n) {
+    if (file.residue[v] >= static_cast<double>(n)) {
       lines.add_deviation("OUT.residues.csv, residues that it lacks", 1, 0);
       return;
     }
+    const auto r = static_cast<std::size_t>(file.residue[v]);
     area[r] += weight[v];
     if (std::isfinite(file.slip[v])) {
       slip[r] += weight[v] * file.slip[v];
@@ -247,9 +249,10 @@ void add_residue_lines(const MappedFile& file, const std::string& path, Lines& l
   if (file.potential_source.empty()) return;
   check("mean_signed_difference", means(difference, area));
   check("mean_abs_difference", means(absolute, area));
-  const int own = column(table, "own_difference"), mapped = column(table, "mean_signed_difference");
-  if (own >= 0 && mapped >= 0)
-    lines.add("certificate/residues/correlation", correlation(table, column(table, "area"), own, mapped), 1e-4);
+  const int own = column(table, "own_difference"), own_area = column(table, "own_area"),
+            mapped = column(table, "mean_signed_difference"), of_area = column(table, "area");
+  if (own >= 0 && own_area >= 0 && mapped >= 0 && of_area >= 0)
+    lines.add("certificate/residues/correlation", correlation(table, of_area, own_area, own, mapped), 1e-4);
 }
 
 }  // namespace espdiff

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <vector>
 
@@ -26,9 +27,9 @@ Vec place(int atom, double bend) {
   return {x, 1.1 * (atom % 3), 0.5 * (atom % 2) + bend * 0.01 * x * x};
 }
 
-std::string pqr(double bend = 0) {
+std::string pqr(double bend = 0, int n_atoms = kAtoms) {
   std::string text;
-  for (int i = 0; i < kAtoms; ++i) {
+  for (int i = 0; i < n_atoms; ++i) {
     char line[128];
     const Vec p = place(i, bend);
     std::snprintf(line, sizeof line, "ATOM %d CA ALA A %d %.3f %.3f %.3f %.4f 2.2\n", i + 1, i + 1, p.x, p.y, p.z,
@@ -232,6 +233,57 @@ TEST_CASE("trajectory: wrong input gives one line and leaves nothing") {
   CHECK(
       contains(run_espdiff("trajectory " + source + " " + frames + " -o " + folder.file("no/a.csv")).err, "no/a.csv"));
   CHECK(folder.n_files() == n_before);
+}
+
+TEST_CASE("trajectory against trajectory: frame i of one molecule against frame i of another") {
+  const ScratchFolder folder;
+  // The mutant lacks the last atom; its frames have no charges.
+  const std::string wild = folder.write("wild.pqr", pqr()), frames = folder.write("wild.pdb", pdb_models(0, 3)),
+                    mutant = folder.write("mutant.pqr", pqr(0, kAtoms - 1)),
+                    others = folder.write("mutant.pdb", pdb_models(1, 3, kAtoms - 1));
+  const std::string call = "trajectory " + wild + " " + others + " --source-frames " + frames + " --frames-of " +
+                           mutant + " --potential coulomb -o " + folder.file("a.csv") + " --residues " +
+                           folder.file("r.csv");
+  const Outcome run = run_espdiff(call);
+  REQUIRE_MESSAGE(run.status == 0, run.err);
+  CHECK(column(folder.file("a.csv"), "frame") == std::vector<std::string>{"0", "1", "2"});
+  CHECK(column(folder.file("a.csv"), "reference_frame") == std::vector<std::string>{"0", "1", "2"});
+  // Each row is the pair's own.
+  const std::string source = folder.write("s.pqr", pqr(0.5)), target = folder.write("t.pqr", pqr(1.0, kAtoms - 1));
+  REQUIRE(
+      run_espdiff("compare " + source + " " + target + " --potential coulomb -q -o " + folder.file("pair")).status ==
+      0);
+  const auto pair = nlohmann::json::parse(read_file(folder.file("pair.json")));
+  CHECK(std::stod(column(folder.file("a.csv"), "rmsd_A")[1]) ==
+        doctest::Approx(pair["rmsd_A"].get<double>()).epsilon(1e-3));
+  CHECK(std::stod(column(folder.file("a.csv"), "mean_abs_difference")[1]) ==
+        doctest::Approx(pair["mean_abs_difference"].get<double>()).epsilon(0.02));
+  CHECK(column(folder.file("r.csv"), "frame") == std::vector<std::string>{"0", "1", "2"});
+  CHECK_FALSE(column(folder.file("r.csv"), "A:ALA1")[2].empty());
+  CHECK(run_espdiff(call).err.find(": the file exists; --resume goes on with it") != std::string::npos);
+  CHECK(run_espdiff(call + " --resume").status == 0);
+
+  const std::string four = folder.write("four.pdb", pdb_models(0, 4));
+  CHECK(run_espdiff("trajectory " + wild + " " + frames + " --source-frames " + four + " -o " + folder.file("b.csv"))
+            .err == "espdiff: the trajectories have 4 and 3 frames; choose those of both: --frames 0:2\n");
+  CHECK(run_espdiff("trajectory " + wild + " " + frames + " --source-frames " + four + " --reference previous -o " +
+                    folder.file("b.csv"))
+            .err == "espdiff: --source-frames and --reference previous exclude each other\n");
+  CHECK(run_espdiff("trajectory " + wild + " " + frames + " --residue-quantity mean_slip_A -o " + folder.file("b.csv"))
+            .err == "espdiff: --residue-quantity needs --residues FILE\n");
+  CHECK(run_espdiff("trajectory " + wild + " " + frames + " --residues " + frames + " -o " + folder.file("b.csv"))
+            .status == 2);
+  CHECK_FALSE(std::filesystem::exists(folder.file("b.csv")));
+}
+
+TEST_CASE("each frame against the one before, on the command line") {
+  const ScratchFolder folder;
+  const std::string wild = folder.write("wild.pqr", pqr()), frames = folder.write("wild.pdb", pdb_models(0, 3));
+  REQUIRE(run_espdiff("trajectory " + wild + " " + frames + " --reference previous --potential none -q -o " +
+                      folder.file("a.csv"))
+              .status == 0);
+  CHECK(column(folder.file("a.csv"), "frame") == std::vector<std::string>{"1", "2"});
+  CHECK(column(folder.file("a.csv"), "reference_frame") == std::vector<std::string>{"0", "1"});
 }
 
 #endif

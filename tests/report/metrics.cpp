@@ -99,7 +99,7 @@ TEST_CASE("the residues' metrics are those of the table, the path length among t
   CHECK(quantities == std::vector<std::string>{"area_A2", "mean_abs_difference", "mean_signed_difference",
                                                "mean_source", "mean_target", "sign_change_area_fraction",
                                                "mean_displacement_A", "mean_path_length_A", "own_difference",
-                                               "mean_slip_A", "slip_area_fraction"});
+                                               "own_area_A2", "mean_slip_A", "slip_area_fraction"});
   CHECK(residue_values(result, "mean_path_length_A") == std::vector<double>{2, 3});
   CHECK(residue_unit(result, "mean_path_length_A") == "A");
   CHECK(residue_unit(result, "mean_source") == "kT/e");

@@ -61,9 +61,9 @@ CompareResult made_result() {
   result.certificate.not_checked = {"something_else"};
   result.regularize_report.iterations = 17;
   result.deform_report.iterations = 42;
-  result.residues = {{0, 6, 1, -1, 2, 1, 0.5, 1, 2, 0.25, 0, -1.5},
-                     {1, 4, 2, 2, 0, 2, 0, 1.5, 3, 3.5, 0.5, 2.5},
-                     {2, 0, kNan, kNan, kNan, kNan, kNan, kNan, kNan, kNan, kNan, kNan}};
+  result.residues = {{0, 6, 1, -1, 2, 1, 0.5, 1, 2, 0.25, 0, -1.5, 5},
+                     {1, 4, 2, 2, 0, 2, 0, 1.5, 3, 3.5, 0.5, 2.5, 4},
+                     {2, 0, kNan, kNan, kNan, kNan, kNan, kNan, kNan, kNan, kNan, kNan, kNan}};
   MappedSurface& s = result.surface;
   s.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   s.source_positions = {{5, 0, 0}, {6, 0, 0}, {5, 1, 0}, {5, 0, 1}};
@@ -227,10 +227,10 @@ TEST_CASE("OUT.residues.csv has one row a source residue, with units") {
         "chain,residue_number,insertion_code,residue_name,area [A^2],mean_abs_difference [kT/e],mean_signed_difference "
         "[kT/e],"
         "mean_source [kT/e],mean_target [kT/e],sign_change_area_fraction,mean_displacement [A],mean_path_length [A],"
-        "own_difference [kT/e],mean_slip [A],slip_area_fraction\n"
-        "A,7,,ALA,6,1,-1,2,1,0.5,1,2,-1.5,0.25,0\n"
-        "A,7,B,GLY,4,2,2,0,2,0,1.5,3,2.5,3.5,0.5\n"
-        ",9,,LYS,0,,,,,,,,,,\n");
+        "own_difference [kT/e],own_area [A^2],mean_slip [A],slip_area_fraction\n"
+        "A,7,,ALA,6,1,-1,2,1,0.5,1,2,-1.5,5,0.25,0\n"
+        "A,7,B,GLY,4,2,2,0,2,0,1.5,3,2.5,4,3.5,0.5\n"
+        ",9,,LYS,0,,,,,,,,,,,\n");
 }
 
 TEST_CASE("OUT.vtp has the arrays of the contract") {
@@ -273,7 +273,7 @@ TEST_CASE("without potentials OUT.vtp has no potential arrays, and the table's c
   result.surface.potential_target.clear();
   write(folder.file("out"), result);
   CHECK(read_file(folder.file("out.vtp")).find("potential") == std::string::npos);
-  CHECK(read_file(folder.file("out.residues.csv")).find("\nA,7,,ALA,6,,,,,,1,2,,0.25,0\n") != std::string::npos);
+  CHECK(read_file(folder.file("out.residues.csv")).find("\nA,7,,ALA,6,,,,,,1,2,,,0.25,0\n") != std::string::npos);
 }
 
 TEST_CASE("all files of a result appear, or none") {

@@ -9,6 +9,7 @@
 #include "compare/made_side.h"
 #include "engine/engine.h"
 #include "engine/select_engine.h"
+#include "io/read_csv.h"
 #include "prepare/take_charges.h"
 #include "support/test_data.h"
 #include "trajectory/frame_files.h"
@@ -73,7 +74,7 @@ struct Runner {
           *engine,
           [&] {
             StepInput input = read(run.next().frame);
-            if (run.next().previous) input.source = motion.side(*run.next().previous).input();
+            if (run.next().source) input.source = motion.side(*run.next().source).input();
             return input;
           },
           progress);
@@ -232,7 +233,7 @@ TEST_CASE("each frame against the one before") {
   const ScratchFolder folder;
   Runner runner{motion};
   TrajectoryPlan run = motion.plan(Method::kMorph);
-  run.against_previous = true;
+  run.against = espdiff::Reference::kPrevious;
   run.frames = {0, 2, 3};
   CHECK(runner(run, folder.file("a.csv")).n_frames == 2);
   const SeriesCsv file(folder.file("a.csv"), kHead, ExistingFile::kResume);
@@ -246,6 +247,54 @@ TEST_CASE("each frame against the one before") {
   CHECK(message_of([&] { TrajectoryRun(run, SeriesCsv(folder.file("b.csv"), kHead, ExistingFile::kRefuse)); }) ==
         "reference previous needs two frames or more");
   CHECK(folder.n_files() == 1);
+}
+
+TEST_CASE("each frame against the frame of its number of another trajectory") {
+  const Motion motion;
+  const ScratchFolder folder;
+  Runner runner{motion};
+  TrajectoryPlan run = motion.plan(Method::kMorph);
+  run.against = espdiff::Reference::kSame;
+  run.start = StartFrom::kPrevious;
+  run.frames = {1, 3};
+  // Frame i of the other trajectory is frame i of this one, so that nothing differs.
+  CHECK(runner(run, folder.file("a.csv")).n_frames == 2);
+  const SeriesCsv file(folder.file("a.csv"), kHead, ExistingFile::kResume);
+  REQUIRE(file.rows().size() == 2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    CHECK(file.rows()[i]["reference_frame"] == file.rows()[i]["frame"]);
+    CHECK(std::stod(file.rows()[i]["rmsd_A"]) < 1e-6);
+    CHECK(std::stod(file.rows()[i]["mean_abs_difference"]) < 1e-4);
+    CHECK(file.rows()[i]["start"] == "source");
+  }
+}
+
+TEST_CASE("the residues of a run that was killed between its two rows are resumed to the same bytes") {
+  const Motion motion;
+  const ScratchFolder folder;
+  Runner runner{motion};
+  TrajectoryPlan plan = motion.plan(Method::kMorph);
+  plan.start = StartFrom::kSource;
+  plan.frames = {0, 1, 2};
+  const auto run = [&](const std::string& name, ExistingFile existing) {
+    TrajectoryRun made(plan, SeriesCsv(folder.file(name), kHead, existing),
+                       espdiff::ResidueCsv(folder.file("residues_" + name), "", existing));
+    while (!made.is_done()) made.step(*runner.engine, [&] { return runner.read(made.next().frame); }, {});
+  };
+  run("whole.csv", ExistingFile::kRefuse);
+  const std::string rows = read_file(folder.file("whole.csv")), residues = read_file(folder.file("residues_whole.csv"));
+  const CompareResult alone = compare(*runner.engine, motion.source.input(), motion.side(2).input(), plan.options, {});
+  const espdiff::CsvTable table = espdiff::read_csv(folder.file("residues_whole.csv"));
+  REQUIRE(table.rows.size() == 3);
+  REQUIRE(table.columns.size() == alone.residues.size() + 1);
+  for (std::size_t r = 0; r < alone.residues.size(); ++r)
+    CHECK(table.number(2, r + 1) == doctest::Approx(alone.residues[r].mean_abs_difference).epsilon(1e-12));
+  // The last row of the trajectory is missing, that of the residues is there.
+  std::ofstream(folder.file("cut.csv")) << rows.substr(0, rows.rfind('\n', rows.size() - 2) + 1);
+  std::ofstream(folder.file("residues_cut.csv")) << residues;
+  run("cut.csv", ExistingFile::kResume);
+  CHECK(read_file(folder.file("cut.csv")) == rows);
+  CHECK(read_file(folder.file("residues_cut.csv")) == residues);
 }
 
 TEST_CASE("a file with rows of other frames is refused and left as it is") {

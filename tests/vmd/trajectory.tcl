@@ -35,6 +35,30 @@ test "one row a frame, and the first is what compare says" {
     espdiff delete all
 }
 
+test "trajectory against trajectory, with the residues of each frame" {
+    set other [mol new [input traj_adk/adk.psf] type psf waitfor all]
+    mol addfile [input traj_adk/adk_dims.dcd] type dcd first 10 last 14 waitfor all $other
+    # Frame i of the other molecule is frame i + 10 of the first.
+    set options [list -map none -frames 0:1:2 -reference [list mol $other frame same] -grid-spacing 1.5]
+    espdiff trajectory -mol $mol {*}$options -csv $scratch/same.csv -residues $scratch/residues.csv
+    set single [espdiff compare [list mol $other frame 2 map none] [list mol $mol frame 2 map none] -grid-spacing 1.5]
+    set row [split [lindex [read_rows $scratch/same.csv] 2] ,]
+    check_equal "frame and source" [lrange $row 0 1] {2 2}
+    check_close rmsd [lindex $row 2] [espdiff result $single rmsd_A] 1e-9
+    set table [::espdiff::core::read_csv $scratch/residues.csv]
+    set residues [espdiff residues $single]
+    check_equal "columns" [llength [dict get $table columns]] [expr {[llength $residues] + 1}]
+    foreach column [lrange [dict get $table columns] 1 end] residue $residues {
+        set value [dict get [lindex [dict get $table rows] 2] $column]
+        if {$value ne ""} { check_close $column $value [dict get $residue mean_displacement_A] 1e-6 }
+    }
+    check_refused {espdiff trajectory -mol $mol {*}[lreplace $options 3 3 0:1:5] -csv $scratch/no.csv} {ESPDIFF INPUT} \
+        "has no frame 5; it has 5, from 0"
+    check "nothing is written" {![file exists $scratch/no.csv]}
+    mol delete $other
+    espdiff delete all
+}
+
 foreach start {source previous} {
     test "resumed after an interruption, each from $start: the same rows" {
         file delete $scratch/whole.csv $scratch/parts.csv

@@ -1,0 +1,144 @@
+// trajectory_sides.cpp: loads the states, and reads their frames.
+#include "cli/trajectory_sides.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "compare/options.h"
+#include "io/molfile_plugins.h"
+#include "io/open_structure.h"
+#include "io/structure_file.h"
+#include "prepare/region.h"
+#include "prepare/surface_radii.h"
+#include "report/state_report.h"
+#include "trajectory/frame_state.h"
+
+namespace espdiff::cli {
+
+Reference reference_of(const TrajectoryArguments& a) {
+  if (!a.source_frames.empty()) return Reference::kSame;
+  return a.reference == "previous" ? Reference::kPrevious : Reference::kOne;
+}
+
+MovingState::MovingState(const TrajectoryArguments& a, StateRole role, const std::string& topology,
+                         const std::vector<std::string>& files, const InputOptions& options, const Progress& progress)
+    : a_(a), role_(role), options_(options), progress_(progress), opener_(topology, a.plugins, progress) {
+  open(files);
+  load(topology, files);
+}
+
+MovingState::MovingState(const MovingState& like, StateRole role, const std::string& topology,
+                         const std::vector<std::string>& files)
+    : a_(like.a_),
+      role_(role),
+      options_(like.options_),
+      progress_(like.progress_),
+      opener_(topology, a_.plugins, progress_),
+      state_(like.state_) {
+  open(files);
+}
+
+void MovingState::open(const std::vector<std::string>& files) {
+  if (!files.empty()) frames_.emplace(files, [this](const std::string& path) { return opener_.open(path); });
+}
+
+void MovingState::load(const std::string& topology, const std::vector<std::string>& files) {
+  const bool is_topology = opener_.needs_coordinates();
+  if (is_topology && (files.empty() || !needs_molfile_reader(files.front())))
+    throw InputError(topology + ": is a topology without coordinates" +
+                     (files.empty() ? "" : ", and " + files.front() + " is no trajectory") +
+                     "; give a structure first, and the topology as " + option("topology"));
+  // A trajectory that is open already is not read again.
+  const auto structure = is_topology ? nullptr : open_structure(topology);
+  const StructureFile& file = is_topology ? *frames_->file_of_frame(0).first : *structure;
+  StateRequest request{a_.structure, role_};
+  if (role_ == StateRole::kSource) request.structure.model = a_.source_model;
+  state_ = load_for(a_.maps, !has_given_maps(a_.maps), file, request, options_, progress_);
+  if (!is_topology) file.require_unchanged(opener_.sha256());
+  const std::string name = to_string(role_);
+  inputs_ = state_inputs(name, {name, topology, is_topology ? opener_.sha256() : file.sha256()}, state_);
+  if (is_topology) inputs_.push_back({name + "_coordinates", files.front(), file.sha256()});
+}
+
+LoadedState MovingState::read(int number, StateRole role, const PotentialPlan& potential) {
+  return load_frame_state(*frames_, number, a_.structure, state_, potential, options_, progress_, role);
+}
+
+namespace {
+
+/// Frames from which the source's molecule comes.
+std::vector<std::string> source_files(const TrajectoryArguments& a) {
+  switch (reference_of(a)) {
+    case Reference::kSame: return a.source_frames;
+    case Reference::kPrevious: return a.targets;
+    case Reference::kOne: break;
+  }
+  return a.frames_of.empty() ? a.targets : std::vector<std::string>();
+}
+
+}  // namespace
+
+TrajectorySides::TrajectorySides(const TrajectoryArguments& a, const CompareOptions& options, const Progress& progress)
+    : a_(a),
+      options_(options.input),
+      reference_(reference_of(a)),
+      first_(a, StateRole::kSource, a.source, source_files(a), options.input, progress) {
+  open_targets(progress);
+  const LoadedState& target = targets().state();
+  check_left_out(options_, {&first_.state(), &target});
+  inputs_ = first_.inputs();
+  if (second_) inputs_.insert(inputs_.end(), second_->inputs().begin(), second_->inputs().end());
+  source_map_ = given_map(a.maps, "source", inputs_);
+  target_map_ = given_map(a.maps, "target", inputs_);
+  if (!has_given_maps(a.maps) && a.maps.potential != "none")
+    plan_ = PotentialPlan(a.maps, {facts_of(first_.state()), facts_of(target)}, options.temperature_K);
+  if (reference_ != Reference::kOne) return;
+  source_ = first_.state();
+  use_source();
+  if (computed_) inputs_.push_back(computed_input("source_map", *computed_));
+}
+
+void TrajectorySides::open_targets(const Progress& progress) {
+  if (!a_.frames_of.empty()) {
+    second_.emplace(a_, StateRole::kTarget, a_.frames_of, a_.targets, options_, progress);
+  } else if (reference_ == Reference::kSame) {
+    second_.emplace(first_, StateRole::kTarget, a_.source, a_.targets);
+  }
+  if (reference_ != Reference::kSame || a_.frames != "all" || first_.n_frames() == second_->n_frames()) return;
+  throw InputError("the trajectories have " + std::to_string(first_.n_frames()) + " and " +
+                   std::to_string(second_->n_frames()) +
+                   " frames; choose those of both: " + option("frames", "0:" + std::to_string(n_frames() - 1)));
+}
+
+int TrajectorySides::n_frames() const {
+  const int n = targets().n_frames();
+  return reference_ == Reference::kSame ? std::min(n, first_.n_frames()) : n;
+}
+
+StepInput TrajectorySides::step(const TrajectoryStep& step) {
+  if (step.source) {
+    source_ = first_.read(*step.source, StateRole::kSource, plan_);
+    use_source();
+  }
+  const CompareInput source{&surface_, source_map_ ? &*source_map_ : nullptr,
+                            computed_ ? computed_->maker() : MapMaker(), region_};
+  return {source, frame(step.frame), {}};
+}
+
+/// The source's surface, region and potential.
+void TrajectorySides::use_source() {
+  surface_ = source_.molecule;
+  region_ = region_residues(source_.molecule, source_.whole, source_.molecule, source_.whole, options_);
+  set_surface_radii({&surface_}, options_.radii);
+  if (plan_.computes()) computed_ = plan_.map_of(source_);
+}
+
+CompareInput TrajectorySides::frame(int number) {
+  target_ = targets().read(number, StateRole::kTarget, plan_);
+  CompareInput input{&target_.molecule, target_map_ ? &*target_map_ : nullptr, nullptr, {}};
+  if (plan_.computes()) input.make_map = plan_.map_of(target_).maker();
+  set_surface_radii({&target_.molecule}, options_.radii);
+  return input;
+}
+
+}  // namespace espdiff::cli

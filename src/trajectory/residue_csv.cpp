@@ -1,0 +1,99 @@
+// residue_csv.cpp: writes the rows, and goes on with those of an interrupted run.
+#include "trajectory/residue_csv.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <utility>
+
+#include "base/error.h"
+#include "compare/result.h"
+#include "io/read_csv.h"
+#include "io/write_csv.h"
+#include "report/residue_values.h"
+
+namespace espdiff {
+namespace {
+
+constexpr const char* kFrame = "frame";
+
+std::string line_of(const std::vector<std::string>& cells) {
+  std::ostringstream line;
+  write_csv_row(line, cells);
+  return line.str();
+}
+
+/// The head's lines, without `# `.
+std::vector<std::string> head_of(const std::string& quantity, const std::string& fingerprint) {
+  return {"residues: " + quantity, "trajectory: " + fingerprint};
+}
+
+}  // namespace
+
+std::string residue_column(const Residue& residue) {
+  std::string name = residue.name + std::to_string(residue.number);
+  if (residue.insertion_code != ' ') name += residue.insertion_code;
+  return residue.chain.empty() ? name : residue.chain + ":" + name;
+}
+
+ResidueCsv::ResidueCsv(std::string path, std::string quantity, ExistingFile existing)
+    : file_(std::move(path), existing), quantity_(std::move(quantity)) {
+  if (!quantity_.empty()) require_residue_quantity(quantity_);
+}
+
+void ResidueCsv::resume(const std::vector<std::string>& frames, const std::string& fingerprint) {
+  if (frames.empty()) return;
+  const Message anew = "; " + switched_on("overwrite") + " begins anew";
+  if (!file_.has_content())
+    throw InputError(path() + ": has no rows, while the run has " + std::to_string(frames.size()) +
+                     "; the residues of a run are written from its first frame on" + anew);
+  const std::string lines = complete_lines(file_.text());
+  const CsvTable table = parse_csv(lines, path());
+  if (table.comments.size() != 2 || table.columns.front() != kFrame)
+    throw FormatError(path(), 1, "this is not a trajectory's table of residues; give another file");
+  const std::string quantity = table.comments[0].substr(table.comments[0].find(' ') + 1);
+  if (quantity_.empty()) quantity_ = quantity;
+  if (table.comments != head_of(quantity_, fingerprint))
+    throw InputError(path() + ": has " + quantity + " of another run, or " + quantity_ + " was asked for" + anew);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const std::string there = i < table.rows.size() ? "frame " + table.rows[i][0] : "missing";
+    if (there != "frame " + frames[i])
+      throw InputError(path() + ": row " + std::to_string(i + 1) + " is " + there + ", not frame " + frames[i] + anew);
+  }
+  // Rows are written before those of the trajectory: a killed run can have one more here.
+  if (table.rows.size() > frames.size() + 1)
+    throw InputError(path() + ": has " + std::to_string(table.rows.size()) + " rows, and the run " +
+                     std::to_string(frames.size()) + anew);
+  columns_ = table.columns;
+  std::string kept = lines;
+  if (table.rows.size() > frames.size()) kept.resize(kept.rfind('\n', kept.size() - 2) + 1);
+  file_.truncate(kept.size());
+}
+
+ResidueLine ResidueCsv::row(int frame, const Molecule& source, const CompareResult& result) const {
+  ResidueLine row{quantity_.empty() ? usual_residue_quantity(result) : quantity_, {kFrame}, {std::to_string(frame)}};
+  for (const ResidueRow& residue : result.residues)
+    row.columns.push_back(residue_column(source.residues[residue.residue]));
+  for (const double value : residue_values(result, row.quantity))
+    row.cells.push_back(std::isfinite(value) ? nlohmann::json(value).dump() : std::string());
+  if (!columns_.empty() && row.columns != columns_)
+    throw InputError(path() +
+                     ": this frame has other residues than the first: " + std::to_string(row.columns.size() - 1) +
+                     " instead of " + std::to_string(columns_.size() - 1) + ", or other names");
+  return row;
+}
+
+void ResidueCsv::add(const ResidueLine& row, const std::string& fingerprint) {
+  std::string text;
+  if (columns_.empty()) {
+    for (const std::string& line : head_of(row.quantity, fingerprint)) text += "# " + line + "\n";
+    text += line_of(row.columns);
+    file_.truncate(0);
+    columns_ = row.columns;
+    quantity_ = row.quantity;
+  }
+  file_.append(text + line_of(row.cells));
+}
+
+}  // namespace espdiff

@@ -1,0 +1,48 @@
+// residue_csv.h: one value of each residue along a trajectory: a row for each frame, a column for each residue.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/types.h"
+#include "io/appended_file.h"
+
+namespace espdiff {
+
+struct CompareResult;
+
+/// A row, and the head that the file gets with its first one.
+struct ResidueLine {
+  std::string quantity;
+  std::vector<std::string> columns, cells;
+};
+
+/// The file beside a trajectory's CSV file (SeriesCsv), with the frames that have numbers there.
+class ResidueCsv {
+ public:
+  /// @param quantity of residue_quantities(); empty: usual_residue_quantity()
+  /// @throws as AppendedFile; InputError (there is no such quantity)
+  ResidueCsv(std::string path, std::string quantity, ExistingFile existing);
+
+  const std::string& path() const { return file_.path(); }
+  /// Goes on with an existing file: keeps the rows of `frames`, which it must have, and drops one more, which a killed
+  /// run wrote.
+  /// @param frames that have numbers in the trajectory's file  @param fingerprint of its head
+  /// @throws FormatError, InputError (the file is of another run or quantity; rows are missing)
+  void resume(const std::vector<std::string>& frames, const std::string& fingerprint);
+  /// The row of a frame. @throws as residue_values(); InputError (other residues than before)
+  ResidueLine row(int frame, const Molecule& source, const CompareResult& result) const;
+  /// @param row from row()  @param fingerprint of the head of the trajectory's file
+  /// @throws IoError
+  void add(const ResidueLine& row, const std::string& fingerprint);
+
+ private:
+  AppendedFile file_;
+  std::string quantity_;
+  std::vector<std::string> columns_;  ///< of the file; empty before its head is written
+};
+
+/// "A:LYS12", with its insertion code; without a chain "LYS12".
+std::string residue_column(const Residue& residue);
+
+}  // namespace espdiff

@@ -1,0 +1,128 @@
+// residue_csv.cpp: the residues of a trajectory: rows, resuming wherever a run broke off, and what is refused.
+#include "trajectory/residue_csv.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "base/error.h"
+#include "compare/result.h"
+#include "support/test_data.h"
+
+using namespace espdiff_test;
+using espdiff::CompareResult;
+using espdiff::ExistingFile;
+using espdiff::Molecule;
+using espdiff::ResidueCsv;
+using espdiff::ResidueRow;
+
+namespace {
+
+Molecule molecule() {
+  Molecule m;
+  m.residues = {{"LYS", "A", 12, ' '}, {"GLY", "A", 12, 'B'}, {"HEM", "", 1, ' '}};
+  return m;
+}
+
+CompareResult result(double first) {
+  CompareResult made;
+  made.has_potential = true;
+  for (std::size_t r = 0; r < 3; ++r) {
+    ResidueRow row;
+    row.residue = r;
+    row.mean_abs_difference = r == 1 ? std::nan("") : first + static_cast<double>(r);
+    row.mean_displacement_A = 0.25;
+    made.residues.push_back(row);
+  }
+  return made;
+}
+
+void add(ResidueCsv& file, int frame, double value) { file.add(file.row(frame, molecule(), result(value)), "abc"); }
+
+constexpr const char* kHead = "# residues: mean_abs_difference\n# trajectory: abc\nframe,A:LYS12,A:GLY12B,HEM1\n";
+
+}  // namespace
+
+TEST_SUITE_BEGIN("trajectory");
+
+TEST_CASE("residues of a trajectory: a row a frame, empty where a residue has no surface") {
+  const ScratchFolder folder;
+  const std::string path = folder.file("r.csv");
+  {
+    ResidueCsv file(path, "", ExistingFile::kRefuse);
+    add(file, 3, 0.5);
+    add(file, 5, 1.5);
+  }
+  CHECK(read_file(path) == std::string(kHead) + "3,0.5,,2.5\n5,1.5,,3.5\n");
+  CHECK(message_of([&] { ResidueCsv(path, "", ExistingFile::kRefuse); }) ==
+        path + ": the file exists; resume goes on with it, overwrite replaces it");
+  ResidueCsv other(folder.file("s.csv"), "mean_displacement_A", ExistingFile::kRefuse);
+  add(other, 0, 0.5);
+  CHECK(read_file(folder.file("s.csv")).find("\n0,0.25,0.25,0.25\n") != std::string::npos);
+  CHECK(message_of([&] {
+          ResidueCsv(folder.file("t.csv"), "rmsd", ExistingFile::kRefuse);
+        }).rfind("residues have no quantity 'rmsd'; there are: area_A2, ", 0) == 0);
+  CHECK(folder.n_files() == 2);
+}
+
+TEST_CASE("residues of a trajectory are resumed at every byte to the same bytes") {
+  const ScratchFolder folder;
+  const std::string path = folder.file("r.csv"), head = kHead, whole = head + "3,0.5,,2.5\n5,1.5,,3.5\n";
+  // Frame 3 is done, since the trajectory's file has its row; the row of frame 5 is computed again.
+  for (std::size_t n = head.size() + 11; n <= whole.size(); ++n) {
+    CAPTURE(n);
+    std::ofstream(path) << whole.substr(0, n);
+    ResidueCsv file(path, "", ExistingFile::kResume);
+    file.resume({"3"}, "abc");
+    add(file, 5, 1.5);
+    CHECK(read_file(path) == whole);
+  }
+  // Nothing is done: the file begins anew, whatever it has.
+  for (const std::size_t n : {std::size_t{0}, std::size_t{5}, head.size(), head.size() + 11}) {
+    std::ofstream(path) << whole.substr(0, n);
+    ResidueCsv file(path, "", ExistingFile::kResume);
+    file.resume({}, "abc");
+    add(file, 3, 0.5);
+    add(file, 5, 1.5);
+    CHECK(read_file(path) == whole);
+  }
+}
+
+TEST_CASE("residues of another run are refused, and the file is left as it is") {
+  const ScratchFolder folder;
+  const std::string path = folder.file("r.csv"), whole = std::string(kHead) + "3,0.5,,2.5\n5,1.5,,3.5\n";
+  const auto refused = [&](const std::string& text, const std::vector<std::string>& frames, const char* quantity = "",
+                           const char* fingerprint = "abc") {
+    std::ofstream(path) << text;
+    const std::string message = message_of([&] {
+      ResidueCsv file(path, quantity, ExistingFile::kResume);
+      file.resume(frames, fingerprint);
+    });
+    CHECK(read_file(path) == text);
+    CHECK(message.rfind(path + ":", 0) == 0);
+    return message.substr(path.size());
+  };
+  CHECK(refused("", {"3"}) ==
+        ": has no rows, while the run has 1; the residues of a run are written from its first frame on; overwrite "
+        "begins anew");
+  CHECK(refused("a,b\n1,2\n", {"3"}) == ":1: this is not a trajectory's table of residues; give another file");
+  CHECK(refused(whole, {"3", "6"}) == ": row 2 is frame 5, not frame 6; overwrite begins anew");
+  CHECK(refused(whole, {"3", "5", "6"}) == ": row 3 is missing, not frame 6; overwrite begins anew");
+  CHECK(refused(whole + "6,1,,1\n", {"3"}) == ": has 3 rows, and the run 1; overwrite begins anew");
+  CHECK(refused(whole, {"3"}, "", "xyz").find(": has mean_abs_difference of another run") == 0);
+  CHECK(refused(whole, {"3"}, "mean_slip_A") ==
+        ": has mean_abs_difference of another run, or mean_slip_A was asked for; overwrite begins anew");
+}
+
+TEST_CASE("a frame with other residues is refused") {
+  const ScratchFolder folder;
+  ResidueCsv file(folder.file("r.csv"), "", ExistingFile::kRefuse);
+  add(file, 0, 1);
+  Molecule other = molecule();
+  other.residues[0].number = 13;
+  CHECK(message_of([&] { file.row(1, other, result(1)); }) ==
+        folder.file("r.csv") + ": this frame has other residues than the first: 3 instead of 3, or other names");
+}
+
+TEST_SUITE_END();
