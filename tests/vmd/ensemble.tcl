@@ -41,6 +41,14 @@ test "it is drawn: the difference, faded where it is not significant" {
     check_refused { espdiff draw $h -view linked } {ESPDIFF INPUT} "-view linked"
     check_refused { espdiff draw $h -color slip } {ESPDIFF INPUT} "is not difference, source, target or t"
     espdiff draw $h -color target -uncertain plain
+    save_state $scratch/state.vmd
+    set channel [open $scratch/state.vmd]
+    set state [read $channel]
+    close $channel
+    check "saved" {[regexp {espdiff draw \[(espdiff ensemble \{\} -from \S+ -output \S+)\] [^\n]*-color target} $state whole again]}
+    set from [eval $again]
+    check_equal "the same answer" [espdiff result $from test] [espdiff result $h test]
+    espdiff delete $from
     if {$n > 0} { espdiff draw $h -patch 1 }
     espdiff undraw $h
 }
