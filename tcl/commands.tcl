@@ -228,6 +228,8 @@ namespace eval ::espdiff {
                 tested"}
             {-patch text {} "{NAME SELECTION ...}: residues of the template, in gemmi's syntax (//A/8-12), measured\
                 as a whole"}
+            {-regress text {} "FILE.csv:COLUMN: a value of each replicate, regressed on the surface, and predicted from\
+                the others; the table has the columns replicate, COLUMN, and group unless names are unique"}
             {-check-template boolean 0 "Also map the medoid of each group onto every frame, and tell how much of the\
                 answer stays"}
             {-states boolean 0 "Also compare every frame with every other one, and find the principal components of\

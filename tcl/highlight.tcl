@@ -34,13 +34,17 @@ namespace eval ::espdiff {
         return $found
     }
 
-    # Rotates the view by the smallest angle that brings the atoms in front of their molecule's centre; all molecules
-    # alike.
+    # Rotates the view by the smallest angle that brings the atoms, or a place, in front of their molecule's centre; all
+    # molecules alike.
     proc face_atoms {mol indices} {
-        foreach {name text} [list middle all place "index [join $indices]"] {
-            set selection [atomselect $mol $text]
-            finally { set $name [measure center $selection] } { $selection delete }
-        }
+        set selection [atomselect $mol "index [join $indices]"]
+        finally { set place [measure center $selection] } { $selection delete }
+        face_point $mol $place
+    }
+
+    proc face_point {mol place} {
+        set selection [atomselect $mol all]
+        finally { set middle [measure center $selection] } { $selection delete }
         set away [vecsub $place $middle]
         if {[veclength $away] < 1e-6} return
         lassign [vecnorm [vectrans [lindex [molinfo $mol get rotate_matrix] 0] $away]] x y z

@@ -147,11 +147,18 @@ def matrix(states, labels=None, *, groups=None, potential="auto", pme_cell="auto
 
 
 def merge(parts, output, *, overwrite=False):
-    """Merges the parts of a matrix, OUT.shard-*.state of `shard=`, as `espdiff merge` does: the bytes of one process.
+    """Merges the parts of `shard=`, as `espdiff merge` does: the bytes of one process.
 
-    Writes OUT.csv and OUT.json; returns the Matrix.
+    parts: OUT.shard-*.state of a matrix, whose OUT.csv and OUT.json are written; or OUT.shard-*.h5 of an ensemble, whose
+    OUT.h5 and results are. Returns the Matrix or Ensemble.
     """
-    return Matrix(_core.merge_matrix([os.fspath(part) for part in parts], os.fspath(output), overwrite, None))
+    parts, output = [os.fspath(part) for part in parts], os.fspath(output)
+    if parts and all(part.endswith(".h5") for part in parts):
+        from ._ensembles import ensemble
+
+        _core.merge_ensemble(parts, output, overwrite, None)
+        return ensemble(from_file=output + ".h5", output=output)
+    return Matrix(_core.merge_matrix(parts, output, overwrite, None))
 
 
 class Series:

@@ -10,6 +10,7 @@
 #include "compare/settings.h"
 #include "comparison.h"
 #include "engine/select_engine.h"
+#include "ensemble.h"
 #include "errors.h"
 #include "matrix.h"
 #include "potential.h"
@@ -81,6 +82,7 @@ NB_MODULE(_core, module) {
   espdiff::python::add_surface(module);
   espdiff::python::add_potential(module);
   espdiff::python::add_matrix(module);
+  espdiff::python::add_ensemble(module);
   espdiff::python::add_command_line(module);
   module.def("settings", &list_settings,
              "Every option of compare() and its like: name, group, choices, default, help.");

@@ -112,7 +112,7 @@ struct EnsembleFile::Contents {
   }
 
   void read() {
-    EnsembleContents file = open_hdf5_file(path);
+    EnsembleContents file = open_hdf5_file(descriptor, path);
     plan = parse_ensemble_plan(file.plan, path);
     layout = std::move(file.layout);
     surface.positions = std::move(file.positions);
@@ -123,6 +123,10 @@ struct EnsembleFile::Contents {
       throw FormatError(path, 0,
                         "has places for " + std::to_string(layout.n_frames) + " frames, and describes " +
                             std::to_string(plan.n_frames()) + "; it is damaged");
+    for (const std::int32_t residue : surface.residue) {
+      if (residue < -1 || residue >= static_cast<std::int64_t>(plan.residues.size()))
+        throw FormatError(path, 0, "a vertex has a residue that the description of the run lacks; it is damaged");
+    }
     check_frames();
   }
 

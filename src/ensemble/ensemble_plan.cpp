@@ -33,6 +33,17 @@ std::string replicates_differ(const EnsemblePlan& there, const EnsemblePlan& her
   return text;
 }
 
+/// Whether sizes fit each other, and their sum is a number of frames.
+bool holds_together(const EnsemblePlan& plan) {
+  constexpr std::size_t kMostFrames = 1'000'000'000;
+  std::size_t n = 0;
+  for (const EnsembleReplicate& r : plan.replicates) {
+    if (r.n_frames > kMostFrames || r.files.size() != r.sha256.size()) return false;
+    n += r.n_frames;
+  }
+  return n <= kMostFrames;
+}
+
 }  // namespace
 
 std::size_t EnsemblePlan::n_frames() const {
@@ -93,6 +104,8 @@ std::string plan_text(const EnsemblePlan& plan) {
 }
 
 EnsemblePlan parse_ensemble_plan(const std::string& text, const std::string& path) {
+  const FormatError damaged(
+      path, 0, "the description of the run in this file is damaged; " + switched_on("overwrite") + " begins anew");
   try {
     const Json json = Json::parse(text);
     EnsemblePlan plan;
@@ -109,10 +122,10 @@ EnsemblePlan parse_ensemble_plan(const std::string& text, const std::string& pat
                                  r.at("sha256").get<std::vector<std::string>>(), r.at("n_frames"),
                                  r.value("topology", std::string()), r.value("topology_sha256", std::string())});
     json.at("residues").get_to(plan.residues);
+    if (!holds_together(plan)) throw damaged;
     return plan;
   } catch (const Json::exception&) {
-    throw FormatError(
-        path, 0, "the description of the run in this file is damaged; " + switched_on("overwrite") + " begins anew");
+    throw damaged;
   }
 }
 

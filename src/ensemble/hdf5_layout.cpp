@@ -1,16 +1,19 @@
-// hdf5_layout.cpp: the only file that calls HDF5.
+// hdf5_layout.cpp: lays files out by HDF5, and finds the parts again without it.
 #include "ensemble/hdf5_layout.h"
 
 #include <hdf5.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <fstream>
+#include <utility>
 
 #include "base/error.h"
 #include "base/version.h"
 #include "compare/template_mapping.h"
+#include "ensemble/hdf5_reader.h"
 
 namespace espdiff {
 namespace {
@@ -34,8 +37,13 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
-/// HDF5 prints errors unless told not to, and ours name what matters.
-void be_silent() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+/// HDF5 prints errors unless told not to, and ours name what matters. At the process' end it closes once more what it
+/// could not close on a full disk, and crashes.
+void be_silent() {
+  static const herr_t no_cleanup = H5dont_atexit();
+  static_cast<void>(no_cleanup);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
 
 /// Of everything that is written once.
 std::uint64_t head_checksum(const std::string& plan, const std::vector<Vec3d>& positions,
@@ -154,43 +162,31 @@ void make_surface(const Maker& make, const TemplateSurface& surface, std::size_t
   make.group("/VTKHDF/PointData");
 }
 
-/// Reads a dataset whole.
-template <typename T>
-std::vector<T> read_dataset(hid_t file, const std::string& path, const std::string& name, hid_t type,
-                            std::size_t per_item = 1) {
-  const Handle set(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, path, name.c_str());
-  const Handle space(H5Dget_space(set), H5Sclose, path, name.c_str());
-  const hssize_t n = H5Sget_simple_extent_npoints(space);
-  std::vector<T> values(static_cast<std::size_t>(n) / per_item);
-  if (n < 0 || H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
-    throw FormatError(path, 0, name + " cannot be read: the file is damaged" + kRemedy + switched_on("overwrite"));
-  return values;
+/// The place of a dataset of `n` elements. @throws FormatError
+std::uint64_t place_of(const Hdf5Reader& reader, const std::string& path, const std::string& name, std::uint64_t n,
+                       std::size_t item_bytes) {
+  const Hdf5Dataset set = reader.find(name);
+  if (set.n == n && set.item_bytes == item_bytes && set.chunks.empty()) return set.address;
+  throw FormatError(path, 0, name + " is of another size than the frames" + kRemedy + switched_on("overwrite"));
 }
 
-std::uint64_t offset_of(hid_t file, const std::string& path, const char* name) {
-  const Handle set(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose, path, name);
-  const haddr_t address = H5Dget_offset(set);
-  if (address == HADDR_UNDEF)
-    throw FormatError(path, 0, std::string(name) + " has no place in the file" + kRemedy + switched_on("overwrite"));
-  return address;
+std::vector<Triangle> read_triangles(const Hdf5Reader& reader) {
+  using Corners = std::array<std::int64_t, 3>;
+  std::vector<Triangle> triangles;
+  for (const Corners& t : reader.read<Corners>("/VTKHDF/Polygons/Connectivity", 'i', 3))
+    triangles.push_back(
+        {static_cast<std::uint32_t>(t[0]), static_cast<std::uint32_t>(t[1]), static_cast<std::uint32_t>(t[2])});
+  return triangles;
 }
 
-std::vector<std::uint64_t> frame_offsets(hid_t file, const std::string& path, EnsembleLayout& layout) {
-  const char* const name = "/VTKHDF/PointData/potential";
-  const Handle set(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose, path, name);
-  std::vector<std::uint64_t> offsets;
-  for (std::size_t f = 0; f < layout.n_frames; ++f) {
-    const hsize_t begin = f * layout.n_vertices;
-    unsigned filters = 0;
-    haddr_t address = HADDR_UNDEF;
-    hsize_t n_bytes = 0;
-    if (H5Dget_chunk_info_by_coord(set, &begin, &filters, &address, &n_bytes) < 0 || address == HADDR_UNDEF ||
-        n_bytes != layout.n_vertices * sizeof(float))
-      throw FormatError(
-          path, 0, "frame " + std::to_string(f) + " has no place in the file" + kRemedy + switched_on("overwrite"));
-    offsets.push_back(address);
-  }
-  return offsets;
+/// Whether the template's parts fit each other: a checksum says that they are whole, not that they are ours.
+bool holds_together(const EnsembleContents& contents) {
+  const std::size_t n = contents.positions.size();
+  const auto is_finite = [](const Vec3d& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); };
+  return contents.normals.size() == n && contents.residue.size() == n &&
+         std::all_of(contents.triangles.begin(), contents.triangles.end(),
+                     [n](const Triangle& t) { return t[0] < n && t[1] < n && t[2] < n; }) &&
+         std::all_of(contents.positions.begin(), contents.positions.end(), is_finite);
 }
 
 }  // namespace
@@ -234,41 +230,35 @@ void make_hdf5_file(const std::string& path, const std::string& plan, const Temp
   if (H5Fflush(file, H5F_SCOPE_GLOBAL) < 0) throw IoError(path, "cannot be written; is the disk full?");
 }
 
-EnsembleContents open_hdf5_file(const std::string& path) {
-  be_silent();
-  // We lock the file ourselves, with a message that HDF5 does not have.
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path, "a property");
-  H5Pset_file_locking(access, 0, 1);
-  const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
-  if (id < 0)
-    throw FormatError(
-        path, 0, std::string("not an HDF5 file, or its structure is damaged") + kRemedy + switched_on("overwrite"));
-  const Handle file(id, H5Fclose, path, "the file");
-  if (H5Lexists(file, "/espdiff", H5P_DEFAULT) <= 0)
-    throw FormatError(path, 0, "an HDF5 file, but not one of `espdiff ensemble`");
+EnsembleContents open_hdf5_file(int descriptor, const std::string& path) {
+  const Hdf5Reader reader(descriptor, path);
+  if (!reader.has("espdiff")) throw FormatError(path, 0, "an HDF5 file, but not one of `espdiff ensemble`");
   EnsembleContents contents;
-  const auto plan = read_dataset<char>(file, path, "/espdiff/plan", H5T_STD_U8LE);
+  const auto plan = reader.read<char>("/espdiff/plan", 'u');
   contents.plan.assign(plan.begin(), plan.end());
-  contents.positions = read_dataset<Vec3d>(file, path, "/VTKHDF/Points", H5T_IEEE_F64LE, 3);
-  contents.normals = read_dataset<Vec3f>(file, path, "/espdiff/normals", H5T_IEEE_F32LE, 3);
-  contents.residue = read_dataset<std::int32_t>(file, path, "/espdiff/residue", H5T_STD_I32LE);
-  const auto ids = read_dataset<std::int64_t>(file, path, "/VTKHDF/Polygons/Connectivity", H5T_STD_I64LE);
-  for (std::size_t i = 0; i + 2 < ids.size(); i += 3)
-    contents.triangles.push_back({static_cast<std::uint32_t>(ids[i]), static_cast<std::uint32_t>(ids[i + 1]),
-                                  static_cast<std::uint32_t>(ids[i + 2])});
-  const auto sum = read_dataset<std::uint64_t>(file, path, "/espdiff/head_checksum", H5T_STD_U64LE);
-  if (sum.size() != 1 || sum[0] != head_checksum(contents.plan, contents.positions, contents.normals,
-                                                 contents.triangles, contents.residue))
+  contents.positions = reader.read<Vec3d>("/VTKHDF/Points", 'f', 3);
+  contents.normals = reader.read<Vec3f>("/espdiff/normals", 'f', 3);
+  contents.residue = reader.read<std::int32_t>("/espdiff/residue", 'i');
+  contents.triangles = read_triangles(reader);
+  const auto sum = reader.read<std::uint64_t>("/espdiff/head_checksum", 'u');
+  if (sum.size() != 1 || !holds_together(contents) ||
+      sum[0] !=
+          head_checksum(contents.plan, contents.positions, contents.normals, contents.triangles, contents.residue))
     throw FormatError(path, 0,
                       std::string("the template or the description of the run in this file is damaged") + kRemedy +
                           switched_on("overwrite"));
   EnsembleLayout& layout = contents.layout;
   layout.n_vertices = contents.positions.size();
-  layout.n_frames = read_dataset<double>(file, path, "/VTKHDF/Steps/Values", H5T_IEEE_F64LE).size();
-  layout.checksums = offset_of(file, path, "/espdiff/frame_checksums");
-  layout.numbers = offset_of(file, path, "/espdiff/frame_numbers");
-  layout.notes = offset_of(file, path, "/espdiff/frame_notes");
-  layout.values = frame_offsets(file, path, layout);
+  Hdf5Dataset values = reader.find("/VTKHDF/PointData/potential");
+  layout.n_frames = values.chunks.size();
+  if (values.kind != 'f' || values.item_bytes != sizeof(float) || values.chunk_items != layout.n_vertices)
+    throw FormatError(path, 0,
+                      values.name + " is of another size than the template" + kRemedy + switched_on("overwrite"));
+  layout.values = std::move(values.chunks);
+  layout.checksums = place_of(reader, path, "/espdiff/frame_checksums", layout.n_frames, sizeof(std::uint64_t));
+  layout.numbers =
+      place_of(reader, path, "/espdiff/frame_numbers", layout.n_frames * frame_columns().size(), sizeof(double));
+  layout.notes = place_of(reader, path, "/espdiff/frame_notes", layout.n_frames * kNoteBytes, 1);
   return contents;
 }
 

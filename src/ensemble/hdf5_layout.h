@@ -1,4 +1,4 @@
-// hdf5_layout.h: where an ensemble file keeps what; made and found by HDF5, then read and written in place.
+// hdf5_layout.h: where an ensemble file keeps what; made by HDF5, then read and written in place.
 #pragma once
 
 #include <cstddef>
@@ -43,8 +43,9 @@ struct EnsembleContents {
   std::vector<Triangle> triangles;
   std::vector<std::int32_t> residue;
 };
+/// @param descriptor of the file, open for reading
 /// @throws FormatError (not an ensemble file; damaged)
-EnsembleContents open_hdf5_file(const std::string& path);
+EnsembleContents open_hdf5_file(int descriptor, const std::string& path);
 
 /// The size that a file should have, by its first bytes; 0 if it is no HDF5 file that we wrote.
 std::uint64_t intended_size(const std::string& path);

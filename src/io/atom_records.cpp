@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "io/text_cursor.h"
 
 namespace espdiff {
@@ -139,6 +140,9 @@ bool has_pqr_name(const std::string& path) {
 }  // namespace
 
 std::vector<AtomModel> split_models(std::string_view text, const std::string& path) {
+  // A line takes more than its bytes in the text, if it is short; the vector doubles.
+  const auto n_lines = std::count(text.begin(), text.end(), '\n');
+  require_memory(2.0 * sizeof(AtomLine) * static_cast<double>(n_lines), path);
   ModelSplitter splitter(path);
   long number = 0;
   for (std::size_t begin = 0; begin < text.size();) {

@@ -21,7 +21,7 @@ using AtomModel = std::vector<AtomLine>;
 /// Splits a file into models: at MODEL and ENDMDL records, or, without these, where atoms follow an END (as VMD writes
 /// trajectories), if all parts have the same number of atoms.
 /// @throws FormatError (atoms beside the models of a file with MODEL records, unequal parts around END),
-///         InputError (no ATOM or HETATM record at all)
+///         InputError (no ATOM or HETATM record at all), MemoryError
 std::vector<AtomModel> split_models(std::string_view text, const std::string& path);
 
 /// Model `number` (from 1). @throws InputError when the file has no such model

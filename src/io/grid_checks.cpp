@@ -6,6 +6,7 @@
 #include <new>
 
 #include "base/error.h"
+#include "base/memory.h"
 
 namespace espdiff {
 
@@ -53,6 +54,7 @@ void check_size_promise(std::size_t n_values, std::size_t least_bytes, std::size
 }
 
 void allocate_values(Grid& grid) {
+  require_memory(static_cast<double>(grid.lattice.n_points()) * sizeof(float), grid.name);
   try {
     grid.values.resize(grid.lattice.n_points());
   } catch (const std::bad_alloc&) {

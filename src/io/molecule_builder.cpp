@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "base/water.h"
 #include "io/elements.h"
 
@@ -116,6 +117,9 @@ void MoleculeBuilder::append(const AtomEntry& entry, const std::string& element,
   if (molecule_.atoms.size() == kMostAtoms)
     throw InputError(path_ + ": has more than " + std::to_string(kMostAtoms) +
                      " atoms, which is the most that are read");
+  constexpr std::size_t kLook = 1 << 18;
+  constexpr double kBytesOfAtom = 500;  // with the residues' indices, the places, and room for growth
+  if (molecule_.atoms.size() % kLook == kLook - 1) require_memory(kBytesOfAtom * kLook, path_);
   const std::int32_t residue = find_residue(entry);
   residue_atoms_[static_cast<std::size_t>(residue)].push_back(molecule_.atoms.size());
   molecule_.atoms.push_back({entry.name, element, residue, entry.hetero});

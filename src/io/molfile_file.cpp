@@ -137,6 +137,12 @@ Molecule read_molfile_atoms(const std::string& path, const MolfileReader& reader
     throw InputError(by_reader(path, reader) + " knows no atoms' names; give the structure or topology first");
   int n_atoms = 0;
   void* const handle = open_with(path, reader, n_atoms);
+  if (n_atoms > static_cast<int>(kMostAtoms)) {
+    const QuietOutput quiet;
+    reader.functions->close_file_read(handle);
+    throw InputError(path + ": has " + std::to_string(n_atoms) + " atoms, and at most " + std::to_string(kMostAtoms) +
+                     " are read");
+  }
   std::vector<molfile::AtomRecord> atoms(static_cast<std::size_t>(std::max(0, n_atoms)));
   int flags = 0, status = molfile::kError;
   {

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <string_view>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "io/read_input.h"
 #include "io/text_cursor.h"
 
@@ -128,6 +130,9 @@ double CsvTable::number(std::size_t row, std::size_t column) const {
 CsvTable read_csv(const std::string& path) { return parse_csv(read_text_file(path), path); }
 
 CsvTable parse_csv(const std::string& text, const std::string& path) {
+  const auto n_separators =
+      std::count_if(text.begin(), text.end(), [](char c) { return c == ',' || c == '\t' || c == '\n'; });
+  require_memory(2.0 * sizeof(std::string) * static_cast<double>(n_separators), path);
   CsvTable table;
   table.path = path;
   CsvReader reader(text, path);
@@ -137,9 +142,9 @@ CsvTable parse_csv(const std::string& text, const std::string& path) {
   table.comments = reader.comments();
   const long first = reader.line();
   table.columns = reader.row();
-  for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    if (std::count(table.columns.begin(), table.columns.end(), table.columns[i]) > 1)
-      throw FormatError(path, first, "the column '" + table.columns[i] + "' is there twice");
+  std::set<std::string_view> seen;
+  for (const std::string& column : table.columns) {
+    if (!seen.insert(column).second) throw FormatError(path, first, "the column '" + column + "' is there twice");
   }
   while (reader.next_row()) {
     table.lines.push_back(reader.line());

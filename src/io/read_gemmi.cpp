@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "io/molecule_builder.h"
 #include "io/pdb_text.h"
 #include "io/text_cursor.h"
@@ -170,8 +171,23 @@ void build_assembly(const std::string& path, const gemmi::Structure& structure, 
 
 // ---- mmCIF ----
 
+/// gemmi keeps each word as a string, in a vector that doubles, and then makes atoms of them.
+constexpr double kBytesOfCifWord = 2.5 * sizeof(std::string);
+
+std::size_t count_words(const std::string& text) {
+  std::size_t n = 0;
+  bool is_inside = false;
+  for (const char c : text) {
+    const bool is_blank = c == ' ' || c == '\n' || c == '\t' || c == '\r';
+    n += !is_blank && !is_inside ? 1 : 0;
+    is_inside = !is_blank;
+  }
+  return n;
+}
+
 /// Parses the file and keeps the atoms only, so that a mistake elsewhere in it does no harm.
 gemmi::cif::Document parse_atom_site(const std::string& path, const std::string& text, bool with_assemblies) {
+  require_memory(kBytesOfCifWord * static_cast<double>(count_words(text)), path);
   gemmi::cif::Document document = call_gemmi(
       path, "not valid CIF: ", [&] { return gemmi::cif::read_memory(text.data(), text.size(), path.c_str()); });
   for (gemmi::cif::Block& block : document.blocks) {
@@ -280,6 +296,8 @@ gemmi::Structure parse_mmcif(const std::string& path, const std::string& text, b
 
 Molecule read_pdb(const std::string& path, const AtomModel& model, const std::string& remarks,
                   const StructureOptions& options) {
+  constexpr double kBytesOfLine = 600;  // a copy of the line, gemmi's atom, and what it is chosen by
+  require_memory(kBytesOfLine * static_cast<double>(model.size()), path);
   MoleculeBuilder builder(path, options);
   const CheckedPdb checked = check_pdb(path, model, builder);
   const std::string text = remarks + checked.text;

@@ -25,7 +25,10 @@
 namespace espdiff {
 namespace {
 
-constexpr std::size_t kChunk = std::size_t{1} << 18;
+#ifndef ESPDIFF_READ_CHUNK  // smaller in the fuzz targets, so that their small inputs have several
+#define ESPDIFF_READ_CHUNK (std::size_t{1} << 18)
+#endif
+constexpr std::size_t kChunk = ESPDIFF_READ_CHUNK;
 constexpr int kWaitForWriterMs = 10000;
 
 [[noreturn]] void cannot_read(const std::string& path, const char* remedy) {
@@ -250,6 +253,12 @@ void require_regular_file(const std::string& path) {
   if (stat(path.c_str(), &status) != 0) cannot_read(path, "check the path");
   if (S_ISDIR(status.st_mode)) throw IoError(path, "is a directory; give a file in it");
   if (!S_ISREG(status.st_mode)) throw IoError(path, "is a pipe or a device; save its content as a file and give that");
+}
+
+void require_memory_for_json(const std::string& path) {
+  constexpr double kTimesText = 16;
+  struct stat status {};
+  if (stat(path.c_str(), &status) == 0) require_memory(kTimesText * static_cast<double>(status.st_size), path);
 }
 
 void unify_line_ends(std::string& text) {

@@ -1,12 +1,25 @@
 // read_mol2.cpp: the ATOM section: number, name, x, y, z, type.
 #include "io/read_mol2.h"
 
+#include <cmath>
+
 #include "base/error.h"
 #include "io/file_kind.h"
+#include "io/molecule_builder.h"
 #include "io/read_input.h"
 #include "io/text_cursor.h"
 
 namespace espdiff {
+namespace {
+
+constexpr double kMostCoordinate_A = 1e6;
+
+bool is_near(const Vec3d& p) {
+  return std::fabs(p.x) <= kMostCoordinate_A && std::fabs(p.y) <= kMostCoordinate_A &&
+         std::fabs(p.z) <= kMostCoordinate_A;
+}
+
+}  // namespace
 
 Mol2File read_mol2(const std::string& path) {
   Mol2File file;
@@ -36,6 +49,12 @@ Mol2File read_mol2(const std::string& path) {
         !parse_number(words[4], atom.position.z))
       throw FormatError(path, number,
                         "a MOL2 atom is " + in_quotes(line) + "; number, name, x, y, z and type were expected");
+    if (!is_near(atom.position))
+      throw FormatError(path, number,
+                        "a MOL2 atom is " + in_quotes(line) + "; coordinates of at most 10^6 Angstrom were expected");
+    if (file.atoms.size() == kMostAtoms)
+      throw InputError(path + ": has more than " + std::to_string(kMostAtoms) +
+                       " atoms, which is the most that are read");
     atom.name = words[1];
     atom.element = words[5].substr(0, words[5].find('.'));
     file.atoms.push_back(std::move(atom));

@@ -2,22 +2,36 @@
 #include "io/read_topology.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <map>
 #include <utility>
 
 #include "base/error.h"
 #include "io/file_kind.h"
+#include "io/molecule_builder.h"
 #include "io/read_input.h"
 #include "io/text_cursor.h"
 
 namespace espdiff {
 namespace {
 
+constexpr double kMostCharge = 1e6, kMostRadius_A = 1000;
+
 void check_count(const std::string& path, long line, long long n) {
-  constexpr long long kMost = 5'000'000;
-  if (n >= 1 && n <= kMost) return;
-  throw FormatError(path, line, "the number of atoms is " + std::to_string(n) + "; 1 to 5000000 were expected");
+  if (n >= 1 && n <= static_cast<long long>(kMostAtoms)) return;
+  throw FormatError(
+      path, line,
+      "the number of atoms is " + std::to_string(n) + "; 1 to " + std::to_string(kMostAtoms) + " were expected");
+}
+
+/// @param what "charge of atom 3"
+void check_range(const std::string& path, long line, const std::string& what, double value, double least, double most) {
+  if (value >= least && value <= most) return;
+  char text[96];
+  std::snprintf(text, sizeof text, " is %g; %g to %g were expected", value, least, most);
+  throw FormatError(path, line, what + text);
 }
 
 /// Words of an atom: number, segment, residue number, residue, atom, type, charge, mass.
@@ -37,6 +51,7 @@ void read_psf(const std::string& text, Topology& topology) {
       if (atom.size() < 8 || !parse_number(atom[6], charge))
         cursor.fail("a PSF atom is " + in_quotes(line) +
                     "; number, segment, residue number, residue, atom, type, charge and mass were expected");
+      check_range(topology.path, cursor.line(), "the charge", charge, -kMostCharge, kMostCharge);
       topology.names.emplace_back(atom[4]);
       topology.charges.push_back(static_cast<float>(charge));
     }
@@ -63,7 +78,9 @@ std::size_t field_width(std::string_view format) {
   return known && width > 0 ? static_cast<std::size_t>(width) : 0;
 }
 
+/// The sections that are read.
 std::map<std::string, Section> prmtop_sections(const std::string& text) {
+  static const char* const kRead[] = {"POINTERS", "ATOM_NAME", "CHARGE", "RADII"};
   std::map<std::string, Section> sections;
   Section* section = nullptr;
   std::size_t width = 0;
@@ -75,23 +92,27 @@ std::map<std::string, Section> prmtop_sections(const std::string& text) {
     begin = end + 1;
     ++number;
     if (line.substr(0, 5) == "%FLAG") {
-      section = &sections[std::string(trimmed(line.substr(5)))];
-      section->line = number;
+      const std::string_view flag = trimmed(line.substr(5));
+      const bool is_read = std::find(std::begin(kRead), std::end(kRead), flag) != std::end(kRead);
+      section = is_read ? &sections[std::string(flag)] : nullptr;
+      if (is_read) section->line = number;
       width = 0;
     } else if (line.substr(0, 7) == "%FORMAT") {
       width = field_width(line);
     } else if (line.substr(0, 1) != "%" && section != nullptr && width > 0) {
       std::string_view rest = line;
       while (!rest.empty() && (rest.back() == '\r' || rest.back() == '\n')) rest.remove_suffix(1);
-      for (std::size_t at = 0; at < rest.size(); at += width)
+      // What is beyond the most atoms is refused later; it takes no memory until then.
+      for (std::size_t at = 0; at < rest.size() && section->fields.size() <= kMostAtoms; at += width)
         section->fields.push_back(trimmed(rest.substr(at, width)));
     }
   }
   return sections;
 }
 
+/// @param least, most of the scaled numbers
 std::vector<float> numbers_of(const std::string& path, const std::string& flag, const Section& section,
-                              std::size_t n_atoms, double scale) {
+                              std::size_t n_atoms, double scale, double least, double most) {
   if (section.fields.size() < n_atoms)
     throw FormatError(path, section.line,
                       "%FLAG " + flag + " has " + std::to_string(section.fields.size()) + " values for " +
@@ -103,6 +124,8 @@ std::vector<float> numbers_of(const std::string& path, const std::string& flag, 
       throw FormatError(path, section.line,
                         "%FLAG " + flag + ": value " + std::to_string(i + 1) + " is " + in_quotes(section.fields[i]) +
                             "; a number was expected");
+    check_range(path, section.line, "%FLAG " + flag + ": value " + std::to_string(i + 1), value, least / scale,
+                most / scale);
     numbers.push_back(static_cast<float>(value * scale));
   }
   return numbers;
@@ -121,8 +144,10 @@ void read_prmtop(const std::string& text, Topology& topology) {
     throw FormatError(path, pointers.line, "%FLAG POINTERS does not begin with the number of atoms");
   check_count(path, pointers.line, n);
   const auto n_atoms = static_cast<std::size_t>(n);
-  topology.charges = numbers_of(path, "CHARGE", sections["CHARGE"], n_atoms, 1 / kAmberCharge);
-  if (sections.count("RADII") > 0) topology.radii = numbers_of(path, "RADII", sections["RADII"], n_atoms, 1);
+  topology.charges =
+      numbers_of(path, "CHARGE", sections["CHARGE"], n_atoms, 1 / kAmberCharge, -kMostCharge, kMostCharge);
+  if (sections.count("RADII") > 0)
+    topology.radii = numbers_of(path, "RADII", sections["RADII"], n_atoms, 1, 0, kMostRadius_A);
   if (names.fields.size() < n_atoms)
     throw FormatError(path, names.line,
                       "%FLAG ATOM_NAME has " + std::to_string(names.fields.size()) + " names for " +

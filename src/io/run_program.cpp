@@ -12,6 +12,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <sstream>
 #include <thread>
 
@@ -138,12 +139,17 @@ std::string find_program(const std::string& name) {
     struct stat status {};
     return stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) && access(path.c_str(), X_OK) == 0;
   };
-  if (name.find('/') != std::string::npos) return is_program(name) ? name : std::string();
+  // The program may be started in another folder.
+  const auto absolute = [](const std::string& path) {
+    std::error_code ignored;
+    return std::filesystem::absolute(path, ignored).string();
+  };
+  if (name.find('/') != std::string::npos) return is_program(name) ? absolute(name) : std::string();
   const char* const path = std::getenv("PATH");
   std::istringstream folders(path != nullptr ? path : "");
   for (std::string folder; std::getline(folders, folder, ':');) {
     const std::string program = folder + "/" + name;
-    if (!folder.empty() && is_program(program)) return program;
+    if (!folder.empty() && is_program(program)) return absolute(program);
   }
   return {};
 }

@@ -21,8 +21,8 @@ struct ProgramResult {
   std::string output, messages;  ///< its standard output and standard error
 };
 
-/// The path of a program: the name itself if it has a slash, otherwise the first executable file of that name on PATH;
-/// empty if there is none.
+/// The absolute path of a program: of the name itself if it has a slash, otherwise of the first executable file of that
+/// name on PATH; empty if there is none.
 std::string find_program(const std::string& name);
 
 /// Runs a program and waits for it. It gets its own process group, default signals, and none of our files. Its

@@ -74,11 +74,12 @@ std::string lower_case(std::string_view text) {
 }
 
 std::vector<std::string_view> split_words(std::string_view line) {
+  constexpr std::size_t kMostWords = 10000;
   std::vector<std::string_view> words;
   std::size_t begin = 0;
   while (true) {
     while (begin < line.size() && is_space(line[begin])) ++begin;
-    if (begin == line.size()) return words;
+    if (begin == line.size() || words.size() == kMostWords) return words;
     std::size_t end = begin;
     while (end < line.size() && !is_space(line[end])) ++end;
     words.push_back(line.substr(begin, end - begin));

@@ -73,6 +73,7 @@ std::size_t MatrixFile::find(const std::string& label) const {
 }
 
 MatrixFile read_matrix_json(const std::string& path) {
+  require_memory_for_json(path);
   const std::string text = read_text_file(path);
   try {
     return parse(text);

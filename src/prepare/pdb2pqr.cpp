@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <map>
 #include <numeric>
@@ -27,6 +26,7 @@
 #include "io/run_program.h"
 #include "io/select_atoms.h"
 #include "io/sha256.h"
+#include "io/temporary_folder.h"
 #include "io/text_cursor.h"
 #include "io/write_pdb.h"
 #include "prepare/cache.h"
@@ -41,35 +41,6 @@ namespace {
 constexpr double kTimeLimitSeconds = 3600;
 /// Of the file it writes: a line for each of the most atoms that are read.
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{512} << 20;
-
-/// A folder that is deleted at the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    // VMD may name a folder in TMPDIR that is not there.
-    const char* const named = std::getenv("TMPDIR");
-    std::error_code ignored;
-    const bool is_there = named != nullptr && std::filesystem::is_directory(named, ignored);
-    // Absolute, since the program works in this folder, and a name that begins with a dash would be an option of it.
-    const std::string wanted = is_there ? std::filesystem::absolute(named, ignored).string() : std::string();
-    for (const std::string& folder : {wanted.empty() ? std::string("/tmp") : wanted, std::string("/tmp")}) {
-      path_ = folder + "/espdiff-XXXXXX";
-      if (mkdtemp(path_.data()) != nullptr) return;
-    }
-    throw IoError(path_, "a temporary folder cannot be made; name one that can be written to in TMPDIR");
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  std::string file(const std::string& name) const { return path_ + "/" + name; }
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
 
 bool is_polymer(ResidueKind kind) { return kind == ResidueKind::kAminoAcid || kind == ResidueKind::kNucleotide; }
 
@@ -245,18 +216,11 @@ std::string version_in(const std::string& log) {
 std::string run_pdb2pqr(const std::string& program, const std::string& name, const std::string& pdb,
                         const std::string& ligand, const std::vector<std::string>& options, const Progress& progress) {
   const TemporaryFolder folder;
-  const auto write = [&](const char* file, const std::string& content) {
-    std::ofstream stream(folder.file(file), std::ios::binary);
-    stream << content;
-    stream.close();
-    if (!stream) throw IoError(folder.file(file), "cannot be written; is the disk full? Name another folder in TMPDIR");
-    return folder.file(file);
-  };
   ProgramCall call;
   call.words = {program};
   call.words.insert(call.words.end(), options.begin(), options.end());
-  if (!ligand.empty()) call.words.push_back("--ligand=" + write("ligand.mol2", ligand));
-  call.words.insert(call.words.end(), {write("input.pdb", pdb), folder.file("output.pqr")});
+  if (!ligand.empty()) call.words.push_back("--ligand=" + folder.write("ligand.mol2", ligand));
+  call.words.insert(call.words.end(), {folder.write("input.pdb", pdb), folder.file("output.pqr")});
   call.folder = folder.path();
   call.time_limit_s = kTimeLimitSeconds;
   call.while_running = [&] {
@@ -279,9 +243,7 @@ std::string run_pdb2pqr(const std::string& program, const std::string& name, con
 /// The atoms of an output under their original chains, numbers and names.
 Molecule read_output(const std::string& output, const Molecule& before, const Renumbering& renumbering) {
   const TemporaryFolder folder;
-  const std::string path = folder.file("output.pqr");
-  std::ofstream(path, std::ios::binary) << output;
-  Molecule molecule = read_structure(path, {1, true, true, {}});
+  Molecule molecule = read_structure(folder.write("output.pqr", output), {1, true, true, {}});
   molecule.name = before.name;
   for (Residue& residue : molecule.residues) {
     if (const Residue* const original = renumbering.original(residue)) residue = *original;

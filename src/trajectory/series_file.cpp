@@ -1,6 +1,8 @@
 // series_file.cpp: the state of a series as CBOR (RFC 8949): its arrays as byte strings, the rest by name.
 #include "trajectory/series_file.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -9,6 +11,7 @@
 
 #include "base/error.h"
 #include "io/atomic_file.h"
+#include "io/read_input.h"
 #include "io/sha256.h"
 
 namespace espdiff {
@@ -102,6 +105,31 @@ SeriesState state_of(const Json& json) {
   return state;
 }
 
+template <typename T>
+bool are_finite(const std::vector<Vec3<T>>& positions) {
+  return std::all_of(positions.begin(), positions.end(),
+                     [](const Vec3<T>& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); });
+}
+
+/// Whether indices and sizes fit each other: a check sum says that the file is whole, not that it is ours.
+bool holds_together(const SeriesState& state) {
+  if (!are_finite(state.mapped)) return false;
+  if (!state.morph) return true;
+  const SeriesState::Morph& morph = *state.morph;
+  const std::size_t n = state.mapped.size();
+  const auto is_inside = [n](const Triangle& t) { return t[0] < n && t[1] < n && t[2] < n; };
+  const Molecule& target = morph.target;
+  const auto has_residue = [&](const Atom& atom) {
+    return atom.residue >= 0 && static_cast<std::size_t>(atom.residue) < target.residues.size();
+  };
+  return morph.source.size() == n && are_finite(morph.source) && morph.path_length.size() == n &&
+         morph.unmatched.size() == morph.triangles.size() &&
+         std::all_of(morph.triangles.begin(), morph.triangles.end(), is_inside) &&
+         target.positions.size() == target.atoms.size() && are_finite(target.positions) &&
+         target.radii.size() == target.atoms.size() &&
+         std::all_of(target.atoms.begin(), target.atoms.end(), has_residue);
+}
+
 std::string hash_of(const Bytes& bytes) {
   Sha256 hash;
   hash.update(bytes.data(), bytes.size());
@@ -113,6 +141,7 @@ FormatError damaged(const std::string& path) {
 }
 
 std::string read_all(const std::string& path) {
+  require_memory_for_json(path);
   std::ifstream in(path, std::ios::binary);
   if (!in) throw IoError(path, "cannot be read; without it the run starts from the source");
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
@@ -149,7 +178,9 @@ SeriesState read_series_state(const std::string& path, const std::string& finger
                        "); delete it, and the run starts from the source");
     const Bytes& content = json.at("state").get_binary();
     if (hash_of(content) != json.at("sha256")) throw damaged(path);
-    return state_of(Json::from_cbor(content));
+    SeriesState state = state_of(Json::from_cbor(content));
+    if (!holds_together(state)) throw damaged(path);
+    return state;
   } catch (const nlohmann::json::exception&) {
     throw damaged(path);
   } catch (const std::out_of_range&) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstdio>
 #include <limits>
 #include <utility>
 
@@ -22,6 +24,27 @@ std::vector<double> array(const std::string& path, const std::vector<VtpNumbers>
   return found->values;
 }
 
+constexpr double kMostCoordinate_A = 1e6;
+
+void check_near(const std::string& path, const std::vector<Vec3d>& positions) {
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    for (const double x : {positions[v].x, positions[v].y, positions[v].z}) {
+      if (std::fabs(x) <= kMostCoordinate_A) continue;
+      char text[128];
+      std::snprintf(text, sizeof text, ": vertex %zu has the coordinate %g; at most 10^6 Angstrom were expected", v, x);
+      throw InputError(path + text);
+    }
+  }
+}
+
+/// Residues are indices, or negative for none.
+void check_residues(const std::string& path, const std::vector<double>& residue) {
+  for (const double r : residue) {
+    if (r == std::floor(r) && r >= -1 && r < std::numeric_limits<std::int32_t>::max()) continue;
+    throw InputError(path + ": the array \"residue_index\" has entries that are not indices; compare again");
+  }
+}
+
 double area_of_corners(const std::vector<Vec3d>& p, const Triangle& t) {
   return 0.5 * norm(cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]));
 }
@@ -38,6 +61,9 @@ MappedFile::MappedFile(const std::string& path) {
   path_length = of_points("path_length");
   slip = of_points("slip");
   residue = of_points("residue_index");
+  check_near(path, source_positions);
+  check_near(path, content.positions);
+  check_residues(path, residue);
   if (find_array(content.point_arrays, "potential_source") != nullptr) {
     potential_source = of_points("potential_source");
     potential_target = of_points("potential_target");

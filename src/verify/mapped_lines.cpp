@@ -222,11 +222,11 @@ void add_residue_lines(const MappedFile& file, const std::string& path, Lines& l
   std::vector<double> area(n, 0.0), slip(n, 0.0), slip_area(n, 0.0), difference(n, 0.0), absolute(n, 0.0);
   for (std::size_t v = 0; v < weight.size(); ++v) {
     if (!(file.residue[v] >= 0) || weight[v] <= 0) continue;
-    const auto r = static_cast<std::size_t>(file.residue[v]);
-    if (r >= n) {
+    if (file.residue[v] >= static_cast<double>(n)) {
       lines.add_deviation("OUT.residues.csv, residues that it lacks", 1, 0);
       return;
     }
+    const auto r = static_cast<std::size_t>(file.residue[v]);
     area[r] += weight[v];
     if (std::isfinite(file.slip[v])) {
       slip[r] += weight[v] * file.slip[v];
@@ -250,10 +250,9 @@ void add_residue_lines(const MappedFile& file, const std::string& path, Lines& l
   check("mean_signed_difference", means(difference, area));
   check("mean_abs_difference", means(absolute, area));
   const int own = column(table, "own_difference"), own_area = column(table, "own_area"),
-            mapped = column(table, "mean_signed_difference");
-  if (own >= 0 && own_area >= 0 && mapped >= 0)
-    lines.add("certificate/residues/correlation", correlation(table, column(table, "area"), own_area, own, mapped),
-              1e-4);
+            mapped = column(table, "mean_signed_difference"), of_area = column(table, "area");
+  if (own >= 0 && own_area >= 0 && mapped >= 0 && of_area >= 0)
+    lines.add("certificate/residues/correlation", correlation(table, of_area, own_area, own, mapped), 1e-4);
 }
 
 }  // namespace espdiff

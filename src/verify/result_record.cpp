@@ -1,12 +1,14 @@
 // result_record.cpp: checked access to OUT.json.
 #include "verify/result_record.h"
 
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "io/read_input.h"
 
 namespace espdiff {
 namespace {
@@ -25,8 +27,13 @@ bool flag_of(const Json& object, const char* key, bool fallback) {
 }  // namespace
 
 ResultRecord::ResultRecord(const std::string& prefix) : path_(prefix + ".json") {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path_, ignored))
+    throw IoError(path_, "cannot be read; give the prefix of a result: OUT of OUT.json and OUT.vtp");
+  require_regular_file(path_);
+  require_memory_for_json(path_);
   std::ifstream in(path_);
-  if (!in) throw IoError(path_, "cannot be read; give the prefix of a result: OUT of OUT.json and OUT.vtp");
+  if (!in) throw IoError(path_, "cannot be read; check its permissions");
   Json json = Json::parse(in, nullptr, false);
   if (json.is_discarded()) throw InputError(path_ + ": is not JSON, or is cut off; compare again");
   if (!json.is_object() || !json.contains("certificate") || !json["certificate"].is_object() ||
@@ -44,6 +51,14 @@ std::optional<double> ResultRecord::number(const std::string& pointer) const {
   const Json* const found = at(pointer);
   if (found == nullptr || !found->is_number()) return std::nullopt;
   return found->get<double>();
+}
+
+double ResultRecord::number_between(const std::string& pointer, double least, double most, double fallback) const {
+  const double value = number(pointer).value_or(fallback);
+  if (value >= least && value <= most) return value;
+  char text[96];
+  std::snprintf(text, sizeof text, " is %g, and %g to %g was expected; compare again", value, least, most);
+  throw InputError(path_ + ": " + pointer + text);
 }
 
 bool ResultRecord::flag(const std::string& pointer) const {

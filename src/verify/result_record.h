@@ -27,6 +27,8 @@ class ResultRecord {
   const std::string& path() const { return path_; }
   /// The number at a JSON pointer without its first slash; nullopt if there is none, or null.
   std::optional<double> number(const std::string& pointer) const;
+  /// The same, or `fallback` if there is none. @throws InputError (out of range)
+  double number_between(const std::string& pointer, double least, double most, double fallback) const;
   bool flag(const std::string& pointer) const;         ///< false if there is none
   std::string text(const std::string& pointer) const;  ///< empty if there is none
   /// Arrays of three whole numbers.

@@ -22,6 +22,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/memory.h"
 
 namespace espdiff {
 namespace {
@@ -129,10 +130,16 @@ vtkSmartPointer<vtkPolyData> GaussianAtoms::surface(double isovalue, double spac
   vtkNew<vtkImageData> image;
   int size[3];
   double origin[3];
+  double n_points = 1;
   for (int axis = 0; axis < 3; ++axis) {
     origin[axis] = lower_[axis] - reach_;
-    size[axis] = static_cast<int>(std::ceil((upper_[axis] - lower_[axis] + 2 * reach_) / spacing_A)) + 1;
+    const double n = std::ceil((upper_[axis] - lower_[axis] + 2 * reach_) / spacing_A) + 1;
+    n_points *= n;
+    size[axis] = n < std::numeric_limits<int>::max() ? static_cast<int>(n) : 0;
   }
+  require_memory(n_points * sizeof(double), "verify: the target's surface");
+  if (n_points > std::numeric_limits<int>::max())
+    throw InputError("verify: the target's surface would need a lattice of more than 2^31 - 1 points");
   image->SetDimensions(size);
   image->SetOrigin(origin);
   image->SetSpacing(spacing_A, spacing_A, spacing_A);

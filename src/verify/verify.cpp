@@ -25,11 +25,11 @@ namespace {
 constexpr double kDistanceTolerance_A = 0.03, kShareTolerance = 0.01, kAreaTolerance = 0.01;
 /// Of the spacing: what triangles may cut off at a crease.
 constexpr double kMaxTolerance = 0.6;
-/// Sums in single precision against sums in double precision.
-constexpr double kRelative = 2e-4;
 constexpr double kMatchLimit_A = 1, kCorruptDensity = 0.1;
 /// Vertices where two residues are equally strong go either way.
 constexpr double kResidueTolerance = 2e-3;
+/// What a record may say; beyond it no comparison has been.
+constexpr double kLeastSpacing_A = 1e-3, kMostSpacing_A = 100, kMostRadiusScale = 100, kMostIsovalue = 1e6;
 
 /// The atoms that were compared.
 struct Side {
@@ -65,7 +65,7 @@ class Verifier {
     verdict();
     const std::string why = atoms_not_read();
     if (why.empty()) {
-      const double scale = record_.number("options/radius_scale").value_or(1);
+      const double scale = record_.number_between("options/radius_scale", 1e-3, kMostRadiusScale, 1);
       const Side source = make_side(molecule("source"), scale), target = make_side(molecule("target"), scale);
       fit(target);
       surfaces(source, target);
@@ -124,8 +124,10 @@ class Verifier {
     return file.read(options);
   }
 
+  double isovalue() const { return record_.number_between("options/isovalue", 1e-6, kMostIsovalue, 0.5); }
+
   void fit(const Side& target) {
-    const double isovalue = record_.number("options/isovalue").value_or(0.5);
+    const double isovalue = this->isovalue();
     double corrupt = 0, flipped = 0, area = 0;
     for (std::size_t k = 0; k < file_.triangles.size(); ++k) {
       if (!file_.is_matched[k]) continue;
@@ -148,8 +150,8 @@ class Verifier {
                        "they include cavities (options/cavities)");
       return;
     }
-    const double isovalue = record_.number("options/isovalue").value_or(0.5),
-                 spacing = record_.number("options/grid_spacing_A").value_or(1);
+    const double isovalue = this->isovalue(),
+                 spacing = record_.number_between("options/grid_spacing_A", kLeastSpacing_A, kMostSpacing_A, 1);
     const double area_of_source = area_of(source.atoms.surface(isovalue, spacing / 2));
     lines_.add("area_A2/source", area_of_source, kAreaTolerance * area_of_source);
     const auto rebuilt = target.atoms.surface(isovalue, spacing / 2);
@@ -185,7 +187,10 @@ class Verifier {
                    r[6] * p.x + r[7] * p.y + r[8] * p.z + t[2]};
     };
     for (const auto& run : record_.triples("superposition/paired_atoms")) {
-      if (run[0] + run[2] > source.residues.size() || run[1] + run[2] > target.residues.size())
+      const auto is_inside = [&](std::size_t first, std::size_t n_atoms) {
+        return run[2] <= n_atoms && first <= n_atoms - run[2];
+      };
+      if (!is_inside(run[0], source.residues.size()) || !is_inside(run[1], target.residues.size()))
         throw InputError(record_.path() +
                          ": superposition/paired_atoms names atoms that the structures lack; compare again");
       for (std::size_t k = 0; k < run[2]; ++k) {
@@ -277,21 +282,6 @@ class Verifier {
 };
 
 }  // namespace
-
-void Lines::add(const std::string& pointer, double recomputed, double tolerance) {
-  const double recorded = record_.number(pointer).value_or(std::numeric_limits<double>::quiet_NaN());
-  if (std::isnan(recorded) && !std::isfinite(recomputed)) return;
-  result_.lines.push_back({pointer, recorded, recomputed, std::max(tolerance, kRelative * std::fabs(recorded))});
-}
-void Lines::add_sum(const std::string& pointer, double recomputed, double tolerance) {
-  result_.lines.push_back({pointer + ", sum", record_.sum(pointer), recomputed, tolerance});
-}
-void Lines::add_deviation(const std::string& name, double largest, double tolerance) {
-  result_.lines.push_back({name, 0, largest, tolerance});
-}
-void Lines::leave_out(const std::string& name, const std::string& why) {
-  result_.not_recomputed.push_back(name + ": " + why);
-}
 
 bool VerifiedLine::agrees() const { return std::fabs(recorded - recomputed) <= tolerance; }
 

@@ -64,6 +64,7 @@ RunRecord read_run_record(const std::string& vtp_path) {
   std::error_code ignored;
   if (!fs::exists(path, ignored)) return record;
   require_regular_file(record.path);
+  require_memory_for_json(record.path);
   std::ifstream in(path);
   if (!in) return record;
   try {

@@ -182,6 +182,7 @@ std::string scene_json(const Scene& scene) {
 Scene read_scene(const std::string& path, const Scene& defaults) {
   std::error_code ignored;
   if (std::filesystem::exists(path, ignored)) require_regular_file(path);
+  require_memory_for_json(path);
   std::ifstream in(path);
   if (!in) throw IoError(path, "no such scene file; " + option("save-scene", "FILE") + " writes one");
   Scene scene = defaults;

@@ -242,6 +242,32 @@ TEST_CASE("a series restored from its saved state gives the same bits") {
   }
 }
 
+TEST_CASE("a state whose parts do not fit each other is refused, though its check sum fits") {
+  const ScratchFolder folder;
+  SeriesState good{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 0, 0}}, std::nullopt};
+  SeriesState::Morph morph{
+      good.mapped, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}, {0, 0, 0, 0}, {0, 0, 0, 0}, {}, 0, 0};
+  morph.target.residues.push_back({"ALA", "A", 1, ' '});
+  morph.target.atoms = {{"N", "N", 0, false}};
+  morph.target.positions = {{0, 0, 0}};
+  morph.target.radii = {1.6F};
+  good.morph = morph;
+  const auto message = [&](const SeriesState& state) {
+    write_series_state(folder.file("state"), state, "run");
+    return message_of([&] { espdiff::read_series_state(folder.file("state"), "run"); });
+  };
+  CHECK(message(good) == "(nothing thrown)");
+  std::vector<SeriesState> bad(7, good);
+  bad[0].morph->triangles[2][1] = 4;
+  bad[1].morph->unmatched.pop_back();
+  bad[2].morph->path_length.push_back(0);
+  bad[3].morph->target.atoms[0].residue = 1;
+  bad[4].morph->target.atoms[0].residue = -1;
+  bad[5].mapped[3].x = std::nanf("");
+  bad[6].morph->target.positions.clear();
+  for (const SeriesState& state : bad) CHECK(message(state).find("the saved state is damaged") != std::string::npos);
+}
+
 TEST_CASE("a state of another series, or a damaged one, is refused with the remedy") {
   const Motion motion;
   const ScratchFolder folder;

@@ -37,6 +37,13 @@ cudaError_t result(cudaError_t error) {
   return error;
 }
 
+/// Whether the device is lost, as when it falls off the bus; counts the operations until then. It stays lost.
+bool is_lost() {
+  static std::size_t n_operations = 0;
+  return settings().lost > 0 && ++n_operations >= settings().lost;
+}
+constexpr cudaError_t kLost = cudaErrorLaunchFailure;
+
 bool exists(int device) { return device >= 0 && device < settings().n_devices; }
 
 struct Count {
@@ -73,6 +80,7 @@ const Kernel* kernel_of(const void* function) {
 cudaError_t launch(const Kernel* kernel, dim3 grid, dim3 block, void** parameters, std::size_t shared_bytes,
                    void* stream) {
   const std::lock_guard<std::recursive_mutex> lock(turn);
+  if (is_lost()) return result(kLost);
   if (kernel == nullptr) return result(cudaErrorInvalidDeviceFunction);
   const std::uint64_t n = std::uint64_t{block.x} * block.y * block.z;
   if (n == 0 || n > kernel->max_threads || grid.x == 0 || grid.y == 0 || grid.z == 0 || grid.x > INT32_MAX ||
@@ -295,18 +303,21 @@ cudaError_t cudaOccupancyMaxActiveBlocksPerMultiprocessorWithFlags(int* n, const
 
 cudaError_t cudaMalloc(void** start, std::size_t n_bytes) {
   const Lock lock(turn);
+  if (is_lost()) return result(kLost);
   ++count().allocations;
   *start = allocate(n_bytes);
   return *start != nullptr ? cudaSuccess : result(cudaErrorMemoryAllocation);
 }
 cudaError_t cudaFree(void* start) {
   const Lock lock(turn);
+  if (is_lost()) return result(kLost);
   finish_all_streams();
   if (start != nullptr) release(static_cast<char*>(start));
   return cudaSuccess;
 }
 cudaError_t cudaMallocHost(void** start, std::size_t n_bytes) {
   const Lock lock(turn);
+  if (is_lost()) return result(kLost);
   *start = std::malloc(n_bytes);
   if (*start == nullptr) return result(cudaErrorMemoryAllocation);
   locked_memory()[static_cast<const char*>(*start)] = n_bytes;
@@ -320,11 +331,13 @@ cudaError_t cudaFreeHost(void* start) {
 }
 cudaError_t cudaMemGetInfo(std::size_t* free, std::size_t* total) {
   const Lock lock(turn);
+  if (is_lost()) return result(kLost);
   *total = settings().memory;
   *free = settings().memory - std::min(settings().memory, allocated_bytes());
   return cudaSuccess;
 }
 cudaError_t cudaMemPoolCreate(cudaMemPool_t* pool, const cudaMemPoolProps*) {
+  if (is_lost()) return result(kLost);
   *pool = reinterpret_cast<cudaMemPool_t>(new Pool);
   return cudaSuccess;
 }
@@ -341,6 +354,7 @@ cudaError_t cudaMemPoolTrimTo(cudaMemPool_t pool, std::size_t) {
 }
 cudaError_t cudaMallocFromPoolAsync(void** start, std::size_t n_bytes, cudaMemPool_t pool, cudaStream_t stream) {
   const Lock lock(turn);
+  if (is_lost()) return result(kLost);
   if (stream_of(stream).capturing) fail("memory is allocated while a graph is made");
   ++count().allocations;
   *start = allocate(n_bytes);
@@ -353,6 +367,7 @@ cudaError_t cudaMallocFromPoolAsync(void** start, std::size_t n_bytes, cudaMemPo
 }
 cudaError_t cudaFreeAsync(void* start, cudaStream_t stream) {
   const Lock lock(turn);
+  if (is_lost()) return result(kLost);
   if (stream_of(stream).capturing) fail("memory is released while a graph is made");
   const auto block = pool_blocks().find(start);
   if (block == pool_blocks().end()) return result(cudaErrorInvalidValue);
@@ -363,6 +378,7 @@ cudaError_t cudaFreeAsync(void* start, cudaStream_t stream) {
 }
 cudaError_t cudaMemcpyAsync(void* to, const void* from, std::size_t n_bytes, cudaMemcpyKind kind, cudaStream_t stream) {
   const Lock lock(turn);
+  if (is_lost()) return result(kLost);
   const bool to_device = kind == cudaMemcpyHostToDevice || kind == cudaMemcpyDeviceToDevice;
   const bool from_device = kind == cudaMemcpyDeviceToHost || kind == cudaMemcpyDeviceToDevice;
   if (kind == cudaMemcpyDefault || on_device(to) != to_device || on_device(from) != from_device ||
@@ -385,6 +401,7 @@ cudaError_t cudaMemcpyAsync(void* to, const void* from, std::size_t n_bytes, cud
 }
 cudaError_t cudaMemsetAsync(void* start, int value, std::size_t n_bytes, cudaStream_t stream) {
   const Lock lock(turn);
+  if (is_lost()) return result(kLost);
   if (!on_device(start) || !allocated(start, n_bytes)) return result(cudaErrorInvalidValue);
   stream_of(stream).put([=] {
     std::memset(view(static_cast<char*>(start)), value, n_bytes);
@@ -396,17 +413,19 @@ cudaError_t cudaMemsetAsync(void* start, int value, std::size_t n_bytes, cudaStr
 // ---- streams, graphs, events
 
 cudaError_t cudaStreamCreateWithFlags(cudaStream_t* stream, unsigned) {
+  if (is_lost()) return result(kLost);
   *stream = reinterpret_cast<cudaStream_t>(new Stream);
   return cudaSuccess;
 }
 cudaError_t cudaStreamDestroy(cudaStream_t stream) {
   const Lock lock(turn);
-  stream_of(stream).finish();
+  if (!is_lost()) stream_of(stream).finish();
   delete reinterpret_cast<Stream*>(stream);
   return cudaSuccess;
 }
 cudaError_t cudaStreamSynchronize(cudaStream_t stream) {
   const Lock lock(turn);
+  if (is_lost()) return result(kLost);
   if (stream_of(stream).capturing) return result(cudaErrorStreamCaptureUnsupported);
   ++count().waits;
   stream_of(stream).finish();
@@ -434,6 +453,7 @@ cudaError_t cudaGraphInstantiate(cudaGraphExec_t* executable, cudaGraph_t graph,
 }
 cudaError_t cudaGraphLaunch(cudaGraphExec_t executable, cudaStream_t stream) {
   const Lock lock(turn);
+  if (is_lost()) return result(kLost);
   ++count().graphs;
   const Graph steps = *reinterpret_cast<const Graph*>(executable);
   stream_of(stream).put([steps] {

@@ -32,6 +32,8 @@ Settings read_settings() {
       settings.count = true;
     else if (name == "devices")
       settings.n_devices = static_cast<int>(value);
+    else if (name == "lost")
+      settings.lost = static_cast<std::size_t>(value);
     else if (name == "fill")
       settings.fill = static_cast<int>(value);
     else if (name == "memory")
@@ -39,7 +41,7 @@ Settings read_settings() {
     else
       fail(
           "ESPDIFF_CUDA_EMULATOR: '%s' is none of check, reverse, eager, no-pools, count, devices=N, fill=BYTE, "
-          "memory=MIB",
+          "memory=MIB, lost=N",
           word.c_str());
   }
   return settings;

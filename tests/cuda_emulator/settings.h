@@ -15,6 +15,7 @@ struct Settings {
   int fill = 0xAB;       ///< "fill=BYTE": what new memory is filled with
   std::size_t memory = std::size_t{16} << 30;  ///< "memory=MIB": all of a device's
   bool count = false;                          ///< "count": says at the end what the program asked for
+  std::size_t lost = 0;  ///< "lost=N": the device fails at the N-th operation, and at each after that; 0 for never
 };
 
 /// Ends the program with a message where a word is not known.

@@ -26,6 +26,10 @@ const char* const kPrmtop =
     "       2       1\n%FLAG ATOM_NAME\n%FORMAT(20a4)\nN   H1  \n%FLAG CHARGE\n%FORMAT(5E16.8)\n"
     "  2.90090000E+00  1.82223000E+01\n%FLAG RADII\n%FORMAT(5E16.8)\n  1.55000000E+00  1.30000000E+00\n";
 
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
 double sum(const std::vector<float>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
 }  // namespace
@@ -57,6 +61,16 @@ TEST_CASE("read_topology: cut and wrong files are refused with the line") {
   CHECK(refused("d.psf", "PSF\n\n 1 !NTITLE\n").find("no !NATOM section") != std::string::npos);
   CHECK(refused("e.prmtop", prmtop.substr(0, prmtop.find("  2.9009"))).find("%FLAG CHARGE has 0 values for 2 atoms") !=
         std::string::npos);
+  CHECK(refused("g.psf", "PSF\n\n 1 !NATOM\n 1 U 1 MET N NH3 1e39 14\n") ==
+        ":4: the charge is 1e+39; -1e+06 to 1e+06 were expected");
+  CHECK(refused("h.psf", "PSF\n\n 10000000 !NATOM\n") ==
+        ":3: the number of atoms is 10000000; 1 to 5000000 were expected");
+  CHECK(refused("i.prmtop", replaced(prmtop, "  1.30000000E+00", " -1.30000000E+00")) ==
+        ":14: %FLAG RADII: value 2 is -1.3; 0 to 1000 were expected");
+  CHECK(refused("j.prmtop", replaced(prmtop, "       2       1", "10000000       1")) ==
+        ":5: the number of atoms is 10000000; 1 to 5000000 were expected");
+  CHECK(refused("k.prmtop", replaced(prmtop, "(5E16.8)\n  2.9", "(5E9223372036854775807.8)\n  2.9"))
+            .find("%FLAG CHARGE has 1 values for 2 atoms") != std::string::npos);
   CHECK(refused("f.dx", "object 1 class gridpositions counts 1 1 1\n").find("not read as a topology") !=
         std::string::npos);
 }

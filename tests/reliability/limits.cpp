@@ -1,6 +1,8 @@
 // limits.cpp: too much of anything is refused with one line, and no process is left to the kernel.
 #include <doctest/doctest.h>
 
+#include <utility>
+
 #include "base/error.h"
 #include "cli/run_espdiff.h"
 #include "io/molecule_builder.h"
@@ -53,6 +55,62 @@ TEST_CASE("a map of 1024^3 points is refused where memory does not hold it") {
   CHECK_MESSAGE(contains(outcome.err, "espdiff: big.vti: needs 4.3 GB of memory, and "), outcome.err);
   CHECK(n_lines(outcome.err) == 1);
   CHECK(folder.n_files() == 2);
+}
+
+TEST_CASE("text maps of 1024^3 points are refused: too few values, or more than memory holds") {
+  const ScratchFolder folder;
+  folder.write("a.pqr", row_of_atoms(4));
+  const std::string dx =
+      "object 1 class gridpositions counts 1024 1024 1024\norigin 0 0 0\ndelta 1 0 0\ndelta 0 1 0\ndelta 0 0 1\n"
+      "object 2 class gridconnections counts 1024 1024 1024\n"
+      "object 3 class array type double rank 0 items 1073741824 data follows\n1 2 3\n";
+  const std::string cube = "a map\nof a molecule\n 1 0 0 0\n 1024 1 0 0\n 1024 0 1 0\n 1024 0 0 1\n 6 6 0 0 0\n1 2 3\n";
+  for (const auto& [name, text] : {std::pair("big.dx", dx), std::pair("big.cube", cube)}) {
+    CAPTURE(name);
+    // What a file is, its first 64 kB tell.
+    const std::string path = folder.write(name, text + std::string(70000, '\n'));
+    const auto run = [&] {
+      return run_espdiff(std::string("surface a.pqr --map ") + name + " --map-unit kT/e --device cpu -o out.vtp",
+                         "cd " + folder.file("") + " && ulimit -v 2000000 &&");
+    };
+    const Outcome cut = run();
+    CHECK(cut.status == 2);
+    CHECK_MESSAGE(contains(cut.err, "the header promises 1073741824 values, but only "), cut.err);
+    CHECK(n_lines(cut.err) == 1);
+    std::filesystem::resize_file(path, std::uintmax_t{3} << 30U);  // holes: no room on the disk
+    const Outcome whole = run();
+    CHECK(whole.status == 1);
+    CHECK_MESSAGE(contains(whole.err, std::string("espdiff: ") + name + ": needs 3.2 GB of memory, and "), whole.err);
+    CHECK(n_lines(whole.err) == 1);
+    std::filesystem::remove(path);
+  }
+}
+
+TEST_CASE("text that takes many times its size as atoms, cells or JSON is refused before memory is taken") {
+  const ScratchFolder folder;
+  folder.write("a.pqr", row_of_atoms(4));
+  const auto refused = [&](const std::string& name, const std::string& line, int n_lines_of_it, const std::string& head,
+                           const std::string& arguments, const std::string& need) {
+    CAPTURE(name);
+    folder.write("line", line);
+    const std::string make = "cd " + folder.file("") + " && printf '%s' '" + head + "' >" + name +
+                             " && yes \"$(cat line)\" | head -n " + std::to_string(n_lines_of_it) + " >>" + name;
+    REQUIRE(std::system(make.c_str()) == 0);
+    const Outcome outcome = run_espdiff(arguments, "cd " + folder.file("") + " && ulimit -v 1500000 &&");
+    CHECK(outcome.status == 1);
+    CHECK_MESSAGE(contains(outcome.err, "espdiff: " + name + ": needs " + need + " GB of memory, and "), outcome.err);
+    CHECK(n_lines(outcome.err) == 1);
+    std::filesystem::remove(folder.file(name));
+  };
+  const std::string end = " --device cpu --threads 1 -q -o out";
+#ifdef ESPDIFF_HAVE_GEMMI
+  refused("many.pdb", "ATOM      1  CA  ALA A   1       0.000   0.000   0.000  1.00  0.00           C", 3000000, "",
+          "surface many.pdb" + end + ".vtp", "1.8");
+  refused("many.cif", "ATOM 1 C CA . ALA A 1 1 ? 0.0 0.0 0.0 1.0 0.0 1 ALA A CA 1", 2000000,
+          "data_a\nloop_\n_atom_site.group_PDB\n", "surface many.cif" + end + ".vtp", "3.2");
+#endif
+  refused("cells.csv", ",,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,", 600000, "structure,b\n",
+          "matrix --list cells.csv" + end, "1.9");
 }
 
 TEST_CASE("more atoms than are read are refused") {

@@ -1,4 +1,5 @@
-# repeated.tcl: a hundred comparisons with drawings in one VMD: no growth of memory, no molecules or files left.
+# repeated.tcl: a hundred comparisons with drawings in one VMD: no growth of memory; no molecules, descriptors, threads
+# or files left. ESPDIFF_COMPARISONS=1000 makes more of them (scripts/soak).
 source [file join $env(ESPDIFF_TESTS) support.tcl]
 package require espdiff
 
@@ -21,13 +22,21 @@ proc once {} {
     espdiff delete $h
 }
 
+set n [expr {[info exists env(ESPDIFF_COMPARISONS)] ? max(60, $env(ESPDIFF_COMPARISONS)) : 100}]
+set warm_up [expr {max(20, $n / 10)}]
+proc n_entries {folder} { llength [glob -nocomplain -directory $folder *] }
+
 test "a hundred comparisons leave memory, molecules and files as they were" {
-    for {set i 0} {$i < 20} {incr i} { once }
+    for {set i 0} {$i < $warm_up} {incr i} { once }
     set before [resident_MB]
-    for {set i 0} {$i < 80} {incr i} { once }
-    set growth [expr {[resident_MB] - $before}]
-    note "    [format %.1f $before] MB after 20, [format %.1f $growth] MB more after 100"
-    check "growth in MB" {$growth < 15}
+    set descriptors [n_entries /proc/self/fd]
+    set threads [n_entries /proc/self/task]
+    for {} {$i < $n} {incr i} { once }
+    set growth [expr {[resident_MB] / $before - 1}]
+    note "    $n comparisons: [format %.1f $before] MB after $warm_up, then [format %.2f [expr {100 * $growth}]] % more"
+    check "growth of resident memory" {$growth < 0.01}
+    check_equal descriptors [n_entries /proc/self/fd] $descriptors
+    check_equal threads [n_entries /proc/self/task] $threads
     check_equal molecules [molinfo list] $adk
     check_equal handles [espdiff handles] {}
     check_equal files [our_files] {}

@@ -1,0 +1,103 @@
+// soak.cpp: many comparisons in one process, from files to files: memory, descriptors, threads and temporary files stay
+// as they were. ESPDIFF_COMPARISONS=1000 makes the long form of it (scripts/soak).
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+
+#include "cli/run_espdiff.h"
+#include "compare/compare.h"
+#include "compare/input.h"
+#include "compare/options.h"
+#include "compare/result.h"
+#include "engine/engine.h"
+#include "engine/select_engine.h"
+#include "io/read_structure.h"
+#include "potential/computed_map.h"
+#include "report/provenance.h"
+#include "report/write_compare.h"
+
+using namespace espdiff;
+using namespace espdiff_test;  // NOLINT: a test
+
+namespace {
+
+/// Of this process, in pages.
+long resident_pages() {
+  std::ifstream statm("/proc/self/statm");
+  long size = 0, resident = 0;
+  statm >> size >> resident;
+  return resident;
+}
+
+std::size_t n_entries(const char* folder) {
+  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
+std::set<std::string> files_in(const std::string& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().filename().string());
+  return names;
+}
+
+/// As `espdiff compare` does: everything is read, made and written anew.
+void compare_once(const ScratchFolder& folder, bool with_potential) {
+  const Molecule source = read_structure(folder.file("a.pqr")), target = read_structure(folder.file("b.pqr"));
+  CompareOptions options;
+  options.surface.grid_spacing_A = 1.5;
+  PotentialOptions coulomb;
+  coulomb.method = PotentialMethod::kCoulomb;
+  CompareInput from{&source, nullptr}, to{&target, nullptr};
+  if (with_potential) {
+    from.make_map = ComputedMap(source, {}, coulomb).maker();
+    to.make_map = ComputedMap(target, {}, coulomb).maker();
+  }
+  const auto engine = select_engine(DeviceChoice::kCpu, 2);
+  const CompareResult result = compare(*engine, from, to, options, Progress());
+  write_compare(folder.file("out"), source, target, result, options, {});
+}
+
+/// With an error in each.
+void fail_once(const ScratchFolder& folder) {
+  CHECK_THROWS(read_structure(folder.file("damaged.pqr")));
+  CHECK_THROWS(read_structure(folder.file("absent.pqr")));
+}
+
+}  // namespace
+
+TEST_CASE("many comparisons in one process leave memory, descriptors, threads and files as they were") {
+  const char* const asked = std::getenv("ESPDIFF_COMPARISONS");
+  const int n = asked != nullptr ? std::max(40, std::atoi(asked)) : 60;
+  const ScratchFolder folder;
+  folder.write("a.pqr", row_of_atoms(12));
+  folder.write("b.pqr", row_of_atoms(12, 0.3));
+  folder.write("damaged.pqr", row_of_atoms(3) + "ATOM 4 N ALA\n");
+  std::filesystem::create_directory(folder.file("tmp"));
+  setenv("TMPDIR", folder.file("tmp").c_str(), 1);
+  const auto repeat = [&](int times) {
+    for (int i = 0; i < times; ++i) {
+      compare_once(folder, i % 2 == 0);
+      fail_once(folder);
+    }
+  };
+  const int warm_up = std::max(20, n / 10);
+  repeat(warm_up);
+  const long before = resident_pages();
+  const std::size_t descriptors = n_entries("/proc/self/fd"), threads = n_entries("/proc/self/task");
+  const auto files = files_in(folder.file(""));
+  repeat(n - warm_up);
+  const double growth = static_cast<double>(resident_pages() - before) / static_cast<double>(before);
+  MESSAGE(n, " comparisons: ", before * sysconf(_SC_PAGESIZE) / 1000000, " MB after ", warm_up, ", then ",
+          std::to_string(100 * growth), " % more");
+  CHECK(growth < 0.01);
+  CHECK(n_entries("/proc/self/fd") == descriptors);
+  CHECK(n_entries("/proc/self/task") == threads);
+  CHECK(files_in(folder.file("")) == files);
+  CHECK(files_in(folder.file("tmp")).empty());
+}
