@@ -203,8 +203,9 @@ void print_ensemble(std::ostream& out, const EnsembleFile& file, const EnsembleR
   print_states(out, file, result);
   for (const std::string& warning : result.warnings) out << "\nwarning: " << warning << '\n';
   if (result.not_equilibrium.empty()) return;
-  out << "\nNOT AN EQUILIBRIUM ANSWER: what is significant above says that these runs differ, not that the\n"
-         "states do.\n";
+  out << "\nNOT AN EQUILIBRIUM ANSWER: "
+      << (result.compares ? "what is significant above says that these runs differ, not that the\nstates do.\n"
+                          : "the means above are of these runs, not of the state.\n");
   for (const std::string& reason : result.not_equilibrium) out << "  " << reason << '\n';
 }
 
