@@ -175,6 +175,12 @@ Json ensemble_json(const EnsembleFile& file, const EnsembleResult& result) {
   if (result.compares) json["patches"] = patches_json(file, result);
   if (result.regression) json["regression"] = regression_json(file, *result.regression);
   json["equilibrium"] = {{"holds", result.not_equilibrium.empty()}, {"reasons", result.not_equilibrium}};
+  // Too few frames for a trend.
+  Json not_checked = Json::array();
+  for (const ReplicateSummary& r : result.replicates) {
+    if (!std::isfinite(r.drift.p)) not_checked.push_back({{"group", r.group}, {"name", r.name}});
+  }
+  json["equilibrium"]["not_checked"] = std::move(not_checked);
   json["warnings"] = result.warnings;
   return json;
 }
