@@ -20,6 +20,7 @@ std::vector<Tcl_Obj*> list_of(DictReader& reader, const char* key) {
 /// An empty string has no value.
 std::vector<double> numbers(const std::vector<Tcl_Obj*>& values, const std::string& what) {
   std::vector<double> result;
+  result.reserve(values.size());
   for (Tcl_Obj* const value : values) result.push_back(to_string(value).empty() ? NAN : to_double(value, what));
   return result;
 }
