@@ -56,6 +56,31 @@ namespace eval ::espdiff {
         }
     }
 
+    # Highlights residues of one molecule by their names in a trajectory's table, such as "A:LYS 12". `owner` stands in
+    # the place of a handle.
+    proc highlight_named {owner mol names} {
+        variable highlights
+        set keys [dict create]
+        foreach name $names {
+            if {[regexp {^(?:([^:]*):)?.* (-?\d+)(\D?)$} $name -> chain number insertion]} {
+                dict set keys [residue_key $chain "" $number $insertion] 1
+            }
+        }
+        set indices [atoms_of_residues $mol $keys]
+        forget_highlight $owner
+        if {[llength $indices] == 0} return
+        dict lappend highlights $owner [list $mol [add_highlight $mol $indices [highlight_style]]]
+    }
+
+    # The usual look: the defaults of the command.
+    proc highlight_style {} {
+        set style [dict create]
+        foreach option [options_of highlight] {
+            dict set style [string range [dict get $option name] 1 end] [dict get $option default]
+        }
+        return $style
+    }
+
     # Identifiers of residues by `index`, as in atoms.tcl.
     proc residue_keys {handle residues} {
         set keys [dict create]
