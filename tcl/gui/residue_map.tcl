@@ -211,8 +211,8 @@ namespace eval ::espdiff::gui {
             [expr {$y + $half}] -outline [dict get $plot_inks chosen] -width 2 -tags chosen
         if {$chosen_point eq ""} return
         set x [frame_x [chosen_column]]
-        set half [expr {max(3, 0.5 * $width / [llength [dict get $residue_table frames]])}]
-        $widget(trajectory,plot) create rectangle [expr {$x - $half}] [expr {$y - $half - 2}] [expr {$x + $half}] \
+        set wide [expr {max(3, 0.5 * $width / [llength [dict get $residue_table frames]])}]
+        $widget(trajectory,plot) create rectangle [expr {$x - $wide}] [expr {$y - $half - 2}] [expr {$x + $wide}] \
             [expr {$y + $half + 2}] -outline [dict get $plot_inks axis] -width 2 -tags chosen
     }
 
