@@ -91,8 +91,8 @@ int add_reader(void* readers, molfile::PluginHead* plugin) {
 }
 
 void load_plugin(const fs::path& path, std::vector<MolfileReader>& readers) {
-  // It stays loaded: readers point into it. One that cannot be loaded, for want of a library or a function, is left out;
-  // found missing at the call, a function would end the program.
+  // It stays loaded: readers point into it. One that cannot be loaded, for want of a library or a function, is left
+  // out; found missing at the call, a function would end the program.
   void* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) return;
   const auto init = reinterpret_cast<int (*)()>(dlsym(library, "vmdplugin_init"));
