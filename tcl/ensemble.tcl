@@ -64,6 +64,11 @@ namespace eval ::espdiff {
             set path [dict get $options $key]
             if {$path ne "" && [file exists $path]} { dict set core $key [file normalize $path] }
         }
+        set column [dict get $options regress]
+        if {[set at [string last : $column]] > 0} {
+            set column [file normalize [string range $column 0 [expr {$at - 1}]]][string range $column $at end]
+        }
+        dict set core regress $column
         if {[dict get $options from] ne ""} { existing_file [dict get $options from] -from }
         dict set core patch [named_list -patch {NAME SELECTION} [dict get $options patch] {name selection} {
             return $name=$selection

@@ -12,6 +12,10 @@ foreach state {wild mutant} {
     lappend words --charges $state=$folder/trpcage_$state.pqr
 }
 exec $env(ESPDIFF) ensemble {*}$words --frames 0:20:99 -o $scratch/cli -q --grid-spacing 1.6 --potential coulomb 2>@1
+set box [input box_tz2/tz2.truncoct.parm7]
+set frames [input box_tz2/tz2.truncoct_from_nc.dcd]
+exec $env(ESPDIFF) ensemble --group tz2 $box $frames --frames 0:3:9 --template 0 --radii element -o $scratch/box -q \
+    --grid-spacing 1.6 2>@1
 foreach state {wild mutant} {
     foreach number {1 2 3 4} { lappend runs($state) [list mol [load_run $state $number]] }
 }
@@ -30,6 +34,23 @@ test "molecules with frames: the difference that files give, at the mutant's res
     check "sign" {[espdiff result $h test mean_abs_difference] > 0}
 }
 
+test "pme with the water of VMD's molecule, in the cell of each frame: as from the files" {
+    set mol [mol new $box type parm7 waitfor all]
+    mol addfile $frames type dcd first 0 last 9 step 3 waitfor all $mol
+    set water [espdiff ensemble [list tz2 [list [list mol $mol radii element]]] -output $scratch/water -template 0 \
+        -grid-spacing 1.6]
+    set files [espdiff ensemble {} -from $scratch/box.h5 -output $scratch/box]
+    check_equal potential [espdiff result $water plan potential] [espdiff result $files plan potential]
+    check "pme" {[string match "pme*" [espdiff result $water plan potential]]}
+    foreach key {mean_potential mean_rmsd_A} {
+        check_close $key [dict get [lindex [espdiff result $water replicates] 0] $key] \
+            [dict get [lindex [espdiff result $files replicates] 0] $key] 1e-3
+    }
+    check_close area [espdiff result $water area_A2] [espdiff result $files area_A2] 1e-4
+    espdiff delete $water $files
+    mol delete $mol
+}
+
 test "it is drawn: the difference, faded where it is not significant" {
     set molecules [espdiff draw $h]
     check "molecules" {[llength $molecules] >= 2}
@@ -41,6 +62,14 @@ test "it is drawn: the difference, faded where it is not significant" {
     check_refused { espdiff draw $h -view linked } {ESPDIFF INPUT} "-view linked"
     check_refused { espdiff draw $h -color slip } {ESPDIFF INPUT} "is not difference, source, target or t"
     espdiff draw $h -color target -uncertain plain
+    save_state $scratch/state.vmd
+    set channel [open $scratch/state.vmd]
+    set state [read $channel]
+    close $channel
+    check "saved" {[regexp {espdiff draw \[(espdiff ensemble \{\} -from \S+ -output \S+)\] [^\n]*-color target} $state whole again]}
+    set from [eval $again]
+    check_equal "the same answer" [espdiff result $from test] [espdiff result $h test]
+    espdiff delete $from
     if {$n > 0} { espdiff draw $h -patch 1 }
     espdiff undraw $h
 }
