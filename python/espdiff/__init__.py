@@ -23,7 +23,7 @@ except ImportError as _missing:
 else:
     from ._ensembles import Ensemble, ensemble
     from ._inputs import state
-    from ._functions import Series, compare, help_options, matrix, merge, potential, status, surface
+    from ._functions import Series, compare, frames, help_options, matrix, merge, potential, status, surface
     from ._results import Certificate, Comparison, Matrix
 from ._errors import (
     Cancelled,
@@ -41,5 +41,5 @@ from ._errors import (
 __all__ = [
     "Cancelled", "Certificate", "Comparison", "ConvergenceError", "DeviceError", "Ensemble", "Error", "FormatError",
     "GeometryError", "InputError", "InternalError", "IoError", "Map", "Matrix", "OutOfMemoryError", "Series", "State",
-    "Surface", "__version__", "compare", "ensemble", "help_options", "matrix", "merge", "potential", "state", "status", "surface",
+    "Surface", "__version__", "compare", "ensemble", "frames", "help_options", "matrix", "merge", "potential", "state", "status", "surface",
 ]

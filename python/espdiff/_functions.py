@@ -182,6 +182,20 @@ class Series:
             return Comparison(self._series.step(state_of(target, "target"), listener))
 
 
+def frames(topology, *files, plugins=""):
+    """The frames of trajectories as a sequence of States, read by VMD's molfile plugins as on the command line.
+
+    topology: a structure, or a topology that VMD reads (PSF, prmtop, GRO, ...). files: trajectories of its atoms (DCD, XTC,
+    TRR, NetCDF, ...), or structures with models. plugins: their folder, unless VMD is found ($VMDDIR, PATH).
+
+        frames = espdiff.frames("adk.psf", "adk_dims.dcd")
+        r = espdiff.compare(frames[0], frames[-1])
+    """
+    if not files:
+        raise _core.InputError("files: name one trajectory or more")
+    return _core.Frames(os.fspath(topology), [os.fspath(path) for path in files], os.fspath(plugins))
+
+
 def help_options():
     """Every option that compare() takes: a list of dicts with name, group, choices, default and help."""
     return [{**row, "name": row["name"].replace("-", "_")} for row in _core.settings()]

@@ -12,6 +12,7 @@
 #include "engine/select_engine.h"
 #include "ensemble.h"
 #include "errors.h"
+#include "frames.h"
 #include "matrix.h"
 #include "potential.h"
 #include "potential/potential_settings.h"
@@ -77,6 +78,7 @@ NB_MODULE(_core, module) {
   module.attr("__version__") = espdiff::kVersion;
   espdiff::python::add_errors(module);
   espdiff::python::add_state(module);
+  espdiff::python::add_frames(module);
   espdiff::python::add_comparison(module);
   espdiff::python::add_series(module);
   espdiff::python::add_surface(module);

@@ -62,6 +62,18 @@ def test_many_states(data, tmp_path, monkeypatch):
     assert variables["m"]["mean_displacement_A"].shape == (3, 3)
 
 
+def test_trajectories(data, tmp_path, monkeypatch):
+    for name in ("adk.psf", "adk_dims.dcd"):
+        (tmp_path / name).symlink_to(data / "traj_adk" / name)
+    monkeypatch.chdir(tmp_path)
+    lines = block("Trajectories").replace("frames[-1])", 'frames[-1], potential="none", grid_spacing=2.5)')
+    try:
+        variables = run(lines, espdiff=espdiff)
+    except espdiff.DeviceError:
+        pytest.skip("SKIPPED: VMD's molfile plugins are absent; put `vmd` on PATH, or set VMDDIR")
+    assert len(variables["frames"]) == 98 and variables["r"].metrics["rmsd_A"] > 5
+
+
 def test_mdanalysis(data, tmp_path, monkeypatch):
     pytest.importorskip("MDAnalysis", reason="SKIPPED: no MDAnalysis")
     for name in ("adk.psf", "adk_dims.dcd"):
