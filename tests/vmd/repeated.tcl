@@ -31,7 +31,10 @@ test "a hundred comparisons leave memory, molecules and files as they were" {
     set before [resident_MB]
     set descriptors [n_entries /proc/self/fd]
     set threads [n_entries /proc/self/task]
-    for {} {$i < $n} {incr i} { once }
+    for {} {$i < $n} {incr i} {
+        once
+        if {$i % 100 == 99} { note "    [expr {$i + 1}]: [format %.2f [resident_MB]] MB" }
+    }
     set growth [expr {[resident_MB] / $before - 1}]
     note "    $n comparisons: [format %.1f $before] MB after $warm_up, then [format %.2f [expr {100 * $growth}]] % more"
     check "growth of resident memory" {$growth < 0.01}
