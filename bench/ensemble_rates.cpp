@@ -15,9 +15,9 @@
 #include <utility>
 #include <vector>
 
+#include "ensemble/balanced_splits.h"
 #include "ensemble/ensemble_columns.h"
 #include "ensemble/ensemble_file.h"
-#include "statistics/arrangements.h"
 #include "statistics/counter_random.h"
 #include "statistics/mesh_graph.h"
 #include "statistics/replicate_columns.h"
@@ -135,19 +135,13 @@ void print_nulls(const EnsembleFile& file, const Columns& columns, const std::ve
   for (std::size_t r = 0; r < replicates.size(); ++r) {
     for (std::size_t v = 0; v < n; ++v) means[r].push_back(replicates[r].columns[v].mean);
   }
-  // Half of each state's runs, against the other half of each: every split has a mirror image.
   Count balanced;
-  const Arrangements splits = make_arrangements(first.size() / 2, first.size() - first.size() / 2),
-                     others = make_arrangements(second.size() / 2, second.size() - second.size() / 2);
-  for (const auto& a : splits.orders) {
-    for (const auto& b : others.orders) {
-      std::vector<std::vector<double>> one, two;
-      for (std::size_t i = 0; i < a.size(); ++i) (i < a.size() / 2 ? one : two).push_back(means[first[a[i]]]);
-      for (std::size_t i = 0; i < b.size(); ++i) (i < b.size() / 2 ? one : two).push_back(means[second[b[i]]]);
-      const std::size_t n_one = one.size();
-      one.insert(one.end(), two.begin(), two.end());
-      balanced.add(test_replicates(one, n_one, graph, {}));
+  for (const auto& [one, two] : espdiff_test::balanced_splits(first, second)) {
+    std::vector<std::vector<double>> some;
+    for (const auto* group : {&one, &two}) {
+      for (const std::size_t r : *group) some.push_back(means[r]);
     }
+    balanced.add(test_replicates(some, one.size(), graph, {}));
   }
   balanced.print("half of each state's runs against the other half of each");
   for (const auto* group : {&first, &second}) {

@@ -218,8 +218,8 @@ namespace eval ::espdiff {
             {-resume boolean 0 "Go on with OUT.h5 of an interrupted run; a complete one gets new statistics"}
             {-overwrite boolean 0 "Replace OUT.h5 if it exists"}
             {-on-error choice stop "A frame that cannot be mapped stops the run, or has no values" {stop skip}}
-            {-shard text 1/1 "Map part I of N of the frames, I/N, into OUT.shard-I-of-N.h5; the command line's\
-                `espdiff merge` merges the parts"}
+            {-shard text 1/1 "Map part I of N of the frames, I/N, into OUT.shard-I-of-N.h5; `espdiff merge`\
+                merges the parts"}
             {-from file {} "Compute the statistics of this complete OUT.h5 again, with {} as groups"}
             {-alpha positive 0.05 "Significance level; intervals have the confidence 1 - alpha"}
             {-control choice tfce "The family-wise p that patches are made of" {tfce max-t}}
@@ -228,6 +228,8 @@ namespace eval ::espdiff {
                 tested"}
             {-patch text {} "{NAME SELECTION ...}: residues of the template, in gemmi's syntax (//A/8-12), measured\
                 as a whole"}
+            {-regress text {} "FILE.csv:COLUMN: a value of each replicate, regressed on the surface, and predicted from\
+                the others; the table has the columns replicate, COLUMN, and group unless names are unique"}
             {-check-template boolean 0 "Also map the medoid of each group onto every frame, and tell how much of the\
                 answer stays"}
             {-states boolean 0 "Also compare every frame with every other one, and find the principal components of\
@@ -273,12 +275,13 @@ namespace eval ::espdiff {
         example {espdiff plot out.csv -metrics {mean_abs_difference rmsd_A}}]
 
     command merge [dict create arguments {states} settings none run ::espdiff::merge options {
-            {-output file required "Prefix of the results OUT.csv and OUT.json"}
+            {-output file required "Prefix of the results: OUT.csv and OUT.json, or OUT.h5"}
             {-overwrite boolean 0 "Replace results that exist"}
             {-cluster-by text {} "Metric for clustering, as in `espdiff matrix`"}
         } \
-        summary {Merges the parts of a matrix: the state files of `espdiff matrix -shard`. The results are those of one
-            process, byte by byte.} \
+        summary {Merges the parts of a matrix: the state files of `espdiff matrix -shard`; or of an ensemble: the files
+            of `espdiff ensemble -shard`, whose statistics `espdiff ensemble {} -from OUT.h5` computes. The results are
+            those of one process, byte by byte.} \
         returns {the files written} \
         example {espdiff merge [glob part.shard-*.state] -output all}]
 

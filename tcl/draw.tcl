@@ -94,6 +94,9 @@ namespace eval ::espdiff {
             surface [dict get $options surface] patch [dict get $options patch]]
         set is_plain [expr {$is_surface || [dict get $options uncertain] eq "plain"}]
         if {!$is_plain} { dict set core limit [dict get $options uncertainty-limit] }
+        if {[dict get [core::status $handle] kind] eq "ensemble"} {
+            dict set range title [ensemble_title $handle $color]
+        }
         return [dict merge $range [dict create handle $handle color $color core $core \
             colors [dict get $scales [expr {$color in $lengths ? "sequential" : "diverging"}]] \
             legend [expr {[dict get $options legend] && $color ne "none"}] beside [molecule_of $handle $side] \

@@ -12,9 +12,38 @@ namespace eval ::espdiff {
         set handle [core::ensemble $replicates [ensemble_options $options $groups]]
         set source [first_molecule $frames]
         set serve [expr {[dict size $frames] == 0 ? {} : [list ::espdiff::serve_frames $handle $frames]}]
-        begin_job $handle $options [dict create serve $serve source_mol $source target_mol $source]
+        begin_job $handle $options [dict create serve $serve places [places_of $replicates $frames] source_mol $source target_mol $source]
         foreach warning [finished_warnings $handle] { say $warning }
         return $handle
+    }
+
+    # Where each replicate's frames are in VMD: {mol frames} by group and name, without the atoms.
+    proc places_of {replicates frames} {
+        set places [dict create]
+        dict for {number place} $frames {
+            set replicate [lindex $replicates $number]
+            dict set places [list [dict get $replicate group] [dict get $replicate name]] \
+                [list [dict get $place structure mol] [dict get $place frames]]
+        }
+        return $places
+    }
+
+    # Molecule and frame of the template in VMD; empty where it came from a file, or is deleted.
+    proc ensemble_template {handle} {
+        variable jobs
+        set name [core::result $handle]
+        if {![dict exists $name plan] || ![dict exists $jobs $handle places]} { return {} }
+        set name [dict get $name plan template name]
+        dict for {replicate place} [dict get $jobs $handle places] {
+            lassign $replicate group label
+            set words "$group, replicate $label, frame "
+            set at [string last $words $name]
+            if {$at < 0} continue
+            lassign $place mol frames
+            set frame [lindex $frames [string range $name [expr {$at + [string length $words]}] end]]
+            if {$mol in [molinfo list] && $frame ne ""} { return [list $mol $frame] }
+        }
+        return {}
     }
 
     # What the design cannot show, once that is known.
@@ -35,6 +64,11 @@ namespace eval ::espdiff {
             set path [dict get $options $key]
             if {$path ne "" && [file exists $path]} { dict set core $key [file normalize $path] }
         }
+        set column [dict get $options regress]
+        if {[set at [string last : $column]] > 0} {
+            set column [file normalize [string range $column 0 [expr {$at - 1}]]][string range $column $at end]
+        }
+        dict set core regress $column
         if {[dict get $options from] ne ""} { existing_file [dict get $options from] -from }
         dict set core patch [named_list -patch {NAME SELECTION} [dict get $options patch] {name selection} {
             return $name=$selection
@@ -172,12 +206,30 @@ namespace eval ::espdiff {
         if {[dict get $options view] eq "linked"} {
             fail "espdiff draw: -view linked shows a comparison's source, target and difference; leave it out"
         }
+        variable jobs
+        # The template is a frame of this molecule, whose view it gets.
+        lassign [ensemble_template $handle] mol frame
+        foreach side {source target} {
+            dict set jobs $handle ${side}_mol $mol
+            dict set jobs $handle ${side}_frame $frame
+        }
         dict set options uncertainty-limit 1
         dict set options surface source
         if {[dict get $options color] eq "auto" && ![dict exists [core::result $handle] test]} {
             dict set options color source
         }
         return $options
+    }
+
+    # The quantity by the groups' names, for the legend.
+    proc ensemble_title {handle color} {
+        set groups {}
+        foreach replicate [dict get [core::result $handle] replicates] {
+            if {[dict get $replicate group] ni $groups} { lappend groups [dict get $replicate group] }
+        }
+        lassign $groups first second
+        dict get [dict create source "Mean potential, $first" target "Mean potential, $second" \
+            difference "Potential difference, $second - $first" t "Welch's t, $second - $first" none ""] $color
     }
 
     # What faded colours and stripes mean, for the legend.

@@ -34,13 +34,17 @@ namespace eval ::espdiff {
         return $found
     }
 
-    # Rotates the view by the smallest angle that brings the atoms in front of their molecule's centre; all molecules
-    # alike.
+    # Rotates the view by the smallest angle that brings the atoms, or a place, in front of their molecule's centre; all
+    # molecules alike.
     proc face_atoms {mol indices} {
-        foreach {name text} [list middle all place "index [join $indices]"] {
-            set selection [atomselect $mol $text]
-            finally { set $name [measure center $selection] } { $selection delete }
-        }
+        set selection [atomselect $mol "index [join $indices]"]
+        finally { set place [measure center $selection] } { $selection delete }
+        face_point $mol $place
+    }
+
+    proc face_point {mol place} {
+        set selection [atomselect $mol all]
+        finally { set middle [measure center $selection] } { $selection delete }
         set away [vecsub $place $middle]
         if {[veclength $away] < 1e-6} return
         lassign [vecnorm [vectrans [lindex [molinfo $mol get rotate_matrix] 0] $away]] x y z
@@ -50,6 +54,31 @@ namespace eval ::espdiff {
             if {[molinfo $other get fixed]} continue
             molinfo $other set rotate_matrix [list [transmult $turn [lindex [molinfo $other get rotate_matrix] 0]]]
         }
+    }
+
+    # Highlights residues of one molecule by their names in a trajectory's table, such as "A:LYS 12". `owner` stands in
+    # the place of a handle.
+    proc highlight_named {owner mol names} {
+        variable highlights
+        set keys [dict create]
+        foreach name $names {
+            if {[regexp {^(?:([^:]*):)?.* (-?\d+)(\D?)$} $name -> chain number insertion]} {
+                dict set keys [residue_key $chain "" $number $insertion] 1
+            }
+        }
+        set indices [atoms_of_residues $mol $keys]
+        forget_highlight $owner
+        if {[llength $indices] == 0} return
+        dict lappend highlights $owner [list $mol [add_highlight $mol $indices [highlight_style]]]
+    }
+
+    # The usual look: the defaults of the command.
+    proc highlight_style {} {
+        set style [dict create]
+        foreach option [options_of highlight] {
+            dict set style [string range [dict get $option name] 1 end] [dict get $option default]
+        }
+        return $style
     }
 
     # Identifiers of residues by `index`, as in atoms.tcl.

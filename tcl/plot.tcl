@@ -9,6 +9,10 @@ namespace eval ::espdiff {
 
     # A window for each unit, or one for normalized values.
     proc plot {options input} {
+        if {![exists $input] && ![is_trajectory $input]} {
+            set path [existing_file $input "espdiff plot"]
+            if {[core::is_residue_table $path]} { return [plot_residues $path $options] }
+        }
         set table [plot_table $input $options]
         if {[dict get $options file] ne ""} { return [plot_into_file $table $options] }
         set series [plot_series $table $options]

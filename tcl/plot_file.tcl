@@ -21,6 +21,17 @@ namespace eval ::espdiff {
         return [core::plot_lines [file normalize [dict get $options file]] $plot]
     }
 
+    # A trajectory's table of residues.
+    proc plot_residues {path options} {
+        set file [dict get $options file]
+        if {$file eq ""} {
+            fail "espdiff plot: '$path' is a trajectory's table of residues, which is drawn into a file (-file OUT.png), or\
+                in the window's tab Trajectory"
+        }
+        core::check_outputs [list $path] [list [file normalize $file]]
+        return [core::plot_residues [file normalize $file] $path]
+    }
+
     # The core's series of a column, with printed units.
     proc plot_line {table column} {
         lassign [shown_metric $column [dict get $table unit]] title unit factor

@@ -71,6 +71,9 @@ namespace eval ::espdiff {
         variable jobs
         set call [dict get $jobs $handle call]
         set command [lindex $call 1]
+        set drawn {}
+        dict for {option value} [dict remove $options settings] { append drawn " [list -$option $value]" }
+        if {$command eq "ensemble"} { return [guarded_lines {} [ensemble_again $handle $call] $drawn] }
         set n [expr {$command eq "compare" ? 2 : 1}]
         set molecules [molinfo list]
         set names [dict create]
@@ -91,10 +94,27 @@ namespace eval ::espdiff {
         }
         set settings [dict remove [lrange $call [expr {2 + $n}] end] -command -progress]
         append words " [join [script_words $settings {}]]"
-        set drawn {}
-        dict for {option value} [dict remove $options settings] { append drawn " [list -$option $value]" }
-        return [join [concat [list "# A drawing of espdiff" "if \{\[catch \{" "    package require espdiff"] \
-            [lsort -unique $lines] [list "    espdiff draw \[[string trim $words]\]$drawn" \
+        return [guarded_lines [lsort -unique $lines] [string trim $words] $drawn]
+    }
+
+    # A command that draws again, whose error leaves the rest of the state alone.
+    proc guarded_lines {lines words drawn} {
+        return [join [concat [list "# A drawing of espdiff" "if \{\[catch \{" "    package require espdiff"] $lines \
+            [list "    espdiff draw \[$words\]$drawn" \
             "\} espdiff_message\]\} \{ puts \"espdiff) a drawing was not made again: \$espdiff_message\" \}"]] \n]
+    }
+
+    # The statistics of the frames that were mapped: nothing is mapped again.
+    proc ensemble_again {handle call} {
+        set files [dict get [core::result $handle] files]
+        set options [dict remove [lrange $call 3 end] -command -progress -output -resume -overwrite -check-template]
+        set kept {}
+        foreach name {-alpha -control -equilibration -most-missing -arrangements -bootstrap -seed} {
+            if {[dict exists $options $name]} { lappend kept $name [dict get $options $name] }
+        }
+        set h5 [lsearch -inline -glob $files *.h5]
+        if {$h5 eq ""} { set h5 [dict get $options -from] }
+        return [concat espdiff ensemble [list {}] [list -from [full_name $h5] \
+            -output [file rootname [full_name [lsearch -inline -glob $files *.json]]]] $kept]
     }
 }

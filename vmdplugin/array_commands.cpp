@@ -7,6 +7,10 @@
 #include "commands.h"
 #include "tcl_values.h"
 #include "vertex_quantity.h"
+#ifdef ESPDIFF_HAVE_HDF5
+#include "ensemble/ensemble_file.h"
+#include "ensemble_object.h"
+#endif
 
 namespace espdiff::vmdplugin {
 namespace {
@@ -76,6 +80,30 @@ Tcl_Obj* surface_array(const SurfaceResult& r, const std::string& name) {
   return nullptr;
 }
 
+/// @returns null for another name, and another kind of object
+Tcl_Obj* ensemble_array(const Object& object, const std::string& name) {
+#ifdef ESPDIFF_HAVE_HDF5
+  const auto* const ensemble = dynamic_cast<const EnsembleObject*>(&object);
+  if (ensemble == nullptr || ensemble->answer.result == nullptr) return nullptr;
+  const TemplateSurface& surface = ensemble->answer.file->surface();
+  if (name == "positions") return array(surface.positions);
+  if (name == "normals") return array(surface.normals);
+  if (name == "triangles") return array(surface.triangles);
+  if (name == "residue_index") return array(surface.residue);
+  const SurfaceTest& test = ensemble->answer.result->test;
+  if (name == "difference") return array(test.vertices.difference);
+  if (name == "low") return array(test.vertices.low);
+  if (name == "high") return array(test.vertices.high);
+  if (name == "p") return array(test.vertices.p);
+  if (name == "p_family_wise" && ensemble->answer.result->compares)
+    return array(ensemble->answer.result->family_wise());
+#else
+  static_cast<void>(object);
+  static_cast<void>(name);
+#endif
+  return nullptr;
+}
+
 Tcl_Obj* array_of(const Call& call) {
   const std::string handle = call.text(0), name = call.text(1);
   const auto object = call.handles.find(handle);
@@ -85,6 +113,7 @@ Tcl_Obj* array_of(const Call& call) {
     found = comparison_array(comparison->result.surface, name);
   if (const auto* surface = dynamic_cast<const SurfaceObject*>(object.get()))
     found = surface_array(surface->result, name);
+  if (found == nullptr) found = ensemble_array(*object, name);
   if (found != nullptr) return found;
   const VertexQuantity quantity = vertex_quantity(handle, *object, name);
   return array(quantity.values);

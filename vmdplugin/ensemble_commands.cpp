@@ -76,6 +76,7 @@ void parse_study(DictReader& reader, EnsembleStudy& study) {
   study.run.overwrite = reader.boolean("overwrite", false);
   study.run.skip_errors = reader.text("on_error", "stop") == "skip";
   study.from = reader.text("from");
+  study.regress = reader.text("regress");
   study.check_template = reader.boolean("check_template", false);
   study.states = reader.boolean("states", false);
   study.statistics = parse_statistics(reader);

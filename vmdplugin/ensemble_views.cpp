@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "ensemble/ensemble_file.h"
+#include "ensemble/ensemble_run.h"
 #include "ensemble/write_ensemble.h"
 #include "ensemble_object.h"
 #endif
@@ -112,8 +113,20 @@ std::optional<VertexQuantity> ensemble_quantity(const std::string& handle, const
   return VertexQuantity{where_tested(vertices.difference, result.tested), unit};
 }
 
+std::optional<std::string> merged_ensemble(const std::vector<std::string>& paths, const std::string& output,
+                                           bool overwrite) {
+  if (paths.empty() || !is_hdf5_file(paths.front())) return std::nullopt;
+  EnsembleRun run;
+  run.output = output;
+  run.overwrite = overwrite;
+  return merge_ensemble(paths, run).path;
+}
+
 #else
 
+std::optional<std::string> merged_ensemble(const std::vector<std::string>&, const std::string&, bool) {
+  return std::nullopt;
+}
 std::optional<nlohmann::ordered_json> ensemble_result(const std::string&, const Object&) { return std::nullopt; }
 std::optional<std::string> ensemble_table(const std::string&, const Object&) { return std::nullopt; }
 std::optional<DrawnSurface> ensemble_surface(const std::string&, const Object&, int) { return std::nullopt; }

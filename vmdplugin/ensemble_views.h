@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "drawn_part.h"
 #include "handles.h"
@@ -29,5 +30,10 @@ std::optional<DrawnSurface> ensemble_surface(const std::string& handle, const Ob
 /// @throws the same; InputError (another name; one group has no difference)
 std::optional<VertexQuantity> ensemble_quantity(const std::string& handle, const Object& object,
                                                 const std::string& name);
+
+/// Merges the parts of an ensemble; nothing where the first path is no file of HDF5.
+/// @returns OUT.h5. @throws as merge_ensemble()
+std::optional<std::string> merged_ensemble(const std::vector<std::string>& paths, const std::string& output,
+                                           bool overwrite);
 
 }  // namespace espdiff::vmdplugin

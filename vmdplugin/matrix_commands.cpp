@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "commands.h"
 #include "engine/engine.h"
+#include "ensemble_views.h"
 #include "prepare/surface_radii.h"
 #include "tcl_values.h"
 
@@ -102,6 +103,7 @@ Tcl_Obj* merge(const Call& call) {
   DictReader reader(call.arguments[1], "options");
   const MatrixRun run = parse_run(reader);
   reader.finish();
+  if (const auto path = merged_ensemble(paths, run.output, run.overwrite)) return to_list({*path});
   return to_list(merge_matrix(paths, run).files);
 }
 

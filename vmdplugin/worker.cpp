@@ -1,60 +1,13 @@
 // worker.cpp: the queue of jobs and the thread that runs them.
 #include "worker.h"
 
-#include <omp.h>
-
-#include <cfenv>
 #include <chrono>
 #include <deque>
 #include <thread>
-#if defined(__SSE__)
-#include <xmmintrin.h>
-#endif
+
+#include "engine/compute_thread.h"
 
 namespace espdiff::vmdplugin {
-namespace {
-
-/// VMD's main thread flushes denormal numbers to zero, and threads inherit that. Results would then differ from the
-/// command line's in their last bits.
-void set_default_rounding() {
-  std::fesetenv(FE_DFL_ENV);
-#if defined(__SSE__)
-  constexpr unsigned kDefaultControl = 0x1f80;  // exceptions masked, round to nearest, denormals kept
-  _mm_setcsr(kDefaultControl);
-#endif
-}
-
-/// OpenMP's threads spin while they wait. Beside another busy program this makes a computation up to ten times as long.
-/// OMP_WAIT_POLICY, which forbids it, is read before this library is loaded. With more threads than processors libgomp
-/// hardly spins, so a second team of threads is kept asleep.
-class SleepingTeam {
- public:
-  SleepingTeam() : thread_([this] { sleep(); }) {}
-  ~SleepingTeam() {
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      awake_ = true;
-    }
-    wake_up_.notify_all();
-    thread_.join();
-  }
-
- private:
-  void sleep() {
-    int n = 0;
-#pragma omp parallel reduction(+ : n) num_threads(omp_get_num_procs())
-    ++n;
-    std::unique_lock<std::mutex> lock(mutex_);
-    wake_up_.wait(lock, [this] { return awake_; });
-  }
-
-  std::mutex mutex_;
-  std::condition_variable wake_up_;
-  bool awake_ = false;
-  std::thread thread_;
-};
-
-}  // namespace
 
 const char* name_of(Job::State state) {
   switch (state) {

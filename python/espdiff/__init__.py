@@ -21,8 +21,9 @@ except ImportError as _missing:
             f"espdiff.{name} needs the engine's extension, which this Python does not have ({_reason}); "
             "`pip install .` in a clone builds it, and inside VMD espdiff.vmd does without it")
 else:
+    from ._ensembles import Ensemble, ensemble
     from ._inputs import state
-    from ._functions import Series, compare, help_options, matrix, merge, potential, status, surface
+    from ._functions import Series, compare, frames, help_options, matrix, merge, potential, status, surface
     from ._results import Certificate, Comparison, Matrix
 from ._errors import (
     Cancelled,
@@ -38,7 +39,7 @@ from ._errors import (
 )
 
 __all__ = [
-    "Cancelled", "Certificate", "Comparison", "ConvergenceError", "DeviceError", "Error", "FormatError",
+    "Cancelled", "Certificate", "Comparison", "ConvergenceError", "DeviceError", "Ensemble", "Error", "FormatError",
     "GeometryError", "InputError", "InternalError", "IoError", "Map", "Matrix", "OutOfMemoryError", "Series", "State",
-    "Surface", "__version__", "compare", "help_options", "matrix", "merge", "potential", "state", "status", "surface",
+    "Surface", "__version__", "compare", "ensemble", "frames", "help_options", "matrix", "merge", "potential", "state", "status", "surface",
 ]

@@ -147,11 +147,18 @@ def matrix(states, labels=None, *, groups=None, potential="auto", pme_cell="auto
 
 
 def merge(parts, output, *, overwrite=False):
-    """Merges the parts of a matrix, OUT.shard-*.state of `shard=`, as `espdiff merge` does: the bytes of one process.
+    """Merges the parts of `shard=`, as `espdiff merge` does: the bytes of one process.
 
-    Writes OUT.csv and OUT.json; returns the Matrix.
+    parts: OUT.shard-*.state of a matrix, whose OUT.csv and OUT.json are written; or OUT.shard-*.h5 of an ensemble, whose
+    OUT.h5 and results are. Returns the Matrix or Ensemble.
     """
-    return Matrix(_core.merge_matrix([os.fspath(part) for part in parts], os.fspath(output), overwrite, None))
+    parts, output = [os.fspath(part) for part in parts], os.fspath(output)
+    if parts and all(part.endswith(".h5") for part in parts):
+        from ._ensembles import ensemble
+
+        _core.merge_ensemble(parts, output, overwrite, None)
+        return ensemble(from_file=output + ".h5", output=output)
+    return Matrix(_core.merge_matrix(parts, output, overwrite, None))
 
 
 class Series:
@@ -173,6 +180,20 @@ class Series:
         """Compares the source with the next target. Returns a Comparison."""
         with _Progress(progress, "compare") as listener:
             return Comparison(self._series.step(state_of(target, "target"), listener))
+
+
+def frames(topology, *files, plugins=""):
+    """The frames of trajectories as a sequence of States, read by VMD's molfile plugins as on the command line.
+
+    topology: a structure, or a topology that VMD reads (PSF, prmtop, GRO, ...). files: trajectories of its atoms (DCD, XTC,
+    TRR, NetCDF, ...), or structures with models. plugins: their folder, unless VMD is found ($VMDDIR, PATH).
+
+        frames = espdiff.frames("adk.psf", "adk_dims.dcd")
+        r = espdiff.compare(frames[0], frames[-1])
+    """
+    if not files:
+        raise _core.InputError("files: name one trajectory or more")
+    return _core.Frames(os.fspath(topology), [os.fspath(path) for path in files], os.fspath(plugins))
 
 
 def help_options():

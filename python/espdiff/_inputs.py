@@ -128,11 +128,18 @@ def _from_mdanalysis(atoms, role):
     if universe.trajectory.n_frames > 1:
         name += f", frame {frame}"
     try:
-        state = _state_of_atoms(atoms, name)
+        return frame_state(atoms, name)
     except InputError as error:
         raise InputError(f"{role}: {error}") from None
+
+
+def frame_state(atoms, name, everything=True):
+    """The State of an AtomGroup as it is now, with what surrounds it in its universe's cell."""
+    universe = atoms.universe
+    state = _state_of_atoms(atoms, name)
     # Water and ions outside the group count for pme in the universe's cell.
-    if universe.dimensions is not None and len(atoms) < len(universe.atoms) and hasattr(universe.atoms, "charges"):
+    outside = universe.dimensions is not None and len(atoms) < len(universe.atoms) and hasattr(universe.atoms, "charges")
+    if everything and outside:
         state = state.surrounded_by(_state_of_atoms(universe.atoms, name))
     return state
 

@@ -116,11 +116,10 @@ class Comparison:
 
     def to_pyvista(self):
         """The mapped surface as a pyvista.PolyData, with the arrays of OUT.vtp."""
-        import pyvista
+        from ._plots import polydata
 
-        triangles = np.asarray(self.triangles)
-        faces = np.hstack([np.full((len(triangles), 1), 3, dtype=np.int64), triangles.astype(np.int64)])
-        mesh = pyvista.PolyData(np.asarray(self.positions), faces.ravel())
+        triangles = self.triangles
+        mesh = polydata(self.positions, triangles, {})
         mesh.point_data["displacement"] = self.displacement
         mesh.point_data["residue_index"] = self.residue_index
         if self.has_potential:

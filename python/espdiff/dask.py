@@ -11,7 +11,7 @@ Results have the same bytes with any number of workers. docs/examples/matrix_das
 
 import os
 
-from . import _functions
+from . import _ensembles, _functions
 from ._core import InputError
 from ._inputs import state_of
 
@@ -73,6 +73,32 @@ def matrix(client, states, labels=None, *, output, parts=None, resume=False, ove
     return made
 
 
+def ensemble(client, groups, *, output, parts=None, **options):
+    """espdiff.ensemble() by the workers of a Client; arguments as of it and of matrix(). Returns an Ensemble."""
+    _check(client)
+
+    def apply(function, tasks):
+        return _gather(client, [client.submit(_ensemble_part, function, task, pure=False) for task in tasks])
+
+    if isinstance(groups, dict):
+        groups = {name: _absolute(members) for name, members in groups.items()}
+    return _ensembles.ensemble_in_parts(apply, parts or _n_workers(client), groups, output, **options)
+
+
+def _absolute(members):
+    """Paths as other working folders see them."""
+    if isinstance(members, dict):
+        return {name: _absolute(member) for name, member in members.items()}
+    if isinstance(members, (list, tuple)):
+        return [_absolute(member) for member in members]
+    return os.path.abspath(members) if isinstance(members, (str, os.PathLike)) else members
+
+
+def _ensemble_part(function, task):
+    groups, options = task
+    return function((groups, _with_threads(options)))
+
+
 def Backend(client):
     """A backend of MDAnalysis' analyses (2.8 and newer): frames by the workers of a Client.
 
@@ -88,4 +114,4 @@ def Backend(client):
     return ClientBackend(_n_workers(client))
 
 
-__all__ = ["Backend", "matrix"]
+__all__ = ["Backend", "ensemble", "matrix"]

@@ -7,10 +7,14 @@
     >>> run.results.metrics["mean_abs_difference"]
 """
 
+import os
+import tempfile
+
 import numpy as np
-from MDAnalysis.analysis.base import AnalysisBase
+from MDAnalysis.analysis.base import AnalysisBase, Results
 
 from ._core import InputError, metrics as list_metrics
+from ._ensembles import ensemble, ensemble_in_parts
 from ._functions import Series
 from ._inputs import is_atomgroup, state_of
 
@@ -142,4 +146,68 @@ class SurfacePotential(AnalysisBase):
         return state
 
 
-__all__ = ["SurfacePotential"]
+class Ensemble:
+    """Compares two groups of simulations on one template surface: espdiff.ensemble() in the form of an analysis.
+
+    groups: {name: [AtomGroup, ...]}, each AtomGroup a replicate; {name: {replicate: AtomGroup}} names them.
+    output: prefix of OUT.h5 and the results; without it nothing stays but the result.
+    options: those of espdiff.ensemble().
+
+    run() maps the same frames of every universe. results.ensemble is the espdiff.Ensemble; results.difference, means, low,
+    high, p, p_family_wise, tested: its arrays by vertex; results.residues: the table; results.patches.
+    """
+
+    def __init__(self, groups, *, output=None, **options):
+        for name, members in groups.items():
+            for atoms in members.values() if isinstance(members, dict) else members:
+                if not is_atomgroup(atoms):
+                    raise InputError(f"groups[{name!r}]: a {type(atoms).__name__} is no AtomGroup; espdiff.ensemble() takes files")
+        if "frames" in options:
+            raise InputError("frames: run(start, stop, step) chooses them")
+        self._groups = groups
+        self._output = output
+        self._options = options
+        self.results = Results()
+
+    @classmethod
+    def get_supported_backends(cls):
+        return ("serial", "multiprocessing", "dask")
+
+    def run(self, start=None, stop=None, step=None, *, frames=None, backend="serial", n_workers=1, n_parts=None,
+            unsupported_backend=False, verbose=False):
+        """Maps the frames, and computes the statistics. Returns the analysis.
+
+        backend: serial, multiprocessing, dask, or an object of MDAnalysis' BackendBase, such as espdiff.dask.Backend.
+        n_parts: how many parts the frames are shared out in; as many as workers without it. The bytes are the same.
+        """
+        chosen = slice(start, stop, step) if frames is None else list(frames)
+        apply, n_workers = self._backend(backend, n_workers)
+        options = {**self._options, "frames": chosen, "progress": verbose or None}
+        n_parts = n_parts or n_workers
+        if n_parts == 1:
+            made = ensemble(self._groups, output=self._output, **options)
+        else:
+            with tempfile.TemporaryDirectory(prefix="espdiff-") as scratch:
+                prefix = self._output if self._output is not None else os.path.join(scratch, "ensemble")
+                made = ensemble_in_parts(apply, n_parts, self._groups, prefix, **options)
+        self.results.ensemble = made
+        for name in ("difference", "means", "low", "high", "p", "p_family_wise", "tested", "residues", "patches", "n_frames"):
+            self.results[name] = getattr(made, name)
+        return self
+
+    @staticmethod
+    def _backend(backend, n_workers):
+        """What runs the parts, apply(function, tasks), and how many workers there are."""
+        if backend == "serial":
+            return (lambda function, tasks: [function(task) for task in tasks]), 1
+        from MDAnalysis.analysis import backends
+
+        known = {"multiprocessing": backends.BackendMultiprocessing, "dask": backends.BackendDask}
+        if isinstance(backend, str):
+            if backend not in known:
+                raise InputError(f"backend: {backend!r} is not serial, multiprocessing or dask")
+            return known[backend](n_workers=n_workers).apply, n_workers
+        return backend.apply, backend.n_workers
+
+
+__all__ = ["Ensemble", "SurfacePotential"]

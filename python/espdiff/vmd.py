@@ -239,6 +239,28 @@ class Surface(_Surface):
     _arrays = ("positions", "normals", "triangles", "residue_index", "potential")
 
 
+class Ensemble(_Surface):
+    """The result of ensemble(): `result` is the content of OUT.json. Arrays by vertex of the template, read-only:
+
+    positions (vertices, 3) float64, A; normals; triangles; residue_index; difference, low, high, p, p_family_wise
+    (vertices) float64, NaN where not tested, empty for one group.
+    """
+
+    _arrays = ("positions", "normals", "triangles", "residue_index", "difference", "low", "high", "p", "p_family_wise")
+
+    @property
+    def patches(self):
+        """The significant patches: dicts, as in OUT.json."""
+        return self.result.get("patches", [])
+
+    def table(self):
+        """The table of the command line."""
+        return _call("espdiff", "table", self.handle)
+
+    def __str__(self):
+        return self.table()
+
+
 class Matrix(_Handle):
     """The result of matrix(): `result` is the content of OUT.json."""
 
@@ -314,6 +336,22 @@ def matrix(states, output, progress=None, **options):
     return Matrix(_compute(words, options, progress))
 
 
+def ensemble(groups, output, progress=None, **options):
+    """Compares two groups of simulations on one template surface (`espdiff ensemble`); returns an Ensemble.
+
+    groups: {name: replicates}; a replicate is a molecule of VMD with its frames (an id, an atomsel, or a dict with mol, sel
+    and frames), or a file: a path, or a dict with file, topology and label. output: prefix of OUT.h5 and the results.
+    Options: charges={group: file}, frames, template, map, resume, patch={name: selection}, states, ...
+    """
+    words = []
+    for name, replicates in groups.items():
+        members = [_endpoint(each, "groups[%r][%d]" % (name, i)) for i, each in enumerate(replicates)]
+        for member in members:
+            member.pop("frame", None)  # all of them; `frames` chooses
+        words += [name, members]
+    return Ensemble(_compute(("ensemble", words), dict(options, output=output), progress))
+
+
 def trajectory(mol=None, csv=None, file=None, reference=None, progress=None, **options):
     """Compares each frame of a molecule, or model of a file, with a reference; a row each in a CSV file.
 
@@ -347,5 +385,5 @@ def doctor():
     return _call("espdiff", "doctor")
 
 
-__all__ = ["Comparison", "Matrix", "Surface", "Trajectory", "call", "compare", "doctor", "load", "matrix", "surface",
-           "trajectory", "undraw"]
+__all__ = ["Comparison", "Ensemble", "Matrix", "Surface", "Trajectory", "call", "compare", "doctor", "ensemble", "load",
+           "matrix", "surface", "trajectory", "undraw"]

@@ -17,6 +17,7 @@
 
 #include "base/error.h"
 #include "cli/command_line.h"
+#include "held.h"
 #include "io/coordinate_file.h"
 #include "io/frame_reader.h"
 #include "state.h"
@@ -40,18 +41,6 @@ auto in_python(const std::string& path, const Function& function) {
     throw FormatError(path, 0, "MDAnalysis cannot read it: " + text.substr(0, text.find('\n')));
   }
 }
-
-/// An object of Python's that threads without its lock may let go.
-struct Held {
-  nb::object object;
-  Held() = default;
-  Held(const Held&) = delete;
-  Held& operator=(const Held&) = delete;
-  ~Held() {
-    const nb::gil_scoped_acquire locked;
-    object.reset();
-  }
-};
 
 /// The frames of a trajectory, read by MDAnalysis.
 class PythonFrames : public CoordinateFile {

@@ -19,6 +19,7 @@
 #include "prepare/region.h"
 #include "prepare/surface_radii.h"
 #include "report/metrics.h"
+#include "report/potential_json.h"
 #include "report/state_report.h"
 #include "report/write_compare.h"
 #include "run.h"
@@ -147,7 +148,8 @@ void add_comparison(nb::module_& module) {
       .def_prop_ro("target", [](const Comparison& c) { return c.target; })
       .def_prop_ro("has_potential", [](const Comparison& c) { return c.result.has_potential; })
       .def_prop_ro(
-          "unit", [](const Comparison& c) { return to_string(c.result.unit); }, "Of potentials.")
+          "unit", [](const Comparison& c) { return potential_unit_text(c.result); },
+          "Of potentials; of those that see neither water nor a dielectric, kT/e in vacuum.")
       .def_prop_ro("trustworthy", [](const Comparison& c) { return c.result.certificate.trustworthy; })
       .def_prop_ro("positions", array_of(&S::positions),
                    "(vertices, 3) float64, A: the source's surface mapped onto the target, in the target's frame.")

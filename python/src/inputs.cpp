@@ -22,11 +22,7 @@ bool is_of_potential(const std::string& name) {
 LoadedState load_arrays(const State& state, StateRole role, const InputOptions& input, const Progress& progress) {
   refuse_options_of_files(
       input, role, state.molecule.name + " is a state of arrays; give it the atoms and charges that it is to have");
-  LoadedState loaded;
-  loaded.molecule = state.molecule;
-  if (state.everything != nullptr) loaded.everything = *state.everything;
-  loaded.cell = state.cell;
-  loaded.whole = state.molecule;
+  LoadedState loaded = loaded_arrays(state);
   StateRequest request;
   request.role = role;
   request.may_prepare = false;
@@ -36,15 +32,22 @@ LoadedState load_arrays(const State& state, StateRole role, const InputOptions& 
 
 }  // namespace
 
-Computation::Computation(const Settings& settings, const std::string& potential_, const std::string& pme_cell,
+LoadedState loaded_arrays(const State& state) {
+  LoadedState loaded;
+  loaded.molecule = state.molecule;
+  if (state.everything != nullptr) loaded.everything = *state.everything;
+  loaded.cell = state.cell;
+  loaded.whole = state.molecule;
+  return loaded;
+}
+
+Computation::Computation(const Settings& given, const std::string& potential_, const std::string& pme_cell,
                          std::string device_, int threads_)
     : potential{potential_, pme_cell, {}}, device(std::move(device_)), threads(threads_) {
   parse_device(device);
   check_threads(threads);
-  Settings of_comparison;
-  for (const auto& setting : settings)
-    (is_of_potential(setting.first) ? potential.given : of_comparison).push_back(setting);
-  options = make_options(of_comparison);
+  for (const auto& setting : given) (is_of_potential(setting.first) ? potential.given : settings).push_back(setting);
+  options = make_options(settings);
 }
 
 std::unique_ptr<Engine> Computation::make_engine() const { return select_engine(parse_device(device), threads); }

@@ -19,14 +19,15 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 
 /// Where and how something is computed.
 struct Computation {
+  Settings settings;  ///< of the comparison, as they were given
   CompareOptions options;
   PotentialRequest potential;
   std::string device = "auto";
   int threads = 0;
 
-  /// @param settings of comparisons and of potentials: each name belongs to one of them
+  /// @param given of comparisons and of potentials: each name belongs to one of them
   /// @throws InputError (unknown names, values)
-  Computation(const Settings& settings, const std::string& potential, const std::string& pme_cell, std::string device,
+  Computation(const Settings& given, const std::string& potential, const std::string& pme_cell, std::string device,
               int threads);
   std::unique_ptr<Engine> make_engine() const;
 };
@@ -36,6 +37,9 @@ struct Computation {
 /// @throws as load_for(); InputError (an option of structures in files for a state of arrays)
 LoadedState load(const State& state, StateRole role, const Computation& computation, const Molecule* source,
                  const Progress& progress);
+
+/// A state of arrays, as it is.
+LoadedState loaded_arrays(const State& state);
 
 /// A frame against a source, as load_frame(): without charges of its own it takes the source's.
 /// @throws as load_frame(), load()

@@ -10,7 +10,9 @@
 #include "compare/settings.h"
 #include "comparison.h"
 #include "engine/select_engine.h"
+#include "ensemble.h"
 #include "errors.h"
+#include "frames.h"
 #include "matrix.h"
 #include "potential.h"
 #include "potential/potential_settings.h"
@@ -76,11 +78,13 @@ NB_MODULE(_core, module) {
   module.attr("__version__") = espdiff::kVersion;
   espdiff::python::add_errors(module);
   espdiff::python::add_state(module);
+  espdiff::python::add_frames(module);
   espdiff::python::add_comparison(module);
   espdiff::python::add_series(module);
   espdiff::python::add_surface(module);
   espdiff::python::add_potential(module);
   espdiff::python::add_matrix(module);
+  espdiff::python::add_ensemble(module);
   espdiff::python::add_command_line(module);
   module.def("settings", &list_settings,
              "Every option of compare() and its like: name, group, choices, default, help.");

@@ -10,6 +10,8 @@
 #include <string>
 #include <thread>
 
+#include "engine/compute_thread.h"
+
 namespace espdiff::python {
 namespace {
 
@@ -54,7 +56,9 @@ void run(const nb::object& listener, const std::function<void(const Progress&)>&
   std::exception_ptr interruption;
   {
     const nb::gil_scoped_release unlocked;
+    const SleepingTeam asleep;
     std::thread thread([&] {
+      set_default_rounding();
       std::exception_ptr failure;
       try {
         work(progress);
@@ -69,7 +73,7 @@ void run(const nb::object& listener, const std::function<void(const Progress&)>&
     for (;;) {
       {
         std::unique_lock<std::mutex> lock(shared.mutex);
-        if (shared.changed.wait_for(lock, std::chrono::milliseconds(50), [&] { return shared.is_done; })) break;
+        if (shared.changed.wait_for(lock, std::chrono::milliseconds(20), [&] { return shared.is_done; })) break;
       }
       if (interruption) continue;
       const nb::gil_scoped_acquire locked;

@@ -109,7 +109,7 @@ StatePtr from_arrays(const AnyArray& positions, const std::optional<AnyArray>& r
   }
   if (charges) state->molecule.charges = read_numbers(*charges, "charges", n);
   state->cell = read_cell(cell);
-  state->input = {"", name, fingerprint(state->molecule)};
+  note_input(*state);
   return state;
 }
 
@@ -184,6 +184,8 @@ StatePtr with_map(const State& state, const AnyArray& values, const std::vector<
 }
 
 }  // namespace
+
+void note_input(State& state) { state.input = {"", state.molecule.name, fingerprint(state.molecule)}; }
 
 void add_state(nb::module_& module) {
   nb::class_<State>(module, "State",

@@ -35,6 +35,9 @@ struct State {
 
 using StatePtr = std::shared_ptr<const State>;
 
+/// Names a state that is of no structure file by its molecule, with a fingerprint of all that a result depends on.
+void note_input(State& state);
+
 /// Adds the class State.
 void add_state(nanobind::module_& module);
 

@@ -154,6 +154,12 @@ void add_statistics_options(CLI::App& p, Arguments& a) {
                "NAME=SELECTION: residues of the template, in gemmi's syntax (site=//A/8-12), whose surface is measured "
                "as a whole, with a p of its own; may be given again")
       ->group(group);
+  p.add_option(
+       "--regress", a.study.regress,
+       "FILE.csv:COLUMN: a value of each replicate, such as an activity, regressed on the surface, with the same "
+       "control of errors, and predicted from the other replicates (OUT.regression.csv). The table has the "
+       "columns replicate and COLUMN, and group unless names are unique")
+      ->group(group);
   p.add_flag("--states", a.study.states,
              "Compare every frame with every other one through the template (OUT.states.csv), and find the principal "
              "components of the potential: scores in OUT.components.csv, modes as component_1 to 3 in OUT.vtp")

@@ -1,6 +1,7 @@
 // plot.cpp: `espdiff plot FILE -o OUT.svg`.
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "base/error.h"
 #include "cli/verbs.h"
@@ -11,6 +12,7 @@
 #include "plot/heat_map.h"
 #include "plot/line_plot.h"
 #include "report/metrics.h"
+#include "trajectory/residue_plot.h"
 
 namespace espdiff::cli {
 namespace {
@@ -49,6 +51,13 @@ std::string only_metric(const Arguments& a, const std::string& otherwise) {
   return a.metrics.empty() ? otherwise : a.metrics.front();
 }
 
+/// Ends of the colours; equal if none were chosen.
+std::pair<double, double> chosen_range(const Arguments& a) {
+  if (a.range.empty()) return {0, 0};
+  if (!(a.range[0] < a.range[1])) throw InputError("--range: the lower end comes first, and both differ");
+  return {a.range[0], a.range[1]};
+}
+
 HeatMap heat_map(const Arguments& a, const MatrixFile& matrix) {
   const MatrixFileMetric& metric = matrix.metric(only_metric(a, matrix.clustered_by));
   const Quantity quantity = quantity_of(metric.name, metric.unit);
@@ -60,11 +69,7 @@ HeatMap heat_map(const Arguments& a, const MatrixFile& matrix) {
   map.title = quantity.title;
   map.unit = quantity.unit;
   map.diverging = is_antisymmetric(metric.name);
-  if (!a.range.empty()) {
-    if (!(a.range[0] < a.range[1])) throw InputError("--range: the lower end comes first, and both differ");
-    map.low = a.range[0];
-    map.high = a.range[1];
-  }
+  std::tie(map.low, map.high) = chosen_range(a);
   for (std::size_t at = 0; !a.no_marks && at < map.values.size(); ++at)
     map.marked.push_back(std::isfinite(map.values[at]) && !matrix.trustworthy[at]);
   if (std::count(map.marked.begin(), map.marked.end(), true) > 0) map.mark_title = "not trustworthy";
@@ -165,9 +170,18 @@ int run(const Arguments& a, const Context&) {
     write_picture(a.output, heat_map_script(heat_map(a, read_matrix_json(a.input)), format));
     return 0;
   }
+  const CsvTable table = is_json ? CsvTable() : read_csv(a.input);
+  if (!is_json && is_residue_table(table)) {
+    if (a.normalize || !a.metrics.empty() || !a.x.empty())
+      throw InputError("--normalize, --metric and --x are for lines, and " + a.input + " is a table of residues");
+    FrameMap map = residue_map(table);
+    std::tie(map.low, map.high) = chosen_range(a);
+    write_picture(a.output, frame_map_script(map, format));
+    return 0;
+  }
   if (!a.range.empty() || a.order != "given")
     throw InputError("--range and --order are for heat maps; leave out --source, and give a matrix's OUT.json");
-  LinePlot plot = is_json ? one_against_all(a, read_matrix_json(a.input)) : along_table(a, read_csv(a.input));
+  LinePlot plot = is_json ? one_against_all(a, read_matrix_json(a.input)) : along_table(a, table);
   if (a.no_marks) plot.trustworthy.clear();
   plot.normalized = a.normalize;
   write_picture(a.output, line_plot_script(plot, format));
@@ -178,14 +192,17 @@ int run(const Arguments& a, const Context&) {
 
 Verb add_plot(CLI::App& app) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* parser = app.add_subcommand("plot", "Draw a matrix, one variant against all, or a trajectory");
+  CLI::App* parser =
+      app.add_subcommand("plot", "Draw a matrix, one variant against all, or a trajectory and its residues");
   parser->footer(
       "OUT.json of a matrix becomes a heat map, with --source a plot of one variant against all others; a CSV file, "
       "such as "
-      "a\ntrajectory's, becomes lines along its frames. Drawn by gnuplot; text stays text in an SVG.\n\nExamples:\n"
+      "a\ntrajectory's, becomes lines along its frames, and its table of residues a map, a row a residue. Drawn by "
+      "gnuplot; text stays text in an SVG.\n\nExamples:\n"
       "  espdiff plot ubiquitin.json --order dendrogram -o map.svg\n"
       "  espdiff plot ubiquitin.json --source m00 --metric mean_abs_difference --metric rmsd_A --normalize -o m00.png\n"
-      "  espdiff plot adk.csv --metric mean_displacement_A --metric rmsd_A -o adk.svg");
+      "  espdiff plot adk.csv --metric mean_displacement_A --metric rmsd_A -o adk.svg\n"
+      "  espdiff plot adk.residues.csv -o residues.png");
   parser->add_option("FILE", a->input, "OUT.json of a matrix, or a CSV file")->required();
   parser->add_option("-o,--output", a->output, "Picture to write (.png or .svg)")->required();
   parser->add_option("--metric", a->metrics,

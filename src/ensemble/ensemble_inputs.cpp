@@ -168,7 +168,8 @@ LoadedState EnsembleInputs::load(std::size_t number) {
   LoadedState state;
   if (asked.read) {
     state = asked.read(static_cast<std::size_t>(chosen), potential_.takes_everything());
-    if (!has_charges(state.molecule)) take_values(state.molecule, reference.molecule, state.molecule.name);
+    if (!has_charges(state.molecule) && has_charges(reference.molecule))
+      take_values(state.molecule, reference.molecule, state.molecule.name);
   } else {
     if (open_ != replicate) {
       frames_ = nullptr;  // frees the old text first

@@ -82,6 +82,29 @@ Json noise_json(const EnsembleResult& result) {
   return json;
 }
 
+Json regression_json(const EnsembleFile& file, const EnsembleRegression& regression) {
+  const SurfaceRegression& surface = regression.surface;
+  Json json = {{"column", regression.column.name}, {"n_arrangements", surface.n_arrangements},
+               {"exact", surface.exact},           {"smallest_p", surface.smallest_p},
+               {"q2", number(surface.q2)},         {"q2_p", number(surface.q2_p)},
+               {"replicates", Json::array()},      {"patches", Json::array()}};
+  for (std::size_t r = 0; r < regression.column.values.size(); ++r)
+    json["replicates"].push_back({{"group", file.plan().replicates[r].group},
+                                  {"name", file.plan().replicates[r].name},
+                                  {"value", number(regression.column.values[r])},
+                                  {"predicted", number(surface.predicted[r])}});
+  for (const EnsembleRegression::Patch& patch : regression.patches) {
+    Json residues = Json::array();
+    for (const auto& [residue, share] : patch.residues) residues.push_back({{"residue", residue}, {"share", share}});
+    json["patches"].push_back({{"area_A2", patch.patch.area},
+                               {"correlation", number(patch.correlation)},
+                               {"slope", number(patch.slope)},
+                               {"smallest_p", patch.smallest_p},
+                               {"residues", std::move(residues)}});
+  }
+  return json;
+}
+
 Json patches_json(const EnsembleFile& file, const EnsembleResult& result) {
   Json all = Json::array();
   for (std::size_t k = 0; k < result.patches.size(); ++k) {
@@ -150,7 +173,14 @@ Json ensemble_json(const EnsembleFile& file, const EnsembleResult& result) {
     }
   }
   if (result.compares) json["patches"] = patches_json(file, result);
+  if (result.regression) json["regression"] = regression_json(file, *result.regression);
   json["equilibrium"] = {{"holds", result.not_equilibrium.empty()}, {"reasons", result.not_equilibrium}};
+  // Too few frames for a trend.
+  Json not_checked = Json::array();
+  for (const ReplicateSummary& r : result.replicates) {
+    if (!std::isfinite(r.drift.p)) not_checked.push_back({{"group", r.group}, {"name", r.name}});
+  }
+  json["equilibrium"]["not_checked"] = std::move(not_checked);
   json["warnings"] = result.warnings;
   return json;
 }

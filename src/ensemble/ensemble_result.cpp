@@ -191,22 +191,49 @@ struct Analysis {
     find_significant(n_first);
   }
 
+  /// Residues with their shares of a patch's area, largest first.
+  std::vector<std::pair<std::string, double>> shares_of(const SignificantPatch& patch) const {
+    std::map<std::int32_t, double> shares;
+    for (const std::uint32_t v : patch.vertices) shares[file.surface().residue[v]] += result.graph.area[v] / patch.area;
+    std::vector<std::pair<std::string, double>> residues;
+    residues.reserve(shares.size());
+    for (const auto& [index, share] : shares)
+      residues.emplace_back(index < 0 ? "none" : plan().residues.at(static_cast<std::size_t>(index)), share);
+    std::stable_sort(residues.begin(), residues.end(),
+                     [](const auto& a, const auto& b) { return a.second > b.second; });
+    return residues;
+  }
+
+  void regress() {
+    if (!result.options.regression) return;
+    EnsembleRegression regression{
+        *result.options.regression,
+        regress_on_surface(means, result.options.regression->values, result.graph, result.options.test)};
+    const SurfaceRegression& surface = regression.surface;
+    const std::vector<double>& p = result.options.control == ErrorControl::kTfce ? surface.p_tfce : surface.p_max_t;
+    for (SignificantPatch& found : find_patches(p, surface.t, result.options.alpha, result.graph)) {
+      EnsembleRegression::Patch patch;
+      for (const std::uint32_t v : found.vertices) {
+        const double share = result.graph.area[v] / found.area;
+        patch.correlation += share * surface.correlation[v];
+        patch.slope += share * surface.slope[v];
+        patch.smallest_p = std::min(patch.smallest_p, p[v]);
+      }
+      patch.residues = shares_of(found);
+      patch.patch = std::move(found);
+      regression.patches.push_back(std::move(patch));
+    }
+    result.regression = std::move(regression);
+  }
+
   void find_significant(std::size_t n_first) {
     const std::vector<double>& p = result.family_wise();
     std::vector<std::vector<std::uint32_t>> members;
-    const auto& residue = file.surface().residue;
     for (SignificantPatch& found :
          find_patches(p, result.test.vertices.difference, result.options.alpha, result.graph)) {
       EnsemblePatch patch;
-      std::map<std::int32_t, double> shares;
-      for (const std::uint32_t v : found.vertices) {
-        patch.smallest_p = std::min(patch.smallest_p, p[v]);
-        shares[residue[v]] += result.graph.area[v] / found.area;
-      }
-      for (const auto& [index, share] : shares)
-        patch.residues.emplace_back(index < 0 ? "none" : plan().residues.at(static_cast<std::size_t>(index)), share);
-      std::stable_sort(patch.residues.begin(), patch.residues.end(),
-                       [](const auto& a, const auto& b) { return a.second > b.second; });
+      for (const std::uint32_t v : found.vertices) patch.smallest_p = std::min(patch.smallest_p, p[v]);
+      patch.residues = shares_of(found);
       members.push_back(found.vertices);
       result.significant_area_A2 += found.area;
       patch.patch = std::move(found);
@@ -338,6 +365,7 @@ EnsembleResult analyse_ensemble(const EnsembleFile& file, const EnsembleOptions&
   if (a.result.groups.size() == 2) a.test(columns);
   a.summarize_residues();
   a.measure_fixed_patches();
+  a.regress();
   a.judge_equilibrium();
   a.warn();
   return std::move(a.result);

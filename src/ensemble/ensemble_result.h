@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ensemble/ensemble_columns.h"
+#include "ensemble/regression_column.h"
 #include "ensemble/states.h"
 #include "ensemble/template_check.h"
 #include "statistics/drift.h"
@@ -38,6 +39,7 @@ struct EnsembleOptions {
   Equilibration equilibration;
   SurfaceTestOptions test;
   std::vector<FixedPatch> fixed_patches;  ///< names and residues
+  std::optional<RegressionColumn> regression;
 };
 
 /// A replicate in numbers.
@@ -96,9 +98,10 @@ struct EnsembleResult {
   std::vector<EnsemblePatch> patches;
   PlaceTests patch_tests;
   std::vector<FixedPatch> fixed_patches;
-  PlaceTests fixed_patch_tests;                ///< p of each alone: a patch chosen beforehand needs no correction
-  std::vector<TemplateCheck> template_checks;  ///< where they were asked for; see check_template()
-  std::optional<StateTable> states;            ///< where they were asked for; see compare_states()
+  PlaceTests fixed_patch_tests;                  ///< p of each alone: a patch chosen beforehand needs no correction
+  std::vector<TemplateCheck> template_checks;    ///< where they were asked for; see check_template()
+  std::optional<StateTable> states;              ///< where they were asked for; see compare_states()
+  std::optional<EnsembleRegression> regression;  ///< of the options' column
   /// Why the replicates are not samples of states in equilibrium; empty where nothing speaks against it.
   std::vector<std::string> not_equilibrium;
   std::vector<std::string> warnings;

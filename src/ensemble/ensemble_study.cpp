@@ -37,6 +37,9 @@ std::vector<FixedPatch> fixed_patches(const std::vector<std::string>& asked, con
   return patches;
 }
 
+/// The file of FILE.csv:COLUMN.
+std::string file_of_column(const std::string& text) { return text.substr(0, text.rfind(':')); }
+
 /// A study while it runs.
 class Study {
  public:
@@ -45,9 +48,11 @@ class Study {
     if (study.options.input.has_region())
       throw InputError(option("region") +
                        ": an ensemble tells residues and patches of the whole surface; leave it out");
-    std::vector<std::string> outputs = ensemble_outputs(study.run.output, true);
+    if (!study.regress.empty()) regression_ = read_regression_column(study.regress, inputs_.plan());
+    std::vector<std::string> outputs = ensemble_outputs(study.run.output, true, regression_.has_value());
     outputs.push_back(ensemble_path(study.run.output, study.run.shard));
     std::vector<std::string> read = study.read_files;
+    read.push_back(file_of_column(study.regress));
     const std::vector<std::string> files = inputs_.files();
     read.insert(read.end(), files.begin(), files.end());
     check_outputs(read, outputs);
@@ -60,6 +65,7 @@ class Study {
   void run(Engine& engine, EnsembleAnswer& answer) {
     answer.device = engine.description();
     EnsembleOptions statistics = study_.statistics;
+    statistics.regression = regression_;
     inputs_.choose_template(study_.inputs.template_text, progress_);
     // A wrong selection is refused before the work. Patches are of the first template.
     statistics.fixed_patches = fixed_patches(study_.patches, *inputs_.source().molecule);
@@ -97,6 +103,7 @@ class Study {
   const EnsembleStudy& study_;
   const Progress& progress_;
   EnsembleInputs inputs_;
+  std::optional<RegressionColumn> regression_;
 };
 
 void open_earlier(const EnsembleStudy& study, const Progress& progress, EnsembleAnswer& answer) {
@@ -105,10 +112,13 @@ void open_earlier(const EnsembleStudy& study, const Progress& progress, Ensemble
                      " does not read; name the groups, with " + switched_on("resume"));
   if (!study.inputs.replicates.empty())
     throw InputError(option("from") + " reads mapped frames from a file; leave out the groups");
-  check_outputs({study.from}, ensemble_outputs(study.run.output, true));
+  check_outputs({study.from, file_of_column(study.regress)},
+                ensemble_outputs(study.run.output, true, !study.regress.empty()));
   answer.file = std::make_unique<EnsembleFile>(study.from, false);
+  EnsembleOptions statistics = study.statistics;
+  if (!study.regress.empty()) statistics.regression = read_regression_column(study.regress, answer.file->plan());
   progress.report("statistics", 1.0);
-  answer.result = std::make_unique<EnsembleResult>(analyse_ensemble(*answer.file, study.statistics));
+  answer.result = std::make_unique<EnsembleResult>(analyse_ensemble(*answer.file, statistics));
 }
 
 }  // namespace

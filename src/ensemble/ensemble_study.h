@@ -25,6 +25,7 @@ struct EnsembleStudy {
   EnsembleRun run;
   EnsembleOptions statistics;
   std::vector<std::string> patches;     ///< NAME=SELECTION, in gemmi's syntax, of the template
+  std::string regress;                  ///< FILE.csv:COLUMN; see read_regression_column()
   bool check_template = false;          ///< also through the medoid of each group
   bool states = false;                  ///< also each frame with each other one
   std::string from;                     ///< a complete file: its statistics, without mapping; then without `inputs`

@@ -4,6 +4,9 @@
 #include <cstdarg>
 #include <cstdio>
 #include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "ensemble/ensemble_file.h"
 #include "ensemble/ensemble_result.h"
@@ -74,12 +77,12 @@ void print_fixed_patches(std::ostream& out, const EnsembleResult& result, const 
 }
 
 /// The largest shares, until they are most of the patch.
-std::string main_residues(const EnsemblePatch& patch) {
+std::string main_residues(const std::vector<std::pair<std::string, double>>& residues) {
   std::string text;
   double sum = 0;
-  for (std::size_t i = 0; i < patch.residues.size() && i < 3 && sum < 0.75; ++i) {
-    text += (text.empty() ? "" : ", ") + patch.residues[i].first + print(" %.0f %%", 100 * patch.residues[i].second);
-    sum += patch.residues[i].second;
+  for (std::size_t i = 0; i < residues.size() && i < 3 && sum < 0.75; ++i) {
+    text += (text.empty() ? "" : ", ") + residues[i].first + print(" %.0f %%", 100 * residues[i].second);
+    sum += residues[i].second;
   }
   return text;
 }
@@ -98,9 +101,30 @@ void print_patches(std::ostream& out, const EnsembleResult& result, const std::s
     const PlaceTests& t = result.patch_tests;
     out << print("%-6zu %9.1f %12.3f %20s %8.3g  %s\n", k + 1, result.patches[k].patch.area, t.difference[k],
                  print("%.3f to %.3f", t.low[k], t.high[k]).c_str(), result.patches[k].smallest_p,
-                 main_residues(result.patches[k]).c_str());
+                 main_residues(result.patches[k].residues).c_str());
   }
   if (result.patches.size() > kMost) out << "... and " << result.patches.size() - kMost << " smaller ones\n";
+}
+
+void print_regression(std::ostream& out, const EnsembleResult& result, const std::string& unit) {
+  if (!result.regression) return;
+  const EnsembleRegression& regression = *result.regression;
+  const SurfaceRegression& surface = regression.surface;
+  std::size_t n = 0;
+  double area = 0;
+  for (const double value : regression.column.values) n += std::isfinite(value) ? 1U : 0U;
+  for (const EnsembleRegression::Patch& patch : regression.patches) area += patch.patch.area;
+  out << print("\nregression on %.40s of %zu replicates, %s%zu orders\n", regression.column.name.c_str(), n,
+               surface.exact ? "all " : "", surface.n_arrangements);
+  out << print("  predicted from the others: Q2 %.3f, p %.3g\n", surface.q2, surface.q2_p);
+  out << print("  significant: %.1f A2 of %.1f A2, family-wise p <= %.3g by %s; smallest possible p %.3g\n", area,
+               result.tested_area_A2, result.options.alpha,
+               result.options.control == ErrorControl::kTfce ? "TFCE" : "max-t", surface.smallest_p);
+  for (std::size_t k = 0; k < std::min<std::size_t>(10, regression.patches.size()); ++k) {
+    const EnsembleRegression::Patch& patch = regression.patches[k];
+    out << print("  %-4zu %8.1f A2  r %6.3f  %.3g %s per unit, p %.3g  %.40s\n", k + 1, patch.patch.area,
+                 patch.correlation, patch.slope, unit.c_str(), patch.smallest_p, main_residues(patch.residues).c_str());
+  }
 }
 
 void print_residues(std::ostream& out, const EnsembleResult& result) {
@@ -175,11 +199,13 @@ void print_ensemble(std::ostream& out, const EnsembleFile& file, const EnsembleR
     print_template_checks(out, result);
   }
   print_fixed_patches(out, result, unit);
+  print_regression(out, result, unit);
   print_states(out, file, result);
   for (const std::string& warning : result.warnings) out << "\nwarning: " << warning << '\n';
   if (result.not_equilibrium.empty()) return;
-  out << "\nNOT AN EQUILIBRIUM ANSWER: what is significant above says that these runs differ, not that the\n"
-         "states do.\n";
+  out << "\nNOT AN EQUILIBRIUM ANSWER: "
+      << (result.compares ? "what is significant above says that these runs differ, not that the\nstates do.\n"
+                          : "the means above are of these runs, not of the state.\n");
   for (const std::string& reason : result.not_equilibrium) out << "  " << reason << '\n';
 }
 

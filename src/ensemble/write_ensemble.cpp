@@ -65,6 +65,14 @@ void write_surface(std::ostream& out, const EnsembleFile& file, const EnsembleRe
   } else {
     vtp.active_scalars = "potential_source";
   }
+  if (result.regression) {
+    const SurfaceRegression& r = result.regression->surface;
+    add("regression_correlation", r.correlation);
+    add("regression_slope", r.slope);
+    add("regression_t", r.t);
+    add("regression_p_max_t", r.p_max_t);
+    add("regression_p_tfce", r.p_tfce);
+  }
   for (std::size_t k = 0; result.states && k < result.states->components.size(); ++k) {
     const std::vector<double>& mode = result.states->components[k].mode;
     kept.push_back(std::make_unique<std::vector<float>>(mode.begin(), mode.end()));
@@ -149,17 +157,28 @@ void write_series(std::ostream& out, const EnsembleFile& file, const EnsembleRes
   }
 }
 
+/// Each replicate's value, and what the others predict.
+void write_regression(std::ostream& out, const EnsembleFile& file, const EnsembleRegression& regression) {
+  write_csv_row(out, {"group", "replicate", regression.column.name, "predicted"});
+  for (std::size_t r = 0; r < regression.column.values.size(); ++r) {
+    const EnsembleReplicate& replicate = file.plan().replicates[r];
+    write_csv_row(out, {replicate.group, replicate.name, csv_number(regression.column.values[r]),
+                        csv_number(regression.surface.predicted[r])});
+  }
+}
+
 }  // namespace
 
-std::vector<std::string> ensemble_outputs(const std::string& prefix, bool compares) {
+std::vector<std::string> ensemble_outputs(const std::string& prefix, bool compares, bool regresses) {
   std::vector<std::string> paths = {prefix + ".json", prefix + ".vtp", prefix + ".residues.csv"};
   if (compares) paths.insert(paths.end(), {prefix + ".patches.csv", prefix + ".patch_series.csv"});
+  if (regresses) paths.push_back(prefix + ".regression.csv");
   return paths;
 }
 
 std::vector<std::string> write_ensemble(const std::string& prefix, const EnsembleFile& file,
                                         const EnsembleResult& result) {
-  const std::vector<std::string> paths = ensemble_outputs(prefix, result.compares);
+  const std::vector<std::string> paths = ensemble_outputs(prefix, result.compares, result.regression.has_value());
   std::vector<std::unique_ptr<AtomicFile>> files;
   std::vector<AtomicFile*> all;
   for (const std::string& path : paths) {
@@ -173,6 +192,7 @@ std::vector<std::string> write_ensemble(const std::string& prefix, const Ensembl
     write_patches(files[3]->stream(), file, result);
     write_series(files[4]->stream(), file, result);
   }
+  if (result.regression) write_regression(files.back()->stream(), file, *result.regression);
   commit_all(all);
   return paths;
 }

@@ -91,8 +91,9 @@ int add_reader(void* readers, molfile::PluginHead* plugin) {
 }
 
 void load_plugin(const fs::path& path, std::vector<MolfileReader>& readers) {
-  // It stays loaded: readers point into it. One that cannot be loaded, for want of a library of its own, is left out.
-  void* const library = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
+  // It stays loaded: readers point into it. One that cannot be loaded, for want of a library or a function, is left
+  // out; found missing at the call, a function would end the program.
+  void* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) return;
   const auto init = reinterpret_cast<int (*)()>(dlsym(library, "vmdplugin_init"));
   const auto announce =
@@ -125,6 +126,8 @@ const std::vector<MolfileReader>& molfile_readers(const std::string& folder) {
   const auto [entry, is_new] = of_folder.try_emplace(folder);
   if (is_new) {
     const QuietOutput quiet;
+    // Plugins in C++ do not name its library, and take the program's. Python's programs have none for them.
+    dlopen("libstdc++.so.6", RTLD_LAZY | RTLD_GLOBAL);
     std::error_code problem;
     std::vector<fs::path> files;
     for (const auto& file : fs::directory_iterator(folder, problem)) {

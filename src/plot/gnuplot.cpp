@@ -2,6 +2,7 @@
 #include "plot/gnuplot.h"
 
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <sstream>
 
@@ -10,6 +11,7 @@
 #include "io/run_program.h"
 #include "io/text_cursor.h"
 #include "io/write_csv.h"
+#include "plot/colour_map.h"
 
 namespace espdiff {
 namespace {
@@ -62,6 +64,19 @@ std::string gnuplot_tic(const std::string& text) {
   std::string format;
   for (const char c : text) format += c == '%' ? std::string("%%") : std::string(1, c);
   return gnuplot_string(format);
+}
+
+std::string gnuplot_palette(bool diverging) {
+  constexpr int kSteps = 64;
+  std::string text = "set palette defined (";
+  for (int i = 0; i <= kSteps; ++i) {
+    const double t = static_cast<double>(i) / kSteps;
+    const Rgb c = diverging ? diverging_colour(t, kRedBlue) : sequential_colour(t);
+    char hex[8];
+    std::snprintf(hex, sizeof hex, "#%02x%02x%02x", c.red, c.green, c.blue);
+    text += (i == 0 ? "" : ", ") + std::to_string(i) + " '" + hex + "'";
+  }
+  return text + ")\n";
 }
 
 std::string gnuplot_number(double value) { return std::isfinite(value) ? csv_number(value, 9) : "NaN"; }

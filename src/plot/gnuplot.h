@@ -26,6 +26,9 @@ std::string gnuplot_tic(const std::string& text);
 /// A number in gnuplot's syntax; NaN as `NaN`.
 std::string gnuplot_number(double value);
 
+/// Sets the palette of a map of values: diverging_colour() from red to blue, or sequential_colour().
+std::string gnuplot_palette(bool diverging);
+
 /// Runs a script and returns the picture.
 /// @throws DeviceError (gnuplot is missing, with the package to install; it failed, with its message)
 std::string run_gnuplot(const std::string& script);

@@ -16,24 +16,8 @@ constexpr const char* kInk = "#202020";
 constexpr const char* kNoValue = "#ececec";
 constexpr double kTreeShare = 0.18;  // height above the matrix, as a fraction of its side
 
-std::string hex(Rgb c) {
-  char text[8];
-  std::snprintf(text, sizeof text, "#%02x%02x%02x", c.red, c.green, c.blue);
-  return text;
-}
-
 Rgb colour_at(const HeatMap& map, double t) {
   return map.diverging ? diverging_colour(t, kRedBlue) : sequential_colour(t);
-}
-
-std::string palette(const HeatMap& map) {
-  constexpr int kSteps = 64;
-  std::string text = "set palette defined (";
-  for (int i = 0; i <= kSteps; ++i) {
-    const double t = static_cast<double>(i) / kSteps;
-    text += (i == 0 ? "" : ", ") + std::to_string(i) + " '" + hex(colour_at(map, t)) + "'";
-  }
-  return text + ")\n";
 }
 
 /// Picture and margins in points.
@@ -230,7 +214,7 @@ std::string heat_map_script(const HeatMap& map, PictureFormat format) {
   const auto n = static_cast<double>(order.size());
   const double above = l.top / l.cell;  // in cells
   std::ostringstream s;
-  s << picture_head(format, l.size) << palette(map) << cells(map, order, low, high);
+  s << picture_head(format, l.size) << gnuplot_palette(map.diverging) << cells(map, order, low, high);
   s << "unset border\nunset key\nset lmargin at screen " << l.left / l.size.width << "\nset rmargin at screen "
     << 1 - l.right / l.size.width << "\nset bmargin at screen " << l.bottom / l.size.height
     << "\nset tmargin at screen 1\n"

@@ -24,15 +24,20 @@ std::string line_of(const std::vector<std::string>& cells) {
   return line.str();
 }
 
-/// The head's lines, without `# `.
-std::vector<std::string> head_of(const std::string& quantity, const std::string& fingerprint) {
-  return {"residues: " + quantity, "trajectory: " + fingerprint};
+constexpr const char* kFingerprint = "trajectory: ";
+
+/// The quantity of the head's first line; empty for another file.
+std::string quantity_of(const std::vector<std::string>& comments) {
+  const std::string word = ResidueCsv::kHeadWord;
+  if (comments.size() != 2 || comments[0].rfind(word, 0) != 0) return {};
+  const std::string rest = comments[0].substr(word.size());
+  return rest.substr(0, rest.find(' '));
 }
 
 }  // namespace
 
 std::string residue_column(const Residue& residue) {
-  std::string name = residue.name + std::to_string(residue.number);
+  std::string name = residue.name + " " + std::to_string(residue.number);
   if (residue.insertion_code != ' ') name += residue.insertion_code;
   return residue.chain.empty() ? name : residue.chain + ":" + name;
 }
@@ -50,11 +55,11 @@ void ResidueCsv::resume(const std::vector<std::string>& frames, const std::strin
                      "; the residues of a run are written from its first frame on" + anew);
   const std::string lines = complete_lines(file_.text());
   const CsvTable table = parse_csv(lines, path());
-  if (table.comments.size() != 2 || table.columns.front() != kFrame)
+  const std::string quantity = quantity_of(table.comments);
+  if (quantity.empty() || table.columns.front() != kFrame)
     throw FormatError(path(), 1, "this is not a trajectory's table of residues; give another file");
-  const std::string quantity = table.comments[0].substr(table.comments[0].find(' ') + 1);
   if (quantity_.empty()) quantity_ = quantity;
-  if (table.comments != head_of(quantity_, fingerprint))
+  if (quantity != quantity_ || table.comments[1] != kFingerprint + fingerprint)
     throw InputError(path() + ": has " + quantity + " of another run, or " + quantity_ + " was asked for" + anew);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const std::string there = i < table.rows.size() ? "frame " + table.rows[i][0] : "missing";
@@ -72,7 +77,9 @@ void ResidueCsv::resume(const std::vector<std::string>& frames, const std::strin
 }
 
 ResidueLine ResidueCsv::row(int frame, const Molecule& source, const CompareResult& result) const {
-  ResidueLine row{quantity_.empty() ? usual_residue_quantity(result) : quantity_, {kFrame}, {std::to_string(frame)}};
+  ResidueLine row{
+      quantity_.empty() ? usual_residue_quantity(result) : quantity_, "", {kFrame}, {std::to_string(frame)}};
+  row.unit = residue_unit(result, row.quantity);
   for (const ResidueRow& residue : result.residues)
     row.columns.push_back(residue_column(source.residues[residue.residue]));
   for (const double value : residue_values(result, row.quantity))
@@ -87,8 +94,8 @@ ResidueLine ResidueCsv::row(int frame, const Molecule& source, const CompareResu
 void ResidueCsv::add(const ResidueLine& row, const std::string& fingerprint) {
   std::string text;
   if (columns_.empty()) {
-    for (const std::string& line : head_of(row.quantity, fingerprint)) text += "# " + line + "\n";
-    text += line_of(row.columns);
+    text = std::string("# ") + kHeadWord + row.quantity + (row.unit.empty() ? "" : " [" + row.unit + "]") + "\n# " +
+           kFingerprint + fingerprint + "\n" + line_of(row.columns);
     file_.truncate(0);
     columns_ = row.columns;
     quantity_ = row.quantity;

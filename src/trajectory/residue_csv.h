@@ -13,13 +13,16 @@ struct CompareResult;
 
 /// A row, and the head that the file gets with its first one.
 struct ResidueLine {
-  std::string quantity;
+  std::string quantity, unit;
   std::vector<std::string> columns, cells;
 };
 
 /// The file beside a trajectory's CSV file (SeriesCsv), with the frames that have numbers there.
 class ResidueCsv {
  public:
+  /// Its first line is this, the quantity, and its unit in brackets.
+  static constexpr const char* kHeadWord = "residues: ";
+
   /// @param quantity of residue_quantities(); empty: usual_residue_quantity()
   /// @throws as AppendedFile; InputError (there is no such quantity)
   ResidueCsv(std::string path, std::string quantity, ExistingFile existing);
@@ -42,7 +45,7 @@ class ResidueCsv {
   std::vector<std::string> columns_;  ///< of the file; empty before its head is written
 };
 
-/// "A:LYS12", with its insertion code; without a chain "LYS12".
+/// "A:LYS 12", with its insertion code; without a chain "LYS 12".
 std::string residue_column(const Residue& residue);
 
 }  // namespace espdiff

@@ -77,10 +77,13 @@ namespace eval ::espdiff::gui {
     proc is_signed {metric} { string match "*signed difference" [dict get $metric title] }
 
     proc heat_colour {name value low high} {
+        ramp_colour [expr {$name eq "mean_signed_difference" ? "diverging" : "sequential"}] \
+            [expr {($value - $low) / double($high - $low)}]
+    }
+
+    proc ramp_colour {kind share} {
         variable colours
-        set kind [expr {$name eq "mean_signed_difference" ? "diverging" : "sequential"}]
         if {![info exists colours($kind)]} { set colours($kind) [::espdiff::core::colours $kind 101] }
-        set share [expr {($value - $low) / double($high - $low)}]
         return [lindex $colours($kind) [expr {int(round(100 * max(0.0, min(1.0, $share))))}]]
     }
 

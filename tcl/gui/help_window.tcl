@@ -33,6 +33,11 @@ frame. Hollow points are not trustworthy. A click on a point, or the arrow keys,
 
 7. Matrix compares each of many states with every other one. A click on a cell compares and draws its pair.
 
+8. Ensembles compares two groups of simulations. Each molecule with its frames is a replicate; four or more in each
+group can show a difference of the states. The difference is drawn where it is more than noise, the rest is faded. A
+click on a patch turns it to the front and plots its mean in every frame; a click in the plot shows that frame. Stop
+keeps the frames; with "resume", Run computes the rest.
+
 Script shows the Tcl commands that repeat your actions in a new VMD; `espdiff help` in VMD's console explains them. Your entries are
 remembered for the next session, except molecules and files.
 

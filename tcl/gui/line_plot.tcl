@@ -9,15 +9,23 @@ namespace eval ::espdiff::gui {
         variable widget
         variable plot_frame
         variable trajectory_rows
+        variable residue_layout
         if {![info exists widget(trajectory,plot)] || ![winfo exists $widget(trajectory,plot)]} return
         set plot $widget(trajectory,plot)
         $plot delete all
         set plot_frame {}
+        set residue_layout {}
         show_trajectory_running
         set metric [chosen_trajectory_metric]
         if {$metric eq ""} {
             $plot create text [expr {[winfo width $plot] / 2}] [expr {[winfo height $plot] / 2}] -fill gray40 \
                 -text "Each frame becomes a point here as soon as it is compared."
+            return
+        }
+        if {[shows_residue_map]} {
+            draw_residue_map $plot
+            mark_now
+            tell_chosen_point
             return
         }
         lassign $metric column title unit factor
@@ -213,8 +221,10 @@ namespace eval ::espdiff::gui {
         if {![info exists widget(trajectory,plot)] || ![winfo exists $widget(trajectory,plot)]} return
         $widget(trajectory,plot) delete now
         set mol [trajectory_molecule]
-        if {$plot_frame eq "" || $mol eq ""} return
+        if {$mol eq ""} return
         set frame [molinfo $mol get frame]
+        if {[shows_residue_map]} { mark_frame_of_map $frame; return }
+        if {$plot_frame eq ""} return
         dict with plot_frame {
             if {$frame < $x_low || $frame > $x_high} return
             set x [plot_x $frame]

@@ -5,13 +5,14 @@ namespace eval ::espdiff::gui {
     # one of these words.
     variable remembered {
         source,sel text target,sel text matrix,sel text trajectory,sel text trajectory,frames text
-        matrix,output text trajectory,csv text draw,low text draw,high text draw,limit text
+        matrix,output text ensemble,output text ensemble,sel text trajectory,csv text draw,low text draw,high text draw,limit text
         draw,legend switch matrix,ordered switch trajectory,skip switch
         residues,falling switch residues,face switch residues,least text draw,range {auto given} draw,surface {target source}
         draw,color {difference sign source target slip displacement path_length none}
         draw,uncertain {fade transparent plain} draw,off_target {uncertain mark hide} draw,view {single linked}
         matrix,potential {none automatic Poisson-Boltzmann "PME, explicit water" "Coulomb, vacuum" "data set 0 of each"}
-        trajectory,against {"the frame" "the frame before"} residues,sort text
+        ensemble,potential {automatic Poisson-Boltzmann "PME, explicit water" "Coulomb, vacuum"}
+        ensemble,control {TFCE max-t} trajectory,against {"the frame" "the frame before"} residues,sort text
     }
     variable remembered_head "# espdiff: settings of the window, version 1"
     variable were_read 0  ;# the file is read once per session

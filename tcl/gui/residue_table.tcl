@@ -3,6 +3,7 @@
 namespace eval ::espdiff::gui {
     variable residues_of ""     ;# handle of the residues in the table
     variable residue_rows {}    ;# its `espdiff residues`
+    variable region_row {}      ;# the region's numbers under the residues' keys, and its residues; empty for none
     variable highlighted ""     ;# handle with a highlight in VMD
     variable form
     array set form {residues,sort share residues,falling 1 residues,face 1 residues,least 0}
@@ -107,6 +108,7 @@ namespace eval ::espdiff::gui {
             remove_highlight
             set residues_of $shown
             set residue_rows [expr {$shown eq "" ? {} : [with_shares [espdiff residues $shown]]}]
+            set_region_row
             $widget(residues,table) selection set {}
             tell_in residues [residue_hint]
             fill_residues
@@ -131,6 +133,30 @@ namespace eval ::espdiff::gui {
             lappend result [dict set row share $value]
         }
         return $result
+    }
+
+    # The region's own numbers, of OUT.json; what it has no number for stays empty.
+    proc set_region_row {} {
+        variable shown
+        variable residue_rows
+        variable residue_columns
+        variable region_row {}
+        if {$shown eq "" || [catch { espdiff result $shown region } region] || ![dict exists $region residues]} return
+        foreach {key heading of_potentials decimals factor} $residue_columns {
+            dict set region_row $key [::espdiff::value_or $region $key ""]
+        }
+        set n [dict get $region n_residues]
+        dict set region_row residue "Region ($n)"
+        dict set region_row residues [dict get $region residues]
+        set area [dict get $region area_A2 valid]
+        dict set region_row area_A2 $area
+        set sum 0.0
+        foreach row $residue_rows {
+            if {[dict get $row mean_abs_difference] eq ""} continue
+            set sum [expr {$sum + [dict get $row area_A2] * [dict get $row mean_abs_difference]}]
+        }
+        set difference [dict get $region_row mean_abs_difference]
+        if {$sum > 0 && $difference ne ""} { dict set region_row share [expr {$area * $difference / $sum}] }
     }
 
     # The selected residues: the structure that they belong to, and their names with chain and number.
@@ -223,29 +249,38 @@ namespace eval ::espdiff::gui {
     proc fill_residues {} {
         variable form
         variable widget
-        variable residue_columns
-        variable residue_rows
+        variable region_row
         set table $widget(residues,table)
         set selected [$table selection]
         $table delete [$table children {}]
         set_residue_headings
+        # Above the residues, in any order.
+        if {$region_row ne ""} {
+            $table tag configure region -font [bold_font]
+            $table insert {} end -id region -tags region -values [residue_cells $region_row [dict get $region_row residue]]
+        }
         foreach row [sorted_residues] {
-            set cells {}
-            foreach {key heading of_potentials decimals factor} $residue_columns {
-                if {$key eq "residue"} { lappend cells [residue_name $row]; continue }
-                set value [dict get $row $key]
-                # Not in an expression, which would drop trailing zeros.
-                set text \u2013
-                if {$value ne ""} { set text [format %.*f $decimals [expr {$factor * $value}]] }
-                lappend cells $text
-            }
-            $table insert {} end -id [dict get $row index] -values $cells
+            $table insert {} end -id [dict get $row index] -values [residue_cells $row [residue_name $row]]
         }
         set still {}
         foreach item $selected { if {[$table exists $item]} { lappend still $item } }
         if {$still ne ""} { $table selection set $still; $table see [lindex $still 0] }
         # Start of the arrow keys.
         $table focus [lindex [concat $still [$table children {}]] 0]
+    }
+
+    proc residue_cells {row name} {
+        variable residue_columns
+        set cells {}
+        foreach {key heading of_potentials decimals factor} $residue_columns {
+            if {$key eq "residue"} { lappend cells $name; continue }
+            set value [dict get $row $key]
+            # Not in an expression, which would drop trailing zeros.
+            set text \u2013
+            if {$value ne ""} { set text [format %.*f $decimals [expr {$factor * $value}]] }
+            lappend cells $text
+        }
+        return $cells
     }
 
     # Hides the columns of potentials if there are none.
@@ -306,13 +341,18 @@ namespace eval ::espdiff::gui {
             if {$highlighted ne ""} { remove_highlight; tell_in residues [residue_hint] }
             return
         }
+        set names {}
+        foreach item $chosen { lappend names [lindex [$widget(residues,table) item $item -values] 0] }
+        if {"region" in $chosen} {
+            variable region_row
+            set chosen [lsort -integer -unique [concat [lsearch -all -inline -not -exact $chosen region] \
+                [dict get $region_row residues]]]
+        }
         set words [list $chosen]
         if {$form(residues,face)} { lappend words -face 1 }
         set molecules [espdiff highlight $shown {*}$words]
         set highlighted $shown
         remember $shown highlight [concat highlight $words]
-        set names {}
-        foreach item $chosen { lappend names [lindex [$widget(residues,table) item $item -values] 0] }
         if {[llength $names] > 6} { set names [concat [lrange $names 0 5] ...] }
         tell_in residues "[join $names {, }] highlighted in [expr {[llength $molecules] == 1 ? "molecule"
             : "molecules"}] [join $molecules { and }]."

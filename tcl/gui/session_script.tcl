@@ -6,7 +6,7 @@ namespace eval ::espdiff::gui {
     variable done [dict create]
     # By molecule of VMD: the lines that load it again.
     variable loading [dict create]
-    # By handle, and for `trajectory` and `matrix`: the molecules of VMD that they need.
+    # By handle, and for `trajectory`, `matrix` and `ensemble`: the molecules of VMD that they need.
     variable needed [dict create]
     variable prepared [dict create]  ;# by PQR file: the words after `espdiff` that made it
 
@@ -80,21 +80,22 @@ namespace eval ::espdiff::gui {
     proc script_words {options} { ::espdiff::script_words $options [molecule_variables] }
 
     # A script that repeats from nothing what was done in the window: the shown comparison with its drawing, the
-    # trajectory, the matrix.
+    # trajectory, the matrix, the ensemble.
     proc session_text {} {
         variable shown
         variable needed
         variable loading
         remember_script_molecules $shown
         set molecules {}
-        foreach what [list $shown trajectory matrix] {
+        foreach what [list $shown trajectory matrix ensemble] {
             if {[dict exists $needed $what]} { lappend molecules {*}[dict get $needed $what] }
         }
         set lines {"package require espdiff"}
         foreach mol [lsort -integer -unique $molecules] {
             if {[dict exists $loading $mol]} { lappend lines {*}[dict get $loading $mol] }
         }
-        lappend lines {*}[pair_lines $shown] {*}[trajectory_lines] {*}[matrix_lines]
+        lappend lines {*}[pair_lines $shown] {*}[trajectory_lines] {*}[matrix_lines] \
+            {*}[ensemble_lines]
         return [join $lines \n]\n
     }
 
@@ -155,6 +156,26 @@ namespace eval ::espdiff::gui {
         }
     }
 
+    proc ensemble_lines {} {
+        variable ensemble_run
+        variable done
+        if {$ensemble_run eq ""} { return {} }
+        dict with ensemble_run {
+            set text "set groups \[list"
+            foreach {group list} $groups {
+                append text " \\\n    [list $group] \[list"
+                foreach replicate $list { append text " [script_word $replicate]" }
+                append text "\]"
+            }
+            set lines [list "$text\]" "set ensemble \[espdiff ensemble \$groups[option_lines \
+                [concat $options {-overwrite 1} $settings]]\]" {puts [espdiff table $ensemble]}]
+        }
+        if {[dict exists $done ensemble draw]} {
+            lappend lines "espdiff draw \$ensemble [lrange [dict get $done ensemble draw] 1 end]"
+        }
+        return $lines
+    }
+
     # Options, each on a continuation line.
     proc option_lines {options} {
         set text ""
@@ -166,7 +187,8 @@ namespace eval ::espdiff::gui {
         variable shown
         variable trajectory_run
         variable matrix_run
-        if {$shown eq "" && $trajectory_run eq "" && $matrix_run eq ""} {
+        variable ensemble_run
+        if {$shown eq "" && $trajectory_run eq "" && $matrix_run eq "" && $ensemble_run eq ""} {
             error "nothing has been done yet that a script could repeat; press Compare first"
         }
         text_window script "espdiff: script of this session" [session_text]

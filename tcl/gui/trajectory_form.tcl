@@ -5,8 +5,8 @@ namespace eval ::espdiff::gui {
     array set form {trajectory,mol "" trajectory,file "" trajectory,sel "not water" trajectory,frames all
         trajectory,against "the frame" trajectory,reference 0 trajectory,map automatic trajectory,unit "as the map says"
         trajectory,csv trajectory.csv trajectory,resume 0 trajectory,skip 0
-        trajectory,steps 0}
-    variable references {"the frame" "the frame before"}
+        trajectory,steps 0 trajectory,residues 0 trajectory,other ""}
+    variable references {"the frame" "the frame before" "the same frame of"}
     variable automatic_trajectory ""  ;# the molecule chosen automatically, until the user chooses
 
     proc build_trajectory {path} {
@@ -64,16 +64,27 @@ namespace eval ::espdiff::gui {
         ttk::spinbox $path.against.frame -textvariable ::espdiff::gui::form(trajectory,reference) -width 6 -from 0 \
             -to 999999 -increment 1
         bind $path.against.what <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::update_trajectory}
+        set tip "The other trajectory, whose frame of the same number each frame is compared with"
+        if {[in_vmd]} {
+            ttk::combobox $path.against.other -textvariable ::espdiff::gui::form(trajectory,other) -state readonly \
+                -width 8 -postcommand {::espdiff::gui::guard ::espdiff::gui::update_trajectory}
+            append tip ": a molecule with its frames"
+        } else {
+            ttk::entry $path.against.other -textvariable ::espdiff::gui::form(trajectory,other) -width 8
+            append tip ": a file with its models"
+        }
+        tip $path.against.other $tip
         pack $path.against.what -side left -fill x -expand 1
         pack $path.against.frame -side left -padx {4 0}
-        form_row $path 1 Against $path.against "What each frame is compared with: one frame for all, or the frame\
-            before it in the run" 2
+        form_row $path 1 Against $path.against "What each frame is compared with: one frame for all, the frame before\
+            it in the run, or the frame of the same number of another trajectory" 2
         tip $path.against.what "What each frame is compared with"
         tip $path.against.frame "Number of the reference frame"
         grid configure $path.label_against -padx {16 6}
         foreach name {frames against} { set widget(trajectory,$name) $path.$name }
         set widget(trajectory,against) $path.against.what
         set widget(trajectory,reference) $path.against.frame
+        set widget(trajectory,other) $path.against.other
     }
 
     proc build_output_rows {path} {
@@ -100,7 +111,10 @@ namespace eval ::espdiff::gui {
         ttk::checkbutton $path.options.skip -text "skip what fails" -variable ::espdiff::gui::form(trajectory,skip)
         tip $path.options.resume "Resume an interrupted run in this file, with the same frames and settings"
         tip $path.options.skip "A frame that cannot be compared becomes a row with the reason, and the run continues"
-        pack $path.options.resume $path.options.skip -side left -padx {0 10}
+        ttk::checkbutton $path.options.residues -text "residues" -variable ::espdiff::gui::form(trajectory,residues)
+        tip $path.options.residues "Also write one value of each residue for each frame, into a second CSV file, and\
+            offer it below as a map (Metric: By residue)"
+        pack $path.options.resume $path.options.skip $path.options.residues -side left -padx {0 10}
         grid $path.options -row 3 -column 2 -columnspan 2 -sticky w -padx {16 0}
         ttk::label $path.note -text "The settings are those of the tab Pair." -foreground gray40
         grid $path.note -row 4 -column 0 -columnspan 2 -sticky w
@@ -112,7 +126,7 @@ namespace eval ::espdiff::gui {
         foreach name {map unit} { set widget(trajectory,$name) $path.$name }
         set widget(trajectory,csv) $path.csv.name
         set widget(trajectory,steps) $path.steps
-        foreach name {resume skip} { set widget(trajectory,$name) $path.options.$name }
+        foreach name {resume skip residues} { set widget(trajectory,$name) $path.options.$name }
     }
 
     # VMD's current molecules and data sets.
@@ -139,6 +153,15 @@ namespace eval ::espdiff::gui {
         $widget(trajectory,map) configure -values $maps
         $widget(trajectory,reference) state [expr {$form(trajectory,against) eq [lindex $references 0] ? "!disabled"
             : "disabled"}]
+        # One of both has the place beside the list.
+        set is_other [expr {$form(trajectory,against) eq [lindex $references 2]}]
+        pack forget $widget(trajectory,reference) $widget(trajectory,other)
+        pack $widget(trajectory,[expr {$is_other ? "other" : "reference"}]) -side left -padx {4 0}
+        if {$is_other && [in_vmd]} {
+            set others [lsearch -all -inline -not -exact [molecule_names] $form(trajectory,mol)]
+            $widget(trajectory,other) configure -values $others
+            if {$form(trajectory,other) ni $others} { set form(trajectory,other) [most_frames $others] }
+        }
         show_trajectory_running
     }
 
@@ -190,8 +213,10 @@ namespace eval ::espdiff::gui {
         lappend options -frames [string trim $form(trajectory,frames)]
         if {$form(trajectory,against) eq [lindex $references 0]} {
             lappend options -reference [list frame [string trim $form(trajectory,reference)]]
-        } else {
+        } elseif {$form(trajectory,against) eq [lindex $references 1]} {
             lappend options -reference previous
+        } else {
+            lappend options -reference [list {*}[other_trajectory] frame same]
         }
         set map [trajectory_map]
         if {$map ne ""} { lappend options -map $map }
@@ -201,6 +226,15 @@ namespace eval ::espdiff::gui {
         if {$form(trajectory,skip)} { lappend options -on-error skip }
         if {$form(trajectory,steps)} { lappend options -start previous }
         return $options
+    }
+
+    proc other_trajectory {} {
+        variable form
+        set other [string trim $form(trajectory,other)]
+        if {$other eq ""} {
+            error "Against: [expr {[in_vmd] ? "there is no other molecule with frames; load one" : "no file is given"}]"
+        }
+        return [expr {[in_vmd] ? [list mol [number_of $other]] : [list file $other]}]
     }
 
     # In the form of -map; empty for the usual potential.

@@ -28,6 +28,11 @@ namespace eval ::espdiff::gui {
     }
 
     proc tell_point_at {x y} {
+        if {[shows_residue_map]} {
+            set cell [residue_cell_at $x $y]
+            if {$cell eq ""} { tell_chosen_point } else { tell_residue_cell {*}$cell }
+            return
+        }
         set row [point_near $x $y]
         if {$row eq ""} { tell_chosen_point } else { tell_row $row }
     }
@@ -36,7 +41,10 @@ namespace eval ::espdiff::gui {
         variable widget
         variable chosen_point
         variable trajectory_rows
-        if {$chosen_point ne ""} {
+        variable chosen_residue
+        if {[shows_residue_map] && $chosen_residue ne ""} {
+            tell_residue_cell $chosen_residue [chosen_column]
+        } elseif {$chosen_point ne ""} {
             tell_row $chosen_point
         } else {
             $widget(trajectory,point) configure -text [expr {[llength $trajectory_rows] == 0 ? "" : [in_vmd]
@@ -66,6 +74,11 @@ namespace eval ::espdiff::gui {
     proc choose_point_at {x y} {
         variable widget
         focus $widget(trajectory,plot)
+        if {[shows_residue_map]} {
+            set cell [residue_cell_at $x $y]
+            if {$cell ne ""} { choose_residue_cell {*}$cell }
+            return
+        }
         set row [point_near $x $y]
         if {$row ne ""} { choose_point $row }
     }
@@ -88,8 +101,7 @@ namespace eval ::espdiff::gui {
         set frame [dict get [lindex $trajectory_rows $row] frame]
         if {$mol ne "" && $frame < [molinfo $mol get numframes]} { molinfo $mol set frame $frame }
         mark_now
-        mark_point
-        tell_row $row
+        if {[shows_residue_map]} { mark_residue; tell_chosen_point } else { mark_point; tell_row $row }
         show_trajectory_running
     }
 
@@ -114,8 +126,15 @@ namespace eval ::espdiff::gui {
         set options [dict get $trajectory_run options]
         set cells [lindex $trajectory_rows $row]
         set pair {}
+        set reference [dict get $options -reference]
+        set has_other [expr {[llength $reference] == 4}]
         foreach frame [list [dict get $cells reference_frame] [dict get $cells frame]] {
-            if {[dict exists $options -mol]} {
+            if {$has_other && [llength $pair] == 0} {
+                lassign $reference kind other
+                set endpoint [expr {$kind eq "mol" ? [list mol $other frame $frame]
+                    : [list file $other model [expr {$frame + 1}]]}]
+                if {$kind eq "mol" && [dict exists $options -sel]} { lappend endpoint sel [dict get $options -sel] }
+            } elseif {[dict exists $options -mol]} {
                 set endpoint [list mol [dict get $options -mol] frame $frame]
                 if {[dict exists $options -sel]} { lappend endpoint sel [dict get $options -sel] }
             } else {

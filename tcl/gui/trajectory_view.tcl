@@ -49,6 +49,9 @@ namespace eval ::espdiff::gui {
         foreach {key step} {Left -1 Right 1 Home -1000000 End 1000000} {
             bind $path.plot <$key> [list ::espdiff::gui::guard ::espdiff::gui::move_point $step]
         }
+        foreach {key step} {Up -1 Down 1} {
+            bind $path.plot <$key> [list ::espdiff::gui::guard ::espdiff::gui::move_residue $step]
+        }
         bind $path.plot <space> {::espdiff::gui::press trajectory,compare; break}
         set widget(trajectory,plot) $path.plot
         set widget(trajectory,point) $path.point.text
@@ -68,15 +71,17 @@ namespace eval ::espdiff::gui {
         if {$trajectory_running ne ""} return
         set csv [string trim $form(trajectory,csv)]
         if {$csv eq ""} { error "Results: no name is given" }
+        # What is wrong with them is told before the question about the file.
+        set options [trajectory_options]
+        set settings [setting_options all]
         set output [list -csv $csv]
+        if {$form(trajectory,residues)} { lappend output -residues [residue_file_of $csv] }
         if {$form(trajectory,resume)} {
             lappend output -resume 1
         } elseif {[file exists $csv]} {
             if {![confirm_overwrite $csv]} return
             lappend output -overwrite 1
         }
-        set options [trajectory_options]
-        set settings [setting_options all]
         tell_in trajectory ""
         set ::espdiff::gui::trajectory_begun [clock milliseconds]
         set trajectory_running [espdiff trajectory {*}$options {*}$output {*}$settings \
@@ -87,6 +92,7 @@ namespace eval ::espdiff::gui {
         remember_trajectory
         set trajectory_rows [expr {$form(trajectory,resume) ? [rows_of $csv] : {}}]
         set chosen_point ""
+        forget_residue_map
         show_trajectory_running
         draw_trajectory
     }
@@ -108,6 +114,7 @@ namespace eval ::espdiff::gui {
     proc add_row {frame row} {
         variable trajectory_rows
         lappend trajectory_rows $row
+        guard_in trajectory ::espdiff::gui::read_residue_table
         guard_in trajectory ::espdiff::gui::draw_trajectory
     }
 
@@ -197,6 +204,8 @@ namespace eval ::espdiff::gui {
             settings [setting_options all]]
         remember_trajectory
         set chosen_point ""
+        forget_residue_map
+        read_residue_table
         tell_in trajectory "[llength $rows] rows of [file tail $path]"
         show_trajectory_running
         draw_trajectory
@@ -217,6 +226,11 @@ namespace eval ::espdiff::gui {
         if {[string tolower [file extension $path]] in {.ps .eps}} {
             $widget(trajectory,plot) postscript -file $path -colormode color
             tell_in trajectory "Written: $path, as it is seen here"
+            return
+        }
+        if {[shows_residue_map]} {
+            espdiff plot [residue_file_of [dict get $trajectory_run output -csv]] -file $path
+            tell_in trajectory "Written: $path"
             return
         }
         set metric [lindex [chosen_trajectory_metric] 0]
@@ -246,8 +260,10 @@ namespace eval ::espdiff::gui {
         }
         set titles {}
         foreach metric $offered { lappend titles [lindex $metric 1] }
-        $widget(trajectory,metric) configure -values $titles
+        set by_residue [residue_map_title]
+        $widget(trajectory,metric) configure -values [concat $titles [expr {$by_residue eq "" ? {} : [list $by_residue]}]]
         if {$titles eq ""} { return {} }
+        if {$by_residue ne "" && $form(trajectory,metric) eq $by_residue} { return [lindex $offered 0] }
         if {$form(trajectory,metric) ni $titles} {
             set usual [lindex [::espdiff::shown_metric [::espdiff::usual_metric [expr {$unit ne ""}]] $unit] 0]
             set form(trajectory,metric) [expr {$usual in $titles ? $usual : [lindex $titles 0]}]

@@ -12,8 +12,8 @@ namespace eval ::espdiff::gui {
     variable is_hidden 0        ;# the window was closed by VMD's menu, which keeps it
 
     foreach part {widgets scrolled endpoint_form prepare_form presets settings_form run_bar result_view draw_form session_script
-        help_window matrix_form matrix_view heat_map residue_table trajectory_form trajectory_view trajectory_point
-        line_plot remembered} {
+        help_window matrix_form matrix_view heat_map residue_table trajectory_form trajectory_view trajectory_point residue_map
+        line_plot ensemble_form ensemble_view ensemble_series remembered} {
         source [file join [file dirname [info script]] $part.tcl]
     }
     unset part
@@ -58,7 +58,7 @@ namespace eval ::espdiff::gui {
         set widget(tabs) [ttk::notebook $window.tabs -takefocus 0]
         ttk::notebook::enableTraversal $window.tabs
         foreach {name title build} {pair Pair build_pair residues Residues build_residues
-            trajectory Trajectory build_trajectory matrix Matrix build_matrix} {
+            trajectory Trajectory build_trajectory matrix Matrix build_matrix ensemble Ensembles build_ensemble} {
             $build [ttk::frame $window.tabs.$name]
             $window.tabs add $window.tabs.$name -text $title
         }
@@ -134,10 +134,10 @@ namespace eval ::espdiff::gui {
         variable window
         foreach key {<Return> <KP_Enter>} {
             bind $window $key {::espdiff::gui::press_of_tab {pair compare trajectory trajectory,run
-                matrix matrix,compute}}
+                matrix matrix,compute ensemble ensemble,compute}}
         }
         bind $window <Escape> {::espdiff::gui::press_of_tab {pair cancel residues residues,clear
-            trajectory trajectory,cancel matrix matrix,cancel}}
+            trajectory trajectory,cancel matrix matrix,cancel ensemble ensemble,cancel}}
         bind $window <F1> ::espdiff::gui::show_help
         bind $window <Control-w> ::espdiff::gui::close_window
     }
@@ -147,7 +147,7 @@ namespace eval ::espdiff::gui {
         if {[dict exists $buttons [open_tab]]} { press [dict get $buttons [open_tab]] }
     }
 
-    # pair, residues, trajectory or matrix.
+    # pair, residues, trajectory, matrix or ensemble.
     proc open_tab {} {
         variable widget
         winfo name [$widget(tabs) select]
@@ -181,12 +181,13 @@ namespace eval ::espdiff::gui {
         if {![winfo exists $window]} return
         # An error about a molecule is out of date when the molecules change.
         set molecules [expr {[in_vmd] ? [molecule_names] : ""}]
-        if {$molecules ne $known_molecules} { foreach tab {pair residues trajectory matrix} { clear_error $tab } }
+        if {$molecules ne $known_molecules} { foreach tab {pair residues trajectory matrix ensemble} { clear_error $tab } }
         set known_molecules $molecules
         foreach side {source target} { update_endpoint $side }
         if {[in_vmd]} { update_draw }
         update_trajectory
         update_matrix
+        update_ensemble
     }
 
     # The close button, Control-w, and `menu espdiff off` end the same way: runs cancelled, highlight removed, settings
@@ -211,7 +212,8 @@ namespace eval ::espdiff::gui {
         variable running
         variable matrix_running
         variable trajectory_running
-        expr {$running ne "" || $matrix_running ne "" || $trajectory_running ne ""}
+        variable ensemble_running
+        expr {$running ne "" || $matrix_running ne "" || $trajectory_running ne "" || $ensemble_running ne ""}
     }
 
     # An iconified window stays open.
@@ -227,6 +229,7 @@ namespace eval ::espdiff::gui {
             trace_molecules
             show_trajectory_running
             show_matrix_running
+            show_ensemble_running
         }
         update_molecules
         show_results
@@ -240,6 +243,7 @@ namespace eval ::espdiff::gui {
         variable widget
         variable matrix_running
         variable trajectory_running
+        variable ensemble_running
         if {$is_hidden} return
         set is_hidden 1
         foreach {name command} $traced { trace remove variable $name write $command }
@@ -249,12 +253,13 @@ namespace eval ::espdiff::gui {
         hide_tip
         remove_highlight
         if {[winfo exists $widget(residues,table)]} { $widget(residues,table) selection set {} }
-        foreach tab {trajectory matrix} {
+        foreach tab {trajectory matrix ensemble} {
             if {[set ${tab}_running] ne ""} { tell_in $tab "Stopped: the window was closed." }
         }
         abandon_run
         abandon_trajectory
         abandon_matrix
+        abandon_ensemble
     }
 
     # The window was destroyed.

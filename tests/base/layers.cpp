@@ -36,7 +36,7 @@ const Rooms kAllowed = {
     {"view", {"base", "io", "plot"}},
     {"verify", {"base", "io"}},
     {"report", {"base", "align", "engine", "io", "compare", "prepare", "potential"}},
-    {"trajectory", {"base", "align", "engine", "io", "compare", "prepare", "potential", "report"}},
+    {"trajectory", {"base", "align", "engine", "io", "compare", "prepare", "potential", "plot", "report"}},
     {"matrix", {"base", "align", "engine", "io", "compare", "prepare", "potential", "report"}},
     {"ensemble",
      {"base", "align", "engine", "io", "statistics", "compare", "prepare", "potential", "report", "trajectory",

@@ -259,6 +259,57 @@ TEST_CASE("trajectories with the atoms of a structure: the answer of the same fr
   CHECK(contains(in.ensemble("--group wild short.pqr w1.dcd -o bad").err, "w1.dcd"));
 }
 
+TEST_CASE("a value of each replicate is regressed on the surface and predicted from the others") {
+  const Runs in;
+  // The charge of the last atom is the value.
+  std::string group = "--group variant", table = "replicate,charge,note\n";
+  const std::vector<double> charges = {-1, -0.6, -0.1, 0.4, 0.8, 1.2};
+  for (std::size_t r = 0; r < charges.size(); ++r) {
+    std::string text = models(static_cast<int>(r) + 1, true, true);
+    char charge[16];
+    std::snprintf(charge, sizeof charge, "%.4f", charges[r]);
+    for (std::size_t at = 0; (at = text.find("-1.0000 2.2", at)) != std::string::npos; ++at)
+      text.replace(at, 7, charge);
+    const std::string name = "v" + std::to_string(r + 1);
+    in.folder.write(name + ".pqr", text);
+    group += " " + name + ".pqr";
+    table += name + "," + charge + ",x\n";
+  }
+  in.folder.write("charges.csv", table);
+  const Outcome out = in.ensemble(group + " -o out --template 0 --regress charges.csv:charge");
+  INFO(out.err);
+  REQUIRE(out.status == 0);
+  CHECK(contains(out.out, "regression on charge of 6 replicates, all 720 orders"));
+  const auto json = nlohmann::json::parse(read_file(in.folder.file("out.json")))["regression"];
+  CHECK(json["q2"].get<double>() > 0.95);
+  CHECK(json["q2_p"].get<double>() < 0.01);
+  REQUIRE(!json["patches"].empty());
+  CHECK(json["patches"][0]["correlation"].get<double>() > 0.95);
+  CHECK(json["patches"][0]["slope"].get<double>() > 0);
+  for (std::size_t r = 0; r < charges.size(); ++r)
+    CHECK(json["replicates"][r]["predicted"].get<double>() == doctest::Approx(charges[r]).scale(1).epsilon(0.2));
+  CHECK(read_file(in.folder.file("out.regression.csv")).rfind("group,replicate,charge,predicted\nvariant,v1,-1,", 0) ==
+        0);
+  // From the file, with the same bytes.
+  REQUIRE(in.run("ensemble --from out.h5 -q -o again --regress charges.csv:charge").status == 0);
+  CHECK(read_file(in.folder.file("again.regression.csv")) == read_file(in.folder.file("out.regression.csv")));
+  const auto refused = [&](const std::string& regress, const std::string& more) {
+    return in.run("ensemble --from out.h5 -q -o bad --regress " + regress + more).err;
+  };
+  CHECK(refused("charges.csv", "") ==
+        "espdiff: --regress charges.csv is not FILE.csv:COLUMN, such as activities.csv:log_kcat\n");
+  CHECK(contains(refused("charges.csv:size", ""), "size"));
+  CHECK(contains(refused("charges.csv:note", ""), "charges.csv"));
+  in.folder.write("other.csv", "replicate,charge\nv1,1\nw9,2\n");
+  CHECK(refused("other.csv:charge", "") ==
+        "espdiff: other.csv:3: 'w9' is no replicate of this ensemble; there are variant, v1 and 5 others\n");
+  in.folder.write("few.csv", "replicate,charge\nv1,1\nv2,2\nv3,3\nv4,\n");
+  CHECK(refused("few.csv:charge", "") ==
+        "espdiff: a regression needs the values of 4 replicates or more, and there are 3\n");
+  in.folder.write("twice.csv", "replicate,charge\nv1,1\nv1,2\n");
+  CHECK(refused("twice.csv:charge", "") == "espdiff: twice.csv:3: 'v1' stands here a second time\n");
+}
+
 TEST_CASE("outside of the surface the differences are smaller") {
   const Runs in;
   REQUIRE(in.ensemble(in.groups + " -q -o at --template 3").status == 0);

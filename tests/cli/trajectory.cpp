@@ -259,7 +259,7 @@ TEST_CASE("trajectory against trajectory: frame i of one molecule against frame 
   CHECK(std::stod(column(folder.file("a.csv"), "mean_abs_difference")[1]) ==
         doctest::Approx(pair["mean_abs_difference"].get<double>()).epsilon(0.02));
   CHECK(column(folder.file("r.csv"), "frame") == std::vector<std::string>{"0", "1", "2"});
-  CHECK_FALSE(column(folder.file("r.csv"), "A:ALA1")[2].empty());
+  CHECK_FALSE(column(folder.file("r.csv"), "A:ALA 1")[2].empty());
   CHECK(run_espdiff(call).err.find(": the file exists; --resume goes on with it") != std::string::npos);
   CHECK(run_espdiff(call + " --resume").status == 0);
 

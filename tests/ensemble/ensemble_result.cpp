@@ -124,6 +124,10 @@ TEST_CASE("a run that drifts is no sample of a state, and the answer says so") {
   const auto json = ensemble_json(file, result);
   CHECK(json.at("equilibrium").at("holds") == false);
   CHECK(json.at("equilibrium").at("reasons").size() == 1);
+  CHECK(json.at("equilibrium").at("not_checked").empty());
+  plant_file(folder.file("short.h5"), planted_plan(4, 4, 9), -1, 12);
+  const EnsembleFile few(folder.file("short.h5"), false);
+  CHECK(ensemble_json(few, analyse_ensemble(few, {})).at("equilibrium").at("not_checked").size() == 8);
 }
 
 TEST_CASE("a single run of few effective samples is no sample of a state") {

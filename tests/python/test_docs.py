@@ -8,8 +8,21 @@ import subprocess
 
 import pytest
 
+import espdiff
+
+ENSEMBLES = pathlib.Path(__file__).resolve().parents[1] / "data" / "ensembles"
 TEXT = (pathlib.Path(__file__).resolve().parents[2] / "docs" / "python.md").read_text()
-BLOCKS = re.findall(r"```python\n(.*?)```", TEXT, re.DOTALL)
+
+
+def block(heading, number=0):
+    """Python's lines below a heading of the page."""
+    section = re.search(rf"^## {heading}$(.*?)(?=^## |\Z)", TEXT, re.DOTALL | re.MULTILINE).group(1)
+    return re.findall(r"```python\n(.*?)```", section, re.DOTALL)[number]
+
+
+def run(lines, **variables):
+    exec(compile(lines, "docs/python.md", "exec"), variables)
+    return variables
 
 
 def unpack(name, to):
@@ -29,8 +42,7 @@ def test_a_pair(tmp_path, monkeypatch, capsys):
     for name in ("1t24", "1t2e"):
         unpack(name, tmp_path / "demo-output" / f"{name}.pdb")
     monkeypatch.chdir(tmp_path)
-    variables = {}
-    exec(compile(BLOCKS[0], "docs/python.md", "exec"), variables)
+    variables = run(block("A pair"))
     assert "Mean absolute difference" in capsys.readouterr().out
     assert sorted(path.name for path in tmp_path.glob("ldh*")) == [
         "ldh.json", "ldh.residues.csv", "ldh.source.pqr", "ldh.target.pqr", "ldh.vtp"]
@@ -44,11 +56,22 @@ def test_many_states(data, tmp_path, monkeypatch):
     for model, name in (("m01.pqr", "a.pqr"), ("m02.pqr", "b.pqr"), ("m03.pqr", "c.pqr"), ("m01.pqr", "reference.pqr")):
         shutil.copy(models / model, tmp_path / name)
     monkeypatch.chdir(tmp_path)
-    lines = BLOCKS[1].replace('potential="pb"', 'potential="none", grid_spacing=2').replace(
+    lines = block("Many states").replace('potential="pb"', 'potential="none", grid_spacing=2').replace(
         'output="abc"', 'output="abc", potential="none", grid_spacing=2').replace("mean_abs_difference", "mean_displacement_A")
-    variables = {"frames": ["b.pqr"], "espdiff": __import__("espdiff")}
-    exec(compile(lines, "docs/python.md", "exec"), variables)
+    variables = run(lines, frames=["b.pqr"], espdiff=espdiff)
     assert variables["m"]["mean_displacement_A"].shape == (3, 3)
+
+
+def test_trajectories(data, tmp_path, monkeypatch):
+    for name in ("adk.psf", "adk_dims.dcd"):
+        (tmp_path / name).symlink_to(data / "traj_adk" / name)
+    monkeypatch.chdir(tmp_path)
+    lines = block("Trajectories").replace("frames[-1])", 'frames[-1], potential="none", grid_spacing=2.5)')
+    try:
+        variables = run(lines, espdiff=espdiff)
+    except espdiff.DeviceError:
+        pytest.skip("SKIPPED: VMD's molfile plugins are absent; put `vmd` on PATH, or set VMDDIR")
+    assert len(variables["frames"]) == 98 and variables["r"].metrics["rmsd_A"] > 5
 
 
 def test_mdanalysis(data, tmp_path, monkeypatch):
@@ -58,6 +81,41 @@ def test_mdanalysis(data, tmp_path, monkeypatch):
             pytest.skip(f"SKIPPED: {name} is not among the real inputs")
         (tmp_path / name).symlink_to(data / "traj_adk" / name)
     monkeypatch.chdir(tmp_path)
-    lines = BLOCKS[2].replace("threads=1)", 'threads=1, potential="none", grid_spacing=2.5)').replace("n_workers=4", "n_workers=2").replace(
-        "step=10", "stop=2")
-    exec(compile(lines, "docs/python.md", "exec"), {})
+    quick = 'threads=1, potential="none", grid_spacing=2.5)'
+    lines = block("MDAnalysis").replace("threads=1)", quick).replace("n_workers=4", "n_workers=2").replace("step=10", "stop=2")
+    run(lines.replace("mean_abs_difference", "mean_displacement_A"))
+
+
+@pytest.mark.filterwarnings("ignore:.*replicates")
+def test_groups_of_simulations(tmp_path, monkeypatch, capsys):
+    for name in ("wild", "mutant"):
+        (tmp_path / f"{name}.pqr").symlink_to(ENSEMBLES / f"trpcage_{name}.pqr")
+        for i in (1, 2):
+            (tmp_path / f"{name}_{i}.pdb.gz").symlink_to(ENSEMBLES / f"trpcage_{name}_{i}.pdb.gz")
+    monkeypatch.chdir(tmp_path)
+    lines = block("Groups of simulations").replace("0:10:end", "0:60:end").replace('="groups"', '="groups", potential="coulomb"')
+    result = run(lines, espdiff=espdiff)["e"]
+    assert "template" in capsys.readouterr().out and result.n_frames == 8
+    mda = pytest.importorskip("MDAnalysis", reason="SKIPPED: no MDAnalysis")
+    universes = {f"{name[0]}{i}": mda.Universe(f"{name}_{i}.pdb.gz") for name in ("wild", "mutant") for i in (1, 2)}
+    lines = block("MDAnalysis", 1).replace('output="groups"', 'output="again", charges={"wild": "wild.pqr", "mutant": "mutant.pqr"}, potential="coulomb"')
+    again = run(lines.replace("step=10", "step=60").replace("n_workers=4", "n_workers=2"), **universes)["run"]
+    assert again.results.n_frames == 8
+
+
+def test_many_processes(data, tmp_path, monkeypatch):
+    pytest.importorskip("distributed", reason="SKIPPED: no dask.distributed")
+    mda = pytest.importorskip("MDAnalysis", reason="SKIPPED: no MDAnalysis")
+    from espdiff.mda import SurfacePotential
+
+    for i, name in enumerate("abc", 1):
+        shutil.copy(data / "series19_ubq_2k39" / f"m0{i}.pqr", tmp_path / f"{name}.pqr")
+    monkeypatch.chdir(tmp_path)
+    universe = mda.Universe(str(data / "traj_adk" / "adk.psf"), str(data / "traj_adk" / "adk_dims.dcd"))
+    analysis = SurfacePotential(universe.select_atoms("resid 1:60"), potential="none", grid_spacing=2.5, threads=1)
+    lines = block("Many processes, many machines").replace('output="abc"', 'output="abc", potential="none", grid_spacing=2.5')
+    lines = lines.replace("threads_per_worker=1", "threads_per_worker=1, dashboard_address=None").replace("step=10", "stop=2")
+    variables = run(lines, espdiff=espdiff, run=analysis)
+    variables["client"].cluster.close()
+    variables["client"].close()
+    assert len(analysis.results.frames) == 2 and len(variables["m"].labels) == 3

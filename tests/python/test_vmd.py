@@ -134,6 +134,20 @@ def test_surfaces_and_matrices(package, pair, tmp_path):
     assert np.array_equal(matrix["mean_displacement_A"], same["mean_displacement_A"], equal_nan=True)
 
 
+@pytest.mark.filterwarnings("ignore:.*replicates")
+def test_ensembles(package, tmp_path):
+    from test_groups import CHARGES, GROUPS, OUTPUTS, QUICK
+
+    chosen = {name: value for name, value in QUICK.items() if name != "potential"}
+    made = package.ensemble(GROUPS, tmp_path / "tcl", charges=CHARGES, map="coulomb", **chosen)
+    alone = espdiff.ensemble(GROUPS, charges=CHARGES, output=tmp_path / "python", **QUICK)
+    for ending in OUTPUTS:
+        assert (tmp_path / f"tcl{ending}").read_bytes() == (tmp_path / f"python{ending}").read_bytes(), ending
+    for name in ("positions", "triangles", "difference", "p_family_wise"):
+        assert np.array_equal(getattr(made, name), getattr(alone, name), equal_nan=True), name
+    assert len(made.patches) == len(alone.patches) and "template" in str(made)
+
+
 def test_trajectories(package, data, tmp_path):
     frames = data / "nmr" / "1l2y.pdb"
     run = package.trajectory(file=frames, csv=tmp_path / "rows.csv", frames="0:2", map="none", grid_spacing=2, reference=0)

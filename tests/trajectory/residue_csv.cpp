@@ -28,6 +28,7 @@ Molecule molecule() {
 CompareResult result(double first) {
   CompareResult made;
   made.has_potential = true;
+  made.unit = espdiff::PotentialUnit::kKtPerE;
   for (std::size_t r = 0; r < 3; ++r) {
     ResidueRow row;
     row.residue = r;
@@ -40,7 +41,8 @@ CompareResult result(double first) {
 
 void add(ResidueCsv& file, int frame, double value) { file.add(file.row(frame, molecule(), result(value)), "abc"); }
 
-constexpr const char* kHead = "# residues: mean_abs_difference\n# trajectory: abc\nframe,A:LYS12,A:GLY12B,HEM1\n";
+constexpr const char* kHead =
+    "# residues: mean_abs_difference [kT/e]\n# trajectory: abc\nframe,A:LYS 12,A:GLY 12B,HEM 1\n";
 
 }  // namespace
 

@@ -3,28 +3,19 @@ source [file join $env(ESPDIFF_TESTS) support.tcl]
 package require espdiff
 
 set quick {-grid-spacing 1.6 -map coulomb}
-set folder [file normalize [file join $env(ESPDIFF_TESTS) .. data ensembles]]
-
-# A run with charges; VMD does not read compressed files.
-proc load_run {state number} {
-    global folder scratch
-    set pdb $scratch/$state$number.pdb
-    exec gzip -dc $folder/trpcage_${state}_$number.pdb.gz > $pdb
-    set mol [mol new $pdb type pdb first 0 last 99 step 20 waitfor all]
-    # Charges and radii of the PQR file's atoms of the same names.
-    set pqr [mol new $folder/trpcage_$state.pqr type pqr waitfor all]
-    set from [atomselect $pqr all]
-    foreach atom [$from get {resid name}] values [$from get {charge radius}] { set known($atom) $values }
-    set to [atomselect $mol all]
-    set values {}
-    foreach atom [$to get {resid name}] { lappend values $known($atom) }
-    $to set {charge radius} $values
-    $from delete
-    $to delete
-    mol delete $pqr
-    mol rename $mol ${state}_$number
-    return $mol
+source [file join $env(ESPDIFF_TESTS) ensemble_support.tcl]
+# Before anything is loaded: VMD may reserve gigabytes for frames, and a process of that size may not fork.
+set words {}
+foreach state {wild mutant} {
+    lappend words --group $state
+    foreach number {1 2 3 4} { lappend words $folder/trpcage_${state}_$number.pdb.gz }
+    lappend words --charges $state=$folder/trpcage_$state.pqr
 }
+exec $env(ESPDIFF) ensemble {*}$words --frames 0:20:99 -o $scratch/cli -q --grid-spacing 1.6 --potential coulomb 2>@1
+set box [input box_tz2/tz2.truncoct.parm7]
+set frames [input box_tz2/tz2.truncoct_from_nc.dcd]
+exec $env(ESPDIFF) ensemble --group tz2 $box $frames --frames 0:3:9 --template 0 --radii element -o $scratch/box -q \
+    --grid-spacing 1.6 2>@1
 foreach state {wild mutant} {
     foreach number {1 2 3 4} { lappend runs($state) [list mol [load_run $state $number]] }
 }
@@ -34,13 +25,6 @@ test "molecules with frames: the difference that files give, at the mutant's res
     check_equal frames [molinfo [lindex $runs(wild) 0 1] get numframes] 5
     set h [espdiff ensemble $groups -output $scratch/vmd {*}$quick]
     check_equal frames [espdiff result $h frames] 40
-    set words {}
-    foreach state {wild mutant} {
-        lappend words --group $state
-        foreach number {1 2 3 4} { lappend words $folder/trpcage_${state}_$number.pdb.gz }
-        lappend words --charges $state=$folder/trpcage_$state.pqr
-    }
-    exec $env(ESPDIFF) ensemble {*}$words --frames 0:20:99 -o $scratch/cli -q --grid-spacing 1.6 --potential coulomb 2>@1
     set files [espdiff ensemble {} -from $scratch/cli.h5 -output $scratch/from]
     foreach keys {{area_A2} {test mean_abs_difference} {noise_floor replicates_across_groups}} {
         check_close $keys [espdiff result $h {*}$keys] [espdiff result $files {*}$keys] 1e-4
@@ -50,16 +34,42 @@ test "molecules with frames: the difference that files give, at the mutant's res
     check "sign" {[espdiff result $h test mean_abs_difference] > 0}
 }
 
+test "pme with the water of VMD's molecule, in the cell of each frame: as from the files" {
+    set mol [mol new $box type parm7 waitfor all]
+    mol addfile $frames type dcd first 0 last 9 step 3 waitfor all $mol
+    set water [espdiff ensemble [list tz2 [list [list mol $mol radii element]]] -output $scratch/water -template 0 \
+        -grid-spacing 1.6]
+    set files [espdiff ensemble {} -from $scratch/box.h5 -output $scratch/box]
+    check_equal potential [espdiff result $water plan potential] [espdiff result $files plan potential]
+    check "pme" {[string match "pme*" [espdiff result $water plan potential]]}
+    foreach key {mean_potential mean_rmsd_A} {
+        check_close $key [dict get [lindex [espdiff result $water replicates] 0] $key] \
+            [dict get [lindex [espdiff result $files replicates] 0] $key] 1e-3
+    }
+    check_close area [espdiff result $water area_A2] [espdiff result $files area_A2] 1e-4
+    espdiff delete $water $files
+    mol delete $mol
+}
+
 test "it is drawn: the difference, faded where it is not significant" {
     set molecules [espdiff draw $h]
     check "molecules" {[llength $molecules] >= 2}
     check_equal view [molinfo [lindex $molecules 0] get center_matrix] \
         [molinfo [lindex $runs(wild) 0 1] get center_matrix]
+    check_equal title [::espdiff::ensemble_title $h difference] "Potential difference, mutant - wild"
     set n [llength [espdiff patches $h]]
     check_refused { espdiff draw $h -patch 99 } {ESPDIFF INPUT} "has $n patch"
     check_refused { espdiff draw $h -view linked } {ESPDIFF INPUT} "-view linked"
     check_refused { espdiff draw $h -color slip } {ESPDIFF INPUT} "is not difference, source, target or t"
     espdiff draw $h -color target -uncertain plain
+    save_state $scratch/state.vmd
+    set channel [open $scratch/state.vmd]
+    set state [read $channel]
+    close $channel
+    check "saved" {[regexp {espdiff draw \[(espdiff ensemble \{\} -from \S+ -output \S+)\] [^\n]*-color target} $state whole again]}
+    set from [eval $again]
+    check_equal "the same answer" [espdiff result $from test] [espdiff result $h test]
+    espdiff delete $from
     if {$n > 0} { espdiff draw $h -patch 1 }
     espdiff undraw $h
 }

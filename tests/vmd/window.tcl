@@ -88,6 +88,7 @@ test "AdK's trajectory: rows come, and the plot with them" {
     pause 100
     tab trajectory
     check "the trajectory is chosen" {[string match "$adk: adk*" $::espdiff::gui::form(trajectory,mol)]}
+    press trajectory,residues
     form trajectory,sel protein trajectory,frames 0:30:end trajectory,map "PME, explicit water" \
         trajectory,csv $scratch/adk.csv
     press trajectory,run
@@ -114,6 +115,30 @@ test "a click on a point goes to its frame; keys too; VMD's frame is marked" {
     animate goto 90
     update
     check "the mark follows" {[lindex [[widget trajectory,plot] coords now] 0] > $at + 50}
+}
+
+test "a click on the map of residues goes to the frame, and highlights the residue there" {
+    set lines $::espdiff::gui::form(trajectory,metric)
+    form trajectory,metric [lindex [[widget trajectory,metric] cget -values] end]
+    event generate [widget trajectory,metric] <<ComboboxSelected>>
+    update
+    set reps [molinfo $adk get numreps]
+    set residues [dict get $::espdiff::gui::residue_table residues]
+    set place [lsearch -glob $residues "*LYS 50"]
+    event generate [widget trajectory,plot] <ButtonPress-1> -x [expr {int([::espdiff::gui::frame_x 3])}] \
+        -y [expr {int([::espdiff::gui::residue_y $place])}]
+    update
+    check_equal frame [molinfo $adk get frame] 90
+    check_equal "a representation more" [molinfo $adk get numreps] [expr {$reps + 1}]
+    set chosen [atomselect $adk [lindex [molinfo $adk get "{selection $reps}"] 0]]
+    check_equal "of that residue" [lsort -unique [$chosen get {resname resid}]] {{LYS 50}}
+    $chosen delete
+    check "told" {[string match "Frame 90, *LYS 50: * kT/e in vacuum" [[widget trajectory,point] cget -text]]}
+    form trajectory,metric $lines
+    event generate [widget trajectory,metric] <<ComboboxSelected>>
+    update
+    ::espdiff::gui::move_point -2
+    press trajectory,residues
 }
 
 test "that frame compared and drawn" {

@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+"""matrix_dask.py: a matrix by the workers of Dask, on this machine or in Slurm's queue.
+
+On this machine, with 4 processes:
+    python matrix_dask.py --workers 4 -o matrix *.pqr --potential pb
+In Slurm's queue, 16 jobs of 4 cores each (dask-jobqueue submits them by sbatch):
+    python matrix_dask.py --slurm --workers 16 --cores 4 --memory 8GB --queue short -o matrix *.pqr --potential pb
+
+The files have the bytes of `espdiff matrix`. Was it interrupted? The same line with --resume goes on. Options that are
+not listed by --help are those of `espdiff matrix`.
+"""
+
+import argparse
+import os
+
+from dask.distributed import Client, LocalCluster
+
+import espdiff.dask
+
+
+def parse():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], allow_abbrev=False)
+    parser.add_argument("variants", nargs="+", help="structure files: PQR, PDB, mmCIF")
+    parser.add_argument("-o", "--output", required=True, help="prefix of the results, in a folder that all nodes see")
+    parser.add_argument("--workers", type=int, default=2, help="processes, or jobs in the queue")
+    parser.add_argument("--resume", action="store_true", help="go on with what an interrupted run has left")
+    parser.add_argument("--slurm", action="store_true", help="submit the workers by sbatch")
+    parser.add_argument("--queue", help="partition of Slurm")
+    parser.add_argument("--cores", type=int, default=4, help="of each job")
+    parser.add_argument("--memory", default="8GB", help="of each job")
+    parser.add_argument("--walltime", default="01:00:00", help="of each job")
+    return parser.parse_known_args()
+
+
+def settings(words):
+    """--potential=pb or --potential pb as potential="pb"."""
+    given, words = {}, [part for word in words for part in word.split("=", 1)]
+    for name, value in zip(words[::2], words[1::2]):
+        given[name.lstrip("-").replace("-", "_")] = value
+    return given
+
+
+def make_cluster(arguments):
+    if not arguments.slurm:
+        return LocalCluster(n_workers=arguments.workers, threads_per_worker=1, dashboard_address=None)
+    from dask_jobqueue import SLURMCluster
+
+    cluster = SLURMCluster(
+        queue=arguments.queue, cores=arguments.cores, processes=1, memory=arguments.memory, walltime=arguments.walltime,
+        scheduler_options={"dashboard_address": None}, local_directory=os.environ.get("TMPDIR", "/tmp"))
+    cluster.scale(jobs=arguments.workers)
+    return cluster
+
+
+def main():
+    arguments, words = parse()
+    with make_cluster(arguments) as cluster, Client(cluster) as client:
+        client.wait_for_workers(arguments.workers)
+        matrix = espdiff.dask.matrix(client, arguments.variants, output=arguments.output, resume=arguments.resume,
+                                     parts=4 * arguments.workers, **settings(words))
+    print(matrix)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,271 @@
+"""ensemble(): groups of simulations from files or AtomGroups, in one process or in parts."""
+
+import hashlib
+import json
+import os
+import tempfile
+import warnings
+
+import numpy as np
+
+from . import _core
+from ._functions import _as_settings, _Progress
+from ._inputs import frame_state, is_atomgroup
+
+
+def _checked(name, value, least, most):
+    if not least <= value <= most:
+        raise _core.InputError(f"{name}: {value} is not from {least} to {most}")
+    return value
+
+
+class Frames:
+    """Frames of an AtomGroup, as the engine asks for them, one at a time."""
+
+    def __init__(self, atoms, chosen):
+        self._atoms = atoms.atoms
+        self.chosen = [int(frame) for frame in chosen]
+
+    def __call__(self, number, everything):
+        frame = self.chosen[number]
+        self._atoms.universe.trajectory[frame]
+        return frame_state(self._atoms, f"frame {frame}", everything)
+
+    def sha256(self):
+        """Of the atoms, and of the coordinates and cells of all frames."""
+        trajectory = self._atoms.universe.trajectory
+        trajectory[self.chosen[0]]
+        total = hashlib.sha256(frame_state(self._atoms, "frames", True).sha256.encode())
+        for frame in self.chosen:
+            step = trajectory[frame]
+            total.update(np.ascontiguousarray(step.positions[self._atoms.ix], np.float32))
+            total.update(np.asarray(() if step.dimensions is None else step.dimensions, np.float32))
+        return total.hexdigest()
+
+
+def _atomgroup_replicate(group, name, atoms, frames, role, needs_charges):
+    if len(atoms) == 0:
+        raise _core.InputError(f"{role}: the AtomGroup is empty")
+    if needs_charges and not hasattr(atoms, "charges"):
+        raise _core.InputError(
+            f"{role}: the AtomGroup has no charges; load a topology that has them (PSF, TPR, prmtop), add them, "
+            f"universe.add_TopologyAttr('charges', values), or name a PQR file of the same atoms, charges={{{group!r}: ...}}")
+    universe = atoms.universe
+    if isinstance(frames, str):
+        frames = _core.parse_frames(frames, len(universe.trajectory))
+    elif isinstance(frames, slice):
+        frames = range(len(universe.trajectory))[frames]
+    if len(frames) == 0:
+        raise _core.InputError(f"{role}: no frame is chosen; the trajectory has {len(universe.trajectory)}")
+    read = Frames(atoms, frames)
+    return {"group": group, "name": name, "sha256": read.sha256(), "n_frames": len(read.chosen), "read": read,
+            "origin": f"{name}: {len(atoms)} atoms of {_file_of(universe.trajectory)}"}
+
+
+def _file_of(trajectory):
+    """A universe forgets the name of its topology on its way to another process; a trajectory does not."""
+    return os.path.basename(str(getattr(trajectory, "filename", None) or "")) or "coordinates in memory"
+
+
+def _members(group, given):
+    """[(name or None, replicate)]"""
+    if isinstance(given, dict):
+        return list(given.items())
+    if is_atomgroup(given) or isinstance(given, (str, os.PathLike)):
+        given = [given]
+    return [(None, replicate) for replicate in given]
+
+
+def _groups(groups, frames, charges):
+    """The groups as the engine takes them: files by their names, AtomGroups by functions that read their frames."""
+    made = []
+    for group, given in groups.items():
+        members = []
+        for i, (name, replicate) in enumerate(_members(group, given)):
+            role = f"groups[{group!r}][{i if name is None else repr(name)}]"
+            if isinstance(replicate, (str, os.PathLike)):
+                if name is not None:
+                    raise _core.InputError(f"{role}: files name themselves; give a list of them")
+                members.append(os.fspath(replicate))
+            elif is_atomgroup(replicate):
+                members.append(_atomgroup_replicate(group, name or f"{group}_{i + 1}", replicate, frames, role,
+                                                    group not in charges))
+            else:
+                raise _core.InputError(f"{role}: a {type(replicate).__name__} is no replicate; give a path or an AtomGroup")
+        _refuse_mixed(group, members)
+        made.append((str(group), members))
+    return made
+
+
+def _refuse_mixed(group, members):
+    if len({isinstance(member, str) for member in members}) > 1:
+        raise _core.InputError(f"groups[{group!r}]: files and AtomGroups do not mix in one group; load the files as universes")
+    sizes = {member["origin"].split(": ", 1)[1].split(" ", 1)[0] for member in members if isinstance(member, dict)}
+    if len(sizes) > 1:
+        raise _core.InputError(
+            f"groups[{group!r}]: the AtomGroups are of differing universes, with {' and '.join(sorted(sizes))} atoms; the "
+            "replicates of a group have the same atoms")
+
+
+class Ensemble:
+    """The result of ensemble(). Arrays are NumPy's, read-only views of the engine's (see `espdiff._core.Ensemble`)."""
+
+    def __init__(self, core, folder=None):
+        self._core = core
+        self._folder = folder  # of the mapped frames, where the user named none
+        self._json = None
+
+    def __getattr__(self, name):
+        if name.startswith("__"):
+            raise AttributeError(name)
+        return getattr(self._core, name)
+
+    def __dir__(self):
+        return sorted({*super().__dir__(), *(n for n in dir(self._core) if not n.startswith("_"))})
+
+    def __str__(self):
+        return self._core.table()
+
+    def __repr__(self):
+        return f"<espdiff.Ensemble of {' and '.join(self.means)}, {self.n_frames} frames>"
+
+    def to_dict(self):
+        """The content of OUT.json."""
+        if self._json is None:
+            self._json = json.loads(self._core.json())
+        return self._json
+
+    @property
+    def patches(self):
+        """The significant patches: dicts, as in OUT.json."""
+        return self.to_dict().get("patches", [])
+
+    @property
+    def residues(self):
+        """The table of OUT.residues.csv: a pandas.DataFrame where pandas is installed, else a dict of columns."""
+        return _table(self._core.residue_columns())
+
+    @property
+    def frames(self):
+        """What each frame is and how it was mapped: a pandas.DataFrame where pandas is installed, else columns."""
+        return _table(self._core.frame_columns())
+
+    def plot(self, ax=None, top=None):
+        """Draws each residue's difference with its interval (Matplotlib); returns the axes. Filled: significant."""
+        from ._plots import plot_ensemble
+
+        return plot_ensemble(self, ax, top)
+
+    def to_pyvista(self):
+        """The template's surface as a pyvista.PolyData, with the arrays of OUT.vtp that the test has."""
+        from ._plots import polydata
+
+        arrays = {f"mean_{group}": values for group, values in self.means.items()}
+        if len(self.difference):
+            arrays.update(potential_difference=self.difference, standard_error=self.standard_error, p=self.p,
+                          p_family_wise=self.p_family_wise, patch=self.patch)
+        return polydata(self.positions, self.triangles, {**arrays, "residue_index": self.residue_index})
+
+
+def _table(columns):
+    try:
+        import pandas
+    except ImportError:
+        return columns
+    return pandas.DataFrame(columns)
+
+
+def _order(*, charges=None, frames="all", template="medoid", output="", resume=False, overwrite=False, skip_errors=False,
+           shard=None, from_file=None, patches=None, check_template=False, states=False, alpha=0.05, control="tfce",
+           equilibration="none", most_missing=0.2, arrangements=10000, bootstrap=999, seed=20221, plugins=""):
+    """The order of a study, checked; its defaults are the command line's."""
+    if control not in ("tfce", "max-t"):
+        raise _core.InputError(f"control: {control!r} is not tfce or max-t")
+    return {
+        "charges": {str(group): os.fspath(path) for group, path in (charges or {}).items()},
+        "frames": frames if isinstance(frames, str) else "all", "template": str(template), "output": output,
+        "resume": resume, "overwrite": overwrite, "skip_errors": skip_errors, "shard": shard or "1/1",
+        "from": os.fspath(from_file) if from_file else "",
+        "patches": [f"{name}={selection}" for name, selection in (patches or {}).items()],
+        "check_template": check_template, "states": states, "alpha": _checked("alpha", alpha, 1e-6, 0.5),
+        "control": control, "equilibration": str(equilibration),
+        "most_missing": _checked("most_missing", most_missing, 0, 0.9),
+        "arrangements": _checked("arrangements", arrangements, 20, 1000000),
+        "bootstrap": _checked("bootstrap", bootstrap, 99, 100000), "seed": _checked("seed", seed, 0, 2**63 - 1),
+        "plugins": plugins}
+
+
+ORDER_KEYS = frozenset(_order.__kwdefaults__)
+
+
+def ensemble(groups=None, *, output=None, potential="auto", device="auto", threads=0, progress=None, **options):
+    """Compares two groups of simulations on one template surface: where is the difference more than noise?
+
+    groups: {name: replicates}, two groups, or one to describe it; or the path of a list of them (`espdiff ensemble
+    --help`). Replicates are paths (each file one, or a topology and then trajectories of its atoms), or AtomGroups,
+    whose universes' frames are taken; a dict names them.
+    charges: {group: PQR file}. frames: of each replicate: "all", "0:5:end", ...; of AtomGroups also a slice, or a list of
+    numbers. template: medoid, medoid:GROUP, the
+    number of a frame, or a file. patches: {name: selection} chosen beforehand. check_template, states: see the command.
+    alpha, control, equilibration, most_missing, arrangements, bootstrap, seed: of the statistics.
+    output: prefix of OUT.h5 and the results, the bytes of the command line's; with `resume` a run that broke off goes
+    on. Without it nothing stays but the result. shard: "2/8" maps a part, for espdiff.merge(); it needs `output`.
+    from_file: a complete OUT.h5, of which the statistics alone are computed again; then without groups.
+    Other options are those of compare().
+
+    Returns an Ensemble, None for a shard. What the design cannot show is a warning.
+    """
+    order = {name: value for name, value in options.items() if name in ORDER_KEYS}
+    settings = {name: value for name, value in options.items() if name not in ORDER_KEYS}
+    if output is None and (order.get("shard") or order.get("resume")):
+        raise _core.InputError("output: a part of an ensemble, or one to go on with, needs files")
+    if groups is None and not order.get("from_file"):
+        raise _core.InputError('groups: none is given; name one or two, {"wild": ["w1.pdb", ...], "mutant": [...]}')
+    folder = tempfile.TemporaryDirectory(prefix="espdiff-") if output is None else None
+    made = _order(**order, output=os.path.join(folder.name, "ensemble") if folder else os.fspath(output))
+    universes = {atoms.universe for members in (groups.values() if isinstance(groups, dict) else ())
+                 for _, atoms in _members("", members) if is_atomgroup(atoms)}
+    before = [(universe.trajectory, universe.trajectory.frame) for universe in universes]
+    given = []
+    try:
+        if isinstance(groups, (str, os.PathLike)):
+            made["list"] = os.fspath(groups)
+        elif groups is not None:
+            given = _groups(groups, order.get("frames", "all"), made["charges"])
+        with _Progress(progress, "ensemble") as listener:
+            core = _core.ensemble(given, made, _as_settings(settings), potential, device, threads, listener)
+    finally:
+        for trajectory, frame in before:
+            trajectory[frame]
+    if core is None:
+        return None
+    for text in core.design_warnings:
+        warnings.warn(text, stacklevel=2)
+    return Ensemble(core, folder)
+
+
+def _part(task):
+    groups, options = task
+    ensemble(groups, **options)
+
+
+def ensemble_in_parts(apply, n_parts, groups, output, *, resume=False, overwrite=False, **options):
+    """ensemble() by several processes: apply(function, tasks) runs them; the bytes are those of one process.
+
+    output: in a folder that all of them see.
+    """
+    for name in ("shard", "check_template", "from_file"):
+        if options.get(name):
+            raise _core.InputError(f"{name}: an ensemble in parts does without; leave it out")
+    prefix = os.path.abspath(output)
+    if os.path.exists(prefix + ".h5") and not (resume or overwrite):
+        raise _core.InputError(f"output: {prefix}.h5 exists; set overwrite=True, or name another prefix")
+    if n_parts > 1 and not (resume and os.path.exists(prefix + ".h5")):
+        mapping = {**options, "output": prefix, "resume": resume, "overwrite": overwrite, "progress": None}
+        apply(_part, [(groups, {**mapping, "shard": f"{i + 1}/{n_parts}"}) for i in range(n_parts)])
+        parts = [f"{prefix}.shard-{i + 1}-of-{n_parts}.h5" for i in range(n_parts)]
+        _core.merge_ensemble(parts, prefix, overwrite, None)
+        for path in parts:
+            os.remove(path)
+        resume, overwrite = True, False
+    return ensemble(groups, output=prefix, resume=resume, overwrite=overwrite, **options)

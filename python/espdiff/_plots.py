@@ -1,0 +1,46 @@
+"""Pictures of results: Matplotlib's and PyVista's."""
+
+import numpy as np
+
+
+def polydata(positions, triangles, arrays):
+    """A surface as a pyvista.PolyData with arrays at its vertices."""
+    import pyvista
+
+    triangles = np.asarray(triangles)
+    faces = np.hstack([np.full((len(triangles), 1), 3, dtype=np.int64), triangles.astype(np.int64)])
+    mesh = pyvista.PolyData(np.asarray(positions), faces.ravel())
+    for name, values in arrays.items():
+        mesh.point_data[name] = values
+    return mesh
+
+
+def plot_ensemble(result, ax=None, top=None):
+    """Each residue's difference between the groups with its interval; filled where it is significant."""
+    import matplotlib.pyplot as plt
+
+    columns = result.residue_columns()
+    labels = np.array(columns["residue"])
+    groups = list(result.means)
+    if ax is None:
+        _, ax = plt.subplots(figsize=(8, 3), layout="constrained")
+    compares = "difference" in columns
+    values = np.asarray(columns["difference" if compares else f"mean_{groups[0]}"])
+    chosen = np.flatnonzero(np.isfinite(values))
+    if top is not None:
+        chosen = np.sort(chosen[np.argsort(-np.abs(values[chosen]), kind="stable")[:top]])
+    at = np.arange(len(chosen))
+    if compares:
+        low, high = (np.asarray(columns[name])[chosen] for name in ("low", "high"))
+        significant = np.asarray(columns["p_false_discovery"])[chosen] <= result.to_dict()["options"]["alpha"]
+        ax.vlines(at, low, high, color="#999999", linewidth=1.5)
+        for shown, face in ((significant, "#d55e00"), (~significant, "white")):
+            ax.plot(at[shown], values[chosen][shown], "o", color="#d55e00", markerfacecolor=face, markersize=5)
+        ax.set_ylabel(f"{groups[1]} - {groups[0]} (kT/e)")
+    else:
+        ax.bar(at, values[chosen], width=0.9, color="#d55e00")
+        ax.set_ylabel(f"mean of {groups[0]} (kT/e)")
+    ax.axhline(0, color="black", linewidth=0.6)
+    ax.set_xticks(at, labels[chosen], rotation=90, fontsize=7)
+    ax.margins(x=0.02)
+    return ax

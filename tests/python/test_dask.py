@@ -1,0 +1,132 @@
+"""Matrices, trajectories and ensembles on Dask's workers: the same bytes with 1, 2 and 4 of them."""
+
+import os
+import pathlib
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import espdiff
+from conftest import QUICK, made_arrays
+from test_groups import CHARGES, GROUPS, OUTPUTS
+from test_groups import QUICK as QUICK_GROUPS
+
+distributed = pytest.importorskip("distributed", reason="SKIPPED: no dask.distributed")
+
+import espdiff.dask  # noqa: E402
+
+REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+pytestmark = pytest.mark.filterwarnings("ignore:.*replicates")
+
+
+@pytest.fixture(scope="module")
+def cluster():
+    with distributed.LocalCluster(n_workers=0, threads_per_worker=1, processes=True, dashboard_address=None) as made:
+        yield made
+
+
+@pytest.fixture(params=[1, 2, 4])
+def client(request, cluster):
+    cluster.scale(request.param)
+    with distributed.Client(cluster) as made:
+        made.wait_for_workers(request.param)
+        while len(made.scheduler_info(n_workers=-1)["workers"]) > request.param:
+            pass
+        yield made
+
+
+@pytest.fixture(scope="module")
+def one_process(tmp_path_factory):
+    """Matrix and ensemble in this process, as bytes."""
+    folder = tmp_path_factory.mktemp("whole")
+    espdiff.matrix(states(), ["a", "b", "c"], output=folder / "matrix", **QUICK)
+    espdiff.ensemble(GROUPS, charges=CHARGES, output=folder / "groups", **QUICK_GROUPS)
+    return {path.name: path.read_bytes() for path in folder.iterdir()}
+
+
+def states():
+    return [espdiff.State.from_arrays(**made_arrays(bend), name=name) for bend, name in ((0.0, "a"), (0.02, "b"), (-0.02, "c"))]
+
+
+def test_matrix(client, one_process, tmp_path):
+    made = espdiff.dask.matrix(client, states(), ["a", "b", "c"], output=tmp_path / "matrix", **QUICK)
+    assert made["mean_abs_difference"].shape == (3, 3)
+    for ending in (".csv", ".json"):
+        assert (tmp_path / f"matrix{ending}").read_bytes() == one_process[f"matrix{ending}"]
+    assert not list(tmp_path.glob("*.state"))
+    with pytest.raises(espdiff.InputError, match="output: .*matrix.csv or .*exists; set overwrite=True"):
+        espdiff.dask.matrix(client, states(), ["a", "b", "c"], output=tmp_path / "matrix", **QUICK)
+
+
+def test_ensemble(client, one_process, tmp_path):
+    espdiff.dask.ensemble(client, GROUPS, charges=CHARGES, output=tmp_path / "groups", **QUICK_GROUPS)
+    for ending in OUTPUTS:
+        assert (tmp_path / f"groups{ending}").read_bytes() == one_process[f"groups{ending}"], ending
+
+
+def test_trajectory(client, data):
+    mda = pytest.importorskip("MDAnalysis", reason="SKIPPED: no MDAnalysis")
+    from espdiff.mda import SurfacePotential
+
+    if not hasattr(SurfacePotential, "parallelizable"):
+        pytest.skip("SKIPPED: MDAnalysis before 2.8 has no workers")
+
+    universe = mda.Universe(str(data / "traj_adk" / "adk.psf"), str(data / "traj_adk" / "adk_dims.dcd"))
+    atoms = universe.select_atoms("resid 1:60")
+    options = {"potential": "coulomb", "grid_spacing": 2.5, "threads": 1, "residues": True}
+    one = SurfacePotential(atoms, **options).run(stop=4).results
+    many = SurfacePotential(atoms, **options).run(stop=4, backend=espdiff.dask.Backend(client), unsupported_backend=True).results
+    for name, values in one.metrics.items():
+        assert values.tobytes() == many.metrics[name].tobytes(), name
+    for name, values in one.residue_values.items():
+        assert values.tobytes() == many.residue_values[name].tobytes(), name
+    assert one.residue_labels == many.residue_labels and one.reasons == many.reasons and one.unit == many.unit == "kT/e in vacuum"
+
+
+def test_what_cannot_be(tmp_path):
+    with pytest.raises(espdiff.InputError, match="client: a int is no dask.distributed.Client"):
+        espdiff.dask.matrix(5, states(), output=tmp_path / "m")
+
+
+SBATCH = """#!/usr/bin/env bash
+# A queue of this machine: starts the job at once.
+set -e
+echo "$(date +%s) $*" >>"$QUEUE/submitted"
+cp "${!#}" "$QUEUE/job-$$.sh"
+setsid bash "$QUEUE/job-$$.sh" >"$QUEUE/job-$$.log" 2>&1 </dev/null &
+echo $! >"$QUEUE/$!.pid"
+echo "Submitted batch job $!"
+"""
+
+SCANCEL = """#!/usr/bin/env bash
+for job; do kill -- "-$job" 2>/dev/null || true; done
+"""
+
+
+def test_slurm_example(data, tmp_path):
+    """docs/examples/matrix_dask.py with a queue that runs its jobs here, in the place of Slurm's."""
+    pytest.importorskip("dask_jobqueue", reason="SKIPPED: no dask-jobqueue")
+    queue = tmp_path / "queue"
+    queue.mkdir()
+    for name, text in (("sbatch", SBATCH), ("scancel", SCANCEL)):
+        (queue / name).write_text(text)
+        (queue / name).chmod(0o755)
+    files = []
+    for i in (1, 2, 3):
+        files.append(tmp_path / f"m{i}.pqr")
+        files[-1].symlink_to(data / "series19_ubq_2k39" / f"m0{i}.pqr")
+    options = {"potential": "none", "grid_spacing": 2.5}
+    espdiff.matrix([str(path) for path in files], output=tmp_path / "one", **options)
+    environment = {**os.environ, "PATH": f"{queue}:{os.environ['PATH']}", "QUEUE": str(queue)}
+    words = [f"--{name.replace('_', '-')}={value}" for name, value in options.items()]
+    run = subprocess.run(
+        [sys.executable, REPOSITORY / "docs" / "examples" / "matrix_dask.py", "--slurm", "--workers", "2", "--cores", "1",
+         "--memory", "1GB", "-o", tmp_path / "many", *files, *words], capture_output=True, text=True, env=environment, cwd=tmp_path,
+        timeout=240)
+    assert run.returncode == 0, run.stderr + "".join(path.read_text() for path in queue.glob("*.log"))
+    assert len((queue / "submitted").read_text().splitlines()) == 2
+    assert any("#SBATCH" in path.read_text() and "--cpus-per-task=1" in path.read_text() for path in queue.glob("job-*.sh"))
+    for ending in (".csv", ".json"):
+        assert (tmp_path / f"many{ending}").read_bytes() == (tmp_path / f"one{ending}").read_bytes()
