@@ -212,3 +212,35 @@ def test_the_mutant_is_found_at_the_mutant(ensemble):
     assert patches[0]["difference"] < 0  # a positive charge less
     names = [r["residue"] for r in patches[0]["residues"]]
     assert any(name.split()[1] == "8" for name in names)
+
+
+def test_regression_is_that_of_scipy(ensemble):
+    """Correlations and p of each vertex by scipy; predictions by partial least squares on the vertices themselves."""
+    folder = ensemble["folder"]
+    values = np.array([0.3, 2.2, 1.1, 4.0, 3.6, 5.9, 2.8, 7.1])
+    rows = ["group,replicate,activity"]
+    rows += [f"{group},trpcage_{group}_{k},{values[4 * g + k - 1]}"
+             for g, group in enumerate(("wild", "mutant")) for k in range(1, 5)]
+    (folder / "values.csv").write_text("\n".join(rows) + "\n")
+    command = [PROGRAM, "ensemble", "--from", "out.h5", "-o", "regressed", "-q", "--regress", "values.csv:activity",
+               "--arrangements", "200"]
+    run = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
+    vtp = vtp_arrays(folder / "regressed.vtp")
+    means = np.nanmean(ensemble["values"].astype(float), axis=1)
+    tested = np.flatnonzero(np.isfinite(vtp["regression_t"]))
+    assert len(tested) > 0.9 * means.shape[1]
+    for v in tested[::97]:
+        expected = stats.linregress(values, means[:, v])
+        assert vtp["regression_correlation"][v] == pytest.approx(expected.rvalue, abs=1e-5)
+        assert vtp["regression_slope"][v] == pytest.approx(expected.slope, rel=1e-4, abs=1e-6)
+    weights = np.sqrt(vertex_areas(ensemble["points"], ensemble["triangles"])[tested])
+    columns = means[:, tested] * weights
+    for k, replicate in enumerate(json.loads((folder / "regressed.json").read_text())["regression"]["replicates"]):
+        others = np.arange(8) != k
+        x, y = columns[others] - columns[others].mean(0), values[others] - values[others].mean()
+        direction = x.T @ y
+        scores = x @ direction
+        predicted = values[others].mean() + (scores @ y) / (scores @ scores) * (
+            (columns[k] - columns[others].mean(0)) @ direction)
+        assert replicate["predicted"] == pytest.approx(predicted, rel=1e-4)
