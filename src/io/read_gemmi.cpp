@@ -283,11 +283,35 @@ void check_residue_numbers(const std::string& path, const std::string& text, gem
   }
 }
 
+/// gemmi converts these without a look at their size.
+void check_integers(const std::string& path, const std::string& text, gemmi::cif::Block& block) {
+  for (const char* const name : {"id", "label_seq_id", "pdbx_PDB_model_num", "pdbx_formal_charge"}) {
+    gemmi::cif::Column column = block.find_values(std::string("_atom_site.") + name);
+    for (int row = 0; row < column.length(); ++row) {
+      const std::string& value = column[row];
+      constexpr std::size_t kShort = 9;  // digits that always fit
+      if (value.size() <= kShort) continue;
+      // What stands before anything else is converted first.
+      const std::string raw = gemmi::cif::as_string(value);
+      const std::size_t first = std::min(raw.find_first_of("0123456789"), raw.size());
+      const std::size_t n_digits = std::min(raw.find_first_not_of("0123456789", first), raw.size()) - first;
+      long long number = 0;
+      if (n_digits <= kShort || (parse_integer(std::string_view(raw).substr(first, n_digits), number) &&
+                                 number <= std::numeric_limits<int>::max()))
+        continue;
+      throw FormatError(path, row_line(text, block.items.front(), static_cast<std::size_t>(row), value),
+                        std::string("_atom_site.") + name + " of atom " + std::to_string(row + 1) + " is " +
+                            in_quotes(value) + "; an integer below 2^31 in size was expected");
+    }
+  }
+}
+
 gemmi::Structure parse_mmcif(const std::string& path, const std::string& text, bool with_assemblies = false) {
   gemmi::cif::Document document = parse_atom_site(path, text, with_assemblies);
   if (document.blocks.empty()) throw InputError(path + ": CIF without a data block; give an mmCIF with coordinates");
   check_atom_site(path, text, document.blocks.front());
   check_residue_numbers(path, text, document.blocks.front());
+  check_integers(path, text, document.blocks.front());
   add_missing_columns(document.blocks.front());
   return call_gemmi(path, "the mmCIF cannot be read: ", [&] { return gemmi::make_structure(document); });
 }

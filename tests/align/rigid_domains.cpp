@@ -62,10 +62,10 @@ Molecule four_stretches() {
 template <typename Motion>
 Molecule moved(Molecule m, Motion motion, double noise) {
   std::mt19937 random(5);
-  std::normal_distribution<double> normal(0, noise);
+  std::normal_distribution<double> normal;  // of deviation 1: 0 is none
   for (std::size_t i = 0; i < m.size(); ++i) {
     m.positions[i] = motion(m.atoms[i].residue).apply(m.positions[i]);
-    if (noise > 0) m.positions[i] += Vec3d{normal(random), normal(random), normal(random)};
+    if (noise > 0) m.positions[i] += noise * Vec3d{normal(random), normal(random), normal(random)};
   }
   return m;
 }

@@ -5,8 +5,10 @@
 
 #include <cmath>
 #include <cstring>
+#include <fstream>
 #include <limits>
 
+#include "base/error.h"
 #include "ensemble/ensemble_run.h"
 #include "ensemble/planted_file.h"
 
@@ -171,6 +173,60 @@ TEST_CASE("other files and damage beyond the frames are refused") {
         path +
             ": the template or the description of the run in this file is damaged; begin anew with another output, or "
             "with overwrite");
+}
+
+TEST_CASE("sizes, addresses and counts that lie, wherever in the file's structure, are refused or do no harm") {
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5");
+  EnsembleFile::create(path, planted_plan(3, 2, 5), planted_template(1));
+  {
+    EnsembleFile file(path, true);
+    fill(file, 0, 4);
+  }
+  const std::string whole = read_file(path);
+  std::fstream bytes(path, std::ios::binary | std::ios::in | std::ios::out);
+  const auto patch = [&](std::size_t at, const std::string& text) {
+    bytes.seekp(static_cast<std::streamoff>(at));
+    bytes << text << std::flush;
+  };
+  int n_refused = 0;
+  // HDF5's structure is in the first kilobytes; its numbers have 2, 4 or 8 bytes.
+  for (std::size_t at = 0; at < 12288; at += 2) {
+    if (whole.substr(at, 8) == std::string(8, '\0')) continue;
+    for (const std::string& lie :
+         {std::string(8, '\xff'), std::string(7, '\xff') + '\x7f', std::string("\0\0\0\0\1\0\0\0", 8),
+          std::string("\xff\xff", 2), std::string("\1\0", 2)}) {
+      patch(at, lie);
+      try {
+        const EnsembleFile file(path, false);
+        CHECK(file.n_vertices() == file.surface().positions.size());
+      } catch (const Error& error) {
+        ++n_refused;
+        CHECK(std::string(error.what()).find(path) == 0);
+      }
+      patch(at, whole.substr(at, lie.size()));
+    }
+  }
+  CHECK(n_refused > 500);
+  CHECK(EnsembleFile(path, false).n_done() == 4);
+}
+
+TEST_CASE("points that the file has no bytes for take no memory") {
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5");
+  EnsembleFile::create(path, planted_plan(3, 2, 5), planted_template(1));
+  const std::string whole = read_file(path);
+  const std::size_t n = planted_template(1).positions.size();
+  // The size of the points: [n][3] 64-bit numbers.
+  std::string size(16, '\0'), huge(16, '\0');
+  for (std::size_t i = 0; i < 8; ++i) size[i] = static_cast<char>(n >> (8 * i));
+  size[8] = huge[8] = 3;
+  huge[4] = 1;  // 2^32
+  const std::size_t at = whole.find(size);
+  REQUIRE(at != std::string::npos);
+  folder.write("a.h5", whole.substr(0, at) + huge + whole.substr(at + 16));
+  CHECK(message_of([&] { EnsembleFile(path, false); }).find("is larger than the file; begin anew") !=
+        std::string::npos);
 }
 
 TEST_CASE("one process at a time writes a file") {

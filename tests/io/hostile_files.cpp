@@ -125,6 +125,25 @@ TEST_CASE("cells of a file whose first model is empty") {
 }
 
 #ifdef ESPDIFF_HAVE_GEMMI
+TEST_CASE("mmCIF: integers beyond 32 bits are refused in every column that has them") {
+  const ScratchFolder scratch;
+  const auto message = [&](const std::string& id, const std::string& label, const std::string& model) {
+    const std::string path = scratch.write(
+        "a.cif",
+        "data_a\nloop_\n_atom_site.group_PDB\n_atom_site.id\n_atom_site.type_symbol\n_atom_site.label_atom_id\n"
+        "_atom_site.label_alt_id\n_atom_site.label_comp_id\n_atom_site.label_asym_id\n_atom_site.label_seq_id\n"
+        "_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n_atom_site.occupancy\n"
+        "_atom_site.B_iso_or_equiv\n_atom_site.auth_seq_id\n_atom_site.auth_asym_id\n"
+        "_atom_site.pdbx_PDB_model_num\nATOM " +
+            id + " N N . ALA A " + label + " 1 2 3 1 0 1 A " + model + "\n");
+    return refusal(path, [](const std::string& name) { read_structure(name); });
+  };
+  CHECK(message("1", "1", "1") == "");
+  CHECK(contains(message("-4294967297", "1", "1"), "_atom_site.id of atom 1 is '-4294967297'; an integer below 2^31"));
+  CHECK(contains(message("1", "9999999999", "1"), "_atom_site.label_seq_id of atom 1 is '9999999999'; an integer"));
+  CHECK(contains(message("1", "1", "4294967297"), "_atom_site.pdbx_PDB_model_num of atom 1 is '4294967297'; an "));
+}
+
 TEST_CASE("mmCIF without occupancies, alternate locations or B factors is read") {
   const ScratchFolder scratch;
   const std::string head =
