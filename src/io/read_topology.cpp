@@ -80,7 +80,7 @@ std::size_t field_width(std::string_view format) {
 
 /// The sections that are read.
 std::map<std::string, Section> prmtop_sections(const std::string& text) {
-  static const char* const kRead[] = {"POINTERS", "ATOM_NAME", "CHARGE", "RADII"};
+  constexpr const char* kRead[] = {"POINTERS", "ATOM_NAME", "CHARGE", "RADII"};
   std::map<std::string, Section> sections;
   Section* section = nullptr;
   std::size_t width = 0;
