@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import signal
 
 import numpy as np
 import pytest
@@ -64,3 +65,12 @@ def program():
     if not path or not os.access(path, os.X_OK):
         pytest.skip("SKIPPED: no command line; set ESPDIFF_PROGRAM to its path")
     return path
+
+
+@pytest.fixture
+def interrupts():
+    """Ctrl-C as Python has it at the prompt: the shell may have it ignored, in the background, and packages set handlers of
+    their own when they are imported (dask_jobqueue)."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)

@@ -60,7 +60,7 @@ def test_errors_and_status(run):
     assert picture.returncode == 2 and "this build has no renderer" in picture.stderr
 
 
-def test_it_is_a_function(capfd, tmp_path):
+def test_it_is_a_function(capfd, tmp_path, interrupts):
     before = signal.getsignal(signal.SIGINT)
     assert main(["--version"]) == 0
     assert capfd.readouterr().out == f"espdiff {espdiff.__version__}\n"

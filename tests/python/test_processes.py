@@ -16,14 +16,6 @@ import espdiff
 from conftest import QUICK, made_arrays
 
 
-@pytest.fixture
-def interrupts():
-    """Python installs no handler where the shell that started it ignores SIGINT, as in the background."""
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    yield
-    signal.signal(signal.SIGINT, before)
-
-
 def waited_after_control_c(pair, stage):
     """Seconds from Ctrl-C at the beginning of a stage to KeyboardInterrupt."""
     sent = []

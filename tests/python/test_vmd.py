@@ -14,6 +14,7 @@ import pytest
 
 import espdiff
 import espdiff.vmd as in_vmd
+from conftest import DATA
 from espdiff._tcl import Interpreter, split_dict, split_list, word
 
 SERVER = r"""
@@ -230,7 +231,7 @@ tcl.close()
     text = pathlib.Path(__file__).read_text()
     server = "import subprocess\n\nSERVER" + text.split("SERVER", 1)[1].split("@pytest.fixture", 1)[0]
     (tmp_path / "test_vmd_server.py").write_text(server)
-    pqr = pathlib.Path(os.environ.get("ESPDIFF_DATA", "")) / "ubq" / "ubq.pqr"
+    pqr = DATA / "ubq" / "ubq.pqr"
     if not pqr.is_file():
         pytest.skip("SKIPPED: real inputs are absent; set ESPDIFF_DATA to their folder")
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
