@@ -83,9 +83,10 @@ namespace eval ::espdiff::gui {
 
     # Ttk's rows, arrows, marks and margins have fixed sizes in pixels, which are too small for large fonts.
     proc style_for_screen {} {
-        ttk::style configure Espdiff.Treeview -rowheight [expr {[font metrics TkDefaultFont -linespace] + 4}]
-        if {[tk scaling] < 1.6} return
-        set size [expr {round(9 * [tk scaling])}]
+        set line [font metrics TkDefaultFont -linespace]
+        ttk::style configure Espdiff.Treeview -rowheight [expr {$line + 4}]
+        if {$line < 22} return
+        set size [expr {round(0.65 * $line)}]
         foreach style {TCombobox TSpinbox TScrollbar} { ttk::style configure $style -arrowsize $size }
         foreach style {TCheckbutton TRadiobutton} {
             # The first is of the theme `default`, the second of clam and alt.
