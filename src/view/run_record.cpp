@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "io/json_values.h"
 #include "io/read_input.h"
 #include "io/sha256.h"
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "io/json_values.h"
 #include "io/read_input.h"
 
 namespace espdiff {
