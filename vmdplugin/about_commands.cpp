@@ -1,9 +1,9 @@
 // about_commands.cpp: version, build, back_ends, device, settings, renamed_settings, metrics, abi, models, map_unit,
 // colours, volumes: version and contents of this module.
-#include <cstdio>
 #include <sstream>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "base/version.h"
 #include "commands.h"
 #include "compare/map_recipe.h"
@@ -262,9 +262,7 @@ Tcl_Obj* colours(const Call& call) {
   for (int i = 0; i < n; ++i) {
     const double t = static_cast<double>(i) / (n - 1);
     const Rgb c = map != nullptr ? diverging_colour(t, *map) : sequential_colour(t);
-    char text[8];
-    std::snprintf(text, sizeof text, "#%02x%02x%02x", c.red, c.green, c.blue);
-    all.emplace_back(text);
+    all.push_back(formatted("#%02x%02x%02x", c.red, c.green, c.blue));
   }
   return to_list(all);
 }

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "commands.h"
 #include "drawn_part.h"
 #include "ensemble_views.h"
@@ -103,8 +104,8 @@ DrawnPart parse_part(DictReader& reader) {
   if (part.corrupt != "normal" && part.corrupt != "uncertain" && part.corrupt != "mark" && part.corrupt != "hide")
     throw InputError("corrupt: '" + part.corrupt + "' is not normal, uncertain, mark or hide");
   if (!(part.limit_A >= 0) || !(part.to > part.from))
-    throw InputError("a band of uncertainty from " + std::to_string(part.from) + " to " + std::to_string(part.to) +
-                     " of a limit of " + std::to_string(part.limit_A) + " A is empty");
+    throw InputError("a band of uncertainty from " + formatted(part.from) + " to " + formatted(part.to) +
+                     " of a limit of " + formatted(part.limit_A) + " A is empty");
   return part;
 }
 
@@ -119,8 +120,7 @@ Tcl_Obj* triangles(const Call& call) {
   const DrawnSurface surface = of_ensemble ? *of_ensemble : drawn_surface(handle, *object, which);
   const double low = reader.number("low", -1), high = reader.number("high", 1);
   if (!(high > low))
-    throw InputError("range: " + std::to_string(low) + " to " + std::to_string(high) +
-                     " is not from a lower to a higher value");
+    throw InputError("range: " + formatted(low) + " to " + formatted(high) + " is not from a lower to a higher value");
   const DrawnPart part = parse_part(reader);
   reader.finish();
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/formatted.h"
 
 namespace espdiff {
 namespace {
@@ -134,8 +135,8 @@ class ObjectArguments {
 void check_vector(Vec3f v, const char* what, std::size_t vertex) {
   constexpr float kMost = 1e7F;  // fits VectorText
   if (std::fabs(v.x) < kMost && std::fabs(v.y) < kMost && std::fabs(v.z) < kMost) return;
-  throw InputError("the " + std::string(what) + " of vertex " + std::to_string(vertex) + " is " + std::to_string(v.x) +
-                   " " + std::to_string(v.y) + " " + std::to_string(v.z) + "; numbers within 1e7 were expected");
+  throw InputError("the " + std::string(what) + " of vertex " + std::to_string(vertex) + " is " +
+                   formatted("%g %g %g", v.x, v.y, v.z) + "; numbers within 1e7 were expected");
 }
 
 /// Checked before the first triangle, so that no surface is half drawn.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "cuda/deform/deform_iteration.h"
 #include "engine/deform_stage.h"
 
@@ -17,20 +18,20 @@ constexpr double kLargestInternalStep = 0.5;
 double internal_step(const DeformOptions& o) { return o.sigma * (1 - o.mu) * o.tangential_gain; }
 
 void check_options(const DeformOptions& o) {
-  if (!(o.sigma > 0)) throw InputError("sigma " + std::to_string(o.sigma) + " is not positive; 0.1 is usual");
-  if (!(o.mu >= 0 && o.mu <= 1)) throw InputError("mu " + std::to_string(o.mu) + " is not between 0 and 1");
-  if (!(o.rho >= 0 && o.rho <= 1)) throw InputError("rho " + std::to_string(o.rho) + " is not between 0 and 1");
+  if (!(o.sigma > 0)) throw InputError("sigma " + formatted(o.sigma) + " is not positive; 0.1 is usual");
+  if (!(o.mu >= 0 && o.mu <= 1)) throw InputError("mu " + formatted(o.mu) + " is not between 0 and 1");
+  if (!(o.rho >= 0 && o.rho <= 1)) throw InputError("rho " + formatted(o.rho) + " is not between 0 and 1");
   if (!(o.tangential_gain >= 0))
-    throw InputError("the tangential gain, " + std::to_string(o.tangential_gain) +
+    throw InputError("the tangential gain, " + formatted(o.tangential_gain) +
                      ", is negative; 1 is the plain iteration");
   if (internal_step(o) > kLargestInternalStep) {
-    throw InputError("sigma (1 - mu) times the tangential gain is " + std::to_string(internal_step(o)) + ", beyond " +
-                     std::to_string(kLargestInternalStep) + " where the iteration becomes unstable; lower one of them");
+    throw InputError("sigma (1 - mu) times the tangential gain is " + formatted(internal_step(o)) + ", beyond " +
+                     formatted(kLargestInternalStep) + " where the iteration becomes unstable; lower one of them");
   }
   if (o.max_iterations < 0)
     throw InputError("the number of iterations, " + std::to_string(o.max_iterations) + ", is negative");
   if (!(o.min_displacement_A >= 0))
-    throw InputError("the smallest displacement, " + std::to_string(o.min_displacement_A) + " A, is negative");
+    throw InputError("the smallest displacement, " + formatted(o.min_displacement_A) + " A, is negative");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "cuda/deform/fields.h"
 #include "cuda/surface/sample.h"
 #include "engine/deform_stage.h"
@@ -21,10 +22,10 @@ constexpr float kHeldShare = 0.5F;
 
 void check_options(const VectorFlowOptions& o) {
   if (!(o.weight_A2 > 0))
-    throw InputError("the weight of the gradient vector flow, " + std::to_string(o.weight_A2) +
+    throw InputError("the weight of the gradient vector flow, " + formatted(o.weight_A2) +
                      " A^2, is not positive; 0.05 is usual");
   if (!(o.tolerance > 0))
-    throw InputError("the tolerance of the gradient vector flow, " + std::to_string(o.tolerance) +
+    throw InputError("the tolerance of the gradient vector flow, " + formatted(o.tolerance) +
                      ", is not positive; 0.001 is usual");
   if (o.max_sweeps < 1)
     throw InputError("the gradient vector flow needs at least 1 sweep, not " + std::to_string(o.max_sweeps));

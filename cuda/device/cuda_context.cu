@@ -2,10 +2,10 @@
 #include "cuda/device/cuda_context.h"
 
 #include <cstdint>
-#include <cstdio>
 #include <cstring>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "cuda/device/memory.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
@@ -233,8 +233,7 @@ std::string describe_device(int device) {
     cudaGetLastError();
     return "a GPU that does not answer";
   }
-  char memory[32];
-  std::snprintf(memory, sizeof memory, "%.2f GiB", static_cast<double>(properties.totalGlobalMem) / 1073741824.0);
+  const std::string memory = formatted("%.2f GiB", static_cast<double>(properties.totalGlobalMem) / 1073741824.0);
   return std::string(properties.name) + " (compute capability " + std::to_string(properties.major) + "." +
          std::to_string(properties.minor) + ", " + memory + ")";
 }

@@ -2,11 +2,11 @@
 #include "cuda/device/cuda_errors.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <sstream>
 #include <vector>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "cuda/device/cuda_context.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
@@ -22,9 +22,7 @@ std::string cuda_version(int version) {
 std::string memory_text(std::size_t bytes) {
   constexpr double kMebi = 1048576.0, kGibi = 1073741824.0;
   const double n = static_cast<double>(bytes);
-  char text[32];
-  std::snprintf(text, sizeof text, n < kGibi ? "%.1f MiB" : "%.2f GiB", n / (n < kGibi ? kMebi : kGibi));
-  return text;
+  return n < kGibi ? formatted("%.1f MiB", n / kMebi) : formatted("%.2f GiB", n / kGibi);
 }
 
 /// One entry of CMAKE_CUDA_ARCHITECTURES.

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "base/error.h"
+#include "base/formatted.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
@@ -13,11 +13,7 @@ namespace {
 constexpr double kMostPoints = 2.0e9;
 constexpr double kNotWorthALook = 64e6;  // bytes
 
-std::string gigabytes(double n_bytes) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g GB", std::max(0.0, n_bytes) / 1e9);
-  return text;
-}
+std::string gigabytes(double n_bytes) { return formatted("%.3g GB", std::max(0.0, n_bytes) / 1e9); }
 
 }  // namespace
 
@@ -37,11 +33,10 @@ std::string need_in_words(double n_points, double bytes_per_point) {
 void require_grid(double n_points, double bytes_per_point, const std::string& what) {
   const double coarser = coarsening_to_fit(n_points, bytes_per_point);
   if (coarser <= 1) return;
-  char points[32], factor[32];
-  std::snprintf(points, sizeof points, "%.4g", n_points);
-  std::snprintf(factor, sizeof factor, "%.2f", std::ceil(100 * coarser) / 100);
-  throw MemoryError(what + " on a grid of " + points + " points " + need_in_words(n_points, bytes_per_point) +
-                    "; a spacing " + factor + " times as large would fit, or select fewer atoms");
+  throw MemoryError(what + " on a grid of " + formatted("%.4g", n_points) + " points " +
+                    need_in_words(n_points, bytes_per_point) + "; a spacing " +
+                    formatted("%.2f", std::ceil(100 * coarser) / 100) +
+                    " times as large would fit, or select fewer atoms");
 }
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "base/progress.h"
 #include "cuda/device/spatial_order.h"
 #include "cuda/device/unwrap.h"
@@ -28,12 +28,11 @@ constexpr float kLastShift_A = 0.3F;
 
 void check_options(const MorphOptions& o) {
   if (!(o.max_step_A > 0))
-    throw InputError("the morph's largest step, " + std::to_string(o.max_step_A) +
-                     " A, is not positive; 0.35 is usual");
+    throw InputError("the morph's largest step, " + formatted(o.max_step_A) + " A, is not positive; 0.35 is usual");
   if (!(o.max_edge_A > 0))
-    throw InputError("the morph's longest edge, " + std::to_string(o.max_edge_A) + " A, is not positive");
+    throw InputError("the morph's longest edge, " + formatted(o.max_edge_A) + " A, is not positive");
   if (!(o.max_stretch > 1))
-    throw InputError("the morph's largest stretch, " + std::to_string(o.max_stretch) + ", is not above 1; 20 is usual");
+    throw InputError("the morph's largest stretch, " + formatted(o.max_stretch) + ", is not above 1; 20 is usual");
 }
 
 /// More would take days. An atom that far off is a mistake in the input.
@@ -49,9 +48,8 @@ int steps_for(const std::vector<MovingAtom>& atoms, const MorphOptions& options)
   }
   const double n_steps = std::ceil(farthest / options.max_step_A);
   if (!(n_steps <= kMostSteps)) {
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  "an atom moves %.6g A from source to target, which takes %.6g steps of %.6g A; %d is the limit; ",
+    const std::string text =
+        formatted("an atom moves %.6g A from source to target, which takes %.6g steps of %.6g A; %d is the limit; ",
                   farthest, n_steps, options.max_step_A, kMostSteps);
     throw InputError(text +
                      Message("check that both structures show one molecule and no atom is far off, or give a "

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/formatted.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
@@ -68,7 +69,7 @@ std::shared_ptr<MapGrid> zero_in_bulk(const MapGrid& map, const std::vector<Vec3
                                       BulkZero* report) {
   if (!map.periodic) throw InputError("a zero in the bulk was asked for of a map that is not periodic");
   if (!(distance_A >= 0) || !std::isfinite(distance_A))
-    throw InputError("a distance of " + std::to_string(distance_A) + " A from the solute; 10 is usual");
+    throw InputError("a distance of " + formatted(distance_A) + " A from the solute; 10 is usual");
   for (const Vec3d& p : solute) {
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
       throw InputError("the solute has a coordinate that is not finite");

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "base/progress.h"
 #include "engine/potential_stage.h"
 
@@ -14,7 +15,7 @@ namespace {
 
 void check(const CoulombOptions& options) {
   if (!(options.dielectric > 0) || !std::isfinite(options.dielectric))
-    throw InputError("dielectric constant " + std::to_string(options.dielectric) +
+    throw InputError("dielectric constant " + formatted(options.dielectric) +
                      " is not a positive number; 1 is vacuum, 4 r is usual in proteins, 80 is water");
   check_temperature(options.temperature_K);
 }
@@ -50,7 +51,7 @@ void check_charges(const std::vector<Vec3d>& positions, const std::vector<float>
 
 void check_temperature(double temperature_K) {
   if (temperature_K > 0 && std::isfinite(temperature_K)) return;
-  throw InputError("temperature " + std::to_string(temperature_K) + " K is not a positive number; 300 is usual");
+  throw InputError("temperature " + formatted(temperature_K) + " K is not a positive number; 300 is usual");
 }
 
 std::shared_ptr<MapGrid> coulomb_potential(const std::vector<Vec3d>& positions, const std::vector<float>& charges,

@@ -5,21 +5,16 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "cuda/device/memory.h"
 #include "cuda/potential/coulomb.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-std::string text_of(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
-
 void require(bool holds, const std::string& what, double value, const std::string& unit, const std::string& rule) {
   if (holds && std::isfinite(value)) return;
-  throw InputError(what + " " + text_of(value) + unit + " " + rule);
+  throw InputError(what + " " + formatted(value) + unit + " " + rule);
 }
 
 /// Refuses charges in the solvent, outside all spheres: their potential has no meaning.
@@ -31,7 +26,8 @@ void check_bare_charges(const std::vector<Vec3d>& positions, const std::vector<f
     for (std::size_t j = 0; j < positions.size() && !inside; ++j)
       inside = radii[j] > 0 && norm(positions[j] - positions[i]) < static_cast<double>(radii[j]);
     if (inside) continue;
-    throw InputError("atom " + std::to_string(i + 1) + " has a charge of " + text_of(static_cast<double>(charges[i])) +
+    throw InputError("atom " + std::to_string(i + 1) + " has a charge of " +
+                     formatted(static_cast<double>(charges[i])) +
                      " and a radius of 0, and lies in no other atom: its charge would be bare in the solvent; give it "
                      "a radius");
   }
@@ -48,8 +44,8 @@ void check_pb_atoms(const std::vector<Vec3d>& positions, const std::vector<float
   bool any = false;
   for (std::size_t i = 0; i < radii.size(); ++i) {
     if (!(radii[i] >= 0) || !std::isfinite(radii[i]))
-      throw InputError("atom " + std::to_string(i + 1) + " has a radius of " + text_of(static_cast<double>(radii[i])) +
-                       " A, which is not a number from 0 on");
+      throw InputError("atom " + std::to_string(i + 1) + " has a radius of " +
+                       formatted(static_cast<double>(radii[i])) + " A, which is not a number from 0 on");
     any = any || radii[i] > 0;
   }
   if (!any)
@@ -103,14 +99,13 @@ CubicLattice checked_pb_lattice(const Lattice& lattice, const std::vector<Vec3d>
     for (int axis = 0; axis < 3; ++axis) {
       const double at = (positions[i][axis] - lattice.origin[axis]) / h;
       if (at < kMargin || at > result.size[axis] - 1 - kMargin)
-        throw InputError("atom " + std::to_string(i + 1) + " lies outside the grid, or within " + text_of(kMargin * h) +
-                         " A of its border; use a larger padding");
+        throw InputError("atom " + std::to_string(i + 1) + " lies outside the grid, or within " +
+                         formatted(kMargin * h) + " A of its border; use a larger padding");
     }
   }
   const double per_point = pb_bytes_per_point(options), coarser = coarsening_to_fit(n_points, per_point);
   if (coarser > 1) {
-    char fits[32];
-    std::snprintf(fits, sizeof fits, "%.2f", std::ceil(100 * h * coarser) / 100);
+    const std::string fits = formatted("%.2f", std::ceil(100 * h * coarser) / 100);
     throw MemoryError("a grid of " + size + " points " + need_in_words(n_points, per_point) + "; a spacing of " + fits +
                       " A would fit");
   }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "base/progress.h"
 #include "cuda/potential/coulomb.h"
 #include "cuda/potential/pmepot_places.h"
@@ -18,7 +19,7 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr int kLeastCompatibleSize = 8, kMostSize = 4096;
 
 std::string text_of(const Vec3d& v) {
-  return "(" + std::to_string(v.x) + ", " + std::to_string(v.y) + ", " + std::to_string(v.z) + ")";
+  return "(" + formatted(v.x) + ", " + formatted(v.y) + ", " + formatted(v.z) + ")";
 }
 bool is_finite(const Vec3d& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
@@ -31,7 +32,7 @@ double checked_volume(const PmeCell& cell) {
   constexpr double kFlat = 1e-6;
   if (volume > kFlat * norm(e[0]) * norm(e[1]) * norm(e[2])) return volume;
   throw InputError("the cell's edges " + text_of(e[0]) + ", " + text_of(e[1]) + " and " + text_of(e[2]) +
-                   " span a volume of " + std::to_string(volume) +
+                   " span a volume of " + formatted(volume) +
                    " A^3, which must be positive; give three edges that span space, right-handed");
 }
 
@@ -60,7 +61,7 @@ void check_options(const PmeOptions& o) {
   if (o.compatible && o.part == PmePart::kFull)
     throw InputError("the full sum with `compatible`: PMEPot gives the smooth part only; leave one out");
   if (!(o.ewald_factor > 0) || !std::isfinite(o.ewald_factor))
-    throw InputError("Ewald factor " + std::to_string(o.ewald_factor) + " 1/A is not a positive number; 0.25 is usual");
+    throw InputError("Ewald factor " + formatted(o.ewald_factor) + " 1/A is not a positive number; 0.25 is usual");
   check_temperature(o.temperature_K);
   check_sizes(o);
 }
@@ -73,7 +74,7 @@ void check_memory(const PmeOptions& o) {
   if (coarser <= 1) return;
   throw MemoryError("a grid of " + std::to_string(o.size[0]) + " x " + std::to_string(o.size[1]) + " x " +
                     std::to_string(o.size[2]) + " points " + need_in_words(n_points, per_point) + "; a resolution " +
-                    std::to_string(coarser) + " times as coarse would fit");
+                    formatted(coarser) + " times as coarse would fit");
 }
 
 /// Reciprocal edges, 1/A: the rows of the matrix from positions to fractional coordinates.

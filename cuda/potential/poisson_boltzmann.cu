@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "cuda/potential/conjugate_gradients.h"
 #include "cuda/potential/coulomb.h"
 #include "cuda/potential/debye_hueckel.h"
@@ -130,19 +131,16 @@ struct Problem {
 };
 
 void throw_not_converged(const PoissonBoltzmannOptions& o, const SolverReport& solved, int steps) {
-  char text[300];
   if (o.nonlinear) {
-    std::snprintf(text, sizeof text,
-                  "the nonlinear Poisson-Boltzmann equation did not converge: the relative residual is %.3g after %d "
+    throw ConvergenceError(
+        formatted("the nonlinear Poisson-Boltzmann equation did not converge: the relative residual is %.3g after %d "
                   "Newton steps and %d cycles, %.3g is asked for; use the linearized equation, or a smaller spacing",
-                  solved.relative_residual, steps, solved.cycles, o.tolerance);
-  } else {
-    std::snprintf(text, sizeof text,
-                  "the Poisson-Boltzmann equation did not converge: the relative residual is %.3g after %d cycles, "
-                  "%.3g is asked for; allow more cycles, or a larger tolerance",
-                  solved.relative_residual, solved.cycles, o.tolerance);
+                  solved.relative_residual, steps, solved.cycles, o.tolerance));
   }
-  throw ConvergenceError(text);
+  throw ConvergenceError(
+      formatted("the Poisson-Boltzmann equation did not converge: the relative residual is %.3g after %d cycles, "
+                "%.3g is asked for; allow more cycles, or a larger tolerance",
+                solved.relative_residual, solved.cycles, o.tolerance));
 }
 
 /// Solves for phi, whose border is set, and fills the report.

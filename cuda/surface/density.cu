@@ -7,10 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include "base/error.h"
+#include "base/formatted.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
@@ -53,7 +53,7 @@ ESPDIFF_INLINE float density_gather(const AtomCellsView& atoms, Vec3f p) {
 
 CubicLattice density_lattice(const AtomCells& atoms, double spacing_A) {
   if (!(spacing_A > 0) || !std::isfinite(spacing_A)) {
-    throw InputError("grid spacing " + std::to_string(spacing_A) + " A is not a positive number; 1 is usual");
+    throw InputError("grid spacing " + formatted(spacing_A) + " A is not a positive number; 1 is usual");
   }
   const Vec3d extent = atoms.upper - atoms.lower;
   double n_points = 1;
@@ -64,11 +64,7 @@ CubicLattice density_lattice(const AtomCells& atoms, double spacing_A) {
   const double coarser = coarsening_to_fit(n_points, kBytesPerPoint);
   if (coarser > 1) {
     const double fitting = spacing_A * coarser;
-    const auto short_number = [](double value) {
-      char text[32];
-      std::snprintf(text, sizeof text, "%.4g", value);
-      return std::string(text);
-    };
+    const auto short_number = [](double value) { return formatted("%.4g", value); };
     throw MemoryError("a grid of spacing " + short_number(spacing_A) + " A over " + short_number(extent.x) + " x " +
                       short_number(extent.y) + " x " + short_number(extent.z) + " A has " + short_number(n_points) +
                       " points, which " + need_in_words(n_points, kBytesPerPoint) + "; a spacing of " +

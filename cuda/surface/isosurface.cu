@@ -2,10 +2,10 @@
 #include "cuda/surface/isosurface.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <string>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "cuda/surface/tetrahedra.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
@@ -100,13 +100,10 @@ ESPDIFF_INLINE std::uint32_t vertex_index(const Extraction& e, std::size_t point
 [[noreturn]] void throw_no_surface(const DensityGrid& density, float isovalue) {
   const std::vector<float> values = to_host(density.values);
   const float highest = *std::max_element(values.begin(), values.end());
-  char text[256];
-  std::snprintf(text, sizeof text,
-                "no surface: the density reaches %.3g on a lattice of %.3g A and never exceeds the isovalue %.3g; "
-                "lower the isovalue or the grid spacing, or raise the radius scale",
-                static_cast<double>(highest), static_cast<double>(density.lattice.spacing),
-                static_cast<double>(isovalue));
-  throw GeometryError(text);
+  throw GeometryError(formatted(
+      "no surface: the density reaches %.3g on a lattice of %.3g A and never exceeds the isovalue %.3g; "
+      "lower the isovalue or the grid spacing, or raise the radius scale",
+      static_cast<double>(highest), static_cast<double>(density.lattice.spacing), static_cast<double>(isovalue)));
 }
 
 /// Index of row (j, k) of cells; border rows j = size - 1 and k = size - 1 have no cells.
@@ -118,7 +115,7 @@ ESPDIFF_INLINE LatticeRow cell_row(const CubicLattice& lattice, std::size_t row)
 }  // namespace
 
 std::shared_ptr<SurfaceMesh> isosurface(const DensityGrid& density, float isovalue) {
-  if (!(isovalue > 0)) throw InputError("isovalue " + std::to_string(isovalue) + " is not positive; 0.5 is usual");
+  if (!(isovalue > 0)) throw InputError("isovalue " + formatted(isovalue) + " is not positive; 0.5 is usual");
   const CubicLattice lattice = density.lattice;
   const std::size_t n_points = lattice.n_points();
   const std::size_t n_rows =

@@ -2,6 +2,7 @@
 #include "cuda/surface/subdivide.h"
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "cuda/surface/split_edges.h"
 #include "engine/surface_stage.h"
 
@@ -24,7 +25,7 @@ std::shared_ptr<SurfaceMesh> with_middles(const SurfaceMesh& mesh, const EdgeSpl
 
 SubdivisionResult subdivide(const SurfaceMesh& source, const SurfaceMesh& mapped, float max_edge_A) {
   if (source.topology != mapped.topology) throw GeometryError("subdivide: source and mapped mesh differ in topology");
-  if (!(max_edge_A > 0)) throw InputError("the longest edge, " + std::to_string(max_edge_A) + " A, is not positive");
+  if (!(max_edge_A > 0)) throw InputError("the longest edge, " + formatted(max_edge_A) + " A, is not positive");
   Buffer<std::uint32_t> marks(3 * mapped.n_triangles());
   std::uint32_t* const mark = raw(marks);
   const TopologyView topology = mapped.view();

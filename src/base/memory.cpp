@@ -5,11 +5,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <fstream>
 #include <limits>
 
 #include "base/error.h"
+#include "base/formatted.h"
 
 namespace espdiff {
 namespace {
@@ -56,11 +56,7 @@ double left_in_address_space() {
   return static_cast<double>(limit.rlim_cur) - used;
 }
 
-std::string gigabytes(double n_bytes) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f GB", std::max(0.0, n_bytes) / 1e9);
-  return text;
-}
+std::string gigabytes(double n_bytes) { return formatted("%.1f GB", std::max(0.0, n_bytes) / 1e9); }
 
 }  // namespace
 

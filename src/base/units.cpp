@@ -5,6 +5,7 @@
 #include <cctype>
 
 #include "base/error.h"
+#include "base/formatted.h"
 
 namespace espdiff {
 namespace {
@@ -63,7 +64,7 @@ PotentialUnit parse_potential_unit(const std::string& text) {
 double conversion_factor(PotentialUnit from, PotentialUnit to, double temperature_K) {
   if (from == to) return 1.0;
   if (!(temperature_K > 0)) {
-    throw InputError("temperature " + std::to_string(temperature_K) + " K is not positive; kT needs one, such as 300");
+    throw InputError("temperature " + formatted(temperature_K) + " K is not positive; kT needs one, such as 300");
   }
   return in_volt(from, temperature_K) / in_volt(to, temperature_K);
 }

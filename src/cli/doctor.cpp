@@ -1,10 +1,11 @@
 // doctor.cpp: `espdiff doctor`: the parts of this build and machine, and how to get missing ones.
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <iostream>
 #include <string>
 #include <vector>
 
+#include "base/formatted.h"
 #include "base/version.h"
 #include "cli/spelling.h"
 #include "cli/verbs.h"
@@ -21,7 +22,7 @@ namespace espdiff::cli {
 namespace {
 
 void line(const char* what, bool good, const Message& text) {
-  std::printf("%-14s %-4s %s\n", what, good ? "ok" : "--", spelled(text).c_str());
+  std::cout << formatted("%-14s %-4s %s\n", what, good ? "ok" : "--", spelled(text).c_str());
 }
 
 /// The module built with this program; empty if there is none.
@@ -33,7 +34,7 @@ std::string vmd_module() {
 }
 
 int run() {
-  std::printf("espdiff %s\n", kVersion);
+  std::cout << formatted("espdiff %s\n", kVersion);
   const BackEndStatus cpu = cpu_status(), cuda = cuda_status();
   line("cpu", cpu.available, cpu.description);
   line("cuda", cuda.available, cuda.description);

@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "base/printable.h"
 #include "cli/map_options.h"
 #include "cli/options.h"
@@ -31,9 +32,7 @@ void print_run(const EnsembleReport& report, const std::string& device) {
   const std::size_t n = report.n_frames - report.n_resumed;
   std::cout << n << " frames mapped in " << in_words(report.seconds);
   if (n > 0 && report.seconds > 0) {
-    char each[32];
-    std::snprintf(each, sizeof each, "%.2f", report.seconds / static_cast<double>(n));
-    std::cout << ", " << each << " s a frame";
+    std::cout << ", " << formatted("%.2f", report.seconds / static_cast<double>(n)) << " s a frame";
   }
   std::cout << " (" << device << ")";
   if (report.n_resumed > 0) std::cout << "; " << report.n_resumed << " were there already";
@@ -42,9 +41,7 @@ void print_run(const EnsembleReport& report, const std::string& device) {
   std::cout << "\n" << report.path;
   const char* separator = ", by stage: ";
   for (const auto& [stage, ms] : report.time_ms) {
-    char text[64];
-    std::snprintf(text, sizeof text, "%s%s %.0f ms", separator, stage.c_str(), ms / static_cast<double>(n));
-    std::cout << text;
+    std::cout << formatted("%s%s %.0f ms", separator, stage.c_str(), ms / static_cast<double>(n));
     separator = ", ";
   }
   std::cout << "\n\n";

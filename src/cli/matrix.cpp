@@ -1,9 +1,9 @@
 // matrix.cpp: `espdiff matrix VARIANT... -o OUT`.
 #include <algorithm>
-#include <cstdio>
 #include <iostream>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "cli/map_options.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
@@ -112,9 +112,7 @@ void print_report(const Arguments& a, const Engine& engine, const MatrixReport& 
   const std::size_t n = report.n_pairs - report.n_resumed;
   std::cout << '\n' << n << " pairs computed in " << in_words(report.seconds);
   if (n > 0) {
-    char each[32];
-    std::snprintf(each, sizeof each, "%.2f", report.seconds / static_cast<double>(n));
-    std::cout << ", " << each << " s a pair";
+    std::cout << ", " << formatted("%.2f", report.seconds / static_cast<double>(n)) << " s a pair";
   }
   std::cout << " (" << engine.description() << ")";
   if (report.n_resumed > 0) std::cout << "; " << report.n_resumed << " were there already";

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <iostream>
 #include <memory>
 
 #include "align/pair_atoms.h"
+#include "base/formatted.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
 #include "compare/options.h"
@@ -106,10 +106,8 @@ PotentialOptions options_from(const Arguments& a) {
 
 /// OUT.dx -> OUT.0007.dx
 std::string numbered(const std::string& path, int frame) {
-  char digits[16];
-  std::snprintf(digits, sizeof digits, ".%04d", frame);
   const std::size_t dot = path.rfind('.');
-  return path.substr(0, dot) + digits + path.substr(dot);
+  return path.substr(0, dot) + formatted(".%04d", frame) + path.substr(dot);
 }
 
 /// Output files of a run: opened at the start, so that a missing folder is found before the work; renamed at the end,
@@ -162,10 +160,11 @@ void print_summary(const Molecule& molecule, const Grid& map, std::size_t n_fram
     most = std::max(most, static_cast<double>(v));
   }
   const auto& size = map.lattice.size;
-  std::printf("potential      %d x %d x %d points, %.3f to %.3f kT/e\n", size[0], size[1], size[2], least, most);
-  std::printf("charge         %.4f e in %zu atoms\n", charge, molecule.size());
-  std::printf("frames         %zu\n", n_frames);
-  std::printf("time           %.0f ms\n", ms);
+  std::cout << formatted("potential      %d x %d x %d points, %.3f to %.3f kT/e\n", size[0], size[1], size[2], least,
+                         most);
+  std::cout << formatted("charge         %.4f e in %zu atoms\n", charge, molecule.size());
+  std::cout << formatted("frames         %zu\n", n_frames);
+  std::cout << formatted("time           %.0f ms\n", ms);
 }
 
 /// The molecules of the frames, with charges.

@@ -1,9 +1,9 @@
 // prepare.cpp: `espdiff prepare IN -o OUT.pqr`.
-#include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "align/compared_chains.h"
+#include "base/formatted.h"
 #include "base/version.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
@@ -50,8 +50,8 @@ void print_summary(const Arguments& a, const LoadedState& state) {
   } else {
     double charge = 0;
     for (const float q : state.molecule.charges) charge += static_cast<double>(q);
-    std::printf("charges         of the file%s\nnet charge      %.4f e\n",
-                state.charge_files.empty() ? "" : (" " + state.charge_files.front().path).c_str(), charge);
+    std::cout << formatted("charges         of the file%s\nnet charge      %.4f e\n",
+                           state.charge_files.empty() ? "" : (" " + state.charge_files.front().path).c_str(), charge);
   }
   for (const auto& group : repeated_chains(state.molecule)) {
     std::string names;

@@ -1,10 +1,10 @@
 // surface.cpp: `espdiff surface MOLECULE -o OUT.vtp`.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iostream>
 #include <limits>
 
+#include "base/formatted.h"
 #include "cli/map_options.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
@@ -47,12 +47,13 @@ LoadedState load(const Arguments& a, const InputOptions& options, const Progress
 }
 
 void print_summary(const SurfaceResult& result) {
-  std::printf("surface        %zu vertices, %zu triangles, %zu component%s\n", result.summary.n_vertices,
-              result.summary.n_triangles, result.summary.n_components, result.summary.n_components == 1 ? "" : "s");
-  std::printf("area           %.1f A^2\n", result.summary.area_A2);
+  std::cout << formatted("surface        %zu vertices, %zu triangles, %zu component%s\n", result.summary.n_vertices,
+                         result.summary.n_triangles, result.summary.n_components,
+                         result.summary.n_components == 1 ? "" : "s");
+  std::cout << formatted("area           %.1f A^2\n", result.summary.area_A2);
   if (result.summary.n_cavities_left_out > 0) {
-    std::printf("cavities       %zu removed, %.1f A^2 (--cavities keeps them)\n", result.summary.n_cavities_left_out,
-                result.summary.cavity_area_A2);
+    std::cout << formatted("cavities       %zu removed, %.1f A^2 (--cavities keeps them)\n",
+                           result.summary.n_cavities_left_out, result.summary.cavity_area_A2);
   }
   if (!result.potential.empty()) {
     float least = std::numeric_limits<float>::infinity(), most = -least;
@@ -61,12 +62,12 @@ void print_summary(const SurfaceResult& result) {
       least = std::min(least, value);
       most = std::max(most, value);
     }
-    std::printf("potential      %.3f to %.3f %s%s%s\n", static_cast<double>(least), static_cast<double>(most),
-                to_string(result.unit).c_str(), result.is_vacuum ? kInVacuum : "",
-                result.potential_label.empty() ? "" : (", " + result.potential_label).c_str());
+    std::cout << formatted("potential      %.3f to %.3f %s%s%s\n", static_cast<double>(least),
+                           static_cast<double>(most), to_string(result.unit).c_str(), result.is_vacuum ? kInVacuum : "",
+                           result.potential_label.empty() ? "" : (", " + result.potential_label).c_str());
   }
   for (const auto& [stage, ms] : result.time_ms) {
-    if (stage == "total") std::printf("time           %.0f ms\n", ms);
+    if (stage == "total") std::cout << formatted("time           %.0f ms\n", ms);
   }
 }
 

@@ -3,9 +3,11 @@
 
 #include <chrono>
 #include <cstdio>
+#include <iostream>
 #include <optional>
 #include <utility>
 
+#include "base/formatted.h"
 #include "base/printable.h"
 #include "cli/trajectory_sides.h"
 #include "cli/verbs.h"
@@ -147,10 +149,11 @@ int run(const TrajectoryArguments& a, const Context& context) {
   const TrajectorySummary summary = run.summary();
   if (a.quiet) return 0;
   const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-  std::printf("frames         %zu\n", summary.n_frames);
-  std::printf("rows           %zu written, %zu were there\n", summary.n_rows, summary.n_resumed);
-  if (summary.n_skipped > 0) std::printf("errors         %zu rows have one instead of numbers\n", summary.n_skipped);
-  std::printf("time           %.1f s\n", s);
+  std::cout << formatted("frames         %zu\n", summary.n_frames);
+  std::cout << formatted("rows           %zu written, %zu were there\n", summary.n_rows, summary.n_resumed);
+  if (summary.n_skipped > 0)
+    std::cout << formatted("errors         %zu rows have one instead of numbers\n", summary.n_skipped);
+  std::cout << formatted("time           %.1f s\n", s);
   return 0;
 }
 

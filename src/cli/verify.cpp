@@ -1,8 +1,9 @@
 // verify.cpp: `espdiff verify OUT`.
 #include "base/error.h"
+#include "base/formatted.h"
 #include "cli/verbs.h"
 #if defined(ESPDIFF_HAVE_VTK)
-#include <cstdio>
+#include <iostream>
 
 #include "verify/verify.h"
 #endif
@@ -14,20 +15,20 @@ namespace {
 
 int run(const std::string& prefix) {
   const Verification verification = verify(prefix);
-  std::printf("%-58s %12s %12s %10s\n", "Number", "recorded", "recomputed", "tolerance");
+  std::cout << formatted("%-58s %12s %12s %10s\n", "Number", "recorded", "recomputed", "tolerance");
   std::size_t n_different = 0;
   for (const VerifiedLine& line : verification.lines) {
     n_different += line.agrees() ? 0 : 1;
-    std::printf("%-58s %12.6g %12.6g %10.2g%s\n", line.name.c_str(), line.recorded, line.recomputed, line.tolerance,
-                line.agrees() ? "" : "  DIFFERS");
+    std::cout << formatted("%-58s %12.6g %12.6g %10.2g%s\n", line.name.c_str(), line.recorded, line.recomputed,
+                           line.tolerance, line.agrees() ? "" : "  DIFFERS");
   }
-  std::printf("\nNot recomputed:\n");
-  for (const std::string& name : verification.not_recomputed) std::printf("  - %s\n", name.c_str());
+  std::cout << formatted("\nNot recomputed:\n");
+  for (const std::string& name : verification.not_recomputed) std::cout << formatted("  - %s\n", name.c_str());
   if (n_different == 0) {
-    std::printf("\nVERIFIED: %zu numbers agree\n", verification.lines.size());
+    std::cout << formatted("\nVERIFIED: %zu numbers agree\n", verification.lines.size());
     return 0;
   }
-  std::printf("\nNOT VERIFIED: %zu of %zu numbers differ\n", n_different, verification.lines.size());
+  std::cout << formatted("\nNOT VERIFIED: %zu of %zu numbers differ\n", n_different, verification.lines.size());
   return 1;
 }
 

@@ -3,6 +3,7 @@
 
 #include "align/superpose.h"
 #include "base/error.h"
+#include "base/formatted.h"
 #include "compare/map_recipe.h"
 #include "compare/options.h"
 #include "compare/side_maps.h"
@@ -14,9 +15,9 @@ namespace {
 
 void check_options(const SurfaceOptions& options) {
   if (!(options.radius_scale > 0))
-    throw InputError("radius scale " + std::to_string(options.radius_scale) + " is not positive; 1 is usual");
+    throw InputError("radius scale " + formatted(options.radius_scale) + " is not positive; 1 is usual");
   if (!(options.isovalue > 0))
-    throw InputError("isovalue " + std::to_string(options.isovalue) + " is not positive; 0.5 is usual");
+    throw InputError("isovalue " + formatted(options.isovalue) + " is not positive; 0.5 is usual");
 }
 
 AtomsPtr upload(Engine& engine, const Molecule& molecule, const RigidTransform& to_common, double radius_scale) {

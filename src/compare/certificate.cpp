@@ -2,9 +2,9 @@
 #include "compare/certificate.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 
+#include "base/formatted.h"
 #include "compare/short_numbers.h"
 #include "compare/slip.h"
 #include "engine/engine.h"
@@ -33,11 +33,6 @@ std::string intersecting_pairs(std::size_t n) {
          std::to_string(Limits::kSelfIntersectingPairs) + ")";
 }
 
-std::string two_digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f", value);
-  return text;
-}
 bool disagrees(const std::optional<ResidueCheck>& check) {
   return check && check->correlation < Limits::kResidueCorrelation &&
          check->rms_error > Limits::kResidueNoise * check->rms_potential;
@@ -133,9 +128,9 @@ void judge(CompareResult& result, const Molecule& source) {
              angstrom(Limits::kRoundTrip_A) + ")");
   for (const Message& reason : slip_reasons(result, source)) c.reasons.push_back(reason);
   refuse(disagrees(c.residues), "the differences by residue correlate by " +
-                                    two_digits(c.residues ? c.residues->correlation : 0) +
+                                    formatted("%.2f", c.residues ? c.residues->correlation : 0) +
                                     " with those of each residue's potentials on its own surfaces (limit " +
-                                    two_digits(Limits::kResidueCorrelation) + ")");
+                                    formatted("%.2f", Limits::kResidueCorrelation) + ")");
   refuse(c.outside_maps > Limits::kMaxOutsideMaps, percent(c.outside_maps) +
                                                        " of the mapped area lies outside a map (limit " +
                                                        percent(Limits::kMaxOutsideMaps) + ")");

@@ -2,21 +2,16 @@
 #include "compare/map_recipe.h"
 
 #include <cmath>
-#include <cstdio>
+
+#include "base/formatted.h"
 
 namespace espdiff {
 namespace {
 
-std::string written(const char* format, double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
 double volume_of(const PmeCell& cell) { return dot(cell.edges[0], cross(cell.edges[1], cell.edges[2])); }
 
 std::string of_dielectric(const CoulombOptions& o) {
-  return "dielectric " + written("%.4g", o.dielectric) + (o.distance_dependent ? " r" : "");
+  return "dielectric " + formatted("%.4g", o.dielectric) + (o.distance_dependent ? " r" : "");
 }
 
 /// A charge that was rounded in a file is whole to about this much.
@@ -24,14 +19,14 @@ constexpr double kWhole = 0.02;
 
 void note_fraction(const char* side, const MapRecipe& r, std::vector<std::string>& notes) {
   if (std::fabs(r.net_charge - std::round(r.net_charge)) <= kWhole) return;
-  notes.push_back(std::string("the charges of the ") + side + " add up to " + written("%.4f", r.net_charge) +
+  notes.push_back(std::string("the charges of the ") + side + " add up to " + formatted("%.4f", r.net_charge) +
                   " e, which is not a whole number: atoms or charges may be missing");
 }
 
 void note_charges(const MapRecipe& source, const MapRecipe& target, std::vector<std::string>& notes) {
   if (std::fabs(source.net_charge - target.net_charge) <= kWhole) return;
-  notes.push_back("the net charges differ, " + written("%.3g", source.net_charge) + " and " +
-                  written("%.3g", target.net_charge) +
+  notes.push_back("the net charges differ, " + formatted("%.3g", source.net_charge) + " and " +
+                  formatted("%.3g", target.net_charge) +
                   " e: each periodic cell is neutralized by a uniform background "
                   "of its own, which changes the difference; zero is the " +
                   to_string(source.zero) + (source.zero == target.zero ? "" : " and the " + to_string(target.zero)));
@@ -41,7 +36,7 @@ void note_cells(const MapRecipe& source, const MapRecipe& target, std::vector<st
   constexpr double kSameVolume = 0.01;
   const double a = volume_of(source.cell), b = volume_of(target.cell);
   if (std::fabs(a - b) <= kSameVolume * std::max(a, b)) return;
-  notes.push_back("the periodic cells differ, " + written("%.0f", a) + " and " + written("%.0f", b) +
+  notes.push_back("the periodic cells differ, " + formatted("%.0f", a) + " and " + formatted("%.0f", b) +
                   " A^3: the zero, the " + to_string(source.zero) + ", depends on that where the molecule is charged");
 }
 
@@ -73,7 +68,7 @@ bool is_vacuum(const MapRecipe& r) {
 std::string potential_label(const MapRecipe& r) {
   if (r.method == PotentialMethod::kPoissonBoltzmann)
     return std::string(r.pb.nonlinear ? "nonlinear " : "") + "Poisson-Boltzmann, " +
-           written("%.4g", r.pb.ionic_strength) + " mol/l";
+           formatted("%.4g", r.pb.ionic_strength) + " mol/l";
   if (r.method == PotentialMethod::kCoulomb)
     return is_vacuum(r) ? "vacuum (Coulomb)" : "Coulomb, " + of_dielectric(r.coulomb);
   const std::string part = r.pme.part == PmePart::kFull ? "" : ", smooth part";

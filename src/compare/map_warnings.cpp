@@ -3,9 +3,9 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
+#include "base/formatted.h"
 #include "compare/input.h"
 
 namespace espdiff {
@@ -64,12 +64,6 @@ class MapSampler {
   std::array<Vec3d, 3> reciprocal_;
 };
 
-std::string two_digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f", value);
-  return text;
-}
-
 }  // namespace
 
 double map_correlation(const Grid& map, const Molecule& molecule) {
@@ -100,8 +94,9 @@ std::vector<Warning> map_warnings(const CompareInput& source, const CompareInput
     const double a = map_correlation(*source.map, *target.molecule), b = map_correlation(*target.map, *source.molecule);
     if (a > of_source + kBetterByExchange && b > of_target + kBetterByExchange) {
       warnings.push_back({"the maps are exchanged: the source's fits the target's charges (correlation " +
-                              two_digits(a) + " against " + two_digits(of_source) + "), the target's the source's (" +
-                              two_digits(b) + " against " + two_digits(of_target) + ")",
+                              formatted("%.2f", a) + " against " + formatted("%.2f", of_source) +
+                              "), the target's the source's (" + formatted("%.2f", b) + " against " +
+                              formatted("%.2f", of_target) + ")",
                           true});
       return warnings;
     }
@@ -109,8 +104,9 @@ std::vector<Warning> map_warnings(const CompareInput& source, const CompareInput
   for (const auto& [role, correlation] : {std::pair("source", of_source), std::pair("target", of_target)}) {
     if (!(correlation < kLeastCorrelation)) continue;
     warnings.push_back({std::string("the map of the ") + role + " does not belong to it: its values at the atoms " +
-                            "correlate with the charges by " + two_digits(correlation) + " (limit " +
-                            two_digits(kLeastCorrelation) + "); give the map that was computed for these coordinates",
+                            "correlate with the charges by " + formatted("%.2f", correlation) + " (limit " +
+                            formatted("%.2f", kLeastCorrelation) +
+                            "); give the map that was computed for these coordinates",
                         true});
   }
   return warnings;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "engine/poisson_boltzmann.h"
 
 namespace espdiff {
@@ -32,9 +33,9 @@ Box box_around(const std::vector<Vec3d>& positions, const std::vector<float>& ra
 Lattice poisson_boltzmann_lattice(const std::vector<Vec3d>& positions, const std::vector<float>& radii,
                                   double spacing_A, double padding_A) {
   if (!(spacing_A > 0) || !std::isfinite(spacing_A))
-    throw InputError("grid spacing " + std::to_string(spacing_A) + " A is not a positive number; 0.5 is usual");
+    throw InputError("grid spacing " + formatted(spacing_A) + " A is not a positive number; 0.5 is usual");
   if (!(padding_A >= 0) || !std::isfinite(padding_A))
-    throw InputError("padding " + std::to_string(padding_A) + " A is not a number from 0 on; 12 is usual");
+    throw InputError("padding " + formatted(padding_A) + " A is not a number from 0 on; 12 is usual");
   if (positions.empty()) throw InputError("no atoms to lay a grid around");
   const Box box = box_around(positions, radii);
   Lattice lattice;
@@ -47,7 +48,7 @@ Lattice poisson_boltzmann_lattice(const std::vector<Vec3d>& positions, const std
     const double n_steps = std::max(1.0, std::ceil(extent / spacing_A / kMultiple)) * kMultiple;
     n_points *= n_steps + 1;
     if (n_points > 2.0e9)
-      throw MemoryError("a grid of spacing " + std::to_string(spacing_A) +
+      throw MemoryError("a grid of spacing " + formatted(spacing_A) +
                         " A around these atoms has more than 2e9 points; "
                         "use a larger spacing");
     lattice.size[axis] = static_cast<int>(n_steps) + 1;

@@ -2,11 +2,11 @@
 #include "ensemble/ensemble_plan.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "io/json_integer.h"
 #include "io/json_values.h"
 #include "matrix/plan_difference.h"
@@ -190,13 +190,10 @@ std::string design_warning(const EnsemblePlan& plan) {
            "them), not of the states; four replicates or more of each state allow more";
   const double p = smallest_p(a, b);
   if (p < 0.05) return "";
-  char text[256];
-  std::snprintf(
-      text, sizeof text,
+  return formatted(
       "%zu against %zu replicates can be exchanged in %llu ways: no family-wise p can be below %.3g, whatever "
       "the frames are; 4 against 4 reach 0.029",
       a, b, static_cast<unsigned long long>(count_arrangements(a, b)), p);
-  return text;
 }
 
 }  // namespace espdiff

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <map>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "ensemble/ensemble_file.h"
 #include "statistics/false_discovery.h"
 #include "statistics/replicate_columns.h"
@@ -297,19 +297,16 @@ struct Analysis {
 
   /// A run that drifts, or a single run of a state with few effective samples, says nothing about a state.
   void judge_equilibrium() {
-    char text[256];
     const double level = kDriftLevel / static_cast<double>(result.replicates.size());
     for (const ReplicateSummary& r : result.replicates) {
       const bool alone = plan().replicates_of(r.group).size() == 1;
       if (r.drift.p <= level && r.drift.share >= kDriftShare) {
-        std::snprintf(text, sizeof text,
-                      "replicate %s of %s drifts: %.0f %% of the variance between its tenths is a trend",
-                      r.name.c_str(), r.group.c_str(), 100 * r.drift.share);
-        result.not_equilibrium.emplace_back(text);
+        result.not_equilibrium.push_back(
+            formatted("replicate %s of %s drifts: %.0f %% of the variance between its tenths is a trend",
+                      r.name.c_str(), r.group.c_str(), 100 * r.drift.share));
       } else if (alone && r.effective < kFewEffective) {
-        std::snprintf(text, sizeof text, "%s has one replicate, of %.0f effective samples", r.group.c_str(),
-                      r.effective);
-        result.not_equilibrium.emplace_back(text);
+        result.not_equilibrium.push_back(
+            formatted("%s has one replicate, of %.0f effective samples", r.group.c_str(), r.effective));
       }
     }
   }
@@ -317,24 +314,19 @@ struct Analysis {
   void warn() {
     const std::string design = design_warning(plan());
     if (!design.empty()) result.warnings.push_back(design);
-    char text[256];
     for (const ReplicateSummary& r : result.replicates) {
       if (r.effective >= kFewEffective) continue;
-      std::snprintf(
-          text, sizeof text,
+      result.warnings.push_back(formatted(
           "replicate %s of %s has %.0f effective samples (median over the surface), fewer than %.0f: its mean "
           "may not have converged",
-          r.name.c_str(), r.group.c_str(), r.effective, kFewEffective);
-      result.warnings.emplace_back(text);
+          r.name.c_str(), r.group.c_str(), r.effective, kFewEffective));
     }
     const double left_out = 1 - result.tested_area_A2 / result.area_A2;
     if (left_out > 0.05) {
-      std::snprintf(
-          text, sizeof text,
+      result.warnings.push_back(formatted(
           "%.1f %% of the template's area has no counterpart in more than %.0f %% of a group's frames, and was "
           "not tested",
-          100 * left_out, 100 * result.options.most_missing);
-      result.warnings.emplace_back(text);
+          100 * left_out, 100 * result.options.most_missing));
     }
   }
 };

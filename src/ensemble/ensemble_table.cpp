@@ -1,13 +1,12 @@
 // ensemble_table.cpp: the printed answer.
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <ostream>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/formatted.h"
 #include "ensemble/ensemble_file.h"
 #include "ensemble/ensemble_result.h"
 #include "ensemble/write_ensemble.h"
@@ -15,28 +14,19 @@
 namespace espdiff {
 namespace {
 
-[[gnu::format(printf, 1, 2)]] std::string print(const char* format, ...) {
-  char text[512];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return text;
-}
-
 /// Three decimals, "-" without a value.
-std::string value(double number) { return std::isfinite(number) ? print("%.3f", number) : "-"; }
+std::string value(double number) { return std::isfinite(number) ? formatted("%.3f", number) : "-"; }
 
 /// "43 %", "-" without a value.
-std::string percent(double share) { return std::isfinite(share) ? print("%.0f %%", 100 * share) : "-"; }
+std::string percent(double share) { return std::isfinite(share) ? formatted("%.0f %%", 100 * share) : "-"; }
 
 void print_replicates(std::ostream& out, const EnsembleResult& result) {
-  out << print("%-10s %-20s %7s %6s %7s %6s %9s %9s %12s\n", "group", "replicate", "frames", "g", "eff.", "trend",
-               "mean", "RMSD (A)", "not trusted");
+  out << formatted("%-10s %-20s %7s %6s %7s %6s %9s %9s %12s\n", "group", "replicate", "frames", "g", "eff.", "trend",
+                   "mean", "RMSD (A)", "not trusted");
   for (const ReplicateSummary& r : result.replicates)
-    out << print("%-10.10s %-20.20s %7zu %6.1f %7.1f %6s %9.3f %9.2f %12zu\n", r.group.c_str(), r.name.c_str(),
-                 r.n_frames - r.n_cut_off - r.n_failed, r.inefficiency, r.effective, percent(r.drift.share).c_str(),
-                 r.mean_potential, r.mean_rmsd_A, r.n_not_trustworthy);
+    out << formatted("%-10.10s %-20.20s %7zu %6.1f %7.1f %6s %9.3f %9.2f %12zu\n", r.group.c_str(), r.name.c_str(),
+                     r.n_frames - r.n_cut_off - r.n_failed, r.inefficiency, r.effective, percent(r.drift.share).c_str(),
+                     r.mean_potential, r.mean_rmsd_A, r.n_not_trustworthy);
 }
 
 void print_noise(std::ostream& out, const EnsembleResult& result, const std::string& unit) {
@@ -46,17 +36,17 @@ void print_noise(std::ostream& out, const EnsembleResult& result, const std::str
     const std::string groups = result.groups[1].name + " - " + result.groups[0].name;
     const char* const null =
         test.inference == Inference::kReplicates ? "with exchanged labels, median" : "of resampled runs, median";
-    out << print("  %-44.44s %8s   p = %.3g\n", groups.c_str(), value(test.mean_abs_difference).c_str(),
-                 test.mean_abs_difference_p);
-    out << print("  %-44s %8s\n", null, value(test.mean_abs_difference_exchanged).c_str());
-    out << print("  %-44s %8s\n", "one replicate of each group, mean of pairs", value(result.noise.across).c_str());
+    out << formatted("  %-44.44s %8s   p = %.3g\n", groups.c_str(), value(test.mean_abs_difference).c_str(),
+                     test.mean_abs_difference_p);
+    out << formatted("  %-44s %8s\n", null, value(test.mean_abs_difference_exchanged).c_str());
+    out << formatted("  %-44s %8s\n", "one replicate of each group, mean of pairs", value(result.noise.across).c_str());
   }
   for (std::size_t g = 0; g < result.groups.size(); ++g) {
     const std::string name = result.groups[g].name;
-    out << print("  %-44.44s %8s\n", ("two replicates of " + name + ", mean of pairs").c_str(),
-                 value(result.noise.replicates[g]).c_str());
-    out << print("  %-44.44s %8s\n", ("first and second halves, " + name).c_str(),
-                 value(result.noise.halves[g]).c_str());
+    out << formatted("  %-44.44s %8s\n", ("two replicates of " + name + ", mean of pairs").c_str(),
+                     value(result.noise.replicates[g]).c_str());
+    out << formatted("  %-44.44s %8s\n", ("first and second halves, " + name).c_str(),
+                     value(result.noise.halves[g]).c_str());
   }
 }
 
@@ -66,12 +56,12 @@ void print_fixed_patches(std::ostream& out, const EnsembleResult& result, const 
   const PlaceTests& t = result.fixed_patch_tests;
   for (std::size_t k = 0; k < result.fixed_patches.size(); ++k) {
     const FixedPatch& patch = result.fixed_patches[k];
-    out << print("  %-20.20s %8.1f A2", patch.name.c_str(), patch.area_A2);
+    out << formatted("  %-20.20s %8.1f A2", patch.name.c_str(), patch.area_A2);
     for (std::size_t g = 0; g < result.groups.size(); ++g)
-      out << print("  %.12s %s", result.groups[g].name.c_str(), value(patch.means[g]).c_str());
+      out << formatted("  %.12s %s", result.groups[g].name.c_str(), value(patch.means[g]).c_str());
     if (result.compares)
-      out << print("  diff. %s (%s to %s), p %.2g", value(t.difference[k]).c_str(), value(t.low[k]).c_str(),
-                   value(t.high[k]).c_str(), t.p[k]);
+      out << formatted("  diff. %s (%s to %s), p %.2g", value(t.difference[k]).c_str(), value(t.low[k]).c_str(),
+                       value(t.high[k]).c_str(), t.p[k]);
     out << '\n';
   }
 }
@@ -81,7 +71,7 @@ std::string main_residues(const std::vector<std::pair<std::string, double>>& res
   std::string text;
   double sum = 0;
   for (std::size_t i = 0; i < residues.size() && i < 3 && sum < 0.75; ++i) {
-    text += (text.empty() ? "" : ", ") + residues[i].first + print(" %.0f %%", 100 * residues[i].second);
+    text += (text.empty() ? "" : ", ") + residues[i].first + formatted(" %.0f %%", 100 * residues[i].second);
     sum += residues[i].second;
   }
   return text;
@@ -89,19 +79,19 @@ std::string main_residues(const std::vector<std::pair<std::string, double>>& res
 
 void print_patches(std::ostream& out, const EnsembleResult& result, const std::string& unit) {
   const double confidence = 100 * (1 - result.options.alpha);
-  out << print(
+  out << formatted(
       "\nsignificant: %.1f A2 of %.1f A2 tested (%.1f %%), family-wise p <= %.3g by %s; smallest possible p %.3g\n",
       result.significant_area_A2, result.tested_area_A2, 100 * result.significant_area_A2 / result.tested_area_A2,
       result.options.alpha, result.options.control == ErrorControl::kTfce ? "TFCE" : "max-t", result.test.smallest_p);
   if (result.patches.empty()) return;
-  out << print("%-6s %9s %12s %20s %8s  %s\n", "patch", "area (A2)", ("diff. (" + unit + ")").c_str(),
-               print("%.0f %% interval", confidence).c_str(), "p", "residues");
+  out << formatted("%-6s %9s %12s %20s %8s  %s\n", "patch", "area (A2)", ("diff. (" + unit + ")").c_str(),
+                   formatted("%.0f %% interval", confidence).c_str(), "p", "residues");
   constexpr std::size_t kMost = 10;
   for (std::size_t k = 0; k < std::min(kMost, result.patches.size()); ++k) {
     const PlaceTests& t = result.patch_tests;
-    out << print("%-6zu %9.1f %12.3f %20s %8.3g  %s\n", k + 1, result.patches[k].patch.area, t.difference[k],
-                 print("%.3f to %.3f", t.low[k], t.high[k]).c_str(), result.patches[k].smallest_p,
-                 main_residues(result.patches[k].residues).c_str());
+    out << formatted("%-6zu %9.1f %12.3f %20s %8.3g  %s\n", k + 1, result.patches[k].patch.area, t.difference[k],
+                     formatted("%.3f to %.3f", t.low[k], t.high[k]).c_str(), result.patches[k].smallest_p,
+                     main_residues(result.patches[k].residues).c_str());
   }
   if (result.patches.size() > kMost) out << "... and " << result.patches.size() - kMost << " smaller ones\n";
 }
@@ -114,16 +104,17 @@ void print_regression(std::ostream& out, const EnsembleResult& result, const std
   double area = 0;
   for (const double value : regression.column.values) n += std::isfinite(value) ? 1U : 0U;
   for (const EnsembleRegression::Patch& patch : regression.patches) area += patch.patch.area;
-  out << print("\nregression on %.40s of %zu replicates, %s%zu orders\n", regression.column.name.c_str(), n,
-               surface.exact ? "all " : "", surface.n_arrangements);
-  out << print("  predicted from the others: Q2 %.3f, p %.3g\n", surface.q2, surface.q2_p);
-  out << print("  significant: %.1f A2 of %.1f A2, family-wise p <= %.3g by %s; smallest possible p %.3g\n", area,
-               result.tested_area_A2, result.options.alpha,
-               result.options.control == ErrorControl::kTfce ? "TFCE" : "max-t", surface.smallest_p);
+  out << formatted("\nregression on %.40s of %zu replicates, %s%zu orders\n", regression.column.name.c_str(), n,
+                   surface.exact ? "all " : "", surface.n_arrangements);
+  out << formatted("  predicted from the others: Q2 %.3f, p %.3g\n", surface.q2, surface.q2_p);
+  out << formatted("  significant: %.1f A2 of %.1f A2, family-wise p <= %.3g by %s; smallest possible p %.3g\n", area,
+                   result.tested_area_A2, result.options.alpha,
+                   result.options.control == ErrorControl::kTfce ? "TFCE" : "max-t", surface.smallest_p);
   for (std::size_t k = 0; k < std::min<std::size_t>(10, regression.patches.size()); ++k) {
     const EnsembleRegression::Patch& patch = regression.patches[k];
-    out << print("  %-4zu %8.1f A2  r %6.3f  %.3g %s per unit, p %.3g  %.40s\n", k + 1, patch.patch.area,
-                 patch.correlation, patch.slope, unit.c_str(), patch.smallest_p, main_residues(patch.residues).c_str());
+    out << formatted("  %-4zu %8.1f A2  r %6.3f  %.3g %s per unit, p %.3g  %.40s\n", k + 1, patch.patch.area,
+                     patch.correlation, patch.slope, unit.c_str(), patch.smallest_p,
+                     main_residues(patch.residues).c_str());
   }
 }
 
@@ -141,28 +132,29 @@ void print_residues(std::ostream& out, const EnsembleResult& result) {
   constexpr std::size_t kMost = 10;
   for (std::size_t k = 0; k < std::min(kMost, found.size()); ++k) {
     const std::size_t i = found[k];
-    out << print("  %-24.24s %8.3f (%.3f to %.3f), adjusted p %.2g\n", result.residues[i].label.c_str(),
-                 t.difference[i], t.low[i], t.high[i], result.residues[i].adjusted_p);
+    out << formatted("  %-24.24s %8.3f (%.3f to %.3f), adjusted p %.2g\n", result.residues[i].label.c_str(),
+                     t.difference[i], t.low[i], t.high[i], result.residues[i].adjusted_p);
   }
 }
 
 void print_template_checks(std::ostream& out, const EnsembleResult& result) {
   if (result.template_checks.empty()) return;
-  out << print("\n%-54s %10s %10s %8s %14s\n", "through another template", "mean diff.", "area (A2)", "overlap",
-               "largest change");
+  out << formatted("\n%-54s %10s %10s %8s %14s\n", "through another template", "mean diff.", "area (A2)", "overlap",
+                   "largest change");
   for (const TemplateCheck& check : result.template_checks)
-    out << print("  %-52.52s %10.3f %10.1f %8s %14s\n", check.template_name.c_str(), check.mean_abs_difference,
-                 check.significant_area_A2, value(check.overlap).c_str(), value(check.largest_change).c_str());
+    out << formatted("  %-52.52s %10.3f %10.1f %8s %14s\n", check.template_name.c_str(), check.mean_abs_difference,
+                     check.significant_area_A2, value(check.overlap).c_str(), value(check.largest_change).c_str());
 }
 
 /// Mean scores of the groups beside each component's share.
 void print_states(std::ostream& out, const EnsembleFile& file, const EnsembleResult& result) {
   if (!result.states) return;
   const StateTable& states = *result.states;
-  out << print("\nprincipal components of %zu frames, over %.1f %% of the area; mean scores in standard deviations\n",
-               states.size(), 100 * states.area_fraction);
+  out << formatted(
+      "\nprincipal components of %zu frames, over %.1f %% of the area; mean scores in standard deviations\n",
+      states.size(), 100 * states.area_fraction);
   for (std::size_t k = 0; k < states.components.size(); ++k) {
-    out << print("  component %zu: %4.1f %% of the variance", k + 1, 100 * states.components[k].share);
+    out << formatted("  component %zu: %4.1f %% of the variance", k + 1, 100 * states.components[k].share);
     for (const GroupColumns& group : result.groups) {
       double sum = 0, n = 0;
       for (std::size_t i = 0; i < states.size(); ++i) {
@@ -171,7 +163,7 @@ void print_states(std::ostream& out, const EnsembleFile& file, const EnsembleRes
         sum += states.components[k].scores[i];
         ++n;
       }
-      out << print(";  %s %.2f", group.name.c_str(), sum / n);
+      out << formatted(";  %s %.2f", group.name.c_str(), sum / n);
     }
     out << '\n';
   }
@@ -181,15 +173,15 @@ void print_states(std::ostream& out, const EnsembleFile& file, const EnsembleRes
 
 void print_ensemble(std::ostream& out, const EnsembleFile& file, const EnsembleResult& result) {
   const std::string& unit = file.plan().potential_unit;
-  out << print("template     %s, %zu vertices, %.1f A2\n", file.plan().template_name.c_str(), file.n_vertices(),
-               result.area_A2);
-  out << print("potential    %.70s\n", file.plan().potential.c_str());
+  out << formatted("template     %s, %zu vertices, %.1f A2\n", file.plan().template_name.c_str(), file.n_vertices(),
+                   result.area_A2);
+  out << formatted("potential    %.70s\n", file.plan().potential.c_str());
   if (result.compares && result.test.inference == Inference::kReplicates)
-    out << print("inference    of the states: Welch's t of replicates' means; labels exchanged in %s%zu ways\n",
-                 result.test.exact ? "all " : "", result.test.n_arrangements);
+    out << formatted("inference    of the states: Welch's t of replicates' means; labels exchanged in %s%zu ways\n",
+                     result.test.exact ? "all " : "", result.test.n_arrangements);
   if (result.compares && result.test.inference == Inference::kWithinRuns)
-    out << print("inference    of these runs only, not of the states: block bootstrap, %zu samples\n",
-                 result.test.n_arrangements);
+    out << formatted("inference    of these runs only, not of the states: block bootstrap, %zu samples\n",
+                     result.test.n_arrangements);
   out << '\n';
   print_replicates(out, result);
   print_noise(out, result, unit);

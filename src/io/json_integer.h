@@ -15,9 +15,11 @@ Integer integer_of(const Json& json) {
   static_assert(std::is_integral_v<Integer> && !std::is_same_v<Integer, bool>);
   using Limits = std::numeric_limits<Integer>;
   if (!json.is_number_integer()) throw std::out_of_range("not a whole number");
-  const bool is_negative = !json.is_number_unsigned() && json.template get<std::int64_t>() < 0;
-  const bool fits = is_negative ? std::is_signed_v<Integer> && json.template get<std::int64_t>() >= Limits::min()
-                                : json.template get<std::uint64_t>() <= static_cast<std::uint64_t>(Limits::max());
+  bool fits = false;
+  if (json.is_number_unsigned() || json.template get<std::int64_t>() >= 0)
+    fits = json.template get<std::uint64_t>() <= static_cast<std::uint64_t>(Limits::max());
+  else if constexpr (std::is_signed_v<Integer>)
+    fits = json.template get<std::int64_t>() >= Limits::min();
   if (!fits) throw std::out_of_range("a whole number out of range");
   return json.template get<Integer>();
 }

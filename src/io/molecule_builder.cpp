@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <utility>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "base/memory.h"
 #include "base/water.h"
 #include "io/elements.h"
@@ -19,12 +19,6 @@ namespace {
 template <std::size_t N>
 bool is_one_of(const std::string& name, const std::array<const char*, N>& names) {
   return std::any_of(names.begin(), names.end(), [&](const char* other) { return name == other; });
-}
-
-std::string shown(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
 }
 
 std::string element_of(const AtomEntry& entry) {
@@ -111,7 +105,7 @@ void MoleculeBuilder::append(const AtomEntry& entry, const std::string& element,
     const double x = entry.position[axis];
     if (std::isfinite(x) && std::abs(x) <= kFarthest) continue;
     throw FormatError(path_, entry.line,
-                      std::string(1, "xyz"[axis]) + " coordinate of atom '" + entry.name + "' is " + std::to_string(x) +
+                      std::string(1, "xyz"[axis]) + " coordinate of atom '" + entry.name + "' is " + formatted(x) +
                           "; a number of Angstrom between -1e6 and 1e6 was expected");
   }
   if (molecule_.atoms.size() == kMostAtoms)
@@ -137,17 +131,17 @@ void MoleculeBuilder::add(const AtomEntry& entry, double charge, double radius) 
   constexpr double kLargestCharge = 1e6, kLargestRadius_A = 1000;
   if (!(std::abs(charge) <= kLargestCharge)) {
     throw FormatError(path_, entry.line,
-                      "charge of atom '" + entry.name + "' is " + shown(charge) +
+                      "charge of atom '" + entry.name + "' is " + formatted(charge) +
                           "; elementary charges between -1e6 and 1e6 were expected");
   }
   if (!(radius <= kLargestRadius_A)) {
     throw FormatError(
         path_, entry.line,
-        "radius of atom '" + entry.name + "' is " + shown(radius) + "; at most 1000 Angstrom were expected");
+        "radius of atom '" + entry.name + "' is " + formatted(radius) + "; at most 1000 Angstrom were expected");
   }
   if (radius < 0) {
     throw FormatError(path_, entry.line,
-                      "radius of atom '" + entry.name + "' is " + std::to_string(radius) +
+                      "radius of atom '" + entry.name + "' is " + formatted(radius) +
                           "; 0 or more was expected (are charge and radius swapped?)");
   }
   refuse_double(entry);

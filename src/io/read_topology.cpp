@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <map>
 #include <utility>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "io/file_kind.h"
 #include "io/molecule_builder.h"
 #include "io/read_input.h"
@@ -29,9 +29,7 @@ void check_count(const std::string& path, long line, long long n) {
 /// @param what "charge of atom 3"
 void check_range(const std::string& path, long line, const std::string& what, double value, double least, double most) {
   if (value >= least && value <= most) return;
-  char text[96];
-  std::snprintf(text, sizeof text, " is %g; %g to %g were expected", value, least, most);
-  throw FormatError(path, line, what + text);
+  throw FormatError(path, line, what + formatted(" is %g; %g to %g were expected", value, least, most));
 }
 
 /// Words of an atom: number, segment, residue number, residue, atom, type, charge, mass.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "base/memory.h"
 #include "io/grid_checks.h"
 #include "io/read_dx.h"
@@ -164,7 +165,7 @@ void read_piece(const VtkXmlFile& file, const XmlElement& piece, const XmlElemen
     if (!std::isfinite(number))
       throw FormatError(
           file.path(), 0,
-          "value " + std::to_string(i + 1) + " is " + std::to_string(value) + "; a finite number was expected");
+          "value " + std::to_string(i + 1) + " is " + formatted(value) + "; a finite number was expected");
     grid.values[point] = number;
   });
 }

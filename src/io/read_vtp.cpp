@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <new>
 #include <utility>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "base/memory.h"
 #include "io/text_cursor.h"
 #include "io/vtk_xml.h"
@@ -89,11 +89,9 @@ std::vector<Triangle> read_triangles(const VtkXmlFile& file, const XmlElement& p
   });
   file.read_values(*corners, 3 * counts.triangles, [&](std::size_t i, double vertex) {
     if (!(vertex >= 0) || vertex >= static_cast<double>(counts.points) || vertex != std::floor(vertex)) {
-      char shown[32];
-      std::snprintf(shown, sizeof shown, "%.0f", vertex);
       throw FormatError(file.path(), corners->line,
-                        "a triangle refers to vertex " + std::string(shown) + " of " + std::to_string(counts.points) +
-                            "; write the file again");
+                        "a triangle refers to vertex " + formatted("%.0f", vertex) + " of " +
+                            std::to_string(counts.points) + "; write the file again");
     }
     if (i % 3 == 0) triangles.emplace_back();
     triangles.back()[i % 3] = static_cast<std::uint32_t>(vertex);

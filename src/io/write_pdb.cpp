@@ -2,9 +2,9 @@
 #include "io/write_pdb.h"
 
 #include <cmath>
-#include <cstdio>
 
 #include "base/error.h"
+#include "base/formatted.h"
 
 namespace espdiff {
 namespace {
@@ -28,9 +28,7 @@ std::string described(const Molecule& molecule, std::size_t i) {
 void check(const Molecule& molecule, std::size_t i, double value) {
   constexpr double kLow = -99.995, kHigh = 999.995;  // F6.2
   if (!std::isnan(value) && !(value > kLow && value < kHigh)) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%g", value);
-    throw InputError(described(molecule, i) + ": the value " + text +
+    throw InputError(described(molecule, i) + ": the value " + formatted(value) +
                      " does not fit into a B factor (-99.99 to 999.99); give the maps in a larger unit, such as kT/e");
   }
   for (const double x : {molecule.positions[i].x, molecule.positions[i].y, molecule.positions[i].z}) {
@@ -53,15 +51,13 @@ void write_pdb(std::ostream& out, const Molecule& molecule, const std::vector<do
     const Residue& residue = molecule.residues[static_cast<std::size_t>(atom.residue)];
     const Vec3d& p = molecule.positions[i];
     const bool known = !std::isnan(values[i]);
-    char line[128];
-    std::snprintf(line, sizeof line, "%-6s%5d %-4s %-4.4s%c%4d%c   %8.3f%8.3f%8.3f%6.2f%6.2f      %-4.4s%2.2s\n",
-                  atom.hetero ? "HETATM" : "ATOM", static_cast<int>((i + 1) % 100000), atom_name(atom).c_str(),
-                  residue.name.size() < 4 ? (std::string(3 - residue.name.size(), ' ') + residue.name).c_str()
-                                          : residue.name.c_str(),
-                  residue.chain.empty() ? ' ' : residue.chain[0], static_cast<int>(residue.number % 10000),
-                  residue.insertion_code, p.x, p.y, p.z, known ? 1.0 : 0.0, known ? values[i] : 0.0,
-                  residue.chain.size() > 1 ? residue.chain.c_str() : "", upper(atom.element).c_str());
-    out << line;
+    out << formatted("%-6s%5d %-4s %-4.4s%c%4d%c   %8.3f%8.3f%8.3f%6.2f%6.2f      %-4.4s%2.2s\n",
+                     atom.hetero ? "HETATM" : "ATOM", static_cast<int>((i + 1) % 100000), atom_name(atom).c_str(),
+                     residue.name.size() < 4 ? (std::string(3 - residue.name.size(), ' ') + residue.name).c_str()
+                                             : residue.name.c_str(),
+                     residue.chain.empty() ? ' ' : residue.chain[0], static_cast<int>(residue.number % 10000),
+                     residue.insertion_code, p.x, p.y, p.z, known ? 1.0 : 0.0, known ? values[i] : 0.0,
+                     residue.chain.size() > 1 ? residue.chain.c_str() : "", upper(atom.element).c_str());
   }
   out << "END\n";
 }

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "io/write_csv.h"
 
 namespace espdiff {
@@ -58,11 +58,9 @@ std::string pdb_columns(const Molecule& molecule, std::size_t i) {
   const Residue& residue = molecule.residues[static_cast<std::size_t>(atom.residue)];
   const std::string name = word(atom.name), chain = residue.chain.empty() ? " " : word(residue.chain);
   const Vec3d& p = molecule.positions[i];
-  char line[96];
-  std::snprintf(line, sizeof line, "%-6s%5d %-4s %3s %s%4d%c   %8.3f%8.3f%8.3f", atom.hetero ? "HETATM" : "ATOM",
-                static_cast<int>(i + 1), (name.size() < 4 ? " " + name : name).c_str(), word(residue.name).c_str(),
-                chain.c_str(), static_cast<int>(residue.number), residue.insertion_code, p.x, p.y, p.z);
-  return line;
+  return formatted("%-6s%5d %-4s %3s %s%4d%c   %8.3f%8.3f%8.3f", atom.hetero ? "HETATM" : "ATOM",
+                   static_cast<int>(i + 1), (name.size() < 4 ? " " + name : name).c_str(), word(residue.name).c_str(),
+                   chain.c_str(), static_cast<int>(residue.number), residue.insertion_code, p.x, p.y, p.z);
 }
 
 /// The same parted by single blanks, for names and numbers of any length.

@@ -1,32 +1,23 @@
 // matrix_table.cpp: prints the summary of a matrix.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 
 #include "matrix/write_matrix.h"
+
+#include "base/formatted.h"
 
 namespace espdiff {
 namespace {
 
 std::string significant(double value) {
   if (std::isnan(value)) return "-";
-  char text[64];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
+  return formatted("%.4g", value);
 }
 
-std::string padded(const std::string& text, int width) {
-  char line[256];
-  std::snprintf(line, sizeof line, "%-*.200s", width, text.c_str());
-  return line;
-}
+std::string padded(const std::string& text, int width) { return formatted("%-*.200s", width, text.c_str()); }
 
-std::string right(const std::string& text, int width) {
-  char line[128];
-  std::snprintf(line, sizeof line, " %*.100s", width - 1, text.c_str());
-  return line;
-}
+std::string right(const std::string& text, int width) { return formatted(" %*.100s", width - 1, text.c_str()); }
 
 struct Range {
   double mean = 0;

@@ -2,11 +2,11 @@
 #include "plot/gnuplot.h"
 
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <sstream>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "io/atomic_file.h"
 #include "io/run_program.h"
 #include "io/text_cursor.h"
@@ -72,9 +72,7 @@ std::string gnuplot_palette(bool diverging) {
   for (int i = 0; i <= kSteps; ++i) {
     const double t = static_cast<double>(i) / kSteps;
     const Rgb c = diverging ? diverging_colour(t, kRedBlue) : sequential_colour(t);
-    char hex[8];
-    std::snprintf(hex, sizeof hex, "#%02x%02x%02x", c.red, c.green, c.blue);
-    text += (i == 0 ? "" : ", ") + std::to_string(i) + " '" + hex + "'";
+    text += (i == 0 ? "" : ", ") + std::to_string(i) + formatted(" '#%02x%02x%02x'", c.red, c.green, c.blue);
   }
   return text + ")\n";
 }

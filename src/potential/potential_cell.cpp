@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "io/text_cursor.h"
 #include "potential/potential.h"
 
@@ -103,7 +104,7 @@ Vec3d middle_of(const std::vector<Vec3d>& positions) {
 
 PmeCell padded_cell(const std::vector<Vec3d>& positions, double pad_A) {
   if (!(pad_A >= 0) || !std::isfinite(pad_A))
-    throw InputError("a padding of " + std::to_string(pad_A) + " A is negative; 10 is usual");
+    throw InputError("a padding of " + formatted(pad_A) + " A is negative; 10 is usual");
   const Box box = box_around(positions);
   const Vec3d side = box.high - box.low;
   const double pads = 2 * pad_A;
@@ -119,9 +120,8 @@ PmeCell cell_from(const UnitCell& cell, Vec3d centre) {
   const double sin_ab = cell.angles.z == 90 ? 1.0 : std::sin(cell.angles.z * kDegree);
   const double y = sin_ab > 0 ? (cos_bc - cos_ac * cos_ab) / sin_ab : 2, z_square = 1 - cos_ac * cos_ac - y * y;
   if (!(z_square > 0))
-    throw InputError("no cell has the angles " + std::to_string(cell.angles.x) + ", " + std::to_string(cell.angles.y) +
-                     " and " + std::to_string(cell.angles.z) +
-                     " degrees; correct the file's CRYST1 record, or give the cell's edges");
+    throw InputError("no cell has the angles " + formatted(cell.angles.x) + ", " + formatted(cell.angles.y) + " and " +
+                     formatted(cell.angles.z) + " degrees; correct the file's CRYST1 record, or give the cell's edges");
   const Vec3d& l = cell.lengths;
   return {centre,
           {Vec3d{l.x, 0, 0}, Vec3d{l.y * cos_ab, l.y * sin_ab, 0},
@@ -139,7 +139,7 @@ PmeCell choose_cell(const PotentialOptions& options, const std::vector<Vec3d>& p
 std::array<int, 3> choose_grid_size(const PmeCell& cell, const GridChoice& choice, bool compatible) {
   if (choice.size[0] != 0) return choice.size;
   if (!(choice.resolution_A > 0) || !std::isfinite(choice.resolution_A))
-    throw InputError("a grid resolution of " + std::to_string(choice.resolution_A) + " A is not above 0; 1 is usual");
+    throw InputError("a grid resolution of " + formatted(choice.resolution_A) + " A is not above 0; 1 is usual");
   std::array<int, 3> size{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double wanted = norm(cell.edges[axis]) / choice.resolution_A;

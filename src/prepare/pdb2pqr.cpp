@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
@@ -19,6 +18,7 @@
 #include "align/protonation.h"
 #include "align/residue_names.h"
 #include "base/error.h"
+#include "base/formatted.h"
 #include "base/input_options.h"
 #include "base/water.h"
 #include "io/read_input.h"
@@ -165,9 +165,7 @@ std::string upper_case(std::string text) {
 std::vector<std::string> arguments(const ChargeOptions& options, bool with_propka) {
   std::vector<std::string> words{"--ff=" + upper_case(options.force_field), "--keep-chain"};
   if (!with_propka) return words;
-  char ph[32];
-  std::snprintf(ph, sizeof ph, "%g", options.ph);
-  words.insert(words.end(), {"--titration-state-method=propka", std::string("--with-ph=") + ph});
+  words.insert(words.end(), {"--titration-state-method=propka", "--with-ph=" + formatted(options.ph)});
   return words;
 }
 

@@ -1,10 +1,10 @@
 // compare_table.cpp: a comparison's result as a table for a terminal.
 #include <algorithm>
-#include <cstdio>
 #include <sstream>
 
 #include "align/compared_chains.h"
 #include "align/rigid_domains.h"
+#include "base/formatted.h"
 #include "compare/result.h"
 #include "report/metrics.h"
 #include "report/potential_json.h"
@@ -105,9 +105,7 @@ void print_superposition(std::ostream& out, const Molecule& source, const Compar
   }
   print_chains(out, result);
   for (const RigidDomain& domain : result.domains) {
-    char rmsd[32];
-    std::snprintf(rmsd, sizeof rmsd, "%.4g", domain.rmsd_A);
-    line(out, "Rigid domain", std::string(rmsd) + " A, " + residue_ranges(source, domain.residues));
+    line(out, "Rigid domain", formatted("%.4g", domain.rmsd_A) + " A, " + residue_ranges(source, domain.residues));
   }
   for (const auto& [label, text] : result.input_lines) line(out, label, text);
 }
@@ -147,12 +145,6 @@ void print_lines(std::ostream& out, const CompareResult& result, MetricSection s
   }
 }
 
-std::string number(const char* format, double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
 /// Which potential it is that differs, and what to know of it.
 void print_kind_of_potential(std::ostream& out, const CompareResult& result) {
   const std::string label = potential_label(result);
@@ -165,9 +157,9 @@ void print_kind_of_potential(std::ostream& out, const CompareResult& result) {
     if (!*recipe) continue;
     const MapRecipe& r = **recipe;
     std::string text =
-        number("%.4g", r.net_charge) + " e in " + counted(r.n_charges, "charge") + "; zero " + to_string(r.zero);
+        formatted("%.4g", r.net_charge) + " e in " + counted(r.n_charges, "charge") + "; zero " + to_string(r.zero);
     if (r.method == PotentialMethod::kPoissonBoltzmann)
-      text += "; residual " + number("%.1e", r.pb_report.relative_residual) + " after " +
+      text += "; residual " + formatted("%.1e", r.pb_report.relative_residual) + " after " +
               counted(static_cast<std::size_t>(std::max(r.pb_report.cycles, 0)), "cycle");
     line(out, side, text);
   }
@@ -194,7 +186,7 @@ void print_offsets(std::ostream& out, const CompareResult& result) {
   if (result.by_offset.empty() || (result.by_offset.size() == 1 && result.by_offset.front().offset_A == 0)) return;
   std::vector<std::string> columns, inside, outside;
   for (const OffsetMetrics& at : result.by_offset) {
-    columns.push_back(number("%.3g", at.offset_A) + " A");
+    columns.push_back(formatted("%.3g", at.offset_A) + " A");
     inside.push_back(std::to_string(at.n_inside_source + at.n_inside_target));
     outside.push_back(std::to_string(at.n_outside_source_map + at.n_outside_target_map));
   }
@@ -273,8 +265,8 @@ void print_region(std::ostream& out, const CompareResult& result, const OptionSp
     }
   }
   row(out, "Unmatched area", "",
-      {"source " + number("%.3g", 100 * region.certificate.unmatched_source) + " %",
-       "target " + number("%.3g", 100 * region.certificate.unmatched_target) + " %"});
+      {"source " + formatted("%.3g", 100 * region.certificate.unmatched_source) + " %",
+       "target " + formatted("%.3g", 100 * region.certificate.unmatched_target) + " %"});
   line(out, "Verdict", region.certificate.trustworthy ? "trustworthy" : "not trustworthy");
   for (const Message& reason : region.certificate.reasons) item(out, reason.spelled(spelling), 4);
 }

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <deque>
 #include <limits>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "compare/region_result.h"
 #include "compare/result.h"
 
@@ -367,16 +367,11 @@ ShownUnit shown_unit(const Metric& metric, const std::string& potential_unit) {
 
 std::string formatted(const Metric& metric, double value) {
   if (std::isnan(value)) return "-";
-  const auto written = [](const char* format, double number) {
-    char text[64];
-    std::snprintf(text, sizeof text, format, number);
-    return std::string(text);
-  };
   switch (metric.unit) {
-    case MetricUnit::kFraction: return written("%.3g", 100 * value) + " %";
-    case MetricUnit::kSquareAngstrom: return written("%.1f", value);
-    case MetricUnit::kCount: return written("%.0f", value);
-    default: return written("%.4g", value);
+    case MetricUnit::kFraction: return formatted("%.3g", 100 * value) + " %";
+    case MetricUnit::kSquareAngstrom: return formatted("%.1f", value);
+    case MetricUnit::kCount: return formatted("%.0f", value);
+    default: return formatted("%.4g", value);
   }
 }
 

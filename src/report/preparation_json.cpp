@@ -1,21 +1,15 @@
 // preparation_json.cpp: the lists of a preparation.
 #include "report/preparation_json.h"
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "base/formatted.h"
 #include "prepare/preparation.h"
 
 namespace espdiff {
 namespace {
-
-std::string number(const char* format, double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 void line(std::ostream& out, const std::string& label, const std::string& text) {
   constexpr std::size_t kLabelWidth = 16;
@@ -51,7 +45,7 @@ nlohmann::ordered_json preparation_json(const Preparation& p) {
 
 void print_preparation(std::ostream& out, const Preparation& p) {
   line(out, "prepared by",
-       p.program + ", force field " + p.force_field + ", pH " + number("%g", p.ph) + " (PROPKA)" +
+       p.program + ", force field " + p.force_field + ", pH " + formatted("%g", p.ph) + " (PROPKA)" +
            (p.from_cache ? ", from the cache" : ""));
   line(out, "atoms",
        std::to_string(p.n_atoms) + " (" + std::to_string(p.n_atoms_before) + " before, " +
@@ -61,7 +55,7 @@ void print_preparation(std::ostream& out, const Preparation& p) {
   list(out, "renamed", p.renamed);
   list(out, "protonation", p.protonation);
   list(out, "missing", p.gaps);
-  line(out, "net charge", number("%.4f", p.net_charge) + " e");
+  line(out, "net charge", formatted("%.4f", p.net_charge) + " e");
 }
 
 }  // namespace espdiff

@@ -1,9 +1,9 @@
 // state_report.cpp: preparations in words.
 #include "report/state_report.h"
 
-#include <cstdio>
 #include <sstream>
 
+#include "base/formatted.h"
 #include "compare/result.h"
 #include "io/sha256.h"
 #include "io/write_pqr.h"
@@ -13,12 +13,6 @@
 
 namespace espdiff {
 namespace {
-
-std::string number(const char* format, double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 std::string joined(const std::vector<std::string>& items, std::size_t most) {
   std::string text;
@@ -33,7 +27,7 @@ void note_state(CompareResult& result, const std::string& role, const LoadedStat
   }
   if (!state.preparation) return;
   const Preparation& p = *state.preparation;
-  std::string text = p.program + ", " + p.force_field + ", pH " + number("%g", p.ph) + ": " +
+  std::string text = p.program + ", " + p.force_field + ", pH " + formatted("%g", p.ph) + ": " +
                      std::to_string(p.n_hydrogens_added) + " hydrogens added";
   if (!p.added.empty())
     text += ", " + std::to_string(p.added.size()) + (p.added.size() == 1 ? " residue" : " residues") + " repaired";

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <limits>
 #include <utility>
 
 #include "base/error.h"
+#include "base/formatted.h"
 
 namespace espdiff {
 namespace {
@@ -30,9 +30,8 @@ void check_near(const std::string& path, const std::vector<Vec3d>& positions) {
   for (std::size_t v = 0; v < positions.size(); ++v) {
     for (const double x : {positions[v].x, positions[v].y, positions[v].z}) {
       if (std::fabs(x) <= kMostCoordinate_A) continue;
-      char text[128];
-      std::snprintf(text, sizeof text, ": vertex %zu has the coordinate %g; at most 10^6 Angstrom were expected", v, x);
-      throw InputError(path + text);
+      throw InputError(path +
+                       formatted(": vertex %zu has the coordinate %g; at most 10^6 Angstrom were expected", v, x));
     }
   }
 }

@@ -1,13 +1,13 @@
 // result_record.cpp: checked access to OUT.json.
 #include "verify/result_record.h"
 
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "io/json_values.h"
 #include "io/read_input.h"
 
@@ -57,9 +57,8 @@ std::optional<double> ResultRecord::number(const std::string& pointer) const {
 double ResultRecord::number_between(const std::string& pointer, double least, double most, double fallback) const {
   const double value = number(pointer).value_or(fallback);
   if (value >= least && value <= most) return value;
-  char text[96];
-  std::snprintf(text, sizeof text, " is %g, and %g to %g was expected; compare again", value, least, most);
-  throw InputError(path_ + ": " + pointer + text);
+  throw InputError(path_ + ": " + pointer +
+                   formatted(" is %g, and %g to %g was expected; compare again", value, least, most));
 }
 
 bool ResultRecord::flag(const std::string& pointer) const {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/formatted.h"
 
 namespace espdiff {
 namespace {
@@ -41,15 +42,15 @@ double percentile_of(std::vector<float> magnitudes, double percentile) {
 
 void check(const ScaleRange& range) {
   if (!std::isfinite(range.limit) || range.limit < 0) {
-    throw InputError("the colour range " + std::to_string(range.limit) +
+    throw InputError("the colour range " + formatted(range.limit) +
                      " is not a positive number; leave it out for an automatic one");
   }
   if (!(range.percentile >= 50 && range.percentile <= 100)) {
-    throw InputError("the percentile " + std::to_string(range.percentile) + " is out of range; use 50 to 100");
+    throw InputError("the percentile " + formatted(range.percentile) + " is out of range; use 50 to 100");
   }
   if (range.given_ends && !(std::isfinite(range.low) && std::isfinite(range.high) && range.low < range.high)) {
-    throw InputError("the colour scale cannot go from " + std::to_string(range.low) + " to " +
-                     std::to_string(range.high) + "; give the lower end first");
+    throw InputError("the colour scale cannot go from " + formatted(range.low) + " to " + formatted(range.high) +
+                     "; give the lower end first");
   }
 }
 

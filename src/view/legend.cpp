@@ -18,8 +18,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <vector>
+
+#include "base/formatted.h"
 
 namespace espdiff {
 namespace {
@@ -50,9 +51,7 @@ void add_polygon(vtkRenderer* renderer, const std::vector<Point2>& corners, Rgb 
 }  // namespace
 
 std::string readable_number(double value) {
-  char digits[32];
-  std::snprintf(digits, sizeof digits, "%.4g", std::abs(value));
-  return (value < 0 ? "\xE2\x88\x92" : "") + std::string(digits);
+  return (value < 0 ? "\xE2\x88\x92" : "") + formatted("%.4g", std::abs(value));
 }
 
 double round_down_to_length(double value) {

@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
+#include "base/formatted.h"
 #include "view/map_sampling.h"
 #include "view/residue_labels.h"
 
@@ -37,17 +37,11 @@ Vec3d interpolated(const std::vector<Vec3d>& places, const Triangle& t, const st
 
 float looked_up(const Grid& map, Vec3d place) { return sample_at(map, LatticeIndex(map.lattice, map.name)(place)); }
 
-std::string line(const char* what, const std::string& says) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%-17s ", what);
-  return text + says;
-}
+std::string line(const char* what, const std::string& says) { return formatted("%-17s ", what) + says; }
 
 std::string number(double value, const std::string& unit) {
   if (!std::isfinite(value)) return "no value";
-  char text[48];
-  std::snprintf(text, sizeof text, "%.3f", value);
-  return text + (unit.empty() ? "" : " " + unit);
+  return formatted("%.3f", value) + (unit.empty() ? "" : " " + unit);
 }
 
 std::string trust(const PickedPoint& point) {

@@ -4,10 +4,10 @@
 #include <vtkImageData.h>
 #include <vtkRenderWindow.h>
 
-#include <cstdio>
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "base/version.h"
 #include "io/atomic_file.h"
 #include "io/check_outputs.h"
@@ -27,9 +27,7 @@ std::string described(const ColourScale& scale, const std::string& unit) {
   const std::string what = std::string("coloured by ") + array_name(scale.array());
   if (!scale.has_bar()) return std::string("coloured by ") + to_string(scale.array());
   if (scale.two_classes()) return what;
-  char range[96];
-  std::snprintf(range, sizeof range, ", scale %.6g to %.6g ", scale.low(), scale.high());
-  return what + range + (is_length(scale.array()) ? "A" : unit);
+  return what + formatted(", scale %.6g to %.6g ", scale.low(), scale.high()) + (is_length(scale.array()) ? "A" : unit);
 }
 
 std::string description(const ComparisonScene& scene) {

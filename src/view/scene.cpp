@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "io/json_integer.h"
 #include "io/json_values.h"
 #include "io/read_input.h"
@@ -233,9 +234,9 @@ void check(const Scene& s) {
           "the surface's opacity must be above 0, at most 1, and no less than the least opacity");
   require(s.layout != Layout::kSplit || s.molecule == MoleculeStyle::kNone,
           "the layout split draws no molecules, whose halves would not match; use linked");
-  require(is_share(s.morph), "a morph goes from 0 (source) to 1 (target), not to " + std::to_string(s.morph));
-  require(is_share(s.split), "a split lies at 0 (left) to 1 (right), not at " + std::to_string(s.split));
-  require(s.zoom >= 0.1 && s.zoom <= 50, "a zoom of " + std::to_string(s.zoom) + " cannot be drawn; use 0.1 to 50");
+  require(is_share(s.morph), "a morph goes from 0 (source) to 1 (target), not to " + formatted(s.morph));
+  require(is_share(s.split), "a split lies at 0 (left) to 1 (right), not at " + formatted(s.split));
+  require(s.zoom >= 0.1 && s.zoom <= 50, "a zoom of " + formatted(s.zoom) + " cannot be drawn; use 0.1 to 50");
   require(std::isfinite(s.turn_deg) && std::isfinite(s.tilt_deg), "turn and tilt must be numbers of degrees");
   require(s.n_labels >= 0 && s.n_labels <= 50, std::to_string(s.n_labels) + " labels cannot be read; use 0 to 50");
   require(s.around_A >= 0 && s.around_A <= 20, "atoms around the protein are shown within 0 to 20 Angstrom");
@@ -244,7 +245,7 @@ void check(const Scene& s) {
   require(s.isopotentials.size() <= 8, "at most 8 isopotential surfaces can be told apart");
   for (const double value : s.isopotentials) require(std::isfinite(value), "an isopotential is not a number");
   for (const double offset : s.offsets_A) {
-    require(offset > 0 && offset <= 10, "offset surfaces lie 0 to 10 Angstrom outside, not " + std::to_string(offset));
+    require(offset > 0 && offset <= 10, "offset surfaces lie 0 to 10 Angstrom outside, not " + formatted(offset));
   }
   require(s.offsets_A.size() <= 3, "at most 3 offset surfaces fit beside the surface");
   require(s.offsets_A.empty() || s.layout == Layout::kTurned, "offset surfaces need the layout turned");

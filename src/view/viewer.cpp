@@ -9,13 +9,14 @@
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkSphereSource.h>
+#include <iostream>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "io/atomic_file.h"
 #include "view/camera_view.h"
 #include "view/comparison_scene.h"
@@ -61,7 +62,7 @@ class Viewer {
   void run() {
     interactor_->Initialize();
     refresh();
-    std::printf("espdiff view: ready; h in the window shows the keys\n");
+    std::cout << formatted("espdiff view: ready; h in the window shows the keys\n");
     std::fflush(stdout);
     interactor_->Start();
   }
@@ -165,7 +166,7 @@ class Viewer {
     picked_ = picker_.pick(at_depth(0), at_depth(1), morph_at(*panel, x));
     std::vector<std::string> words = {"nothing there"};
     if (picked_) words = picked_in_words(*picked_, files_, drawn_.unit());
-    for (const std::string& line : words) std::printf("%s\n", line.c_str());
+    for (const std::string& line : words) std::cout << formatted("%s\n", line.c_str());
     std::fflush(stdout);
     overlay_.say(picked_ ? words : std::vector<std::string>{});
     refresh();
@@ -234,7 +235,7 @@ class Viewer {
     const std::string path = free_path(ending);
     try {
       write(path);
-      std::printf("saved %s\n", path.c_str());
+      std::cout << formatted("saved %s\n", path.c_str());
       std::fflush(stdout);
       overlay_.say({"saved " + path});
     } catch (const Error& error) {

@@ -133,7 +133,7 @@ TEST_CASE("potential: wrong input gives one line and leaves nothing") {
                         {molecule + " --frames 2", "frame 2 is not among the frames 0 to 1"},
                         {molecule + " --cell '0 0 0'", "has 3 numbers; give twelve"},
                         {molecule + " --cell '0 0 0 10 0 0 0 10 0 0 0 -10'", "must be positive"},
-                        {molecule + " --cell '0 0 0 10 0 0 20 0 0 0 0 10'", "span a volume of 0.000000"},
+                        {molecule + " --cell '0 0 0 10 0 0 20 0 0 0 0 10'", "span a volume of 0"},
                         {molecule + " --grid 0", "not above 0"},
                         {molecule + " --grid '8 8'", "has 2 numbers"},
                         {molecule + " --grid '4 8 8'", "each edge needs 6"},

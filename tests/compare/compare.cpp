@@ -220,9 +220,9 @@ TEST_CASE("compare refuses invalid input with a remedy") {
     return message(a.input(), b.input(), options);
   };
   CHECK(with([](auto& s) { s.isovalue = 1e3; }).find("no surface: the density reaches ") == 0);
-  CHECK(with([](auto& s) { s.isovalue = 0; }) == "isovalue 0.000000 is not positive; 0.5 is usual");
-  CHECK(with([](auto& s) { s.radius_scale = 0; }) == "radius scale 0.000000 is not positive; 1 is usual");
-  CHECK(with([](auto& s) { s.grid_spacing_A = 0; }) == "grid spacing 0.000000 A is not a positive number; 1 is usual");
+  CHECK(with([](auto& s) { s.isovalue = 0; }) == "isovalue 0 is not positive; 0.5 is usual");
+  CHECK(with([](auto& s) { s.radius_scale = 0; }) == "radius scale 0 is not positive; 1 is usual");
+  CHECK(with([](auto& s) { s.grid_spacing_A = 0; }) == "grid spacing 0 A is not a positive number; 1 is usual");
   const std::string text = with([](auto& s) { s.grid_spacing_A = 1e-4; });
   CHECK(text.find("a grid of spacing 0.0001 A") == 0);
   CHECK(text.find(" A would fit") != std::string::npos);

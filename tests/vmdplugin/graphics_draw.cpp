@@ -117,9 +117,9 @@ TEST_CASE("draw_triangles: what cannot be drawn is refused before the first tria
         "'drawn' has 1 entries for 2 triangles; the numbers must be equal");
   CHECK(refusal([](Square& s) { s.triangles[1][2] = 4; }) == "a triangle has vertex 4, but there are 4 vertices");
   CHECK(refusal([](Square& s) { s.positions[1].y = std::numeric_limits<float>::quiet_NaN(); }) ==
-        "the position of vertex 1 is 1.500000 nan 0.000000; numbers within 1e7 were expected");
+        "the position of vertex 1 is 1.5 nan 0; numbers within 1e7 were expected");
   CHECK(refusal([](Square& s) { s.positions[3].z = -2e7F; }).find("the position of vertex 3 is ") == 0);
   CHECK(refusal([](Square& s) { s.normals[0].x = std::numeric_limits<float>::infinity(); }) ==
-        "the normal of vertex 0 is inf 0.000000 1.000000; numbers within 1e7 were expected");
+        "the normal of vertex 0 is inf 0 1; numbers within 1e7 were expected");
   CHECK(vmd.calls.empty());
 }

@@ -254,9 +254,9 @@ TEST_CASE("gradient vector flow: options out of range are refused with the value
       return message_of([&] { engine->gvf_field(density, nullptr, kIsovalue, options, {}, nullptr); });
     };
     CHECK(message(with(0, 1e-3, 10)) ==
-          "the weight of the gradient vector flow, 0.000000 A^2, is not positive; 0.05 is usual");
+          "the weight of the gradient vector flow, 0 A^2, is not positive; 0.05 is usual");
     CHECK(message(with(0.2, -1, 10)) ==
-          "the tolerance of the gradient vector flow, -1.000000, is not positive; 0.001 is usual");
+          "the tolerance of the gradient vector flow, -1, is not positive; 0.001 is usual");
     CHECK(message(with(0.2, 1e-3, 0)) == "the gradient vector flow needs at least 1 sweep, not 0");
     message(with(nan, 1e-3, 10));
     message(with(0.2, nan, 10));

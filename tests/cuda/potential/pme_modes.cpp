@@ -131,8 +131,8 @@ TEST_CASE("wrong input is refused with its name, the value, the limit and a reme
               "would fit"},
              {[](PmeOptions& o) { o.order = 3; }, "spline order 3 is not among 4 to 8"},
              {[](PmeOptions& o) { o.order = 9; }, "spline order 9"},
-             {[](PmeOptions& o) { o.ewald_factor = 0; }, "Ewald factor 0.000000 1/A is not a positive number"},
-             {[](PmeOptions& o) { o.temperature_K = -1; }, "temperature -1.000000 K"},
+             {[](PmeOptions& o) { o.ewald_factor = 0; }, "Ewald factor 0 1/A is not a positive number"},
+             {[](PmeOptions& o) { o.temperature_K = -1; }, "temperature -1 K"},
              {[](PmeOptions& o) { o.compatible = true; }, "PMEPot's is 4"},
              {[](PmeOptions& o) {
                 o.compatible = true, o.order = 4, o.size = {7, 8, 8};

@@ -234,7 +234,7 @@ TEST_CASE("what is refused, and how") {
         "ionic strength -0.1 mol/l is not a number from 0 on; 0.15 is usual");
   options = {};
   options.temperature_K = 0;
-  CHECK(refusal(*engine, ion, lattice, options) == "temperature 0.000000 K is not a positive number; 300 is usual");
+  CHECK(refusal(*engine, ion, lattice, options) == "temperature 0 K is not a positive number; 300 is usual");
   options = {};
   options.probe_radius_A = -1;
   CHECK(refusal(*engine, ion, lattice, options) == "probe radius -1 A is not a number from 0 on; 1.4 is water's");
@@ -270,7 +270,7 @@ TEST_CASE("the grid around atoms: what it reaches, and what it refuses") {
   CHECK(point_of(lattice, lattice.n_points() - 1).x >= 21 - 1e-9);
   CHECK(message_of([] {
           espdiff::poisson_boltzmann_lattice({{0, 0, 0}}, {1.0F}, 0, 10);
-        }) == "grid spacing 0.000000 A is not a positive number; 0.5 is usual");
+        }) == "grid spacing 0 A is not a positive number; 0.5 is usual");
   CHECK(message_of([] {
           espdiff::poisson_boltzmann_lattice({{0, 0, 0}}, {1.0F}, 0.001, 10);
         }).find("2e9 points") != std::string::npos);

@@ -83,8 +83,7 @@ TEST_CASE("subdivide refuses meshes of different topology and an invalid limit")
     const MeshPtr other = engine->upload_mesh(s.source_mesh);
     CHECK(message_of([&] { engine->subdivide(other, s.mapped, 1.0); }) ==
           "subdivide: source and mapped mesh differ in topology");
-    CHECK(message_of([&] { engine->subdivide(s.source, s.mapped, 0.0); }) ==
-          "the longest edge, 0.000000 A, is not positive");
+    CHECK(message_of([&] { engine->subdivide(s.source, s.mapped, 0.0); }) == "the longest edge, 0 A, is not positive");
     CHECK_THROWS_AS(engine->subdivide(s.source, s.mapped, std::numeric_limits<double>::quiet_NaN()),
                     espdiff::InputError);
   }
