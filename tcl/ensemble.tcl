@@ -70,9 +70,6 @@ namespace eval ::espdiff {
         }
         dict set core regress $column
         if {[dict get $options from] ne ""} { existing_file [dict get $options from] -from }
-        dict set core patch [named_list -patch {NAME SELECTION} [dict get $options patch] {name selection} {
-            return $name=$selection
-        }]
         dict set core charges [concat {*}[named_list -charges {GROUP FILE} [dict get $options charges] {name path} {
             return [list $name [existing_file $path "-charges $name"]]
         }]]

@@ -100,7 +100,8 @@ Tcl_Obj* list_settings(const Call&) {
                            {"surface", to_obj(setting.of_surface)},
                            {"preparation", to_obj(is_of_preparation(setting))},
                            {"list", to_obj(setting.is_list)},
-                           {"file", to_obj(setting.is_file)}}));
+                           {"file", to_obj(setting.is_file)},
+                           {"named", to_obj(setting.is_named)}}));
   }
   return to_list(all);
 }

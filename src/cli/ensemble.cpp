@@ -150,10 +150,6 @@ void add_statistics_options(CLI::App& p, Arguments& a) {
              "Map the medoid of each group onto every frame as well, and tell how much of the answer stays. Takes as "
              "long again for each group; files OUT.template-GROUP.h5")
       ->group(group);
-  p.add_option("--patch", a.study.patches,
-               "NAME=SELECTION: residues of the template, in gemmi's syntax (site=//A/8-12), whose surface is measured "
-               "as a whole, with a p of its own; may be given again")
-      ->group(group);
   p.add_option(
        "--regress", a.study.regress,
        "FILE.csv:COLUMN: a value of each replicate, such as an activity, regressed on the surface, with the same "

@@ -9,6 +9,7 @@
 #include "base/printable.h"
 #include "cli/trajectory_sides.h"
 #include "cli/verbs.h"
+#include "compare/input_settings.h"
 #include "compare/options.h"
 #include "engine/engine.h"
 #include "io/check_outputs.h"
@@ -129,14 +130,15 @@ int run(const TrajectoryArguments& a, const Context& context) {
   plan.frames = parse_frames(a.frames, {sides.n_frames()});
   plan.start = parse_start(a.start, plan.options);
   plan.skip_errors = a.on_error == "skip";
-  plan.has_region = plan.options.input.has_region();
+  plan.parts = part_names(plan.options.input);
   const ExistingFile existing = a.resume      ? ExistingFile::kResume
                                 : a.overwrite ? ExistingFile::kReplace
                                               : ExistingFile::kRefuse;
   const std::unique_ptr<Engine> engine = make_engine(a.device);
   std::optional<ResidueCsv> residues;
   if (!a.residues.empty()) residues.emplace(a.residues, a.residue_quantity, existing);
-  TrajectoryRun run(plan, SeriesCsv(a.output, head_of(a, plan, sides.potential()), existing), std::move(residues));
+  TrajectoryRun run(plan, SeriesCsv(a.output, head_of(a, plan, sides.potential()), existing, plan.parts),
+                    std::move(residues));
   if (!run.warning().empty()) std::fprintf(stderr, "espdiff: %s\n", printable(run.warning()).c_str());
   run.note_inputs(sides.inputs());
   while (!run.is_done())

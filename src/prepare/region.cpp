@@ -14,6 +14,15 @@ bool any(const std::vector<std::uint8_t>& flags) {
   return std::any_of(flags.begin(), flags.end(), [](std::uint8_t flag) { return flag != 0; });
 }
 
+/// [residue] nonzero where any atom is selected.
+std::vector<std::uint8_t> residues_of(const Molecule& molecule, const std::vector<bool>& selected) {
+  std::vector<std::uint8_t> residues(molecule.residues.size(), 0);
+  for (std::size_t i = 0; i < selected.size(); ++i) {
+    if (selected[i]) residues[static_cast<std::size_t>(molecule.atoms[i].residue)] = 1;
+  }
+  return residues;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> region_within(const Molecule& molecule, const Molecule& whole,
@@ -42,14 +51,7 @@ bool has_region_atoms(const Molecule& whole, const InputOptions& options) {
 std::vector<std::uint8_t> region_residues(const Molecule& source, const Molecule& whole_source, const Molecule& target,
                                           const Molecule& whole_target, const InputOptions& options) {
   if (!options.has_region()) return {};
-  if (!options.region.empty()) {
-    const std::vector<bool> selected = select_some_atoms(source, options.region, "region");
-    std::vector<std::uint8_t> region(source.residues.size(), 0);
-    for (std::size_t i = 0; i < selected.size(); ++i) {
-      if (selected[i]) region[static_cast<std::size_t>(source.atoms[i].residue)] = 1;
-    }
-    return region;
-  }
+  if (!options.region.empty()) return residues_of(source, select_some_atoms(source, options.region, "region"));
   std::vector<bool> near_to = select_atoms(whole_source, options.region_of, "of");
   std::vector<std::uint8_t> region;
   if (std::find(near_to.begin(), near_to.end(), true) != near_to.end()) {
@@ -71,6 +73,23 @@ std::vector<std::uint8_t> region_residues(const Molecule& source, const Molecule
     throw InputError(source.name + ": no residue lies within " + option("region-within") + " of " +
                      option("of", options.region_of) + "; take a larger distance");
   return region;
+}
+
+std::vector<SurfacePatch> patches_on(const Molecule& source, const std::vector<PatchRequest>& requests) {
+  std::vector<SurfacePatch> patches;
+  for (const PatchRequest& request : requests) {
+    try {
+      patches.push_back({request.name, residues_of(source, select_some_atoms(source, request.selection, "patch"))});
+    } catch (const InputError& error) {
+      throw InputError("patch " + request.name + ": " + error.message());
+    }
+  }
+  return patches;
+}
+
+SurfaceParts source_parts(const Molecule& source, const Molecule& whole_source, const Molecule& target,
+                          const Molecule& whole_target, const InputOptions& options) {
+  return {region_residues(source, whole_source, target, whole_target, options), patches_on(source, options.patches)};
 }
 
 }  // namespace espdiff
