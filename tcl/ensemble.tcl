@@ -86,14 +86,6 @@ namespace eval ::espdiff {
         return $core
     }
 
-    # Pairs of words, each made into one word of the core by `body`.
-    proc named_list {option form text names body} {
-        if {![string is list $text] || [llength $text] % 2} { fail "$option: '$text' is not a list of $form pairs" }
-        set result {}
-        foreach {name value} $text { lappend result [apply [list $names $body ::espdiff] $name $value] }
-        return $result
-    }
-
     # The core's replicates, and for each in VMD where its frames are: a dictionary by number.
     proc make_replicates {groups frames} {
         if {![string is list $groups] || [llength $groups] % 2 || [llength $groups] == 0} {
