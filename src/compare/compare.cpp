@@ -27,6 +27,7 @@
 #include "compare/options.h"
 #include "compare/own_potentials.h"
 #include "compare/paired_residues.h"
+#include "compare/place_patch.h"
 #include "compare/region_result.h"
 #include "compare/residue_rows.h"
 #include "compare/result.h"
@@ -59,6 +60,7 @@ std::vector<bool> is_matched(const MappedSurface& s) {
 struct MeasuredPart {
   SurfacePart place;
   std::shared_ptr<CompareResult> result;
+  std::shared_ptr<const PatchPlacement> placement;  // of an earlier patch
 };
 
 /// Sets unmatched vertices to NaN.
@@ -410,17 +412,27 @@ struct Series::Steps {
                                           const std::vector<std::int32_t>& mapped_residue,
                                           CompareResult& result) const {
     std::vector<MeasuredPart> parts;
-    const auto measure = [&](const std::vector<std::uint8_t>& residues) {
-      const MappedSurface& s = result.surface;
-      SurfacePart place = make_part(residues, s, s.residue, target_of, target.molecule->residues.size());
+    const MappedSurface& s = result.surface;
+    const auto measure = [&](const std::vector<std::uint8_t>& inside, const std::vector<std::uint8_t>& residues) {
+      SurfacePart place = make_part(inside, residues, s, target_of, target.molecule->residues.size());
       auto part = part_result(engine, place, mapping, target_surface, static_cast<float>(options.surface.isovalue),
                               s.residue, mapped_residue, target_of, result, *source.molecule, *target.molecule);
-      parts.push_back({std::move(place), part});
+      parts.push_back({std::move(place), part, nullptr});
       return part;
     };
-    if (!source.parts.region.empty()) result.region = measure(source.parts.region);
-    for (const SurfacePatch& patch : source.parts.patches)
-      result.patches.push_back({patch.name, measure(patch.residues)});
+    const std::vector<std::uint8_t>& region = source.parts.region;
+    if (!region.empty()) result.region = measure(vertices_of(s.residue, region), region);
+    for (const SurfacePatch& patch : source.parts.patches) {
+      if (patch.earlier == nullptr) {
+        result.patches.push_back({patch.name, measure(vertices_of(s.residue, patch.residues), patch.residues)});
+        continue;
+      }
+      const ResidueSurface on{s.source_positions, s.triangles, s.residue, source.molecule->residues};
+      const PlacedPatch placed = place_patch(*patch.earlier, on, source.molecule->name);
+      result.patches.push_back(
+          {patch.name, measure(placed.inside, residues_in_patch(placed.inside, on)), placed.placement});
+      parts.back().placement = placed.placement;
+    }
     return parts;
   }
 
@@ -450,7 +462,10 @@ struct Series::Steps {
     }
     const double n_outside = static_cast<double>(std::max(part.n_outside_source_map, part.n_outside_target_map));
     part.certificate.outside_maps = n > 0 ? n_outside / static_cast<double>(n) : 0;
-    if (!judge_missing_part(part)) judge(part, *source.molecule);
+    if (!judge_missing_part(part, measured.placement.get())) {
+      judge(part, *source.molecule);
+      if (measured.placement != nullptr) judge_placement(part, *measured.placement);
+    }
   }
 
   void check_given_maps(const CompareInput& target, CompareResult& result) const {

@@ -194,15 +194,17 @@ PatchRequest parse_patch(const std::string& text) {
 
 /// A list of named selections; setting it again adds to it.
 Setting patch_row() {
-  Setting row{"patch",
-              kRegionGroup,
-              SettingKind::kText,
-              {},
-              "NAME=SELECTION: residues of the source (of an ensemble: of the template), in gemmi's syntax "
-              "(site=//A/8-12), whose surface is measured as a whole; numbers are named after it; may be given again",
-              false,
-              nullptr,
-              nullptr};
+  Setting row{
+      "patch",
+      kRegionGroup,
+      SettingKind::kText,
+      {},
+      "A name, and residues of the source (of an ensemble: of the template) in gemmi's syntax, whose surface is "
+      "measured as a whole; numbers are named after it. Instead of residues OUT.json:N, significant patch N of "
+      "an earlier ensemble. Several may be given",
+      false,
+      nullptr,
+      nullptr};
   row.set = [](CompareOptions& o, const std::string& text) {
     for (PatchRequest& patch : parse_patches(text)) o.input.patches.push_back(std::move(patch));
   };

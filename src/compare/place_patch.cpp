@@ -137,8 +137,9 @@ PlacedPatch place_patch(const EarlierPatch& patch, const ResidueSurface& surface
     all += areas[v];
     if (norm(surface.positions[on_surface(moved[v])] - moved[v]) <= kPatchReach_A) found += areas[v];
   }
-  placed.placement = std::make_shared<PatchPlacement>(PatchPlacement{
-      patch.path, patch.sha256, patch.number, patch.area_A2, near.size(), n_near - near.size(), fit.rmsd_A, found / all});
+  placed.placement =
+      std::make_shared<PatchPlacement>(PatchPlacement{patch.path, patch.sha256, patch.number, patch.area_A2,
+                                                      near.size(), n_near - near.size(), fit.rmsd_A, found / all});
   return placed;
 }
 

@@ -6,24 +6,24 @@
 #include <limits>
 
 #include "align/superpose.h"
+#include "base/earlier_patch.h"
 #include "base/surface_parts.h"
 #include "compare/build_surface.h"
 #include "compare/certificate.h"
 #include "compare/mapping.h"
+#include "compare/place_patch.h"
 #include "compare/result.h"
+#include "compare/short_numbers.h"
 #include "engine/engine.h"
 
 namespace espdiff {
 namespace {
 
-/// [triangle] nonzero where fewer than two vertices belong to marked residues.
-std::vector<float> outside_of(const std::vector<Triangle>& triangles, const std::vector<std::int32_t>& vertex_residue,
-                              const std::vector<std::uint8_t>& marked) {
+/// [triangle] nonzero where fewer than two vertices are inside.
+std::vector<float> outside_of(const std::vector<Triangle>& triangles, const std::vector<std::uint8_t>& inside) {
   std::vector<float> outside;
   for (const Triangle& triangle : triangles) {
-    const auto n = std::count_if(triangle.begin(), triangle.end(), [&](std::uint32_t v) {
-      return vertex_residue[v] >= 0 && marked[static_cast<std::size_t>(vertex_residue[v])] != 0;
-    });
+    const auto n = std::count_if(triangle.begin(), triangle.end(), [&](std::uint32_t v) { return inside[v] != 0; });
     outside.push_back(n < 2 ? 1.0F : 0.0F);
   }
   return outside;
@@ -66,11 +66,19 @@ const std::vector<std::string>& unchecked_in_parts() {
   return names;
 }
 
-SurfacePart make_part(std::vector<std::uint8_t> source, const MappedSurface& surface,
-                      const std::vector<std::int32_t>& vertex_residue, const std::vector<std::int32_t>& target_of,
+std::vector<std::uint8_t> vertices_of(const std::vector<std::int32_t>& vertex_residue,
+                                      const std::vector<std::uint8_t>& marked) {
+  std::vector<std::uint8_t> inside;
+  for (const std::int32_t r : vertex_residue)
+    inside.push_back(r >= 0 && marked[static_cast<std::size_t>(r)] != 0 ? 1 : 0);
+  return inside;
+}
+
+SurfacePart make_part(const std::vector<std::uint8_t>& inside, std::vector<std::uint8_t> source,
+                      const MappedSurface& surface, const std::vector<std::int32_t>& target_of,
                       std::size_t n_target_residues) {
   SurfacePart part;
-  part.outside = outside_of(surface.triangles, vertex_residue, source);
+  part.outside = outside_of(surface.triangles, inside);
   part.target.assign(n_target_residues, 0);
   for (std::size_t r = 0; r < source.size(); ++r) {
     if (source[r] != 0 && target_of[r] >= 0) part.target[static_cast<std::size_t>(target_of[r])] = 1;
@@ -100,9 +108,9 @@ std::shared_ptr<CompareResult> part_result(Engine& engine, const SurfacePart& pa
   const MeshPtr source = cut(engine, mapping.source, part.outside), matched = cut(engine, mapping.mapped, excluded),
                 matched_source = cut(engine, mapping.source, excluded);
   const Mesh target_shape = engine.download_shape(target.mesh);
-  const MeshPtr target_part =
-      cut(engine, target.mesh,
-          outside_of(target_shape.triangles, engine.vertex_residues(target.mesh, target.atoms), part.target));
+  const MeshPtr target_part = cut(
+      engine, target.mesh,
+      outside_of(target_shape.triangles, vertices_of(engine.vertex_residues(target.mesh, target.atoms), part.target)));
   result->source_surface.area_A2 = source != nullptr ? engine.area(source) : 0;
   result->target_surface.area_A2 = target_part != nullptr ? engine.area(target_part) : 0;
   if (matched != nullptr) {
@@ -134,16 +142,27 @@ std::shared_ptr<CompareResult> part_result(Engine& engine, const SurfacePart& pa
   return result;
 }
 
-bool judge_missing_part(CompareResult& part) {
+bool judge_missing_part(CompareResult& part, const PatchPlacement* placement) {
   Certificate& c = part.certificate;
   const bool buried = !(part.source_surface.area_A2 > 0), unmatched = !(part.area_mapped_A2 > 0);
-  if (buried) {
+  if (buried && placement != nullptr) {
+    c.reasons.emplace_back("no place of it was found on the source's surface");
+  } else if (buried) {
     c.reasons.emplace_back("it has no surface: its residues are buried in the source");
   } else if (unmatched) {
     c.reasons.emplace_back("none of its surface has a counterpart on the target");
   }
   c.trustworthy = false;
   return buried || unmatched;
+}
+
+void judge_placement(CompareResult& part, const PatchPlacement& placement) {
+  if (placement.found_area_fraction >= kLeastFoundArea) return;
+  Certificate& c = part.certificate;
+  c.reasons.push_back(percent(placement.found_area_fraction) +
+                      " of the earlier patch's area has a place on the source (at least " + percent(kLeastFoundArea) +
+                      ")");
+  c.trustworthy = false;
 }
 
 const CompareResult* part_of(const CompareResult& result, const std::string& name) {

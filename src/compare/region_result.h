@@ -15,24 +15,30 @@ struct CompareResult;
 struct MappedSurface;
 struct Mapping;
 struct Molecule;
+struct PatchPlacement;
 struct Surface;
 
 /// Which part of a mapping a region or patch is.
 struct SurfacePart {
   std::vector<std::uint8_t> source;  ///< [source residue] nonzero in the part
   std::vector<std::uint8_t> target;  ///< [target residue] nonzero where a residue of the part pairs with it
-  /// [triangle of the full mesh] nonzero outside of the part: fewer than two of its vertices belong to residues of it
+  /// [triangle of the full mesh] nonzero outside of the part: fewer than two of its vertices belong to it
   std::vector<float> outside;
 };
 
 /// Checks that are made of whole mappings only, by their names in Certificate::not_checked.
 const std::vector<std::string>& unchecked_in_parts();
 
-/// @param vertex_residue [vertex of the surface] source residue, -1 for none
-/// @param target_of      [source residue] its partner, -1 for none
-SurfacePart make_part(std::vector<std::uint8_t> source, const MappedSurface& surface,
-                      const std::vector<std::int32_t>& vertex_residue, const std::vector<std::int32_t>& target_of,
+/// @param inside    [vertex of the surface] nonzero in the part
+/// @param source    [source residue] nonzero in the part
+/// @param target_of [source residue] its partner, -1 for none
+SurfacePart make_part(const std::vector<std::uint8_t>& inside, std::vector<std::uint8_t> source,
+                      const MappedSurface& surface, const std::vector<std::int32_t>& target_of,
                       std::size_t n_target_residues);
+
+/// [vertex] nonzero where its residue is marked.
+std::vector<std::uint8_t> vertices_of(const std::vector<std::int32_t>& vertex_residue,
+                                      const std::vector<std::uint8_t>& marked);
 
 /// The part's shape, fit and certificate, as those of the whole: areas, unmatched parts, distances both ways; not yet
 /// judged, and without metrics of potentials. On the target's side the part is the surface of the residues that pair.
@@ -45,8 +51,11 @@ std::shared_ptr<CompareResult> part_result(Engine& engine, const SurfacePart& pa
                                            const Molecule& source_molecule, const Molecule& target_molecule);
 
 /// The verdict on a part without surface, or without counterparts; no verdict on others.
+/// @param placement of an earlier patch; null for others
 /// @returns whether there is one
-bool judge_missing_part(CompareResult& part);
+bool judge_missing_part(CompareResult& part, const PatchPlacement* placement);
+/// Refuses an earlier patch of which too little was found.
+void judge_placement(CompareResult& part, const PatchPlacement& placement);
 
 /// The numbers of the region (kRegionPart) or of a patch; null where there is none of that name.
 const CompareResult* part_of(const CompareResult& result, const std::string& name);

@@ -6,6 +6,7 @@
 #include "ensemble/ensemble_file.h"
 #include "ensemble/ensemble_result.h"
 #include "ensemble/write_ensemble.h"
+#include "report/placement.h"
 #include "statistics/arrangements.h"
 
 namespace espdiff {
@@ -151,6 +152,7 @@ Json ensemble_json(const EnsembleFile& file, const EnsembleResult& result) {
       entry["high"] = number(t.high[k]);
       entry["p"] = number(t.p[k]);
     }
+    if (patch.placement != nullptr) entry["placement"] = placement_json(*patch.placement);
     json["fixed_patches"][patch.name] = std::move(entry);
   }
   if (result.states) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/residue_label.h"
 #include "compare/settings.h"
 #include "engine/engine.h"
 #include "ensemble/ensemble_file.h"
@@ -21,6 +22,23 @@ std::vector<FixedPatch> fixed_patches(const CompareOptions& options, const Molec
   for (SurfacePatch& patch : patches_on(molecule, options.input.patches))
     patches.push_back({std::move(patch.name), std::move(patch.residues), std::move(patch.earlier)});
   return patches;
+}
+
+/// The template as its file knows it: a CA atom for each residue.
+Molecule residues_of_template(const EnsemblePlan& plan) {
+  Molecule molecule;
+  molecule.name = "the template (its residues alone, as CA atoms)";
+  for (const std::string& label : plan.residues) {
+    Atom atom;
+    atom.name = "CA";
+    atom.element = "C";
+    atom.residue = static_cast<std::int32_t>(molecule.residues.size());
+    molecule.atoms.push_back(atom);
+    molecule.residues.push_back(parse_residue_label(label));
+    molecule.positions.emplace_back();
+    molecule.radii.push_back(1);
+  }
+  return molecule;
 }
 
 /// The file of FILE.csv:COLUMN.
@@ -93,15 +111,13 @@ class Study {
 };
 
 void open_earlier(const EnsembleStudy& study, const Progress& progress, EnsembleAnswer& answer) {
-  if (!study.options.input.patches.empty())
-    throw InputError(option("patch") + " selects atoms of the template, which " + option("from") +
-                     " does not read; name the groups, with " + switched_on("resume"));
   if (!study.inputs.replicates.empty())
     throw InputError(option("from") + " reads mapped frames from a file; leave out the groups");
   check_outputs({study.from, file_of_column(study.regress)},
                 ensemble_outputs(study.run.output, true, !study.regress.empty()));
   answer.file = std::make_unique<EnsembleFile>(study.from, false);
   EnsembleOptions statistics = study.statistics;
+  statistics.fixed_patches = fixed_patches(study.options, residues_of_template(answer.file->plan()));
   if (!study.regress.empty()) statistics.regression = read_regression_column(study.regress, answer.file->plan());
   progress.report("statistics", 1.0);
   answer.result = std::make_unique<EnsembleResult>(analyse_ensemble(*answer.file, statistics));

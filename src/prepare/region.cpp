@@ -6,6 +6,7 @@
 #include "align/pair_residues.h"
 #include "base/error.h"
 #include "io/select_atoms.h"
+#include "prepare/read_earlier_patch.h"
 
 namespace espdiff {
 namespace {
@@ -75,21 +76,30 @@ std::vector<std::uint8_t> region_residues(const Molecule& source, const Molecule
   return region;
 }
 
-std::vector<SurfacePatch> patches_on(const Molecule& source, const std::vector<PatchRequest>& requests) {
+std::vector<SurfacePatch> patches_on(const Molecule& source, const std::vector<PatchRequest>& requests,
+                                     const std::vector<SurfacePatch>& known) {
   std::vector<SurfacePatch> patches;
   for (const PatchRequest& request : requests) {
     try {
-      patches.push_back({request.name, residues_of(source, select_some_atoms(source, request.selection, "patch"))});
-    } catch (const InputError& error) {
-      throw InputError("patch " + request.name + ": " + error.message());
+      if (const auto name = earlier_patch_name(request.selection)) {
+        patches.push_back(
+            {request.name, {}, known.empty() ? read_earlier_patch(*name) : known.at(patches.size()).earlier});
+      } else {
+        patches.push_back(
+            {request.name, residues_of(source, select_some_atoms(source, request.selection, "patch")), {}});
+      }
+    } catch (const Error& error) {
+      throw Error(error.error_class(), "patch " + request.name + ": " + error.message());
     }
   }
   return patches;
 }
 
 SurfaceParts source_parts(const Molecule& source, const Molecule& whole_source, const Molecule& target,
-                          const Molecule& whole_target, const InputOptions& options) {
-  return {region_residues(source, whole_source, target, whole_target, options), patches_on(source, options.patches)};
+                          const Molecule& whole_target, const InputOptions& options,
+                          const std::vector<SurfacePatch>& known) {
+  return {region_residues(source, whole_source, target, whole_target, options),
+          patches_on(source, options.patches, known)};
 }
 
 }  // namespace espdiff

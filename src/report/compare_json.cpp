@@ -9,6 +9,7 @@
 #include "compare/result.h"
 #include "compare/settings.h"
 #include "report/metrics.h"
+#include "report/placement.h"
 #include "report/potential_json.h"
 #include "report/preparation_json.h"
 #include "report/provenance.h"
@@ -223,7 +224,10 @@ void add_results(Json& json, const Molecule& source, const CompareResult& result
   json["metrics_all_triangles"] = metrics_all_triangles(result);
   json["region"] = result.region == nullptr ? Json(nullptr) : part_json(*result.region);
   json["fixed_patches"] = Json::object();
-  for (const PatchResult& patch : result.patches) json["fixed_patches"][patch.name] = part_json(*patch.result);
+  for (const PatchResult& patch : result.patches) {
+    Json& entry = json["fixed_patches"][patch.name] = part_json(*patch.result);
+    if (patch.placement != nullptr) entry["placement"] = placement_json(*patch.placement);
+  }
   json["protonation_differences"] = Json::array();
   for (const ProtonationDifference& difference : result.protonation)
     json["protonation_differences"].push_back(in_words(difference, source));

@@ -7,6 +7,7 @@
 #include "align/rigid_domains.h"
 #include "compare/result.h"
 #include "report/metrics.h"
+#include "report/placement.h"
 #include "report/potential_json.h"
 #include "report/state_report.h"
 #include "report/write_compare.h"
@@ -309,7 +310,10 @@ void print_table(std::ostream& out, const Molecule& source, const Molecule& targ
   print_surfaces(out, result);
   print_certificate(out, result);
   if (result.region != nullptr) print_part(out, "Region", *result.region, spelling);
-  for (const PatchResult& patch : result.patches) print_part(out, "Patch " + patch.name, *patch.result, spelling);
+  for (const PatchResult& patch : result.patches) {
+    print_part(out, "Patch " + patch.name, *patch.result, spelling);
+    if (patch.placement != nullptr) item(out, in_words(*patch.placement));
+  }
   print_warnings(out, result, spelling);
   print_verdict(out, result, spelling);
 }

@@ -36,8 +36,8 @@ struct Files {
   ScratchFolder folder;
   std::string a = folder.write("a.pqr", bent_row(0)), b = folder.write("b.pqr", bent_row(0.3)),
               c = folder.write("c.pqr", bent_row(0.6)),
-              frames = folder.write("frames.pqr", "MODEL 1\n" + bent_row(0.3) + "ENDMDL\nMODEL 2\n" + bent_row(0.6) +
-                                                      "ENDMDL\n");
+              frames = folder.write("frames.pqr",
+                                    "MODEL 1\n" + bent_row(0.3) + "ENDMDL\nMODEL 2\n" + bent_row(0.6) + "ENDMDL\n");
   std::string out(const std::string& name) const { return folder.file(name); }
 };
 
@@ -121,15 +121,16 @@ TEST_CASE("compare: a patch has the region's numbers of the same residues, besid
   const Files files;
   json result = compared(files, files.a + " " + files.c + " --region //A/2-4" + kPatches);
   CHECK(result["region"] == result["fixed_patches"]["site"]);
-  const Outcome printed =
-      run_espdiff("compare " + files.a + " " + files.c + kPatches + " --device cpu --pb-spacing 1 -o " + files.out("p"));
+  const Outcome printed = run_espdiff("compare " + files.a + " " + files.c + kPatches +
+                                      " --device cpu --pb-spacing 1 -o " + files.out("p"));
   CHECK(contains(printed.out, "Patch site: 3 residues of the source"));
   CHECK(contains(printed.out, "Patch far-end: 2 residues of the source"));
 }
 
 TEST_CASE("trajectory: the columns of patches are compare's numbers, frame by frame, and resume to the same bytes") {
   const Files files;
-  const std::string run = "trajectory " + files.a + " " + files.frames + kPatches + kUsual + " -o " + files.out("t.csv");
+  const std::string run =
+      "trajectory " + files.a + " " + files.frames + kPatches + kUsual + " -o " + files.out("t.csv");
   REQUIRE(run_espdiff(run).status == 0);
   const espdiff::CsvTable table = espdiff::read_csv(files.out("t.csv"));
   for (int model = 1; model <= 2; ++model) {
@@ -150,18 +151,19 @@ TEST_CASE("trajectory: the columns of patches are compare's numbers, frame by fr
   files.folder.write("t.csv", whole.substr(0, whole.size() - 20));
   REQUIRE(run_espdiff(run + " --resume").status == 0);
   CHECK(read_file(files.out("t.csv")) == whole);
-  const std::string other = refusal("trajectory " + files.a + " " + files.frames + " --patch site=//A/2-5 --resume -o " +
-                                    files.out("t.csv"));
+  const std::string other =
+      refusal("trajectory " + files.a + " " + files.frames + " --patch site=//A/2-5 --resume -o " + files.out("t.csv"));
   CHECK_MESSAGE(contains(other, "was made with settings"), other);
 }
 
 TEST_CASE("matrix: the metrics of patches are compare's numbers, in files, parts and clusters") {
   const Files files;
-  const std::string run = "matrix " + files.a + " " + files.b + " " + files.c + kPatches + kUsual +
-                          " -o ", by = " --cluster-by site_mean_abs_difference";
+  const std::string run = "matrix " + files.a + " " + files.b + " " + files.c + kPatches + kUsual + " -o ",
+                    by = " --cluster-by site_mean_abs_difference";
   const Outcome outcome = run_espdiff(run + files.out("m") + by);
   REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
-  const json matrix = json::parse(read_file(files.out("m.json"))), one = compared(files, files.a + " " + files.c + kPatches);
+  const json matrix = json::parse(read_file(files.out("m.json"))),
+             one = compared(files, files.a + " " + files.c + kPatches);
   const json& metric = matrix["metrics"]["site_mean_abs_difference"];
   CHECK(metric["values"][0][2] == one["fixed_patches"]["site"]["mean_abs_difference"]);
   CHECK(metric["title"] == "Mean absolute difference, site");
@@ -170,10 +172,11 @@ TEST_CASE("matrix: the metrics of patches are compare's numbers, in files, parts
   const espdiff::CsvTable table = espdiff::read_csv(files.out("m.csv"));
   CHECK(std::stod(cell(table, 1, "far-end_mean_signed_difference")) ==
         doctest::Approx(one["fixed_patches"]["far-end"]["mean_signed_difference"].get<double>()).epsilon(1e-5));
-  for (const char* part : {"1/2", "2/2"}) REQUIRE(run_espdiff(run + files.out("p") + by + " --shard " + part).status == 0);
-  const Outcome merged = run_espdiff("merge " + files.out("p.shard-1-of-2.state") + " " +
-                                     files.out("p.shard-2-of-2.state") +
-                                     " --cluster-by site_mean_abs_difference -q -o " + files.out("p"));
+  for (const char* part : {"1/2", "2/2"})
+    REQUIRE(run_espdiff(run + files.out("p") + by + " --shard " + part).status == 0);
+  const Outcome merged =
+      run_espdiff("merge " + files.out("p.shard-1-of-2.state") + " " + files.out("p.shard-2-of-2.state") +
+                  " --cluster-by site_mean_abs_difference -q -o " + files.out("p"));
   REQUIRE_MESSAGE(merged.status == 0, merged.err);
   CHECK(read_file(files.out("p.json")) == read_file(files.out("m.json")));
   CHECK(contains(run_espdiff(run + files.out("x") + " --cluster-by site_slip_mean_A").err, "there is no metric"));
@@ -202,7 +205,7 @@ TEST_CASE("a patch that is buried says so; one without counterparts says so") {
   CHECK(lost["mean_abs_difference"].is_null());
 }
 
-TEST_CASE("what cannot be a patch is refused in one line, before any file is written") {
+TEST_CASE("what cannot be a patch is refused, before any file is written") {
   const Files files;
   const std::string pair = "compare " + files.a + " " + files.b + " -o " + files.out("u");
   const auto refused = [&](const std::string& patch) { return refusal(pair + " --patch " + patch); };
@@ -215,7 +218,8 @@ TEST_CASE("what cannot be a patch is refused in one line, before any file is wri
   CHECK(contains(refused("'a,b=//A/8'"), "--patch: the name 'a,b'"));
   CHECK(contains(refused(std::string(41, 'x') + "=//A/8"), "(at most 40 in all)"));
   CHECK(contains(refused("region=//A/8"), "--patch: the name 'region' is that of --region; take another one"));
-  CHECK(contains(refused("site=//A/8 --patch site=//A/9"), "--patch: the name site is given twice; name each patch once"));
+  CHECK(contains(refused("site=//A/8 --patch site=//A/9"),
+                 "--patch: the name site is given twice; name each patch once"));
   const std::string empty = refused("site=//Q");
   CHECK_MESSAGE(contains(empty, "patch site: " + files.a + ": --patch '//Q' selects no atom"), empty);
   CHECK(contains(empty, "chain A"));
