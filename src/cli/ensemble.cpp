@@ -115,10 +115,7 @@ void add_input_options(CLI::App& p, Arguments& a) {
                "through all groups; a structure file")
       ->capture_default_str()
       ->group(group);
-  p.add_option("--plugins", inputs.plugins,
-               "Folder of VMD's molfile plugins, which read trajectories and topologies (that of $VMDDIR, or of the "
-               "`vmd` on PATH)")
-      ->group(group);
+  add_plugins_option(p, inputs.plugins, group);
   add_structure_options(p, inputs.structure);
   add_computed_map_options(p, inputs.potential);
 }

@@ -78,6 +78,14 @@ void add_structure_options(CLI::App& parser, StructureOptions& options) {
       ->group("Molecules");
 }
 
+void add_plugins_option(CLI::App& parser, std::string& folder, const std::string& group) {
+  parser
+      .add_option("--plugins", folder,
+                  "Folder of VMD's molfile plugins, which read trajectories and topologies (that of $VMDDIR, or of the "
+                  "`vmd` on PATH)")
+      ->group(group);
+}
+
 namespace {
 
 /// Refuses an old name with the new one. Help does not list it.

@@ -61,10 +61,7 @@ void add_run_options(CLI::App& p, TrajectoryArguments& a) {
       ->check(CLI::IsMember({"stop", "skip"}))
       ->capture_default_str()
       ->group(group);
-  p.add_option("--plugins", a.plugins,
-               "Folder of VMD's molfile plugins, which read trajectories and topologies (that of $VMDDIR, or of the "
-               "`vmd` on PATH)")
-      ->group(group);
+  add_plugins_option(p, a.plugins, group);
   p.add_option("--source-model", a.source_model,
                "Model of a multi-model source file, from 1; with a topology as SOURCE, frame of the first trajectory")
       ->check(CLI::PositiveNumber)

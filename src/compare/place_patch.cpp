@@ -135,7 +135,8 @@ PlacedPatch place_patch(const EarlierPatch& patch, const ResidueSurface& surface
   for (std::size_t v = 0; v < moved.size(); ++v) {
     if (patch.inside[v] == 0) continue;
     all += areas[v];
-    if (norm(surface.positions[on_surface(moved[v])] - moved[v]) <= kPatchReach_A) found += areas[v];
+    const std::size_t nearest = on_surface(moved[v]);
+    if (placed.inside[nearest] != 0 && norm(surface.positions[nearest] - moved[v]) <= kPatchReach_A) found += areas[v];
   }
   placed.placement =
       std::make_shared<PatchPlacement>(PatchPlacement{patch.path, patch.sha256, patch.number, patch.area_A2,
