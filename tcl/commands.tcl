@@ -110,12 +110,14 @@ namespace eval ::espdiff {
 
     command draw [dict create arguments {handle} settings none run ::espdiff::draw options {
             {-color choice auto "Quantity shown; auto is difference (for a surface, potential), or slip without\
-                potentials. difference: target - source, red negative, white 0, blue positive; sign: blue became\
-                positive, red became negative; slip: distance of each point from where its own atoms went; potential is for surfaces; path_length: length of each point's path,\
+                potentials. difference: target - source; sign: where it changed; slip: distance of each point from where its own atoms went; potential is for surfaces; path_length: length of each point's path,\
                 at least its displacement"
                 {auto difference sign source target potential slip displacement path_length none}}
             {-range range auto "Values at the ends of the colour scale; auto is symmetric about 0 and covers 98 % of\
                 the surface's points on each side"}
+            {-colors choice red-blue "Colours of signed values, from negative to positive; colour-blind\
+                readers can tell the ends of each apart. cool-warm: blue to red, paler; purple-orange: where red and\
+                blue stand for something else" {red-blue cool-warm purple-orange}}
             {-uncertain choice fade "fade: colours fade into grey the larger the slip; transparent: the\
                 surface does; plain: full colours" {fade transparent plain}}
             {-uncertainty-limit positive 2.0 "Slip at which colours have faded completely, Angstrom; below half\

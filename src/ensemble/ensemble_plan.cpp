@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "io/json_integer.h"
+#include "io/json_values.h"
 #include "matrix/plan_difference.h"
 #include "statistics/arrangements.h"
 
@@ -108,6 +109,7 @@ EnsemblePlan parse_ensemble_plan(const std::string& text, const std::string& pat
   const FormatError damaged(
       path, 0, "the description of the run in this file is damaged; " + switched_on("overwrite") + " begins anew");
   try {
+    require_memory_for_json(text, path);
     const Json json = Json::parse(text);
     EnsemblePlan plan;
     json.at("version").get_to(plan.version);

@@ -3,13 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
-#include <gemmi/assembly.hpp>  // for make_assembly
-#include <gemmi/cif.hpp>       // for read_memory
-#include <gemmi/mmcif.hpp>     // for make_structure
-#include <gemmi/pdb.hpp>       // for read_pdb_from_memory
+#include <gemmi/cif.hpp>    // for read_memory
+#include <gemmi/mmcif.hpp>  // for make_structure
+#include <gemmi/pdb.hpp>    // for read_pdb_from_memory
 #include <limits>
-#include <new>
 #include <set>
 #include <string_view>
 #include <tuple>
@@ -19,6 +16,8 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "io/build_assembly.h"
+#include "io/call_gemmi.h"
 #include "io/molecule_builder.h"
 #include "io/pdb_text.h"
 #include "io/text_cursor.h"
@@ -127,46 +126,6 @@ AtomEntry make_entry(const ChosenAtom& chosen) {
   entry.hetero = chosen.residue->het_flag == 'H';
   entry.position = {chosen.atom->pos.x, chosen.atom->pos.y, chosen.atom->pos.z};
   return entry;
-}
-
-/// gemmi's messages can have several lines; ours have one.
-std::string one_line(std::string message) {
-  std::replace(message.begin(), message.end(), '\n', ' ');
-  return message;
-}
-
-/// Calls gemmi; whatever it throws (runtime_error, invalid_argument, PEGTL's parse_error) becomes ours.
-template <typename Call>
-auto call_gemmi(const std::string& path, const char* problem, Call call) -> decltype(call()) {
-  try {
-    return call();
-  } catch (const tao::pegtl::parse_error& error) {
-    throw FormatError(path, static_cast<long>(error.positions().front().line),
-                      problem + one_line(std::string(error.message())));
-  } catch (const std::bad_alloc&) {
-    throw MemoryError(path + ": the structure does not fit into memory");
-  } catch (const std::exception& error) {
-    throw FormatError(path, 0, problem + one_line(error.what()));
-  }
-}
-
-/// Replaces the model by a biological assembly. The first copy of a chain keeps its name, others get free letters.
-void build_assembly(const std::string& path, const gemmi::Structure& structure, const std::string& name,
-                    gemmi::Model& model) {
-  const auto found = std::find_if(structure.assemblies.begin(), structure.assemblies.end(),
-                                  [&](const gemmi::Assembly& assembly) { return assembly.name == name; });
-  if (found == structure.assemblies.end()) {
-    std::string names;
-    for (const gemmi::Assembly& assembly : structure.assemblies) names += (names.empty() ? "" : ", ") + assembly.name;
-    throw InputError(
-        path + ": " + option("assembly") + ": there is no assembly " + in_quotes(name) + "; " +
-        (names.empty() ? "the file describes none (REMARK 350, _pdbx_struct_assembly)" : "there are " + names));
-  }
-  call_gemmi(path, "the assembly cannot be built: ", [&] {
-    model = gemmi::make_assembly(*found, model, gemmi::HowToNameCopiedChain::Short, nullptr);
-    gemmi::merge_atoms_in_expanded_model(model, gemmi::UnitCell());
-    return 0;
-  });
 }
 
 // ---- mmCIF ----
@@ -306,12 +265,13 @@ void check_integers(const std::string& path, const std::string& text, gemmi::cif
   }
 }
 
-gemmi::Structure parse_mmcif(const std::string& path, const std::string& text, bool with_assemblies = false) {
-  gemmi::cif::Document document = parse_atom_site(path, text, with_assemblies);
+gemmi::Structure parse_mmcif(const std::string& path, const std::string& text, const std::string& assembly = "") {
+  gemmi::cif::Document document = parse_atom_site(path, text, !assembly.empty());
   if (document.blocks.empty()) throw InputError(path + ": CIF without a data block; give an mmCIF with coordinates");
   check_atom_site(path, text, document.blocks.front());
   check_residue_numbers(path, text, document.blocks.front());
   check_integers(path, text, document.blocks.front());
+  if (!assembly.empty()) check_operations(path, document.blocks.front(), assembly);
   add_missing_columns(document.blocks.front());
   return call_gemmi(path, "the mmCIF cannot be read: ", [&] { return gemmi::make_structure(document); });
 }
@@ -345,7 +305,7 @@ Molecule read_pdb(const std::string& path, const AtomModel& model, const std::st
 
 Molecule read_mmcif(const std::string& path, const std::string& text, const StructureOptions& options) {
   const bool is_assembly = !options.assembly.empty();
-  gemmi::Structure structure = parse_mmcif(path, text, is_assembly);
+  gemmi::Structure structure = parse_mmcif(path, text, options.assembly);
   const int n_models = static_cast<int>(structure.models.size());
   if (options.model < 1 || options.model > n_models) {
     throw InputError(n_models == 0 ? path + ": has no atoms; give a structure with atoms"

@@ -255,12 +255,6 @@ void require_regular_file(const std::string& path) {
   if (!S_ISREG(status.st_mode)) throw IoError(path, "is a pipe or a device; save its content as a file and give that");
 }
 
-void require_memory_for_json(const std::string& path) {
-  constexpr double kTimesText = 16;
-  struct stat status {};
-  if (stat(path.c_str(), &status) == 0) require_memory(kTimesText * static_cast<double>(status.st_size), path);
-}
-
 void unify_line_ends(std::string& text) {
   const bool old_mac = text.find('\r') != std::string::npos && text.find('\n') == std::string::npos;
   if (old_mac) std::replace(text.begin(), text.end(), '\r', '\n');

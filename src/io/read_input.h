@@ -36,10 +36,6 @@ FileContent read_input(const std::string& path, const HeadCheck& check_head = {}
 /// @throws IoError unless `path` is a regular file (or a link to one)
 void require_regular_file(const std::string& path);
 
-/// For JSON and CBOR: a value of two bytes of text can take 32 bytes as an object. Looks at the file's size.
-/// @throws MemoryError
-void require_memory_for_json(const std::string& path);
-
 /// Makes newlines of the carriage returns of a text that has no other line ends, so that lines can be counted.
 void unify_line_ends(std::string& text);
 

@@ -1,9 +1,11 @@
 // read_mol2.cpp: the ATOM section: number, name, x, y, z, type.
 #include "io/read_mol2.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "io/file_kind.h"
 #include "io/molecule_builder.h"
 #include "io/read_input.h"
@@ -19,6 +21,13 @@ bool is_near(const Vec3d& p) {
          std::fabs(p.z) <= kMostCoordinate_A;
 }
 
+/// An atom is a line, and the list of atoms doubles as it grows.
+void require_memory_for_atoms(const Mol2File& file) {
+  const auto n_lines = std::count(file.content.begin(), file.content.end(), '\n');
+  const double n_atoms = std::min(static_cast<double>(n_lines), static_cast<double>(kMostAtoms));
+  require_memory(3.0 * sizeof(Mol2Atom) * n_atoms, file.path);
+}
+
 }  // namespace
 
 Mol2File read_mol2(const std::string& path) {
@@ -31,6 +40,7 @@ Mol2File read_mol2(const std::string& path) {
                                       ", and a ligand is read from a Tripos MOL2 file; convert it, with hydrogens");
                  }).content;
   unify_line_ends(file.content);
+  require_memory_for_atoms(file);
   bool in_atoms = false;
   long number = 0;
   TextCursor cursor(file.content, path);

@@ -220,7 +220,11 @@ long TextCursor::line() const {
   if (position == text_.size()) {
     while (position > 0 && is_space(text_[position - 1])) --position;
   }
-  return 1 + static_cast<long>(std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(position), '\n'));
+  if (position < counted_to_) counted_to_ = 0, n_counted_ = 0;
+  const std::string_view more = text_.substr(counted_to_, position - counted_to_);
+  n_counted_ += static_cast<long>(std::count(more.begin(), more.end(), '\n'));
+  counted_to_ = position;
+  return 1 + n_counted_;
 }
 
 void TextCursor::fail(const std::string& message) const { throw FormatError(path_, line(), message); }

@@ -26,7 +26,8 @@ std::vector<std::string_view> split_words(std::string_view line);
 /// For messages: 'text', on one line, at most 40 characters of it, all but printable ASCII as '?'.
 std::string in_quotes(std::string_view text);
 
-/// A position in a text. Line numbers are counted only when asked for, so that reading values is fast.
+/// A position in a text. Line numbers are counted only when asked for, from where they were counted last, so that
+/// reading values is fast, and so is asking at each line.
 class TextCursor {
  public:
   /// Keeps references to both: they must outlive the cursor.
@@ -75,6 +76,8 @@ class TextCursor {
   const std::string& path_;
   std::size_t position_ = 0;
   std::size_t mark_ = 0;  // start of the word or line read last
+  mutable std::size_t counted_to_ = 0;
+  mutable long n_counted_ = 0;  // line ends before counted_to_
 };
 
 }  // namespace espdiff

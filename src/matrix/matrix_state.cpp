@@ -17,6 +17,7 @@
 #include "base/system_message.h"
 #include "io/atomic_file.h"
 #include "io/json_integer.h"
+#include "io/json_values.h"
 #include "io/read_input.h"
 #include "io/sha256.h"
 
@@ -107,6 +108,7 @@ class LineReader {
 
 std::string read_all(const std::string& path) {
   require_regular_file(path);
+  require_memory_for_json(path);
   std::ifstream in(path, std::ios::binary);
   if (!in) throw IoError(path, "the state file cannot be read");
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};

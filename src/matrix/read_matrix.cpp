@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "io/json_integer.h"
+#include "io/json_values.h"
 #include "io/read_input.h"
 
 namespace espdiff {
@@ -74,8 +75,8 @@ std::size_t MatrixFile::find(const std::string& label) const {
 }
 
 MatrixFile read_matrix_json(const std::string& path) {
-  require_memory_for_json(path);
   const std::string text = read_text_file(path);
+  require_memory_for_json(text, path);
   try {
     return parse(text);
   } catch (const nlohmann::json::exception&) {

@@ -7,6 +7,8 @@
 
 #include "align/residue_names.h"
 #include "align/superpose.h"
+#include "base/error.h"
+#include "io/molecule_builder.h"
 
 namespace espdiff {
 namespace {
@@ -68,6 +70,9 @@ Molecule add_ligand_hydrogens(const Molecule& molecule, const std::vector<Mol2Fi
     if (ligand_of[r] < 0) continue;
     const Mol2File& ligand = ligands[static_cast<std::size_t>(ligand_of[r])];
     for (const Mol2Atom& atom : missing_hydrogens(ligand, molecule, atoms[r])) {
+      if (complete.atoms.size() == kMostAtoms)
+        throw InputError(ligand.path + ": with its hydrogens " + molecule.name + " has more than " +
+                         std::to_string(kMostAtoms) + " atoms, which is the most that are read");
       complete.atoms.push_back({atom.name, atom.element, static_cast<std::int32_t>(r), true});
       complete.positions.push_back(atom.position);
       complete.radii.push_back(0);

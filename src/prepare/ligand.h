@@ -16,7 +16,7 @@ std::vector<std::int32_t> ligands_of_residues(const Molecule& molecule, const st
 /// Adds to each residue the hydrogens of its file that it lacks, where the file's heavy atoms, superposed on the
 /// residue's by name, put them.
 /// @param ligand_of [residue] from ligands_of_residues()
-/// @throws GeometryError (fewer than 3 heavy atoms, or all in a line)
+/// @throws GeometryError (fewer than 3 heavy atoms, or all in a line), InputError (more than kMostAtoms atoms)
 Molecule add_ligand_hydrogens(const Molecule& molecule, const std::vector<Mol2File>& ligands,
                               const std::vector<std::int32_t>& ligand_of);
 

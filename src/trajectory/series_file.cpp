@@ -4,14 +4,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
 #include <utility>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "io/atomic_file.h"
 #include "io/json_integer.h"
+#include "io/json_values.h"
 #include "io/read_input.h"
 #include "io/sha256.h"
 
@@ -141,10 +146,19 @@ FormatError damaged(const std::string& path) {
   return FormatError(path, 0, "the saved state is damaged or cut off; delete it, and the run starts from the source");
 }
 
+/// @throws FormatError, MemoryError
+Json parse_cbor(std::string_view bytes, const std::string& path) {
+  const std::optional<std::size_t> n_values = count_cbor_values(bytes);
+  if (!n_values) throw damaged(path);
+  require_memory(static_cast<double>(bytes.size()) + kBytesOfJsonValue * static_cast<double>(*n_values), path);
+  return Json::from_cbor(bytes);
+}
+
 std::string read_all(const std::string& path) {
-  require_memory_for_json(path);
   std::ifstream in(path, std::ios::binary);
   if (!in) throw IoError(path, "cannot be read; without it the run starts from the source");
+  require_regular_file(path);
+  require_memory(2.0 * static_cast<double>(std::filesystem::file_size(path)), path);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
@@ -170,7 +184,7 @@ SeriesState read_series_state(const std::string& path, const std::string& finger
                                   "starts from the source");
   if (bytes.rfind(kFormat, 0) == 0) throw other_version;  // versions 1 and 2 began with these words
   try {
-    const Json json = Json::from_cbor(bytes);
+    const Json json = parse_cbor(bytes, path);
     if (json.at("format") != kFormat) throw damaged(path);
     if (json.at("version") != kVersion) throw other_version;
     const auto found = json.at("fingerprint").get<std::string>();
@@ -179,7 +193,7 @@ SeriesState read_series_state(const std::string& path, const std::string& finger
                        "); delete it, and the run starts from the source");
     const Bytes& content = json.at("state").get_binary();
     if (hash_of(content) != json.at("sha256")) throw damaged(path);
-    SeriesState state = state_of(Json::from_cbor(content));
+    SeriesState state = state_of(parse_cbor({reinterpret_cast<const char*>(content.data()), content.size()}, path));
     if (!holds_together(state)) throw damaged(path);
     return state;
   } catch (const nlohmann::json::exception&) {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "io/json_values.h"
 #include "io/read_input.h"
 
 namespace espdiff {

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "io/json_integer.h"
+#include "io/json_values.h"
 #include "io/read_input.h"
 #include "io/sha256.h"
 

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "io/json_integer.h"
+#include "io/json_values.h"
 #include "io/read_input.h"
 
 namespace espdiff {

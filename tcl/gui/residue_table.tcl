@@ -58,7 +58,7 @@ namespace eval ::espdiff::gui {
         grid rowconfigure $path.list 0 -weight 1
         build_residue_buttons $path.buttons
         # As high as its longest text, so that the buttons above do not move.
-        ttk::frame $path.space -height [expr {3 * [font metrics TkDefaultFont -linespace]}]
+        ttk::frame $path.space -height [expr {3 * [font metrics TkDefaultFont -linespace] + 4}]
         pack propagate $path.space 0
         ttk::label $path.message -anchor nw -wraplength 620 -justify left
         pack $path.message -in $path.space -fill both -expand 1

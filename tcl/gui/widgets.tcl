@@ -76,7 +76,7 @@ namespace eval ::espdiff::gui {
         if {![winfo exists $path] || $tips($path) eq ""} return
         toplevel $window.tip
         wm overrideredirect $window.tip 1
-        pack [ttk::label $window.tip.text -text $tips($path) -wraplength 320 -padding 4 -background #ffffe0 \
+        pack [ttk::label $window.tip.text -text $tips($path) -wraplength 240p -padding 3p -background #ffffe0 \
             -foreground black -relief solid -borderwidth 1]
         set x [expr {min([winfo rootx $path], [winfo screenwidth $path] - [winfo reqwidth $window.tip.text] - 4)}]
         set y [expr {[winfo rooty $path] + [winfo height $path] + 3}]

@@ -242,6 +242,19 @@ TEST_CASE("a series restored from its saved state gives the same bits") {
   }
 }
 
+TEST_CASE("a state that is nested deeper than ours is refused, before a parser recurses through it") {
+  const ScratchFolder folder;
+  // Arrays, texts, bytes and arrays of unknown length; a map, whose keys are empty texts: 2 MB used up 8 MB of stack.
+  for (const std::string item : {"\x81", "\x7f", "\x5f", "\x9f", "\xa1\x60", "\xbf\x60", "\xc1"}) {
+    std::string bytes;
+    while (bytes.size() < 2'000'000) bytes += item;
+    folder.write("state", bytes);
+    CHECK(message_of([&] { espdiff::read_series_state(folder.file("state"), "run"); }) ==
+          folder.file("state") +
+              ": the saved state is damaged or cut off; delete it, and the run starts from the source");
+  }
+}
+
 TEST_CASE("a state whose parts do not fit each other is refused, though its check sum fits") {
   const ScratchFolder folder;
   SeriesState good{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 0, 0}}, std::nullopt};

@@ -118,3 +118,53 @@ TEST_CASE("a PDB file with atomic numbers behind its columns is no PQR") {
   CHECK(molecule.positions[0].z == -18.545);
 #endif
 }
+
+#ifdef ESPDIFF_HAVE_GEMMI
+TEST_CASE("assemblies of more atoms or operations than are read are refused before they are made; so is a product") {
+  const ScratchFolder folder;
+  const auto message = [&](const std::string& operations, const char* name = "1") {
+    const std::string cif = std::string(kCif).replace(std::string(kCif).find("oper_expression 1,2"), 19,
+                                                      "oper_expression '" + operations + "'");
+    const std::string path = folder.write("a.cif", cif);
+    const std::string text = message_of([&] { read_structure(path, assembly(name)); });
+    return text.find(path) == 0 ? text.substr(path.size()) : text;
+  };
+  CHECK(message("(1-2)") == "(nothing thrown)");
+  CHECK(message("(1,2)") == "(nothing thrown)");
+  // Once a list of 2^31 names, without end.
+  CHECK(message("(1-2147483647)") ==
+        ": the operations of assembly '1' are '(1-2147483647)'; names, or ranges such as (1-60), were expected");
+  CHECK(message("(1-20000)") ==
+        ": describes more than 10000 operations of assemblies, which is the most that are read");
+  CHECK(message("2-1").find("; names, or ranges such as (1-60), were expected") != std::string::npos);
+  // Once the first factor alone, in silence.
+  CHECK(message("(1,2)(1-2)") ==
+        ": the operations of assembly '1' are '(1,2)(1-2)', a product, which is not built; give a file with the "
+        "assembly's coordinates");
+  CHECK(message("(1,2)(1-2)", "2").find("there is no assembly '2'") != std::string::npos);
+}
+
+TEST_CASE("an assembly with more atoms than are read is refused before it is made") {
+  const ScratchFolder folder;
+  std::string text;
+  constexpr int n_operations = 3000, n_atoms = 2000;
+  text += "REMARK 350 BIOMOLECULE: 1\nREMARK 350 APPLY THE FOLLOWING TO CHAINS: A\n";
+  char line[96];
+  for (int k = 1; k <= n_operations; ++k) {
+    for (int row = 0; row < 3; ++row) {
+      std::snprintf(line, sizeof line, "REMARK 350   BIOMT%d%4d %9.6f %9.6f %9.6f  %13.5f\n", row + 1, k,
+                    row == 0 ? 1. : 0., row == 1 ? 1. : 0., row == 2 ? 1. : 0., 1.0 * k);
+      text += line;
+    }
+  }
+  for (int i = 0; i < n_atoms; ++i) {
+    std::snprintf(line, sizeof line, "ATOM  %5d  CA  ALA A%4d    %8.3f%8.3f%8.3f  1.00  0.00           C\n", i + 1,
+                  i + 1, 0.5 * i, 0., 0.);
+    text += line;
+  }
+  const std::string path = folder.write("a.pdb", text);
+  CHECK(read_structure(path).size() == n_atoms);
+  CHECK(message_of([&] { read_structure(path, assembly("1")); }) ==
+        path + ": assembly '1' has 6000000 atoms, and at most 5000000 are read; give a smaller assembly");
+}
+#endif

@@ -8,7 +8,6 @@
 #include "base/printable.h"
 #include "io/read_grid.h"
 #include "io/read_input.h"
-#include "io/read_mol2.h"
 #include "io/read_structure.h"
 #include "io/read_vtp.h"
 #include "io/sha256.h"
@@ -107,13 +106,6 @@ TEST_CASE("PQR: charges and radii that no atom has are refused with file and lin
   };
   CHECK(message("1e39") == ":1: charge of atom 'N' is 1e+39; elementary charges between -1e6 and 1e6 were expected");
   CHECK(message("-2") == "");
-}
-
-TEST_CASE("MOL2: an atom further than molecules are is refused with file and line") {
-  const ScratchFolder scratch;
-  const std::string path = scratch.write("a.mol2", "@<TRIPOS>MOLECULE\nLIG\n@<TRIPOS>ATOM\n1 C1 0 1e300 0 C.ar\n");
-  CHECK(refusal(path, [](const std::string& name) { read_mol2(name); }) ==
-        ":4: a MOL2 atom is '1 C1 0 1e300 0 C.ar'; coordinates of at most 10^6 Angstrom were expected");
 }
 
 TEST_CASE("cells of a file whose first model is empty") {

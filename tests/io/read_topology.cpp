@@ -75,6 +75,18 @@ TEST_CASE("read_topology: cut and wrong files are refused with the line") {
         std::string::npos);
 }
 
+TEST_CASE("read_topology: a PSF of a million atoms is read in seconds, and a mistake in the last has its line") {
+  const ScratchFolder folder;
+  constexpr std::size_t n = 1'000'000;
+  std::string text = "PSF\n\n " + std::to_string(n) + " !NATOM\n";
+  for (std::size_t i = 0; i + 1 < n; ++i) text += "1 S 1 ALA CA CT 0.5 12 0\n";
+  const std::string good = folder.write("good.psf", text + "1 S 1 ALA CA CT 0.5 12 0\n");
+  CHECK(read_topology(good).charges.size() == n);
+  const std::string bad = folder.write("bad.psf", text + "1 S 1 ALA CA CT 1e9 12 0\n");
+  CHECK(message_of([&] { read_topology(bad); }) ==
+        bad + ":1000003: the charge is 1e+09; -1e+06 to 1e+06 were expected");
+}
+
 TEST_CASE("read_topology: ubiquitin's PSF gives the charges of its PQR; DHFR's prmtop a net charge of -11") {
   const auto psf = real_input("ubq/ubq.psf"), pdb = real_input("ubq/ubq.pdb"), pqr = real_input("ubq/ubq.pqr"),
              prmtop = real_input("box_dhfr_jac/JAC.prmtop");

@@ -109,8 +109,25 @@ TEST_CASE("text that takes many times its size as atoms, cells or JSON is refuse
   refused("many.cif", "ATOM 1 C CA . ALA A 1 1 ? 0.0 0.0 0.0 1.0 0.0 1 ALA A CA 1", 2000000,
           "data_a\nloop_\n_atom_site.group_PDB\n", "surface many.cif" + end + ".vtp", "3.2");
 #endif
+  refused("values.json", "{},{},{},{},", 2500000, "[", "plot values.json -o out.png", "1.6");
   refused("cells.csv", ",,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,", 600000, "structure,b\n",
           "matrix --list cells.csv" + end, "1.9");
+}
+
+TEST_CASE("a ligand of more atoms than memory holds is refused before they are read") {
+  const ScratchFolder folder;
+  // Asked for before PDB2PQR runs, so that any program does.
+  folder.write("a.pdb", "ATOM      1  CA  GLY A   1       0.000   0.000   0.000  1.00  0.00           C\n");
+  REQUIRE(std::system(("cd " + folder.file("") + " && echo '@<TRIPOS>ATOM' >many.mol2 && " +
+                       "yes '1 C 0 0 0 C' | head -n 4500000 >>many.mol2")
+                          .c_str()) == 0);
+  const Outcome outcome =
+      run_espdiff("prepare a.pdb --ligand many.mol2 -o out.pqr -q",
+                  "cd " + folder.file("") + " && export ESPDIFF_PDB2PQR=true && ulimit -v 900000 &&");
+  CHECK(outcome.status == 1);
+  CHECK_MESSAGE(contains(outcome.err, "espdiff: many.mol2: needs 1.2 GB of memory, and "), outcome.err);
+  CHECK(n_lines(outcome.err) == 1);
+  CHECK(folder.n_files() == 2);
 }
 
 TEST_CASE("more atoms than are read are refused") {
