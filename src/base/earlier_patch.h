@@ -12,14 +12,15 @@ namespace espdiff {
 
 /// A significant patch of an ensemble, on the template of that ensemble.
 struct EarlierPatch {
-  std::string path, sha256;           ///< of its OUT.json
-  std::size_t number = 0;             ///< from 1
-  std::vector<Vec3d> positions;       ///< [vertex] of the template
-  std::vector<Triangle> triangles;    ///< of the template
-  std::vector<std::int32_t> residue;  ///< [vertex] index into `residues`, -1 for none
-  std::vector<std::uint8_t> inside;   ///< [vertex] nonzero in the patch
-  std::vector<Residue> residues;      ///< of the template
-  double area_A2 = 0;                 ///< of the patch
+  std::string path, sha256;              ///< of its OUT.json
+  std::size_t number = 0;                ///< from 1
+  std::vector<Vec3d> positions;          ///< [vertex] of the template
+  std::vector<Triangle> triangles;       ///< of the template
+  std::vector<std::int32_t> residue;     ///< [vertex] index into `residues`, -1 for none
+  std::vector<std::uint8_t> inside;      ///< [vertex] nonzero in the patch
+  std::vector<Residue> residues;         ///< of the template
+  double area_A2 = 0;                    ///< of the patch
+  std::vector<std::string> runs_sha256;  ///< files of the frames in which it was found
 };
 
 /// How a patch's place was found; see place_patch().

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "base/earlier_patch.h"
 #include "base/error.h"
 #include "base/residue_label.h"
 #include "compare/place_patch.h"
@@ -272,8 +273,17 @@ struct Analysis {
     for (std::size_t i = 0; i < members.size(); ++i) result.residues[i].adjusted_p = adjusted[i];
   }
 
+  bool is_of_these_runs(const EarlierPatch& patch) const {
+    const auto& runs = patch.runs_sha256;
+    return std::any_of(plan().replicates.begin(), plan().replicates.end(), [&](const EnsembleReplicate& replicate) {
+      return std::any_of(replicate.sha256.begin(), replicate.sha256.end(), [&](const std::string& sha256) {
+        return std::find(runs.begin(), runs.end(), sha256) != runs.end();
+      });
+    });
+  }
+
   /// [vertex] nonzero in the patch; finds the place of an earlier one.
-  std::vector<std::uint8_t> vertices_of(FixedPatch& patch) const {
+  std::vector<std::uint8_t> vertices_of(FixedPatch& patch) {
     const TemplateSurface& surface = file.surface();
     if (patch.earlier == nullptr) return espdiff::vertices_of(surface.residue, patch.residues);
     std::vector<Residue> residues;
@@ -281,6 +291,10 @@ struct Analysis {
     PlacedPatch placed =
         place_patch(*patch.earlier, {surface.positions, surface.triangles, surface.residue, residues}, "the template");
     patch.placement = placed.placement;
+    if (is_of_these_runs(*patch.earlier))
+      result.warnings.push_back("patch " + patch.name +
+                                " was found significant in frames that are measured here again: its difference is too "
+                                "large, and its p means nothing; measure it in other simulations");
     return std::move(placed.inside);
   }
 

@@ -9,6 +9,7 @@
 #include "base/earlier_patch.h"
 #include "base/error.h"
 #include "base/residue_label.h"
+#include "io/json_values.h"
 #include "io/read_input.h"
 #include "io/read_vtp.h"
 #include "io/text_cursor.h"
@@ -24,6 +25,7 @@ constexpr const char* kEnding = ".json";
 struct Record {
   std::vector<Residue> residues;
   std::vector<double> areas;  ///< [patch]
+  std::vector<std::string> runs;
 };
 
 Record record_of(const std::string& text, const std::string& path) {
@@ -32,6 +34,9 @@ Record record_of(const std::string& text, const std::string& path) {
     Record record;
     for (const Json& label : json.at("plan").at("residues"))
       record.residues.push_back(parse_residue_label(label.get<std::string>()));
+    for (const Json& replicate : json.at("plan").at("replicates")) {
+      for (const Json& sha256 : replicate.at("sha256")) record.runs.push_back(sha256.get<std::string>());
+    }
     for (const Json& patch : json.at("patches")) record.areas.push_back(patch.at("area_A2").get<double>());
     return record;
   } catch (const nlohmann::json::exception&) {
@@ -73,8 +78,8 @@ std::optional<EarlierPatchName> earlier_patch_name(const std::string& selection)
 
 std::shared_ptr<const EarlierPatch> read_earlier_patch(const EarlierPatchName& name) {
   const std::string vtp_path = name.path.substr(0, name.path.size() - std::string(kEnding).size()) + ".vtp";
-  require_memory_for_json(name.path);
   const FileContent file = read_input(name.path);
+  require_memory_for_json(file.content, name.path);
   const Record record = record_of(file.content, name.path);
   long long number = 0;
   if (!parse_integer(name.number, number) || number < 1 || static_cast<std::size_t>(number) > record.areas.size())
@@ -87,6 +92,7 @@ std::shared_ptr<const EarlierPatch> read_earlier_patch(const EarlierPatchName& n
   patch.sha256 = file.sha256;
   patch.number = static_cast<std::size_t>(number);
   patch.residues = record.residues;
+  patch.runs_sha256 = record.runs;
   for (const double value : array_of(vtp, "patch", vtp_path).values)
     patch.inside.push_back(value == static_cast<double>(number) ? 1 : 0);
   const auto n_residues = static_cast<double>(patch.residues.size());

@@ -175,6 +175,9 @@ TEST_CASE("a patch of an earlier result is measured in every command, and says h
   CHECK(again["area_A2"].get<double>() == doctest::Approx(own["area_A2"].get<double>()));
   CHECK(again["placement"]["found_area_fraction"].get<double>() == doctest::Approx(1));
   CHECK(again["placement"]["patch"] == 1);
+  CHECK(contains(
+      read_file(in.folder.file("again.json")),
+      "patch first was found significant in frames that are measured here again: its difference is too large"));
   // On a frame's own surface, by compare; a trajectory has the same numbers, and a matrix.
   const std::string patch = " --patch first=out.json:1 --grid-spacing 1.5 --potential coulomb -q";
   const Outcome pair = in.run("compare w1.pqr m1.pqr" + patch + " -o pair");
