@@ -133,6 +133,7 @@ namespace eval ::espdiff {
             set name "'$sources(file)'"
             set n [core::models $sources(path)]
         }
+        set sources(where) $name
         if {$n != $n_frames && [dict get $options frames] eq "all"} {
             fail "-reference: $name has $n frames, and $run(where) has $n_frames; choose those of both:\
                 [spelled frames] 0:[expr {min($n, $n_frames) - 1}]"
@@ -206,6 +207,14 @@ namespace eval ::espdiff {
             core::trajectory_source $handle $source
         }
         set run(source_temporary) $temporary
+    }
+
+    proc require_sources {run_name} {
+        upvar 1 $run_name run
+        set mol [dict get $run(sources) mol]
+        if {$mol ne "" && $mol ni [molinfo list]} {
+            fail "[dict get $run(sources) where] was deleted during the run"
+        }
     }
 
     # The source of a frame in a run where each has its own.

@@ -22,6 +22,7 @@ namespace eval ::espdiff {
             set next [core::trajectory_next $handle]
             if {$next eq ""} { end_run $handle done; return }
             if {$run(mol) ne "" && $run(mol) ni [molinfo list]} { fail "$run(where) was deleted during the run" }
+            if {$run(against) eq "same"} { require_sources run }
             # What fails here fails as what fails in the comparison does.
             if {[catch { begin_step $handle $next } message error]} {
                 step_failed $handle $next $message $error

@@ -112,8 +112,10 @@ int run(const TrajectoryArguments& a, const Context& context) {
   check_map_options(a.maps);
   if (a.resume && a.overwrite) throw InputError("--resume and --overwrite exclude each other");
   if (a.residues.empty() && !a.residue_quantity.empty()) throw InputError("--residue-quantity needs --residues FILE");
-  if (!a.source_frames.empty() && a.reference == "previous")
-    throw InputError("--source-frames and --reference previous exclude each other");
+  if (a.reference == "previous" && !(a.source_frames.empty() && a.frames_of.empty()))
+    throw InputError(std::string(a.source_frames.empty() ? "--frames-of" : "--source-frames") +
+                     " and --reference previous exclude each other" +
+                     (a.source_frames.empty() ? "; give the frames' own structure as SOURCE" : ""));
   std::vector<std::string> inputs = input_files(a.settings);
   inputs.insert(inputs.end(), a.targets.begin(), a.targets.end());
   inputs.insert(inputs.end(), a.source_frames.begin(), a.source_frames.end());

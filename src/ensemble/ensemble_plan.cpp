@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "io/json_integer.h"
 #include "matrix/plan_difference.h"
 #include "statistics/arrangements.h"
 
@@ -119,12 +120,15 @@ EnsemblePlan parse_ensemble_plan(const std::string& text, const std::string& pat
     for (const auto& [group, from] : json.at("charges").items()) plan.charges.emplace_back(group, from);
     for (const Json& r : json.at("replicates"))
       plan.replicates.push_back({r.at("group"), r.at("name"), r.at("files").get<std::vector<std::string>>(),
-                                 r.at("sha256").get<std::vector<std::string>>(), r.at("n_frames"),
-                                 r.value("topology", std::string()), r.value("topology_sha256", std::string())});
+                                 r.at("sha256").get<std::vector<std::string>>(),
+                                 integer_of<std::size_t>(r.at("n_frames")), r.value("topology", std::string()),
+                                 r.value("topology_sha256", std::string())});
     json.at("residues").get_to(plan.residues);
     if (!holds_together(plan)) throw damaged;
     return plan;
   } catch (const Json::exception&) {
+    throw damaged;
+  } catch (const std::out_of_range&) {
     throw damaged;
   }
 }

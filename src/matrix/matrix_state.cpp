@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "base/system_message.h"
 #include "io/atomic_file.h"
+#include "io/json_integer.h"
 #include "io/read_input.h"
 #include "io/sha256.h"
 
@@ -50,8 +51,8 @@ MatrixCell parse_cell(const std::string& text, const MatrixPlan& plan) {
   const std::size_t n_variants = plan.variants.size();
   const Json json = Json::parse(text);
   MatrixCell cell;
-  json.at("source").get_to(cell.source);
-  json.at("target").get_to(cell.target);
+  cell.source = integer_of<std::size_t>(json.at("source"));
+  cell.target = integer_of<std::size_t>(json.at("target"));
   if (cell.source >= n_variants || cell.target >= n_variants || cell.source == cell.target)
     throw std::out_of_range("pair");
   for (const Metric& metric : matrix_metrics(plan.has_region())) {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "io/json_integer.h"
 #include "io/read_input.h"
 
 namespace espdiff {
@@ -43,9 +44,9 @@ MatrixFile parse(const std::string& text) {
   clustering.at("metric").get_to(file.clustered_by);
   for (const Json& merge : clustering.at("merges")) {
     const Json& distance = merge.at(2);
-    file.merges.push_back({merge.at(0), merge.at(1),
+    file.merges.push_back({integer_of<std::size_t>(merge.at(0)), integer_of<std::size_t>(merge.at(1)),
                            distance.is_null() ? std::numeric_limits<double>::quiet_NaN() : distance.get<double>(),
-                           merge.at(3)});
+                           integer_of<std::size_t>(merge.at(3))});
     if (std::max(file.merges.back().left, file.merges.back().right) >= n + file.merges.size() - 1)
       throw std::out_of_range("merge");
   }

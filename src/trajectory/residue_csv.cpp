@@ -34,6 +34,13 @@ std::string quantity_of(const std::vector<std::string>& comments) {
   return rest.substr(0, rest.find(' '));
 }
 
+/// Whether a text is empty, or what a run that was killed before its first row left.
+bool is_part_of_head(const std::string& text) {
+  const std::string first = std::string("# ") + ResidueCsv::kHeadWord;
+  if (text.size() < first.size()) return first.rfind(text, 0) == 0;
+  return text.rfind(first, 0) == 0 && std::count(text.begin(), text.end(), '\n') < 3;
+}
+
 }  // namespace
 
 std::string residue_column(const Residue& residue) {
@@ -48,16 +55,22 @@ ResidueCsv::ResidueCsv(std::string path, std::string quantity, ExistingFile exis
 }
 
 void ResidueCsv::resume(const std::vector<std::string>& frames, const std::string& fingerprint) {
-  if (frames.empty()) return;
   const Message anew = "; " + switched_on("overwrite") + " begins anew";
-  if (!file_.has_content())
+  const std::string text = file_.has_content() ? file_.text() : "", lines = complete_lines(text);
+  if (is_part_of_head(text)) {
+    if (frames.empty()) return;
     throw InputError(path() + ": has no rows, while the run has " + std::to_string(frames.size()) +
                      "; the residues of a run are written from its first frame on" + anew);
-  const std::string lines = complete_lines(file_.text());
+  }
   const CsvTable table = parse_csv(lines, path());
   const std::string quantity = quantity_of(table.comments);
   if (quantity.empty() || table.columns.front() != kFrame)
     throw FormatError(path(), 1, "this is not a trajectory's table of residues; give another file");
+  // Rows are written before those of the trajectory: a killed run can have one more here.
+  if (table.rows.size() > frames.size() + 1)
+    throw InputError(path() + ": has " + std::to_string(table.rows.size()) + " rows, and the run " +
+                     std::to_string(frames.size()) + anew);
+  if (frames.empty()) return;  // one row, which is written again with its head
   if (quantity_.empty()) quantity_ = quantity;
   if (quantity != quantity_ || table.comments[1] != kFingerprint + fingerprint)
     throw InputError(path() + ": has " + quantity + " of another run, or " + quantity_ + " was asked for" + anew);
@@ -66,10 +79,6 @@ void ResidueCsv::resume(const std::vector<std::string>& frames, const std::strin
     if (there != "frame " + frames[i])
       throw InputError(path() + ": row " + std::to_string(i + 1) + " is " + there + ", not frame " + frames[i] + anew);
   }
-  // Rows are written before those of the trajectory: a killed run can have one more here.
-  if (table.rows.size() > frames.size() + 1)
-    throw InputError(path() + ": has " + std::to_string(table.rows.size()) + " rows, and the run " +
-                     std::to_string(frames.size()) + anew);
   columns_ = table.columns;
   std::string kept = lines;
   if (table.rows.size() > frames.size()) kept.resize(kept.rfind('\n', kept.size() - 2) + 1);

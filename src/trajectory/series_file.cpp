@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "io/atomic_file.h"
+#include "io/json_integer.h"
 #include "io/read_input.h"
 #include "io/sha256.h"
 
@@ -61,7 +62,7 @@ Molecule molecule_of(const Json& json) {
     Atom atom;
     a.at(0).get_to(atom.name);
     a.at(1).get_to(atom.element);
-    a.at(2).get_to(atom.residue);
+    atom.residue = integer_of<std::int32_t>(a.at(2));
     a.at(3).get_to(atom.hetero);
     molecule.atoms.push_back(std::move(atom));
   }
@@ -69,8 +70,8 @@ Molecule molecule_of(const Json& json) {
     Residue residue;
     r.at(0).get_to(residue.name);
     r.at(1).get_to(residue.chain);
-    r.at(2).get_to(residue.number);
-    residue.insertion_code = static_cast<char>(r.at(3).get<int>());
+    residue.number = integer_of<int>(r.at(2));
+    residue.insertion_code = integer_of<char>(r.at(3));
     molecule.residues.push_back(std::move(residue));
   }
   return molecule;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "io/json_integer.h"
 #include "io/read_input.h"
 #include "io/sha256.h"
 
@@ -38,7 +39,8 @@ void read_inputs(const Json& inputs, const fs::path& folder, RunRecord& record) 
       continue;
     }
     *to = found_from(folder, input.at("path"), input.at("sha256"));
-    to->read_with = {input.value("model", 1), input.value("hetero", true), input.value("water", false)};
+    to->read_with = {input.contains("model") ? integer_of<int>(input.at("model")) : 1, input.value("hetero", true),
+                     input.value("water", false)};
   }
 }
 
@@ -46,6 +48,12 @@ void read_inputs(const Json& inputs, const fs::path& folder, RunRecord& record) 
 std::string detail_of(const Json::exception& error) {
   const auto* parsing = dynamic_cast<const nlohmann::json::parse_error*>(&error);
   return parsing != nullptr ? " (no JSON at byte " + std::to_string(parsing->byte) + ")" : std::string();
+}
+
+FormatError no_record(const std::string& path, const std::string& detail) {
+  return {path, 0,
+          "not a record that `espdiff compare` wrote" + detail +
+              "; compare again, or move it away to draw the surface alone"};
 }
 
 void read_superposition(const Json& json, RigidTransform& transform) {
@@ -83,9 +91,9 @@ RunRecord read_run_record(const std::string& vtp_path) {
     record.trustworthy = json.at("certificate").at("trustworthy");
     json.at("certificate").at("reasons").get_to(record.reasons);
   } catch (const Json::exception& error) {
-    throw FormatError(record.path, 0,
-                      std::string("not a record that `espdiff compare` wrote") + detail_of(error) +
-                          "; compare again, or move it away to draw the surface alone");
+    throw no_record(record.path, detail_of(error));
+  } catch (const std::out_of_range&) {
+    throw no_record(record.path, "");
   }
   record.found = true;
   return record;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "io/json_integer.h"
 #include "io/read_input.h"
 
 namespace espdiff {
@@ -40,7 +41,10 @@ Json json_of(const T& value) {
 }
 template <typename T>
 void read(const Json& json, T& value) {
-  json.get_to(value);
+  if constexpr (std::is_same_v<T, int>)
+    value = integer_of<int>(json);
+  else
+    json.get_to(value);
 }
 
 Json json_of(const Vec3d& v) { return {v.x, v.y, v.z}; }
@@ -205,6 +209,8 @@ Scene read_scene(const std::string& path, const Scene& defaults) {
     throw FormatError(
         path, 0,
         "the value of '" + key + "' has the wrong type; " + option("save-scene", "FILE") + " shows the right one");
+  } catch (const std::out_of_range& error) {
+    throw FormatError(path, 0, "the value of '" + key + "' is " + error.what());
   } catch (const InputError& error) {
     throw FormatError(path, 0, error.message());
   }

@@ -23,6 +23,7 @@ namespace eval ::espdiff::gui {
             return
         }
         if {[shows_residue_map]} {
+            update_residue_table
             draw_residue_map $plot
             mark_now
             tell_chosen_point

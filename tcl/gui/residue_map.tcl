@@ -2,13 +2,28 @@
 
 namespace eval ::espdiff::gui {
     variable residue_table {}    ;# title unit frames residues rows low high, as core::residue_map has them
+    variable residue_stale 0     ;# the file has rows that the table lacks
+    variable residue_pause_until 0
     variable residue_layout {}   ;# left, top, width, height in pixels; empty where the map is not drawn
     variable chosen_residue ""   ;# number of a row of the map; empty for none
 
     # The file of the shown rows' residues.
     proc residue_file_of {csv} { return "[file rootname $csv].residues.csv" }
 
-    # Reads the table again; a run adds a row at a time.
+    # Reads the table if it has grown and is wanted: for its title at first, then where it is drawn. A long table is not
+    # read for every row that a run adds.
+    proc update_residue_table {} {
+        variable residue_table
+        variable residue_stale
+        variable residue_pause_until
+        if {!$residue_stale || $residue_table ne "" && [clock milliseconds] < $residue_pause_until} return
+        set begun [clock milliseconds]
+        read_residue_table
+        set ended [clock milliseconds]
+        set residue_pause_until [expr {$ended + 20 * ($ended - $begun)}]
+        set residue_stale [expr {$residue_table eq ""}]
+    }
+
     proc read_residue_table {} {
         variable residue_table
         variable trajectory_run
@@ -234,6 +249,7 @@ namespace eval ::espdiff::gui {
     # Before another run, or rows of another file.
     proc forget_residue_map {} {
         variable residue_table {}
+        variable residue_stale 1
         variable residue_layout {}
         variable chosen_residue ""
         if {[in_vmd]} { ::espdiff::forget_highlight trajectory }

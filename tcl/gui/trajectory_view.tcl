@@ -114,7 +114,7 @@ namespace eval ::espdiff::gui {
     proc add_row {frame row} {
         variable trajectory_rows
         lappend trajectory_rows $row
-        guard_in trajectory ::espdiff::gui::read_residue_table
+        variable residue_stale 1
         guard_in trajectory ::espdiff::gui::draw_trajectory
     }
 
@@ -157,6 +157,7 @@ namespace eval ::espdiff::gui {
         }
         espdiff delete $handle
         show_trajectory_running
+        variable residue_pause_until 0
         guard_in trajectory ::espdiff::gui::draw_trajectory
     }
 
@@ -205,7 +206,6 @@ namespace eval ::espdiff::gui {
         remember_trajectory
         set chosen_point ""
         forget_residue_map
-        read_residue_table
         tell_in trajectory "[llength $rows] rows of [file tail $path]"
         show_trajectory_running
         draw_trajectory
@@ -260,6 +260,8 @@ namespace eval ::espdiff::gui {
         }
         set titles {}
         foreach metric $offered { lappend titles [lindex $metric 1] }
+        variable residue_table
+        if {$residue_table eq "" && $titles ne ""} { update_residue_table }
         set by_residue [residue_map_title]
         $widget(trajectory,metric) configure -values [concat $titles [expr {$by_residue eq "" ? {} : [list $by_residue]}]]
         if {$titles eq ""} { return {} }

@@ -284,6 +284,12 @@ TEST_CASE("each frame against the one before, on the command line") {
               .status == 0);
   CHECK(column(folder.file("a.csv"), "frame") == std::vector<std::string>{"1", "2"});
   CHECK(column(folder.file("a.csv"), "reference_frame") == std::vector<std::string>{"0", "1"});
+  CHECK(run_espdiff("trajectory " + wild + " " + frames + " --reference previous --frames-of " + wild + " -o " +
+                    folder.file("b.csv"))
+            .err ==
+        "espdiff: --frames-of and --reference previous exclude each other; give the frames' own structure as "
+        "SOURCE\n");
+  CHECK_FALSE(std::filesystem::exists(folder.file("b.csv")));
 }
 
 #endif

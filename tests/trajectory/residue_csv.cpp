@@ -80,7 +80,7 @@ TEST_CASE("residues of a trajectory are resumed at every byte to the same bytes"
     add(file, 5, 1.5);
     CHECK(read_file(path) == whole);
   }
-  // Nothing is done: the file begins anew, whatever it has.
+  // Nothing is done: the file begins anew over the head, or the one row, of a killed run.
   for (const std::size_t n : {std::size_t{0}, std::size_t{5}, head.size(), head.size() + 11}) {
     std::ofstream(path) << whole.substr(0, n);
     ResidueCsv file(path, "", ExistingFile::kResume);
@@ -108,6 +108,10 @@ TEST_CASE("residues of another run are refused, and the file is left as it is") 
   CHECK(refused("", {"3"}) ==
         ": has no rows, while the run has 1; the residues of a run are written from its first frame on; overwrite "
         "begins anew");
+  // Also where the run has no rows yet: nobody's file is replaced.
+  CHECK(refused("a,b\n1,2\n", {}) == ":1: this is not a trajectory's table of residues; give another file");
+  CHECK(refused("no line end", {}).find("there is no row of column names") != std::string::npos);
+  CHECK(refused(whole, {}) == ": has 2 rows, and the run 0; overwrite begins anew");
   CHECK(refused("a,b\n1,2\n", {"3"}) == ":1: this is not a trajectory's table of residues; give another file");
   CHECK(refused(whole, {"3", "6"}) == ": row 2 is frame 5, not frame 6; overwrite begins anew");
   CHECK(refused(whole, {"3", "5", "6"}) == ": row 3 is missing, not frame 6; overwrite begins anew");

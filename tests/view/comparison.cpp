@@ -95,6 +95,13 @@ TEST_CASE("a file that is not a record is refused") {
   const std::string vtp = copied(scratch);
   scratch.write("pair.json", "{\"inputs\": []}");
   CHECK(contains(message_of([&] { read_run_record(vtp); }), "pair.json: not a record that `espdiff compare` wrote"));
+  // A model that no int holds.
+  std::string json = espdiff_test::read_file(made().file("pair.json"));
+  const std::string model = "\"model\": 1";
+  REQUIRE(contains(json, model));
+  json.replace(json.find(model), model.size(), "\"model\": 1e30");
+  scratch.write("pair.json", json);
+  CHECK(contains(message_of([&] { read_run_record(vtp); }), "pair.json: not a record that `espdiff compare` wrote"));
   scratch.write("pair.json", "half a fi");
   CHECK_THROWS_AS(read_comparison(vtp, {}), FormatError);
 }

@@ -84,6 +84,9 @@ TEST_CASE("invalid scene files are refused with the reason") {
   CHECK(contains(message_for(scratch, "[1]"), "a scene is a JSON object"));
   CHECK(contains(message_for(scratch, R"({"colour": "sign"})"), "a scene has no setting 'colour'"));
   CHECK(contains(message_for(scratch, R"({"zoom": "big"})"), "the value of 'zoom' has the wrong type"));
+  CHECK(contains(message_for(scratch, R"({"width": 1e30})"), "the value of 'width' is not a whole number"));
+  CHECK(contains(message_for(scratch, R"({"width": 4294967297})"),
+                 "the value of 'width' is a whole number out of range"));
   CHECK(contains(message_for(scratch, R"({"range": [1]})"), "the value of 'range' has the wrong type"));
   CHECK(contains(message_for(scratch, R"({"layout": "round"})"), "no layout 'round'; use turned, linked or split"));
   CHECK(contains(message_for(scratch, R"({"molecule": "balls"})"),

@@ -55,7 +55,11 @@ test "trajectory against trajectory, with the residues of each frame" {
     check_refused {espdiff trajectory -mol $mol {*}[lreplace $options 3 3 0:1:5] -csv $scratch/no.csv} {ESPDIFF INPUT} \
         "has no frame 5; it has 5, from 0"
     check "nothing is written" {![file exists $scratch/no.csv]}
-    mol delete $other
+    # Deleted between two rows.
+    proc delete_other {frame row} { global other; if {$frame == 0} { mol delete $other } }
+    check_refused {espdiff trajectory -mol $mol {*}$options -csv $scratch/gone.csv -callback delete_other} {ESPDIFF INPUT} \
+        "was deleted during the run"
+    check_equal "rows until then" [llength [read_rows $scratch/gone.csv]] 1
     espdiff delete all
 }
 
