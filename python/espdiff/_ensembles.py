@@ -1,7 +1,6 @@
 """ensemble(): groups of simulations from files or AtomGroups, in one process or in parts."""
 
 import hashlib
-import json
 import os
 import tempfile
 import warnings
@@ -11,6 +10,7 @@ import numpy as np
 from . import _core
 from ._functions import _as_settings, _Progress
 from ._inputs import frame_state, is_atomgroup
+from ._results import EngineResult, table_of
 
 
 def _checked(name, value, least, most):
@@ -107,33 +107,15 @@ def _refuse_mixed(group, members):
             "replicates of a group have the same atoms")
 
 
-class Ensemble:
+class Ensemble(EngineResult):
     """The result of ensemble(). Arrays are NumPy's, read-only views of the engine's (see `espdiff._core.Ensemble`)."""
 
     def __init__(self, core, folder=None):
-        self._core = core
+        super().__init__(core)
         self._folder = folder  # of the mapped frames, where the user named none
-        self._json = None
-
-    def __getattr__(self, name):
-        if name.startswith("__"):
-            raise AttributeError(name)
-        return getattr(self._core, name)
-
-    def __dir__(self):
-        return sorted({*super().__dir__(), *(n for n in dir(self._core) if not n.startswith("_"))})
-
-    def __str__(self):
-        return self._core.table()
 
     def __repr__(self):
         return f"<espdiff.Ensemble of {' and '.join(self.means)}, {self.n_frames} frames>"
-
-    def to_dict(self):
-        """The content of OUT.json."""
-        if self._json is None:
-            self._json = json.loads(self._core.json())
-        return self._json
 
     @property
     def fixed_patches(self):
@@ -148,12 +130,12 @@ class Ensemble:
     @property
     def residues(self):
         """The table of OUT.residues.csv: a pandas.DataFrame where pandas is installed, else a dict of columns."""
-        return _table(self._core.residue_columns())
+        return table_of(self._core.residue_columns())
 
     @property
     def frames(self):
         """What each frame is and how it was mapped: a pandas.DataFrame where pandas is installed, else columns."""
-        return _table(self._core.frame_columns())
+        return table_of(self._core.frame_columns())
 
     def plot(self, ax=None, top=None):
         """Draws each residue's difference with its interval (Matplotlib); returns the axes. Filled: significant."""
@@ -170,14 +152,6 @@ class Ensemble:
             arrays.update(potential_difference=self.difference, standard_error=self.standard_error, p=self.p,
                           p_family_wise=self.p_family_wise, patch=self.patch)
         return polydata(self.positions, self.triangles, {**arrays, "residue_index": self.residue_index})
-
-
-def _table(columns):
-    try:
-        import pandas
-    except ImportError:
-        return columns
-    return pandas.DataFrame(columns)
 
 
 def _order(*, charges=None, frames="all", template="medoid", output="", resume=False, overwrite=False, skip_errors=False,

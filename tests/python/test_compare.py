@@ -113,3 +113,9 @@ def test_plot_and_pyvista(made, tmp_path):
     mesh = result.to_pyvista()
     assert isinstance(mesh, pyvista.PolyData) and mesh.n_points == len(result.positions)
     assert mesh.area == pytest.approx(result.area.sum(), rel=1e-3)
+    before = result.positions.copy(), result.displacement.copy(), result.source_potential.copy()
+    mesh.points[:] = 0
+    for name in ("displacement", "potential_source"):
+        mesh[name][:] = 7
+    for kept, values in zip(before, (result.positions, result.displacement, result.source_potential)):
+        assert np.array_equal(kept, values, equal_nan=True)  # the mesh has copies
