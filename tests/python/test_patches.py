@@ -6,7 +6,7 @@ import pytest
 import espdiff
 
 QUICK = {"potential": "coulomb", "grid_spacing": 1.5, "device": "cpu"}
-PATCHES = {"tail": "//A/70-76", "site": "//A/6,8"}
+PATCHES = {"tail": "//A/70-76", "site": "//A/6 //A/8"}
 
 
 @pytest.fixture(scope="module")
