@@ -65,6 +65,22 @@ def test_statistics_of_an_earlier_run(whole, tmp_path):
     assert again.to_dict()["options"]["alpha"] == 0.2
 
 
+def test_regression_has_the_bytes_of_the_command_line(whole, program, tmp_path):
+    rows = [f"{name},trpcage_{name}_{k},{value}" for name, values in (("wild", (0.2, 1.9, 1.1)), ("mutant", (4.2, 3.1, 5.0)))
+            for k, value in enumerate(values, 1)]
+    (tmp_path / "values.csv").write_text("\n".join(["group,replicate,activity", *rows]) + "\n")
+    (tmp_path / "out.h5").write_bytes(whole[1][".h5"])
+    column = f"{tmp_path / 'values.csv'}:activity"
+    made = espdiff.ensemble(from_file=tmp_path / "out.h5", output=tmp_path / "one", regress=column, arrangements=20)
+    assert made.to_dict()["regression"]["replicates"][3]["value"] == 4.2
+    subprocess.run([program, "ensemble", "--from", tmp_path / "out.h5", "--regress", column, "--arrangements", "20", "-q", "-o",
+                    tmp_path / "two"], check=True)
+    for ending in (".json", ".vtp", ".regression.csv"):
+        assert (tmp_path / f"one{ending}").read_bytes() == (tmp_path / f"two{ending}").read_bytes()
+    with pytest.raises(espdiff.FormatError, match="values.csv: there is no column 'other'; there are: group, replicate, activity"):
+        espdiff.ensemble(from_file=tmp_path / "out.h5", output=tmp_path / "three", regress=f"{tmp_path / 'values.csv'}:other")
+
+
 def test_parts_merge_to_the_same_bytes(whole, tmp_path):
     for part in ("1/2", "2/2"):
         assert espdiff.ensemble(GROUPS, charges=CHARGES, output=tmp_path / "out", shard=part, **QUICK) is None
