@@ -118,15 +118,14 @@ def test_atomgroups_have_the_numbers_of_files(whole):
         assert np.abs(result.means[name] - whole[0].means[name]).mean() < 0.005  # of values of 50 in vacuum
 
 
-def test_mda_ensemble_in_processes(whole, tmp_path):
+def test_mda_ensemble_in_processes(whole, request, tmp_path):
     from espdiff.mda import Ensemble
 
     options = {key: value for key, value in QUICK.items() if key != "frames"}
     one = Ensemble(atomgroups(), output=tmp_path / "one", **options).run(stop=100, step=60)
     assert (one.results.difference == one.results.ensemble.difference)[one.results.tested != 0].all()
     assert one.results.n_frames == 12
-    if not hasattr(mda.analysis.base.AnalysisBase, "get_supported_backends"):
-        pytest.skip("SKIPPED: MDAnalysis before 2.8 has no workers")
+    request.getfixturevalue("workers")
     Ensemble(atomgroups(), output=tmp_path / "two", **options).run(stop=100, step=60, backend="multiprocessing", n_workers=2)
     assert contents(tmp_path / "one") == contents(tmp_path / "two")
 

@@ -54,9 +54,7 @@ def test_analyses_have_mdanalysis_form():
     for analysis in (SurfacePotential, Ensemble):
         assert analysis.get_supported_backends() == ("serial", "multiprocessing", "dask")
         parameters = inspect.signature(analysis.run).parameters
-        assert {"start", "stop", "step", "frames", "verbose"} <= set(parameters)
-        if hasattr(base.AnalysisBase, "get_supported_backends"):  # MDAnalysis 2.8
-            assert {"backend", "n_workers"} <= set(parameters)
+        assert {"start", "stop", "step", "frames", "backend", "n_workers", "verbose"} <= set(parameters)
         assert "results." in inspect.getdoc(analysis)
 
 
