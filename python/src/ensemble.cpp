@@ -104,6 +104,7 @@ EnsembleStudy study_of(const nb::list& groups, const nb::dict& order) {
   study.statistics = statistics_of(order);
   study.check_template = nb::cast<bool>(order["check_template"]);
   study.states = nb::cast<bool>(order["states"]);
+  study.regress = text_in(order, "regress");
   study.from = text_in(order, "from");
   return study;
 }
