@@ -228,8 +228,6 @@ namespace eval ::espdiff {
             {-equilibration text none "Frames to cut off at the start of each replicate: none, a number, or auto"}
             {-most-missing text 0.2 "A vertex without a counterpart in a larger share of a group's frames is not\
                 tested"}
-            {-patch text {} "{NAME SELECTION ...}: residues of the template, in gemmi's syntax (//A/8-12), measured\
-                as a whole"}
             {-regress text {} "FILE.csv:COLUMN: a value of each replicate, regressed on the surface, and predicted from\
                 the others; the table has the columns replicate, COLUMN, and group unless names are unique"}
             {-check-template boolean 0 "Also map the medoid of each group onto every frame, and tell how much of the\

@@ -80,7 +80,6 @@ void parse_study(DictReader& reader, EnsembleStudy& study) {
   study.check_template = reader.boolean("check_template", false);
   study.states = reader.boolean("states", false);
   study.statistics = parse_statistics(reader);
-  if (Tcl_Obj* const patches = reader.find("patch")) study.patches = texts_of(patches, "patch");
   inputs.frames = reader.text("frames", inputs.frames);
   inputs.template_text = reader.text("template", inputs.template_text);
   inputs.plugins = reader.text("plugins");

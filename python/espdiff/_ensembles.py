@@ -118,6 +118,11 @@ class Ensemble(EngineResult):
         return f"<espdiff.Ensemble of {' and '.join(self.means)}, {self.n_frames} frames>"
 
     @property
+    def fixed_patches(self):
+        """The patches that `patches=` named, by name: dicts, as in OUT.json."""
+        return self.to_dict().get("fixed_patches", {})
+
+    @property
     def patches(self):
         """The significant patches: dicts, as in OUT.json."""
         return self.to_dict().get("patches", [])
@@ -150,7 +155,7 @@ class Ensemble(EngineResult):
 
 
 def _order(*, charges=None, frames="all", template="medoid", output="", resume=False, overwrite=False, skip_errors=False,
-           shard=None, from_file=None, patches=None, check_template=False, states=False, regress=None, alpha=0.05, control="tfce",
+           shard=None, from_file=None, check_template=False, states=False, regress=None, alpha=0.05, control="tfce",
            equilibration="none", most_missing=0.2, arrangements=10000, bootstrap=999, seed=20221, plugins=""):
     """The order of a study, checked; its defaults are the command line's."""
     if control not in ("tfce", "max-t"):
@@ -160,8 +165,8 @@ def _order(*, charges=None, frames="all", template="medoid", output="", resume=F
         "frames": frames if isinstance(frames, str) else "all", "template": str(template), "output": output,
         "resume": resume, "overwrite": overwrite, "skip_errors": skip_errors, "shard": shard or "1/1",
         "from": os.fspath(from_file) if from_file else "",
-        "patches": [f"{name}={selection}" for name, selection in (patches or {}).items()],
-        "check_template": check_template, "states": states, "regress": os.fspath(regress or ""), "alpha": _checked("alpha", alpha, 1e-6, 0.5),
+        "check_template": check_template, "states": states, "regress": os.fspath(regress or ""),
+        "alpha": _checked("alpha", alpha, 1e-6, 0.5),
         "control": control, "equilibration": str(equilibration),
         "most_missing": _checked("most_missing", most_missing, 0, 0.9),
         "arrangements": _checked("arrangements", arrangements, 20, 1000000),
@@ -180,7 +185,8 @@ def ensemble(groups=None, *, output=None, potential="auto", device="auto", threa
     whose universes' frames are taken; a dict names them.
     charges: {group: PQR file}. frames: of each replicate: "all", "0:5:end", ...; of AtomGroups also a slice, or a list of
     numbers. template: medoid, medoid:GROUP, the
-    number of a frame, or a file. patches: {name: selection} chosen beforehand. check_template, states: see the command.
+    number of a frame, or a file. patches: {name: selection} chosen beforehand, in fixed_patches of the result.
+    check_template, states: see the command.
     regress: "FILE.csv:COLUMN", a value of each replicate, regressed on the surface; to_dict()["regression"] has the answer.
     alpha, control, equilibration, most_missing, arrangements, bootstrap, seed: of the statistics.
     output: prefix of OUT.h5 and the results, the bytes of the command line's; with `resume` a run that broke off goes

@@ -86,6 +86,11 @@ class Comparison(EngineResult):
         return self.to_dict()["region"]
 
     @property
+    def fixed_patches(self):
+        """The same of each patch that `patches=` named, by name."""
+        return self.to_dict()["fixed_patches"]
+
+    @property
     def residues(self):
         """The residue table: a pandas.DataFrame where pandas is installed, else a dict of columns."""
         if self._residues is None:

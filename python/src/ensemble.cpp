@@ -102,7 +102,6 @@ EnsembleStudy study_of(const nb::list& groups, const nb::dict& order) {
   study.run.overwrite = nb::cast<bool>(order["overwrite"]);
   study.run.skip_errors = nb::cast<bool>(order["skip_errors"]);
   study.statistics = statistics_of(order);
-  study.patches = nb::cast<std::vector<std::string>>(order["patches"]);
   study.check_template = nb::cast<bool>(order["check_template"]);
   study.states = nb::cast<bool>(order["states"]);
   study.regress = text_in(order, "regress");

@@ -115,10 +115,7 @@ void add_input_options(CLI::App& p, Arguments& a) {
                "through all groups; a structure file")
       ->capture_default_str()
       ->group(group);
-  p.add_option("--plugins", inputs.plugins,
-               "Folder of VMD's molfile plugins, which read trajectories and topologies (that of $VMDDIR, or of the "
-               "`vmd` on PATH)")
-      ->group(group);
+  add_plugins_option(p, inputs.plugins, group);
   add_structure_options(p, inputs.structure);
   add_computed_map_options(p, inputs.potential);
 }
@@ -149,10 +146,6 @@ void add_statistics_options(CLI::App& p, Arguments& a) {
   p.add_flag("--check-template", a.study.check_template,
              "Map the medoid of each group onto every frame as well, and tell how much of the answer stays. Takes as "
              "long again for each group; files OUT.template-GROUP.h5")
-      ->group(group);
-  p.add_option("--patch", a.study.patches,
-               "NAME=SELECTION: residues of the template, in gemmi's syntax (site=//A/8-12), whose surface is measured "
-               "as a whole, with a p of its own; may be given again")
       ->group(group);
   p.add_option(
        "--regress", a.study.regress,

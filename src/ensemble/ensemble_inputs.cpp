@@ -47,7 +47,9 @@ bool is_number(const std::string& text) {
 EnsembleInputs::EnsembleInputs(const EnsembleRequest& request, const CompareOptions& options, const Progress& progress)
     : request_(request), options_(options), progress_(progress), replicates_(request.replicates) {
   plan_.version = kVersion;
-  plan_.settings = setting_texts(options);
+  for (auto& [name, text] : setting_texts(options)) {
+    if (name != "patch") plan_.settings.emplace_back(std::move(name), std::move(text));  // changes no value
+  }
   plan_.settings.emplace_back("frames", request_.frames);
   name_replicates();
   count_frames();

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -20,15 +21,19 @@
 namespace espdiff {
 
 class EnsembleFile;
+struct EarlierPatch;
+struct PatchPlacement;
 
 enum class ErrorControl { kTfce, kMaxT };
 
 /// A part of the surface that the user chose before seeing the result.
 struct FixedPatch {
   std::string name;
-  std::vector<char> residues;   ///< [residue of the template] nonzero in the patch
-  double area_A2 = 0;           ///< tested
-  std::vector<double> means{};  ///< [group]
+  std::vector<std::uint8_t> residues;  ///< [residue of the template] nonzero in the patch; empty for an earlier one
+  std::shared_ptr<const EarlierPatch> earlier{};      ///< a patch of another template, whose place has to be found
+  std::shared_ptr<const PatchPlacement> placement{};  ///< how it was found
+  double area_A2 = 0;                                 ///< tested
+  std::vector<double> means{};                        ///< [group]
 };
 
 /// Options of the statistics; they do not change the file's values.

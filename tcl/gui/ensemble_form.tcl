@@ -98,13 +98,7 @@ namespace eval ::espdiff::gui {
 
     proc show_replicates {} {
         variable replicates
-        variable widget
-        $widget(ensemble,list) delete [$widget(ensemble,list) children {}]
-        set number 0
-        foreach replicate $replicates {
-            $widget(ensemble,list) insert {} end -id $number -values [replicate_cells $replicate]
-            incr number
-        }
+        fill_list ensemble $replicates replicate_cells
         update_ensemble
     }
 
@@ -113,16 +107,9 @@ namespace eval ::espdiff::gui {
     }
 
     proc update_ensemble {} {
-        variable form
         variable widget
-        if {[in_vmd]} {
-            set names [molecule_names]
-            $widget(ensemble,mol) configure -values $names
-            if {$form(ensemble,mol) ni $names} { set form(ensemble,mol) [lindex $names 0] }
-            set_enabled [expr {[llength $names] > 0}] $widget(ensemble,add)
-        }
+        update_list ensemble
         $widget(ensemble,group) configure -values [ensemble_groups]
-        set_enabled [expr {[llength [$widget(ensemble,list) selection]] > 0}] $widget(ensemble,remove)
         show_ensemble_running
     }
 

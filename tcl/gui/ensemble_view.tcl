@@ -82,16 +82,13 @@ namespace eval ::espdiff::gui {
     }
 
     proc ensemble_progress {stage fraction} {
-        variable widget
-        if {![info exists widget(ensemble,bar)] || ![winfo exists $widget(ensemble,bar)]} return
-        $widget(ensemble,bar) configure -value $fraction
         # The core tells the time that is left.
-        tell_in ensemble $stage
+        show_progress_in ensemble $stage $fraction
     }
 
     proc cancel_ensemble {} {
         variable ensemble_running
-        if {$ensemble_running ne ""} { espdiff cancel $ensemble_running }
+        cancel_run $ensemble_running
     }
 
     # Called by espdiff at the end, successful or not.

@@ -140,20 +140,77 @@ TEST_CASE("the answer through the medoids of the groups is beside that of the fi
 
 TEST_CASE("a patch that was chosen beforehand has its means, its difference and its own p") {
   const Runs in;
-  REQUIRE(in.ensemble(in.groups + " -q -o out --patch site=//A/8 --patch 'far end=//A/1-2'").status == 0);
+  REQUIRE(in.ensemble(in.groups + " -q -o out --patch site=//A/8 --patch far-end=//A/1-2").status == 0);
   const auto json = nlohmann::json::parse(read_file(in.folder.file("out.json")));
   REQUIRE(json.at("fixed_patches").size() == 2);
-  const auto& site = json["fixed_patches"][0];
-  CHECK(site.at("name") == "site");
+  const auto& site = json["fixed_patches"]["site"];
   CHECK(site.at("difference").get<double>() ==
         doctest::Approx(site["means"]["mutant"].get<double>() - site["means"]["wild"].get<double>()));
   CHECK(site.at("p").get<double>() < 0.001);
   CHECK(site.at("high").get<double>() < 0);
-  CHECK(json["fixed_patches"][1].at("name") == "far end");
-  CHECK(in.ensemble("--from out.h5 -o out2 --patch site=//A/8").err ==
-        "espdiff: --patch selects atoms of the template, which --from does not read; name the groups, with --resume\n");
+  CHECK(json["fixed_patches"]["far-end"].at("area_A2").get<double>() > 100);
+  // What is measured changes no frame: the same file goes on.
+  CHECK(in.ensemble(in.groups + " -q -o out --resume --patch other=//A/3").status == 0);
+  // The file knows the template's residues.
+  REQUIRE(in.ensemble("--from out.h5 -q -o again --patch site=//A/8").status == 0);
+  const auto again = nlohmann::json::parse(read_file(in.folder.file("again.json")));
+  CHECK(again["fixed_patches"]["site"] == site);
+  const std::string atoms = in.ensemble("--from out.h5 -q -o again2 --patch site=//A/8/CB").err;
+  CHECK_MESSAGE(contains(atoms, "the template (its residues alone, as CA atoms): --patch '//A/8/CB' selects no atom"),
+                atoms);
   CHECK(contains(in.ensemble(in.groups + " -o out3 --patch site").err, "is not NAME=SELECTION"));
   CHECK(contains(in.ensemble(in.groups + " -o out3 --patch site=//Z").err, "Z"));
+}
+
+TEST_CASE("a patch of an earlier result is measured in every command, and says how its place was found") {
+  const Runs in;
+  REQUIRE(in.ensemble(in.groups + " -q -o out").status == 0);
+  const auto json = nlohmann::json::parse(read_file(in.folder.file("out.json")));
+  REQUIRE(!json.at("patches").empty());
+  const auto& own = json["patches"][0];
+  // On its own template it is itself.
+  REQUIRE(in.ensemble("--from out.h5 -q -o again --patch first=out.json:1").status == 0);
+  const auto again = nlohmann::json::parse(read_file(in.folder.file("again.json")))["fixed_patches"]["first"];
+  CHECK(again["difference"].get<double>() == doctest::Approx(own["difference"].get<double>()));
+  CHECK(again["area_A2"].get<double>() == doctest::Approx(own["area_A2"].get<double>()));
+  CHECK(again["placement"]["found_area_fraction"].get<double>() == doctest::Approx(1));
+  CHECK(again["placement"]["patch"] == 1);
+  CHECK(contains(
+      read_file(in.folder.file("again.json")),
+      "patch first was found significant in frames that are measured here again: its difference is too large"));
+  // On a frame's own surface, by compare; a trajectory has the same numbers, and a matrix.
+  const std::string patch = " --patch first=out.json:1 --grid-spacing 1.5 --potential coulomb -q";
+  const Outcome pair = in.run("compare w1.pqr m1.pqr" + patch + " -o pair");
+  REQUIRE_MESSAGE(pair.status == 0, pair.err);
+  const auto first = nlohmann::json::parse(read_file(in.folder.file("pair.json")))["fixed_patches"]["first"];
+  CHECK(first["mean_signed_difference"].get<double>() < 0);
+  CHECK(first["placement"]["found_area_fraction"].get<double>() > 0.8);
+  CHECK(first["area_A2"]["source"].get<double>() == doctest::Approx(own["area_A2"].get<double>()).epsilon(0.25));
+  const Outcome frames = in.run("trajectory w1.pqr m1.pqr --start source" + patch + " -o frames.csv");
+  REQUIRE_MESSAGE(frames.status == 0, frames.err);
+  const std::string rows = read_file(in.folder.file("frames.csv"));
+  CHECK(contains(rows, "# patch_sha256: " + first["placement"]["sha256"].get<std::string>()));
+  CHECK(contains(rows, first["mean_signed_difference"].dump()));
+  const Outcome matrix = in.run("matrix w1.pqr m1.pqr" + patch + " -o all");
+  REQUIRE_MESSAGE(matrix.status == 0, matrix.err);
+  CHECK(contains(read_file(in.folder.file("all.json")), "first_mean_signed_difference"));
+  CHECK(contains(
+      in.run("compare w1.pqr m1.pqr --patch first=out.json:1 --grid-spacing 1.5 --potential coulomb -o pair").out,
+      "patch 1 of out.json; "));
+  // What is none.
+  const auto refused = [&](const std::string& text) {
+    return in.run("compare w1.pqr m1.pqr -o u --patch " + text).err;
+  };
+  CHECK(contains(refused("first=out.json:99"), "patch first: out.json: there is no patch 99; it has "));
+  CHECK(contains(refused("first=out.json:0"), "there is no patch 0"));
+  CHECK(contains(refused("first=gone.json:1"), "gone.json"));
+  CHECK(contains(refused("first=pair.json:1"), "pair.json: this is not the OUT.json of an ensemble of two groups"));
+  std::filesystem::copy(in.folder.file("pair.vtp"), in.folder.file("out.vtp"),
+                        std::filesystem::copy_options::overwrite_existing);
+  CHECK(
+      contains(refused("first=out.json:1"), "out.vtp: it has no array 'patch', so it is not of an ensemble's result"));
+  std::filesystem::remove(in.folder.file("out.vtp"));
+  CHECK(contains(refused("first=out.json:1"), "out.vtp"));
 }
 
 TEST_CASE("a list names groups, replicates of several files, and charges") {
