@@ -213,6 +213,10 @@ namespace eval ::espdiff {
             {-frames text all "Frames of each replicate that names none"}
             {-charges text {} "{GROUP FILE ...}: PQR files of the same atoms, whose charges and radii frames of files\
                 take; without it, they keep their own, or PDB2PQR makes them from the group's first frame"}
+            {-maps text {} "{GROUP PATTERN ...}: the potential of each frame, computed by another program, in the\
+                frame's coordinates. %d or %03d in the pattern stands for the frame's number in its replicate, from 0,\
+                {replicate} for the replicate's name"}
+            {-map-unit text {} "Unit of these maps if the files do not give it"}
             {-template text medoid "The structure whose surface is mapped onto every frame: medoid, medoid:GROUP, the\
                 number of a frame, counted from 0 through all groups, or a structure file"}
             {-map text auto "Potential of every frame: auto, pb, pme, coulomb, or with settings, such as\
@@ -228,8 +232,6 @@ namespace eval ::espdiff {
             {-equilibration text none "Frames to cut off at the start of each replicate: none, a number, or auto"}
             {-most-missing text 0.2 "A vertex without a counterpart in a larger share of a group's frames is not\
                 tested"}
-            {-patch text {} "{NAME SELECTION ...}: residues of the template, in gemmi's syntax (//A/8-12), measured\
-                as a whole"}
             {-regress text {} "FILE.csv:COLUMN: a value of each replicate, regressed on the surface, and predicted from\
                 the others; the table has the columns replicate, COLUMN, and group unless names are unique"}
             {-check-template boolean 0 "Also map the medoid of each group onto every frame, and tell how much of the\

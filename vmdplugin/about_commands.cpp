@@ -93,7 +93,7 @@ Tcl_Obj* list_settings(const Call&) {
   for (const Setting& setting : settings()) {
     all.push_back(to_dict({{"name", to_obj(setting.name)},
                            {"group", to_obj(setting.group)},
-                           {"kind", to_obj(name_of(setting.kind))},
+                           {"kind", to_obj(setting.is_named ? "named" : name_of(setting.kind))},
                            {"choices", to_list(setting.choices)},
                            {"default", to_obj(setting.get(defaults))},
                            {"help", to_obj(setting.help)},

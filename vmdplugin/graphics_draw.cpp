@@ -136,7 +136,7 @@ void check_vector(Vec3f v, const char* what, std::size_t vertex) {
   constexpr float kMost = 1e7F;  // fits VectorText
   if (std::fabs(v.x) < kMost && std::fabs(v.y) < kMost && std::fabs(v.z) < kMost) return;
   throw InputError("the " + std::string(what) + " of vertex " + std::to_string(vertex) + " is " +
-                   formatted("%g %g %g", v.x, v.y, v.z) + "; numbers within 1e7 were expected");
+                   formatted("%g %g %g", double{v.x}, double{v.y}, double{v.z}) + "; numbers within 1e7 were expected");
 }
 
 /// Checked before the first triangle, so that no surface is half drawn.
