@@ -1,12 +1,14 @@
 // ensemble_scale.cpp: the file and the statistics of an ensemble of any size, with its peak of memory.
 //
-//     espdiff_ensemble_scale 10000 5000 /tmp/scale.h5
+//     espdiff_ensemble_scale 10000 5000 /tmp/scale.h5            # goes on with a file that is there
+//     espdiff_ensemble_scale 10000 5000 /tmp/scale.1.h5 1/4      # writes a quarter, for espdiff merge
 #include <sys/resource.h>
 
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 
 #include "ensemble/ensemble_file.h"
@@ -64,36 +66,47 @@ EnsemblePlan plan_of(std::size_t n_frames, std::size_t n_residues) {
   return plan;
 }
 
-/// Noise that remembers the frame before, different in each replicate.
-void write_frames(EnsembleFile& file) {
+/// Frames that the file lacks, from `begin` to `end`: noise that remembers the frame before, so it is made from the
+/// first frame on.
+void write_frames(EnsembleFile& file, std::size_t begin, std::size_t end) {
   std::vector<float> values(file.n_vertices(), 0);
-  for (std::size_t f = 0; f < file.plan().n_frames(); ++f) {
+  for (std::size_t f = 0; f < end; ++f) {
     for (std::size_t v = 0; v < values.size(); ++v) {
       const double noise = static_cast<double>(random_bits(1, f, v) >> 11) / 9007199254740992.0 - 0.5;
       values[v] = static_cast<float>(0.8 * static_cast<double>(values[v]) + noise);
     }
-    file.write(f, values, {1, 0, 0, 0, 1, static_cast<double>(values[0]), true, ""});
+    if (f >= begin && !file.has(f)) file.write(f, values, {1, 0, 0, 0, 1, static_cast<double>(values[0]), true, ""});
   }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 4) {
-    std::fprintf(stderr, "usage: espdiff_ensemble_scale FRAMES VERTICES FILE.h5\n");
+  if (argc != 4 && argc != 5) {
+    std::fprintf(stderr, "usage: espdiff_ensemble_scale FRAMES VERTICES FILE.h5 [I/N]\n");
     return 2;
   }
+  const std::size_t n_frames = std::strtoul(argv[1], nullptr, 10);
   const TemplateSurface surface = sphere(std::strtoul(argv[2], nullptr, 10));
-  const std::string path = argv[3];
+  const std::string path = argv[3], part = argc == 5 ? argv[4] : "1/1";
+  const std::size_t index = std::strtoul(part.c_str(), nullptr, 10),
+                    n_parts = std::strtoul(part.c_str() + part.find('/') + 1, nullptr, 10);
+  if (index < 1 || index > n_parts || part.find('/') == std::string::npos) {
+    std::fprintf(stderr, "espdiff_ensemble_scale: %s is not a part I/N\n", part.c_str());
+    return 2;
+  }
   const double start = seconds();
-  EnsembleFile::create(path, plan_of(std::strtoul(argv[1], nullptr, 10), surface.residue.back() + 1U), surface);
+  if (!std::filesystem::exists(path))
+    EnsembleFile::create(path, plan_of(n_frames, surface.residue.back() + 1U), surface);
   {
     EnsembleFile file(path, true);
-    write_frames(file);
+    if (file.n_done() > 0) std::printf("%zu frames were there\n", file.n_done());
+    write_frames(file, n_frames * (index - 1) / n_parts, n_frames * index / n_parts);
   }
   const double written = seconds();
   std::printf("%s frames of %zu vertices\nwrite       %7.1f s  %7.0f MB peak\n", argv[1], surface.positions.size(),
               written - start, peak_megabytes());
+  if (n_parts > 1) return 0;
   const EnsembleFile file(path, false);
   const double opened = seconds();
   std::printf("check       %7.1f s  %7.0f MB peak\n", opened - written, peak_megabytes());

@@ -110,12 +110,14 @@ namespace eval ::espdiff {
 
     command draw [dict create arguments {handle} settings none run ::espdiff::draw options {
             {-color choice auto "Quantity shown; auto is difference (for a surface, potential), or slip without\
-                potentials. difference: target - source, red negative, white 0, blue positive; sign: blue became\
-                positive, red became negative; slip: distance of each point from where its own atoms went; potential is for surfaces; path_length: length of each point's path,\
+                potentials. difference: target - source; sign: where it changed; slip: distance of each point from where its own atoms went; potential is for surfaces; path_length: length of each point's path,\
                 at least its displacement"
                 {auto difference sign source target potential slip displacement path_length none}}
             {-range range auto "Values at the ends of the colour scale; auto is symmetric about 0 and covers 98 % of\
                 the surface's points on each side"}
+            {-colors choice red-blue "Colours of signed values, from negative to positive; colour-blind\
+                readers can tell the ends of each apart. cool-warm: blue to red, paler; purple-orange: where red and\
+                blue stand for something else" {red-blue cool-warm purple-orange}}
             {-uncertain choice fade "fade: colours fade into grey the larger the slip; transparent: the\
                 surface does; plain: full colours" {fade transparent plain}}
             {-uncertainty-limit positive 2.0 "Slip at which colours have faded completely, Angstrom; below half\
@@ -211,6 +213,10 @@ namespace eval ::espdiff {
             {-frames text all "Frames of each replicate that names none"}
             {-charges text {} "{GROUP FILE ...}: PQR files of the same atoms, whose charges and radii frames of files\
                 take; without it, they keep their own, or PDB2PQR makes them from the group's first frame"}
+            {-maps text {} "{GROUP PATTERN ...}: the potential of each frame, computed by another program, in the\
+                frame's coordinates. %d or %03d in the pattern stands for the frame's number in its replicate, from 0,\
+                {replicate} for the replicate's name"}
+            {-map-unit text {} "Unit of these maps if the files do not give it"}
             {-template text medoid "The structure whose surface is mapped onto every frame: medoid, medoid:GROUP, the\
                 number of a frame, counted from 0 through all groups, or a structure file"}
             {-map text auto "Potential of every frame: auto, pb, pme, coulomb, or with settings, such as\
@@ -226,8 +232,6 @@ namespace eval ::espdiff {
             {-equilibration text none "Frames to cut off at the start of each replicate: none, a number, or auto"}
             {-most-missing text 0.2 "A vertex without a counterpart in a larger share of a group's frames is not\
                 tested"}
-            {-patch text {} "{NAME SELECTION ...}: residues of the template, in gemmi's syntax (//A/8-12), measured\
-                as a whole"}
             {-regress text {} "FILE.csv:COLUMN: a value of each replicate, regressed on the surface, and predicted from\
                 the others; the table has the columns replicate, COLUMN, and group unless names are unique"}
             {-check-template boolean 0 "Also map the medoid of each group onto every frame, and tell how much of the\

@@ -13,6 +13,14 @@ namespace eval ::espdiff {
         set values [dict get $options settings]
         foreach setting [core::settings] {
             set name [dict get $setting name]
+            if {[dict get $setting kind] eq "named" && [dict exists $values $name]} {
+                dict set values $name [join [named_list -$name {NAME SELECTION} [dict get $values $name] {name selection} {
+                    if {[regexp {^(.+\.json)(:\d+)$} $selection -> path number]} {
+                        set selection [existing_file $path "-patch $name"]$number
+                    }
+                    return $name=$selection
+                }] |]
+            }
             if {![dict get $setting file] || ![dict exists $values $name] || [dict get $values $name] eq ""} continue
             set paths {}
             set names [dict get $values $name]

@@ -13,9 +13,10 @@ namespace eval ::espdiff {
     variable opacities {0.5 0.4 0.3 0.2}
     variable neutral_grey {0.60 0.60 0.60}
 
-    # Three colours for the lower end, the middle and the upper end of VMD's colour scale.
+    # Three colours for the lower end, the middle and the upper end of VMD's colour scale. VMD's lights darken surfaces:
+    # these are stronger than the same names in pictures of the command line; the other names are as there.
     variable scales {
-        diverging  {{0.78 0.08 0.10} {0.88 0.88 0.88} {0.10 0.22 0.78}}
+        red-blue   {{0.78 0.08 0.10} {0.88 0.88 0.88} {0.10 0.22 0.78}}
         sequential {{0.88 0.88 0.88} {0.98 0.62 0.20} {0.45 0.05 0.05}}
     }
     variable lengths {slip displacement path_length}  ;# quantities that start at 0
@@ -80,7 +81,6 @@ namespace eval ::espdiff {
 
     # The drawing's parameters, from options and handle: color, low, high, unit, colors, legend, and the core's options.
     proc drawing_plan {options handle} {
-        variable scales
         variable lengths
         variable plain_color
         variable marked_color
@@ -98,9 +98,21 @@ namespace eval ::espdiff {
             dict set range title [ensemble_title $handle $color]
         }
         return [dict merge $range [dict create handle $handle color $color core $core \
-            colors [dict get $scales [expr {$color in $lengths ? "sequential" : "diverging"}]] \
+            colors [scale_colors [expr {$color in $lengths ? "sequential" : [dict get $options colors]}]] \
             legend [expr {[dict get $options legend] && $color ne "none"}] beside [molecule_of $handle $side] \
             parts [drawn_parts $options $is_surface] key [legend_key $handle $options $is_surface]]]
+    }
+
+    # Red, green and blue from 0 to 1 of the lower end, the middle and the upper end.
+    proc scale_colors {name} {
+        variable scales
+        if {[dict exists $scales $name]} { return [dict get $scales $name] }
+        set colors {}
+        foreach color [core::colours $name 3] {
+            scan $color #%2x%2x%2x red green blue
+            lappend colors [list [expr {$red / 255.0}] [expr {$green / 255.0}] [expr {$blue / 255.0}]]
+        }
+        return $colors
     }
 
     # What grey and stripes mean, for the legend.

@@ -70,12 +70,13 @@ namespace eval ::espdiff {
         }
         dict set core regress $column
         if {[dict get $options from] ne ""} { existing_file [dict get $options from] -from }
-        dict set core patch [named_list -patch {NAME SELECTION} [dict get $options patch] {name selection} {
-            return $name=$selection
-        }]
         dict set core charges [concat {*}[named_list -charges {GROUP FILE} [dict get $options charges] {name path} {
             return [list $name [existing_file $path "-charges $name"]]
         }]]
+        dict set core maps [concat {*}[named_list -maps {GROUP PATTERN} [dict get $options maps] {name pattern} {
+            return [list $name [file normalize $pattern]]
+        }]]
+        dict set core map_unit [dict get $options map-unit]
         set map [dict get $options map]
         if {$map eq "auto"} { return $core }
         if {![is_computed $map]} {
@@ -87,14 +88,6 @@ namespace eval ::espdiff {
         }
         dict set core map [computed_map $map {file ""} -map]
         return $core
-    }
-
-    # Pairs of words, each made into one word of the core by `body`.
-    proc named_list {option form text names body} {
-        if {![string is list $text] || [llength $text] % 2} { fail "$option: '$text' is not a list of $form pairs" }
-        set result {}
-        foreach {name value} $text { lappend result [apply [list $names $body ::espdiff] $name $value] }
-        return $result
     }
 
     # The core's replicates, and for each in VMD where its frames are: a dictionary by number.

@@ -131,6 +131,7 @@ namespace eval ::espdiff {
         command "a Tcl command"
         device "auto, cpu, cuda or cuda:N"
         text "a text"
+        named "a list {NAME SELECTION ...}"
         file "a file name"
         molecule "the id of a molecule in VMD, or top"
     }
@@ -157,6 +158,7 @@ namespace eval ::espdiff {
             }
             range { set valid [expr {$value eq "auto" || [is_range $value]}] }
             command { set valid [string is list $value] }
+            named { set valid [expr {[string is list $value] && [llength $value] % 2 == 0}] }
             device { set valid [regexp {^(auto|cpu|cuda(:[0-9]{1,4})?)$} $value] }
             choice {
                 # The core knows more about settings, such as values added by a later version.
@@ -166,6 +168,14 @@ namespace eval ::espdiff {
         }
         if {!$valid} { fail "[spelled [string range $name 1 end]]: '$value' is not [accepted_values $option]" }
         return $value
+    }
+
+    # Pairs of words, each made into one word of the core by `body`.
+    proc named_list {option form text names body} {
+        if {![string is list $text] || [llength $text] % 2} { fail "$option: '$text' is not a list of $form pairs" }
+        set result {}
+        foreach {name value} $text { lappend result [apply [list $names $body ::espdiff] $name $value] }
+        return $result
     }
 
     proc is_range {value} {

@@ -93,7 +93,7 @@ Tcl_Obj* list_settings(const Call&) {
   for (const Setting& setting : settings()) {
     all.push_back(to_dict({{"name", to_obj(setting.name)},
                            {"group", to_obj(setting.group)},
-                           {"kind", to_obj(name_of(setting.kind))},
+                           {"kind", to_obj(setting.is_named ? "named" : name_of(setting.kind))},
                            {"choices", to_list(setting.choices)},
                            {"default", to_obj(setting.get(defaults))},
                            {"help", to_obj(setting.help)},
@@ -252,17 +252,16 @@ Tcl_Obj* forget_volume(const Call& call) {
   return nullptr;
 }
 
-/// Colours from the lowest value to the highest, by Tk's names. Diverging scales begin with red, in which negative
-/// potentials are drawn.
+/// Colours from the lowest value to the highest, by Tk's names. The kind is sequential, or the name of a diverging map.
 Tcl_Obj* colours(const Call& call) {
   const std::string kind = call.text(0);
   const int n = to_int(call.arguments[1], "number");
-  if ((kind != "sequential" && kind != "diverging") || n < 2 || n > 1000)
-    throw InputError("'" + kind + " " + std::to_string(n) + "' is not sequential or diverging, and 2 to 1000");
+  if (n < 2 || n > 1000) throw InputError("a scale of " + std::to_string(n) + " colours; use 2 to 1000");
+  const DivergingMap* const map = kind == "sequential" ? nullptr : &diverging_map(kind);
   std::vector<std::string> all;
   for (int i = 0; i < n; ++i) {
     const double t = static_cast<double>(i) / (n - 1);
-    const Rgb c = kind == "diverging" ? diverging_colour(t, kRedBlue) : sequential_colour(t);
+    const Rgb c = map != nullptr ? diverging_colour(t, *map) : sequential_colour(t);
     char text[8];
     std::snprintf(text, sizeof text, "#%02x%02x%02x", c.red, c.green, c.blue);
     all.emplace_back(text);

@@ -62,9 +62,8 @@ void run_comparison(ComparisonObject& c, const Progress& progress) {
   const auto whole = [](const Endpoint& side) -> const Molecule& {
     return side.state.whole.size() > 0 ? side.state.whole : *side.molecule;
   };
-  if (options.input.has_region())
-    c.source.region =
-        region_residues(*c.source.molecule, whole(c.source), *c.target.molecule, whole(c.target), options.input);
+  add_parts(c.source,
+            source_parts(*c.source.molecule, whole(c.source), *c.target.molecule, whole(c.target), options.input));
   const std::string radii_note = set_surface_radii({&*c.source.molecule, &*c.target.molecule}, options.input.radii);
   c.provenance.device = engine->back_end();
   c.provenance.device_description = engine->description();

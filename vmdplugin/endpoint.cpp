@@ -122,10 +122,11 @@ void parse_vmd_molecule(DictReader& reader, Endpoint& endpoint) {
     std::set<std::size_t> chosen;
     for (Tcl_Obj* const index : to_vector(list, endpoint.role + " region"))
       chosen.insert(static_cast<std::size_t>(to_int(index, endpoint.role + " region")));
-    endpoint.region.assign(endpoint.molecule->residues.size(), 0);
+    endpoint.parts.region.assign(endpoint.molecule->residues.size(), 0);
     for (std::size_t i = 0; i < atoms.size(); ++i) {
       const std::size_t at = indices.empty() ? i : static_cast<std::size_t>(to_int(indices[i], "index"));
-      if (chosen.count(at) > 0) endpoint.region[static_cast<std::size_t>(endpoint.molecule->atoms[i].residue)] = 1;
+      if (chosen.count(at) > 0)
+        endpoint.parts.region[static_cast<std::size_t>(endpoint.molecule->atoms[i].residue)] = 1;
     }
   }
 }
@@ -362,9 +363,14 @@ void load(Endpoint& endpoint, const CompareOptions& options, const Endpoint* sou
   endpoint.inputs.push_back({endpoint.role + "_map", endpoint.map_path, std::move(map.sha256)});
 }
 
+void add_parts(Endpoint& endpoint, SurfaceParts parts) {
+  if (!parts.region.empty()) endpoint.parts.region = std::move(parts.region);
+  endpoint.parts.patches = std::move(parts.patches);
+}
+
 CompareInput input_of(const Endpoint& endpoint) {
   return {&*endpoint.molecule, endpoint.map ? &*endpoint.map : nullptr,
-          endpoint.computed_map ? endpoint.computed_map->maker() : MapMaker(), endpoint.region};
+          endpoint.computed_map ? endpoint.computed_map->maker() : MapMaker(), endpoint.parts};
 }
 
 }  // namespace espdiff::vmdplugin

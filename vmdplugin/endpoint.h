@@ -52,8 +52,8 @@ struct Endpoint {
   std::optional<ComputedMap> computed_map;  ///< of the request
   std::vector<InputFile> inputs;            ///< provenance; roles begin with the endpoint's ("source", "source_map")
   std::string role;
-  LoadedState state;                 ///< what load() did; its molecules but `whole` are moved out
-  std::vector<std::uint8_t> region;  ///< [residue] of the molecule, where the description has a region
+  LoadedState state;   ///< what load() did; its molecules but `whole` are moved out
+  SurfaceParts parts;  ///< of the molecule; the region where the description has one
 };
 
 /// Reads the description; the keys are those of the Tcl layer's contract:
@@ -92,6 +92,9 @@ bool wants_everything(const Endpoint& endpoint);
 /// @param source  loaded, for the target; null for others
 /// @throws what load_state, read_grid and ComputedMap throw; InputError (a selection of files for VMD's atoms)
 void load(Endpoint& endpoint, const CompareOptions& options, const Endpoint* source, const Progress& progress);
+
+/// Takes patches, and a region unless the description has one.
+void add_parts(Endpoint& endpoint, SurfaceParts parts);
 
 CompareInput input_of(const Endpoint& endpoint);
 

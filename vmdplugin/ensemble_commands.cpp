@@ -80,7 +80,6 @@ void parse_study(DictReader& reader, EnsembleStudy& study) {
   study.check_template = reader.boolean("check_template", false);
   study.states = reader.boolean("states", false);
   study.statistics = parse_statistics(reader);
-  if (Tcl_Obj* const patches = reader.find("patch")) study.patches = texts_of(patches, "patch");
   inputs.frames = reader.text("frames", inputs.frames);
   inputs.template_text = reader.text("template", inputs.template_text);
   inputs.plugins = reader.text("plugins");
@@ -95,6 +94,11 @@ void parse_study(DictReader& reader, EnsembleStudy& study) {
   if (Tcl_Obj* const charges = reader.find("charges")) {
     const std::vector<std::string> words = texts_of(charges, "charges");
     for (std::size_t i = 0; i + 1 < words.size(); i += 2) inputs.charges[words[i]] = words[i + 1];
+  }
+  inputs.maps.unit = reader.text("map_unit");
+  if (Tcl_Obj* const maps = reader.find("maps")) {
+    const std::vector<std::string> words = texts_of(maps, "maps");
+    for (std::size_t i = 0; i + 1 < words.size(); i += 2) inputs.maps.of_group[words[i]] = words[i + 1];
   }
 }
 

@@ -1,6 +1,8 @@
 // matrix_commands.cpp: matrix compares all pairs of variants; merge joins the shards of a matrix.
 #include "base/error.h"
 #include "commands.h"
+#include "compare/input_settings.h"
+#include "compare/options.h"
 #include "engine/engine.h"
 #include "ensemble_views.h"
 #include "prepare/surface_radii.h"
@@ -53,7 +55,7 @@ std::vector<Variant> load_variants(MatrixObject& object, const Progress& progres
     const Molecule& whole = object.endpoints[i].state.whole;
     wholes.push_back(whole.size() > 0 ? &whole : &variants[i].molecule);
   }
-  set_regions(variants, wholes, object.computation.options.input);
+  set_parts(variants, wholes, object.computation.options.input);
   object.endpoints.clear();
   std::vector<Molecule*> molecules;
   for (Variant& variant : variants) molecules.push_back(&variant.molecule);
@@ -70,7 +72,6 @@ MatrixRun parse_run(DictReader& reader) {
   run.overwrite = reader.boolean("overwrite", false);
   run.skip_errors = reader.text("on_error", "stop") == "skip";
   run.cluster_by = reader.text("cluster_by");
-  if (!run.cluster_by.empty()) find_metric(run.cluster_by, true);  // reports a wrong one at once
   return run;
 }
 
@@ -79,6 +80,8 @@ Tcl_Obj* matrix(const Call& call) {
   DictReader reader(call.arguments[1], "options");
   object->run = parse_run(reader);
   object->computation = parse_computation(reader, nullptr);
+  if (!object->run.cluster_by.empty())  // reports a wrong one at once
+    find_metric(object->run.cluster_by, part_names(object->computation.options.input));
   for (Tcl_Obj* const variant : to_vector(call.arguments[0], "variants")) add_variant(variant, *object);
   check_labels(object->labels);
   object->run.potential = "maps";

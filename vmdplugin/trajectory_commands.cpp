@@ -2,7 +2,9 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/surface_parts.h"
 #include "commands.h"
+#include "compare/input_settings.h"
 #include "engine/engine.h"
 #include "io/read_csv.h"
 #include "io/write_csv.h"
@@ -90,7 +92,9 @@ Tcl_Obj* trajectory(const Call& call) {
   plan.reference = reader.text("row_reference", run.reference);
   plan.start = run.start = parse_start(reader.text("start", "auto"), plan.options);
   plan.skip_errors = reader.text("on_error", "stop") == "skip";
-  plan.has_region = reader.boolean("region", false) || plan.options.input.has_region();
+  plan.parts = part_names(plan.options.input);
+  if (reader.boolean("region", false) && !plan.options.input.has_region())
+    plan.parts.insert(plan.parts.begin(), kRegionPart);
   object->one_map = reader.boolean("one_map", false);
   object->against = plan.against;
   const std::string source_file = reader.text("source_file", ""), residues = reader.text("residues", ""),
@@ -100,7 +104,8 @@ Tcl_Obj* trajectory(const Call& call) {
   const SeriesHead head = series_head(run, plan.options);
   std::optional<ResidueCsv> table;
   if (!residues.empty()) table.emplace(residues, quantity, existing);
-  object->run = std::make_unique<TrajectoryRun>(std::move(plan), SeriesCsv(csv, head, existing), std::move(table));
+  SeriesCsv rows(csv, head, existing, plan.parts);
+  object->run = std::make_unique<TrajectoryRun>(std::move(plan), std::move(rows), std::move(table));
   if (!run.files.empty()) object->files = std::make_unique<FrameFiles>(run.files);
   if (!source_file.empty()) object->source_files = std::make_unique<FrameFiles>(std::vector{source_file});
   return to_obj(call.handles.add(object));
@@ -170,13 +175,12 @@ std::vector<InputFile> common_inputs(const TrajectoryObject& object) {
   return inputs;
 }
 
-/// The region of the source by the settings.
-void set_region(TrajectoryObject& object) {
+/// Region and patches of the source by the settings.
+void set_parts(TrajectoryObject& object) {
   const InputOptions& options = object.computation.options.input;
-  if (!options.has_region()) return;
   Endpoint& source = object.source;
   const Molecule& whole = source.state.whole.size() > 0 ? source.state.whole : *source.molecule;
-  source.region = region_residues(*source.molecule, whole, *source.molecule, whole, options);
+  add_parts(source, source_parts(*source.molecule, whole, *source.molecule, whole, options));
 }
 
 /// Reads, compares and writes one frame, on the worker's thread.
@@ -188,13 +192,13 @@ void run_step(TrajectoryObject& object, const Progress& progress) {
   const bool has_one_source = object.against == Reference::kOne;
   if (has_one_source) {
     load_side(object, object.source, std::nullopt, progress);
-    set_region(object);
+    set_parts(object);
   }
   const auto read = [&] {
     const TrajectoryStep& step = run.next();
     if (!has_one_source) {
       load_side(object, object.source, step.source, progress);
-      set_region(object);
+      set_parts(object);
     }
     load_side(object, object.target, step.frame, progress);
     return StepInput{input_of(object.source), input_of(object.target), common_inputs(object)};

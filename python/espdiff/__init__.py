@@ -8,6 +8,9 @@ A state is a file (PQR, PDB, mmCIF), a `State`, an AtomGroup of MDAnalysis or on
 the command line with underscores; `help_options()` lists them.
 """
 
+from . import _errors
+from ._errors import *
+
 try:
     from ._core import Map, State, Surface, __version__
 except ImportError as _missing:
@@ -25,21 +28,9 @@ else:
     from ._inputs import state
     from ._functions import Series, compare, frames, help_options, matrix, merge, potential, status, surface
     from ._results import Certificate, Comparison, Matrix
-from ._errors import (
-    Cancelled,
-    ConvergenceError,
-    DeviceError,
-    Error,
-    FormatError,
-    GeometryError,
-    InputError,
-    InternalError,
-    IoError,
-    OutOfMemoryError,
-)
 
 __all__ = [
-    "Cancelled", "Certificate", "Comparison", "ConvergenceError", "DeviceError", "Ensemble", "Error", "FormatError",
-    "GeometryError", "InputError", "InternalError", "IoError", "Map", "Matrix", "OutOfMemoryError", "Series", "State",
-    "Surface", "__version__", "compare", "ensemble", "frames", "help_options", "matrix", "merge", "potential", "state", "status", "surface",
+    "Certificate", "Comparison", "Ensemble", "Map", "Matrix", "Series", "State", "Surface", "__version__", "compare",
+    "ensemble", "frames", "help_options", "matrix", "merge", "potential", "state", "status", "surface",
 ]
+__all__ += _errors.__all__

@@ -1,7 +1,6 @@
 """ensemble(): groups of simulations from files or AtomGroups, in one process or in parts."""
 
 import hashlib
-import json
 import os
 import tempfile
 import warnings
@@ -11,6 +10,7 @@ import numpy as np
 from . import _core
 from ._functions import _as_settings, _Progress
 from ._inputs import frame_state, is_atomgroup
+from ._results import EngineResult, table_of
 
 
 def _checked(name, value, least, most):
@@ -107,33 +107,20 @@ def _refuse_mixed(group, members):
             "replicates of a group have the same atoms")
 
 
-class Ensemble:
+class Ensemble(EngineResult):
     """The result of ensemble(). Arrays are NumPy's, read-only views of the engine's (see `espdiff._core.Ensemble`)."""
 
     def __init__(self, core, folder=None):
-        self._core = core
+        super().__init__(core)
         self._folder = folder  # of the mapped frames, where the user named none
-        self._json = None
-
-    def __getattr__(self, name):
-        if name.startswith("__"):
-            raise AttributeError(name)
-        return getattr(self._core, name)
-
-    def __dir__(self):
-        return sorted({*super().__dir__(), *(n for n in dir(self._core) if not n.startswith("_"))})
-
-    def __str__(self):
-        return self._core.table()
 
     def __repr__(self):
         return f"<espdiff.Ensemble of {' and '.join(self.means)}, {self.n_frames} frames>"
 
-    def to_dict(self):
-        """The content of OUT.json."""
-        if self._json is None:
-            self._json = json.loads(self._core.json())
-        return self._json
+    @property
+    def fixed_patches(self):
+        """The patches that `patches=` named, by name: dicts, as in OUT.json."""
+        return self.to_dict().get("fixed_patches", {})
 
     @property
     def patches(self):
@@ -143,12 +130,12 @@ class Ensemble:
     @property
     def residues(self):
         """The table of OUT.residues.csv: a pandas.DataFrame where pandas is installed, else a dict of columns."""
-        return _table(self._core.residue_columns())
+        return table_of(self._core.residue_columns())
 
     @property
     def frames(self):
         """What each frame is and how it was mapped: a pandas.DataFrame where pandas is installed, else columns."""
-        return _table(self._core.frame_columns())
+        return table_of(self._core.frame_columns())
 
     def plot(self, ax=None, top=None):
         """Draws each residue's difference with its interval (Matplotlib); returns the axes. Filled: significant."""
@@ -167,27 +154,21 @@ class Ensemble:
         return polydata(self.positions, self.triangles, {**arrays, "residue_index": self.residue_index})
 
 
-def _table(columns):
-    try:
-        import pandas
-    except ImportError:
-        return columns
-    return pandas.DataFrame(columns)
-
-
-def _order(*, charges=None, frames="all", template="medoid", output="", resume=False, overwrite=False, skip_errors=False,
-           shard=None, from_file=None, patches=None, check_template=False, states=False, alpha=0.05, control="tfce",
+def _order(*, charges=None, maps=None, map_unit="", frames="all", template="medoid", output="", resume=False,
+           overwrite=False, skip_errors=False, shard=None, from_file=None, check_template=False, states=False,
+           regress=None, alpha=0.05, control="tfce",
            equilibration="none", most_missing=0.2, arrangements=10000, bootstrap=999, seed=20221, plugins=""):
     """The order of a study, checked; its defaults are the command line's."""
     if control not in ("tfce", "max-t"):
         raise _core.InputError(f"control: {control!r} is not tfce or max-t")
     return {
         "charges": {str(group): os.fspath(path) for group, path in (charges or {}).items()},
+        "maps": {str(group): os.fspath(pattern) for group, pattern in (maps or {}).items()}, "map_unit": map_unit,
         "frames": frames if isinstance(frames, str) else "all", "template": str(template), "output": output,
         "resume": resume, "overwrite": overwrite, "skip_errors": skip_errors, "shard": shard or "1/1",
         "from": os.fspath(from_file) if from_file else "",
-        "patches": [f"{name}={selection}" for name, selection in (patches or {}).items()],
-        "check_template": check_template, "states": states, "alpha": _checked("alpha", alpha, 1e-6, 0.5),
+        "check_template": check_template, "states": states, "regress": os.fspath(regress or ""),
+        "alpha": _checked("alpha", alpha, 1e-6, 0.5),
         "control": control, "equilibration": str(equilibration),
         "most_missing": _checked("most_missing", most_missing, 0, 0.9),
         "arrangements": _checked("arrangements", arrangements, 20, 1000000),
@@ -204,9 +185,12 @@ def ensemble(groups=None, *, output=None, potential="auto", device="auto", threa
     groups: {name: replicates}, two groups, or one to describe it; or the path of a list of them (`espdiff ensemble
     --help`). Replicates are paths (each file one, or a topology and then trajectories of its atoms), or AtomGroups,
     whose universes' frames are taken; a dict names them.
-    charges: {group: PQR file}. frames: of each replicate: "all", "0:5:end", ...; of AtomGroups also a slice, or a list of
+    charges: {group: PQR file}. maps: {group: pattern} of potentials that other programs computed, with %d for the frame
+    and {replicate} for the replicate's name, in map_unit where the files give none. frames: of each replicate: "all", "0:5:end", ...; of AtomGroups also a slice, or a list of
     numbers. template: medoid, medoid:GROUP, the
-    number of a frame, or a file. patches: {name: selection} chosen beforehand. check_template, states: see the command.
+    number of a frame, or a file. patches: {name: selection} chosen beforehand, in fixed_patches of the result.
+    check_template, states: see the command.
+    regress: "FILE.csv:COLUMN", a value of each replicate, regressed on the surface; to_dict()["regression"] has the answer.
     alpha, control, equilibration, most_missing, arrangements, bootstrap, seed: of the statistics.
     output: prefix of OUT.h5 and the results, the bytes of the command line's; with `resume` a run that broke off goes
     on. Without it nothing stays but the result. shard: "2/8" maps a part, for espdiff.merge(); it needs `output`.

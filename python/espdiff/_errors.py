@@ -1,5 +1,10 @@
 """The package's exceptions: the engine's, or the same ones where the engine is not built for this Python."""
 
+__all__ = [
+    "Cancelled", "ConvergenceError", "DeviceError", "Error", "FormatError", "GeometryError", "InputError",
+    "InternalError", "IoError", "OutOfMemoryError",
+]
+
 try:
     from ._core import (
         Cancelled,

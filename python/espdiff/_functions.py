@@ -17,8 +17,13 @@ def _as_text(value):
 
 
 def _as_settings(options):
-    """[(name, text)] of keyword arguments: grid_spacing=1 is the option grid-spacing."""
-    return [(name.replace("_", "-"), _as_text(value)) for name, value in options.items()]
+    """[(name, text)] of keyword arguments: grid_spacing=1 is the option grid-spacing; patches={name: selection}."""
+    options = dict(options)
+    patches = options.pop("patches", None) or {}
+    if not hasattr(patches, "items"):
+        raise _core.InputError(f'patches: {patches!r} is not a dict, such as {{"site": "//A/8-12"}}')
+    return [(name.replace("_", "-"), _as_text(value)) for name, value in options.items()] + [
+        ("patch", f"{name}={selection}") for name, selection in patches.items()]
 
 
 def _call(function, options):

@@ -4,14 +4,17 @@ import numpy as np
 
 
 def polydata(positions, triangles, arrays):
-    """A surface as a pyvista.PolyData with arrays at its vertices."""
+    """A surface as a pyvista.PolyData with arrays at its vertices.
+
+    All are copies: VTK would write through a view of the engine's memory, and keep the result alive in every window.
+    """
     import pyvista
 
     triangles = np.asarray(triangles)
     faces = np.hstack([np.full((len(triangles), 1), 3, dtype=np.int64), triangles.astype(np.int64)])
-    mesh = pyvista.PolyData(np.asarray(positions), faces.ravel())
+    mesh = pyvista.PolyData(np.array(positions), faces.ravel())
     for name, values in arrays.items():
-        mesh.point_data[name] = values
+        mesh.point_data[name] = np.array(values)
     return mesh
 
 

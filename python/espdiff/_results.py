@@ -28,13 +28,21 @@ class Certificate:
         return f"<espdiff.Certificate {verdict}>"
 
 
-class Comparison:
-    """The result of compare(). Arrays are NumPy's, read-only views of the engine's (see `espdiff._core.Comparison`)."""
+def table_of(columns):
+    """A pandas.DataFrame where pandas is installed, else the dict of columns."""
+    try:
+        import pandas
+    except ImportError:
+        return columns
+    return pandas.DataFrame(columns)
+
+
+class EngineResult:
+    """A result that the engine holds: its attributes are the engine's, and the arrays are views of its memory."""
 
     def __init__(self, core):
         self._core = core
         self._json = None
-        self._residues = None
 
     def __getattr__(self, name):
         if name.startswith("__"):
@@ -44,13 +52,6 @@ class Comparison:
     def __dir__(self):
         return sorted({*super().__dir__(), *(n for n in dir(self._core) if not n.startswith("_"))})
 
-    def __repr__(self):
-        metrics = self.metrics
-        verdict = "trustworthy" if self._core.trustworthy else "NOT trustworthy"
-        if self.has_potential:
-            return f"<espdiff.Comparison mean |difference| {metrics['mean_abs_difference']:.3g} {self.unit}, {verdict}>"
-        return f"<espdiff.Comparison of shapes, {verdict}>"
-
     def __str__(self):
         return self._core.table()
 
@@ -59,6 +60,21 @@ class Comparison:
         if self._json is None:
             self._json = json.loads(self._core.json())
         return self._json
+
+
+class Comparison(EngineResult):
+    """The result of compare(). Arrays are NumPy's, read-only views of the engine's (see `espdiff._core.Comparison`)."""
+
+    def __init__(self, core):
+        super().__init__(core)
+        self._residues = None
+
+    def __repr__(self):
+        metrics = self.metrics
+        verdict = "trustworthy" if self._core.trustworthy else "NOT trustworthy"
+        if self.has_potential:
+            return f"<espdiff.Comparison mean |difference| {metrics['mean_abs_difference']:.3g} {self.unit}, {verdict}>"
+        return f"<espdiff.Comparison of shapes, {verdict}>"
 
     @property
     def certificate(self):
@@ -70,16 +86,15 @@ class Comparison:
         return self.to_dict()["region"]
 
     @property
+    def fixed_patches(self):
+        """The same of each patch that `patches=` named, by name."""
+        return self.to_dict()["fixed_patches"]
+
+    @property
     def residues(self):
         """The residue table: a pandas.DataFrame where pandas is installed, else a dict of columns."""
         if self._residues is None:
-            columns = self._core.residue_columns()
-            try:
-                import pandas
-            except ImportError:
-                self._residues = columns
-            else:
-                self._residues = pandas.DataFrame(columns)
+            self._residues = table_of(self._core.residue_columns())
         return self._residues
 
     def save(self, prefix):
@@ -115,19 +130,17 @@ class Comparison:
         return ax
 
     def to_pyvista(self):
-        """The mapped surface as a pyvista.PolyData, with the arrays of OUT.vtp."""
+        """The mapped surface as a pyvista.PolyData, with copies of the arrays of OUT.vtp."""
         from ._plots import polydata
 
-        triangles = self.triangles
-        mesh = polydata(self.positions, triangles, {})
-        mesh.point_data["displacement"] = self.displacement
-        mesh.point_data["residue_index"] = self.residue_index
+        arrays = {"displacement": self.displacement, "residue_index": self.residue_index}
         if self.has_potential:
-            mesh.point_data["potential_source"] = self.source_potential
-            mesh.point_data["potential_target"] = self.target_potential
-            mesh.point_data["potential_difference"] = self.difference
-        mesh.cell_data["corrupt"] = self.corrupt
-        mesh.cell_data["unmatched"] = self.unmatched if len(self.unmatched) else np.zeros(len(triangles), np.uint8)
+            arrays.update(potential_source=self.source_potential, potential_target=self.target_potential,
+                          potential_difference=self.difference)
+        triangles = self.triangles
+        mesh = polydata(self.positions, triangles, arrays)
+        mesh.cell_data["corrupt"] = np.array(self.corrupt)
+        mesh.cell_data["unmatched"] = np.array(self.unmatched) if len(self.unmatched) else np.zeros(len(triangles), np.uint8)
         return mesh
 
 

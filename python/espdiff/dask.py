@@ -104,7 +104,10 @@ def Backend(client):
 
     run(backend=espdiff.dask.Backend(client), unsupported_backend=True)
     """
-    from MDAnalysis.analysis.backends import BackendBase
+    try:
+        from MDAnalysis.analysis.backends import BackendBase
+    except ImportError as missing:
+        raise InputError("Backend: MDAnalysis 2.8 or newer is needed, whose analyses have workers") from missing
 
     class ClientBackend(BackendBase):
         def apply(self, func, computations):

@@ -10,6 +10,7 @@
 import os
 import tempfile
 
+import MDAnalysis
 import numpy as np
 from MDAnalysis.analysis.base import AnalysisBase, Results
 
@@ -22,6 +23,10 @@ try:
     from MDAnalysis.analysis.results import ResultsGroup
 except ImportError:  # before MDAnalysis 2.8 analyses run in one process
     ResultsGroup = None
+
+
+def _refuse_workers(backend):
+    raise InputError(f"backend: {backend!r} needs MDAnalysis 2.8 or newer, and this is {MDAnalysis.__version__}; leave it out")
 
 
 def _joined(parts):
@@ -53,6 +58,13 @@ class SurfacePotential(AnalysisBase):
     @classmethod
     def get_supported_backends(cls):
         return ("serial", "multiprocessing", "dask")
+
+    if ResultsGroup is None:
+
+        def run(self, start=None, stop=None, step=None, frames=None, verbose=None, *, backend="serial", n_workers=1, **options):
+            if backend != "serial" or n_workers != 1:
+                _refuse_workers(backend)
+            return super().run(start, stop, step, frames, verbose, **options)
 
     def __init__(self, atomgroup, reference=0, *, residues=False, threads=0, verbose=False, **options):
         if not is_atomgroup(atomgroup):
@@ -200,6 +212,8 @@ class Ensemble:
         """What runs the parts, apply(function, tasks), and how many workers there are."""
         if backend == "serial":
             return (lambda function, tasks: [function(task) for task in tasks]), 1
+        if ResultsGroup is None:
+            _refuse_workers(backend)
         from MDAnalysis.analysis import backends
 
         known = {"multiprocessing": backends.BackendMultiprocessing, "dask": backends.BackendDask}

@@ -51,7 +51,7 @@ std::shared_ptr<Comparison> compare_states(const StatePtr& source, const StatePt
       for (KeptFile& file : kept_structure(role, *state)) made->kept.push_back(std::move(file));
     }
     const std::string radii_note = set_surface_radii({&a.molecule, &b.molecule}, input.radii);
-    source_side.region = region_residues(a.molecule, a.whole, b.molecule, b.whole, input);
+    source_side.parts = source_parts(a.molecule, a.whole, b.molecule, b.whole, input);
     const std::unique_ptr<Engine> engine = computation.make_engine();
     made->provenance = provenance_of(*engine, call, std::move(inputs));
     for (const auto& [role, state] : {std::pair("source", &a), std::pair("target", &b)}) {

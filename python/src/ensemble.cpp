@@ -93,6 +93,9 @@ EnsembleStudy study_of(const nb::list& groups, const nb::dict& order) {
   }
   for (const auto& [group, file] : nb::cast<nb::dict>(order["charges"]))
     study.inputs.charges[nb::cast<std::string>(group)] = nb::cast<std::string>(file);
+  for (const auto& [group, pattern] : nb::cast<nb::dict>(order["maps"]))
+    study.inputs.maps.of_group[nb::cast<std::string>(group)] = nb::cast<std::string>(pattern);
+  study.inputs.maps.unit = text_in(order, "map_unit");
   study.inputs.frames = text_in(order, "frames");
   study.inputs.template_text = text_in(order, "template");
   study.inputs.plugins = text_in(order, "plugins");
@@ -102,9 +105,9 @@ EnsembleStudy study_of(const nb::list& groups, const nb::dict& order) {
   study.run.overwrite = nb::cast<bool>(order["overwrite"]);
   study.run.skip_errors = nb::cast<bool>(order["skip_errors"]);
   study.statistics = statistics_of(order);
-  study.patches = nb::cast<std::vector<std::string>>(order["patches"]);
   study.check_template = nb::cast<bool>(order["check_template"]);
   study.states = nb::cast<bool>(order["states"]);
+  study.regress = text_in(order, "regress");
   study.from = text_in(order, "from");
   return study;
 }

@@ -50,7 +50,7 @@ std::string compute(const std::vector<StatePtr>& states, const std::vector<std::
       given.push_back(state.get());
       const Molecule* const first = loaded.empty() ? nullptr : &loaded.front().molecule;
       loaded.push_back(load(*state, StateRole::kOnly, computation, first, told));
-      loaded.back().whole = {};
+      if (computation.options.input.region_of.empty()) loaded.back().whole = {};  // regions refer to it
       all.push_back(&loaded.back());
     }
     const PotentialPlan plan = plan_potential(computation, given, all);
@@ -70,6 +70,10 @@ std::string compute(const std::vector<StatePtr>& states, const std::vector<std::
       if (states[i]->map != nullptr) variant.map = *states[i]->map;
       molecules.push_back(&variant.molecule);
     }
+    std::vector<const Molecule*> wholes;
+    for (std::size_t i = 0; i < states.size(); ++i)
+      wholes.push_back(loaded[i].whole.size() > 0 ? &loaded[i].whole : &variants[i].molecule);
+    set_parts(variants, wholes, computation.options.input);
     set_surface_radii(molecules, computation.options.input.radii);
     check_labels(labels);
     unite_map_units(variants, computation.options.temperature_K);

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "comparison.h"
 #include "engine/engine.h"
+#include "prepare/region.h"
 #include "prepare/surface_radii.h"
 #include "run.h"
 #include "series.h"
@@ -65,6 +66,8 @@ class PySeries {
     surface_ = loaded_.molecule;
     set_surface_radii({&surface_}, computation_.options.input.radii);
     side_.molecule = &surface_;
+    side_.parts =
+        source_parts(loaded_.molecule, loaded_.whole, loaded_.molecule, loaded_.whole, computation_.options.input);
     engine_ = computation_.make_engine();
     series_ = std::make_unique<Series>(*engine_, side_, computation_.options);
   }

@@ -24,6 +24,12 @@ struct ChargeOptions {
   bool use_cache = true;
 };
 
+/// A part of the source's surface that is chosen before the result is seen. Its numbers are named after it.
+struct PatchRequest {
+  std::string name;       ///< unique; letters, digits, `_`, `-` and `.`
+  std::string selection;  ///< in gemmi's syntax; or FILE.json:NUMBER, a patch of an earlier ensemble
+};
+
 /// Everything about the input of a comparison besides file names and models.
 struct InputOptions {
   SideInput both, source, target;
@@ -35,6 +41,7 @@ struct InputOptions {
   std::string region;          ///< atoms of the source whose residues are reported as well; empty for none
   double region_within_A = 0;  ///< instead: the source's residues with an atom this near to `region_of`
   std::string region_of;       ///< atoms of the source's file, or else of the target's
+  std::vector<PatchRequest> patches;
 
   bool has_region() const { return !region.empty() || !region_of.empty(); }
 };

@@ -146,8 +146,8 @@ int run(const Arguments& a, const Context& context) {
   const std::string radii_note =
       set_surface_radii({&source.state.molecule, &target.state.molecule}, options.input.radii);
   CompareInput source_input = source.input();
-  source_input.region = region_residues(source.state.molecule, source.state.whole, target.state.molecule,
-                                        target.state.whole, options.input);
+  source_input.parts =
+      source_parts(source.state.molecule, source.state.whole, target.state.molecule, target.state.whole, options.input);
   const std::unique_ptr<Engine> engine = make_engine(a.device);
   provenance.device = engine->back_end();
   provenance.device_description = engine->description();

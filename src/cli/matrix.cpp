@@ -99,7 +99,7 @@ States read_states(const Arguments& a, const std::vector<VariantFiles>& files, c
   std::vector<const Molecule*> wholes;
   for (std::size_t i = 0; i < states.size(); ++i)
     wholes.push_back(states[i].whole.size() > 0 ? &states[i].whole : &all.variants[i].molecule);
-  set_regions(all.variants, wholes, options.input);
+  set_parts(all.variants, wholes, options.input);
   set_surface_radii(molecules, options.input.radii);
   unite_map_units(all.variants, options.temperature_K);
   return all;

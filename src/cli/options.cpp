@@ -7,11 +7,13 @@
 
 #include "base/error.h"
 #include "cli/spelling.h"
+#include "compare/input_settings.h"
 #include "compare/options.h"
 #include "engine/select_engine.h"
 #include "io/read_grid.h"
 #include "io/text_cursor.h"
 #include "io/write_csv.h"
+#include "prepare/read_earlier_patch.h"
 
 namespace espdiff::cli {
 namespace {
@@ -76,6 +78,14 @@ void add_structure_options(CLI::App& parser, StructureOptions& options) {
       ->group("Molecules");
 }
 
+void add_plugins_option(CLI::App& parser, std::string& folder, const std::string& group) {
+  parser
+      .add_option("--plugins", folder,
+                  "Folder of VMD's molfile plugins, which read trajectories and topologies (that of $VMDDIR, or of the "
+                  "`vmd` on PATH)")
+      ->group(group);
+}
+
 namespace {
 
 /// Refuses an old name with the new one. Help does not list it.
@@ -106,6 +116,10 @@ std::vector<std::string> input_files(const GivenSettings& given) {
   std::vector<std::string> files;
   for (const auto& [name, text] : given) {
     if (find_setting(name).is_file) files.push_back(text);
+    if (!find_setting(name).is_named) continue;
+    for (const PatchRequest& patch : parse_patches(text)) {
+      if (const auto earlier = earlier_patch_name(patch.selection)) files.push_back(earlier->path);
+    }
   }
   return files;
 }
@@ -135,7 +149,10 @@ void add_settings(CLI::App& parser, GivenSettings& given, SettingsFor what) {
       }
       return std::string();
     };
-    const std::string type = setting.is_file ? "FILE" : setting.kind == SettingKind::kText ? "TEXT" : "NUMBER";
+    const std::string type = setting.is_named                     ? "NAME=SELECTION"
+                             : setting.is_file                    ? "FILE"
+                             : setting.kind == SettingKind::kText ? "TEXT"
+                                                                  : "NUMBER";
     CLI::Option* const added =
         setting.is_list ? parser.add_option_function<std::vector<std::string>>(
                               "--" + name,

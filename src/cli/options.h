@@ -31,6 +31,8 @@ void add_device_options(CLI::App& parser, DeviceArguments& arguments);
 std::unique_ptr<Engine> make_engine(const DeviceArguments& arguments);
 
 void add_structure_options(CLI::App& parser, StructureOptions& options);
+/// --plugins, of commands that read trajectories.
+void add_plugins_option(CLI::App& parser, std::string& folder, const std::string& group);
 /// The given settings of a comparison, by name, for make_options().
 using GivenSettings = std::vector<std::pair<std::string, std::string>>;
 /// What a verb does decides which settings it has.

@@ -9,6 +9,7 @@
 #include "base/printable.h"
 #include "cli/trajectory_sides.h"
 #include "cli/verbs.h"
+#include "compare/input_settings.h"
 #include "compare/options.h"
 #include "engine/engine.h"
 #include "io/check_outputs.h"
@@ -60,10 +61,7 @@ void add_run_options(CLI::App& p, TrajectoryArguments& a) {
       ->check(CLI::IsMember({"stop", "skip"}))
       ->capture_default_str()
       ->group(group);
-  p.add_option("--plugins", a.plugins,
-               "Folder of VMD's molfile plugins, which read trajectories and topologies (that of $VMDDIR, or of the "
-               "`vmd` on PATH)")
-      ->group(group);
+  add_plugins_option(p, a.plugins, group);
   p.add_option("--source-model", a.source_model,
                "Model of a multi-model source file, from 1; with a topology as SOURCE, frame of the first trajectory")
       ->check(CLI::PositiveNumber)
@@ -131,14 +129,15 @@ int run(const TrajectoryArguments& a, const Context& context) {
   plan.frames = parse_frames(a.frames, {sides.n_frames()});
   plan.start = parse_start(a.start, plan.options);
   plan.skip_errors = a.on_error == "skip";
-  plan.has_region = plan.options.input.has_region();
+  plan.parts = part_names(plan.options.input);
   const ExistingFile existing = a.resume      ? ExistingFile::kResume
                                 : a.overwrite ? ExistingFile::kReplace
                                               : ExistingFile::kRefuse;
   const std::unique_ptr<Engine> engine = make_engine(a.device);
   std::optional<ResidueCsv> residues;
   if (!a.residues.empty()) residues.emplace(a.residues, a.residue_quantity, existing);
-  TrajectoryRun run(plan, SeriesCsv(a.output, head_of(a, plan, sides.potential()), existing), std::move(residues));
+  TrajectoryRun run(plan, SeriesCsv(a.output, head_of(a, plan, sides.potential()), existing, plan.parts),
+                    std::move(residues));
   if (!run.warning().empty()) std::fprintf(stderr, "espdiff: %s\n", printable(run.warning()).c_str());
   run.note_inputs(sides.inputs());
   while (!run.is_done())

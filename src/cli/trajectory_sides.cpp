@@ -121,14 +121,14 @@ StepInput TrajectorySides::step(const TrajectoryStep& step) {
     use_source();
   }
   const CompareInput source{&surface_, source_map_ ? &*source_map_ : nullptr,
-                            computed_ ? computed_->maker() : MapMaker(), region_};
+                            computed_ ? computed_->maker() : MapMaker(), parts_};
   return {source, frame(step.frame), {}};
 }
 
-/// The source's surface, region and potential.
+/// The source's surface, its parts and potential.
 void TrajectorySides::use_source() {
   surface_ = source_.molecule;
-  region_ = region_residues(source_.molecule, source_.whole, source_.molecule, source_.whole, options_);
+  parts_ = source_parts(source_.molecule, source_.whole, source_.molecule, source_.whole, options_);
   set_surface_radii({&surface_}, options_.radii);
   if (plan_.computes()) computed_ = plan_.map_of(source_);
 }

@@ -94,8 +94,8 @@ class TrajectorySides {
   MovingState first_;                  // of the source
   std::optional<MovingState> second_;  // of the frames, where they are not the source's molecule
   LoadedState source_, target_;
-  Molecule surface_;  // the source's, with the radii of its surface
-  std::vector<std::uint8_t> region_;
+  Molecule surface_;    // the source's, with the radii of its surface
+  SurfaceParts parts_;  // of the source
   PotentialPlan plan_;
   std::optional<Grid> source_map_, target_map_;
   std::optional<ComputedMap> computed_;

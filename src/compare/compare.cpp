@@ -27,6 +27,7 @@
 #include "compare/options.h"
 #include "compare/own_potentials.h"
 #include "compare/paired_residues.h"
+#include "compare/place_patch.h"
 #include "compare/region_result.h"
 #include "compare/residue_rows.h"
 #include "compare/result.h"
@@ -54,6 +55,13 @@ std::vector<bool> is_matched(const MappedSurface& s) {
   }
   return has;
 }
+
+/// A region or patch: where it is, and its numbers.
+struct MeasuredPart {
+  SurfacePart place;
+  std::shared_ptr<CompareResult> result;
+  std::shared_ptr<const PatchPlacement> placement;  // of an earlier patch
+};
 
 /// Sets unmatched vertices to NaN.
 void set_unmatched_to_nan(const std::vector<bool>& kept, std::vector<float>& values) {
@@ -221,7 +229,7 @@ struct Series::Steps {
 
   /// Samples both potentials and computes the metrics of their difference, at each distance outside the surfaces.
   void compare_potentials(const CompareInput& target, const GridPtr& target_map, const Mapping& mapping,
-                          const MeshPtr& moved, const AtomsPtr& target_atoms, const std::vector<float>& outside_region,
+                          const MeshPtr& moved, const AtomsPtr& target_atoms, const std::vector<MeasuredPart>& parts,
                           CompareResult& result) {
     MappedSurface& s = result.surface;
     const std::vector<bool> kept = is_matched(s);
@@ -239,9 +247,9 @@ struct Series::Steps {
       const ScalarsPtr at_source = engine.upload_scalars(of_source), at_target = engine.upload_scalars(of_target);
       at.metrics = engine.compare(moved, mapping.mapped, at_source, at_target, left_out, path_length);
       result.by_offset.push_back(at);
-      if (result.region != nullptr)
-        compare_region(mapping, moved, at_source, at_target, excluded, outside_region, path_length, at.offset_A,
-                       *result.region);
+      for (const MeasuredPart& part : parts)
+        compare_part(mapping, moved, at_source, at_target, excluded, part.place.outside, path_length, at.offset_A,
+                     *part.result);
       if (result.by_offset.size() > 1) continue;
       result.metrics = at.metrics;
       result.n_outside_source_map = at.n_outside_source_map;
@@ -261,12 +269,11 @@ struct Series::Steps {
     }
   }
 
-  /// The metrics of the region at one distance.
+  /// The metrics of a part at one distance.
   /// @param excluded [triangle] that do not count anywhere
-  void compare_region(const Mapping& mapping, const MeshPtr& moved, const ScalarsPtr& at_source,
-                      const ScalarsPtr& at_target, const std::vector<float>& excluded,
-                      const std::vector<float>& outside, const ScalarsPtr& path_length, double offset_A,
-                      CompareResult& region) {
+  void compare_part(const Mapping& mapping, const MeshPtr& moved, const ScalarsPtr& at_source,
+                    const ScalarsPtr& at_target, const std::vector<float>& excluded, const std::vector<float>& outside,
+                    const ScalarsPtr& path_length, double offset_A, CompareResult& part) {
     std::vector<float> flags = outside, unmatched = outside;
     for (std::size_t t = 0; t < flags.size(); ++t) flags[t] = std::max(flags[t], excluded[t]);
     for (std::size_t t = 0; t < mapping.unmatched.size(); ++t)
@@ -274,12 +281,12 @@ struct Series::Steps {
     OffsetMetrics at;
     at.offset_A = offset_A;
     at.metrics = engine.compare(moved, mapping.mapped, at_source, at_target, engine.upload_scalars(flags), path_length);
-    region.has_potential = true;
-    region.unit = unit;
-    region.by_offset.push_back(at);
-    if (region.by_offset.size() > 1) return;
-    region.metrics = at.metrics;
-    region.metrics_all =
+    part.has_potential = true;
+    part.unit = unit;
+    part.by_offset.push_back(at);
+    if (part.by_offset.size() > 1) return;
+    part.metrics = at.metrics;
+    part.metrics_all =
         engine.compare(moved, mapping.mapped, at_source, at_target, engine.upload_scalars(unmatched), path_length);
   }
 
@@ -370,25 +377,20 @@ struct Series::Steps {
     const std::vector<std::int32_t> target_of = paired_residues(*source.molecule, *target.molecule, result.pairing);
     const std::vector<std::int32_t> mapped_residue = engine.vertex_residues(mapping.mapped, target_surface.atoms);
     result.certificate.same_residue_area_fraction = same_residue_share(s, s.residue, mapped_residue, target_of);
-    Region region;
-    if (!source.region.empty()) {
-      region = make_region(source.region, s, s.residue, target_of, target.molecule->residues.size());
-      result.region =
-          region_result(engine, region, mapping, target_surface, static_cast<float>(options.surface.isovalue),
-                        s.residue, mapped_residue, target_of, result, *source.molecule, *target.molecule);
-    }
+    const std::vector<MeasuredPart> parts =
+        measure_parts(target, target_surface, mapping, target_of, mapped_residue, result);
     result.uncovered =
         uncovered_surface(engine.download(target_surface.mesh),
                           engine.download(result.certificate.target_to_mapped.beyond), inverse(frame.from_target));
     if (target_map != nullptr) {
-      compare_potentials(target, target_map, mapping, moved, target_surface.atoms, region.outside, result);
+      compare_potentials(target, target_map, mapping, moved, target_surface.atoms, parts, result);
       result.certificate.outside_maps = share_outside(s, matched_areas(s));
     }
     result.residues = residue_rows(s, source.molecule->residues.size(), result.has_potential);
     check_against_own(target, target_map, mapping, target_surface, target_of, result);
     describe_chains(target, target_of, result);
     judge(result, *source.molecule);
-    if (result.region != nullptr) finish_region(region, result);
+    for (const MeasuredPart& part : parts) finish_part(part, result);
     clock.lap("metrics");
   }
 
@@ -404,24 +406,55 @@ struct Series::Steps {
     if (!result.protonation.empty()) result.warnings.push_back({protonation_warning(result.protonation, a), false});
   }
 
-  /// The region's residues, vertices outside a map, and verdict.
-  void finish_region(const Region& region, CompareResult& result) const {
-    CompareResult& part = *result.region;
+  /// The region and the patches, which become part of the result; without potentials, and not judged.
+  std::vector<MeasuredPart> measure_parts(const CompareInput& target, const Surface& target_surface,
+                                          const Mapping& mapping, const std::vector<std::int32_t>& target_of,
+                                          const std::vector<std::int32_t>& mapped_residue,
+                                          CompareResult& result) const {
+    std::vector<MeasuredPart> parts;
+    const MappedSurface& s = result.surface;
+    const auto measure = [&](const std::vector<std::uint8_t>& inside, const std::vector<std::uint8_t>& residues) {
+      SurfacePart place = make_part(inside, residues, s, target_of, target.molecule->residues.size());
+      auto part = part_result(engine, place, mapping, target_surface, static_cast<float>(options.surface.isovalue),
+                              s.residue, mapped_residue, target_of, result, *source.molecule, *target.molecule);
+      parts.push_back({std::move(place), part, nullptr});
+      return part;
+    };
+    const std::vector<std::uint8_t>& region = source.parts.region;
+    if (!region.empty()) result.region = measure(vertices_of(s.residue, region), region);
+    for (const SurfacePatch& patch : source.parts.patches) {
+      if (patch.earlier == nullptr) {
+        result.patches.push_back({patch.name, measure(vertices_of(s.residue, patch.residues), patch.residues)});
+        continue;
+      }
+      const ResidueSurface on{s.source_positions, s.triangles, s.residue, source.molecule->residues};
+      const PlacedPatch placed = place_patch(*patch.earlier, on, source.molecule->name);
+      result.patches.push_back(
+          {patch.name, measure(placed.inside, residues_in_patch(placed.inside, on)), placed.placement});
+      parts.back().placement = placed.placement;
+    }
+    return parts;
+  }
+
+  /// A part's residues, vertices outside a map, and verdict.
+  void finish_part(const MeasuredPart& measured, CompareResult& result) const {
+    const SurfacePart& place = measured.place;
+    CompareResult& part = *measured.result;
     for (const Warning& warning : result.warnings) {
       if (warning.refuses) part.warnings.push_back(warning);
     }
     for (const ResidueRow& row : result.residues) {
-      if (region.source[row.residue] != 0) part.residues.push_back(row);
+      if (place.source[row.residue] != 0) part.residues.push_back(row);
     }
-    std::vector<bool> in_region(result.surface.positions.size(), false);
-    for (std::size_t t = 0; t < region.outside.size(); ++t) {
+    std::vector<bool> in_part(result.surface.positions.size(), false);
+    for (std::size_t t = 0; t < place.outside.size(); ++t) {
       const bool counts =
-          region.outside[t] == 0 && (result.surface.unmatched.empty() || result.surface.unmatched[t] == 0);
-      for (const std::uint32_t v : result.surface.triangles[t]) in_region[v] = in_region[v] || counts;
+          place.outside[t] == 0 && (result.surface.unmatched.empty() || result.surface.unmatched[t] == 0);
+      for (const std::uint32_t v : result.surface.triangles[t]) in_part[v] = in_part[v] || counts;
     }
     std::size_t n = 0;
-    for (std::size_t v = 0; v < in_region.size(); ++v) {
-      if (!in_region[v]) continue;
+    for (std::size_t v = 0; v < in_part.size(); ++v) {
+      if (!in_part[v]) continue;
       ++n;
       if (!result.has_potential || result.n_outside_source_map + result.n_outside_target_map == 0) continue;
       part.n_outside_source_map += std::isnan(result.surface.potential_source[v]) ? 1 : 0;
@@ -429,7 +462,10 @@ struct Series::Steps {
     }
     const double n_outside = static_cast<double>(std::max(part.n_outside_source_map, part.n_outside_target_map));
     part.certificate.outside_maps = n > 0 ? n_outside / static_cast<double>(n) : 0;
-    judge(part, *source.molecule);
+    if (!judge_missing_part(part, measured.placement.get())) {
+      judge(part, *source.molecule);
+      if (measured.placement != nullptr) judge_placement(part, *measured.placement);
+    }
   }
 
   void check_given_maps(const CompareInput& target, CompareResult& result) const {

@@ -1,12 +1,11 @@
 // input.h: one side of a comparison.
 #pragma once
 
-#include <cstdint>
 #include <functional>
-#include <vector>
 
 #include "base/handles.h"
 #include "base/progress.h"
+#include "base/surface_parts.h"
 #include "base/types.h"
 
 namespace espdiff {
@@ -26,8 +25,7 @@ struct CompareInput {
   const Molecule* molecule = nullptr;
   const Grid* map = nullptr;
   MapMaker make_map = nullptr;  ///< used instead of `map`
-  /// [residue] of the source: nonzero in the region that results are given for as well; empty for none
-  std::vector<std::uint8_t> region{};
+  SurfaceParts parts{};         ///< of the source: results are given for them as well
 };
 
 }  // namespace espdiff

@@ -7,6 +7,8 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/printable.h"
+#include "base/surface_parts.h"
 #include "compare/options.h"
 #include "compare/settings.h"
 
@@ -166,6 +168,56 @@ void add_charge_rows(std::vector<Setting>& all) {
       true)));
 }
 
+/// Letters, digits and `_`, `-`, `.`: a name is part of columns, of JSON's keys and of Tcl's words.
+void check_patch_name(const std::string& name, const std::string& text) {
+  constexpr std::size_t kLongest = 40;
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  const bool good = !name.empty() && is_letter(name.front()) && std::all_of(name.begin(), name.end(), [&](char c) {
+    return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
+  });
+  if (!good || name.size() > kLongest)
+    throw InputError(option("patch") + ": the name '" + printable(name) + "' of '" + printable(text) +
+                     "' is not a letter followed by letters, digits, _, - and . (at most " + std::to_string(kLongest) +
+                     " in all)");
+  if (name == kRegionPart)
+    throw InputError(option("patch") + ": the name 'region' is that of " + option("region") + "; take another one");
+}
+
+PatchRequest parse_patch(const std::string& text) {
+  const std::size_t sign = text.find('=');
+  if (sign == std::string::npos || text.find_first_not_of(' ', sign + 1) == std::string::npos)
+    throw InputError(option("patch") + ": '" + printable(text) + "' is not NAME=SELECTION, such as site=//A/8-12");
+  PatchRequest patch{text.substr(0, sign), text.substr(sign + 1)};
+  check_patch_name(patch.name, text);
+  return patch;
+}
+
+/// A list of named selections; setting it again adds to it.
+Setting patch_row() {
+  Setting row{
+      "patch",
+      kRegionGroup,
+      SettingKind::kText,
+      {},
+      "A name, and residues of the source (of an ensemble: of the template) in gemmi's syntax, whose surface is "
+      "measured as a whole; numbers are named after it. Instead of residues OUT.json:N, significant patch N of "
+      "an earlier ensemble. Several may be given",
+      false,
+      nullptr,
+      nullptr};
+  row.set = [](CompareOptions& o, const std::string& text) {
+    for (PatchRequest& patch : parse_patches(text)) o.input.patches.push_back(std::move(patch));
+  };
+  row.get = [](const CompareOptions& o) {
+    std::string text;
+    for (const PatchRequest& patch : o.input.patches)
+      text += (text.empty() ? "" : "|") + patch.name + "=" + patch.selection;
+    return text;
+  };
+  row.is_list = row.is_named = true;
+  return row;
+}
+
 void add_region_rows(std::vector<Setting>& all) {
   const char* const group = kRegionGroup;
   all.push_back(text_row(
@@ -178,9 +230,34 @@ void add_region_rows(std::vector<Setting>& all) {
   all.push_back(text_row(
       "of", group, [](auto& o) -> auto& { return o.region_of; },
       "Atoms that the region is near to, such as a ligand or another chain; they need not be compared"));
+  all.push_back(patch_row());
 }
 
 }  // namespace
+
+std::vector<PatchRequest> parse_patches(const std::string& text) {
+  std::vector<PatchRequest> patches;
+  std::istringstream list(text);
+  for (std::string entry; std::getline(list, entry, '|');) patches.push_back(parse_patch(entry));
+  return patches;
+}
+
+std::vector<std::string> part_names(const InputOptions& options) {
+  std::vector<std::string> names;
+  if (options.has_region()) names.emplace_back(kRegionPart);
+  for (const PatchRequest& patch : options.patches) names.push_back(patch.name);
+  return names;
+}
+
+std::vector<std::string> part_names(const std::vector<std::pair<std::string, std::string>>& settings) {
+  InputOptions options;
+  for (const auto& [name, text] : settings) {
+    if (name == "region") options.region = text;
+    if (name == "of") options.region_of = text;
+    if (name == "patch") options.patches = parse_patches(text);
+  }
+  return part_names(options);
+}
 
 void add_input_settings(std::vector<Setting>& all) {
   add_structure_rows(all);
@@ -208,6 +285,12 @@ void check_input_options(const InputOptions& o) {
   if (o.region_of.empty() != (o.region_within_A == 0))
     throw InputError(option("region-within") + " and " + option("of") +
                      " belong together: the region is within a distance (above 0) of atoms");
+  for (std::size_t i = 0; i < o.patches.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (o.patches[i].name == o.patches[j].name)
+        throw InputError(option("patch") + ": the name " + o.patches[i].name + " is given twice; name each patch once");
+    }
+  }
 }
 
 }  // namespace espdiff

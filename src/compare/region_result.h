@@ -1,4 +1,4 @@
-// region_result.h: the numbers and the certificate of a part of the source's surface.
+// region_result.h: the numbers and the certificate of a part of the source's surface: its region, or a patch.
 #pragma once
 
 #include <cstdint>
@@ -15,32 +15,51 @@ struct CompareResult;
 struct MappedSurface;
 struct Mapping;
 struct Molecule;
+struct PatchPlacement;
 struct Surface;
 
-/// Which part of a mapping the region is.
-struct Region {
-  std::vector<std::uint8_t> source;  ///< [source residue] nonzero in the region
-  std::vector<std::uint8_t> target;  ///< [target residue] nonzero where a residue of the region pairs with it
-  /// [triangle of the full mesh] nonzero outside of the region: fewer than two of its vertices belong to residues of it
+/// Which part of a mapping a region or patch is.
+struct SurfacePart {
+  std::vector<std::uint8_t> source;  ///< [source residue] nonzero in the part
+  std::vector<std::uint8_t> target;  ///< [target residue] nonzero where a residue of the part pairs with it
+  /// [triangle of the full mesh] nonzero outside of the part: fewer than two of its vertices belong to it
   std::vector<float> outside;
 };
 
 /// Checks that are made of whole mappings only, by their names in Certificate::not_checked.
-const std::vector<std::string>& unchecked_in_regions();
+const std::vector<std::string>& unchecked_in_parts();
 
-/// @param vertex_residue [vertex of the surface] source residue, -1 for none
-/// @param target_of      [source residue] its partner, -1 for none
-Region make_region(std::vector<std::uint8_t> source, const MappedSurface& surface,
-                   const std::vector<std::int32_t>& vertex_residue, const std::vector<std::int32_t>& target_of,
-                   std::size_t n_target_residues);
+/// @param inside    [vertex of the surface] nonzero in the part
+/// @param source    [source residue] nonzero in the part
+/// @param target_of [source residue] its partner, -1 for none
+SurfacePart make_part(const std::vector<std::uint8_t>& inside, std::vector<std::uint8_t> source,
+                      const MappedSurface& surface, const std::vector<std::int32_t>& target_of,
+                      std::size_t n_target_residues);
 
-/// The region's shape, fit and certificate, as those of the whole: areas, unmatched parts, distances both ways; not yet
-/// judged, and without metrics of potentials. On the target's side the region is the surface of the residues that pair.
-std::shared_ptr<CompareResult> region_result(Engine& engine, const Region& region, const Mapping& mapping,
-                                             const Surface& target, float isovalue,
-                                             const std::vector<std::int32_t>& source_residue,
-                                             const std::vector<std::int32_t>& mapped_residue,
-                                             const std::vector<std::int32_t>& target_of, const CompareResult& whole,
-                                             const Molecule& source_molecule, const Molecule& target_molecule);
+/// [vertex] nonzero where its residue is marked.
+std::vector<std::uint8_t> vertices_of(const std::vector<std::int32_t>& vertex_residue,
+                                      const std::vector<std::uint8_t>& marked);
+
+/// The part's shape, fit and certificate, as those of the whole: areas, unmatched parts, distances both ways; not yet
+/// judged, and without metrics of potentials. On the target's side the part is the surface of the residues that pair.
+/// Where nothing of it has a counterpart, what describes the mapping is NaN.
+std::shared_ptr<CompareResult> part_result(Engine& engine, const SurfacePart& part, const Mapping& mapping,
+                                           const Surface& target, float isovalue,
+                                           const std::vector<std::int32_t>& source_residue,
+                                           const std::vector<std::int32_t>& mapped_residue,
+                                           const std::vector<std::int32_t>& target_of, const CompareResult& whole,
+                                           const Molecule& source_molecule, const Molecule& target_molecule);
+
+/// The verdict on a part without surface, or without counterparts; no verdict on others.
+/// @param placement of an earlier patch; null for others
+/// @returns whether there is one
+bool judge_missing_part(CompareResult& part, const PatchPlacement* placement);
+/// Refuses an earlier patch of which too little was found.
+void judge_placement(CompareResult& part, const PatchPlacement& placement);
+
+/// The numbers of the region (kRegionPart) or of a patch; null where there is none of that name.
+const CompareResult* part_of(const CompareResult& result, const std::string& name);
+/// The names of all parts: the region, then patches.
+std::vector<std::string> part_names(const CompareResult& result);
 
 }  // namespace espdiff

@@ -137,6 +137,16 @@ struct Warning {
   bool refuses = false;  ///< whether no result of these inputs is trustworthy
 };
 
+struct CompareResult;
+struct PatchPlacement;
+
+/// What a patch has of the numbers.
+struct PatchResult {
+  std::string name;
+  std::shared_ptr<CompareResult> result;
+  std::shared_ptr<const PatchPlacement> placement{};  ///< of an earlier patch: how its place was found
+};
+
 struct CompareResult {
   std::vector<Warning> warnings;
   double rmsd_A = 0;
@@ -176,6 +186,7 @@ struct CompareResult {
   /// is that of its atoms after the whole superposition. The round trip, slip and the correlation by residue are not
   /// checked for it alone.
   std::shared_ptr<CompareResult> region{};
+  std::vector<PatchResult> patches{};  ///< the same of each patch, in the order of the request
 };
 
 }  // namespace espdiff

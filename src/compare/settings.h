@@ -28,6 +28,7 @@ struct Setting {
   std::string unit = "";  ///< "A", "K", "A2": ends the name of its key in OUT.json
   bool is_list = false;   ///< a text of several values, parted by commas; on the command line it may be repeated
   bool is_file = false;   ///< the text names files, which are sought from the working folder
+  bool is_named = false;  ///< a list of NAME=TEXT, parted by `|`; in Tcl {NAME TEXT ...}
 
   /// Its key in OUT.json: "grid_spacing_A".
   std::string key() const;

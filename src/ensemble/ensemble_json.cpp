@@ -6,6 +6,7 @@
 #include "ensemble/ensemble_file.h"
 #include "ensemble/ensemble_result.h"
 #include "ensemble/write_ensemble.h"
+#include "report/placement.h"
 #include "statistics/arrangements.h"
 
 namespace espdiff {
@@ -141,7 +142,7 @@ Json ensemble_json(const EnsembleFile& file, const EnsembleResult& result) {
   json["noise_floor"] = noise_json(result);
   for (std::size_t k = 0; k < result.fixed_patches.size(); ++k) {
     const FixedPatch& patch = result.fixed_patches[k];
-    Json entry = {{"name", patch.name}, {"area_A2", patch.area_A2}, {"means", Json::object()}};
+    Json entry = {{"area_A2", patch.area_A2}, {"means", Json::object()}};
     for (std::size_t g = 0; g < result.groups.size(); ++g)
       entry["means"][result.groups[g].name] = number(patch.means[g]);
     if (result.compares) {
@@ -151,7 +152,8 @@ Json ensemble_json(const EnsembleFile& file, const EnsembleResult& result) {
       entry["high"] = number(t.high[k]);
       entry["p"] = number(t.p[k]);
     }
-    json["fixed_patches"].push_back(std::move(entry));
+    if (patch.placement != nullptr) entry["placement"] = placement_json(*patch.placement);
+    json["fixed_patches"][patch.name] = std::move(entry);
   }
   if (result.states) {
     json["states"] = {{"n", result.states->size()}, {"area_fraction", result.states->area_fraction}};

@@ -7,7 +7,11 @@
 #include <limits>
 #include <map>
 
+#include "base/earlier_patch.h"
 #include "base/error.h"
+#include "base/residue_label.h"
+#include "compare/place_patch.h"
+#include "compare/region_result.h"
 #include "ensemble/ensemble_file.h"
 #include "statistics/false_discovery.h"
 #include "statistics/replicate_columns.h"
@@ -269,19 +273,44 @@ struct Analysis {
     for (std::size_t i = 0; i < members.size(); ++i) result.residues[i].adjusted_p = adjusted[i];
   }
 
+  bool is_of_these_runs(const EarlierPatch& patch) const {
+    const auto& runs = patch.runs_sha256;
+    return std::any_of(plan().replicates.begin(), plan().replicates.end(), [&](const EnsembleReplicate& replicate) {
+      return std::any_of(replicate.sha256.begin(), replicate.sha256.end(), [&](const std::string& sha256) {
+        return std::find(runs.begin(), runs.end(), sha256) != runs.end();
+      });
+    });
+  }
+
+  /// [vertex] nonzero in the patch; finds the place of an earlier one.
+  std::vector<std::uint8_t> vertices_of(FixedPatch& patch) {
+    const TemplateSurface& surface = file.surface();
+    if (patch.earlier == nullptr) return espdiff::vertices_of(surface.residue, patch.residues);
+    std::vector<Residue> residues;
+    for (const std::string& label : plan().residues) residues.push_back(parse_residue_label(label));
+    PlacedPatch placed =
+        place_patch(*patch.earlier, {surface.positions, surface.triangles, surface.residue, residues}, "the template");
+    patch.placement = placed.placement;
+    if (is_of_these_runs(*patch.earlier))
+      result.warnings.push_back("patch " + patch.name +
+                                " was found significant in frames that are measured here again: its difference is too "
+                                "large, and its p means nothing; measure it in other simulations");
+    return std::move(placed.inside);
+  }
+
   void measure_fixed_patches() {
     std::vector<std::vector<std::uint32_t>> members;
     for (FixedPatch patch : result.options.fixed_patches) {
       members.emplace_back();
+      const std::vector<std::uint8_t> inside = vertices_of(patch);
       for (std::uint32_t v = 0; v < n_vertices(); ++v) {
-        const std::int32_t residue = file.surface().residue[v];
-        if (residue < 0 || result.tested[v] == 0 || patch.residues.at(static_cast<std::size_t>(residue)) == 0) continue;
+        if (inside[v] == 0 || result.tested[v] == 0) continue;
         members.back().push_back(v);
         patch.area_A2 += result.graph.area[v];
       }
       if (members.back().empty())
         throw InputError(option("patch") + " " + patch.name +
-                         ": none of its residues has surface that was tested; choose others");
+                         ": nothing of it has surface that was tested; choose another place");
       for (const GroupColumns& group : result.groups) {
         double sum = 0;
         for (const std::uint32_t v : members.back()) sum += result.graph.area[v] * group.mean[v];

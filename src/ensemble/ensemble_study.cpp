@@ -5,36 +5,40 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/residue_label.h"
 #include "compare/settings.h"
 #include "engine/engine.h"
 #include "ensemble/ensemble_file.h"
 #include "ensemble/write_ensemble.h"
 #include "io/check_outputs.h"
-#include "io/select_atoms.h"
+#include "prepare/region.h"
 
 namespace espdiff {
 namespace {
 
-std::pair<std::string, std::string> name_and_selection(const std::string& text) {
-  const std::size_t sign = text.find('=');
-  if (sign == std::string::npos || sign == 0 || sign + 1 == text.size())
-    throw InputError(option("patch") + " " + text + " is not NAME=SELECTION, such as site=//A/8-12");
-  return {text.substr(0, sign), text.substr(sign + 1)};
+/// The residues of each patch on the template.
+std::vector<FixedPatch> fixed_patches(const CompareOptions& options, const Molecule& molecule) {
+  std::vector<FixedPatch> patches;
+  for (SurfacePatch& patch : patches_on(molecule, options.input.patches))
+    patches.push_back({std::move(patch.name), std::move(patch.residues), std::move(patch.earlier)});
+  return patches;
 }
 
-/// The residues of each patch on the template.
-std::vector<FixedPatch> fixed_patches(const std::vector<std::string>& asked, const Molecule& molecule) {
-  std::vector<FixedPatch> patches;
-  for (const std::string& text : asked) {
-    const auto [name, selection] = name_and_selection(text);
-    FixedPatch patch{name, std::vector<char>(molecule.residues.size(), 0)};
-    const std::vector<bool> selected = select_some_atoms(molecule, selection, "patch");
-    for (std::size_t i = 0; i < selected.size(); ++i) {
-      if (selected[i]) patch.residues[static_cast<std::size_t>(molecule.atoms[i].residue)] = 1;
-    }
-    patches.push_back(std::move(patch));
+/// The template as its file knows it: a CA atom for each residue.
+Molecule residues_of_template(const EnsemblePlan& plan) {
+  Molecule molecule;
+  molecule.name = "the template (its residues alone, as CA atoms)";
+  for (const std::string& label : plan.residues) {
+    Atom atom;
+    atom.name = "CA";
+    atom.element = "C";
+    atom.residue = static_cast<std::int32_t>(molecule.residues.size());
+    molecule.atoms.push_back(atom);
+    molecule.residues.push_back(parse_residue_label(label));
+    molecule.positions.emplace_back();
+    molecule.radii.push_back(1);
   }
-  return patches;
+  return molecule;
 }
 
 /// The file of FILE.csv:COLUMN.
@@ -68,7 +72,7 @@ class Study {
     statistics.regression = regression_;
     inputs_.choose_template(study_.inputs.template_text, progress_);
     // A wrong selection is refused before the work. Patches are of the first template.
-    statistics.fixed_patches = fixed_patches(study_.patches, *inputs_.source().molecule);
+    statistics.fixed_patches = fixed_patches(study_.options, *inputs_.source().molecule);
     map(engine, study_.run, answer);
     if (study_.run.shard.count > 1) return;
     answer.file = std::make_unique<EnsembleFile>(answer.reports.back().path, false);
@@ -107,15 +111,13 @@ class Study {
 };
 
 void open_earlier(const EnsembleStudy& study, const Progress& progress, EnsembleAnswer& answer) {
-  if (!study.patches.empty())
-    throw InputError(option("patch") + " selects atoms of the template, which " + option("from") +
-                     " does not read; name the groups, with " + switched_on("resume"));
   if (!study.inputs.replicates.empty())
     throw InputError(option("from") + " reads mapped frames from a file; leave out the groups");
   check_outputs({study.from, file_of_column(study.regress)},
                 ensemble_outputs(study.run.output, true, !study.regress.empty()));
   answer.file = std::make_unique<EnsembleFile>(study.from, false);
   EnsembleOptions statistics = study.statistics;
+  statistics.fixed_patches = fixed_patches(study.options, residues_of_template(answer.file->plan()));
   if (!study.regress.empty()) statistics.regression = read_regression_column(study.regress, answer.file->plan());
   progress.report("statistics", 1.0);
   answer.result = std::make_unique<EnsembleResult>(analyse_ensemble(*answer.file, statistics));

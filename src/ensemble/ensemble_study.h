@@ -21,10 +21,9 @@ namespace espdiff {
 /// What is asked for.
 struct EnsembleStudy {
   EnsembleRequest inputs;
-  CompareOptions options;  ///< ensemble_options()
+  CompareOptions options;  ///< ensemble_options(); its patches are of the template
   EnsembleRun run;
   EnsembleOptions statistics;
-  std::vector<std::string> patches;     ///< NAME=SELECTION, in gemmi's syntax, of the template
   std::string regress;                  ///< FILE.csv:COLUMN; see read_regression_column()
   bool check_template = false;          ///< also through the medoid of each group
   bool states = false;                  ///< also each frame with each other one

@@ -11,6 +11,7 @@
 #include "ensemble/ensemble_file.h"
 #include "ensemble/ensemble_result.h"
 #include "ensemble/write_ensemble.h"
+#include "report/placement.h"
 
 namespace espdiff {
 namespace {
@@ -73,6 +74,7 @@ void print_fixed_patches(std::ostream& out, const EnsembleResult& result, const 
       out << print("  diff. %s (%s to %s), p %.2g", value(t.difference[k]).c_str(), value(t.low[k]).c_str(),
                    value(t.high[k]).c_str(), t.p[k]);
     out << '\n';
+    if (patch.placement != nullptr) out << "    " << in_words(*patch.placement) << '\n';
   }
 }
 

@@ -3,10 +3,14 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
+#include <mutex>
 
 #include "base/error.h"
+#include "compare/input_settings.h"
 #include "compare/options.h"
+#include "compare/region_result.h"
 #include "compare/result.h"
 #include "compare/series.h"
 #include "io/text_cursor.h"
@@ -16,7 +20,7 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<Metric> make_metrics(bool with_region) {
+std::vector<Metric> make_metrics(const std::vector<std::string>& parts) {
   std::vector<Metric> all;
   const auto add = [&](const std::vector<Metric>& some) {
     for (const Metric& metric : some) {
@@ -24,7 +28,7 @@ std::vector<Metric> make_metrics(bool with_region) {
     }
   };
   add(metrics());
-  if (with_region) add(region_metrics());
+  for (const std::string& part : parts) add(part_metrics(part));
   return all;
 }
 
@@ -32,40 +36,47 @@ MatrixCell cell_of(const MatrixPair& pair, const CompareResult& result) {
   MatrixCell cell;
   cell.source = pair.first;
   cell.target = pair.second;
-  for (const Metric& metric : matrix_metrics(result.region != nullptr)) {
+  const std::vector<std::string> parts = part_names(result);
+  for (const Metric& metric : matrix_metrics(parts)) {
     const double value = value_of(metric, result);
     cell.values.push_back(std::isfinite(value) ? value : kNan);
   }
   cell.converged = result.certificate.converged;
   cell.trustworthy = result.certificate.trustworthy;
-  cell.region_trustworthy = result.region != nullptr && result.region->certificate.trustworthy;
+  for (const std::string& part : parts)
+    cell.parts_trustworthy.push_back(part_of(result, part)->certificate.trustworthy ? 1 : 0);
   for (const Message& reason : result.certificate.reasons) cell.reasons.push_back(reason.plain());
   return cell;
 }
 
-MatrixCell failed_cell(const MatrixPair& pair, const std::string& error, bool with_region) {
+MatrixCell failed_cell(const MatrixPair& pair, const std::string& error, const std::vector<std::string>& parts) {
   MatrixCell cell;
   cell.source = pair.first;
   cell.target = pair.second;
-  cell.values.assign(matrix_metrics(with_region).size(), kNan);
+  cell.values.assign(matrix_metrics(parts).size(), kNan);
+  cell.parts_trustworthy.assign(parts.size(), 0);
   cell.error = error;
   return cell;
 }
 
 CompareInput input_of(const Variant& variant) {
-  return {&variant.molecule, variant.map ? &*variant.map : nullptr, variant.make_map, variant.region};
+  return {&variant.molecule, variant.map ? &*variant.map : nullptr, variant.make_map, variant.parts};
 }
 
 }  // namespace
 
-const std::vector<Metric>& matrix_metrics(bool with_region) {
-  static const std::vector<Metric> all = make_metrics(false), with = make_metrics(true);
-  return with_region ? with : all;
+const std::vector<Metric>& matrix_metrics(const std::vector<std::string>& parts) {
+  static std::mutex one_at_a_time;
+  static std::map<std::vector<std::string>, std::vector<Metric>> known;
+  const std::lock_guard<std::mutex> lock(one_at_a_time);
+  std::vector<Metric>& all = known[parts];
+  if (all.empty()) all = make_metrics(parts);
+  return all;
 }
 
-std::size_t find_metric(const std::string& name, bool with_region) {
+std::size_t find_metric(const std::string& name, const std::vector<std::string>& parts) {
   std::string list;
-  const std::vector<Metric>& all = matrix_metrics(with_region);
+  const std::vector<Metric>& all = matrix_metrics(parts);
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (all[i].name == name) return i;
     list += (list.empty() ? "" : ", ") + std::string(all[i].name);
@@ -116,7 +127,7 @@ void compute_pairs(Engine& engine, const std::vector<Variant>& variants, const C
       throw;
     } catch (const Error& error) {
       if (!skip_errors) throw Error(error.error_class(), name + ": " + error.message());
-      cell = failed_cell(pairs[p], error.what(), options.input.has_region());
+      cell = failed_cell(pairs[p], error.what(), part_names(options.input));
     }
     done(cell);
   }

@@ -1,6 +1,7 @@
 // matrix.h: every variant compared with every other one, in both directions.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <utility>
@@ -14,20 +15,24 @@ namespace espdiff {
 
 struct CompareOptions;
 
-/// The metrics of a matrix, in the order of files. Those of a region follow all others.
-const std::vector<Metric>& matrix_metrics(bool with_region = false);
+/// The metrics of a matrix, in the order of files. Those of a region and of patches follow all others.
+/// @param parts names as part_names() gives them
+const std::vector<Metric>& matrix_metrics(const std::vector<std::string>& parts = {});
 /// The position of a metric. @throws InputError listing them
-std::size_t find_metric(const std::string& name, bool with_region = false);
+std::size_t find_metric(const std::string& name, const std::vector<std::string>& parts = {});
 
 /// One ordered pair: the source's surface mapped onto the target's.
 struct MatrixCell {
   std::size_t source = 0, target = 0;  ///< indices of variants
   std::vector<double> values;          ///< [metric]; NaN if there is none
   bool converged = false, trustworthy = false;
-  bool region_trustworthy = false;
-  std::vector<std::string> reasons;  ///< why it is not trustworthy
-  std::string error;                 ///< why there are no values
+  std::vector<std::uint8_t> parts_trustworthy{};  ///< [part] 1 or 0
+  std::vector<std::string> reasons;               ///< why it is not trustworthy
+  std::string error;                              ///< why there are no values
 };
+
+/// Where files say whether a part of a pair is trustworthy.
+inline std::string trustworthy_column(const std::string& part) { return part + "_trustworthy"; }
 
 using MatrixPair = std::pair<std::size_t, std::size_t>;  ///< source, target
 

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/version.h"
+#include "compare/input_settings.h"
 #include "compare/map_recipe.h"
 #include "compare/options.h"
 #include "compare/settings.h"
@@ -26,11 +27,7 @@ std::string sha256_in(const MatrixPlan::Item& item, const std::string& role) {
 
 }  // namespace
 
-bool MatrixPlan::has_region() const {
-  return std::any_of(settings.begin(), settings.end(), [](const auto& setting) {
-    return (setting.first == "region" || setting.first == "of") && !setting.second.empty();
-  });
-}
+std::vector<std::string> MatrixPlan::parts() const { return part_names(settings); }
 
 MatrixPlan make_plan(const Engine& engine, const std::vector<Variant>& variants, const CompareOptions& options,
                      const std::string& potential) {

@@ -23,8 +23,8 @@ struct MatrixPlan {
   std::string potential_unit;                                 ///< empty for none
   std::vector<Item> variants;
 
-  /// Whether the pairs have a region, by the settings.
-  bool has_region() const;
+  /// Region and patches of the pairs, by the settings; see part_names(). @throws InputError (damaged settings)
+  std::vector<std::string> parts() const;
 };
 
 /// @param potential description: "maps", or "pme, grid 0.5, Ewald factor 0.25"; ignored if no variant has a map

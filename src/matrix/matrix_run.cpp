@@ -9,6 +9,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "compare/input_settings.h"
 #include "compare/options.h"
 #include "io/atomic_file.h"
 #include "io/check_outputs.h"
@@ -24,8 +25,8 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// @param may_replace whether existing results may be replaced
-void check_results(const MatrixRun& run, bool may_replace, bool with_region) {
-  if (!run.cluster_by.empty()) find_metric(run.cluster_by, with_region);
+void check_results(const MatrixRun& run, bool may_replace, const std::vector<std::string>& parts) {
+  if (!run.cluster_by.empty()) find_metric(run.cluster_by, parts);
   for (const char* ending : {".csv", ".json"}) {
     if (!may_replace && fs::exists(run.output + ending))
       throw InputError("the result " + run.output + ending + " exists, of a run that is complete; " +
@@ -35,7 +36,7 @@ void check_results(const MatrixRun& run, bool may_replace, bool with_region) {
 }
 
 /// Refuses bad outputs before the work.
-void check_existing(const MatrixRun& run, bool with_region) {
+void check_existing(const MatrixRun& run, const std::vector<std::string>& parts) {
   if (run.resume && run.overwrite)
     throw InputError(option("resume") + " and " + option("overwrite") + " exclude each other; leave one out");
   const std::string state = state_path(run.output, run.shard);
@@ -44,7 +45,7 @@ void check_existing(const MatrixRun& run, bool with_region) {
     throw InputError("the state file " + state + " of an earlier run exists; " + switched_on("resume") +
                      " goes on with it, " + switched_on("overwrite") + " begins anew");
   // A shard's results come with the merge.
-  if (run.shard.count == 1) check_results(run, run.overwrite || (run.resume && has_state), with_region);
+  if (run.shard.count == 1) check_results(run, run.overwrite || (run.resume && has_state), parts);
 }
 
 std::vector<MatrixPair> missing_pairs(const std::vector<MatrixPair>& pairs, const std::vector<MatrixCell>& cells) {
@@ -91,7 +92,7 @@ MatrixReport run_matrix(Engine& engine, const std::vector<Variant>& variants, co
     for (const InputFile& input : variant.inputs) inputs.push_back(input.path);
   }
   check_outputs(inputs, output_paths(run));
-  check_existing(run, options.input.has_region());
+  check_existing(run, part_names(options.input));
   if (options.offsets_A.size() > 1)
     throw InputError(option("offset") +
                      ": a list of distances was given, and a matrix has one value of a metric for a pair; give one");
@@ -144,12 +145,11 @@ MatrixReport run_matrix(Engine& engine, const std::vector<Variant>& variants, co
 }
 
 std::size_t metric_to_cluster_by(const MatrixRun& run, const Matrix& matrix) {
-  return run.cluster_by.empty() ? usual_metric(matrix) : find_metric(run.cluster_by, matrix.plan.has_region());
+  return run.cluster_by.empty() ? usual_metric(matrix) : find_metric(run.cluster_by, matrix.plan.parts());
 }
 
 MatrixReport merge_matrix(const std::vector<std::string>& state_paths, const MatrixRun& run) {
   check_outputs(state_paths, {run.output + ".csv", run.output + ".json"});
-  check_results(run, run.overwrite, true);
   if (state_paths.empty())
     throw InputError("no state files were given; a run with " + option("shard") + " writes them");
   MatrixPlan plan;
@@ -162,6 +162,7 @@ MatrixReport merge_matrix(const std::vector<std::string>& state_paths, const Mat
       throw InputError(path + ": this is a part of another matrix than " + state_paths.front() + ": " + difference);
     cells.insert(cells.end(), part.cells.begin(), part.cells.end());
   }
+  check_results(run, run.overwrite, plan.parts());
   MatrixReport report;
   report.n_pairs = report.n_resumed = cells.size();
   finish(run, assemble(plan, cells, "resume the shard that lacks them, or name its state file too"), report);

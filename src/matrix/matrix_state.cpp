@@ -36,15 +36,15 @@ std::string sum_of(const std::string& before, const std::string& json) {
 
 std::string line_of(const std::string& sum, const std::string& json) { return sum + ' ' + json + '\n'; }
 
-std::string cell_json(const MatrixCell& cell) {
+std::string cell_json(const MatrixCell& cell, const std::vector<std::string>& parts) {
   Json values = Json::object();
-  const bool with_region = cell.values.size() > matrix_metrics().size();
+  const std::vector<Metric>& metrics = matrix_metrics(parts);
   for (std::size_t m = 0; m < cell.values.size(); ++m)
-    values[matrix_metrics(with_region)[m].name] = std::isfinite(cell.values[m]) ? Json(cell.values[m]) : Json(nullptr);
+    values[metrics[m].name] = std::isfinite(cell.values[m]) ? Json(cell.values[m]) : Json(nullptr);
   Json json = {{"source", cell.source},       {"target", cell.target},           {"values", std::move(values)},
                {"converged", cell.converged}, {"trustworthy", cell.trustworthy}, {"reasons", cell.reasons},
                {"error", cell.error}};
-  if (with_region) json["region_trustworthy"] = cell.region_trustworthy;
+  for (std::size_t k = 0; k < parts.size(); ++k) json[trustworthy_column(parts[k])] = cell.parts_trustworthy.at(k) != 0;
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -56,13 +56,14 @@ MatrixCell parse_cell(const std::string& text, const MatrixPlan& plan) {
   cell.target = integer_of<std::size_t>(json.at("target"));
   if (cell.source >= n_variants || cell.target >= n_variants || cell.source == cell.target)
     throw std::out_of_range("pair");
-  for (const Metric& metric : matrix_metrics(plan.has_region())) {
+  for (const Metric& metric : matrix_metrics(plan.parts())) {
     const Json& value = json.at("values").at(metric.name);
     cell.values.push_back(value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>());
   }
   json.at("converged").get_to(cell.converged);
   json.at("trustworthy").get_to(cell.trustworthy);
-  if (plan.has_region()) json.at("region_trustworthy").get_to(cell.region_trustworthy);
+  for (const std::string& part : plan.parts())
+    cell.parts_trustworthy.push_back(json.at(trustworthy_column(part)).get<bool>() ? 1 : 0);
   json.at("reasons").get_to(cell.reasons);
   json.at("error").get_to(cell.error);
   return cell;
@@ -139,6 +140,8 @@ MatrixStateContent read_matrix_state(const std::string& path) {
     reader.damaged();
   } catch (const std::out_of_range&) {
     reader.damaged();
+  } catch (const InputError&) {  // a patch in its settings
+    reader.damaged();
   }
   content.n_good_bytes = reader.position();
   content.cut_off = content.n_good_bytes < bytes.size();
@@ -156,7 +159,10 @@ MatrixState::MatrixState(std::string path, std::string sum) : path_(std::move(pa
 }
 
 MatrixState::MatrixState(MatrixState&& other) noexcept
-    : path_(std::move(other.path_)), sum_(std::move(other.sum_)), descriptor_(other.descriptor_) {
+    : path_(std::move(other.path_)),
+      sum_(std::move(other.sum_)),
+      parts_(std::move(other.parts_)),
+      descriptor_(other.descriptor_) {
   other.descriptor_ = -1;
 }
 
@@ -172,7 +178,9 @@ MatrixState MatrixState::begin(const std::string& path, const MatrixPlan& plan) 
   AtomicFile file(path);
   file.stream() << kTag << line_of(sum, json);
   file.commit();
-  return MatrixState(path, sum);
+  MatrixState state(path, sum);
+  state.parts_ = plan.parts();
+  return state;
 }
 
 MatrixState MatrixState::go_on(const std::string& path, const MatrixPlan& plan, MatrixStateContent& content) {
@@ -185,12 +193,13 @@ MatrixState MatrixState::go_on(const std::string& path, const MatrixPlan& plan, 
                      "; run with the same input and settings to go on, or anew (" + switched_on("overwrite") + ")");
   if (content.cut_off && ::truncate(path.c_str(), static_cast<off_t>(content.n_good_bytes)) != 0)
     throw IoError(path, std::string("the incomplete last row cannot be taken away: ") + system_message(errno));
+  state.parts_ = plan.parts();
   state.sum_ = last_sum(read_all(path), content.n_good_bytes);
   return state;
 }
 
 void MatrixState::add(const MatrixCell& cell) {
-  const std::string json = cell_json(cell);
+  const std::string json = cell_json(cell, parts_);
   sum_ = sum_of(sum_, json);
   const std::string line = line_of(sum_, json);
   for (std::size_t written = 0; written < line.size();) {

@@ -44,7 +44,8 @@ class MatrixState {
   MatrixState(std::string path, std::string sum);
 
   std::string path_;
-  std::string sum_;  ///< of all lines
+  std::string sum_;                 ///< of all lines
+  std::vector<std::string> parts_;  ///< MatrixPlan::parts()
   int descriptor_ = -1;
 };
 

@@ -16,7 +16,7 @@ bool same_value(double a, double b) { return a == b || (std::isnan(a) && std::is
 
 bool same_cell(const MatrixCell& a, const MatrixCell& b) {
   return std::equal(a.values.begin(), a.values.end(), b.values.begin(), b.values.end(), same_value) &&
-         a.converged == b.converged && a.trustworthy == b.trustworthy && a.region_trustworthy == b.region_trustworthy &&
+         a.converged == b.converged && a.trustworthy == b.trustworthy && a.parts_trustworthy == b.parts_trustworthy &&
          a.reasons == b.reasons && a.error == b.error;
 }
 
@@ -61,10 +61,11 @@ Matrix assemble(const MatrixPlan& plan, const std::vector<MatrixCell>& cells, co
 DistanceTable symmetric_distances(const Matrix& matrix, std::size_t metric) {
   const std::size_t n = matrix.n();
   DistanceTable distances(n * n, 0.0);
+  const Metric& of = matrix.metrics()[metric];
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = i + 1; j < n; ++j) {
       distances[i * n + j] = distances[j * n + i] =
-          as_distance(matrix.metrics()[metric], matrix.value(metric, i, j), matrix.value(metric, j, i));
+          as_distance(of, matrix.value(metric, i, j), matrix.value(metric, j, i));
     }
   }
   return distances;

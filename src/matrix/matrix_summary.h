@@ -15,7 +15,7 @@ struct Matrix {
   std::vector<MatrixCell> cells;  ///< source by source, without the diagonal: matrix_pairs() of all variants
 
   std::size_t n() const { return plan.variants.size(); }
-  const std::vector<Metric>& metrics() const { return matrix_metrics(plan.has_region()); }
+  const std::vector<Metric>& metrics() const { return matrix_metrics(plan.parts()); }
   /// @param source, target different
   const MatrixCell& cell(std::size_t source, std::size_t target) const {
     return cells[source * (n() - 1) + (target < source ? target : target - 1)];

@@ -53,8 +53,13 @@ std::string percent(double fraction) {
   return std::isnan(fraction) ? "-" : significant(fraction < 1e-9 ? 0 : 100 * fraction) + " %";
 }
 
-/// Of the column of labels, which those of a region make wider.
-int label_width(const Matrix& matrix) { return matrix.plan.has_region() ? 38 : 30; }
+/// Of the column of labels, which those of a region or patch make wider.
+int label_width(const Matrix& matrix) {
+  std::size_t longest = 0;
+  for (const std::string& part : matrix.plan.parts())
+    longest = std::max(longest, std::string(", ").size() + part.size());
+  return 30 + static_cast<int>(longest);
+}
 
 void print_metric(std::ostream& out, const Matrix& matrix, std::size_t m) {
   const Metric& metric = matrix.metrics()[m];

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "base/earlier_patch.h"
 #include "base/error.h"
 #include "base/input_options.h"
 #include "io/read_csv.h"
@@ -167,15 +168,19 @@ Variant read_variant(const VariantFiles& files, const StructureFile& file, Molec
   return variant;
 }
 
-void set_regions(std::vector<Variant>& variants, const std::vector<const Molecule*>& wholes,
-                 const InputOptions& options) {
-  if (!options.has_region()) return;
+void set_parts(std::vector<Variant>& variants, const std::vector<const Molecule*>& wholes,
+               const InputOptions& options) {
+  if (!options.has_region() && options.patches.empty()) return;
   const auto has_atoms = [&](const Molecule* whole) { return has_region_atoms(*whole, options); };
   const auto found = std::find_if(wholes.begin(), wholes.end(), has_atoms);
   for (std::size_t i = 0; i < variants.size(); ++i) {
     const std::size_t other = found == wholes.end() ? i : static_cast<std::size_t>(found - wholes.begin());
-    variants[i].region =
-        region_residues(variants[i].molecule, *wholes[i], variants[other].molecule, *wholes[other], options);
+    variants[i].parts = source_parts(variants[i].molecule, *wholes[i], variants[other].molecule, *wholes[other],
+                                     options, variants.front().parts.patches);
+    for (const SurfacePatch& patch : variants[i].parts.patches) {
+      if (patch.earlier != nullptr)
+        variants[i].inputs.push_back({"patch " + patch.name, patch.earlier->path, patch.earlier->sha256, {}, {}});
+    }
   }
 }
 

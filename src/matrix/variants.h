@@ -23,8 +23,8 @@ struct Variant {
   std::vector<InputFile> inputs;  ///< its inputs; roles "structure" and "map"
   Molecule molecule;
   std::optional<Grid> map;
-  MapMaker make_map = nullptr;         ///< instead of `map`; in kT/e
-  std::vector<std::uint8_t> region{};  ///< [residue] nonzero in the region; empty without one
+  MapMaker make_map = nullptr;  ///< instead of `map`; in kT/e
+  SurfaceParts parts{};         ///< as the source of a pair
 
   bool has_potential() const { return map || make_map != nullptr; }
 };
@@ -64,12 +64,11 @@ void check_labels(const std::vector<std::string>& labels);
 Variant read_variant(const VariantFiles& files, const StructureFile& file, Molecule molecule,
                      const std::string& map_array);
 
-/// Sets the region of each variant, by its own residues and atoms. A variant without the atoms that the region is near
-/// to takes the region of the first variant that has them, carried over by the pairing of residues.
+/// Sets region and patches of each variant, by its own residues and atoms. A variant without the atoms that the region
+/// is near to takes the region of the first variant that has them, carried over by the pairing of residues.
 /// @param wholes [variant] the atoms of its file before the selection; of molecules in no file, the molecule
 /// @throws as region_residues()
-void set_regions(std::vector<Variant>& variants, const std::vector<const Molecule*>& wholes,
-                 const InputOptions& options);
+void set_parts(std::vector<Variant>& variants, const std::vector<const Molecule*>& wholes, const InputOptions& options);
 
 /// Converts all maps to the unit of the first one.
 /// @throws InputError if only some variants have maps, or only some units are unknown

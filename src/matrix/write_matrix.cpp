@@ -128,8 +128,7 @@ void write_table(std::ostream& out, const Matrix& matrix) {
   std::vector<std::string> names = {"source", "target", "source_group", "target_group", "potential_unit"};
   for (const Metric& metric : matrix.metrics()) names.emplace_back(metric.name);
   names.insert(names.end(), {"converged", "trustworthy"});
-  const bool with_region = matrix.plan.has_region();
-  if (with_region) names.emplace_back("region_trustworthy");
+  for (const std::string& part : matrix.plan.parts()) names.push_back(trustworthy_column(part));
   names.insert(names.end(), {"reasons", "error"});
   write_csv_row(out, names);
   for (const MatrixCell& cell : matrix.cells) {
@@ -140,7 +139,7 @@ void write_table(std::ostream& out, const Matrix& matrix) {
     const bool has_values = cell.error.empty();
     const auto known = [&](bool value) { return has_values ? std::to_string(static_cast<int>(value)) : std::string(); };
     fields.insert(fields.end(), {known(cell.converged), known(cell.trustworthy)});
-    if (with_region) fields.push_back(known(cell.region_trustworthy));
+    for (const std::uint8_t part : cell.parts_trustworthy) fields.push_back(known(part != 0));
     fields.insert(fields.end(), {joined(cell.reasons), cell.error});
     write_csv_row(out, fields);
   }
@@ -160,9 +159,10 @@ Json matrix_json(const Matrix& matrix, std::size_t metric) {
     return cell.error.empty() ? Json(value) : Json(nullptr);
   };
   json["trustworthy"] = table(matrix, [&](const MatrixCell& cell) { return known(cell, cell.trustworthy); });
-  if (matrix.plan.has_region())
-    json["region_trustworthy"] =
-        table(matrix, [&](const MatrixCell& cell) { return known(cell, cell.region_trustworthy); });
+  const std::vector<std::string> parts = matrix.plan.parts();
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    json[trustworthy_column(parts[k])] =
+        table(matrix, [&](const MatrixCell& cell) { return known(cell, cell.parts_trustworthy.at(k) != 0); });
   json["converged"] = table(matrix, [&](const MatrixCell& cell) { return known(cell, cell.converged); });
   json["not_trustworthy"] = Json::array();
   json["errors"] = Json::array();

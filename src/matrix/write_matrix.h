@@ -14,8 +14,8 @@ namespace espdiff {
 /// on times, threads, interruptions, or the number of processes.
 ///
 /// OUT.csv: a row for each ordered pair: source, target, their groups, the unit of potentials, every metric
-/// (Matrix::metrics(); empty for missing values), converged, trustworthy and, with a region, region_trustworthy (1 or
-/// 0), reasons, error.
+/// (Matrix::metrics(); empty for missing values), converged, trustworthy and, of a region and of patches,
+/// PART_trustworthy (1 or 0), reasons, error.
 /// OUT.json: matrix_json().
 /// @param metric the metric for clustering
 /// @returns the files' names
@@ -24,10 +24,10 @@ std::vector<std::string> write_matrix(const std::string& output_prefix, const Ma
 
 /// Keys: version, device, potential, potential_unit, options (options_json()), variants (label, group, inputs);
 /// metrics, by name: title, unit, values [source][target], null on the diagonal and for missing values; trustworthy,
-/// region_trustworthy (with a region), converged [source][target]; not_trustworthy (source, target, reasons), errors;
-/// asymmetry by metric; groups by metric (absent without groups); clustering (metric, linkage, merges [left, right,
-/// distance, number of variants], order); hodgkin: the clustering by Hodgkin's index and the correlation of its
-/// distances with those of `metric` (null without potentials).
+/// PART_trustworthy (of a region and of patches), converged [source][target]; not_trustworthy (source, target,
+/// reasons), errors; asymmetry by metric; groups by metric (absent without groups); clustering (metric, linkage, merges
+/// [left, right, distance, number of variants], order); hodgkin: the clustering by Hodgkin's index and the correlation
+/// of its distances with those of `metric` (null without potentials).
 nlohmann::ordered_json matrix_json(const Matrix& matrix, std::size_t metric);
 
 /// Prints range, asymmetry, nearest and farthest pair, groups, and pairs that are not trustworthy; at most 100 columns.

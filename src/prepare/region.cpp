@@ -6,12 +6,22 @@
 #include "align/pair_residues.h"
 #include "base/error.h"
 #include "io/select_atoms.h"
+#include "prepare/read_earlier_patch.h"
 
 namespace espdiff {
 namespace {
 
 bool any(const std::vector<std::uint8_t>& flags) {
   return std::any_of(flags.begin(), flags.end(), [](std::uint8_t flag) { return flag != 0; });
+}
+
+/// [residue] nonzero where any atom is selected.
+std::vector<std::uint8_t> residues_of(const Molecule& molecule, const std::vector<bool>& selected) {
+  std::vector<std::uint8_t> residues(molecule.residues.size(), 0);
+  for (std::size_t i = 0; i < selected.size(); ++i) {
+    if (selected[i]) residues[static_cast<std::size_t>(molecule.atoms[i].residue)] = 1;
+  }
+  return residues;
 }
 
 }  // namespace
@@ -42,14 +52,7 @@ bool has_region_atoms(const Molecule& whole, const InputOptions& options) {
 std::vector<std::uint8_t> region_residues(const Molecule& source, const Molecule& whole_source, const Molecule& target,
                                           const Molecule& whole_target, const InputOptions& options) {
   if (!options.has_region()) return {};
-  if (!options.region.empty()) {
-    const std::vector<bool> selected = select_some_atoms(source, options.region, "region");
-    std::vector<std::uint8_t> region(source.residues.size(), 0);
-    for (std::size_t i = 0; i < selected.size(); ++i) {
-      if (selected[i]) region[static_cast<std::size_t>(source.atoms[i].residue)] = 1;
-    }
-    return region;
-  }
+  if (!options.region.empty()) return residues_of(source, select_some_atoms(source, options.region, "region"));
   std::vector<bool> near_to = select_atoms(whole_source, options.region_of, "of");
   std::vector<std::uint8_t> region;
   if (std::find(near_to.begin(), near_to.end(), true) != near_to.end()) {
@@ -71,6 +74,32 @@ std::vector<std::uint8_t> region_residues(const Molecule& source, const Molecule
     throw InputError(source.name + ": no residue lies within " + option("region-within") + " of " +
                      option("of", options.region_of) + "; take a larger distance");
   return region;
+}
+
+std::vector<SurfacePatch> patches_on(const Molecule& source, const std::vector<PatchRequest>& requests,
+                                     const std::vector<SurfacePatch>& known) {
+  std::vector<SurfacePatch> patches;
+  for (const PatchRequest& request : requests) {
+    try {
+      if (const auto name = earlier_patch_name(request.selection)) {
+        patches.push_back(
+            {request.name, {}, known.empty() ? read_earlier_patch(*name) : known.at(patches.size()).earlier});
+      } else {
+        patches.push_back(
+            {request.name, residues_of(source, select_some_atoms(source, request.selection, "patch")), {}});
+      }
+    } catch (const Error& error) {
+      throw Error(error.error_class(), "patch " + request.name + ": " + error.message());
+    }
+  }
+  return patches;
+}
+
+SurfaceParts source_parts(const Molecule& source, const Molecule& whole_source, const Molecule& target,
+                          const Molecule& whole_target, const InputOptions& options,
+                          const std::vector<SurfacePatch>& known) {
+  return {region_residues(source, whole_source, target, whole_target, options),
+          patches_on(source, options.patches, known)};
 }
 
 }  // namespace espdiff

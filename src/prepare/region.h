@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/input_options.h"
+#include "base/surface_parts.h"
 #include "base/types.h"
 
 namespace espdiff {
@@ -17,6 +18,18 @@ namespace espdiff {
 /// @throws InputError (a selection of no atoms, or a region without residues, with what there is)
 std::vector<std::uint8_t> region_residues(const Molecule& source, const Molecule& whole_source, const Molecule& target,
                                           const Molecule& whole_target, const InputOptions& options);
+
+/// The region and the patches of a source.
+/// @throws InputError as region_residues(); a patch that selects no atom
+SurfaceParts source_parts(const Molecule& source, const Molecule& whole_source, const Molecule& target,
+                          const Molecule& whole_target, const InputOptions& options,
+                          const std::vector<SurfacePatch>& known = {});
+
+/// The patches alone: each patch's residues have any selected atom. Patches of earlier results are read.
+/// @param known the same patches of another molecule: earlier results among them are not read again
+/// @throws InputError (a selection of no atoms), as read_earlier_patch()
+std::vector<SurfacePatch> patches_on(const Molecule& source, const std::vector<PatchRequest>& requests,
+                                     const std::vector<SurfacePatch>& known = {});
 
 /// Whether a molecule has atoms that the region is near to.
 bool has_region_atoms(const Molecule& whole, const InputOptions& options);

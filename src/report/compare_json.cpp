@@ -9,6 +9,7 @@
 #include "compare/result.h"
 #include "compare/settings.h"
 #include "report/metrics.h"
+#include "report/placement.h"
 #include "report/potential_json.h"
 #include "report/preparation_json.h"
 #include "report/provenance.h"
@@ -185,25 +186,23 @@ Json chains(const CompareResult& result) {
   return json;
 }
 
-/// The region's metrics and certificate, under the names of the whole's.
-Json region_json(const CompareResult& result) {
-  if (result.region == nullptr) return nullptr;
-  const CompareResult& region = *result.region;
+/// A region's or patch's metrics and certificate, under the names of the whole's.
+Json part_json(const CompareResult& part) {
   Json json;
-  json["n_residues"] = region.residues.size();
+  json["n_residues"] = part.residues.size();
   json["residues"] = Json::array();
-  for (const ResidueRow& row : region.residues) json["residues"].push_back(row.residue);
-  add_metrics(json, region);
+  for (const ResidueRow& row : part.residues) json["residues"].push_back(row.residue);
+  add_metrics(json, part);
   json["by_offset"] = Json::array();
-  for (const OffsetMetrics& at : region.by_offset) {
+  for (const OffsetMetrics& at : part.by_offset) {
     Json entry{{"offset_A", number(at.offset_A)}};
     for (const Metric& metric : metrics()) {
       if (metric.source.of_area != nullptr) entry[metric.name] = number(at.metrics.*metric.source.of_area);
     }
     json["by_offset"].push_back(std::move(entry));
   }
-  json["n_vertices_outside_map"] = {{"source", region.n_outside_source_map}, {"target", region.n_outside_target_map}};
-  add_verdict(json["certificate"], region.certificate);
+  json["n_vertices_outside_map"] = {{"source", part.n_outside_source_map}, {"target", part.n_outside_target_map}};
+  add_verdict(json["certificate"], part.certificate);
   return json;
 }
 
@@ -223,7 +222,12 @@ void add_results(Json& json, const Molecule& source, const CompareResult& result
   json["warnings"] = warnings(result);
   add_verdict(json["certificate"], result.certificate);
   json["metrics_all_triangles"] = metrics_all_triangles(result);
-  json["region"] = region_json(result);
+  json["region"] = result.region == nullptr ? Json(nullptr) : part_json(*result.region);
+  json["fixed_patches"] = Json::object();
+  for (const PatchResult& patch : result.patches) {
+    Json& entry = json["fixed_patches"][patch.name] = part_json(*patch.result);
+    if (patch.placement != nullptr) entry["placement"] = placement_json(*patch.placement);
+  }
   json["protonation_differences"] = Json::array();
   for (const ProtonationDifference& difference : result.protonation)
     json["protonation_differences"].push_back(in_words(difference, source));

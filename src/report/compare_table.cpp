@@ -7,6 +7,7 @@
 #include "align/rigid_domains.h"
 #include "compare/result.h"
 #include "report/metrics.h"
+#include "report/placement.h"
 #include "report/potential_json.h"
 #include "report/state_report.h"
 #include "report/write_compare.h"
@@ -260,23 +261,25 @@ void print_certificate(std::ostream& out, const CompareResult& result) {
   if (!not_checked.empty()) line(out, "Not checked", not_checked);
 }
 
-/// The region's metrics, unmatched area and verdict.
-void print_region(std::ostream& out, const CompareResult& result, const OptionSpelling& spelling) {
-  if (result.region == nullptr) return;
-  const CompareResult& region = *result.region;
-  heading(out, "Region: " + counted(region.residues.size(), "residue") + " of the source", {"valid area"});
+/// "12.3 %", "-" for none.
+std::string share_of(double fraction) { return std::isfinite(fraction) ? number("%.3g", 100 * fraction) + " %" : "-"; }
+
+/// The metrics, unmatched area and verdict of a region or patch.
+void print_part(std::ostream& out, const std::string& title, const CompareResult& part,
+                const OptionSpelling& spelling) {
+  heading(out, title + ": " + counted(part.residues.size(), "residue") + " of the source", {"valid area"});
   for (const MetricSection section : {MetricSection::kPotential, MetricSection::kShape}) {
-    if (section == MetricSection::kPotential && !region.has_potential) continue;
+    if (section == MetricSection::kPotential && !part.has_potential) continue;
     for (const Metric& metric : metrics()) {
       if (metric.section == section && metric.has_result())
-        row(out, metric.label, unit_of(metric, to_string(result.unit)), {formatted(metric, value_of(metric, region))});
+        row(out, metric.label, unit_of(metric, to_string(part.unit)), {formatted(metric, value_of(metric, part))});
     }
   }
   row(out, "Unmatched area", "",
-      {"source " + number("%.3g", 100 * region.certificate.unmatched_source) + " %",
-       "target " + number("%.3g", 100 * region.certificate.unmatched_target) + " %"});
-  line(out, "Verdict", region.certificate.trustworthy ? "trustworthy" : "not trustworthy");
-  for (const Message& reason : region.certificate.reasons) item(out, reason.spelled(spelling), 4);
+      {"source " + share_of(part.certificate.unmatched_source),
+       "target " + share_of(part.certificate.unmatched_target)});
+  line(out, "Verdict", part.certificate.trustworthy ? "trustworthy" : "not trustworthy");
+  for (const Message& reason : part.certificate.reasons) item(out, reason.spelled(spelling), 4);
 }
 
 void print_warnings(std::ostream& out, const CompareResult& result, const OptionSpelling& spelling) {
@@ -306,7 +309,11 @@ void print_table(std::ostream& out, const Molecule& source, const Molecule& targ
   print_offsets(out, result);
   print_surfaces(out, result);
   print_certificate(out, result);
-  print_region(out, result, spelling);
+  if (result.region != nullptr) print_part(out, "Region", *result.region, spelling);
+  for (const PatchResult& patch : result.patches) {
+    print_part(out, "Patch " + patch.name, *patch.result, spelling);
+    if (patch.placement != nullptr) item(out, in_words(*patch.placement));
+  }
   print_warnings(out, result, spelling);
   print_verdict(out, result, spelling);
 }

@@ -6,8 +6,11 @@
 #include <cstdio>
 #include <deque>
 #include <limits>
+#include <map>
+#include <mutex>
 
 #include "base/error.h"
+#include "base/surface_parts.h"
 #include "compare/region_result.h"
 #include "compare/result.h"
 
@@ -276,20 +279,20 @@ std::vector<Metric>& table() {
   return all;
 }
 
-std::vector<Metric> make_region_metrics() {
+std::vector<Metric> make_part_metrics(const std::string& part) {
   static std::deque<std::string> texts;  // of the names, which must stay where they are
   const auto keep = [](const std::string& text) { return texts.emplace_back(text).c_str(); };
-  CompareResult region;
-  region.certificate.not_checked = unchecked_in_regions();
+  CompareResult scratch;
+  scratch.certificate.not_checked = unchecked_in_parts();
   std::vector<Metric> all;
   for (const Metric& metric : metrics()) {
-    if (!metric.has_result() || metric.section == MetricSection::kMapping || is_unchecked(metric, region)) continue;
-    Metric of_region = metric;
-    of_region.name = keep("region_" + std::string(metric.name));
-    of_region.label = keep(std::string(metric.label) + ", region");
-    of_region.json = keep("/region" + metric.json_pointer());
-    of_region.flags |= kOfRegion;
-    all.push_back(of_region);
+    if (!metric.has_result() || metric.section == MetricSection::kMapping || is_unchecked(metric, scratch)) continue;
+    Metric of_part = metric;
+    of_part.name = keep(part + "_" + metric.name);
+    of_part.label = keep(std::string(metric.label) + ", " + part);
+    of_part.json = keep(part_pointer(part) + metric.json_pointer());
+    of_part.part = keep(part);
+    all.push_back(of_part);
   }
   return all;
 }
@@ -304,9 +307,16 @@ void add_metric(const Metric& metric) {
   table().push_back(metric);
 }
 
-const std::vector<Metric>& region_metrics() {
-  static const std::vector<Metric> all = make_region_metrics();
-  return all;
+const std::vector<Metric>& part_metrics(const std::string& part) {
+  static std::mutex one_at_a_time;
+  static std::map<std::string, std::vector<Metric>> known;
+  const std::lock_guard<std::mutex> lock(one_at_a_time);
+  const auto found = known.find(part);
+  return found != known.end() ? found->second : known.emplace(part, make_part_metrics(part)).first->second;
+}
+
+std::string part_pointer(const std::string& part) {
+  return part == kRegionPart ? std::string("/") + kRegionPart : "/fixed_patches/" + part;
 }
 
 const Metric* find_metric_or_null(const std::string& name) {
@@ -316,11 +326,12 @@ const Metric* find_metric_or_null(const std::string& name) {
 }
 
 double value_of(const Metric& metric, const CompareResult& result) {
-  if ((metric.flags & kOfRegion) != 0) {
-    if (result.region == nullptr) return kNan;
+  if (*metric.part != '\0') {
+    const CompareResult* const part = part_of(result, metric.part);
+    if (part == nullptr) return kNan;
     Metric whole = metric;
-    whole.flags &= ~static_cast<unsigned>(kOfRegion);
-    return value_of(whole, *result.region);
+    whole.part = "";
+    return value_of(whole, *part);
   }
   if (metric.source.of_result != nullptr) return metric.source.of_result(result);
   return counted_metrics(result).*metric.source.of_area;

@@ -23,8 +23,7 @@ enum MetricFlag : unsigned {
   kInSeries = 1,       ///< a column of a trajectory's CSV file
   kInMatrix = 2,       ///< a table of a matrix
   kAntisymmetric = 4,  ///< the value of target to source is its negative; otherwise it should be the same
-  kOfRegion = 8,       ///< of the region alone
-  kRemovable = 16,     ///< 0 by construction where Certificate::zero_by_construction
+  kRemovable = 8,      ///< 0 by construction where Certificate::zero_by_construction
 };
 
 /// Where the value of a metric comes from: the whole comparison, the row of a residue, or both.
@@ -55,6 +54,7 @@ struct Metric {
   /// Metrics that follow one another with the same line share one in the printed table, told apart by `word`.
   const char* line = "";
   const char* word = "";
+  const char* part = "";  ///< the region (kRegionPart) or patch whose value it is; empty for the whole
 
   bool has_result() const { return source.of_result != nullptr || source.of_area != nullptr; }
   bool has_residues() const { return source.of_residue != nullptr; }
@@ -66,13 +66,15 @@ const std::vector<Metric>& metrics();
 /// Adds a row. Before anything is computed or written: columns are fixed from then on.
 /// @throws Error (kInternal) when the name is taken
 void add_metric(const Metric& metric);
-/// What a region has of the metrics: all for whole results but those of the mapping and of checks that are not made of
-/// regions. Named `region_NAME`, labelled "LABEL, region"; in OUT.json at the same place under `region`.
-const std::vector<Metric>& region_metrics();
+/// What a region or a patch has of the metrics: all for whole results but those of the mapping and of checks that are
+/// not made of parts. Named `PART_NAME`, labelled "LABEL, PART"; in OUT.json at the same place under part_pointer().
+const std::vector<Metric>& part_metrics(const std::string& part);
+/// "/region", or "/fixed_patches/PATCH".
+std::string part_pointer(const std::string& part);
 /// Null when there is none of that name.
 const Metric* find_metric_or_null(const std::string& name);
 
-/// The number for the whole comparison, or for its region (kOfRegion); NaN where there is none. The metric
+/// The number for the whole comparison, or for one of its parts; NaN where there is none. The metric
 /// has_result().
 double value_of(const Metric& metric, const CompareResult& result);
 /// Over all triangles with samples, corrupt ones included; NaN where there is none.

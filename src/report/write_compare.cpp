@@ -10,8 +10,10 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/surface_parts.h"
 #include "compare/map_recipe.h"
 #include "compare/options.h"
+#include "compare/region_result.h"
 #include "compare/result.h"
 #include "io/atomic_file.h"
 #include "io/sha256.h"
@@ -102,10 +104,11 @@ void write_residue_file(std::ostream& out, const Molecule& source, const Compare
   for (const Metric& metric : metrics()) {
     if (metric.has_residues()) columns.push_back(column_of(metric, potential_unit_text(result)));
   }
-  std::set<std::size_t> region;
-  if (result.region != nullptr) {
-    columns.emplace_back("region");
-    for (const ResidueRow& row : result.region->residues) region.insert(row.residue);
+  std::vector<std::set<std::size_t>> parts;
+  for (const std::string& part : part_names(result)) {
+    columns.push_back(part == kRegionPart ? part : "patch_" + part);
+    parts.emplace_back();
+    for (const ResidueRow& row : part_of(result, part)->residues) parts.back().insert(row.residue);
   }
   write_csv_row(out, columns);
   for (const ResidueRow& row : result.residues) {
@@ -115,7 +118,7 @@ void write_residue_file(std::ostream& out, const Molecule& source, const Compare
     for (const Metric& metric : metrics()) {
       if (metric.has_residues()) cells.push_back(csv_number(value_of(metric, result, row)));
     }
-    if (result.region != nullptr) cells.emplace_back(region.count(row.residue) > 0 ? "1" : "0");
+    for (const std::set<std::size_t>& part : parts) cells.emplace_back(part.count(row.residue) > 0 ? "1" : "0");
     write_csv_row(out, cells);
   }
 }

@@ -40,8 +40,8 @@ bool has_comments_only(const std::string& lines) {
 
 }  // namespace
 
-SeriesCsv::SeriesCsv(std::string path, SeriesHead head, ExistingFile existing)
-    : file_(std::move(path), existing), head_(std::move(head)) {
+SeriesCsv::SeriesCsv(std::string path, SeriesHead head, ExistingFile existing, std::vector<std::string> parts)
+    : file_(std::move(path), existing), head_(std::move(head)), parts_(std::move(parts)) {
   for (auto& entry : head_) entry.second = head_text(entry.second);
   if (existing == ExistingFile::kResume && file_.has_content()) read_rows();
 }
@@ -51,9 +51,6 @@ void SeriesCsv::read_rows() {
   const std::string lines = complete_lines(text);
   if (text.rfind(kFirstWords, 0) == 0 && has_comments_only(lines)) return;  // only a part of the head
   const CsvTable table = parse_csv(lines, path());
-  if (table.columns != series_columns() && table.columns != series_columns(true))
-    throw FormatError(path(), static_cast<long>(table.comments.size()) + 1,
-                      "this is not this version's line of columns; give another file");
   SeriesHead in_file;
   for (const std::string& comment : table.comments) {
     const std::size_t colon = std::min(comment.find(':'), comment.size());
@@ -63,8 +60,11 @@ void SeriesCsv::read_rows() {
     if (wanted != head_.end()) check_same(name, value, wanted->second);
     in_file.emplace_back(name, value);
   }
+  if (table.columns != series_columns(parts_))
+    throw FormatError(path(), static_cast<long>(table.comments.size()) + 1,
+                      "this is not this version's line of columns; give another file");
   head_ = std::move(in_file);
-  for (const auto& cells : table.rows) rows_.emplace_back(cells);
+  for (const auto& cells : table.rows) rows_.emplace_back(cells, parts_);
   has_head_ = true;
   file_.truncate(lines.size());
 }

@@ -20,7 +20,8 @@ class SeriesCsv {
   /// @param head what this run's rows depend on. To be resumed, a file must say the same wherever it names the same.
   /// @throws IoError (the file exists, cannot be written, or another run is writing it), FormatError (another file, a
   ///         damaged line), InputError (made with something else; says what)
-  SeriesCsv(std::string path, SeriesHead head, ExistingFile existing);
+  /// @param parts region and patches, whose columns the rows have
+  SeriesCsv(std::string path, SeriesHead head, ExistingFile existing, std::vector<std::string> parts = {});
 
   const std::string& path() const { return file_.path(); }
   /// Rows in the file: of earlier runs and of this one.
@@ -40,6 +41,7 @@ class SeriesCsv {
 
   AppendedFile file_;
   SeriesHead head_;
+  std::vector<std::string> parts_;
   std::vector<SeriesRow> rows_;
   bool has_head_ = false;  ///< the file begins with this run's head
 };

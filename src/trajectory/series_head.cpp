@@ -7,6 +7,7 @@
 #include "base/version.h"
 #include "compare/settings.h"
 #include "io/sha256.h"
+#include "prepare/read_earlier_patch.h"
 #include "trajectory/frame_range.h"
 
 namespace espdiff {
@@ -55,6 +56,11 @@ SeriesHead series_head(const SeriesDescription& run, const CompareOptions& optio
   head.emplace_back("reference-map", run.reference_map);
   head.emplace_back("start", run.start == StartFrom::kPrevious ? "previous" : "source");
   head.emplace_back("settings", settings_in_words(options));
+  std::vector<std::string> patch_files;
+  for (const PatchRequest& patch : options.input.patches) {
+    if (const auto earlier = earlier_patch_name(patch.selection)) patch_files.push_back(earlier->path);
+  }
+  if (!patch_files.empty()) head.emplace_back("patch_sha256", joined(patch_files, sha256_of_file));
   if (!run.files.empty()) head.emplace_back("file_sha256", joined(run.files, sha256_of_file));
   if (!run.reference_files.empty()) head.emplace_back("reference_sha256", joined(run.reference_files, sha256_of_file));
   return head;

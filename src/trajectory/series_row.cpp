@@ -2,9 +2,12 @@
 #include "trajectory/series_row.h"
 
 #include <algorithm>
+#include <map>
+#include <mutex>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "compare/region_result.h"
 #include "compare/result.h"
 #include "report/metrics.h"
 #include "report/provenance.h"
@@ -39,31 +42,31 @@ std::vector<Column> make_columns() {
   return all;
 }
 
-/// The same of the region, with its verdict.
-std::vector<Column> make_columns_of_region() {
-  std::vector<Column> all;
-  for (const Metric& metric : region_metrics()) {
+/// The same of a region or patch, with its verdict.
+void add_columns_of_part(const std::string& part, std::vector<Column>& all) {
+  for (const Metric& metric : part_metrics(part)) {
     if ((metric.flags & kInSeries) != 0) all.push_back({metric.name, metric.json_pointer()});
   }
-  all.push_back({"region_trustworthy", "/region/certificate/trustworthy"});
-  all.push_back({"region_reasons", "/region/certificate/reasons"});
-  return all;
+  all.push_back({part + "_trustworthy", part_pointer(part) + "/certificate/trustworthy"});
+  all.push_back({part + "_reasons", part_pointer(part) + "/certificate/reasons"});
 }
 
-const std::vector<Column>& table_of_columns(bool with_region) {
-  static const std::vector<Column> all = make_columns();
-  static const std::vector<Column> with = [] {
-    std::vector<Column> both = all;
-    for (const Column& column : make_columns_of_region()) both.push_back(column);
-    return both;
-  }();
-  return with_region ? with : all;
-}
-
-std::vector<std::string> names_of(const std::vector<Column>& columns) {
+struct Columns {
+  std::vector<Column> table;
   std::vector<std::string> names;
-  for (const Column& column : columns) names.push_back(column.name);
-  return names;
+};
+
+/// Made once for each choice of parts.
+const Columns& columns_for(const std::vector<std::string>& parts) {
+  static std::mutex one_at_a_time;
+  static std::map<std::vector<std::string>, Columns> known;
+  const std::lock_guard<std::mutex> lock(one_at_a_time);
+  Columns& columns = known[parts];
+  if (!columns.table.empty()) return columns;
+  columns.table = make_columns();
+  for (const std::string& part : parts) add_columns_of_part(part, columns.table);
+  for (const Column& column : columns.table) columns.names.push_back(column.name);
+  return columns;
 }
 
 std::string cell_of(const Json& value) {
@@ -84,13 +87,6 @@ const Json& value_at(const Json& json, const std::string& pointer) {
   return parent.is_null() ? parent : json.at(at);
 }
 
-std::size_t index_of(const std::string& column) {
-  const auto& names = series_columns(true);
-  const auto found = std::find(names.begin(), names.end(), column);
-  if (found == names.end()) throw Error(ErrorClass::kInternal, "a trajectory's rows have no column '" + column + "'");
-  return static_cast<std::size_t>(found - names.begin());
-}
-
 }  // namespace
 
 std::string one_line(std::string text) {
@@ -99,30 +95,33 @@ std::string one_line(std::string text) {
   return text;
 }
 
-const std::vector<std::string>& series_columns(bool with_region) {
-  static const std::vector<std::string> names = names_of(table_of_columns(false)),
-                                        with = names_of(table_of_columns(true));
-  return with_region ? with : names;
+const std::vector<std::string>& series_columns(const std::vector<std::string>& parts) {
+  return columns_for(parts).names;
 }
 
 SeriesRow::SeriesRow(int frame, const std::string& reference, const Molecule& source, const Molecule& target,
-                     const CompareResult& result, const CompareOptions& options) {
+                     const CompareResult& result, const CompareOptions& options)
+    : columns_(&series_columns(part_names(result))) {
   const Json json = compare_json(source, target, result, options, {});
-  for (const Column& column : table_of_columns(result.region != nullptr))
+  for (const Column& column : columns_for(part_names(result)).table)
     cells_.push_back(column.pointer.empty() ? std::string() : cell_of(value_at(json, column.pointer)));
   at("frame") = std::to_string(frame);
   at("reference_frame") = one_line(reference);
 }
 
-SeriesRow::SeriesRow(int frame, const std::string& reference, const std::string& error, bool with_region)
-    : cells_(series_columns(with_region).size()) {
+SeriesRow::SeriesRow(int frame, const std::string& reference, const std::string& error,
+                     const std::vector<std::string>& parts)
+    : columns_(&series_columns(parts)), cells_(columns_->size()) {
   at("frame") = std::to_string(frame);
   at("reference_frame") = one_line(reference);
   at("error") = one_line(error);
 }
 
-const std::vector<std::string>& SeriesRow::columns() const {
-  return series_columns(cells_.size() > series_columns().size());
+std::size_t SeriesRow::index_of(const std::string& column) const {
+  const auto found = std::find(columns_->begin(), columns_->end(), column);
+  if (found == columns_->end())
+    throw Error(ErrorClass::kInternal, "a trajectory's rows have no column '" + column + "'");
+  return static_cast<std::size_t>(found - columns_->begin());
 }
 
 const std::string& SeriesRow::operator[](const std::string& column) const { return cells_.at(index_of(column)); }

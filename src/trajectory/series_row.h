@@ -12,33 +12,38 @@ namespace espdiff {
 struct CompareOptions;
 struct CompareResult;
 
-/// Names of the columns, in order. Those of a region follow all others.
-const std::vector<std::string>& series_columns(bool with_region = false);
+/// Names of the columns, in order. Those of a region and of patches follow all others.
+/// @param parts names as part_names() gives them
+const std::vector<std::string>& series_columns(const std::vector<std::string>& parts = {});
 
 /// One frame, by column; missing values are empty. Numbers have all digits. Nothing depends on time, threads or the
 /// process, so that equal runs write equal bytes.
 class SeriesRow {
  public:
-  /// A row from a result, with the values of OUT.json (compare_json()), and of its region where it has one.
+  /// A row from a result, with the values of OUT.json (compare_json()), and of its parts.
   SeriesRow(int frame, const std::string& reference, const Molecule& source, const Molecule& target,
             const CompareResult& result, const CompareOptions& options);
   /// A row without numbers, with the reason.
-  SeriesRow(int frame, const std::string& reference, const std::string& error, bool with_region = false);
+  SeriesRow(int frame, const std::string& reference, const std::string& error,
+            const std::vector<std::string>& parts = {});
   /// @param cells one a column
-  explicit SeriesRow(std::vector<std::string> cells) : cells_(std::move(cells)) {}
+  explicit SeriesRow(std::vector<std::string> cells, const std::vector<std::string>& parts = {})
+      : columns_(&series_columns(parts)), cells_(std::move(cells)) {}
 
   /// @throws Error when there is no such column
   const std::string& operator[](const std::string& column) const;
   const std::vector<std::string>& cells() const { return cells_; }
   /// The columns that the row has.
-  const std::vector<std::string>& columns() const;
+  const std::vector<std::string>& columns() const { return *columns_; }
 
   /// Whether the next frame's mapping may start from this one's.
   bool has_mapping() const { return (*this)["error"].empty() && (*this)["converged"] == "1"; }
 
  private:
+  std::size_t index_of(const std::string& column) const;
   std::string& at(const std::string& column);
 
+  const std::vector<std::string>* columns_;
   std::vector<std::string> cells_;
 };
 

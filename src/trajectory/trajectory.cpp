@@ -183,7 +183,7 @@ const SeriesRow* TrajectoryRun::skip(const Error& why) {
   const TrajectoryStep& step = next();
   if (!plan_.skip_errors) throw Error(why.error_class(), in_front(step.frame) + why.message());
   ++n_skipped_;
-  return end_step({step.frame, step.reference, why.what(), plan_.has_region});
+  return end_step({step.frame, step.reference, why.what(), plan_.parts});
 }
 
 /// After a failed frame the mapping starts from the source, as in a run that is resumed there.

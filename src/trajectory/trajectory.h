@@ -29,8 +29,8 @@ struct TrajectoryPlan {
   std::string reference;  ///< the one source, as the rows name it
   CompareOptions options;
   StartFrom start = StartFrom::kPrevious;
-  bool skip_errors = false;  ///< a frame that fails becomes a row with the error, and the run goes on
-  bool has_region = false;   ///< the sources have a region, whose numbers are in further columns
+  bool skip_errors = false;          ///< a frame that fails becomes a row with the error, and the run goes on
+  std::vector<std::string> parts{};  ///< region and patches of the sources, whose numbers are in further columns
 };
 
 /// Default start of mappings: the source (morph) or the frame before (deform).

@@ -82,7 +82,9 @@ class Verifier {
       lines_.leave_out("certificate/converged", "the iteration is in no file");
     if (record_.size("by_offset") > 1)
       lines_.leave_out("by_offset beyond the first", "their potentials are in no file");
-    if (record_.size("region") > 0) lines_.leave_out("region", "which triangles belong to it is in no file");
+    for (const char* part : {"region", "fixed_patches"}) {
+      if (record_.size(part) > 0) lines_.leave_out(part, "which triangles belong to it is in no file");
+    }
     return std::move(result_);
   }
 

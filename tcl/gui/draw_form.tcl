@@ -4,7 +4,7 @@ namespace eval ::espdiff::gui {
     variable form
     array set form {
         draw,color difference draw,surface target draw,range auto draw,low -5 draw,high 5
-        draw,uncertain fade draw,limit 2.0 draw,off_target uncertain draw,legend 1 draw,view single draw,mol ""
+        draw,uncertain fade draw,limit 2.0 draw,off_target uncertain draw,legend 1 draw,colors red-blue draw,view single draw,mol ""
     }
     variable drawn_on {target mapped source source}  ;# the window's word, espdiff's word
 
@@ -15,7 +15,7 @@ namespace eval ::espdiff::gui {
         ttk::combobox $path.color -textvariable ${variable}(draw,color) -state readonly -width 12 \
             -values {difference sign source target slip displacement path_length none}
         bind $path.color <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::update_draw}
-        form_row $path 0 "Colour by" $path.color "difference: target - source, red negative, blue positive;\
+        form_row $path 0 "Colour by" $path.color "difference: target - source;\
             sign: where it changed; source, target: the potentials; slip: how far each point is from where its own\
             atoms went; displacement: how far each point travelled,\
             path_length: the path length"
@@ -41,7 +41,12 @@ namespace eval ::espdiff::gui {
         ttk::checkbutton $path.look.legend -text Legend -variable ${variable}(draw,legend)
         tip $path.look.legend "A colour bar at the bottom of VMD's window"
         pack $path.look.uncertain $path.look.style $path.look.from $path.look.limit $path.look.unit -side left -padx {0 4}
-        pack $path.look.legend -side right
+        ttk::combobox $path.look.colors -textvariable ${variable}(draw,colors) -state readonly -width 13 \
+            -values {red-blue cool-warm purple-orange}
+        tip $path.look.colors "Colours of signed values, from negative to positive; colour-blind readers can tell the\
+            ends of each apart"
+        pack $path.look.colors $path.look.legend -side right -padx {4 0}
+        set widget(draw,colors) $path.look.colors
         grid $path.look -row 2 -column 0 -columnspan 4 -sticky ew -pady 2
         ttk::combobox $path.corrupt -textvariable ${variable}(draw,off_target) -state readonly -width 12 \
             -values {uncertain mark hide}
@@ -137,6 +142,7 @@ namespace eval ::espdiff::gui {
         if {$form(draw,uncertain) ne "plain" && $form(draw,limit) ne "2.0"} {
             lappend options -uncertainty-limit $form(draw,limit)
         }
+        if {$form(draw,colors) ne "red-blue"} { lappend options -colors $form(draw,colors) }
         if {$form(draw,off_target) ne "uncertain"} { lappend options -corrupt $form(draw,off_target) }
         if {$form(draw,surface) ne "target"} { lappend options -surface [dict get $drawn_on $form(draw,surface)] }
         if {!$form(draw,legend)} { lappend options -legend 0 }

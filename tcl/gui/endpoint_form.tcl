@@ -126,7 +126,7 @@ namespace eval ::espdiff::gui {
         set choice [expr {$map eq "automatic" ? [automatic_choice] : ""}]
         $widget($side,choice) configure -text $choice
         set ::espdiff::gui::tips($widget($side,choice)) $choice
-        foreach name {file map} { $widget($side,$name) xview end }
+        foreach name {file map} { $widget($side,$name) xview [$widget($side,$name) index end] }
     }
 
     # What `automatic` takes for the molecules chosen now, as "Poisson-Boltzmann: charges without explicit water".

@@ -83,7 +83,7 @@ namespace eval ::espdiff::gui {
 
     proc ramp_colour {kind share} {
         variable colours
-        if {![info exists colours($kind)]} { set colours($kind) [::espdiff::core::colours $kind 101] }
+        if {![info exists colours($kind)]} { set colours($kind) [::espdiff::core::colours [expr {$kind eq "diverging" ? "red-blue" : $kind}] 101] }
         return [lindex $colours($kind) [expr {int(round(100 * max(0.0, min(1.0, $share))))}]]
     }
 

@@ -114,13 +114,7 @@ namespace eval ::espdiff::gui {
 
     proc show_variants {} {
         variable variants
-        variable widget
-        $widget(matrix,list) delete [$widget(matrix,list) children {}]
-        set number 0
-        foreach variant $variants {
-            $widget(matrix,list) insert {} end -id $number -values [variant_cells $variant]
-            incr number
-        }
+        fill_list matrix $variants variant_cells
         update_matrix
     }
 
@@ -129,16 +123,7 @@ namespace eval ::espdiff::gui {
     }
 
     proc update_matrix {} {
-        variable form
-        variable widget
-        variable variants
-        if {[in_vmd]} {
-            set names [molecule_names]
-            $widget(matrix,mol) configure -values $names
-            if {$form(matrix,mol) ni $names} { set form(matrix,mol) [lindex $names 0] }
-            set_enabled [expr {[llength $names] > 0}] $widget(matrix,add)
-        }
-        set_enabled [expr {[llength [$widget(matrix,list) selection]] > 0}] $widget(matrix,remove)
+        update_list matrix
         show_matrix_running
     }
 

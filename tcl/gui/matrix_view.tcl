@@ -90,7 +90,7 @@ namespace eval ::espdiff::gui {
 
     proc cancel_matrix {} {
         variable matrix_running
-        if {$matrix_running ne ""} { espdiff cancel $matrix_running }
+        cancel_run $matrix_running
     }
 
     proc show_matrix_running {} {
@@ -109,11 +109,8 @@ namespace eval ::espdiff::gui {
     }
 
     proc matrix_progress {stage fraction} {
-        variable widget
-        if {![info exists widget(matrix,bar)] || ![winfo exists $widget(matrix,bar)]} return
-        $widget(matrix,bar) configure -value $fraction
         variable matrix_begun
-        tell_in matrix $stage[time_left $matrix_begun $fraction]
+        show_progress_in matrix $stage[time_left $matrix_begun $fraction] $fraction
     }
 
     proc finish_matrix {handle} {

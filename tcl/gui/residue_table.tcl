@@ -3,7 +3,7 @@
 namespace eval ::espdiff::gui {
     variable residues_of ""     ;# handle of the residues in the table
     variable residue_rows {}    ;# its `espdiff residues`
-    variable region_row {}      ;# the region's numbers under the residues' keys, and its residues; empty for none
+    variable part_rows {}       ;# by row: the numbers of region and patches under the residues' keys, and their residues
     variable highlighted ""     ;# handle with a highlight in VMD
     variable form
     array set form {residues,sort share residues,falling 1 residues,face 1 residues,least 0}
@@ -58,7 +58,7 @@ namespace eval ::espdiff::gui {
         grid rowconfigure $path.list 0 -weight 1
         build_residue_buttons $path.buttons
         # As high as its longest text, so that the buttons above do not move.
-        ttk::frame $path.space -height [expr {3 * [font metrics TkDefaultFont -linespace]}]
+        ttk::frame $path.space -height [expr {3 * [font metrics TkDefaultFont -linespace] + 4}]
         pack propagate $path.space 0
         ttk::label $path.message -anchor nw -wraplength 620 -justify left
         pack $path.message -in $path.space -fill both -expand 1
@@ -108,7 +108,7 @@ namespace eval ::espdiff::gui {
             remove_highlight
             set residues_of $shown
             set residue_rows [expr {$shown eq "" ? {} : [with_shares [espdiff residues $shown]]}]
-            set_region_row
+            set_part_rows
             $widget(residues,table) selection set {}
             tell_in residues [residue_hint]
             fill_residues
@@ -135,28 +135,37 @@ namespace eval ::espdiff::gui {
         return $result
     }
 
-    # The region's own numbers, of OUT.json; what it has no number for stays empty.
-    proc set_region_row {} {
+    # The rows of the region and of patches.
+    proc set_part_rows {} {
         variable shown
+        variable part_rows {}
+        if {$shown eq ""} return
+        if {![catch { espdiff result $shown region } region] && [dict exists $region residues]} {
+            dict set part_rows region [part_row Region $region]
+        }
+        if {[catch { espdiff result $shown fixed_patches } patches]} return
+        dict for {name patch} $patches { dict set part_rows "patch $name" [part_row $name $patch] }
+    }
+
+    # A part's own numbers, of OUT.json; what it has no number for stays empty.
+    proc part_row {title part} {
         variable residue_rows
         variable residue_columns
-        variable region_row {}
-        if {$shown eq "" || [catch { espdiff result $shown region } region] || ![dict exists $region residues]} return
         foreach {key heading of_potentials decimals factor} $residue_columns {
-            dict set region_row $key [::espdiff::value_or $region $key ""]
+            dict set result $key [::espdiff::value_or $part $key ""]
         }
-        set n [dict get $region n_residues]
-        dict set region_row residue "Region ($n)"
-        dict set region_row residues [dict get $region residues]
-        set area [dict get $region area_A2 valid]
-        dict set region_row area_A2 $area
+        dict set result residue "$title ([dict get $part n_residues])"
+        dict set result residues [dict get $part residues]
+        set area [dict get $part area_A2 valid]
+        dict set result area_A2 $area
         set sum 0.0
         foreach row $residue_rows {
             if {[dict get $row mean_abs_difference] eq ""} continue
             set sum [expr {$sum + [dict get $row area_A2] * [dict get $row mean_abs_difference]}]
         }
-        set difference [dict get $region_row mean_abs_difference]
-        if {$sum > 0 && $difference ne ""} { dict set region_row share [expr {$area * $difference / $sum}] }
+        set difference [dict get $result mean_abs_difference]
+        if {$sum > 0 && $difference ne "" && $area ne ""} { dict set result share [expr {$area * $difference / $sum}] }
+        return $result
     }
 
     # The selected residues: the structure that they belong to, and their names with chain and number.
@@ -249,15 +258,15 @@ namespace eval ::espdiff::gui {
     proc fill_residues {} {
         variable form
         variable widget
-        variable region_row
+        variable part_rows
         set table $widget(residues,table)
         set selected [$table selection]
         $table delete [$table children {}]
         set_residue_headings
         # Above the residues, in any order.
-        if {$region_row ne ""} {
-            $table tag configure region -font [bold_font]
-            $table insert {} end -id region -tags region -values [residue_cells $region_row [dict get $region_row residue]]
+        $table tag configure part -font [bold_font]
+        dict for {id row} $part_rows {
+            $table insert {} end -id $id -tags part -values [residue_cells $row [dict get $row residue]]
         }
         foreach row [sorted_residues] {
             $table insert {} end -id [dict get $row index] -values [residue_cells $row [residue_name $row]]
@@ -343,11 +352,12 @@ namespace eval ::espdiff::gui {
         }
         set names {}
         foreach item $chosen { lappend names [lindex [$widget(residues,table) item $item -values] 0] }
-        if {"region" in $chosen} {
-            variable region_row
-            set chosen [lsort -integer -unique [concat [lsearch -all -inline -not -exact $chosen region] \
-                [dict get $region_row residues]]]
+        variable part_rows
+        set residues {}
+        foreach item $chosen {
+            lappend residues {*}[expr {[dict exists $part_rows $item] ? [dict get $part_rows $item residues] : $item}]
         }
+        set chosen [lsort -integer -unique $residues]
         set words [list $chosen]
         if {$form(residues,face)} { lappend words -face 1 }
         set molecules [espdiff highlight $shown {*}$words]

@@ -71,13 +71,13 @@ namespace eval ::espdiff::gui {
         if {[llength $reasons] > 0} { pack $widget(reasons) -fill x } else { pack forget $widget(reasons) }
     }
 
-    # `width` in letters fits any value, so that the window does not change size with the numbers.
+    # `width` in letters fits any value but those in vacuum, so that the window does not change size with the numbers.
     proc build_numbers {parent column width numbers} {
         variable widget
         set row 0
         foreach metric $numbers {
             set label [ttk::label $parent.name$column$row -text [dict get $metric title]]
-            set value [ttk::label $parent.value$column$row -anchor e -width $width -text "\u2013"]
+            set value [ttk::label $parent.value$column$row -anchor e -width -$width -text "\u2013"]
             grid $label -row $row -column $column -sticky w
             grid $value -row $row -column [expr {$column + 1}] -sticky e -padx {6 0}
             tip $label [dict get $metric help]
@@ -206,6 +206,7 @@ namespace eval ::espdiff::gui {
             }
             $widget([concat number $keys]) configure -text [with_unit $value $unit]
         }
+        fit_page_of $widget(verdict)
     }
 
     # Empty without potentials.

@@ -31,6 +31,12 @@ namespace eval ::espdiff::gui {
         }
     }
 
+    # After a change of what the page contains: it asks for another width without an event, as its own is set.
+    proc fit_page_of {path} {
+        update idletasks
+        fit_page [page_of $path]
+    }
+
     # The page that contains a widget, as the frame given to `scrolled`; empty if there is none.
     proc page_of {path} {
         if {[regexp {^(.*)\.view\.page(\.|$)} $path -> frame]} { return $frame }

@@ -119,19 +119,16 @@ namespace eval ::espdiff::gui {
     }
 
     proc trajectory_progress {stage fraction} {
-        variable widget
-        if {![info exists widget(trajectory,bar)] || ![winfo exists $widget(trajectory,bar)]} return
-        $widget(trajectory,bar) configure -value $fraction
         if {[regexp {^frame (\d+): (.*)$} $stage -> frame step]} {
             set stage "Frame $frame: [string tolower [stage_words $step] 0 0]..."
         }
         variable trajectory_begun
-        tell_in trajectory $stage[time_left $trajectory_begun $fraction]
+        show_progress_in trajectory $stage[time_left $trajectory_begun $fraction] $fraction
     }
 
     proc cancel_trajectory {} {
         variable trajectory_running
-        if {$trajectory_running ne ""} { espdiff cancel $trajectory_running }
+        cancel_run $trajectory_running
     }
 
     # Called by espdiff at the end, successful or not.

@@ -76,7 +76,7 @@ namespace eval ::espdiff::gui {
         if {![winfo exists $path] || $tips($path) eq ""} return
         toplevel $window.tip
         wm overrideredirect $window.tip 1
-        pack [ttk::label $window.tip.text -text $tips($path) -wraplength 320 -padding 4 -background #ffffe0 \
+        pack [ttk::label $window.tip.text -text $tips($path) -wraplength 240p -padding 3p -background #ffffe0 \
             -foreground black -relief solid -borderwidth 1]
         set x [expr {min([winfo rootx $path], [winfo screenwidth $path] - [winfo reqwidth $window.tip.text] - 4)}]
         set y [expr {[winfo rooty $path] + [winfo height $path] + 3}]
@@ -218,5 +218,40 @@ namespace eval ::espdiff::gui {
         if {$kind eq "error"} { tell_console $text; set error_shown($tab) 1 }
         if {![info exists widget($tab,message)] || ![winfo exists $widget($tab,message)]} return
         $widget($tab,message) configure -text $text -foreground [expr {$kind eq "error" ? "#b00020" : "black"}]
+    }
+
+    # A tab's bar and line of text while it runs.
+    proc show_progress_in {tab text fraction} {
+        variable widget
+        if {![info exists widget($tab,bar)] || ![winfo exists $widget($tab,bar)]} return
+        $widget($tab,bar) configure -value $fraction
+        tell_in $tab $text
+    }
+
+    # Ends a tab's run; `running` is its handle, empty for none.
+    proc cancel_run {running} { if {$running ne ""} { espdiff cancel $running } }
+
+    # Replaces the rows of a tab's list, numbered from 0; the command `cells` makes a row's values.
+    proc fill_list {tab rows cells} {
+        variable widget
+        $widget($tab,list) delete [$widget($tab,list) children {}]
+        set number 0
+        foreach row $rows {
+            $widget($tab,list) insert {} end -id $number -values [$cells $row]
+            incr number
+        }
+    }
+
+    # Offers VMD's molecules to a tab that adds some to its list, and says whether a row can be removed.
+    proc update_list {tab} {
+        variable form
+        variable widget
+        if {[in_vmd]} {
+            set names [molecule_names]
+            $widget($tab,mol) configure -values $names
+            if {$form($tab,mol) ni $names} { set form($tab,mol) [lindex $names 0] }
+            set_enabled [expr {[llength $names] > 0}] $widget($tab,add)
+        }
+        set_enabled [expr {[llength [$widget($tab,list) selection]] > 0}] $widget($tab,remove)
     }
 }

@@ -81,12 +81,19 @@ namespace eval ::espdiff::gui {
         focus $::espdiff::gui::widget(compare)
     }
 
-    # Ttk's rows and arrows have fixed sizes in pixels, which are too small for large fonts.
+    # Ttk's rows, arrows, marks and margins have fixed sizes in pixels, which are too small for large fonts.
     proc style_for_screen {} {
-        ttk::style configure Espdiff.Treeview -rowheight [expr {[font metrics TkDefaultFont -linespace] + 4}]
-        if {[tk scaling] < 1.6} return
-        set size [expr {round(9 * [tk scaling])}]
+        set line [font metrics TkDefaultFont -linespace]
+        ttk::style configure Espdiff.Treeview -rowheight [expr {$line + 4}]
+        if {$line < 22} return
+        set size [expr {round(0.65 * $line)}]
         foreach style {TCombobox TSpinbox TScrollbar} { ttk::style configure $style -arrowsize $size }
+        foreach style {TCheckbutton TRadiobutton} {
+            # The first is of the theme `default`, the second of clam and alt.
+            ttk::style configure $style -indicatordiameter $size -indicatorsize $size -indicatormargin {1p 1p 3p 1p}
+        }
+        ttk::style configure TButton -padding {4p 2p}
+        ttk::style configure TNotebook.Tab -padding {4p 2p}
     }
 
     # On a small screen the window is lower than it asks for; its page scrolls.

@@ -140,20 +140,140 @@ TEST_CASE("the answer through the medoids of the groups is beside that of the fi
 
 TEST_CASE("a patch that was chosen beforehand has its means, its difference and its own p") {
   const Runs in;
-  REQUIRE(in.ensemble(in.groups + " -q -o out --patch site=//A/8 --patch 'far end=//A/1-2'").status == 0);
+  REQUIRE(in.ensemble(in.groups + " -q -o out --patch site=//A/8 --patch far-end=//A/1-2").status == 0);
   const auto json = nlohmann::json::parse(read_file(in.folder.file("out.json")));
   REQUIRE(json.at("fixed_patches").size() == 2);
-  const auto& site = json["fixed_patches"][0];
-  CHECK(site.at("name") == "site");
+  const auto& site = json["fixed_patches"]["site"];
   CHECK(site.at("difference").get<double>() ==
         doctest::Approx(site["means"]["mutant"].get<double>() - site["means"]["wild"].get<double>()));
   CHECK(site.at("p").get<double>() < 0.001);
   CHECK(site.at("high").get<double>() < 0);
-  CHECK(json["fixed_patches"][1].at("name") == "far end");
-  CHECK(in.ensemble("--from out.h5 -o out2 --patch site=//A/8").err ==
-        "espdiff: --patch selects atoms of the template, which --from does not read; name the groups, with --resume\n");
+  CHECK(json["fixed_patches"]["far-end"].at("area_A2").get<double>() > 100);
+  // What is measured changes no frame: the same file goes on.
+  CHECK(in.ensemble(in.groups + " -q -o out --resume --patch other=//A/3").status == 0);
+  // The file knows the template's residues.
+  REQUIRE(in.ensemble("--from out.h5 -q -o again --patch site=//A/8").status == 0);
+  const auto again = nlohmann::json::parse(read_file(in.folder.file("again.json")));
+  CHECK(again["fixed_patches"]["site"] == site);
+  const std::string atoms = in.ensemble("--from out.h5 -q -o again2 --patch site=//A/8/CB").err;
+  CHECK_MESSAGE(contains(atoms, "the template (its residues alone, as CA atoms): --patch '//A/8/CB' selects no atom"),
+                atoms);
   CHECK(contains(in.ensemble(in.groups + " -o out3 --patch site").err, "is not NAME=SELECTION"));
   CHECK(contains(in.ensemble(in.groups + " -o out3 --patch site=//Z").err, "Z"));
+}
+
+TEST_CASE("a patch of an earlier result is measured in every command, and says how its place was found") {
+  const Runs in;
+  REQUIRE(in.ensemble(in.groups + " -q -o out").status == 0);
+  const auto json = nlohmann::json::parse(read_file(in.folder.file("out.json")));
+  REQUIRE(!json.at("patches").empty());
+  const auto& own = json["patches"][0];
+  // On its own template it is itself.
+  REQUIRE(in.ensemble("--from out.h5 -q -o again --patch first=out.json:1").status == 0);
+  const auto again = nlohmann::json::parse(read_file(in.folder.file("again.json")))["fixed_patches"]["first"];
+  CHECK(again["difference"].get<double>() == doctest::Approx(own["difference"].get<double>()));
+  CHECK(again["area_A2"].get<double>() == doctest::Approx(own["area_A2"].get<double>()));
+  CHECK(again["placement"]["found_area_fraction"].get<double>() == doctest::Approx(1));
+  CHECK(again["placement"]["patch"] == 1);
+  CHECK(contains(
+      read_file(in.folder.file("again.json")),
+      "patch first was found significant in frames that are measured here again: its difference is too large"));
+  // On a frame's own surface, by compare; a trajectory has the same numbers, and a matrix.
+  const std::string patch = " --patch first=out.json:1 --grid-spacing 1.5 --potential coulomb -q";
+  const Outcome pair = in.run("compare w1.pqr m1.pqr" + patch + " -o pair");
+  REQUIRE_MESSAGE(pair.status == 0, pair.err);
+  const auto first = nlohmann::json::parse(read_file(in.folder.file("pair.json")))["fixed_patches"]["first"];
+  CHECK(first["mean_signed_difference"].get<double>() < 0);
+  CHECK(first["placement"]["found_area_fraction"].get<double>() > 0.8);
+  CHECK(first["area_A2"]["source"].get<double>() == doctest::Approx(own["area_A2"].get<double>()).epsilon(0.25));
+  const Outcome frames = in.run("trajectory w1.pqr m1.pqr --start source" + patch + " -o frames.csv");
+  REQUIRE_MESSAGE(frames.status == 0, frames.err);
+  const std::string rows = read_file(in.folder.file("frames.csv"));
+  CHECK(contains(rows, "# patch_sha256: " + first["placement"]["sha256"].get<std::string>()));
+  CHECK(contains(rows, first["mean_signed_difference"].dump()));
+  const Outcome matrix = in.run("matrix w1.pqr m1.pqr" + patch + " -o all");
+  REQUIRE_MESSAGE(matrix.status == 0, matrix.err);
+  CHECK(contains(read_file(in.folder.file("all.json")), "first_mean_signed_difference"));
+  CHECK(contains(
+      in.run("compare w1.pqr m1.pqr --patch first=out.json:1 --grid-spacing 1.5 --potential coulomb -o pair").out,
+      "patch 1 of out.json; "));
+  // What is none.
+  const auto refused = [&](const std::string& text) {
+    return in.run("compare w1.pqr m1.pqr -o u --patch " + text).err;
+  };
+  CHECK(contains(refused("first=out.json:99"), "patch first: out.json: there is no patch 99; it has "));
+  CHECK(contains(refused("first=out.json:0"), "there is no patch 0"));
+  CHECK(contains(refused("first=gone.json:1"), "gone.json"));
+  CHECK(contains(refused("first=pair.json:1"), "pair.json: this is not the OUT.json of an ensemble of two groups"));
+  std::filesystem::copy(in.folder.file("pair.vtp"), in.folder.file("out.vtp"),
+                        std::filesystem::copy_options::overwrite_existing);
+  CHECK(
+      contains(refused("first=out.json:1"), "out.vtp: it has no array 'patch', so it is not of an ensemble's result"));
+  std::filesystem::remove(in.folder.file("out.vtp"));
+  CHECK(contains(refused("first=out.json:1"), "out.vtp"));
+}
+
+TEST_CASE(
+    "given maps are each frame's potential: constants differ by what they differ, and what lacks a map is named") {
+  const Runs in;
+  std::filesystem::create_directory(in.folder.file("maps"));
+  // Replicate r's frame f of the wild type has the potential 0.01 r + 0.1 f everywhere, the mutant's 2 more.
+  for (int r = 1; r <= 4; ++r) {
+    for (int f = 0; f < kFrames; ++f) {
+      const std::string end = std::to_string(r) + ".00" + std::to_string(f) + ".dx";
+      in.folder.write("maps/w" + end, constant_dx(24, 2, 0.01 * r + 0.1 * f, "kT/e", 8.4));
+      in.folder.write("maps/m" + end, constant_dx(24, 2, 2 + 0.02 * r + 0.1 * f, "kT/e", 8.4));
+    }
+  }
+  const std::string coarse = "ensemble --grid-spacing 1.5 ", maps = " --maps 'wild=maps/{replicate}.%03d.dx'",
+                    both = maps + " --maps 'mutant=maps/{replicate}.%03d.dx'";
+  const Outcome out = in.run(coarse + in.groups + both + " -o out --patch end=//A/7-8");
+  REQUIRE_MESSAGE(out.status == 0, out.err);
+  const auto json = nlohmann::json::parse(read_file(in.folder.file("out.json")));
+  CHECK(json["plan"]["potential"] == "maps");
+  CHECK(json["potential_unit"] == "kT/e");
+  const auto& end = json["fixed_patches"]["end"];
+  CHECK(end["means"]["wild"].get<double>() == doctest::Approx(0.025 + 0.15).epsilon(1e-5));
+  CHECK(end["difference"].get<double>() == doctest::Approx(2 + 0.025).epsilon(1e-5));
+  CHECK(contains(out.out, "potential    maps"));
+  // The same with a list, resumed, in parts.
+  std::string list = "group,structure,maps\n";
+  for (const char* group : {"w", "m"}) {
+    for (int r = 1; r <= 4; ++r) {
+      const std::string name = group + std::to_string(r);
+      list += std::string(*group == 'w' ? "wild" : "mutant") + "," + name + ".pqr,maps/" + name + ".%03d.dx\n";
+    }
+  }
+  in.folder.write("list.csv", list);
+  REQUIRE(in.run(coarse + "--list list.csv -q -o listed --patch end=//A/7-8").status == 0);
+  CHECK(nlohmann::json::parse(read_file(in.folder.file("listed.json")))["fixed_patches"] == json["fixed_patches"]);
+  CHECK(in.run(coarse + in.groups + both + " -q -o out --resume").status == 0);
+  for (const char* part : {"1/2", "2/2"})
+    REQUIRE(in.run(coarse + in.groups + both + " -q -o part --shard " + part).status == 0);
+  REQUIRE(run_espdiff("merge part.shard-1-of-2.h5 part.shard-2-of-2.h5 -q -o all", "cd " + in.folder.file("") + " && ")
+              .status == 0);
+  CHECK(read_file(in.folder.file("all.h5")) == read_file(in.folder.file("out.h5")));
+  // Maps of frames that have no charges.
+  in.folder.write("bare.pdb", models(1, false, false));
+  CHECK(in.run(coarse + "--group wild bare.pdb --maps 'wild=maps/w1.%03d.dx' -q -o bare").status == 0);
+  const auto refused = [&](const std::string& text) { return in.run(coarse + in.groups + text + " -o u").err; };
+  CHECK(
+      contains(refused(maps), "replicate m4 of mutant has no maps, and replicate w4 of wild has; give all of them by"));
+  CHECK(contains(refused(" --maps wild=maps/w1.dx"),
+                 "--maps: 'maps/w1.dx' does not have one place for the frame's number"));
+  CHECK(contains(refused(" --maps 'wild=maps/%d.%d.dx'"), "does not have one place"));
+  CHECK(contains(refused(" --maps 'wild=maps/w1.%03d.dx'"),
+                 "replicate w1 of wild and replicate w2 of wild would have the same maps"));
+  CHECK(contains(refused(" --maps 'wild=maps/{replicate}.%02d.dx'"),
+                 "frame 0 of replicate w1 of wild has no map: there is no file 'maps/w1.00.dx'"));
+  CHECK(contains(refused(" --maps 'other=maps/{replicate}.%03d.dx'"), "is not GROUP=PATTERN with one of the groups"));
+  CHECK(contains(refused(both + " --potential pb"), "--maps gives the potentials, and --potential pb computes them"));
+  CHECK(contains(refused(" --map-unit mV"), "--map-unit is of given maps; name them by --maps"));
+  in.folder.write("maps/w1.002.dx", constant_dx(24, 2, 0.2, "", 8.4));
+  CHECK(contains(in.run(coarse + in.groups + both + " -o u --overwrite").err, "maps/w1.002.dx: the map's unit is "));
+  in.folder.write("maps/w1.002.dx", constant_dx(24, 2, 0.2, "kT/e", 8.4));
+  in.folder.write("maps/w1.003.dx", constant_dx(23, 2, 0.3, "kT/e", 8.4));
+  CHECK(contains(in.run(coarse + in.groups + both + " -q -o out --resume").err, "maps of wild, w1"));
 }
 
 TEST_CASE("a list names groups, replicates of several files, and charges") {

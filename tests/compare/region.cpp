@@ -15,7 +15,7 @@ CompareResult compared(const std::vector<std::uint8_t>& region) {
   static const espdiff_test::Side source = make_side(3, 0.0), target = make_side(4, 0.3);
   const auto engine = select_engine(DeviceChoice::kCpu, 2);
   CompareInput input = source.input();
-  input.region = region;
+  input.parts.region = region;
   return compare(*engine, input, target.input(), espdiff_test::quick_options(), Progress());
 }
 

@@ -68,6 +68,14 @@ def program():
 
 
 @pytest.fixture
+def workers():
+    """Tests whose analyses run in several processes."""
+    base = pytest.importorskip("MDAnalysis.analysis.base", reason="SKIPPED: no MDAnalysis")
+    if not hasattr(base.AnalysisBase, "get_supported_backends"):
+        pytest.skip("SKIPPED: MDAnalysis before 2.8 has no workers")
+
+
+@pytest.fixture
 def interrupts():
     """Ctrl-C as Python has it at the prompt: the shell may have it ignored, in the background, and packages set handlers of
     their own when they are imported (dask_jobqueue)."""

@@ -94,6 +94,15 @@ def test_matrix_has_the_numbers_of_compare(made, tmp_path):
         espdiff.matrix(made, ["a", "b"], output=tmp_path / "m", **QUICK)
 
 
+def test_a_matrix_has_the_bytes_of_the_command_line(data, program, tmp_path):
+    files = [data / "series19_ubq_2k39" / f"m0{i}.pqr" for i in (1, 2, 3)]
+    espdiff.matrix(files, output=tmp_path / "python", potential="coulomb", **QUICK)
+    words = ["--potential", "coulomb", "--grid-spacing", "1.5"]
+    subprocess.run([program, "matrix", *files, *words, "-q", "-o", tmp_path / "cli"], check=True)
+    for ending in (".csv", ".json"):
+        assert (tmp_path / f"python{ending}").read_bytes() == (tmp_path / f"cli{ending}").read_bytes()
+
+
 def test_surface(made):
     surface = espdiff.surface(made[0], **QUICK)
     assert len(surface.positions) == len(surface.potential) == len(surface.residue_index)
@@ -113,3 +122,9 @@ def test_plot_and_pyvista(made, tmp_path):
     mesh = result.to_pyvista()
     assert isinstance(mesh, pyvista.PolyData) and mesh.n_points == len(result.positions)
     assert mesh.area == pytest.approx(result.area.sum(), rel=1e-3)
+    before = result.positions.copy(), result.displacement.copy(), result.source_potential.copy()
+    mesh.points[:] = 0
+    for name in ("displacement", "potential_source"):
+        mesh[name][:] = 7
+    for kept, values in zip(before, (result.positions, result.displacement, result.source_potential)):
+        assert np.array_equal(kept, values, equal_nan=True)  # the mesh has copies

@@ -74,7 +74,7 @@ def test_trajectories(data, tmp_path, monkeypatch):
     assert len(variables["frames"]) == 98 and variables["r"].metrics["rmsd_A"] > 5
 
 
-def test_mdanalysis(data, tmp_path, monkeypatch):
+def test_mdanalysis(data, workers, tmp_path, monkeypatch):
     pytest.importorskip("MDAnalysis", reason="SKIPPED: no MDAnalysis")
     for name in ("adk.psf", "adk_dims.dcd"):
         if not (data / "traj_adk" / name).is_file():
@@ -87,7 +87,7 @@ def test_mdanalysis(data, tmp_path, monkeypatch):
 
 
 @pytest.mark.filterwarnings("ignore:.*replicates")
-def test_groups_of_simulations(tmp_path, monkeypatch, capsys):
+def test_groups_of_simulations(workers, tmp_path, monkeypatch, capsys):
     for name in ("wild", "mutant"):
         (tmp_path / f"{name}.pqr").symlink_to(ENSEMBLES / f"trpcage_{name}.pqr")
         for i in (1, 2):
@@ -103,7 +103,7 @@ def test_groups_of_simulations(tmp_path, monkeypatch, capsys):
     assert again.results.n_frames == 8
 
 
-def test_many_processes(data, tmp_path, monkeypatch):
+def test_many_processes(data, workers, tmp_path, monkeypatch):
     pytest.importorskip("distributed", reason="SKIPPED: no dask.distributed")
     mda = pytest.importorskip("MDAnalysis", reason="SKIPPED: no MDAnalysis")
     from espdiff.mda import SurfacePotential

@@ -141,6 +141,30 @@ def geyer(x):
     return max(1.0, 2 * total / covariance[0] - 1)
 
 
+@pytest.fixture(scope="module")
+def run_of_100(tmp_path_factory):
+    """A whole simulation of Trp-cage: values [frame][vertex], and the engine's effective samples [vertex]."""
+    folder = tmp_path_factory.mktemp("run")
+    subprocess.run([PROGRAM, "ensemble", "--group", "wild", str(DATA / "trpcage_wild_1.pdb.gz"), "--charges",
+                    f"wild={DATA / 'trpcage_wild.pqr'}", "--grid-spacing", "1.6", "--potential", "coulomb", "-q", "-o", "out"],
+                   cwd=folder, check=True)
+    with h5py.File(folder / "out.h5") as file:
+        n = len(file["VTKHDF/Points"])
+        return file["VTKHDF/PointData/potential"][:].reshape(-1, n).astype(float), vtp_arrays(folder / "out.vtp")
+
+
+def test_effective_samples_of_a_simulation_are_those_of_pymbar(run_of_100):
+    """Column by column. pymbar cuts the autocorrelation off where it first is negative, so single columns scatter."""
+    timeseries = pytest.importorskip("pymbar.timeseries")
+    values, vtp = run_of_100
+    ours = next(vtp[name] for name in vtp if name.startswith("effective_samples"))
+    chosen = np.flatnonzero(np.isfinite(values).all(axis=0) & np.isfinite(ours))[::7]
+    theirs = np.array([len(values) / timeseries.statistical_inefficiency(values[:, v]) for v in chosen])
+    assert len(chosen) > 300
+    assert np.median(theirs / ours[chosen]) == pytest.approx(1, rel=0.05)
+    assert stats.spearmanr(theirs, ours[chosen]).statistic > 0.95
+
+
 def test_effective_samples_are_those_of_the_definition(ensemble):
     values, vtp = ensemble["values"].astype(float), ensemble["vtp"]
     complete = np.flatnonzero(np.isfinite(values).all(axis=(0, 1)) & np.isfinite(vtp["t"]))[::50]
@@ -185,6 +209,16 @@ def test_family_wise_p_are_those_of_mne(ensemble):
     scale = np.median(areas) ** 0.5
     strong = np.abs(ours) > np.abs(ours).max() / 10
     assert np.median(np.abs(scores)[strong] * scale / np.abs(ours)[strong]) == pytest.approx(1, rel=0.1)
+
+    # Its p, of arrangements drawn at random, where ours are of all 70: up to the error of 300 draws, 0.03 at most.
+    step = t.max() / 60
+    drawn = pytest.importorskip("mne.stats").permutation_cluster_test(
+        [means[:4], means[4:]], threshold=dict(start=step / 2, step=step), n_permutations=300, tail=0, stat_fun=welch,
+        adjacency=sparse.coo_matrix(graph), rng=3, out_type="indices", verbose=False)[2]
+    exact = vtp["p_family_wise"][tested]
+    assert np.median(np.abs(drawn - exact)) < 0.03
+    assert stats.spearmanr(drawn, exact).statistic > 0.95
+    assert exact.min() == pytest.approx(2 / 70) and abs(drawn.min() - exact.min()) < 0.03
 
 
 def test_paraview_layout_has_each_frame(ensemble):

@@ -65,6 +65,22 @@ def test_statistics_of_an_earlier_run(whole, tmp_path):
     assert again.to_dict()["options"]["alpha"] == 0.2
 
 
+def test_regression_has_the_bytes_of_the_command_line(whole, program, tmp_path):
+    rows = [f"{name},trpcage_{name}_{k},{value}" for name, values in (("wild", (0.2, 1.9, 1.1)), ("mutant", (4.2, 3.1, 5.0)))
+            for k, value in enumerate(values, 1)]
+    (tmp_path / "values.csv").write_text("\n".join(["group,replicate,activity", *rows]) + "\n")
+    (tmp_path / "out.h5").write_bytes(whole[1][".h5"])
+    column = f"{tmp_path / 'values.csv'}:activity"
+    made = espdiff.ensemble(from_file=tmp_path / "out.h5", output=tmp_path / "one", regress=column, arrangements=20)
+    assert made.to_dict()["regression"]["replicates"][3]["value"] == 4.2
+    subprocess.run([program, "ensemble", "--from", tmp_path / "out.h5", "--regress", column, "--arrangements", "20", "-q", "-o",
+                    tmp_path / "two"], check=True)
+    for ending in (".json", ".vtp", ".regression.csv"):
+        assert (tmp_path / f"one{ending}").read_bytes() == (tmp_path / f"two{ending}").read_bytes()
+    with pytest.raises(espdiff.FormatError, match="values.csv: there is no column 'other'; there are: group, replicate, activity"):
+        espdiff.ensemble(from_file=tmp_path / "out.h5", output=tmp_path / "three", regress=f"{tmp_path / 'values.csv'}:other")
+
+
 def test_parts_merge_to_the_same_bytes(whole, tmp_path):
     for part in ("1/2", "2/2"):
         assert espdiff.ensemble(GROUPS, charges=CHARGES, output=tmp_path / "out", shard=part, **QUICK) is None
@@ -102,15 +118,14 @@ def test_atomgroups_have_the_numbers_of_files(whole):
         assert np.abs(result.means[name] - whole[0].means[name]).mean() < 0.005  # of values of 50 in vacuum
 
 
-def test_mda_ensemble_in_processes(whole, tmp_path):
+def test_mda_ensemble_in_processes(whole, request, tmp_path):
     from espdiff.mda import Ensemble
 
     options = {key: value for key, value in QUICK.items() if key != "frames"}
     one = Ensemble(atomgroups(), output=tmp_path / "one", **options).run(stop=100, step=60)
     assert (one.results.difference == one.results.ensemble.difference)[one.results.tested != 0].all()
     assert one.results.n_frames == 12
-    if not hasattr(mda.analysis.base.AnalysisBase, "get_supported_backends"):
-        pytest.skip("SKIPPED: MDAnalysis before 2.8 has no workers")
+    request.getfixturevalue("workers")
     Ensemble(atomgroups(), output=tmp_path / "two", **options).run(stop=100, step=60, backend="multiprocessing", n_workers=2)
     assert contents(tmp_path / "one") == contents(tmp_path / "two")
 
@@ -148,3 +163,29 @@ def test_atomgroups_that_cannot_be():
         espdiff.ensemble(bare, **QUICK)
     charged = espdiff.ensemble(bare, charges=CHARGES, **QUICK)
     assert charged.n_frames == 12
+
+
+def write_constant_map(path, value):
+    """A DX map of one value around the origin, in kT/e."""
+    n, spacing = 17, 4.0
+    low = -0.5 * spacing * (n - 1)
+    path.write_text(
+        f"# POTENTIAL (kT/e)\nobject 1 class gridpositions counts {n} {n} {n}\norigin {low} {low} {low}\ndelta {spacing} 0 0\n"
+        f"delta 0 {spacing} 0\ndelta 0 0 {spacing}\nobject 2 class gridconnections counts {n} {n} {n}\n"
+        f"object 3 class array type double rank 0 items {n**3} data follows\n" + f"{value}\n" * n**3)
+
+
+def test_maps_of_other_programs(tmp_path):
+    names = {"wild": ["trpcage_wild_1", "trpcage_wild_2"], "mutant": ["trpcage_mutant_1", "trpcage_mutant_2"]}
+    for group, replicates in names.items():
+        for r, replicate in enumerate(replicates):
+            for frame in (0, 50):
+                write_constant_map(tmp_path / f"{replicate}.{frame}.dx", (3 if group == "mutant" else 1) + 0.1 * r + 0.01 * frame)
+    groups = {group: [file for file in GROUPS[group] if any(name in str(file) for name in names[group])] for group in names}
+    maps = {group: tmp_path / "{replicate}.%d.dx" for group in names}
+    result = espdiff.ensemble(groups, maps=maps, frames="0:50:end", grid_spacing=2, arrangements=20)
+    tested = result.tested != 0
+    assert tested.any() and np.allclose(result.difference[tested], 2, atol=1e-5)
+    assert np.allclose(result.means["wild"][tested], 1 + 0.05 + 0.25, atol=1e-5)
+    with pytest.raises(espdiff.InputError, match="would have the same maps"):
+        espdiff.ensemble(groups, maps={"wild": tmp_path / "trpcage_wild_1.%d.dx"}, frames="0:50:end", grid_spacing=2)

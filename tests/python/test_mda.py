@@ -60,9 +60,7 @@ def _arrays(atoms):
 
 
 @pytest.mark.parametrize("backend", ["multiprocessing", "dask"])
-def test_workers_give_the_same_bits(universe, backend):
-    if not hasattr(mda.analysis.base.AnalysisBase, "get_supported_backends"):
-        pytest.skip("SKIPPED: MDAnalysis before 2.8 has no workers")
+def test_workers_give_the_same_bits(workers, universe, backend):
     if backend == "dask":
         pytest.importorskip("dask", reason="SKIPPED: no dask")
     atoms = universe.select_atoms("protein")
@@ -71,3 +69,16 @@ def test_workers_give_the_same_bits(universe, backend):
     two = SurfacePotential(atoms, **options).run(stop=4, backend=backend, n_workers=2)
     for name, values in one.results.metrics.items():
         assert np.array_equal(values, two.results.metrics[name], equal_nan=True), name
+
+
+def test_an_mdanalysis_without_workers(universe, monkeypatch):
+    """2.7 is the last one for Python 3.9."""
+    import espdiff.mda
+
+    if hasattr(mda.analysis.base.AnalysisBase, "get_supported_backends"):
+        monkeypatch.setattr(espdiff.mda, "ResultsGroup", None)
+    else:
+        with pytest.raises(espdiff.InputError, match="backend: 'multiprocessing' needs MDAnalysis 2.8 or newer, and this is 2"):
+            SurfacePotential(universe.atoms, potential="none").run(stop=1, backend="multiprocessing", n_workers=2)
+    with pytest.raises(espdiff.InputError, match="backend: 'dask' needs MDAnalysis 2.8 or newer, and this is 2"):
+        espdiff.mda.Ensemble({"one": [universe.atoms]}).run(stop=1, backend="dask", n_workers=2)

@@ -94,3 +94,16 @@ def test_syntax_of_nextflow(tmp_path):
     broken = (EXAMPLES / "matrix.nf").read_text().replace("script:\n    \"\"\"", "script:\n    \"\"", 1)
     (tmp_path / "broken.groovy").write_text(broken)
     assert subprocess.run(["groovyc", "-d", tmp_path, tmp_path / "broken.groovy"], capture_output=True).returncode != 0
+
+
+def test_nextflow_s_words(tmp_path):
+    """As RefTrace, a linter of Nextflow's, reads the file: its processes with their directives, and its parameters."""
+    reftrace = pytest.importorskip("reftrace", reason="SKIPPED: no reftrace; pip install reftrace")
+    module = reftrace.Module.from_file(str(EXAMPLES / "matrix.nf"))
+    text = str(module)
+    assert [process.name for process in module.processes] == ["part", "merge"]
+    assert text.count("workflows {") == 1 and re.search(r'publish_dir {\s+params: "output"\s+mode: "copy"', text)
+    assert re.findall(r'params {\s+line: \d+\s+name: "(\w+)"', text) == ["list", "output", "parts", "options"]
+    changed = tmp_path / "changed.nf"
+    changed.write_text((EXAMPLES / "matrix.nf").read_text().replace("process merge {", "procedure merge {"))
+    assert [process.name for process in reftrace.Module.from_file(str(changed)).processes] == ["part"]

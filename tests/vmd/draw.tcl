@@ -88,6 +88,24 @@ test "another quantity takes its place, with other colours" {
     check "no colour" {[dict get $n red] + [dict get $n blue] + [dict get $n brown] < 20}
 }
 
+test "signed values in other colours, for a reader to whom red and blue mean something else" {
+    set before [state]
+    espdiff draw $comparison
+    set usual [count_pixels usual]
+    espdiff draw $comparison -colors purple-orange
+    check_equal state [state] $before
+    set n [count_pixels purple_orange]
+    note "    $n, not $usual"
+    check "orange" {[dict get $n brown] > 200 && [dict get $usual brown] < 20}
+    check "purple, not blue" {[dict get $n blue] < [dict get $usual blue] / 4}
+    # The ends of red-blue exchanged: what was red is blue.
+    espdiff draw $comparison -colors cool-warm
+    set n [count_pixels cool_warm]
+    note "    $n"
+    check "red and blue" {[dict get $n red] > 100 && [dict get $n blue] > 100}
+    check_refused {espdiff draw $comparison -colors rainbow} {ESPDIFF INPUT} "red-blue"
+}
+
 test "VMD's lights do not wash the colours out" {
     espdiff draw $comparison -uncertain plain -legend 0
     rotate y by -30
