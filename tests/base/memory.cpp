@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "support/limit_memory.h"
 #include "support/test_data.h"
 
 using namespace espdiff;

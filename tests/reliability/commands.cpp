@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "cli/run_espdiff.h"
+#include "support/limit_memory.h"
 
 using namespace espdiff_test;  // NOLINT: a test
 

@@ -7,6 +7,7 @@
 #include "cli/run_espdiff.h"
 #include "io/molecule_builder.h"
 #include "io/read_structure.h"
+#include "support/limit_memory.h"
 
 using namespace espdiff_test;  // NOLINT: a test
 

@@ -29,16 +29,6 @@ inline std::optional<std::string> real_input(const std::string& name) {
   return folder + "/" + name;
 }
 
-/// Whether tests can limit a program's memory (`ulimit -v`); says why where they cannot.
-inline bool can_limit_memory() {
-#if defined(__SANITIZE_ADDRESS__)
-  MESSAGE("SKIPPED: the address sanitizer maps more than any limit on the address space");
-  return false;
-#else
-  return true;
-#endif
-}
-
 /// An empty folder for one test, removed at the end.
 class ScratchFolder {
  public:
