@@ -213,6 +213,10 @@ namespace eval ::espdiff {
             {-frames text all "Frames of each replicate that names none"}
             {-charges text {} "{GROUP FILE ...}: PQR files of the same atoms, whose charges and radii frames of files\
                 take; without it, they keep their own, or PDB2PQR makes them from the group's first frame"}
+            {-maps text {} "{GROUP PATTERN ...}: the potential of each frame, computed by another program, in the\
+                frame's coordinates. %d or %03d in the pattern stands for the frame's number in its replicate, from 0,\
+                {replicate} for the replicate's name"}
+            {-map-unit text {} "Unit of these maps if the files do not give it"}
             {-template text medoid "The structure whose surface is mapped onto every frame: medoid, medoid:GROUP, the\
                 number of a frame, counted from 0 through all groups, or a structure file"}
             {-map text auto "Potential of every frame: auto, pb, pme, coulomb, or with settings, such as\

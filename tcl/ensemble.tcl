@@ -73,6 +73,10 @@ namespace eval ::espdiff {
         dict set core charges [concat {*}[named_list -charges {GROUP FILE} [dict get $options charges] {name path} {
             return [list $name [existing_file $path "-charges $name"]]
         }]]
+        dict set core maps [concat {*}[named_list -maps {GROUP PATTERN} [dict get $options maps] {name pattern} {
+            return [list $name [file normalize $pattern]]
+        }]]
+        dict set core map_unit [dict get $options map-unit]
         set map [dict get $options map]
         if {$map eq "auto"} { return $core }
         if {![is_computed $map]} {

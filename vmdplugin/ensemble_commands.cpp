@@ -95,6 +95,11 @@ void parse_study(DictReader& reader, EnsembleStudy& study) {
     const std::vector<std::string> words = texts_of(charges, "charges");
     for (std::size_t i = 0; i + 1 < words.size(); i += 2) inputs.charges[words[i]] = words[i + 1];
   }
+  inputs.maps.unit = reader.text("map_unit");
+  if (Tcl_Obj* const maps = reader.find("maps")) {
+    const std::vector<std::string> words = texts_of(maps, "maps");
+    for (std::size_t i = 0; i + 1 < words.size(); i += 2) inputs.maps.of_group[words[i]] = words[i + 1];
+  }
 }
 
 void start(const std::shared_ptr<EnsembleObject>& object) {

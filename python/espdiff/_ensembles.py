@@ -154,14 +154,16 @@ class Ensemble(EngineResult):
         return polydata(self.positions, self.triangles, {**arrays, "residue_index": self.residue_index})
 
 
-def _order(*, charges=None, frames="all", template="medoid", output="", resume=False, overwrite=False, skip_errors=False,
-           shard=None, from_file=None, check_template=False, states=False, regress=None, alpha=0.05, control="tfce",
+def _order(*, charges=None, maps=None, map_unit="", frames="all", template="medoid", output="", resume=False,
+           overwrite=False, skip_errors=False, shard=None, from_file=None, check_template=False, states=False,
+           regress=None, alpha=0.05, control="tfce",
            equilibration="none", most_missing=0.2, arrangements=10000, bootstrap=999, seed=20221, plugins=""):
     """The order of a study, checked; its defaults are the command line's."""
     if control not in ("tfce", "max-t"):
         raise _core.InputError(f"control: {control!r} is not tfce or max-t")
     return {
         "charges": {str(group): os.fspath(path) for group, path in (charges or {}).items()},
+        "maps": {str(group): os.fspath(pattern) for group, pattern in (maps or {}).items()}, "map_unit": map_unit,
         "frames": frames if isinstance(frames, str) else "all", "template": str(template), "output": output,
         "resume": resume, "overwrite": overwrite, "skip_errors": skip_errors, "shard": shard or "1/1",
         "from": os.fspath(from_file) if from_file else "",
@@ -183,7 +185,8 @@ def ensemble(groups=None, *, output=None, potential="auto", device="auto", threa
     groups: {name: replicates}, two groups, or one to describe it; or the path of a list of them (`espdiff ensemble
     --help`). Replicates are paths (each file one, or a topology and then trajectories of its atoms), or AtomGroups,
     whose universes' frames are taken; a dict names them.
-    charges: {group: PQR file}. frames: of each replicate: "all", "0:5:end", ...; of AtomGroups also a slice, or a list of
+    charges: {group: PQR file}. maps: {group: pattern} of potentials that other programs computed, with %d for the frame
+    and {replicate} for the replicate's name, in map_unit where the files give none. frames: of each replicate: "all", "0:5:end", ...; of AtomGroups also a slice, or a list of
     numbers. template: medoid, medoid:GROUP, the
     number of a frame, or a file. patches: {name: selection} chosen beforehand, in fixed_patches of the result.
     check_template, states: see the command.

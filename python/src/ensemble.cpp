@@ -93,6 +93,9 @@ EnsembleStudy study_of(const nb::list& groups, const nb::dict& order) {
   }
   for (const auto& [group, file] : nb::cast<nb::dict>(order["charges"]))
     study.inputs.charges[nb::cast<std::string>(group)] = nb::cast<std::string>(file);
+  for (const auto& [group, pattern] : nb::cast<nb::dict>(order["maps"]))
+    study.inputs.maps.of_group[nb::cast<std::string>(group)] = nb::cast<std::string>(pattern);
+  study.inputs.maps.unit = text_in(order, "map_unit");
   study.inputs.frames = text_in(order, "frames");
   study.inputs.template_text = text_in(order, "template");
   study.inputs.plugins = text_in(order, "plugins");

@@ -20,6 +20,7 @@ struct Arguments {
   std::vector<std::vector<std::string>> groups;  ///< NAME FILE...
   std::string list;
   std::vector<std::string> charges;  ///< GROUP=FILE
+  std::vector<std::string> maps;     ///< GROUP=PATTERN
   EnsembleStudy study;
   std::string shard = "1/1", on_error = "stop", equilibration = "none", control = "tfce";
   bool quiet = false;
@@ -61,6 +62,10 @@ void name_inputs(const Arguments& a, EnsembleStudy& study) {
     const std::size_t sign = text.find('=');
     inputs.charges[text.substr(0, sign)] = sign == std::string::npos ? "" : text.substr(sign + 1);
   }
+  for (const std::string& text : a.maps) {
+    const std::size_t sign = text.find('=');
+    inputs.maps.of_group[text.substr(0, sign)] = sign == std::string::npos ? "" : text.substr(sign + 1);
+  }
   study.read_files = input_files(a.settings);
   study.read_files.push_back(a.list);
 }
@@ -95,16 +100,26 @@ void add_input_options(CLI::App& p, Arguments& a) {
                "twice to compare two groups, once to describe one")
       ->type_name("NAME FILE...")
       ->group(group);
-  p.add_option(
-       "--list", a.list,
-       "Table of the groups instead, comma-separated: group, structure, and optionally replicate (rows of one "
-       "replicate follow each other), topology (of a trajectory's atoms) and charges. Paths are relative to the "
-       "list")
+  p.add_option("--list", a.list,
+               "Table of the groups instead, comma-separated: group, structure, and optionally replicate (rows of one "
+               "replicate follow each other), topology (of a trajectory's atoms), charges and maps (a pattern). Paths "
+               "are relative to the "
+               "list")
       ->group(group);
   p.add_option("--charges", a.charges,
                "GROUP=FILE: a PQR file of the same atoms, whose charges and radii the frames of the group take. "
                "Without it, frames keep their own, or PDB2PQR makes them from the group's first frame")
       ->group(group);
+  p.add_option(
+       "--maps", a.maps,
+       "GROUP=PATTERN: the potential of each frame, computed by another program, in the frame's coordinates (DX, "
+       "VTI, cube). %d or %03d in the pattern stands for the frame's number in its replicate, from 0, "
+       "{replicate} for the replicate's name. Without it, potentials are computed (--potential)")
+      ->group(group);
+  p.add_option("--map-unit", inputs.maps.unit,
+               "Unit of these maps if the files do not give it: kT/e, mV, V, kcal/mol/e, hartree/e")
+      ->group(group);
+  p.add_option("--map-array", inputs.maps.array, "Array of VTI maps with several")->group(group);
   p.add_option("--frames", inputs.frames,
                "Frames of each replicate, from 0: all, begin:end or begin:step:end, as in `espdiff trajectory`")
       ->capture_default_str()

@@ -54,6 +54,7 @@ EnsembleInputs::EnsembleInputs(const EnsembleRequest& request, const CompareOpti
   name_replicates();
   count_frames();
   check_replicates(plan_.replicates);
+  find_maps();
   read_references();
 }
 
@@ -107,6 +108,25 @@ void EnsembleInputs::count_frames() {
   }
 }
 
+/// Maps of other programs, for all frames or for none.
+void EnsembleInputs::find_maps() {
+  std::vector<std::string> patterns;
+  for (const ReplicateRequest& asked : replicates_) patterns.push_back(asked.maps);
+  maps_ = GivenMaps(request_.maps, plan_.replicates, patterns, chosen_, options_.temperature_K);
+  if (!maps_.given()) {
+    if (!request_.maps.unit.empty() || !request_.maps.array.empty())
+      throw InputError(option(request_.maps.unit.empty() ? "map-array" : "map-unit") +
+                       " is of given maps; name them by " + option("maps"));
+    return;
+  }
+  if (request_.potential.potential != "auto")
+    throw InputError(option("maps") + " gives the potentials, and " +
+                     option("potential", request_.potential.potential) + " computes them; leave one out");
+  plan_.potential = "maps";
+  plan_.potential_unit = to_string(maps_.unit());
+  for (const auto& entry : maps_.identity()) plan_.settings.push_back(entry);
+}
+
 /// The first frame of a group, or the file of its charges.
 LoadedState EnsembleInputs::reference_of(const std::string& group, PotentialFacts& facts) {
   const std::size_t first = plan_.replicates_of(group).front();
@@ -121,7 +141,7 @@ LoadedState EnsembleInputs::reference_of(const std::string& group, PotentialFact
   } else {
     file_name = own ? asked.files.front() : given->second;
     const auto file = own ? opener_of(asked.topology)(file_name) : open_structure(file_name);
-    state = load_for(request_.potential, true, *file, {request_.structure}, options_.input, progress_);
+    state = load_for(request_.potential, !maps_.given(), *file, {request_.structure}, options_.input, progress_);
     from = !own                ? fs::path(file_name).filename().string() + " " + file->sha256()
            : state.preparation ? "PDB2PQR of the first frame"
                                : "its files";
@@ -142,6 +162,7 @@ void EnsembleInputs::read_references() {
   }
   std::vector<PotentialFacts> facts(names.size());
   for (std::size_t g = 0; g < names.size(); ++g) references_.emplace(names[g], reference_of(names[g], facts[g]));
+  if (maps_.given()) return;
   potential_ = PotentialPlan(request_.potential, facts, options_.temperature_K);
   if (!potential_.computes())
     throw InputError("an ensemble needs a potential" +
@@ -180,7 +201,7 @@ LoadedState EnsembleInputs::load(std::size_t number) {
     }
     state = load_frame_state(*frames_, chosen, request_.structure, reference, potential_, options_.input, progress_);
   }
-  if (!has_charges(state.molecule))
+  if (!maps_.given() && !has_charges(state.molecule))
     throw InputError(state.molecule.name + " has no charges; give them by " +
                      option("charges", asked.group + "=FILE.pqr"));
   return state;
@@ -226,7 +247,8 @@ void EnsembleInputs::choose_template(const std::string& text, const Progress& pr
     plan_.template_name = text;
   }
   template_map_ = nullptr;
-  if (has_charges(template_.molecule) && !potential_.takes_everything()) template_map_ = maker_of(template_);
+  if (potential_.computes() && has_charges(template_.molecule) && !potential_.takes_everything())
+    template_map_ = maker_of(template_);
   set_surface_radii({&template_.molecule}, options_.input.radii);
   plan_.template_sha256 = sha256_of_molecule(template_.molecule);
 }
@@ -235,7 +257,15 @@ CompareInput EnsembleInputs::source() const { return {&template_.molecule, nullp
 
 CompareInput EnsembleInputs::frame(std::size_t number) {
   frame_ = load(number);
-  CompareInput input{&frame_.molecule, nullptr, maker_of(frame_), {}};
+  CompareInput input{&frame_.molecule, nullptr, nullptr, {}};
+  if (maps_.given()) {
+    const auto [replicate, place] = plan_.place_of(number);
+    map_ = Grid();  // frees the last one first
+    map_ = maps_.read(replicate, place);
+    input.map = &map_;
+  } else {
+    input.make_map = maker_of(frame_);
+  }
   set_surface_radii({&frame_.molecule}, options_.input.radii);
   return input;
 }

@@ -11,6 +11,7 @@
 #include "compare/input.h"
 #include "compare/options.h"
 #include "ensemble/ensemble_plan.h"
+#include "ensemble/given_maps.h"
 #include "ensemble/replicate_request.h"
 #include "potential/potential_plan.h"
 #include "trajectory/frame_files.h"
@@ -23,6 +24,7 @@ struct EnsembleRequest {
   std::map<std::string, std::string> charges;  ///< group: PQR file of the same atoms
   std::string frames = "all";                  ///< of each replicate of files, as in a trajectory
   std::string template_text = "medoid";        ///< medoid, medoid:GROUP, a frame of all, or a file
+  MapRequest maps;                             ///< potentials of other programs, instead of computed ones
   std::string plugins;                         ///< folder of VMD's molfile plugins; empty: find_molfile_folder()
   PotentialRequest potential;
   StructureOptions structure;
@@ -54,6 +56,7 @@ class EnsembleInputs {
   void name_replicates();
   OpenStructure opener_of(const std::string& topology);
   void count_frames();
+  void find_maps();
   void read_references();
   LoadedState reference_of(const std::string& group, PotentialFacts& facts);
   LoadedState load(std::size_t frame);
@@ -70,7 +73,9 @@ class EnsembleInputs {
   std::map<std::string, std::unique_ptr<TrajectoryOpener>> openers_;  // by topology
   std::optional<std::size_t> open_;                                   // the replicate whose files are open
   std::unique_ptr<FrameFiles> frames_;
-  PotentialPlan potential_;
+  PotentialPlan potential_;  // nothing where maps are given
+  GivenMaps maps_;
+  Grid map_;  // of the frame, where it is given
   LoadedState template_, frame_;
   MapMaker template_map_;
 };

@@ -122,7 +122,8 @@ std::vector<float> where_tested(const std::vector<double>& values, const std::ve
 
 /// A replicate drifts where its trend has at most this p, divided by the number of replicates, and at least this share
 /// of the variance between its tenths: 1/9 is expected of a run that samples a state, 0.6 of diffusion that has no
-/// state at all (1 - (1/15) / (1/6), the variances of Brownian motion about its trend and about its mean).
+/// state at all (1 - (1/15) / (1/6), the variances of Brownian motion about its trend and about its mean). The limit
+/// between these two is a choice: it was one third until four of eight short Trp-cage runs exceeded that.
 constexpr double kDriftLevel = 0.01, kDriftShare = 0.5;
 
 /// Computes the statistics of a complete file. The same bits at any number of threads.

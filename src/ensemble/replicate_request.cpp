@@ -54,7 +54,8 @@ std::vector<ReplicateRequest> replicates_of_groups(const std::vector<std::vector
 std::vector<ReplicateRequest> replicates_of_list(const std::string& path, std::map<std::string, std::string>& charges) {
   const CsvTable table = read_csv(path);
   const std::size_t group = table.require("group"), structure = table.require("structure");
-  const int replicate = table.find("replicate"), topology = table.find("topology"), charge = table.find("charges");
+  const int replicate = table.find("replicate"), topology = table.find("topology"), charge = table.find("charges"),
+            maps = table.find("maps");
   const fs::path folder = fs::path(path).parent_path();
   const auto path_in = [&](const std::vector<std::string>& row, int column) {
     const std::string text = column < 0 ? std::string() : row[static_cast<std::size_t>(column)];
@@ -72,6 +73,12 @@ std::vector<ReplicateRequest> replicates_of_list(const std::string& path, std::m
       found = replicates.end() - 1;
     }
     found->files.push_back(file);
+    if (const std::string pattern = path_in(row, maps); !pattern.empty()) {
+      if (!found->maps.empty() && found->maps != pattern)
+        throw InputError(path + ": replicate " + name + " of " + row[group] +
+                         " has two patterns in its column maps; its frames are counted through all its files");
+      found->maps = pattern;
+    }
     if (const std::string given = path_in(row, charge); !given.empty()) charges[row[group]] = given;
   }
   return replicates;

@@ -26,6 +26,7 @@ struct ReplicateRequest {
   std::string origin;        ///< in words: "molecule 0 (adk), 99 frames"
   std::string sha256;        ///< of the frames
   std::size_t n_frames = 0;  ///< that `read` has
+  std::string maps{};        ///< pattern of the frames' maps, see map_file(); empty for the group's, or none
 };
 
 /// Replicates of groups as the command line has them, NAME FILE...: each file is a replicate. Where files after the
@@ -35,7 +36,7 @@ struct ReplicateRequest {
 std::vector<ReplicateRequest> replicates_of_groups(const std::vector<std::vector<std::string>>& groups);
 
 /// Replicates of a table with the columns group, structure, and optionally replicate (rows of one replicate follow each
-/// other), topology and charges. Paths are relative to the table.
+/// other), topology, charges and maps (a pattern). Paths are relative to the table.
 /// @param charges gets the files of the groups
 /// @throws as read_csv()
 std::vector<ReplicateRequest> replicates_of_list(const std::string& path, std::map<std::string, std::string>& charges);

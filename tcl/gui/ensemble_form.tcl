@@ -3,7 +3,8 @@
 namespace eval ::espdiff::gui {
     variable form
     array set form {ensemble,mol "" ensemble,frames all ensemble,sel "not water" ensemble,group first ensemble,label ""
-        ensemble,potential automatic ensemble,output ensemble ensemble,resume 0 ensemble,control TFCE}
+        ensemble,potential automatic ensemble,output ensemble ensemble,resume 0 ensemble,control TFCE
+        ensemble,regress ""}
     variable replicates {}  ;# dicts: endpoint (without label), group, label, what (a description)
 
     proc build_ensemble {path} {
@@ -22,7 +23,7 @@ namespace eval ::espdiff::gui {
 
     proc build_replicate_list {path} {
         variable widget
-        ttk::treeview $path.list -columns {group label what} -show headings -height 5 -selectmode extended \
+        ttk::treeview $path.list -columns {group label what} -show headings -height 4 -selectmode extended \
             -yscrollcommand [list $path.scroll set]
         foreach {column title width} {group Group 80 label Replicate 120 what "Molecule or file" 200} {
             $path.list heading $column -text $title -anchor w
@@ -91,9 +92,15 @@ namespace eval ::espdiff::gui {
             -variable ::espdiff::gui::form(ensemble,resume)
         tip $path.resume "Needs its NAME.h5, and the same replicates and settings; a complete one gets new statistics"
         grid $path.resume -row 1 -column 3 -sticky w
+        ttk::entry $path.regress -textvariable ::espdiff::gui::form(ensemble,regress) -width 18
+        form_row $path 2 "Regress on" $path.regress "A value of each replicate, such as an activity: TABLE.csv:COLUMN.\
+            The table has the columns replicate, COLUMN, and group unless names are unique. Empty for none"
+        button $path.browse "Choose table..." ::espdiff::gui::browse_regression
+        tip $path.browse "A comma-separated table; its first column of numbers is taken"
+        grid $path.browse -row 2 -column 3 -sticky w
         grid configure $path.label_output -padx {16 6}
         grid columnconfigure $path {1 3} -weight 1
-        foreach name {potential output control resume} { set widget(ensemble,$name) $path.$name }
+        foreach name {potential output control resume regress browse} { set widget(ensemble,$name) $path.$name }
     }
 
     proc show_replicates {} {
@@ -147,6 +154,28 @@ namespace eval ::espdiff::gui {
         if {$form(ensemble,sel) ne "not water"} { lappend endpoint sel $form(ensemble,sel) }
         add_replicate $endpoint [file rootname [molinfo $mol get name]] "molecule $form(ensemble,mol), $n frames"
         show_replicates
+    }
+
+    proc browse_regression {} {
+        variable window
+        set path [tk_getOpenFile -parent $window -filetypes {{Tables .csv} {All *}}]
+        if {$path ne ""} { choose_regression $path }
+    }
+
+    # The first column that neither names replicates nor holds a text.
+    proc choose_regression {path} {
+        variable form
+        set table [::espdiff::core::read_csv $path]
+        if {"replicate" ni [dict get $table columns]} { error "[file tail $path] has no column replicate" }
+        foreach column [dict get $table columns] {
+            if {$column in {group replicate}} continue
+            set numbers 1
+            foreach row [dict get $table rows] {
+                if {![::espdiff::is_number [dict get $row $column]]} { set numbers 0 }
+            }
+            if {$numbers} { set form(ensemble,regress) $path:$column; return }
+        }
+        error "[file tail $path] has no column of numbers beside replicate and group"
     }
 
     proc browse_replicates {} {

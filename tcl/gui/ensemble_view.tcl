@@ -60,6 +60,8 @@ namespace eval ::espdiff::gui {
         set options [list -output $output -control [string tolower $form(ensemble,control)]]
         set map [dict get $computed $form(ensemble,potential)]
         if {$map ne ""} { lappend options -map $map }
+        set column [string trim $form(ensemble,regress)]
+        if {$column ne ""} { lappend options -regress $column }
         if {$form(ensemble,resume)} {
             lappend options -resume 1
         } elseif {[file exists $output.h5]} {
@@ -144,11 +146,31 @@ namespace eval ::espdiff::gui {
                 [format %.0f [dict get $result tested_area_A2]] \u00c5\u00b2."
             if {$inference ne "replicates"} { append text "\nA statement about these runs only: a group has one replicate." }
         }
+        if {[dict exists $result fixed_patches]} {
+            dict for {name patch} [dict get $result fixed_patches] { append text "\n[fixed_patch_words $name $patch $unit]" }
+        }
+        if {[dict exists $result regression]} {
+            dict with result regression {
+                set area 0.0
+                foreach patch $patches { set area [expr {$area + [dict get $patch area_A2]}] }
+                append text "\nOn $column: Q2 [with_digits $q2] (p = [format %.3g $q2_p]); significant: [format %.0f $area]\
+                    \u00c5\u00b2."
+            }
+        }
         if {![dict get $result equilibrium holds]} {
             append text "\nNOT AN EQUILIBRIUM ANSWER: [join [dict get $result equilibrium reasons] {; }]."
         }
         return $text
     }
+
+    # "site: -1.119 (-1.331 to -0.907) kT/e, p = 1.4e-05"
+    proc fixed_patch_words {name patch unit} {
+        foreach key {difference low high p} { set $key [with_digits [::espdiff::value_or $patch $key ""]] }
+        return "$name: $difference ($low to $high) $unit, p = $p."
+    }
+
+    # A number in a sentence, or a dash for none.
+    proc with_digits {value} { expr {$value eq "" ? "\u2013" : [format %.3g $value]} }
 
     proc patch_cells {patch} {
         set residues {}

@@ -213,6 +213,69 @@ TEST_CASE("a patch of an earlier result is measured in every command, and says h
   CHECK(contains(refused("first=out.json:1"), "out.vtp"));
 }
 
+TEST_CASE(
+    "given maps are each frame's potential: constants differ by what they differ, and what lacks a map is named") {
+  const Runs in;
+  std::filesystem::create_directory(in.folder.file("maps"));
+  // Replicate r's frame f of the wild type has the potential 0.01 r + 0.1 f everywhere, the mutant's 2 more.
+  for (int r = 1; r <= 4; ++r) {
+    for (int f = 0; f < kFrames; ++f) {
+      const std::string end = std::to_string(r) + ".00" + std::to_string(f) + ".dx";
+      in.folder.write("maps/w" + end, constant_dx(24, 2, 0.01 * r + 0.1 * f, "kT/e", 8.4));
+      in.folder.write("maps/m" + end, constant_dx(24, 2, 2 + 0.02 * r + 0.1 * f, "kT/e", 8.4));
+    }
+  }
+  const std::string coarse = "ensemble --grid-spacing 1.5 ", maps = " --maps 'wild=maps/{replicate}.%03d.dx'",
+                    both = maps + " --maps 'mutant=maps/{replicate}.%03d.dx'";
+  const Outcome out = in.run(coarse + in.groups + both + " -o out --patch end=//A/7-8");
+  REQUIRE_MESSAGE(out.status == 0, out.err);
+  const auto json = nlohmann::json::parse(read_file(in.folder.file("out.json")));
+  CHECK(json["plan"]["potential"] == "maps");
+  CHECK(json["potential_unit"] == "kT/e");
+  const auto& end = json["fixed_patches"]["end"];
+  CHECK(end["means"]["wild"].get<double>() == doctest::Approx(0.025 + 0.15).epsilon(1e-5));
+  CHECK(end["difference"].get<double>() == doctest::Approx(2 + 0.025).epsilon(1e-5));
+  CHECK(contains(out.out, "potential    maps"));
+  // The same with a list, resumed, in parts.
+  std::string list = "group,structure,maps\n";
+  for (const char* group : {"w", "m"}) {
+    for (int r = 1; r <= 4; ++r) {
+      const std::string name = group + std::to_string(r);
+      list += std::string(*group == 'w' ? "wild" : "mutant") + "," + name + ".pqr,maps/" + name + ".%03d.dx\n";
+    }
+  }
+  in.folder.write("list.csv", list);
+  REQUIRE(in.run(coarse + "--list list.csv -q -o listed --patch end=//A/7-8").status == 0);
+  CHECK(nlohmann::json::parse(read_file(in.folder.file("listed.json")))["fixed_patches"] == json["fixed_patches"]);
+  CHECK(in.run(coarse + in.groups + both + " -q -o out --resume").status == 0);
+  for (const char* part : {"1/2", "2/2"})
+    REQUIRE(in.run(coarse + in.groups + both + " -q -o part --shard " + part).status == 0);
+  REQUIRE(run_espdiff("merge part.shard-1-of-2.h5 part.shard-2-of-2.h5 -q -o all", "cd " + in.folder.file("") + " && ")
+              .status == 0);
+  CHECK(read_file(in.folder.file("all.h5")) == read_file(in.folder.file("out.h5")));
+  // Maps of frames that have no charges.
+  in.folder.write("bare.pdb", models(1, false, false));
+  CHECK(in.run(coarse + "--group wild bare.pdb --maps 'wild=maps/w1.%03d.dx' -q -o bare").status == 0);
+  const auto refused = [&](const std::string& text) { return in.run(coarse + in.groups + text + " -o u").err; };
+  CHECK(
+      contains(refused(maps), "replicate m4 of mutant has no maps, and replicate w4 of wild has; give all of them by"));
+  CHECK(contains(refused(" --maps wild=maps/w1.dx"),
+                 "--maps: 'maps/w1.dx' does not have one place for the frame's number"));
+  CHECK(contains(refused(" --maps 'wild=maps/%d.%d.dx'"), "does not have one place"));
+  CHECK(contains(refused(" --maps 'wild=maps/w1.%03d.dx'"),
+                 "replicate w1 of wild and replicate w2 of wild would have the same maps"));
+  CHECK(contains(refused(" --maps 'wild=maps/{replicate}.%02d.dx'"),
+                 "frame 0 of replicate w1 of wild has no map: there is no file 'maps/w1.00.dx'"));
+  CHECK(contains(refused(" --maps 'other=maps/{replicate}.%03d.dx'"), "is not GROUP=PATTERN with one of the groups"));
+  CHECK(contains(refused(both + " --potential pb"), "--maps gives the potentials, and --potential pb computes them"));
+  CHECK(contains(refused(" --map-unit mV"), "--map-unit is of given maps; name them by --maps"));
+  in.folder.write("maps/w1.002.dx", constant_dx(24, 2, 0.2, "", 8.4));
+  CHECK(contains(in.run(coarse + in.groups + both + " -o u --overwrite").err, "maps/w1.002.dx: the map's unit is "));
+  in.folder.write("maps/w1.002.dx", constant_dx(24, 2, 0.2, "kT/e", 8.4));
+  in.folder.write("maps/w1.003.dx", constant_dx(23, 2, 0.3, "kT/e", 8.4));
+  CHECK(contains(in.run(coarse + in.groups + both + " -q -o out --resume").err, "maps of wild, w1"));
+}
+
 TEST_CASE("a list names groups, replicates of several files, and charges") {
   const Runs in;
   in.folder.write("w.pdb", models(1, false, false));

@@ -163,3 +163,29 @@ def test_atomgroups_that_cannot_be():
         espdiff.ensemble(bare, **QUICK)
     charged = espdiff.ensemble(bare, charges=CHARGES, **QUICK)
     assert charged.n_frames == 12
+
+
+def write_constant_map(path, value):
+    """A DX map of one value around the origin, in kT/e."""
+    n, spacing = 17, 4.0
+    low = -0.5 * spacing * (n - 1)
+    path.write_text(
+        f"# POTENTIAL (kT/e)\nobject 1 class gridpositions counts {n} {n} {n}\norigin {low} {low} {low}\ndelta {spacing} 0 0\n"
+        f"delta 0 {spacing} 0\ndelta 0 0 {spacing}\nobject 2 class gridconnections counts {n} {n} {n}\n"
+        f"object 3 class array type double rank 0 items {n**3} data follows\n" + f"{value}\n" * n**3)
+
+
+def test_maps_of_other_programs(tmp_path):
+    names = {"wild": ["trpcage_wild_1", "trpcage_wild_2"], "mutant": ["trpcage_mutant_1", "trpcage_mutant_2"]}
+    for group, replicates in names.items():
+        for r, replicate in enumerate(replicates):
+            for frame in (0, 50):
+                write_constant_map(tmp_path / f"{replicate}.{frame}.dx", (3 if group == "mutant" else 1) + 0.1 * r + 0.01 * frame)
+    groups = {group: [file for file in GROUPS[group] if any(name in str(file) for name in names[group])] for group in names}
+    maps = {group: tmp_path / "{replicate}.%d.dx" for group in names}
+    result = espdiff.ensemble(groups, maps=maps, frames="0:50:end", grid_spacing=2, arrangements=20)
+    tested = result.tested != 0
+    assert tested.any() and np.allclose(result.difference[tested], 2, atol=1e-5)
+    assert np.allclose(result.means["wild"][tested], 1 + 0.05 + 0.25, atol=1e-5)
+    with pytest.raises(espdiff.InputError, match="would have the same maps"):
+        espdiff.ensemble(groups, maps={"wild": tmp_path / "trpcage_wild_1.%d.dx"}, frames="0:50:end", grid_spacing=2)

@@ -106,6 +106,10 @@ test "a region in VMD's words" {
     set handle [espdiff compare [list mol [lindex $mols 0] map none region "within 5 of resid 99"] \
         [list mol [lindex $mols 1] map none] -grid-spacing 2]
     check "residues" {[espdiff result $handle region n_residues] > 3}
+    set patched [espdiff compare [list mol [lindex $mols 0] map none] [list mol [lindex $mols 1] map none] -grid-spacing 2 \
+        -patch {site //*/99 rest //*/1-98}]
+    check_equal "patches of molecules" [dict keys [espdiff result $patched fixed_patches]] {site rest}
+    check_equal "one residue" [espdiff result $patched fixed_patches site n_residues] 1
     check_refused {espdiff compare [list mol [lindex $mols 0] map none region "resid 9999"] \
         [list mol [lindex $mols 1] map none]} {ESPDIFF INPUT} "holds no atoms"
     espdiff trajectory -mol [lindex $mols 1] -sel all -map none -frames last -csv $scratch/region.csv -grid-spacing 2 \
