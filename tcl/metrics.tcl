@@ -14,9 +14,23 @@ namespace eval ::espdiff {
         return {}
     }
 
+    # The same of a column; "site_mean_abs_difference" is that of the patch site.
+    proc metric_of_column {column} {
+        set metric [find_metric $column]
+        if {$metric ne ""} { return $metric }
+        foreach metric [core::metrics] {
+            set at [expr {[string length $column] - [string length [dict get $metric name]] - 1}]
+            if {$at > 0 && [string range $column $at end] eq "_[dict get $metric name]"} {
+                dict append metric title ", [string range $column 0 [expr {$at - 1}]]"
+                return $metric
+            }
+        }
+        return {}
+    }
+
     # Title, unit, and the factor of values in it, of a column; the potentials are in `potential_unit`.
     proc shown_metric {column potential_unit} {
-        set metric [find_metric $column]
+        set metric [metric_of_column $column]
         if {$metric eq ""} { return [list $column "" 1] }
         set unit [dict get $metric unit]
         if {$unit eq "potential"} { set unit $potential_unit }

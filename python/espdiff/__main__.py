@@ -30,7 +30,12 @@ def main(arguments=None):
     for stream in (sys.stdout, sys.stderr):
         if stream is not None:
             stream.flush()
-    return command_line([os.fspath(word) for word in (sys.argv[1:] if arguments is None else arguments)], _reader())
+    words = [os.fspath(word) for word in (sys.argv[1:] if arguments is None else arguments)]
+    try:
+        return command_line(words, _reader())
+    except KeyboardInterrupt:  # before the engine has taken over Ctrl-C
+        print("espdiff: cancelled; nothing was written", file=sys.stderr)
+        return 1
 
 
 if __name__ == "__main__":

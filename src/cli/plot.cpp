@@ -32,8 +32,21 @@ struct Quantity {
   double factor = 1;
 };
 
+/// The metric of a column; "site_mean_abs_difference" is that of the patch site. Null where there is none.
+const Metric* metric_of_column(const std::string& name) {
+  if (const Metric* const whole = find_metric_or_null(name)) return whole;
+  for (const Metric& metric : metrics()) {
+    const std::string ending = std::string("_") + metric.name;
+    if (name.size() <= ending.size() || name.compare(name.size() - ending.size(), ending.size(), ending) != 0) continue;
+    for (const Metric& of_part : part_metrics(name.substr(0, name.size() - ending.size()))) {
+      if (of_part.name == name) return &of_part;
+    }
+  }
+  return nullptr;
+}
+
 Quantity quantity_of(const std::string& name, const std::string& potential_unit) {
-  const Metric* const metric = find_metric_or_null(name);
+  const Metric* const metric = metric_of_column(name);
   if (metric == nullptr) return {name, "", 1};
   const ShownUnit shown = shown_unit(*metric, potential_unit);
   if (metric->unit == MetricUnit::kAngstrom) return {metric->label, kAngstrom, 1};
@@ -42,7 +55,7 @@ Quantity quantity_of(const std::string& name, const std::string& potential_unit)
 }
 
 bool is_antisymmetric(const std::string& name) {
-  const Metric* const metric = find_metric_or_null(name);
+  const Metric* const metric = metric_of_column(name);
   return metric != nullptr && (metric->flags & kAntisymmetric) != 0;
 }
 

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "support/limit_memory.h"
 #include "support/test_data.h"
 
 using namespace espdiff;
@@ -68,10 +69,7 @@ TEST_CASE("control groups, version 1, beside an empty version 2") {
 }
 
 TEST_CASE("a limit on the address space is a limit on memory") {
-#if defined(__SANITIZE_ADDRESS__)
-  MESSAGE("SKIPPED: the address sanitizer maps more than any limit on the address space");
-  return;
-#endif
+  if (!espdiff_test::can_limit_memory()) return;
   rlimit before{};
   REQUIRE(getrlimit(RLIMIT_AS, &before) == 0);
   const double free = available_memory();

@@ -74,6 +74,20 @@ TEST_CASE("columns of a table along its frames, with error bars where a column h
   CHECK(run_espdiff("plot " + table + " -o " + folder.file("t.png")).status == 0);
 }
 
+TEST_CASE("columns of a patch have its metrics' titles and units") {
+  if (!has_gnuplot()) return;
+  const ScratchFolder folder;
+  const std::string table = folder.write(
+                        "t.csv",
+                        "frame,lid_rmsd_A,lid_no_counterpart_source,lid_trustworthy\n0,1.5,0.25,1\n1,2,0.5,1\n"),
+                    svg = folder.file("x.svg");
+  const Outcome lines =
+      run_espdiff("plot " + table + " --metric lid_rmsd_A lid_no_counterpart_source lid_trustworthy -o " + svg);
+  REQUIRE_MESSAGE(lines.status == 0, lines.err);
+  const std::string text = read_file(svg);
+  for (const char* word : {"RMSD, lid (\u00C5)", "(%)", "lid_trustworthy"}) CHECK_MESSAGE(contains(text, word), word);
+}
+
 TEST_CASE("wrong usage of plot exits 2 and writes nothing") {
   const ScratchFolder folder;
   const std::string matrix = made_matrix(folder), table = folder.write("t.csv", "frame,a\n0,1\n");

@@ -6,6 +6,7 @@
 
 #include "compare/template_mapping.h"
 #include "ensemble/ensemble_file.h"
+#include "ensemble/planted_plan.h"
 #include "statistics/planted_columns.h"
 #include "support/test_data.h"
 
@@ -13,15 +14,7 @@ namespace espdiff_test {
 
 /// Groups "wild" and "mutant"; the template has two residues, of positive and of negative x.
 inline espdiff::EnsemblePlan planted_plan(std::size_t n_wild, std::size_t n_mutant, std::size_t n_frames) {
-  espdiff::EnsemblePlan plan;
-  plan.version = "test";
-  plan.device = "cpu";
-  plan.settings = {{"grid-spacing", "1"}};
-  plan.potential = "planted";
-  plan.potential_unit = "kT/e";
-  plan.template_name = "an ellipsoid";
-  plan.template_sha256 = "0";
-  plan.residues = {"ALA 1", "GLY 2"};
+  espdiff::EnsemblePlan plan = plan_of("an ellipsoid", {"ALA 1", "GLY 2"});
   for (std::size_t r = 0; r < n_wild + n_mutant; ++r) {
     const bool wild = r < n_wild;
     const std::string name = std::to_string(wild ? r + 1 : r - n_wild + 1);

@@ -43,7 +43,12 @@ void use(const espdiff::EnsembleFile& file) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const std::string whole = whole_file();
-  std::string bytes = whole;
-  bytes.replace(0, std::min(size, bytes.size()), espdiff_fuzz::bytes_of(data, std::min(size, bytes.size())));
-  return espdiff_fuzz::read_as_file(bytes, [](const std::string& path) { use(espdiff::EnsembleFile(path, false)); });
+  static espdiff_fuzz::MemoryFile file(whole);
+  // The file is of 1 MB, most of it room for more; only its beginning is written anew.
+  static std::size_t n_changed = 0;
+  size = std::min(size, whole.size());
+  file.replace(0, espdiff_fuzz::bytes_of(data, size));
+  if (n_changed > size) file.replace(size, whole.substr(size, n_changed - size));
+  n_changed = size;
+  return espdiff_fuzz::read_memory_file(file, [](const std::string& path) { use(espdiff::EnsembleFile(path, false)); });
 }

@@ -4,20 +4,13 @@
 
 #include <string>
 
+#include "../ensemble/planted_plan.h"
 #include "ensemble/ensemble_file.h"
 
 namespace espdiff_fuzz {
 
 inline espdiff::EnsemblePlan planted_plan() {
-  espdiff::EnsemblePlan plan;
-  plan.version = "test";
-  plan.device = "cpu";
-  plan.settings = {{"grid-spacing", "1"}};
-  plan.potential = "planted";
-  plan.potential_unit = "kT/e";
-  plan.template_name = "a tetrahedron";
-  plan.template_sha256 = "0";
-  plan.residues = {"ALA 1"};
+  espdiff::EnsemblePlan plan = espdiff_test::plan_of("a tetrahedron", {"ALA 1"});
   plan.charges = {{"wild", "a.pqr"}};
   for (const char* const group : {"wild", "mutant"}) plan.replicates.push_back({group, "1", {"f"}, {group}, 2});
   return plan;

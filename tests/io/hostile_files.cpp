@@ -229,9 +229,29 @@ TEST_CASE("hostile VTP: what crashed or hung VTK's reader is refused or read") {
   CHECK(contains(attempt(replaced(good, one, by + "\"9223372036854775807\"")),
                  "NumberOfComponents is '9223372036854775807'"));
   CHECK(contains(attempt(replaced(good, one, by + "\"-1\"")), "NumberOfComponents is -1, but 1 to 1000"));
+  CHECK(contains(attempt(replaced(good, one, by + "\"1001\"")), "NumberOfComponents is 1001, but 1 to 1000"));
   CHECK(
       contains(attempt(replaced(good, "NumberOfPoints=\"4\"", "NumberOfPoints=\"400000000\"")), "bytes, but its type"));
   CHECK(contains(attempt(replaced(good, "NumberOfPolys=\"4\"", "NumberOfPolys=\"-4\"")), "NumberOfPolys is -4"));
+}
+
+TEST_CASE("hostile VTP: more elements, and deeper ones, than are read are refused") {
+  const ScratchFolder scratch;
+  const auto with = [&](const std::string& more) {
+    std::string text = surface_text();
+    text.insert(text.find("<PolyData>") + 10, more);
+    return refusal(scratch.write("a.vtp", text), [](const std::string& path) { read_vtp(path); });
+  };
+  const auto repeated = [](const std::string& item, int n) {
+    std::string text;
+    for (int i = 0; i < n; ++i) text += item;
+    return text;
+  };
+  CHECK(with(repeated("<A/>", 1000)) == "");
+  CHECK(contains(with(repeated("<A/>\n", 100'000)), "there are more than 100000 elements"));
+  CHECK(with(repeated("<A>", 60) + repeated("</A>", 60)) == "");
+  CHECK(contains(with(repeated("<A>", 65)), "elements lie in each other more than 64 deep"));
+  CHECK(contains(with(repeated("<A>", 5'000'000)), "elements lie in each other more than 64 deep"));
 }
 
 TEST_CASE("VTI and VTP: every truncation of a good file is refused") {

@@ -124,6 +124,15 @@ def test_what_mdanalysis_refuses(run, adk, data, tmp_path):
     assert not (tmp_path / "rows.csv").exists()
 
 
+def test_control_c_before_it_begins(capfd, monkeypatch):
+    def interrupted():
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("espdiff.__main__._reader", interrupted)
+    assert main(["compare", "a.pqr", "b.pqr", "-o", "x"]) == 1
+    assert capfd.readouterr().err == "espdiff: cancelled; nothing was written\n"
+
+
 def test_control_c_ends_it(data, tmp_path):
     pair = [data / "series19_ubq_2k39" / f"m0{i}.pqr" for i in (1, 2)]
     words = [sys.executable, "-c", "import signal, sys; signal.signal(signal.SIGINT, signal.default_int_handler); "
@@ -133,6 +142,6 @@ def test_control_c_ends_it(data, tmp_path):
     assert process.stdout.readline() == "begun\n"
     time.sleep(1)
     process.send_signal(signal.SIGINT)
-    _, errors = process.communicate(timeout=30)
+    _, errors = process.communicate(timeout=60)
     assert process.returncode != 0 and "cancelled" in errors.lower() and "Traceback" not in errors
     assert not list(tmp_path.glob("x*"))

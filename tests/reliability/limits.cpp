@@ -7,10 +7,12 @@
 #include "cli/run_espdiff.h"
 #include "io/molecule_builder.h"
 #include "io/read_structure.h"
+#include "support/limit_memory.h"
 
 using namespace espdiff_test;  // NOLINT: a test
 
 TEST_CASE("little memory: every run ends with 0, or with 1 or 2 and one line, and nothing half written") {
+  if (!can_limit_memory()) return;
   const ScratchFolder folder;
   folder.write("a.pqr", row_of_atoms(40));
   folder.write("b.pqr", row_of_atoms(40, 0.2));
@@ -40,6 +42,7 @@ TEST_CASE("little memory: every run ends with 0, or with 1 or 2 and one line, an
 }
 
 TEST_CASE("a map of 1024^3 points is refused where memory does not hold it") {
+  if (!can_limit_memory()) return;
   const ScratchFolder folder;
   folder.write("a.pqr", row_of_atoms(4));
   const std::string path = folder.write(
@@ -58,6 +61,7 @@ TEST_CASE("a map of 1024^3 points is refused where memory does not hold it") {
 }
 
 TEST_CASE("text maps of 1024^3 points are refused: too few values, or more than memory holds") {
+  if (!can_limit_memory()) return;
   const ScratchFolder folder;
   folder.write("a.pqr", row_of_atoms(4));
   const std::string dx =
@@ -87,6 +91,7 @@ TEST_CASE("text maps of 1024^3 points are refused: too few values, or more than 
 }
 
 TEST_CASE("text that takes many times its size as atoms, cells or JSON is refused before memory is taken") {
+  if (!can_limit_memory()) return;
   const ScratchFolder folder;
   folder.write("a.pqr", row_of_atoms(4));
   const auto refused = [&](const std::string& name, const std::string& line, int n_lines_of_it, const std::string& head,
@@ -115,6 +120,7 @@ TEST_CASE("text that takes many times its size as atoms, cells or JSON is refuse
 }
 
 TEST_CASE("a ligand of more atoms than memory holds is refused before they are read") {
+  if (!can_limit_memory()) return;
   const ScratchFolder folder;
   // Asked for before PDB2PQR runs, so that any program does.
   folder.write("a.pdb", "ATOM      1  CA  GLY A   1       0.000   0.000   0.000  1.00  0.00           C\n");
@@ -147,6 +153,7 @@ TEST_CASE("more atoms than are read are refused") {
 
 #ifdef ESPDIFF_HAVE_ZLIB
 TEST_CASE("a gzip file that unpacks to more than memory holds is refused") {
+  if (!can_limit_memory()) return;
   const ScratchFolder folder;
   folder.write("a.pqr", row_of_atoms(4));
   // Many members of one file: 16 MiB of blanks each.

@@ -11,7 +11,7 @@ proc enabled {name} { [widget $name] instate !disabled }
 proc pause {ms} { after $ms {set ::paused 1}; vwait ::paused }
 
 # Serves events until `condition` holds, at most so many seconds.
-proc until {condition {seconds 120}} {
+proc until {condition {seconds 300}} {
     set end [expr {[clock seconds] + $seconds}]
     while {![uplevel #0 [list expr $condition]]} {
         if {[clock seconds] > $end} { error "'$condition' did not come true" }

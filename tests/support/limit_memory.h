@@ -1,0 +1,18 @@
+// limit_memory.h: whether tests can limit, or measure, the memory of a program.
+#pragma once
+
+#include <doctest/doctest.h>
+
+namespace espdiff_test {
+
+/// Whether a program's memory can be limited (`ulimit -v`) and measured; says why where it cannot.
+inline bool can_limit_memory() {
+#if defined(__SANITIZE_ADDRESS__)
+  MESSAGE("SKIPPED: the address sanitizer maps more than any limit on memory, and keeps what was freed");
+  return false;
+#else
+  return true;
+#endif
+}
+
+}  // namespace espdiff_test
