@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -83,6 +84,43 @@ void remove_unfinished(const std::string& path) {
   }
 }
 
+IoError busy(const std::string& path) {
+  return {path, "another run is writing this file; wait for its end, or name another output"};
+}
+
+/// @returns false if another run holds the lock, or has put another file in this one's place meanwhile
+bool lock(int descriptor, const std::string& path) {
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) return false;
+  struct stat opened {
+  }, there{};
+  return ::fstat(descriptor, &opened) == 0 && ::stat(path.c_str(), &there) == 0 && opened.st_dev == there.st_dev &&
+         opened.st_ino == there.st_ino;
+}
+
+/// Gives a new file its name: over a file that no run writes, or where there is none. Of two runs that begin together
+/// one gets the name.
+void put_in_place(const std::string& temporary, const std::string& path) {
+  const auto check = [&](int result) {
+    if (result != 0) throw IoError(path, std::string("cannot be written: ") + system_message(errno));
+  };
+  const int earlier = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (earlier >= 0) {
+    const bool locked = lock(earlier, path);
+    const int renamed = locked ? ::rename(temporary.c_str(), path.c_str()) : 0;
+    const int error = errno;
+    ::close(earlier);
+    if (!locked) throw busy(path);
+    errno = error;
+    check(renamed);
+  } else if (::link(temporary.c_str(), path.c_str()) == 0) {
+    ::unlink(temporary.c_str());
+  } else if (errno == EEXIST) {
+    throw busy(path);
+  } else {
+    check(::rename(temporary.c_str(), path.c_str()));  // a file system without links
+  }
+}
+
 }  // namespace
 
 struct EnsembleFile::Contents {
@@ -101,8 +139,7 @@ struct EnsembleFile::Contents {
   void open(bool for_writing) {
     descriptor = ::open(path.c_str(), (for_writing ? O_RDWR : O_RDONLY) | O_CLOEXEC);
     if (descriptor < 0) throw IoError(path, std::string("cannot be opened: ") + system_message(errno));
-    if (for_writing && ::flock(descriptor, LOCK_EX | LOCK_NB) != 0)
-      throw IoError(path, "another run is writing this file; wait for its end, or name another output");
+    if (for_writing && !lock(descriptor, path)) throw busy(path);
     const std::uint64_t intended = intended_size(path);
     if (for_writing) {
       extend(descriptor, path);
@@ -181,10 +218,11 @@ void EnsembleFile::create(const std::string& path, const EnsemblePlan& plan, con
     std::remove(temporary.c_str());
     throw;
   }
-  if (std::rename(temporary.c_str(), path.c_str()) != 0) {
-    const int error = errno;
+  try {
+    put_in_place(temporary, path);
+  } catch (...) {
     std::remove(temporary.c_str());
-    throw IoError(path, std::string("cannot be written: ") + system_message(error));
+    throw;
   }
 }
 

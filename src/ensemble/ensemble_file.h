@@ -29,8 +29,9 @@ struct EnsembleFrame {
 /// computed again. One process at a time writes a file (flock).
 class EnsembleFile {
  public:
-  /// Makes a file, under a temporary name until it is complete. Replaces an older one.
-  /// @throws IoError
+  /// Makes a file, under a temporary name until it is complete. Replaces an older one that no run
+  /// writes.
+  /// @throws IoError (cannot be written, or another run is writing it)
   static void create(const std::string& path, const EnsemblePlan& plan, const TemplateSurface& surface);
   /// Opens a file and checks every frame. A file that was cut off is extended again.
   /// @throws IoError (missing, unreadable, another process writes it), FormatError (not an ensemble file; damaged

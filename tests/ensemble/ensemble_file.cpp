@@ -237,4 +237,20 @@ TEST_CASE("one process at a time writes a file") {
   CHECK(message_of([&] { EnsembleFile(path, true); }) ==
         path + ": another run is writing this file; wait for its end, or name another output");
   CHECK(EnsembleFile(path, false).n_done() == 0);
+  // Nor is it replaced under the run that writes it.
+  const std::string before = read_file(path);
+  CHECK(message_of([&] { EnsembleFile::create(path, planted_plan(2, 2, 5), planted_template(1)); }) ==
+        path + ": another run is writing this file; wait for its end, or name another output");
+  CHECK(read_file(path) == before);
+  CHECK(folder.n_files() == 1);
+}
+
+TEST_CASE("a file that no run writes is replaced; one that took its place is another") {
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5");
+  for (const std::size_t n : {3, 2}) {
+    EnsembleFile::create(path, planted_plan(n, 2, 5), planted_template(1));
+    CHECK(EnsembleFile(path, true).plan().n_frames() == planted_plan(n, 2, 5).n_frames());
+    CHECK(folder.n_files() == 1);
+  }
 }
