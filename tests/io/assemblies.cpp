@@ -147,7 +147,7 @@ TEST_CASE("assemblies of more atoms or operations than are read are refused befo
 TEST_CASE("an assembly with more atoms than are read is refused before it is made") {
   const ScratchFolder folder;
   std::string text;
-  constexpr int n_operations = 3000, n_atoms = 2000;
+  const int n_operations = 3000, n_atoms = 2000;
   text += "REMARK 350 BIOMOLECULE: 1\nREMARK 350 APPLY THE FOLLOWING TO CHAINS: A\n";
   char line[96];
   for (int k = 1; k <= n_operations; ++k) {
