@@ -77,7 +77,7 @@ TEST_CASE("read_topology: cut and wrong files are refused with the line") {
 
 TEST_CASE("read_topology: a PSF of a million atoms is read in seconds, and a mistake in the last has its line") {
   const ScratchFolder folder;
-  constexpr std::size_t n = 1'000'000;
+  const std::size_t n = 1'000'000;
   std::string text = "PSF\n\n " + std::to_string(n) + " !NATOM\n";
   for (std::size_t i = 0; i + 1 < n; ++i) text += "1 S 1 ALA CA CT 0.5 12 0\n";
   const std::string good = folder.write("good.psf", text + "1 S 1 ALA CA CT 0.5 12 0\n");
