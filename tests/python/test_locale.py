@@ -19,7 +19,6 @@ states = [espdiff.State.from_arrays(**conftest.made_arrays(bend), name=name) for
 result = espdiff.compare(*states, potential="pb", grid_spacing=1.2, threads=1)
 result.save(sys.argv[2] + "/out")
 print(result)
-print(result.warnings, result.certificate.reasons)
 try:
     espdiff.compare(*states, grid_spacing=-1.5)
 except espdiff.Error as error:
