@@ -1,5 +1,5 @@
-// intersections.cu: finds pairs of triangles with overlapping boxes and counts those that intersect: leaf by leaf of the
-// tree, or on the CPU in groups of 16 triangles.
+// intersections.cu: finds pairs of triangles with overlapping boxes and counts those that intersect: leaf by leaf of
+// the tree, or on the CPU in groups of 16 triangles.
 #include "cuda/certificate/intersections.h"
 
 #include <cstring>
