@@ -4,7 +4,6 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -18,6 +17,7 @@
 #include "base/error.h"
 #include "base/system_message.h"
 #include "ensemble/hdf5_layout.h"
+#include "io/appended_file.h"
 
 namespace espdiff {
 namespace {
@@ -90,11 +90,7 @@ IoError busy(const std::string& path) {
 
 /// @returns false if another run holds the lock, or has put another file in this one's place meanwhile
 bool lock(int descriptor, const std::string& path) {
-  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) return false;
-  struct stat opened {
-  }, there{};
-  return ::fstat(descriptor, &opened) == 0 && ::stat(path.c_str(), &there) == 0 && opened.st_dev == there.st_dev &&
-         opened.st_ino == there.st_ino;
+  return ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 && is_file_named(descriptor, path);
 }
 
 /// Gives a new file its name: over a file that no run writes, or where there is none. Of two runs that begin together

@@ -16,17 +16,13 @@
 #include "io/read_input.h"
 
 namespace espdiff {
-namespace {
 
-/// Whether the open file still has that name: another run may have removed it before the lock.
 bool is_file_named(int descriptor, const std::string& path) {
   struct stat open_file {};
   struct stat named {};
   return ::fstat(descriptor, &open_file) == 0 && ::stat(path.c_str(), &named) == 0 &&
          open_file.st_ino == named.st_ino && open_file.st_dev == named.st_dev;
 }
-
-}  // namespace
 
 AppendedFile::AppendedFile(std::string path, ExistingFile existing) : path_(std::move(path)) {
   if (has_content() && existing == ExistingFile::kRefuse)

@@ -6,6 +6,10 @@
 
 namespace espdiff {
 
+/// Whether an open file still has that name: before it was locked, another run may have removed it, or put another file
+/// in its place.
+bool is_file_named(int descriptor, const std::string& path);
+
 /// What to do with an existing file.
 enum class ExistingFile { kRefuse, kResume, kReplace };
 

@@ -104,7 +104,7 @@ std::shared_ptr<const EarlierPatch> read_earlier_patch(const EarlierPatchName& n
   patch.positions = std::move(vtp.positions);
   patch.triangles = std::move(vtp.triangles);
   patch.area_A2 = record.areas[patch.number - 1];
-  if (!(std::fabs(area_inside(patch) - patch.area_A2) <= 0.001 * patch.area_A2))
+  if (!(patch.area_A2 > 0 && std::fabs(area_inside(patch) - patch.area_A2) <= 0.001 * patch.area_A2))
     throw FormatError(
         vtp_path, 0, "its patch " + name.number + " has another area than in " + name.path + "; give files of one run");
   return std::make_shared<const EarlierPatch>(std::move(patch));
