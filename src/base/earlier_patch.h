@@ -25,13 +25,13 @@ struct EarlierPatch {
 
 /// How a patch's place was found; see place_patch().
 struct PatchPlacement {
-  std::string path, sha256;
+  std::string path, sha256;  ///< of the earlier OUT.json
   std::size_t number = 0;
-  double area_A2 = 0;          ///< of the patch on its own template
-  std::size_t n_residues = 0;  ///< that were superposed
-  std::size_t n_left_out = 0;  ///< residues near the patch that moved too far to be superposed
-  double rmsd_A = 0;           ///< of their centres
-  double found_area_fraction = 0;
+  double area_A2 = 0;              ///< of the patch on its own template
+  std::size_t n_residues = 0;      ///< that were superposed
+  std::size_t n_left_out = 0;      ///< residues near the patch that moved too far to be superposed
+  double rmsd_A = 0;               ///< of their centres
+  double found_area_fraction = 0;  ///< of area_A2: what has a place on the other surface
 };
 
 }  // namespace espdiff

@@ -35,8 +35,8 @@ constexpr double kLeastFoundArea = 0.5;
 /// of their surfaces, so that the patch follows its surroundings and not the whole molecule; residues that end farther
 /// than 3 A from their partners are dropped, one after the other, as long as half of them stay (the pruning of
 /// Meng et al., BMC Bioinformatics 7, 339 (2006)). A vertex belongs to the patch if the nearest vertex of the moved
-/// template does, and lies within kPatchReach_A. The patch's
-/// area is found where the nearest vertex of the surface belongs to the patch.
+/// template does, and lies within kPatchReach_A. The patch's area is found where the nearest vertex of the surface
+/// belongs to the patch.
 /// @throws InputError (fewer than three residues near the patch pair)
 PlacedPatch place_patch(const EarlierPatch& patch, const ResidueSurface& surface, const std::string& surface_name);
 

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <string>
 
+#include "system/open_file.h"
+
 namespace espdiff {
 
 /// What to do with an existing file.
@@ -36,7 +38,7 @@ class AppendedFile {
   void open_and_lock();
 
   std::string path_;
-  int descriptor_ = -1;
+  OpenFile file_;
   bool is_new_ = false;      ///< it was not there
   bool is_written_ = false;  ///< by this run
 };

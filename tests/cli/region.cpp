@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "cli/bent_row.h"
 #include "cli/run_espdiff.h"
 #include "io/read_csv.h"
 
@@ -17,19 +18,6 @@ using nlohmann::json;
 namespace {
 
 const std::string kUsual = " --device cpu --pb-spacing 1 -q";
-
-/// A row of atoms that is bent, with charges of both signs.
-std::string bent_row(double bend, int n = 9) {
-  std::string text;
-  for (int i = 0; i < n; ++i) {
-    char line[128];
-    const double x = 2.6 * i;
-    std::snprintf(line, sizeof line, "ATOM  %5d  CA  ALA A%4d    %8.3f%8.3f%8.3f %7.4f %6.4f\n", i + 1, i + 1, x,
-                  0.9 * (i % 3) + 0.01 * bend * x * x, 0.5 * (i % 2), i % 3 == 0 ? -0.7 : 0.4, 2.1);
-    text += line;
-  }
-  return text;
-}
 
 /// Three states; the second has a ligand beside it.
 struct Files {

@@ -245,7 +245,7 @@ TEST_CASE("one process at a time writes a file") {
   CHECK(folder.n_files() == 1);
 }
 
-TEST_CASE("a file that no run writes is replaced; one that took its place is another") {
+TEST_CASE("a file that no run writes is replaced") {
   const ScratchFolder folder;
   const std::string path = folder.file("a.h5");
   for (const std::size_t n : {3, 2}) {
