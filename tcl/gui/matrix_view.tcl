@@ -32,7 +32,7 @@ namespace eval ::espdiff::gui {
         tip $path.top.table "Summary of the matrix"
         pack $path.top.label $path.top.metric $path.top.ordered -side left -padx {0 6}
         pack $path.top.table $path.top.plot -side right -padx {6 0}
-        canvas $path.map -width 420 -height 240 -background white -highlightthickness 1 -takefocus 1 \
+        canvas $path.map -width 420 -height 212 -background white -highlightthickness 1 -takefocus 1 \
             -highlightbackground gray80 -highlightcolor #3060c0
         ttk::label $path.pair -anchor w -text "A click on a cell compares and draws its pair."
         pack $path.top -fill x
