@@ -85,10 +85,12 @@ States read_states(const Arguments& a, const std::vector<VariantFiles>& files, c
     all.variants.back().inputs.insert(all.variants.back().inputs.end(), inputs.begin() + 1, inputs.end());
   }
   std::vector<const LoadedState*> loaded;
+  loaded.reserve(states.size());
   for (const LoadedState& state : states) loaded.push_back(&state);
   check_left_out(options.input, loaded);
   if (wants_charges && a.potential.potential != "none") {
     std::vector<PotentialFacts> facts;
+    facts.reserve(states.size());
     for (const LoadedState& state : states) facts.push_back(facts_of(state));
     all.plan = PotentialPlan(a.potential, facts, options.temperature_K);
   }

@@ -41,6 +41,7 @@ std::vector<std::uint8_t> vertices_on_template(FixedPatch& patch, const Template
                                                const std::vector<std::string>& residue_labels) {
   if (patch.earlier == nullptr) return vertices_of(surface.residue, patch.residues);
   std::vector<Residue> residues;
+  residues.reserve(residue_labels.size());
   for (const std::string& label : residue_labels) residues.push_back(parse_residue_label(label));
   PlacedPatch placed =
       place_patch(*patch.earlier, {surface.positions, surface.triangles, surface.residue, residues}, "the template");
