@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "cuda/certificate/weighted_order.h"
 #include "cuda/device/spatial_order.h"
 #include "cuda/surface/adjacency.h"
 #include "cuda/surface/density_at_points.h"
@@ -87,40 +88,52 @@ Buffer<Vec4f> corners_and_centroids(const SurfaceMesh& mesh) {
   return points;
 }
 
-/// Area-weighted sums over points of a surface.
-struct WeightedDistances {
-  std::vector<std::pair<float, float>> points;  ///< distance, area
+/// A quarter of the weight at the corners and the rest at the centroid integrates quadratic functions exactly. Corners
+/// alone lie on the surface's own lattice, where both surfaces are nearest to each other.
+constexpr double kShareOfCorners = 0.25, kShareOfCentroids = 0.75;
+
+ESPDIFF_INLINE double weight_of_point(const float* vertices, std::size_t n_vertices, const float* triangles,
+                                      std::size_t i) {
+  return i < n_vertices ? kShareOfCorners * static_cast<double>(vertices[i])
+                        : kShareOfCentroids * static_cast<double>(triangles[i - n_vertices]);
+}
+
+/// Area-weighted quantities over corners_and_centroids().
+/// @param distances [point]
+DistanceSummary summarize(const SurfaceMesh& mesh, const Buffer<float>& distances, float limit_A) {
+  const std::size_t n_vertices = mesh.n_vertices(), n = distances.size();
+  const Buffer<float> of_triangles = triangle_areas(mesh), of_vertices = vertex_areas(mesh, of_triangles, nullptr);
+  Buffer<float> weights(n);
+  float* const rounded = raw(weights);
+  const float *const vertex = raw(of_vertices), *const triangle = raw(of_triangles);
+  for_each_index(n, [=] ESPDIFF_HD(std::size_t i) {
+    rounded[i] = static_cast<float>(weight_of_point(vertex, n_vertices, triangle, i));
+  });
+
+  const std::vector<float> distance = to_host(distances), vertices = to_host(of_vertices),
+                           triangles = to_host(of_triangles);
   double area = 0, sum = 0, beyond = 0, within = 0;
-  float limit_A;
-
-  explicit WeightedDistances(float limit) : limit_A(limit) {}
-
-  void add(const float* distances, const std::vector<float>& areas, double share) {
-    for (std::size_t k = 0; k < areas.size(); ++k) {
-      const double w = share * static_cast<double>(areas[k]), d = static_cast<double>(distances[k]);
-      points.emplace_back(distances[k], static_cast<float>(w));
-      area += w;
-      sum += w * d;
-      (distances[k] > limit_A ? beyond : within) += distances[k] > limit_A ? w : w * d;
-    }
+  for (std::size_t i = 0; i < n; ++i) {
+    const double w = weight_of_point(vertices.data(), n_vertices, triangles.data(), i),
+                 d = static_cast<double>(distance[i]);
+    area += w;
+    sum += w * d;
+    (distance[i] > limit_A ? beyond : within) += distance[i] > limit_A ? w : w * d;
   }
-
-  DistanceSummary summary() {
-    std::sort(points.begin(), points.end());
-    DistanceSummary result;
-    result.mean = sum / area;
-    result.max = static_cast<double>(points.back().first);
-    result.area_fraction_beyond_limit = beyond / area;
-    result.mean_within_limit = area > beyond ? within / (area - beyond) : 0;
-    double below = 0;
-    for (const auto& [value, weight] : points) {
-      below += static_cast<double>(weight);
-      result.p95 = static_cast<double>(value);
-      if (below >= 0.95 * area) break;
-    }
-    return result;
+  DistanceSummary result;
+  result.mean = sum / area;
+  result.area_fraction_beyond_limit = beyond / area;
+  result.mean_within_limit = area > beyond ? within / (area - beyond) : 0;
+  const std::vector<std::pair<float, float>> sorted = in_ascending_order(distances, weights);
+  result.max = static_cast<double>(sorted.back().first);
+  double below = 0;
+  for (const auto& [value, w] : sorted) {
+    below += static_cast<double>(w);
+    result.p95 = static_cast<double>(value);
+    if (below >= 0.95 * area) break;
   }
-};
+  return result;
+}
 
 }  // namespace
 
@@ -173,14 +186,7 @@ DistanceSummary distance_summary(const SurfaceMesh& from, const SurfaceMesh& to,
     const float farthest = larger(distance[c.v[0]], larger(distance[c.v[1]], distance[c.v[2]]));
     beyond_limit[t] = farthest > limit_A ? 1.0F : 0.0F;
   });
-  // A quarter of the weight at the corners and the rest at the centroid integrates quadratic functions exactly. Corners
-  // alone lie on the surface's own lattice, where both surfaces are nearest to each other.
-  const Buffer<float> areas = triangle_areas(from);
-  WeightedDistances weighted(limit_A);
-  const std::vector<float> all = to_host(distances);
-  weighted.add(all.data(), to_host(vertex_areas(from, areas, nullptr)), 0.25);
-  weighted.add(all.data() + from.n_vertices(), to_host(areas), 0.75);
-  DistanceSummary summary = weighted.summary();
+  DistanceSummary summary = summarize(from, distances, limit_A);
   summary.beyond = beyond_flags;
   return summary;
 }

@@ -1,12 +1,12 @@
 // distortion.cu: area ratios, symmetric Dirichlet energy, and the vertices whose area has grown beyond a limit.
 #include "cuda/certificate/distortion.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
 #include "base/error.h"
+#include "cuda/certificate/weighted_order.h"
 #include "cuda/surface/adjacency.h"
 #include "engine/certificate_stage.h"
 
@@ -57,9 +57,14 @@ DistortionReport distortion(const SurfaceMesh& source, const SurfaceMesh& mapped
   const std::size_t n = source.n_triangles();
   const TopologyView topology = source.view();
   const Vec4f *const from = raw(source.positions), *const to = raw(mapped.positions);
-  Buffer<TriangleChange> changes(n);
-  TriangleChange* const change = raw(changes);
-  for_each_index(n, [=] ESPDIFF_HD(std::size_t t) { change[t] = change_of(from, to, topology.triangles[t]); });
+  Buffer<float> areas(n), ratios(n), energies(n);
+  float *const area = raw(areas), *const ratio = raw(ratios), *const energy = raw(energies);
+  for_each_index(n, [=] ESPDIFF_HD(std::size_t t) {
+    const TriangleChange change = change_of(from, to, topology.triangles[t]);
+    area[t] = change.source_area;
+    ratio[t] = change.ratio;
+    energy[t] = change.energy;
+  });
 
   const Buffer<float> source_ring = vertex_areas(source, triangle_areas(source), nullptr),
                       mapped_ring = vertex_areas(mapped, triangle_areas(mapped), nullptr);
@@ -77,20 +82,15 @@ DistortionReport distortion(const SurfaceMesh& source, const SurfaceMesh& mapped
 
   DistortionReport report;
   report.excessive = flags;
-  std::vector<std::pair<float, float>> ratios, energies;
   double total = 0;
-  for (const TriangleChange& c : to_host(changes)) {
-    ratios.emplace_back(c.ratio, c.source_area);
-    energies.emplace_back(c.energy, c.source_area);
-    total += static_cast<double>(c.source_area);
-  }
-  std::sort(ratios.begin(), ratios.end());
-  std::sort(energies.begin(), energies.end());
-  report.area_ratio_p05 = quantile(ratios, total, 0.05);
-  report.area_ratio_median = quantile(ratios, total, 0.5);
-  report.area_ratio_p95 = quantile(ratios, total, 0.95);
-  report.dirichlet_median = quantile(energies, total, 0.5);
-  report.dirichlet_p95 = quantile(energies, total, 0.95);
+  for (const float a : to_host(areas)) total += static_cast<double>(a);
+  const std::vector<std::pair<float, float>> by_ratio = in_ascending_order(ratios, areas),
+                                             by_energy = in_ascending_order(energies, areas);
+  report.area_ratio_p05 = quantile(by_ratio, total, 0.05);
+  report.area_ratio_median = quantile(by_ratio, total, 0.5);
+  report.area_ratio_p95 = quantile(by_ratio, total, 0.95);
+  report.dirichlet_median = quantile(by_energy, total, 0.5);
+  report.dirichlet_p95 = quantile(by_energy, total, 0.95);
   return report;
 }
 

@@ -31,8 +31,7 @@ ESPDIFF_INLINE LaneVector cross_lanes(const Vec3f& a, const LaneVector& b) {
 }
 
 ESPDIFF_INLINE Lanes outside_lanes(const Lanes& x, float lower, float upper) {
-  const Lanes below = lower - x, above = x - upper, gap = chosen(below > above, below, above);
-  return (Lanes)((LaneMask)gap & (gap > Lanes{}));
+  return larger_lanes(larger_lanes(lower - x, x - upper), Lanes{});
 }
 
 // Inlined into each instruction set's version, unlike those of Vec3.
@@ -46,8 +45,7 @@ ESPDIFF_INLINE Vec3f minus(const Vec3f& a, const Vec3f& b) { return {a.x - b.x, 
 ESPDIFF_INLINE Lanes segment_lanes(const LaneVector& ap, const Vec3f& ab) {
   const float length_squared = dot_here(ab, ab);
   Lanes t = dot_lanes(ap, ab) / (length_squared > 0 ? length_squared : 1.0F);
-  t = (Lanes)((LaneMask)t & (t > Lanes{}));
-  t = smaller_lanes(t, Lanes{} + 1.0F);
+  t = smaller_lanes(larger_lanes(t, Lanes{}), Lanes{} + 1.0F);
   const Lanes dx = ap.x - t * ab.x, dy = ap.y - t * ab.y, dz = ap.z - t * ab.z;
   return dx * dx + dy * dy + dz * dz;
 }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <algorithm>
-#include <cstring>
+#include <cstdint>
 
 #include "cuda/surface/atom_cells.h"
 
@@ -46,15 +46,21 @@ ESPDIFF_INLINE Lanes chosen(const LaneMask& mask, const Lanes& a, const Lanes& b
 ESPDIFF_INLINE LaneMask chosen(const LaneMask& mask, const LaneMask& a, const LaneMask& b) {
   return (a & mask) | (b & ~mask);
 }
-ESPDIFF_INLINE Lanes smaller_lanes(const Lanes& a, const Lanes& b) { return chosen(a < b, a, b); }
-ESPDIFF_INLINE LaneMask smaller_lanes(const LaneMask& a, const LaneMask& b) { return chosen(a < b, a, b); }
+/// In this form GCC takes one instruction for it.
+ESPDIFF_INLINE Lanes smaller_lanes(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
+ESPDIFF_INLINE Lanes larger_lanes(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
+ESPDIFF_INLINE LaneMask smaller_lanes(const LaneMask& a, const LaneMask& b) { return a < b ? a : b; }
 
-ESPDIFF_INLINE bool any_lane(const LaneMask& mask) {
-  std::uint64_t words[sizeof(LaneMask) / sizeof(std::uint64_t)], any = 0;
-  std::memcpy(words, &mask, sizeof mask);
-  for (const std::uint64_t word : words) any |= word;
-  return any != 0;
+/// All pairs of lanes in one word by "or". Halves are joined twice first, because taking out words is slow.
+ESPDIFF_INLINE std::uint64_t joined_words(const LaneMask& mask) {
+  using Words = std::uint64_t __attribute__((vector_size(sizeof(LaneMask))));
+  const Words all = (Words)mask;
+  const auto half = __builtin_shufflevector(all, all, 0, 1, 2, 3) | __builtin_shufflevector(all, all, 4, 5, 6, 7);
+  const auto quarter = __builtin_shufflevector(half, half, 0, 1) | __builtin_shufflevector(half, half, 2, 3);
+  return quarter[0] | quarter[1];
 }
+
+ESPDIFF_INLINE bool any_lane(const LaneMask& mask) { return joined_words(mask) != 0; }
 
 /// exp_of_negative() per lane. Casts between vectors keep their bits.
 ESPDIFF_INLINE void exp_of_negative_lanes(const Lanes& x, Lanes& result) {

@@ -2,13 +2,17 @@
 // with the CPU back end's flags, because the engine's interface offers only one of them.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <utility>
 #include <vector>
 
+#include "cuda/certificate/intersections.h"
 #include "cuda/certificate/slip.h"
+#include "cuda/certificate/weighted_order.h"
 #include "cuda/device/unwrap.h"
 #include "cuda/surface/back_ends.h"
 #include "cuda/surface/distances_to_triangles.h"
@@ -136,6 +140,42 @@ TEST_CASE("distances between real surfaces agree in both forms") {
   const TriangleTree tree = make_triangle_tree(mesh_of(b));
   CHECK(n_different(to_host(distances_to_triangles(tree, mesh_of(a).positions)),
                     to_host(distances_point_by_point(tree, mesh_of(a).positions))) == 0);
+}
+
+TEST_CASE("intersections agree in both forms, from one triangle's neighbours to a crumpled surface") {
+  const auto engine = cpu();
+  const auto check = [&](const Mesh& mesh) {
+    const MeshPtr uploaded = engine->upload_mesh(mesh);
+    const espdiff::IntersectionReport a = self_intersections(mesh_of(uploaded)),
+                                      b = self_intersections_leaf_by_leaf(mesh_of(uploaded));
+    CHECK(a.n_pairs == b.n_pairs);
+    CHECK(a.n_degenerate == b.n_degenerate);
+    CHECK(engine->download(a.intersecting) == engine->download(b.intersecting));
+    return a.n_pairs;
+  };
+  for (const int levels : {0, 1, 2, 3, 4, 5}) {
+    CHECK(check(icosphere(levels, 6.0)) == 0);
+    check(noisy_sphere(levels, 6.0, 42));
+  }
+  CHECK(check(noisy_sphere(5, 4.0, 43)) > 100);
+  Mesh flat = icosphere(3, 6.0);
+  for (std::size_t v = 0; v < flat.positions.size(); v += 5) flat.positions[v] = flat.positions[0];
+  CHECK(check(flat) > 0);
+}
+
+TEST_CASE("weighted values are sorted as pairs of floats are") {
+  Random random(44);
+  std::vector<float> values, weights;
+  for (int i = 0; i < 5000; ++i) {
+    values.push_back(static_cast<float>(std::round(400 * random.in_box(1).x)) / 16.0F + 0.0F);
+    weights.push_back(static_cast<float>(random.in_box(1).y));
+  }
+  values.push_back(std::numeric_limits<float>::infinity());
+  weights.push_back(0.0F);
+  std::vector<std::pair<float, float>> expected;
+  for (std::size_t i = 0; i < values.size(); ++i) expected.emplace_back(values[i], weights[i]);
+  std::sort(expected.begin(), expected.end());
+  CHECK(in_ascending_order(to_device(values), to_device(weights)) == expected);
 }
 
 TEST_CASE("vertex residues agree in both forms, with few labels and with more than a table holds") {

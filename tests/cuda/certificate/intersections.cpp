@@ -78,6 +78,32 @@ TEST_CASE("a corner through a face makes three pairs, on it three, one float sho
   }
 }
 
+TEST_CASE("triangles that go around a vertex twice, or turn back on the way, intersect as counted in integers") {
+  const auto engines = back_ends();
+  Random random(311);
+  for (int round = 0; round < 60; ++round) {
+    // Two tips, and a ring that goes around them `n_turns` times and sometimes back.
+    const int n_turns = 1 + round % 3;
+    const std::uint32_t n = static_cast<std::uint32_t>(3 + 3 * n_turns + round % 5);
+    LatticeMesh body;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const double along = static_cast<double>(i) + (round % 4 == 3 ? 3 * random.uniform() : 0.0);
+      const double angle = 2 * 3.14159265358979 * n_turns * along / n, radius = 200 + 100 * random.uniform();
+      body.points.push_back(snapped({radius * std::cos(angle), radius * std::sin(angle), 80 * random.uniform()}));
+    }
+    body.points.push_back({3, 5, 300});
+    body.points.push_back({-2, 4, -300});
+    for (std::uint32_t i = 0; i < n; ++i) {
+      body.triangles.push_back({i, (i + 1) % n, n});
+      body.triangles.push_back({(i + 1) % n, i, n + 1});
+    }
+    CAPTURE(round);
+    const OracleReport expected = intersections_oracle(body);
+    if (n_turns > 1) CHECK(expected.n_pairs > 0);
+    for (const auto& engine : engines) check_against_oracle(*engine, body, placed(body), expected);
+  }
+}
+
 TEST_CASE("a corner exactly on a face is found there though its determinant has more bits than a double") {
   Random random(304);
   const auto point = [&](double half_side) { return static_cast<Vec3d>(snapped(random.in_box(half_side))); };
