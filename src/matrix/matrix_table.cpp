@@ -6,6 +6,7 @@
 #include "matrix/write_matrix.h"
 
 #include "base/formatted.h"
+#include "matrix/write_through_template.h"
 
 namespace espdiff {
 namespace {
@@ -99,6 +100,10 @@ void print_trust(std::ostream& out, const Matrix& matrix) {
 void print_matrix(std::ostream& out, const Matrix& matrix, std::size_t metric) {
   out << matrix.n() << " variants, " << matrix.cells.size() << " ordered pairs";
   if (!matrix.plan.potential.empty()) out << ", potentials: " << matrix.plan.potential;
+  if (matrix.through)
+    out << formatted("\nthrough one template: %s, %zu vertices, %.1f A2; pairs have %.1f %% of it (least %.1f %%)",
+                     matrix.through->name.c_str(), matrix.through->n_vertices, matrix.through->area_A2,
+                     100 * matrix.through->mean_area_fraction, 100 * matrix.through->least_area_fraction);
   out << "\n\n"
       << padded("Over all pairs", label_width(matrix) + 13) << right("least", 11) << right("mean", 11)
       << right("greatest", 11) << right("asymmetry", 12) << '\n';
@@ -116,6 +121,7 @@ void print_matrix(std::ostream& out, const Matrix& matrix, std::size_t metric) {
   }
   print_groups(out, matrix, metric);
   print_trust(out, matrix);
+  if (matrix.through) print_through_template(out, matrix);
 }
 
 }  // namespace espdiff
