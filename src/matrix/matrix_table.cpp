@@ -37,6 +37,8 @@ Range range_of(const Matrix& matrix, std::size_t metric) {
     if (range.most == nullptr || value > range.most->values[metric]) range.most = &cell;
   }
   range.mean = n > 0 ? range.mean / static_cast<double>(n) : std::nan("");
+  // The two directions of a signed difference cancel, but for rounding.
+  if (range.most != nullptr && std::fabs(range.mean) < 1e-12 * std::fabs(range.most->values[metric])) range.mean = 0;
   return range;
 }
 
