@@ -37,8 +37,9 @@ Range range_of(const Matrix& matrix, std::size_t metric) {
     if (range.most == nullptr || value > range.most->values[metric]) range.most = &cell;
   }
   range.mean = n > 0 ? range.mean / static_cast<double>(n) : std::nan("");
-  // The two directions of a signed difference cancel, but for rounding.
-  if (range.most != nullptr && std::fabs(range.mean) < 1e-12 * std::fabs(range.most->values[metric])) range.mean = 0;
+  // Through a template the two directions have opposite signs: what is left of their sum is rounding.
+  constexpr double kRounding = 1e-12;
+  if (n > 0 && std::fabs(range.mean) < kRounding * std::fabs(range.most->values[metric])) range.mean = 0;
   return range;
 }
 
