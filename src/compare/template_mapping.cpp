@@ -86,7 +86,7 @@ struct TemplateMapping::Parts {
   Mapping morph(const CompareInput& frame, const Surface& target, const CommonFrame& common, const AtomPairing& pairing,
                 const Progress& progress) {
     const auto paths = atom_paths(*source.molecule, *frame.molecule, pairing, common.from_source, common.from_target,
-                                  common.domains, options.surface.radius_scale, progress);
+                                  common.followed, options.surface.radius_scale, progress);
     return mapping_of(engine, engine.morph(regularized, paths, surface.atoms, target.atoms, morph_options(options),
                                            "morph", progress));
   }
@@ -157,7 +157,7 @@ TemplateFrame TemplateMapping::map(const CompareInput& frame, const Progress& pr
   clock.lap("certificate");
   out.potential = p.sample(map, frame, mapping, target, p.engine.download_shape(mapping.mapped).triangles,
                            result.certificate.outside_maps);
-  judge(result, *p.source.molecule);
+  judge(result, *p.source.molecule, p.options);
   out.unit = unit_of(frame);
   out.rmsd_A = result.rmsd_A;
   out.unmatched_template = result.certificate.unmatched_source;
