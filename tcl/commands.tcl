@@ -196,6 +196,12 @@ namespace eval ::espdiff {
                 results" {stop skip}}
             {-shard text 1/1 "Compute part I of N of the pairs, I/N, into OUT.shard-I-of-N.state; `espdiff merge`\
                 merges the parts"}
+            {-template text {} "Map the surface of one structure onto each variant, and compare all variants in its\
+                vertices: a mapping for each variant instead of each pair, and differences of potentials only.\
+                medoid: the variant nearest to all others; a label; a number from 0; a structure file. The\
+                potentials stay in OUT.h5"}
+            {-exact-sample count 6 "With a template: pairs, chosen at random, that are compared by themselves as\
+                well, to tell how far the template's are from exact ones; 0 for none"}
             {-cluster-by text {} "Metric for clustering; mean_abs_difference, or without potentials\
                 mean_displacement_A"}
         } $computing] \
@@ -283,7 +289,8 @@ namespace eval ::espdiff {
             {-overwrite boolean 0 "Replace results that exist"}
             {-cluster-by text {} "Metric for clustering, as in `espdiff matrix`"}
         } \
-        summary {Merges the parts of a matrix: the state files of `espdiff matrix -shard`; or of an ensemble: the files
+        summary {Merges the parts of a matrix: the state files of `espdiff matrix -shard`, with -template the HDF5 files
+            too; or of an ensemble: the files
             of `espdiff ensemble -shard`, whose statistics `espdiff ensemble {} -from OUT.h5` computes. The results are
             those of one process, byte by byte.} \
         returns {the files written} \

@@ -19,9 +19,11 @@ namespace eval ::espdiff {
 
     proc matrix_options {options} {
         set core [core_options $options]
-        foreach key {resume overwrite on-error shard cluster-by} {
+        foreach key {resume overwrite on-error shard cluster-by exact-sample} {
             dict set core [string map {- _} $key] [dict get $options $key]
         }
+        set template [dict get $options template]
+        dict set core template [expr {[file isfile $template] ? [file normalize $template] : $template}]
         # The working folder may change during a background computation.
         dict set core output [file normalize [dict get $options output]]
         return $core

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "ensemble/ensemble_file.h"
 #include "ensemble/ensemble_run.h"
+#include "ensemble/template_matrix.h"
 #include "ensemble/write_ensemble.h"
 #include "ensemble_object.h"
 #endif
@@ -115,7 +116,7 @@ std::optional<VertexQuantity> ensemble_quantity(const std::string& handle, const
 
 std::optional<std::string> merged_ensemble(const std::vector<std::string>& paths, const std::string& output,
                                            bool overwrite) {
-  if (paths.empty() || !is_hdf5_file(paths.front())) return std::nullopt;
+  if (paths.empty() || !is_hdf5_file(paths.front()) || are_parts_of_template_matrix(paths)) return std::nullopt;
   EnsembleRun run;
   run.output = output;
   run.overwrite = overwrite;

@@ -31,7 +31,7 @@ std::optional<DrawnSurface> ensemble_surface(const std::string& handle, const Ob
 std::optional<VertexQuantity> ensemble_quantity(const std::string& handle, const Object& object,
                                                 const std::string& name);
 
-/// Merges the parts of an ensemble; nothing where the first path is no file of HDF5.
+/// Merges the parts of an ensemble; nothing where the first path is no file of HDF5, or of a matrix.
 /// @returns OUT.h5. @throws as merge_ensemble()
 std::optional<std::string> merged_ensemble(const std::vector<std::string>& paths, const std::string& output,
                                            bool overwrite);

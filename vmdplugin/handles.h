@@ -68,6 +68,9 @@ struct MatrixObject : Object {
   Computation computation;
   std::vector<Endpoint> endpoints;  ///< emptied as they are read
   std::vector<std::string> labels, groups;
+  std::string template_text;                                  ///< empty: each pair by itself
+  std::size_t n_exact = 0;                                    ///< pairs compared by themselves beside a template
+  std::vector<std::pair<std::string, std::string>> settings;  ///< that were given
   MatrixRun run;
   MatrixReport report;
 };

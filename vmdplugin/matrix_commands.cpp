@@ -7,6 +7,7 @@
 #include "ensemble_views.h"
 #include "prepare/surface_radii.h"
 #include "tcl_values.h"
+#include "template_matrix.h"
 
 namespace espdiff::vmdplugin {
 namespace {
@@ -79,7 +80,12 @@ Tcl_Obj* matrix(const Call& call) {
   auto object = std::make_shared<MatrixObject>();
   DictReader reader(call.arguments[1], "options");
   object->run = parse_run(reader);
+  object->template_text = reader.text("template");
+  const int n_exact = reader.integer("exact_sample", 6);
+  if (n_exact < 0) throw InputError(option("exact-sample") + ": " + std::to_string(n_exact) + " is negative");
+  object->n_exact = static_cast<std::size_t>(n_exact);
   object->computation = parse_computation(reader, nullptr);
+  object->settings = reader.rest();
   if (!object->run.cluster_by.empty())  // reports a wrong one at once
     find_metric(object->run.cluster_by, part_names(object->computation.options.input));
   for (Tcl_Obj* const variant : to_vector(call.arguments[0], "variants")) add_variant(variant, *object);
@@ -95,7 +101,9 @@ Tcl_Obj* matrix(const Call& call) {
     if (alive == nullptr) return;
     const std::unique_ptr<Engine> engine = engine_for(alive->computation);
     const std::vector<Variant> variants = load_variants(*alive, progress);
-    alive->report = run_matrix(*engine, variants, alive->computation.options, alive->run, progress);
+    alive->report = alive->template_text.empty()
+                        ? run_matrix(*engine, variants, alive->computation.options, alive->run, progress)
+                        : matrix_by_template(*alive, *engine, variants, progress);
   });
   return to_obj(call.handles.add(object));
 }
@@ -107,7 +115,7 @@ Tcl_Obj* merge(const Call& call) {
   const MatrixRun run = parse_run(reader);
   reader.finish();
   if (const auto path = merged_ensemble(paths, run.output, run.overwrite)) return to_list({*path});
-  return to_list(merge_matrix(paths, run).files);
+  return to_list(merged_matrix(paths, run).files);
 }
 
 }  // namespace

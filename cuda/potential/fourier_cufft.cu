@@ -6,12 +6,12 @@
 
 #include <cuda_runtime.h>
 #include <cufft.h>
-#include <dlfcn.h>
 
 #include <string>
 
 #include "base/error.h"
 #include "engine/make_engine.h"
+#include "system/shared_library.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
@@ -37,7 +37,7 @@ class CufftLibrary {
     const std::string name = "libcufft.so." + std::to_string(CUFFT_VER_MAJOR);
     void* library = nullptr;
     for (const std::string& path : {name, "/usr/local/cuda/lib64/" + name}) {
-      if (library == nullptr) library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+      if (library == nullptr) library = load_library(path, LibraryUse::kOwn);
     }
     if (library == nullptr) {
       throw DeviceError(name +
@@ -55,7 +55,7 @@ class CufftLibrary {
   }
   template <typename Function>
   static void load(void* library, const char* name, Function& function) {
-    function = reinterpret_cast<Function>(dlsym(library, name));
+    function = find_function<Function>(library, name);
     if (function == nullptr)
       throw DeviceError(std::string("libcufft lacks ") + name + "; install cuFFT " + std::to_string(CUFFT_VER_MAJOR) +
                         " of the CUDA toolkit, or use " + option("device", "cpu"));

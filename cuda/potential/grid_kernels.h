@@ -1,8 +1,7 @@
 // grid_kernels.h: runs a kernel over the inner points of a grid: row by row on the CPU, point by point on a GPU.
 //
 // A kernel is a struct of pointers with at(point, colour), which writes the values of that point only. A coloured
-// kernel (kColoured) changes points of one colour and reads neighbours of the other. The CPU calls it for points of
-// both colours, so that whole rows vectorize; it must not change points of the other colour.
+// kernel (kColoured) is called for the points of one colour, and reads neighbours of the other.
 #pragma once
 
 #include <algorithm>
@@ -23,6 +22,12 @@ struct GridSize {
   }
 };
 
+/// A coloured kernel takes every other point of a row.
+template <typename Kernel>
+constexpr int stride_of() {
+  return Kernel::kColoured ? 2 : 1;
+}
+
 #if !defined(__CUDACC__)
 
 /// Smaller grids run on one thread: starting the others would take longer.
@@ -33,12 +38,14 @@ template <typename Kernel>
 ESPDIFF_INLINE void run_rows(const Kernel& given, const GridSize& size, int k0, int k1) {
   const Kernel kernel = given;
   const GridSize n = size;
+  constexpr int kStride = stride_of<Kernel>();
   for (int k = k0; k < k1; ++k) {
     for (int j = 1; j < n.ny - 1; ++j) {
       const std::size_t row = n.index(0, j, k);
       const int parity = j + k;
+      const int first = kStride == 2 && ((1 + parity) & 1) != kernel.colour ? 2 : 1;
 #pragma GCC ivdep
-      for (int i = 1; i < n.nx - 1; ++i) kernel.at(row + static_cast<std::size_t>(i), (i + parity) & 1);
+      for (int i = first; i < n.nx - 1; i += kStride) kernel.at(row + static_cast<std::size_t>(i), (i + parity) & 1);
     }
   }
 }
@@ -70,13 +77,12 @@ template <typename Kernel>
 void run_on_grid(const GridSize& size, const Kernel& kernel) {
   if (size.nx < 3 || size.ny < 3 || size.nz < 3) return;
   const std::size_t rows = static_cast<std::size_t>(size.ny - 2), planes = static_cast<std::size_t>(size.nz - 2);
-  // A coloured kernel's threads take every other point of a row.
-  constexpr int kStride = Kernel::kColoured ? 2 : 1;
+  constexpr int kStride = stride_of<Kernel>();
   const std::size_t in_row = static_cast<std::size_t>((size.nx - 2 + kStride - 1) / kStride);
   for_each_index(in_row * rows * planes, [=] ESPDIFF_HD(std::size_t t) {
     const int j = static_cast<int>(t / in_row % rows) + 1, k = static_cast<int>(t / (in_row * rows)) + 1;
     int i = static_cast<int>(t % in_row) * kStride + 1;
-    if (Kernel::kColoured && ((i + j + k) & 1) != kernel.colour) ++i;
+    if (kStride == 2 && ((i + j + k) & 1) != kernel.colour) ++i;
     if (i < size.nx - 1) kernel.at(size.index(i, j, k), (i + j + k) & 1);
   });
 }

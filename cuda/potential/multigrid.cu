@@ -116,10 +116,7 @@ struct HalfSweep {
   const float* b;
   float* x;
 
-  ESPDIFF_INLINE void at(std::size_t p, int of) const {
-    const float solved = (b[p] + a.neighbours(x, p)) / a.diagonal[p];
-    x[p] = of == colour ? solved : x[p];
-  }
+  ESPDIFF_INLINE void at(std::size_t p, int) const { x[p] = (b[p] + a.neighbours(x, p)) / a.diagonal[p]; }
 };
 ESPDIFF_GRID_KERNEL(HalfSweep)
 

@@ -129,12 +129,16 @@ def labels_of_states(states):
 
 
 def matrix(states, labels=None, *, groups=None, potential="auto", pme_cell="auto", output=None, resume=False,
-           overwrite=False, skip_errors=False, shard=None, device="auto", threads=0, progress=None, **options):
+           overwrite=False, skip_errors=False, shard=None, template=None, exact_sample=6, device="auto", threads=0,
+           progress=None, **options):
     """Compares every state with every other one, in both directions.
 
     states: as in compare(). labels: a name for each; paths name themselves. groups: optional, one for each state.
     output: prefix of OUT.csv and OUT.json; with `resume` a run that broke off goes on. shard: "2/8" computes a part,
     for espdiff merge; it needs `output`.
+    template: "medoid", a label, a number from 0, or a structure file, whose surface is mapped onto each state: a mapping
+    for each state instead of each pair, and differences of potentials only. exact_sample: pairs, chosen at random, that
+    are compared by themselves as well; Matrix.template["exact"] tells how they agree.
 
     Returns a Matrix, None for a shard.
     """
@@ -143,22 +147,25 @@ def matrix(states, labels=None, *, groups=None, potential="auto", pme_cell="auto
         labels = labels_of_states(states)
     if (shard or resume) and output is None:
         raise _core.InputError("output: a part of a matrix, or one to go on with, needs files")
+    if not isinstance(exact_sample, int) or exact_sample < 0:
+        raise _core.InputError(f"exact_sample: {exact_sample!r} is no number of pairs; give 0 or more")
     given = [state_of(state, f"states[{i}]", potential, options) for i, state in enumerate(states)]
     with _Progress(progress, "matrix") as listener, tempfile.TemporaryDirectory(prefix="espdiff-") as scratch:
         prefix = os.fspath(output) if output is not None else os.path.join(scratch, "matrix")
         text = _core.matrix(given, list(labels), list(groups or []), _as_settings(options), potential, pme_cell, device,
-                            threads, prefix, resume, overwrite, skip_errors, shard or "", listener)
+                            threads, prefix, resume, overwrite, skip_errors, shard or "",
+                            "" if template is None else str(template), exact_sample, listener)
     return Matrix(text) if text else None
 
 
 def merge(parts, output, *, overwrite=False):
     """Merges the parts of `shard=`, as `espdiff merge` does: the bytes of one process.
 
-    parts: OUT.shard-*.state of a matrix, whose OUT.csv and OUT.json are written; or OUT.shard-*.h5 of an ensemble, whose
-    OUT.h5 and results are. Returns the Matrix or Ensemble.
+    parts: OUT.shard-*.state of a matrix (with `template` the OUT.shard-*.h5 too), whose OUT.csv and OUT.json are written;
+    or OUT.shard-*.h5 of an ensemble, whose OUT.h5 and results are. Returns the Matrix or Ensemble.
     """
     parts, output = [os.fspath(part) for part in parts], os.fspath(output)
-    if parts and all(part.endswith(".h5") for part in parts):
+    if parts and all(part.endswith(".h5") for part in parts) and not _core.is_template_matrix(parts):
         from ._ensembles import ensemble
 
         _core.merge_ensemble(parts, output, overwrite, None)

@@ -167,6 +167,12 @@ class Matrix:
     def trustworthy(self):
         return np.array([[bool(value) for value in row] for row in self._json["trustworthy"]])
 
+    @property
+    def template(self):
+        """Of matrix(template=...): name, states (how each maps), absent metrics, and exact: pairs and their agreement;
+        otherwise None."""
+        return self._json.get("template")
+
     def to_dict(self):
         """The content of OUT.json."""
         return self._json

@@ -57,16 +57,20 @@ def matrix(client, states, labels=None, *, output, parts=None, resume=False, ove
     states = [os.path.abspath(s) if isinstance(s, (str, os.PathLike)) else state_of(s, f"states[{i}]")
               for i, s in enumerate(states)]
     labels = _functions.labels_of_states(states) if labels is None else list(labels)
-    n_parts = min(parts or 4 * _n_workers(client), max(1, len(states) * (len(states) - 1)))
+    # Through a template a part is some states, and each part makes the template's surface again.
+    through = options.get("template") is not None
+    usual, most = (_n_workers(client), len(states)) if through else (4 * _n_workers(client), len(states) * (len(states) - 1))
+    n_parts = min(parts or usual, max(1, most))
     prefix = os.path.abspath(output)
-    done = [prefix + ending for ending in (".csv", ".json")]
+    done = [prefix + ending for ending in (".csv", ".json", ".h5")[:3 if through else 2]]
     if not overwrite and any(os.path.exists(path) for path in done):
-        raise InputError(f"output: {done[0]} or {done[1]} exists; set overwrite=True, or name another prefix")
+        raise InputError(f"output: {' or '.join(done)} exists; set overwrite=True, or name another prefix")
     options = {**options, "output": prefix, "resume": resume, "overwrite": overwrite}
     futures = [client.submit(_matrix_part, states, labels, {**options, "shard": f"{i + 1}/{n_parts}"}, pure=False)
                for i in range(n_parts)]
     _gather(client, futures)
-    files = [f"{prefix}.shard-{i + 1}-of-{n_parts}.state" for i in range(n_parts)]
+    files = [f"{prefix}.shard-{i + 1}-of-{n_parts}{ending}" for i in range(n_parts) for ending in (".h5", ".state")]
+    files = [path for path in files if os.path.exists(path)]  # through a template, some parts have no exact pair
     made = _functions.merge(files, prefix, overwrite=overwrite)
     for path in files:
         os.remove(path)

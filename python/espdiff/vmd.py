@@ -330,7 +330,8 @@ def surface(molecule, progress=None, **options):
 def matrix(states, output, progress=None, **options):
     """Compares each state with each other; dicts may have `label`, `group` and `frames`. Returns a Matrix.
 
-    output: prefix of OUT.csv and OUT.json. Options: resume, overwrite, on_error, shard, cluster_by, ...
+    output: prefix of OUT.csv and OUT.json. Options: resume, overwrite, on_error, shard, template, exact_sample,
+    cluster_by, ...
     """
     words = ("matrix", [_endpoint(state, "states[%d]" % i) for i, state in enumerate(states)], "-output", output)
     return Matrix(_compute(words, options, progress))

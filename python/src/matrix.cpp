@@ -10,6 +10,10 @@
 
 #include "base/error.h"
 #include "engine/engine.h"
+#ifdef ESPDIFF_HAVE_HDF5
+#include "ensemble/ensemble_study.h"
+#include "ensemble/template_matrix.h"
+#endif
 #include "inputs.h"
 #include "matrix/matrix_run.h"
 #include "matrix/write_matrix.h"
@@ -21,12 +25,27 @@ namespace {
 
 namespace nb = nanobind;
 
+/// Each pair by itself, or all through a template.
+MatrixReport compute_matrix(Engine& engine, const std::vector<Variant>& variants, const CompareOptions& options,
+                            const Settings& settings, const std::string& template_text, std::size_t n_exact,
+                            const MatrixRun& order, const Progress& progress) {
+  if (template_text.empty()) return run_matrix(engine, variants, options, order, progress);
+#ifdef ESPDIFF_HAVE_HDF5
+  const TemplateRequest request{template_text, n_exact, ensemble_options(settings)};
+  return run_template_matrix(engine, variants, options, request, order, progress);
+#else
+  throw DeviceError(
+      "a matrix through a template needs HDF5, which was not found when this was built "
+      "(Debian: libhdf5-dev)");
+#endif
+}
+
 /// @returns the content of OUT.json; empty for a shard
 std::string compute(const std::vector<StatePtr>& states, const std::vector<std::string>& labels,
                     const std::vector<std::string>& groups, const Settings& settings, const std::string& potential,
                     const std::string& pme_cell, const std::string& device, int threads, const std::string& output,
                     bool resume, bool overwrite, bool skip_errors, const std::string& shard,
-                    const nb::object& progress) {
+                    const std::string& template_text, std::size_t n_exact, const nb::object& progress) {
   if (labels.size() != states.size())
     throw InputError("labels: there are " + std::to_string(labels.size()) + " for " + std::to_string(states.size()) +
                      " states");
@@ -78,7 +97,8 @@ std::string compute(const std::vector<StatePtr>& states, const std::vector<std::
     check_labels(labels);
     unite_map_units(variants, computation.options.temperature_K);
     const std::unique_ptr<Engine> engine = computation.make_engine();
-    const MatrixReport report = run_matrix(*engine, variants, computation.options, order, told);
+    const MatrixReport report =
+        compute_matrix(*engine, variants, computation.options, settings, template_text, n_exact, order, told);
     if (report.matrix)
       text = matrix_json(*report.matrix, metric_to_cluster_by(order, *report.matrix))
                  .dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -94,7 +114,12 @@ std::string merge(const std::vector<std::string>& parts, const std::string& outp
   order.overwrite = overwrite;
   std::string text;
   run(progress, [&](const Progress&) {
+#ifdef ESPDIFF_HAVE_HDF5
+    const MatrixReport report =
+        are_parts_of_template_matrix(parts) ? merge_template_matrix(parts, order) : merge_matrix(parts, order);
+#else
     const MatrixReport report = merge_matrix(parts, order);
+#endif
     text = matrix_json(*report.matrix, metric_to_cluster_by(order, *report.matrix))
                .dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
   });
@@ -104,12 +129,22 @@ std::string merge(const std::vector<std::string>& parts, const std::string& outp
 }  // namespace
 
 void add_matrix(nb::module_& module) {
+  module.def(
+      "is_template_matrix",
+      []([[maybe_unused]] const std::vector<std::string>& parts) {
+#ifdef ESPDIFF_HAVE_HDF5
+        return are_parts_of_template_matrix(parts);
+#else
+        return false;
+#endif
+      },
+      nb::arg("parts"));
   module.def("merge_matrix", &merge, nb::arg("parts"), nb::arg("output"), nb::arg("overwrite"),
              nb::arg("progress").none());
   module.def("matrix", &compute, nb::arg("states"), nb::arg("labels"), nb::arg("groups"), nb::arg("settings"),
              nb::arg("potential"), nb::arg("pme_cell"), nb::arg("device"), nb::arg("threads"), nb::arg("output"),
-             nb::arg("resume"), nb::arg("overwrite"), nb::arg("skip_errors"), nb::arg("shard"),
-             nb::arg("progress").none());
+             nb::arg("resume"), nb::arg("overwrite"), nb::arg("skip_errors"), nb::arg("shard"), nb::arg("template"),
+             nb::arg("exact_sample"), nb::arg("progress").none());
 }
 
 }  // namespace espdiff::python

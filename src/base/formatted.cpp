@@ -1,36 +1,12 @@
 // formatted.cpp: prints in the locale "C", for the calling thread alone.
 #include "base/formatted.h"
 
-#include <clocale>
 #include <cstdarg>
 #include <cstdio>
-#if defined(__APPLE__)
-#include <xlocale.h>
-#endif
-#include <locale.h>
+
+#include "system/plain_numbers.h"
 
 namespace espdiff {
-namespace {
-
-/// Null where the system has no memory for it; then numbers are as the program's locale says.
-locale_t plain_locale() {
-  static const locale_t plain = newlocale(LC_ALL_MASK, "C", nullptr);
-  return plain;
-}
-
-/// For the calling thread, until the end of the scope.
-class PlainNumbers {
- public:
-  PlainNumbers() : before_(uselocale(plain_locale())) {}
-  ~PlainNumbers() { uselocale(before_); }
-  PlainNumbers(const PlainNumbers&) = delete;
-  PlainNumbers& operator=(const PlainNumbers&) = delete;
-
- private:
-  locale_t before_;
-};
-
-}  // namespace
 
 std::string formatted(const char* format, ...) {
   const PlainNumbers here;

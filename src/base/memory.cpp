@@ -1,15 +1,14 @@
 // memory.cpp: what the kernel says of memory.
 #include "base/memory.h"
 
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <algorithm>
+#include <cstdint>
 #include <fstream>
 #include <limits>
 
 #include "base/error.h"
 #include "base/formatted.h"
+#include "system/this_process.h"
 
 namespace espdiff {
 namespace {
@@ -50,10 +49,10 @@ double left_in(const std::string& group, const GroupFiles& files) {
 }
 
 double left_in_address_space() {
-  rlimit limit{};
-  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return kUnlimited;
-  const double used = number_in("/proc/self/statm", 0) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  return static_cast<double>(limit.rlim_cur) - used;
+  const std::uint64_t limit = address_space_limit();
+  if (limit == UINT64_MAX) return kUnlimited;
+  const double used = number_in("/proc/self/statm", 0) * static_cast<double>(memory_page_size());
+  return static_cast<double>(limit) - used;
 }
 
 std::string gigabytes(double n_bytes) { return formatted("%.1f GB", std::max(0.0, n_bytes) / 1e9); }

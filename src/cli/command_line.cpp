@@ -1,9 +1,6 @@
 // command_line.cpp: parses the command line, runs the command, and turns errors into one line and an exit status.
 #include "cli/command_line.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -17,6 +14,7 @@
 #include "cli/spelling.h"
 #include "cli/terminal_progress.h"
 #include "cli/verbs.h"
+#include "system/standard_streams.h"
 
 namespace {
 
@@ -24,13 +22,6 @@ std::string joined(int argc, char** argv) {
   std::string line = "espdiff";
   for (int i = 1; i < argc; ++i) line += std::string(" ") + argv[i];
   return line;
-}
-
-/// Where a standard stream is closed, the next file that is opened gets its number, and what is printed its content.
-void open_standard_streams() {
-  for (int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    if (fcntl(descriptor, F_GETFD) < 0 && open("/dev/null", O_RDWR) != descriptor) std::_Exit(1);
-  }
 }
 
 /// Runs the chosen command; errors become one line on standard error.
@@ -94,7 +85,7 @@ int run(int argc, char** argv) {
 namespace espdiff::cli {
 
 int run_command_line(int argc, char** argv) {
-  open_standard_streams();
+  if (!open_closed_streams()) return 1;
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {

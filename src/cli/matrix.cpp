@@ -9,6 +9,10 @@
 #include "cli/verbs.h"
 #include "compare/options.h"
 #include "engine/engine.h"
+#ifdef ESPDIFF_HAVE_HDF5
+#include "ensemble/ensemble_study.h"
+#include "ensemble/template_matrix.h"
+#endif
 #include "io/check_outputs.h"
 #include "io/structure_file.h"
 #include "matrix/matrix_run.h"
@@ -22,7 +26,8 @@ namespace {
 
 struct Arguments {
   std::vector<std::string> files;
-  std::string list, groups, map_array, shard = "1/1", on_error = "stop";
+  std::string list, groups, map_array, shard = "1/1", on_error = "stop", template_text;
+  std::size_t exact_sample = 6;
   PotentialRequest potential;
   MatrixRun run;
   bool quiet = false;
@@ -80,10 +85,12 @@ States read_states(const Arguments& a, const std::vector<VariantFiles>& files, c
     all.variants.back().inputs.insert(all.variants.back().inputs.end(), inputs.begin() + 1, inputs.end());
   }
   std::vector<const LoadedState*> loaded;
+  loaded.reserve(states.size());
   for (const LoadedState& state : states) loaded.push_back(&state);
   check_left_out(options.input, loaded);
   if (wants_charges && a.potential.potential != "none") {
     std::vector<PotentialFacts> facts;
+    facts.reserve(states.size());
     for (const LoadedState& state : states) facts.push_back(facts_of(state));
     all.plan = PotentialPlan(a.potential, facts, options.temperature_K);
   }
@@ -105,13 +112,27 @@ States read_states(const Arguments& a, const std::vector<VariantFiles>& files, c
   return all;
 }
 
+void print_template_work(const TemplateWork& work) {
+  const std::size_t n = work.n_states - work.n_states_resumed;
+  std::cout << n << " states mapped in " << in_words(work.seconds);
+  if (n > 0) std::cout << formatted(", %.2f s a state", work.seconds / static_cast<double>(n));
+  if (work.n_states_resumed > 0) std::cout << "; " << work.n_states_resumed << " were there already";
+  std::cout << "; " << work.n_exact - work.n_exact_resumed << " exact pairs computed in "
+            << in_words(work.exact_seconds);
+}
+
 void print_report(const Arguments& a, const Engine& engine, const MatrixReport& report) {
   if (report.matrix) {
     print_matrix(std::cout, *report.matrix, metric_to_cluster_by(a.run, *report.matrix));
   }
   const std::size_t n = report.n_pairs - report.n_resumed;
-  std::cout << '\n' << n << " pairs computed in " << in_words(report.seconds);
-  if (n > 0) {
+  std::cout << '\n';
+  if (report.template_work) {
+    print_template_work(*report.template_work);
+  } else {
+    std::cout << n << " pairs computed in " << in_words(report.seconds);
+  }
+  if (n > 0 && !report.template_work) {
     std::cout << ", " << formatted("%.2f", report.seconds / static_cast<double>(n)) << " s a pair";
   }
   std::cout << " (" << engine.description() << ")";
@@ -120,6 +141,17 @@ void print_report(const Arguments& a, const Engine& engine, const MatrixReport& 
   std::cout << "\nwritten:";
   for (const std::string& file : report.files) std::cout << ' ' << file;
   std::cout << '\n';
+}
+
+MatrixReport compute(const Arguments& a, Engine& engine, const std::vector<Variant>& variants,
+                     const CompareOptions& options, const Progress& progress) {
+  if (a.template_text.empty()) return run_matrix(engine, variants, options, a.run, progress);
+#ifdef ESPDIFF_HAVE_HDF5
+  const TemplateRequest request{a.template_text, a.exact_sample, ensemble_options(a.settings), a.structure};
+  return run_template_matrix(engine, variants, options, request, a.run, progress);
+#else
+  throw InputError("--template: the potentials are kept in an HDF5 file, and this program was built without HDF5");
+#endif
 }
 
 int run(Arguments& a, const Context& context) {
@@ -134,10 +166,24 @@ int run(Arguments& a, const Context& context) {
   const std::unique_ptr<Engine> engine = make_engine(a.device);
   const States states = read_states(a, files, options, *context.progress);
   a.run.potential = states.plan.computes() ? states.plan.in_words() : "maps";
-  const MatrixReport report = run_matrix(*engine, states.variants, options, a.run, *context.progress);
+  const MatrixReport report = compute(a, *engine, states.variants, options, *context.progress);
   context.progress->report("write", 1.0);
   if (!a.quiet) print_report(a, *engine, report);
   return 0;
+}
+
+void add_template_options(CLI::App& p, Arguments& a) {
+  p.add_option(
+       "--template", a.template_text,
+       "Map the surface of one structure onto each variant, and compare all variants in its vertices: a mapping "
+       "for each variant instead of each pair, and differences of potentials only. medoid: the variant nearest "
+       "to all others; a label; a number from 0; a structure file. The potentials stay in OUT.h5")
+      ->group("Template");
+  p.add_option("--exact-sample", a.exact_sample,
+               "Pairs, chosen at random, that are compared by themselves as well, to tell how far the template's are "
+               "from exact ones; 0 for none")
+      ->capture_default_str()
+      ->group("Template");
 }
 
 void add_run_options(CLI::App& p, Arguments& a) {
@@ -167,6 +213,7 @@ Verb add_matrix(CLI::App& app) {
       "model, map,\nunit (of the map), label, group. Paths are relative to the list.\n\nExamples:\n"
       "  espdiff matrix m*.pqr -o ubiquitin\n"
       "  espdiff matrix --list variants.csv -o variants --resume\n"
+      "  espdiff matrix m*.pqr --template medoid -o ubiquitin\n"
       "  espdiff matrix m*.pqr --shard 2/8 -o part      # one of eight processes; then: espdiff merge part.*.state -o "
       "all");
   parser->add_option("VARIANT", a->files, "Structures: PQR, PDB or mmCIF; each model of a file is a variant");
@@ -179,6 +226,7 @@ Verb add_matrix(CLI::App& app) {
   add_structure_options(*parser, a->structure);
   add_computed_map_options(*parser, a->potential);
   parser->add_option("--map-array", a->map_array, "Array of VTI maps with several")->group("Potentials");
+  add_template_options(*parser, *a);
   add_run_options(*parser, *a);
   add_settings(*parser, a->settings, SettingsFor::kVariants);
   add_device_options(*parser, a->device);

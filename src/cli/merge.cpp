@@ -5,6 +5,7 @@
 #ifdef ESPDIFF_HAVE_HDF5
 #include "ensemble/ensemble_file.h"
 #include "ensemble/ensemble_run.h"
+#include "ensemble/template_matrix.h"
 #endif
 #include "matrix/matrix_run.h"
 #include "matrix/write_matrix.h"
@@ -32,11 +33,18 @@ int run_ensemble_merge(const Arguments& a) {
 }
 #endif
 
+MatrixReport merged(const Arguments& a) {
+#ifdef ESPDIFF_HAVE_HDF5
+  if (are_parts_of_template_matrix(a.states)) return merge_template_matrix(a.states, a.run);
+#endif
+  return merge_matrix(a.states, a.run);
+}
+
 int run(const Arguments& a, const Context&) {
 #ifdef ESPDIFF_HAVE_HDF5
-  if (is_hdf5_file(a.states.front())) return run_ensemble_merge(a);
+  if (is_hdf5_file(a.states.front()) && !are_parts_of_template_matrix(a.states)) return run_ensemble_merge(a);
 #endif
-  const MatrixReport report = merge_matrix(a.states, a.run);
+  const MatrixReport report = merged(a);
   if (a.quiet) return 0;
   const Matrix& matrix = *report.matrix;
   print_matrix(std::cout, matrix, metric_to_cluster_by(a.run, matrix));
@@ -52,8 +60,8 @@ Verb add_merge(CLI::App& app) {
   auto a = std::make_shared<Arguments>();
   CLI::App* parser = app.add_subcommand("merge", "Merge the parts of a matrix or an ensemble");
   parser->footer(
-      "The parts are the state files of `espdiff matrix --shard I/N`, or the HDF5 files of `espdiff ensemble --shard "
-      "I/N`. The results are those of one process, byte by byte.\n\n"
+      "The parts are the state files of `espdiff matrix --shard I/N` (with --template the HDF5 files too), or the HDF5 "
+      "files of `espdiff ensemble --shard I/N`. The results are those of one process, byte by byte.\n\n"
       "Example:\n  espdiff merge part.shard-*-of-8.state -o all");
   parser->add_option("STATE", a->states, "State files, or HDF5 files, of all parts")->required();
   parser->add_option("-o,--output", a->run.output, "Prefix of the results: OUT.csv and OUT.json, or OUT.h5")

@@ -1,11 +1,10 @@
 // terminal_progress.cpp: a progress bar on standard error, and cancellation by Ctrl-C.
 #include "cli/terminal_progress.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
+
+#include "system/standard_streams.h"
 
 namespace espdiff::cli {
 namespace {
@@ -17,36 +16,20 @@ extern "C" void on_interrupt(int) {
   if (interruptible != nullptr) interruptible->request_cancel();
 }
 
-/// A closed terminal ends a run as Ctrl-C does; under nohup the signal is ignored, and stays so.
-constexpr int kCancelling[] = {SIGINT, SIGTERM, SIGHUP};
-
-/// @param before receives the action that is to come back
-void set_handler(int signal, void (*handler)(int), struct sigaction& before) {
-  struct sigaction action {};
-  if (sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) return;
-  action.sa_handler = handler;  // no SA_RESTART: a call that blocks returns
-  sigemptyset(&action.sa_mask);
-  sigaction(signal, &action, nullptr);
-}
-
 constexpr int kBarWidth = 30;
 constexpr std::chrono::milliseconds kRedrawInterval{50};
 
 }  // namespace
 
 TerminalProgress::TerminalProgress()
-    : is_terminal_(isatty(STDERR_FILENO) != 0),
-      progress_([this](const std::string& stage, double fraction) { draw(stage, fraction); }) {
+    : is_terminal_(is_error_stream_terminal()),
+      progress_([this](const std::string& stage, double fraction) { draw(stage, fraction); }),
+      interruption_(on_interrupt) {
   interruptible = &progress_;
-  for (const int signal : kCancelling) set_handler(signal, on_interrupt, before_[signal]);
-  // A reader that is gone and a file at its limit of size are errors of write(), which are told and tidied up after.
-  struct sigaction ignored {};
-  for (const int signal : {SIGPIPE, SIGXFSZ}) set_handler(signal, SIG_IGN, ignored);
 }
 
 TerminalProgress::~TerminalProgress() {
   clear();
-  for (const auto& [signal, action] : before_) sigaction(signal, &action, nullptr);
   interruptible = nullptr;
 }
 

@@ -2,11 +2,10 @@
 #pragma once
 
 #include <chrono>
-#include <csignal>
-#include <map>
 #include <string>
 
 #include "base/progress.h"
+#include "system/interruption.h"
 
 namespace espdiff::cli {
 
@@ -31,7 +30,7 @@ class TerminalProgress {
   std::string stage_;
   std::chrono::steady_clock::time_point last_draw_{};
   Progress progress_;
-  std::map<int, struct sigaction> before_;  // [signal that cancels] the action that comes back
+  Interruption interruption_;
 };
 
 }  // namespace espdiff::cli

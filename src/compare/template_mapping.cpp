@@ -18,9 +18,11 @@
 #include "compare/mapping.h"
 #include "compare/options.h"
 #include "compare/paired_residues.h"
+#include "compare/residue_rows.h"
 #include "compare/result.h"
 #include "compare/sample_outside.h"
 #include "compare/side_maps.h"
+#include "compare/slip.h"
 #include "compare/stage_clock.h"
 #include "engine/engine.h"
 #include "engine/morph_stage.h"
@@ -83,10 +85,13 @@ struct TemplateMapping::Parts {
     return device_map(engine, frame, to_map, frame.make_map ? map : nullptr, unit, options.temperature_K, progress).map;
   }
 
-  Mapping morph(const CompareInput& frame, const Surface& target, const CommonFrame& common, const AtomPairing& pairing,
-                const Progress& progress) {
-    const auto paths = atom_paths(*source.molecule, *frame.molecule, pairing, common.from_source, common.from_target,
-                                  common.followed, options.surface.radius_scale, progress);
+  std::vector<MovingAtom> paths_to(const CompareInput& frame, const CommonFrame& common, const AtomPairing& pairing,
+                                   const Progress& progress) const {
+    return atom_paths(*source.molecule, *frame.molecule, pairing, common.from_source, common.from_target,
+                      common.followed, options.surface.radius_scale, progress);
+  }
+
+  Mapping morph(const std::vector<MovingAtom>& paths, const Surface& target, const Progress& progress) {
     return mapping_of(engine, engine.morph(regularized, paths, surface.atoms, target.atoms, morph_options(options),
                                            "morph", progress));
   }
@@ -112,16 +117,37 @@ struct TemplateMapping::Parts {
     return std::move(samples.values);
   }
 
-  double same_residue(const CompareInput& frame, const Mapping& mapping, const Surface& target,
-                      const CompareResult& result) const {
-    MappedSurface s;
+  /// Where the vertices arrive, with their residues on the template.
+  void describe_mapped(const Mapping& mapping, MappedSurface& s) const {
     Mesh mesh = engine.download_shape(mapping.mapped);
     s.triangles = std::move(mesh.triangles);
     for (const Vec3f& p : mesh.positions) s.positions.push_back(static_cast<Vec3d>(p));
     s.unmatched.assign(mapping.unmatched.begin(), mapping.unmatched.end());
-    return same_residue_share(s, engine.vertex_residues(mapping.source, surface.atoms),
+    s.residue = engine.vertex_residues(mapping.source, surface.atoms);
+  }
+
+  double same_residue(const CompareInput& frame, const Mapping& mapping, const Surface& target,
+                      const CompareResult& result) const {
+    return same_residue_share(result.surface, result.surface.residue,
                               engine.vertex_residues(mapping.mapped, target.atoms),
                               paired_residues(*source.molecule, *frame.molecule, result.pairing));
+  }
+
+  /// The slip of the mapping, and of each residue. Displacements are not of interest here.
+  void measure_slip(const Mapping& mapping, const Surface& target, const std::vector<MovingAtom>& paths,
+                    CompareResult& result) const {
+    if (paths.empty()) return;
+    MappedSurface& s = result.surface;
+    s.corrupt.assign(s.triangles.size(), 0);  // removed
+    s.slip = engine.slip(mapping.source, mapping.mapped, target.mesh, paths);
+    const std::vector<double> areas = matched_areas(s);
+    for (std::size_t v = 0; v < areas.size(); ++v) {
+      if (areas[v] <= 0) s.slip[v] = std::numeric_limits<float>::quiet_NaN();
+    }
+    result.certificate.slip = summarize_slip(s, areas);
+    s.displacement.assign(s.positions.size(), 0);
+    s.path_length.assign(s.positions.size(), 0);
+    result.residues = residue_rows(s, source.molecule->residues.size(), false);
   }
 };
 
@@ -136,7 +162,7 @@ TemplateMapping::~TemplateMapping() = default;
 
 const TemplateSurface& TemplateMapping::surface() const { return parts_->described; }
 
-TemplateFrame TemplateMapping::map(const CompareInput& frame, const Progress& progress) {
+TemplateFrame TemplateMapping::map(const CompareInput& frame, bool check_slip, const Progress& progress) {
   Parts& p = *parts_;
   TemplateFrame out;
   StageClock clock(out.time_ms);
@@ -148,15 +174,17 @@ TemplateFrame TemplateMapping::map(const CompareInput& frame, const Progress& pr
   clock.lap("potential");
   const Surface target =
       build_surface(p.engine, *frame.molecule, common.from_target, p.options.surface, progress, clock);
-  Mapping mapping = p.morph(frame, target, common, result.pairing, progress);
+  const std::vector<MovingAtom> paths = p.paths_to(frame, common, result.pairing, progress);
+  Mapping mapping = p.morph(paths, target, progress);
   clock.lap("morph");
   find_matched_part(p.engine, mapping, target.atoms, target.mesh, p.isovalue());
   result.certificate = certify(p.engine, mapping, target.mesh);
   result.certificate.converged = true;
+  p.describe_mapped(mapping, result.surface);
   result.certificate.same_residue_area_fraction = p.same_residue(frame, mapping, target, result);
+  if (check_slip) p.measure_slip(mapping, target, paths, result);
   clock.lap("certificate");
-  out.potential = p.sample(map, frame, mapping, target, p.engine.download_shape(mapping.mapped).triangles,
-                           result.certificate.outside_maps);
+  out.potential = p.sample(map, frame, mapping, target, result.surface.triangles, result.certificate.outside_maps);
   judge(result, *p.source.molecule, p.options);
   out.unit = unit_of(frame);
   out.rmsd_A = result.rmsd_A;

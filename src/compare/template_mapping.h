@@ -46,7 +46,7 @@ struct TemplateFrame {
 /// costs its own surface, potential and mapping. Frames do not depend on each other, nor on their order.
 ///
 /// A frame's certificate has the checks of the mapping (fit, distances, intersections, unmatched areas) and those of
-/// the input; slip, round trip and the residues' own potentials are not checked.
+/// the input, and slip if it is asked for; round trip and the residues' own potentials are not checked.
 class TemplateMapping {
  public:
   /// @param source the template; its potential, if it has one, is where an iterative potential of a frame starts
@@ -55,8 +55,10 @@ class TemplateMapping {
   ~TemplateMapping();
 
   const TemplateSurface& surface() const;
-  /// @param frame has a map. @throws as compare()
-  TemplateFrame map(const CompareInput& frame, const Progress& progress);
+  /// @param frame      has a map
+  /// @param check_slip is part of the verdict then; it changes no value
+  /// @throws as compare()
+  TemplateFrame map(const CompareInput& frame, bool check_slip, const Progress& progress);
 
  private:
   struct Parts;

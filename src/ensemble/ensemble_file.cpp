@@ -1,13 +1,7 @@
 // ensemble_file.cpp: frames written to their places, with a checksum after them.
 #include "ensemble/ensemble_file.h"
 
-#include <fcntl.h>
-#include <signal.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -17,7 +11,9 @@
 #include "base/error.h"
 #include "base/system_message.h"
 #include "ensemble/hdf5_layout.h"
-#include "io/appended_file.h"
+#include "ensemble/hdf5_reader.h"
+#include "system/open_file.h"
+#include "system/this_process.h"
 
 namespace espdiff {
 namespace {
@@ -33,29 +29,9 @@ std::uint64_t checksum(std::size_t frame, const std::vector<float>& values, cons
   return sum == 0 ? 1 : sum;
 }
 
-void write_at(int descriptor, const std::string& path, std::uint64_t offset, const void* bytes, std::size_t n) {
-  const char* at = static_cast<const char*>(bytes);
-  while (n > 0) {
-    const ssize_t written = ::pwrite(descriptor, at, n, static_cast<off_t>(offset));
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) throw IoError(path, std::string("cannot be written: ") + system_message(errno));
-    at += written;
-    offset += static_cast<std::uint64_t>(written);
-    n -= static_cast<std::size_t>(written);
-  }
-}
-
-void read_at(int descriptor, const std::string& path, std::uint64_t offset, void* bytes, std::size_t n) {
-  char* at = static_cast<char*>(bytes);
-  while (n > 0) {
-    const ssize_t got = ::pread(descriptor, at, n, static_cast<off_t>(offset));
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0)
-      throw IoError(path, got == 0 ? "ends too early" : std::string("cannot be read: ") + system_message(errno));
-    at += got;
-    offset += static_cast<std::uint64_t>(got);
-    n -= static_cast<std::size_t>(got);
-  }
+void write_at(OpenFile& file, const std::string& path, std::uint64_t offset, const void* bytes, std::size_t n) {
+  const int error = file.write_at(offset, bytes, n);
+  if (error != 0) throw IoError(path, std::string("cannot be written: ") + system_message(error));
 }
 
 /// A note of exactly kNoteBytes.
@@ -64,11 +40,11 @@ std::string padded(std::string note) {
   return note;
 }
 
-void extend(int descriptor, const std::string& path) {
+void extend(OpenFile& file, const std::string& path) {
   const std::uint64_t intended = intended_size(path);
   if (intended <= fs::file_size(path)) return;
-  if (::ftruncate(descriptor, static_cast<off_t>(intended)) != 0)
-    throw IoError(path, std::string("lost its end, and cannot be extended: ") + system_message(errno));
+  const int error = file.truncate(intended);
+  if (error != 0) throw IoError(path, std::string("lost its end, and cannot be extended: ") + system_message(error));
 }
 
 /// Removes what killed processes left while they made this file.
@@ -80,7 +56,7 @@ void remove_unfinished(const std::string& path) {
     const std::string name = entry.path().filename().string();
     if (name.rfind(start, 0) != 0) continue;
     const long process = std::strtol(name.c_str() + start.size(), nullptr, 10);
-    if (process > 0 && ::kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH) fs::remove(entry, ignored);
+    if (process > 0 && !is_process(static_cast<int>(process))) fs::remove(entry, ignored);
   }
 }
 
@@ -89,69 +65,58 @@ IoError busy(const std::string& path) {
 }
 
 /// @returns false if another run holds the lock, or has put another file in this one's place meanwhile
-bool lock(int descriptor, const std::string& path) {
-  return ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 && is_file_named(descriptor, path);
-}
+bool lock(OpenFile& file, const std::string& path) { return file.lock() == LockResult::kLocked && file.is_named(path); }
 
 /// Gives a new file its name: over a file that no run writes, or where there is none. Of two runs that begin together
 /// one gets the name.
 void put_in_place(const std::string& temporary, const std::string& path) {
-  const auto check = [&](int result) {
-    if (result != 0) throw IoError(path, std::string("cannot be written: ") + system_message(errno));
-  };
-  const int earlier = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (earlier >= 0) {
-    const bool locked = lock(earlier, path);
-    const int renamed = locked ? ::rename(temporary.c_str(), path.c_str()) : 0;
-    const int error = errno;
-    ::close(earlier);
-    if (!locked) throw busy(path);
-    errno = error;
-    check(renamed);
-  } else if (::link(temporary.c_str(), path.c_str()) == 0) {
-    ::unlink(temporary.c_str());
-  } else if (errno == EEXIST) {
-    throw busy(path);
+  std::error_code error;
+  if (OpenFile earlier(path, FileAccess::kRead); earlier) {
+    if (!lock(earlier, path)) throw busy(path);
+    fs::rename(temporary, path, error);
   } else {
-    check(::rename(temporary.c_str(), path.c_str()));  // a file system without links
+    fs::create_hard_link(temporary, path, error);
+    if (error == std::errc::file_exists) throw busy(path);
+    if (error) {
+      fs::rename(temporary, path, error);  // a file system without links
+    } else {
+      fs::remove(temporary, error);
+    }
   }
+  if (error) throw IoError(path, "cannot be written: " + system_message(error.value()));
 }
 
 }  // namespace
 
 struct EnsembleFile::Contents {
   std::string path;
-  int descriptor = -1;
+  OpenFile file;
   EnsemblePlan plan;
   TemplateSurface surface;
   EnsembleLayout layout;
   std::vector<char> done;
   std::size_t n_damaged = 0;
 
-  ~Contents() {
-    if (descriptor >= 0) ::close(descriptor);
-  }
-
   void open(bool for_writing) {
-    descriptor = ::open(path.c_str(), (for_writing ? O_RDWR : O_RDONLY) | O_CLOEXEC);
-    if (descriptor < 0) throw IoError(path, std::string("cannot be opened: ") + system_message(errno));
-    if (for_writing && !lock(descriptor, path)) throw busy(path);
+    file = OpenFile(path, for_writing ? FileAccess::kReadWrite : FileAccess::kRead);
+    if (!file) throw IoError(path, std::string("cannot be opened: ") + system_message(file.error()));
+    if (for_writing && !lock(file, path)) throw busy(path);
     const std::uint64_t intended = intended_size(path);
     if (for_writing) {
-      extend(descriptor, path);
+      extend(file, path);
     } else if (intended > fs::file_size(path)) {
       throw FormatError(path, 0, "lost its end; " + switched_on("resume") + " computes again what is missing");
     }
   }
 
   void read() {
-    EnsembleContents file = open_hdf5_file(descriptor, path);
-    plan = parse_ensemble_plan(file.plan, path);
-    layout = std::move(file.layout);
-    surface.positions = std::move(file.positions);
-    surface.normals = std::move(file.normals);
-    surface.triangles = std::move(file.triangles);
-    surface.residue = std::move(file.residue);
+    EnsembleContents contents = open_hdf5_file(file, path);
+    plan = parse_ensemble_plan(contents.plan, path);
+    layout = std::move(contents.layout);
+    surface.positions = std::move(contents.positions);
+    surface.normals = std::move(contents.normals);
+    surface.triangles = std::move(contents.triangles);
+    surface.residue = std::move(contents.residue);
     if (plan.n_frames() != layout.n_frames)
       throw FormatError(path, 0,
                         "has places for " + std::to_string(layout.n_frames) + " frames, and describes " +
@@ -166,11 +131,11 @@ struct EnsembleFile::Contents {
   void check_frames() {
     done.assign(layout.n_frames, 0);
     std::vector<std::uint64_t> sums(layout.n_frames);
-    read_at(descriptor, path, layout.checksums, sums.data(), sums.size() * sizeof(std::uint64_t));
+    read_file_at(file, path, layout.checksums, sums.data(), sums.size() * sizeof(std::uint64_t));
     std::vector<float> values(layout.n_vertices);
     for (std::size_t f = 0; f < layout.n_frames; ++f) {
       if (sums[f] == 0) continue;
-      read_at(descriptor, path, layout.values[f], values.data(), values.size() * sizeof(float));
+      read_file_at(file, path, layout.values[f], values.data(), values.size() * sizeof(float));
       done[f] = sums[f] == checksum(f, values, numbers(f), note(f)) ? 1 : 0;
       if (done[f] == 0) ++n_damaged;
     }
@@ -178,13 +143,13 @@ struct EnsembleFile::Contents {
 
   std::vector<double> numbers(std::size_t frame) const {
     std::vector<double> row(frame_columns().size());
-    read_at(descriptor, path, layout.numbers + frame * row.size() * sizeof(double), row.data(),
-            row.size() * sizeof(double));
+    read_file_at(file, path, layout.numbers + frame * row.size() * sizeof(double), row.data(),
+                 row.size() * sizeof(double));
     return row;
   }
   std::string note(std::size_t frame) const {
     std::string text(kNoteBytes, '\0');
-    read_at(descriptor, path, layout.notes + frame * kNoteBytes, text.data(), kNoteBytes);
+    read_file_at(file, path, layout.notes + frame * kNoteBytes, text.data(), kNoteBytes);
     return text;
   }
 
@@ -192,19 +157,18 @@ struct EnsembleFile::Contents {
              const std::string& text) {
     const std::uint64_t none = 0, sum = checksum(frame, values, row, text);
     const std::uint64_t place = layout.checksums + frame * sizeof sum;
-    write_at(descriptor, path, place, &none, sizeof none);
-    write_at(descriptor, path, layout.values[frame], values.data(), values.size() * sizeof(float));
-    write_at(descriptor, path, layout.numbers + frame * row.size() * sizeof(double), row.data(),
-             row.size() * sizeof(double));
-    write_at(descriptor, path, layout.notes + frame * kNoteBytes, text.data(), text.size());
-    write_at(descriptor, path, place, &sum, sizeof sum);
+    write_at(file, path, place, &none, sizeof none);
+    write_at(file, path, layout.values[frame], values.data(), values.size() * sizeof(float));
+    write_at(file, path, layout.numbers + frame * row.size() * sizeof(double), row.data(), row.size() * sizeof(double));
+    write_at(file, path, layout.notes + frame * kNoteBytes, text.data(), text.size());
+    write_at(file, path, place, &sum, sizeof sum);
     done[frame] = 1;
   }
 };
 
 void EnsembleFile::create(const std::string& path, const EnsemblePlan& plan, const TemplateSurface& surface) {
   remove_unfinished(path);
-  const std::string temporary = path + ".new-" + std::to_string(::getpid());
+  const std::string temporary = path + ".new-" + std::to_string(process_number());
   try {
     make_hdf5_file(temporary, plan_text(plan), surface, plan.potential_unit, plan.n_frames());
   } catch (const FormatError&) {
@@ -254,8 +218,8 @@ EnsembleFrame EnsembleFile::numbers(std::size_t frame) const {
 }
 
 void EnsembleFile::read_values(std::size_t frame, std::size_t begin, std::size_t end, float* values) const {
-  read_at(contents_->descriptor, contents_->path, contents_->layout.values[frame] + begin * sizeof(float), values,
-          (end - begin) * sizeof(float));
+  read_file_at(contents_->file, contents_->path, contents_->layout.values[frame] + begin * sizeof(float), values,
+               (end - begin) * sizeof(float));
 }
 
 void EnsembleFile::copy(std::size_t frame, const EnsembleFile& from) {

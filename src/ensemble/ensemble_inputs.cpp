@@ -11,6 +11,7 @@
 #include "base/version.h"
 #include "compare/settings.h"
 #include "ensemble/medoid.h"
+#include "ensemble/template_choice.h"
 #include "io/molfile_plugins.h"
 #include "io/sha256.h"
 #include "io/structure_file.h"
@@ -26,21 +27,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kMedoidOf = "medoid:";
-
-std::string sha256_of_molecule(const Molecule& molecule) {
-  Sha256 sum;
-  for (std::size_t i = 0; i < molecule.size(); ++i) {
-    sum.update(molecule.atoms[i].name.data(), molecule.atoms[i].name.size());
-    sum.update(&molecule.atoms[i].residue, sizeof molecule.atoms[i].residue);
-    sum.update(&molecule.positions[i], sizeof molecule.positions[i]);
-    sum.update(&molecule.radii[i], sizeof molecule.radii[i]);
-  }
-  return sum.finish();
-}
-
-bool is_number(const std::string& text) {
-  return !text.empty() && text.size() < 10 && text.find_first_not_of("0123456789") == std::string::npos;
-}
 
 }  // namespace
 
@@ -240,17 +226,14 @@ void EnsembleInputs::choose_template(const std::string& text, const Progress& pr
     const std::string what = of_group ? "medoid of " : text == "medoid" ? "medoid: " : "";
     plan_.template_name = what + plan_.name_of(number);
   } else {
-    const StructureFile file(text);
-    StateRequest request{request_.structure};
-    request.wants_charges = false;
-    template_ = load_state(file, request, options_.input, progress);
+    template_ = read_template(text, request_.structure, options_.input, progress);
     plan_.template_name = text;
   }
   template_map_ = nullptr;
   if (potential_.computes() && has_charges(template_.molecule) && !potential_.takes_everything())
     template_map_ = maker_of(template_);
   set_surface_radii({&template_.molecule}, options_.input.radii);
-  plan_.template_sha256 = sha256_of_molecule(template_.molecule);
+  plan_.template_sha256 = sha256_of_template(template_.molecule);
 }
 
 CompareInput EnsembleInputs::source() const { return {&template_.molecule, nullptr, template_map_, {}}; }

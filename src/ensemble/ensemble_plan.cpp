@@ -9,6 +9,7 @@
 #include "base/formatted.h"
 #include "io/json_integer.h"
 #include "io/json_values.h"
+#include "matrix/matrix_plan.h"
 #include "matrix/plan_difference.h"
 #include "statistics/arrangements.h"
 
@@ -43,7 +44,7 @@ bool holds_together(const EnsemblePlan& plan) {
     if (r.n_frames > kMostFrames || r.files.size() != r.sha256.size()) return false;
     n += r.n_frames;
   }
-  return n <= kMostFrames;
+  return n <= kMostFrames && (plan.matrix == nullptr || plan.matrix->variants.size() == n);
 }
 
 }  // namespace
@@ -77,6 +78,7 @@ std::pair<std::size_t, std::size_t> EnsemblePlan::place_of(std::size_t frame) co
 }
 
 std::string EnsemblePlan::name_of(std::size_t frame) const {
+  if (matrix != nullptr) return matrix->variants.at(frame).label;
   const auto [replicate, number] = place_of(frame);
   return replicates[replicate].group + ", replicate " + replicates[replicate].name + ", frame " +
          std::to_string(number);
@@ -102,7 +104,9 @@ std::string plan_text(const EnsemblePlan& plan) {
     json["replicates"].back()["topology_sha256"] = r.topology_sha256;
   }
   json["residues"] = plan.residues;
-  return json.dump(1);
+  if (plan.matrix != nullptr) json["matrix"] = {{"plan", plan_json(*plan.matrix)}, {"exact_sample", plan.n_exact}};
+  // A path need not be UTF-8, JSON must be.
+  return json.dump(1, ' ', false, Json::error_handler_t::replace);
 }
 
 EnsemblePlan parse_ensemble_plan(const std::string& text, const std::string& path) {
@@ -126,6 +130,10 @@ EnsemblePlan parse_ensemble_plan(const std::string& text, const std::string& pat
                                  integer_of<std::size_t>(r.at("n_frames")), r.value("topology", std::string()),
                                  r.value("topology_sha256", std::string())});
     json.at("residues").get_to(plan.residues);
+    if (json.contains("matrix")) {
+      plan.matrix = std::make_shared<const MatrixPlan>(parse_plan(json.at("matrix").at("plan").dump()));
+      plan.n_exact = integer_of<std::size_t>(json.at("matrix").at("exact_sample"));
+    }
     if (!holds_together(plan)) throw damaged;
     return plan;
   } catch (const Json::exception&) {
@@ -136,7 +144,10 @@ EnsemblePlan parse_ensemble_plan(const std::string& text, const std::string& pat
 }
 
 std::string plan_difference(const EnsemblePlan& there, const EnsemblePlan& here) {
-  std::string text = differ("the version", there.version, here.version);
+  const auto kind = [](const EnsemblePlan& plan) { return plan.matrix == nullptr ? "an ensemble" : "a matrix"; };
+  std::string text = differ("the run", kind(there), kind(here));
+  if (text.empty() && here.matrix != nullptr) text = plan_difference(*there.matrix, *here.matrix);
+  if (text.empty()) text = differ("the version", there.version, here.version);
   if (text.empty()) text = differ("the device", there.device, here.device);
   if (text.empty()) text = differ("the potential", there.potential, here.potential);
   if (text.empty()) text = differ("the unit", there.potential_unit, here.potential_unit);

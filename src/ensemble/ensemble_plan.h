@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace espdiff {
+
+struct MatrixPlan;
 
 /// One simulation: the models of its files, in order; or where its frames are from, in words, instead of files.
 struct EnsembleReplicate {
@@ -26,6 +29,9 @@ struct EnsemblePlan {
   std::vector<std::pair<std::string, std::string>> charges;  ///< group, and where its charges come from
   std::vector<EnsembleReplicate> replicates;                 ///< group by group
   std::vector<std::string> residues;                         ///< labels of the template's
+  /// Of a matrix through a template, whose variants are the frames of one replicate; null otherwise.
+  std::shared_ptr<const MatrixPlan> matrix{};
+  std::size_t n_exact = 0;  ///< pairs of the matrix that are compared by themselves too; no value depends on it
 
   std::size_t n_frames() const;
   /// In order of their first replicates.
@@ -33,7 +39,7 @@ struct EnsemblePlan {
   std::vector<std::size_t> replicates_of(const std::string& group) const;
   /// The replicate of a frame of all, and its number there, both from 0.
   std::pair<std::size_t, std::size_t> place_of(std::size_t frame) const;
-  /// "wild, replicate w1, frame 3"
+  /// "wild, replicate w1, frame 3"; of a matrix the variant's label
   std::string name_of(std::size_t frame) const;
 };
 

@@ -9,10 +9,8 @@
 #include "base/earlier_patch.h"
 #include "base/error.h"
 #include "base/formatted.h"
-#include "base/residue_label.h"
-#include "compare/place_patch.h"
-#include "compare/region_result.h"
 #include "ensemble/ensemble_file.h"
+#include "ensemble/template_patches.h"
 #include "statistics/false_discovery.h"
 #include "statistics/replicate_columns.h"
 
@@ -284,18 +282,13 @@ struct Analysis {
 
   /// [vertex] nonzero in the patch; finds the place of an earlier one.
   std::vector<std::uint8_t> vertices_of(FixedPatch& patch) {
-    const TemplateSurface& surface = file.surface();
-    if (patch.earlier == nullptr) return espdiff::vertices_of(surface.residue, patch.residues);
-    std::vector<Residue> residues;
-    for (const std::string& label : plan().residues) residues.push_back(parse_residue_label(label));
-    PlacedPatch placed =
-        place_patch(*patch.earlier, {surface.positions, surface.triangles, surface.residue, residues}, "the template");
-    patch.placement = placed.placement;
+    std::vector<std::uint8_t> inside = vertices_on_template(patch, file.surface(), plan().residues);
+    if (patch.earlier == nullptr) return inside;
     if (is_of_these_runs(*patch.earlier))
       result.warnings.push_back("patch " + patch.name +
                                 " was found significant in frames that are measured here again: its difference is too "
                                 "large, and its p means nothing; measure it in other simulations");
-    return std::move(placed.inside);
+    return inside;
   }
 
   void measure_fixed_patches() {

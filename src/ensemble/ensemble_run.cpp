@@ -115,12 +115,13 @@ EnsembleReport run_ensemble(Engine& engine, EnsemblePlan plan, const CompareInpu
   report.n_frames = end - begin;
   report.n_resumed = report.n_frames - missing.size();
   report.n_damaged = file.n_damaged();
+  const std::string what = plan.matrix == nullptr ? "frame" : "state";
   const Clock::time_point start = Clock::now();
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
   for (std::size_t i = 0; i < missing.size(); ++i) {
     const std::size_t f = missing[i];
     const std::string name = plan.name_of(f);
-    std::string text = "frame " + std::to_string(report.n_resumed + i + 1) + " of " + std::to_string(report.n_frames);
+    std::string text = what + " " + std::to_string(report.n_resumed + i + 1) + " of " + std::to_string(report.n_frames);
     if (i > 0)
       text += ", " + in_words(seconds() / static_cast<double>(i) * static_cast<double>(missing.size() - i)) + " left";
     const double share = static_cast<double>(report.n_resumed + i) / static_cast<double>(report.n_frames);
@@ -128,12 +129,12 @@ EnsembleReport run_ensemble(Engine& engine, EnsemblePlan plan, const CompareInpu
         [&](const std::string& stage, double) { progress.report(text + "; " + name + ": " + stage, share); });
     try {
       inner.report("read", 0.0);
-      const TemplateFrame frame = mapping.map(read(f), inner);
+      const TemplateFrame frame = mapping.map(read(f), plan.matrix != nullptr, inner);
       file.write(f, frame.potential, numbers_of(frame, graph));
       add_times(report.time_ms, frame.time_ms);
     } catch (const Cancelled&) {
       throw Error(ErrorClass::kCancelled, "cancelled after " + std::to_string(report.n_resumed + i) + " of " +
-                                              std::to_string(report.n_frames) + " frames, which " + report.path +
+                                              std::to_string(report.n_frames) + " " + what + "s, which " + report.path +
                                               " holds; " + switched_on("resume") + " goes on");
     } catch (const Error& error) {
       if (!run.skip_errors || error.error_class() == ErrorClass::kIo) {

@@ -5,41 +5,15 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/residue_label.h"
 #include "compare/settings.h"
 #include "engine/engine.h"
 #include "ensemble/ensemble_file.h"
+#include "ensemble/template_patches.h"
 #include "ensemble/write_ensemble.h"
 #include "io/check_outputs.h"
-#include "prepare/region.h"
 
 namespace espdiff {
 namespace {
-
-/// The residues of each patch on the template.
-std::vector<FixedPatch> fixed_patches(const CompareOptions& options, const Molecule& molecule) {
-  std::vector<FixedPatch> patches;
-  for (SurfacePatch& patch : patches_on(molecule, options.input.patches))
-    patches.push_back({std::move(patch.name), std::move(patch.residues), std::move(patch.earlier)});
-  return patches;
-}
-
-/// The template as its file knows it: a CA atom for each residue.
-Molecule residues_of_template(const EnsemblePlan& plan) {
-  Molecule molecule;
-  molecule.name = "the template (its residues alone, as CA atoms)";
-  for (const std::string& label : plan.residues) {
-    Atom atom;
-    atom.name = "CA";
-    atom.element = "C";
-    atom.residue = static_cast<std::int32_t>(molecule.residues.size());
-    molecule.atoms.push_back(atom);
-    molecule.residues.push_back(parse_residue_label(label));
-    molecule.positions.emplace_back();
-    molecule.radii.push_back(1);
-  }
-  return molecule;
-}
 
 /// The file of FILE.csv:COLUMN.
 std::string file_of_column(const std::string& text) { return text.substr(0, text.rfind(':')); }

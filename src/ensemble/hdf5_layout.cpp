@@ -230,8 +230,8 @@ void make_hdf5_file(const std::string& path, const std::string& plan, const Temp
   if (H5Fflush(file, H5F_SCOPE_GLOBAL) < 0) throw IoError(path, "cannot be written; is the disk full?");
 }
 
-EnsembleContents open_hdf5_file(int descriptor, const std::string& path) {
-  const Hdf5Reader reader(descriptor, path);
+EnsembleContents open_hdf5_file(const OpenFile& file, const std::string& path) {
+  const Hdf5Reader reader(file, path);
   if (!reader.has("espdiff")) throw FormatError(path, 0, "an HDF5 file, but not one of `espdiff ensemble`");
   EnsembleContents contents;
   const auto plan = reader.read<char>("/espdiff/plan", 'u');

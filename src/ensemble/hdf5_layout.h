@@ -10,6 +10,8 @@
 
 namespace espdiff {
 
+class OpenFile;
+
 struct TemplateSurface;
 
 /// Numbers of a frame, in the order of the file.
@@ -45,7 +47,7 @@ struct EnsembleContents {
 };
 /// @param descriptor of the file, open for reading
 /// @throws FormatError (not an ensemble file; damaged)
-EnsembleContents open_hdf5_file(int descriptor, const std::string& path);
+EnsembleContents open_hdf5_file(const OpenFile& file, const std::string& path);
 
 /// The size that a file should have, by its first bytes; 0 if it is no HDF5 file that we wrote.
 std::uint64_t intended_size(const std::string& path);

@@ -1,17 +1,14 @@
 // hdf5_reader.cpp: superblock, groups, object headers and chunk indices, each checked before it is followed.
 #include "ensemble/hdf5_reader.h"
 
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 #include <utility>
 
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/system_message.h"
+#include "system/open_file.h"
 
 namespace espdiff {
 namespace {
@@ -42,10 +39,14 @@ struct Hdf5Reader::Message {
   std::string content;
 };
 
-Hdf5Reader::Hdf5Reader(int descriptor, std::string path) : descriptor_(descriptor), path_(std::move(path)) {
-  struct stat status {};
-  if (::fstat(descriptor_, &status) != 0) throw IoError(path_, std::string("cannot be read: ") + system_message(errno));
-  n_bytes_ = static_cast<std::uint64_t>(status.st_size);
+void read_file_at(const OpenFile& file, const std::string& path, std::uint64_t offset, void* bytes, std::size_t n) {
+  const int error = file.read_at(offset, bytes, n);
+  if (error == OpenFile::kEndsTooEarly) throw IoError(path, "ends too early");
+  if (error != 0) throw IoError(path, std::string("cannot be read: ") + system_message(error));
+}
+
+Hdf5Reader::Hdf5Reader(const OpenFile& file, std::string path)
+    : file_(file), path_(std::move(path)), n_bytes_(file.size()) {
   constexpr std::size_t kSuperblock = 96;
   const std::string head = n_bytes_ < kSuperblock ? std::string() : block(0, kSuperblock);
   if (!begins_with(head, "\x89HDF\r\n\x1a\n")) fail("not an HDF5 file");
@@ -60,16 +61,7 @@ void Hdf5Reader::fail(const std::string& what) const {
 
 void Hdf5Reader::read_bytes(std::uint64_t address, void* bytes, std::size_t n) const {
   if (n > n_bytes_ || address > n_bytes_ - n) fail("the file is cut off, or its structure is damaged");
-  char* at = static_cast<char*>(bytes);
-  while (n > 0) {
-    const ssize_t got = ::pread(descriptor_, at, n, static_cast<off_t>(address));
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0)
-      throw IoError(path_, got == 0 ? "ends too early" : std::string("cannot be read: ") + system_message(errno));
-    at += got;
-    address += static_cast<std::uint64_t>(got);
-    n -= static_cast<std::size_t>(got);
-  }
+  read_file_at(file_, path_, address, bytes, n);
 }
 
 std::string Hdf5Reader::block(std::uint64_t address, std::uint64_t n) const {

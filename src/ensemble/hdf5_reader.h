@@ -8,6 +8,11 @@
 
 namespace espdiff {
 
+class OpenFile;
+
+/// @throws IoError (beyond its end, cannot be read)
+void read_file_at(const OpenFile& file, const std::string& path, std::uint64_t offset, void* bytes, std::size_t n);
+
 /// Where a dataset lies in the file.
 struct Hdf5Dataset {
   std::string name;
@@ -26,9 +31,9 @@ struct Hdf5Dataset {
 /// virtual datasets are not read. Source: HDF5 File Format Specification, version 1.1.
 class Hdf5Reader {
  public:
-  /// @param descriptor open for reading; stays the caller's
+  /// @param file open for reading, and as long as this lives
   /// @throws FormatError (not such a file)
-  Hdf5Reader(int descriptor, std::string path);
+  Hdf5Reader(const OpenFile& file, std::string path);
 
   /// Whether the root group has a group or dataset of this name.
   bool has(const std::string& name) const;
@@ -61,7 +66,7 @@ class Hdf5Reader {
                                std::size_t& n_nodes) const;
   void add_chunks(std::uint64_t node, int depth, std::size_t& n_nodes, Hdf5Dataset& set) const;
 
-  int descriptor_;
+  const OpenFile& file_;
   std::string path_;
   std::uint64_t n_bytes_ = 0, root_ = 0;
 };

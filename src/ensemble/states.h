@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "ensemble/state_sums.h"
+
 namespace espdiff {
 
 class EnsembleFile;
@@ -14,12 +16,11 @@ struct EnsembleResult;
 constexpr std::size_t kMostStates = 5000;
 constexpr std::size_t kComponents = 3;
 
-/// All frames against each other, over the vertices that every frame has.
+/// All frames against each other, each pair over the vertices that both have.
 struct StateTable {
   std::vector<std::size_t> frames;  ///< their numbers in the file
-  double area_fraction = 0;         ///< of the template's area that every frame has
-  /// [i * n + j] over that area: mean absolute and root mean square difference, and Hodgkin's index.
-  std::vector<double> mean_abs, rms, hodgkin;
+  StateSums sums;
+  double area_fraction = 0;  ///< of the template's area that every frame has, on which the components rest
 
   /// Principal components of the potential over frames.
   struct Component {

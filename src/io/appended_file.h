@@ -4,11 +4,9 @@
 #include <cstddef>
 #include <string>
 
-namespace espdiff {
+#include "system/open_file.h"
 
-/// Whether an open file still has that name: before it was locked, another run may have removed it, or put another file
-/// in its place.
-bool is_file_named(int descriptor, const std::string& path);
+namespace espdiff {
 
 /// What to do with an existing file.
 enum class ExistingFile { kRefuse, kResume, kReplace };
@@ -40,7 +38,7 @@ class AppendedFile {
   void open_and_lock();
 
   std::string path_;
-  int descriptor_ = -1;
+  OpenFile file_;
   bool is_new_ = false;      ///< it was not there
   bool is_written_ = false;  ///< by this run
 };

@@ -1,20 +1,16 @@
 // atomic_file.cpp: write aside, check, rename.
 #include "io/atomic_file.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <atomic>
 #include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <locale>
 #include <utility>
 
 #include "base/error.h"
 #include "base/system_message.h"
+#include "system/permissions.h"
+#include "system/this_process.h"
 
 namespace espdiff {
 namespace {
@@ -34,7 +30,9 @@ std::string with_remedy(int error_number) {
     case EPERM: return reason + "; write to a folder that you may write to, or change its permissions";
     case EROFS: return reason + "; write to another folder";
     case ENOSPC:
+#if defined(EDQUOT)  // not on Windows
     case EDQUOT:
+#endif
     case EFBIG: return reason + "; free some space or write to another folder";
     case ENAMETOOLONG: return reason + "; choose a shorter name";
     default: return reason;
@@ -59,7 +57,7 @@ void check_target(const std::string& path, const std::string& target) {
     throw IoError(path, "cannot write: the folder " + folder + " does not exist; create it first");
   if (!fs::is_directory(folder_status))
     throw IoError(path, "cannot write: " + folder + " is not a folder; choose another name");
-  if (fs::exists(status) && ::access(target.c_str(), W_OK) != 0) {
+  if (fs::exists(status) && !may_write(target)) {
     throw IoError(path, "cannot write: the file exists and is read-only; remove it or choose another name");
   }
 }
@@ -67,24 +65,18 @@ void check_target(const std::string& path, const std::string& target) {
 /// A name beside `target` that no other process or thread uses.
 std::string sibling(const std::string& target, const char* suffix) {
   static std::atomic<unsigned> counter{0};
-  return target + "." + suffix + std::to_string(::getpid()) + "-" + std::to_string(counter++);
+  return target + "." + suffix + std::to_string(process_number()) + "-" + std::to_string(counter++);
 }
 
 /// Creates the temporary file, with the permissions that any new file gets.
 std::string create_sibling(const std::string& path, const std::string& target) {
   for (;;) {
     const std::string name = sibling(target, "tmp");
-    const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor >= 0) {
-      ::close(descriptor);
-      return name;
-    }
-    if (errno != EEXIST) throw IoError(path, "cannot write: " + with_remedy(errno));
+    const OpenFile file(name, FileAccess::kCreateNew);
+    if (file) return name;
+    if (file.error() != EEXIST) throw IoError(path, "cannot write: " + with_remedy(file.error()));
   }
 }
-
-/// The name under which the kernel shows an open file.
-std::string descriptor_path(int descriptor) { return "/proc/self/fd/" + std::to_string(descriptor); }
 
 }  // namespace
 
@@ -103,26 +95,23 @@ AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), target_(follo
   check_target(path_, target_);
   stream_.imbue(std::locale::classic());
   open_unnamed();
-  if (unnamed_ < 0) open_named();
+  if (!unnamed_) open_named();
 }
 
 AtomicFile::~AtomicFile() {
   stream_.close();
-  if (unnamed_ >= 0) ::close(unnamed_);
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  std::error_code ignored;
+  if (!temporary_.empty()) fs::remove(temporary_, ignored);
 }
 
-/// Leaves `unnamed_` below 0 where the file system or a system without /proc cannot do it.
+/// Leaves `unnamed_` closed where the file system or a system without /proc cannot do it.
 void AtomicFile::open_unnamed() {
-#if defined(O_TMPFILE)
-  unnamed_ = ::open(folder_of(target_).c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
-  if (unnamed_ < 0) return;
-  stream_.open(descriptor_path(unnamed_), std::ios::binary);
+  unnamed_ = OpenFile(folder_of(target_), FileAccess::kUnnamed);
+  if (!unnamed_) return;
+  stream_.open(unnamed_.own_path(), std::ios::binary);
   if (stream_) return;
   stream_.clear();
-  ::close(unnamed_);
-  unnamed_ = -1;
-#endif
+  unnamed_.close();
 }
 
 void AtomicFile::open_named() {
@@ -131,33 +120,31 @@ void AtomicFile::open_named() {
   stream_.open(temporary_, std::ios::binary | std::ios::trunc);
   if (stream_) return;
   const int error_number = errno;
-  ::unlink(temporary_.c_str());
+  std::error_code ignored;
+  fs::remove(temporary_, ignored);
   throw IoError(path_, "cannot write: " + with_remedy(error_number));
 }
 
 /// The permissions of an older file.
 void AtomicFile::keep_mode() const {
-  struct stat older {};
-  if (::stat(target_.c_str(), &older) != 0) return;
-  const std::string file = unnamed_ >= 0 ? descriptor_path(unnamed_) : temporary_;
-  constexpr mode_t kPermissions = 0777;
-  ::chmod(file.c_str(), older.st_mode & kPermissions);
+  std::error_code error;
+  const fs::file_status older = fs::status(target_, error);
+  if (!fs::exists(older)) return;
+  fs::permissions(unnamed_ ? unnamed_.own_path() : temporary_, older.permissions() & fs::perms::all, error);
 }
 
 /// A file without a name gets a temporary one, which a rename can turn into the target's.
 void AtomicFile::name_temporary() {
-  if (unnamed_ < 0) return;
-  std::string name;
-  do {
-    name = sibling(target_, "tmp");
-    if (::linkat(AT_FDCWD, descriptor_path(unnamed_).c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) {
-      temporary_ = name;
-      ::close(unnamed_);
-      unnamed_ = -1;
-      return;
-    }
-  } while (errno == EEXIST);
-  throw IoError(path_, "not written: " + with_remedy(errno));
+  if (!unnamed_) return;
+  for (;;) {
+    const std::string name = sibling(target_, "tmp");
+    const int error = unnamed_.link_as(name);
+    if (error == EEXIST) continue;
+    if (error != 0) throw IoError(path_, "not written: " + with_remedy(error));
+    temporary_ = name;
+    unnamed_.close();
+    return;
+  }
 }
 
 /// Brings everything to the file system; a write that failed earlier shows here at the latest.
@@ -181,13 +168,15 @@ void AtomicFile::rename_to_target() {
   name_temporary();
   if (fs::exists(target_, error)) {
     // A second link keeps the older file; where the file system has no links, it steps aside.
-    std::string aside = sibling(target_, "old");
-    if (::link(target_.c_str(), aside.c_str()) == 0 || ::rename(target_.c_str(), aside.c_str()) == 0) previous_ = aside;
+    const std::string aside = sibling(target_, "old");
+    fs::create_hard_link(target_, aside, error);
+    if (error) fs::rename(target_, aside, error);
+    if (!error) previous_ = aside;
   }
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0) {
-    const int error_number = errno;
+  fs::rename(temporary_, target_, error);
+  if (error) {
     restore_target();
-    throw IoError(path_, "not written: " + with_remedy(error_number));
+    throw IoError(path_, "not written: " + with_remedy(error.value()));
   }
   temporary_.clear();
   renamed_ = true;
@@ -195,18 +184,21 @@ void AtomicFile::rename_to_target() {
 
 /// Undoes rename_to_target(): the older file comes back, or nothing has this name.
 void AtomicFile::restore_target() {
+  std::error_code error;
   if (!previous_.empty()) {
-    if (::rename(previous_.c_str(), target_.c_str()) != 0) return;  // keep the copy rather than lose it
-    ::unlink(previous_.c_str());  // still there when both names were links to one file
+    fs::rename(previous_, target_, error);
+    if (error) return;             // keep the copy rather than lose it
+    fs::remove(previous_, error);  // still there when both names were links to one file
     previous_.clear();
   } else if (renamed_) {
-    ::unlink(target_.c_str());
+    fs::remove(target_, error);
   }
   renamed_ = false;
 }
 
 void AtomicFile::forget_previous() {
-  if (!previous_.empty()) ::unlink(previous_.c_str());
+  std::error_code ignored;
+  if (!previous_.empty()) fs::remove(previous_, ignored);
   previous_.clear();
 }
 

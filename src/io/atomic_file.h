@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "system/open_file.h"
+
 namespace espdiff {
 
 /// Writes to a temporary file in the folder of `path` and gives it its name at the end, so that a crash, a full disk or
@@ -49,7 +51,7 @@ class AtomicFile {
   std::string path_;       // as given, for messages
   std::string target_;     // with symbolic links followed
   std::string temporary_;  // empty once renamed or removed, and while the file has no name
-  int unnamed_ = -1;       // descriptor of a file without a name
+  OpenFile unnamed_;       // open while the file has no name
   std::string previous_;   // an older file of this name, aside until all are committed; empty without one
   std::ofstream stream_;
   bool renamed_ = false;

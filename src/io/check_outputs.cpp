@@ -1,8 +1,6 @@
 // check_outputs.cpp: compares files by device and inode, and names by their folders.
 #include "io/check_outputs.h"
 
-#include <sys/stat.h>
-
 #include <filesystem>
 
 #include "base/error.h"
@@ -14,8 +12,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Devices such as /dev/null are written by none of our writers, and read by many.
-bool status_of(const std::string& path, struct stat& status) {
-  return stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode);
+bool is_file(const std::string& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
 }
 
 /// The folder's real path and the name in it; of a link that points nowhere, that of what it would be.
@@ -33,10 +32,9 @@ std::string both_names(const std::string& a, const std::string& b) {
 }  // namespace
 
 bool is_same_file(const std::string& a, const std::string& b) {
-  struct stat of_a {
-  }, of_b{};
-  const bool has_a = status_of(a, of_a), has_b = status_of(b, of_b);
-  if (has_a && has_b) return of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino;
+  std::error_code error;
+  const bool has_a = is_file(a), has_b = is_file(b);
+  if (has_a && has_b) return fs::equivalent(a, b, error);
   return has_a == has_b && place_of(a) == place_of(b);
 }
 

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "io/molecule_builder.h"
 #include "io/molfile_abi.h"
-#include "io/quiet_output.h"
+#include "system/standard_streams.h"
 
 namespace espdiff {
 namespace {

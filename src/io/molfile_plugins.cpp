@@ -2,8 +2,6 @@
 // coordinates.
 #include "io/molfile_plugins.h"
 
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
@@ -15,8 +13,9 @@
 
 #include "base/error.h"
 #include "io/molfile_abi.h"
-#include "io/quiet_output.h"
 #include "io/run_program.h"
+#include "system/shared_library.h"
+#include "system/standard_streams.h"
 
 namespace espdiff {
 namespace {
@@ -93,11 +92,10 @@ int add_reader(void* readers, molfile::PluginHead* plugin) {
 void load_plugin(const fs::path& path, std::vector<MolfileReader>& readers) {
   // It stays loaded: readers point into it. One that cannot be loaded, for want of a library or a function, is left
   // out; found missing at the call, a function would end the program.
-  void* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  void* const library = load_library(path.string(), LibraryUse::kOwn);
   if (library == nullptr) return;
-  const auto init = reinterpret_cast<int (*)()>(dlsym(library, "vmdplugin_init"));
-  const auto announce =
-      reinterpret_cast<int (*)(void*, molfile::RegisterCallback)>(dlsym(library, "vmdplugin_register"));
+  const auto init = find_function<int (*)()>(library, "vmdplugin_init");
+  const auto announce = find_function<int (*)(void*, molfile::RegisterCallback)>(library, "vmdplugin_register");
   if (announce == nullptr || (init != nullptr && init() != molfile::kSuccess)) return;
   announce(&readers, add_reader);
 }
@@ -127,7 +125,7 @@ const std::vector<MolfileReader>& molfile_readers(const std::string& folder) {
   if (is_new) {
     const QuietOutput quiet;
     // Plugins in C++ do not name its library, and take the program's. Python's programs have none for them.
-    dlopen("libstdc++.so.6", RTLD_LAZY | RTLD_GLOBAL);
+    load_library("libstdc++.so.6", LibraryUse::kLazy);
     std::error_code problem;
     std::vector<fs::path> files;
     for (const auto& file : fs::directory_iterator(folder, problem)) {

@@ -265,15 +265,22 @@ void check_integers(const std::string& path, const std::string& text, gemmi::cif
   }
 }
 
-gemmi::Structure parse_mmcif(const std::string& path, const std::string& text, const std::string& assembly = "") {
+struct ParsedCif {
+  gemmi::Structure structure;
+  std::size_t n_operations = 0;  ///< of the assembly
+};
+
+ParsedCif parse_mmcif(const std::string& path, const std::string& text, const std::string& assembly = "") {
   gemmi::cif::Document document = parse_atom_site(path, text, !assembly.empty());
   if (document.blocks.empty()) throw InputError(path + ": CIF without a data block; give an mmCIF with coordinates");
   check_atom_site(path, text, document.blocks.front());
   check_residue_numbers(path, text, document.blocks.front());
   check_integers(path, text, document.blocks.front());
-  if (!assembly.empty()) check_operations(path, document.blocks.front(), assembly);
+  ParsedCif parsed;
+  if (!assembly.empty()) parsed.n_operations = check_operations(path, document.blocks.front(), assembly);
   add_missing_columns(document.blocks.front());
-  return call_gemmi(path, "the mmCIF cannot be read: ", [&] { return gemmi::make_structure(document); });
+  parsed.structure = call_gemmi(path, "the mmCIF cannot be read: ", [&] { return gemmi::make_structure(document); });
+  return parsed;
 }
 
 }  // namespace
@@ -289,7 +296,8 @@ Molecule read_pdb(const std::string& path, const AtomModel& model, const std::st
       path, "the PDB cannot be read: ", [&] { return gemmi::read_pdb_from_memory(text.data(), text.size(), path); });
   const bool is_assembly = !options.assembly.empty();
   if (is_assembly && !structure.models.empty())
-    build_assembly(path, structure, options.assembly, structure.models.front());
+    build_assembly(path, structure, options.assembly, check_biomt(path, remarks, options.assembly),
+                   structure.models.front());
   for (const ChosenAtom& chosen : choose_conformation(structure.models.front(), is_assembly)) {
     const AtomLine& line = checked.lines.at(static_cast<std::size_t>(chosen.atom->serial) - 1);
     AtomEntry entry = make_entry(chosen);
@@ -305,7 +313,8 @@ Molecule read_pdb(const std::string& path, const AtomModel& model, const std::st
 
 Molecule read_mmcif(const std::string& path, const std::string& text, const StructureOptions& options) {
   const bool is_assembly = !options.assembly.empty();
-  gemmi::Structure structure = parse_mmcif(path, text, options.assembly);
+  ParsedCif parsed = parse_mmcif(path, text, options.assembly);
+  gemmi::Structure& structure = parsed.structure;
   const int n_models = static_cast<int>(structure.models.size());
   if (options.model < 1 || options.model > n_models) {
     throw InputError(n_models == 0 ? path + ": has no atoms; give a structure with atoms"
@@ -314,7 +323,7 @@ Molecule read_mmcif(const std::string& path, const std::string& text, const Stru
   }
   MoleculeBuilder builder(path, options);
   gemmi::Model& model = structure.models[static_cast<std::size_t>(options.model) - 1];
-  if (is_assembly) build_assembly(path, structure, options.assembly, model);
+  if (is_assembly) build_assembly(path, structure, options.assembly, parsed.n_operations, model);
   for (const ChosenAtom& chosen : choose_conformation(model, is_assembly)) {
     const AtomEntry entry = make_entry(chosen);
     if (builder.wants(entry.residue_name, entry.hetero)) builder.add(entry);
@@ -323,7 +332,7 @@ Molecule read_mmcif(const std::string& path, const std::string& text, const Stru
 }
 
 int count_mmcif_models(const std::string& path, const std::string& text) {
-  return static_cast<int>(parse_mmcif(path, text).models.size());
+  return static_cast<int>(parse_mmcif(path, text).structure.models.size());
 }
 
 }  // namespace espdiff

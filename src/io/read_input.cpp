@@ -1,17 +1,12 @@
 // read_input.cpp: reads plain and gzip files in chunks, each hashed as it comes, and says why a file cannot be read.
 #include "io/read_input.h"
 
-#include <fcntl.h>
-#include <poll.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #if defined(ESPDIFF_HAVE_ZLIB)
 #include <zlib.h>
 #endif
 
 #include <algorithm>
-#include <cerrno>
+#include <filesystem>
 #include <memory>
 #include <new>
 #include <utility>
@@ -21,6 +16,7 @@
 #include "base/system_message.h"
 #include "io/file_kind.h"
 #include "io/sha256.h"
+#include "system/open_file.h"
 
 namespace espdiff {
 namespace {
@@ -31,71 +27,67 @@ namespace {
 constexpr std::size_t kChunk = ESPDIFF_READ_CHUNK;
 constexpr int kWaitForWriterMs = 10000;
 
-[[noreturn]] void cannot_read(const std::string& path, const char* remedy) {
-  throw IoError(path, std::string("cannot be read: ") + system_message(errno) + "; " + remedy);
+namespace fs = std::filesystem;
+
+[[noreturn]] void cannot_read(const std::string& path, int error, const char* remedy) {
+  throw IoError(path, std::string("cannot be read: ") + system_message(error) + "; " + remedy);
+}
+
+/// @throws IoError (nothing there, or a folder)
+fs::file_type type_of_file(const std::string& path) {
+  std::error_code error;
+  const fs::file_type type = fs::status(path, error).type();
+  if (error) cannot_read(path, error.value(), "check the path");
+  if (type == fs::file_type::directory) throw IoError(path, "is a directory; give a file in it");
+  return type;
 }
 
 /// A file or pipe that is open for reading.
-class OpenFile {
+class InputStream {
  public:
   /// @throws IoError
-  explicit OpenFile(const std::string& path) : path_(path) {
-    struct stat status {};
-    if (stat(path.c_str(), &status) != 0) cannot_read(path, "check the path");
-    if (S_ISDIR(status.st_mode)) throw IoError(path, "is a directory; give a file in it");
-    if (!S_ISREG(status.st_mode) && !S_ISFIFO(status.st_mode))
+  explicit InputStream(const std::string& path) : path_(path) {
+    const fs::file_type type = type_of_file(path);
+    if (type != fs::file_type::regular && type != fs::file_type::fifo)
       throw IoError(path, "is a device or a socket; give a file or a pipe");
     // Opening a pipe would wait for a writer, without end.
-    descriptor_ = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-    if (descriptor_ < 0) cannot_read(path, "check its permissions");
-    if (S_ISREG(status.st_mode)) {
-      n_bytes_ = static_cast<std::size_t>(status.st_size);
-      return;
-    }
-    try {
+    file_ = OpenFile(path, FileAccess::kReadPipe);
+    if (!file_) cannot_read(path, file_.error(), "check its permissions");
+    if (type == fs::file_type::fifo) {
       wait_for_writer();
-    } catch (...) {
-      close(descriptor_);
-      throw;
+    } else {
+      n_bytes_ = static_cast<std::size_t>(file_.size());
     }
   }
-  ~OpenFile() { close(descriptor_); }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
 
   /// 0 where it is not known before.
   std::size_t n_bytes() const { return n_bytes_; }
 
   /// Fills the buffer as far as there is something left to read; returns the number of bytes.
   std::size_t read(char* buffer, std::size_t size) {
+    const std::size_t n_first = has_first_ && size > 0 ? 1 : 0;
+    if (n_first > 0) *buffer = first_;
+    has_first_ = has_first_ && n_first == 0;
     std::size_t n_read = 0;
-    if (has_first_ && size > 0) {
-      buffer[n_read++] = first_;
-      has_first_ = false;
-    }
-    while (n_read < size) {
-      const ssize_t n = ::read(descriptor_, buffer + n_read, size - n_read);
-      if (n == 0) break;
-      if (n > 0) n_read += static_cast<std::size_t>(n);
-      if (n < 0 && errno != EINTR) throw IoError(path_, std::string("reading failed: ") + system_message(errno));
-    }
-    return n_read;
+    const int error = file_.read(buffer + n_first, size - n_first, n_read);
+    if (error != 0) throw IoError(path_, std::string("reading failed: ") + system_message(error));
+    return n_first + n_read;
   }
 
  private:
   void wait_for_writer() {
-    pollfd pipe{descriptor_, POLLIN, 0};
     // Nothing within this time: either nobody writes, or who does has not begun. Reading tells which.
-    if (poll(&pipe, 1, kWaitForWriterMs) == 0) {
-      const ssize_t n = ::read(descriptor_, &first_, 1);
-      if (n == 0) throw IoError(path_, "is a pipe that nobody writes into; start what writes, or give a file");
-      has_first_ = n == 1;
+    if (!file_.wait_until_readable(kWaitForWriterMs)) {
+      std::size_t n_read = 0;
+      if (file_.read(&first_, 1, n_read) == 0 && n_read == 0)
+        throw IoError(path_, "is a pipe that nobody writes into; start what writes, or give a file");
+      has_first_ = n_read == 1;
     }
-    fcntl(descriptor_, F_SETFL, fcntl(descriptor_, F_GETFL) & ~O_NONBLOCK);
+    file_.let_reading_wait();
   }
 
   std::string path_;
-  int descriptor_ = -1;
+  OpenFile file_;
   std::size_t n_bytes_ = 0;
   char first_ = 0;  // read while waiting
   bool has_first_ = false;
@@ -193,7 +185,7 @@ class Unpacker {
 
 /// The whole content, checked and hashed on the way.
 FileContent read_chunks(const std::string& path, const HeadCheck& check_head) {
-  OpenFile file(path);
+  InputStream file(path);
   FileContent result;
   result.path = path;
   std::string& content = result.content;
@@ -249,10 +241,8 @@ FileContent read_input(const std::string& path, const HeadCheck& check_head) {
 }
 
 void require_regular_file(const std::string& path) {
-  struct stat status {};
-  if (stat(path.c_str(), &status) != 0) cannot_read(path, "check the path");
-  if (S_ISDIR(status.st_mode)) throw IoError(path, "is a directory; give a file in it");
-  if (!S_ISREG(status.st_mode)) throw IoError(path, "is a pipe or a device; save its content as a file and give that");
+  if (type_of_file(path) != fs::file_type::regular)
+    throw IoError(path, "is a pipe or a device; save its content as a file and give that");
 }
 
 void unify_line_ends(std::string& text) {

@@ -1,16 +1,12 @@
 // temporary_folder.cpp: folders that their process locks, so that those of dead ones can be told.
 #include "io/temporary_folder.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 #include "base/error.h"
+#include "system/permissions.h"
 
 namespace espdiff {
 namespace {
@@ -19,29 +15,19 @@ namespace fs = std::filesystem;
 
 constexpr const char* kStart = "espdiff-prepare-";
 
-/// Ours, and no link: /tmp belongs to everyone.
-bool is_own_folder(const fs::path& path) {
-  struct stat status {};
-  return ::lstat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode) && status.st_uid == ::geteuid();
-}
-
-/// A folder that its process holds open, locked; -1 if another one does.
-int locked(const std::string& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-  if (descriptor < 0 || ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
-  ::close(descriptor);
-  return -1;
+/// A folder that its process holds open, locked; not open if another process does.
+OpenFile locked(const std::string& path) {
+  OpenFile folder(path, FileAccess::kFolder);
+  if (folder && folder.lock() != LockResult::kLocked) folder.close();
+  return folder;
 }
 
 /// Removes the folders of dead processes, which hold no lock. Their programs may still run: they fail then.
 void remove_left_behind(const std::string& folder) {
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-    if (entry.path().filename().string().rfind(kStart, 0) != 0 || !is_own_folder(entry.path())) continue;
-    const int descriptor = locked(entry.path().string());
-    if (descriptor < 0) continue;
-    fs::remove_all(entry.path(), ignored);
-    ::close(descriptor);
+    if (entry.path().filename().string().rfind(kStart, 0) != 0 || !is_own_folder(entry.path().string())) continue;
+    if (const OpenFile of_dead_process = locked(entry.path().string())) fs::remove_all(entry.path(), ignored);
   }
 }
 
@@ -56,18 +42,17 @@ TemporaryFolder::TemporaryFolder() {
   const std::string wanted = is_there ? fs::absolute(named, ignored).string() : std::string();
   for (const std::string& folder : {wanted.empty() ? std::string("/tmp") : wanted, std::string("/tmp")}) {
     remove_left_behind(folder);
-    path_ = folder + "/" + kStart + "XXXXXX";
-    if (::mkdtemp(path_.data()) == nullptr) continue;
-    descriptor_ = locked(path_);
-    if (descriptor_ >= 0) return;
+    path_ = make_private_folder(folder + "/" + kStart);
+    if (path_.empty()) continue;
+    lock_ = locked(path_);
+    if (lock_) return;
   }
-  throw IoError(path_, "a temporary folder cannot be made; name one that can be written to in TMPDIR");
+  throw IoError("/tmp", "a temporary folder cannot be made; name one that can be written to in TMPDIR");
 }
 
 TemporaryFolder::~TemporaryFolder() {
   std::error_code ignored;
   fs::remove_all(path_, ignored);
-  ::close(descriptor_);
 }
 
 std::string TemporaryFolder::write(const std::string& name, const std::string& content) const {

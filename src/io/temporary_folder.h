@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "system/open_file.h"
+
 namespace espdiff {
 
 /// An empty folder in TMPDIR (otherwise /tmp), readable by the user alone, removed with all that is in it at the end.
@@ -22,7 +24,7 @@ class TemporaryFolder {
 
  private:
   std::string path_;
-  int descriptor_ = -1;  ///< of the folder, with the lock
+  OpenFile lock_;  ///< of the folder
 };
 
 }  // namespace espdiff

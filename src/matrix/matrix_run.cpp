@@ -24,30 +24,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// @param may_replace whether existing results may be replaced
-void check_results(const MatrixRun& run, bool may_replace, const std::vector<std::string>& parts) {
-  if (!run.cluster_by.empty()) find_metric(run.cluster_by, parts);
-  for (const char* ending : {".csv", ".json"}) {
-    if (!may_replace && fs::exists(run.output + ending))
-      throw InputError("the result " + run.output + ending + " exists, of a run that is complete; " +
-                       switched_on("overwrite") + " replaces it");
-    AtomicFile probe(run.output + ending);
-  }
-}
-
-/// Refuses bad outputs before the work.
-void check_existing(const MatrixRun& run, const std::vector<std::string>& parts) {
-  if (run.resume && run.overwrite)
-    throw InputError(option("resume") + " and " + option("overwrite") + " exclude each other; leave one out");
-  const std::string state = state_path(run.output, run.shard);
-  const bool has_state = fs::exists(state);
-  if (!run.overwrite && !run.resume && has_state)
-    throw InputError("the state file " + state + " of an earlier run exists; " + switched_on("resume") +
-                     " goes on with it, " + switched_on("overwrite") + " begins anew");
-  // A shard's results come with the merge.
-  if (run.shard.count == 1) check_results(run, run.overwrite || (run.resume && has_state), parts);
-}
-
 std::vector<MatrixPair> missing_pairs(const std::vector<MatrixPair>& pairs, const std::vector<MatrixCell>& cells) {
   std::set<MatrixPair> done;
   for (const MatrixCell& cell : cells) done.emplace(cell.source, cell.target);
@@ -56,12 +32,6 @@ std::vector<MatrixPair> missing_pairs(const std::vector<MatrixPair>& pairs, cons
     if (done.count(pair) == 0) missing.push_back(pair);
   }
   return missing;
-}
-
-/// Writes the results of a whole matrix.
-void finish(const MatrixRun& run, Matrix matrix, MatrixReport& report) {
-  report.files = write_matrix(run.output, matrix, metric_to_cluster_by(run, matrix));
-  report.matrix = std::move(matrix);
 }
 
 }  // namespace
@@ -85,25 +55,41 @@ std::vector<std::string> output_paths(const MatrixRun& run) {
   return paths;
 }
 
-MatrixReport run_matrix(Engine& engine, const std::vector<Variant>& variants, const CompareOptions& options,
-                        const MatrixRun& run, const Progress& progress) {
-  std::vector<std::string> inputs;
-  for (const Variant& variant : variants) {
-    for (const InputFile& input : variant.inputs) inputs.push_back(input.path);
+void check_results(const MatrixRun& run, bool may_replace, const std::vector<std::string>& parts) {
+  if (!run.cluster_by.empty()) find_metric(run.cluster_by, parts);
+  for (const char* ending : {".csv", ".json"}) {
+    if (!may_replace && fs::exists(run.output + ending))
+      throw InputError("the result " + run.output + ending + " exists, of a run that is complete; " +
+                       switched_on("overwrite") + " replaces it");
+    AtomicFile probe(run.output + ending);
   }
-  check_outputs(inputs, output_paths(run));
-  check_existing(run, part_names(options.input));
-  if (options.offsets_A.size() > 1)
-    throw InputError(option("offset") +
-                     ": a list of distances was given, and a matrix has one value of a metric for a pair; give one");
-  const MatrixPlan plan = make_plan(engine, variants, options, run.potential);
+}
+
+void check_existing(const MatrixRun& run, bool has_parts, const std::vector<std::string>& parts) {
+  if (run.resume && run.overwrite)
+    throw InputError(option("resume") + " and " + option("overwrite") + " exclude each other; leave one out");
+  const std::string state = state_path(run.output, run.shard);
+  if (!run.overwrite && !run.resume && fs::exists(state))
+    throw InputError("the state file " + state + " of an earlier run exists; " + switched_on("resume") +
+                     " goes on with it, " + switched_on("overwrite") + " begins anew");
+  // A shard's results come with the merge.
+  if (run.shard.count == 1) check_results(run, run.overwrite || (run.resume && has_parts), parts);
+}
+
+void finish_matrix(const MatrixRun& run, Matrix matrix, MatrixReport& report) {
+  report.files = write_matrix(run.output, matrix, metric_to_cluster_by(run, matrix));
+  report.matrix = std::move(matrix);
+}
+
+std::vector<MatrixCell> compute_and_keep(Engine& engine, const std::vector<Variant>& variants,
+                                         const CompareOptions& options, const MatrixRun& run, const MatrixPlan& plan,
+                                         const std::vector<MatrixPair>& pairs, const Progress& progress,
+                                         MatrixReport& report) {
   const std::string path = state_path(run.output, run.shard);
   MatrixStateContent earlier;
   MatrixState state =
       run.resume && fs::exists(path) ? MatrixState::go_on(path, plan, earlier) : MatrixState::begin(path, plan);
-  const std::vector<MatrixPair> pairs = matrix_pairs(variants.size(), run.shard);
   const std::vector<MatrixPair> missing = missing_pairs(pairs, earlier.cells);
-  MatrixReport report;
   report.n_pairs = pairs.size();
   report.n_resumed = pairs.size() - missing.size();
   report.cut_off = earlier.cut_off;
@@ -134,11 +120,26 @@ MatrixReport run_matrix(Engine& engine, const std::vector<Variant>& variants, co
                                             switched_on("resume") + " goes on");
   }
   report.seconds = seconds_since(start);
+  return cells;
+}
+
+MatrixReport run_matrix(Engine& engine, const std::vector<Variant>& variants, const CompareOptions& options,
+                        const MatrixRun& run, const Progress& progress) {
+  check_outputs(input_paths(variants), output_paths(run));
+  check_existing(run, fs::exists(state_path(run.output, run.shard)), part_names(options.input));
+  if (options.offsets_A.size() > 1)
+    throw InputError(option("offset") +
+                     ": a list of distances was given, and a matrix has one value of a metric for a pair; give one");
+  const MatrixPlan plan = make_plan(engine, variants, options, run.potential);
+  MatrixReport report;
+  const std::vector<MatrixCell> cells = compute_and_keep(engine, variants, options, run, plan,
+                                                         matrix_pairs(variants.size(), run.shard), progress, report);
+  const std::string path = state_path(run.output, run.shard);
   if (run.shard.count > 1) {
     report.files = {path};
     return report;
   }
-  finish(run, assemble(plan, cells, "resume the run"), report);
+  finish_matrix(run, assemble(plan, cells, "resume the run"), report);
   std::error_code ignored;
   fs::remove(path, ignored);
   return report;
@@ -165,7 +166,7 @@ MatrixReport merge_matrix(const std::vector<std::string>& state_paths, const Mat
   check_results(run, run.overwrite, plan.parts());
   MatrixReport report;
   report.n_pairs = report.n_resumed = cells.size();
-  finish(run, assemble(plan, cells, "resume the shard that lacks them, or name its state file too"), report);
+  finish_matrix(run, assemble(plan, cells, "resume the shard that lacks them, or name its state file too"), report);
   return report;
 }
 

@@ -19,6 +19,13 @@ struct MatrixRun {
   std::string cluster_by;    ///< a metric; empty: usual_metric()
 };
 
+/// The parts of a run through a template; see run_template_matrix().
+struct TemplateWork {
+  std::size_t n_states = 0, n_states_resumed = 0;  ///< mapped, of this run's shard
+  std::size_t n_exact = 0, n_exact_resumed = 0;    ///< pairs compared by themselves
+  double seconds = 0, exact_seconds = 0;           ///< for those that were computed
+};
+
 struct MatrixReport {
   std::size_t n_pairs = 0;         ///< of this run's shard
   std::size_t n_resumed = 0;       ///< of these, computed before
@@ -26,6 +33,7 @@ struct MatrixReport {
   double seconds = 0;              ///< for the pairs that were computed
   std::optional<Matrix> matrix;    ///< complete; absent for a shard
   std::vector<std::string> files;  ///< written
+  std::optional<TemplateWork> template_work{};
 };
 
 /// All that a run writes: results, or a shard's state file.
@@ -33,6 +41,24 @@ std::vector<std::string> output_paths(const MatrixRun& run);
 
 /// OUT.state, or OUT.shard-2-of-8.state.
 std::string state_path(const std::string& output_prefix, const Shard& shard);
+
+/// Refuses to replace results that are there. @param may_replace whether they may be replaced. @throws InputError
+void check_results(const MatrixRun& run, bool may_replace, const std::vector<std::string>& parts);
+
+/// Refuses a run that would replace results or state files, before the work.
+/// @param has_parts whether there is something that `resume` goes on with
+/// @throws InputError
+void check_existing(const MatrixRun& run, bool has_parts, const std::vector<std::string>& parts);
+
+/// Computes those of `pairs` that the state file lacks, and keeps each there. `report` gets what was done.
+/// @returns all of them. @throws as run_matrix()
+std::vector<MatrixCell> compute_and_keep(Engine& engine, const std::vector<Variant>& variants,
+                                         const CompareOptions& options, const MatrixRun& run, const MatrixPlan& plan,
+                                         const std::vector<MatrixPair>& pairs, const Progress& progress,
+                                         MatrixReport& report);
+
+/// Writes the results of a whole matrix.
+void finish_matrix(const MatrixRun& run, Matrix matrix, MatrixReport& report);
 
 /// Computes the shard's pairs that the state file lacks and writes each into it. Then, for a whole matrix, writes the
 /// results (write_matrix()) and removes the state file. A shard's state file stays for merge_matrix(). After an error

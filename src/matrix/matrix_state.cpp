@@ -1,13 +1,9 @@
 // matrix_state.cpp: lines with a running checksum, one write each.
 #include "matrix/matrix_state.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
-#include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -148,26 +144,12 @@ MatrixStateContent read_matrix_state(const std::string& path) {
   return content;
 }
 
-MatrixState::MatrixState(std::string path, std::string sum) : path_(std::move(path)), sum_(std::move(sum)) {
-  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
-  if (descriptor_ < 0) throw IoError(path_, std::string("the state file cannot be written: ") + system_message(errno));
-  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    ::close(descriptor_);
+MatrixState::MatrixState(std::string path, std::string sum)
+    : path_(std::move(path)), sum_(std::move(sum)), file_(path_, FileAccess::kAppend) {
+  if (!file_) throw IoError(path_, std::string("the state file cannot be written: ") + system_message(file_.error()));
+  if (file_.lock() == LockResult::kBusy)
     throw IoError(path_, "another process is writing this state file; wait for it, or name another output");
-  }
   remove_leftovers(path_);
-}
-
-MatrixState::MatrixState(MatrixState&& other) noexcept
-    : path_(std::move(other.path_)),
-      sum_(std::move(other.sum_)),
-      parts_(std::move(other.parts_)),
-      descriptor_(other.descriptor_) {
-  other.descriptor_ = -1;
-}
-
-MatrixState::~MatrixState() {
-  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 MatrixState MatrixState::begin(const std::string& path, const MatrixPlan& plan) {
@@ -191,8 +173,9 @@ MatrixState MatrixState::go_on(const std::string& path, const MatrixPlan& plan, 
   if (!difference.empty())
     throw InputError(path + ": this state file is of another run: " + difference +
                      "; run with the same input and settings to go on, or anew (" + switched_on("overwrite") + ")");
-  if (content.cut_off && ::truncate(path.c_str(), static_cast<off_t>(content.n_good_bytes)) != 0)
-    throw IoError(path, std::string("the incomplete last row cannot be taken away: ") + system_message(errno));
+  std::error_code error;
+  if (content.cut_off) std::filesystem::resize_file(path, content.n_good_bytes, error);
+  if (error) throw IoError(path, "the incomplete last row cannot be taken away: " + system_message(error.value()));
   state.parts_ = plan.parts();
   state.sum_ = last_sum(read_all(path), content.n_good_bytes);
   return state;
@@ -202,14 +185,10 @@ void MatrixState::add(const MatrixCell& cell) {
   const std::string json = cell_json(cell, parts_);
   sum_ = sum_of(sum_, json);
   const std::string line = line_of(sum_, json);
-  for (std::size_t written = 0; written < line.size();) {
-    const ssize_t n = ::write(descriptor_, line.data() + written, line.size() - written);
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0)
-      throw IoError(path_, std::string("a row cannot be written: ") + system_message(errno) +
-                               "; what is done is kept, and " + switched_on("resume") + " goes on");
-    written += static_cast<std::size_t>(n);
-  }
+  const int error = file_.write(line.data(), line.size());
+  if (error != 0)
+    throw IoError(path_, std::string("a row cannot be written: ") + system_message(error) +
+                             "; what is done is kept, and " + switched_on("resume") + " goes on");
 }
 
 }  // namespace espdiff

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "matrix/matrix_plan.h"
+#include "system/open_file.h"
 
 namespace espdiff {
 
@@ -31,10 +32,6 @@ class MatrixState {
   /// @throws as read_matrix_state(); InputError if the file belongs to another plan, with the difference
   static MatrixState go_on(const std::string& path, const MatrixPlan& plan, MatrixStateContent& content);
 
-  MatrixState(MatrixState&& other) noexcept;
-  MatrixState& operator=(MatrixState&&) = delete;
-  ~MatrixState();
-
   /// Adds a cell; it is in the file when this returns, even if the process then dies.
   /// @throws IoError
   void add(const MatrixCell& cell);
@@ -46,7 +43,7 @@ class MatrixState {
   std::string path_;
   std::string sum_;                 ///< of all lines
   std::vector<std::string> parts_;  ///< MatrixPlan::parts()
-  int descriptor_ = -1;
+  OpenFile file_;
 };
 
 }  // namespace espdiff

@@ -34,7 +34,7 @@ double as_distance(const Metric& metric, double a, double b) {
 }  // namespace
 
 Matrix assemble(const MatrixPlan& plan, const std::vector<MatrixCell>& cells, const std::string& hint) {
-  Matrix matrix{plan, {}};
+  Matrix matrix{plan, {}, {}};
   const std::size_t n = matrix.n();
   std::vector<const MatrixCell*> found(n * (n - 1), nullptr);
   const auto name = [&](const MatrixPair& pair) {

@@ -1,21 +1,26 @@
 // matrix_summary.h: summary of a matrix: asymmetry, groups, clusters, and comparison with the Hodgkin index.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "matrix/cluster.h"
 #include "matrix/matrix_plan.h"
+#include "matrix/through_template.h"
 
 namespace espdiff {
 
 /// A complete matrix.
 struct Matrix {
   MatrixPlan plan;
-  std::vector<MatrixCell> cells;  ///< source by source, without the diagonal: matrix_pairs() of all variants
+  std::vector<MatrixCell> cells;             ///< source by source, without the diagonal: matrix_pairs() of all variants
+  std::optional<ThroughTemplate> through{};  ///< absent where each pair was compared by itself
 
   std::size_t n() const { return plan.variants.size(); }
   const std::vector<Metric>& metrics() const { return matrix_metrics(plan.parts()); }
+  /// Whether its cells have the metric at all; without potentials some have no value nevertheless.
+  bool gives(std::size_t metric) const { return !through || is_given_by_template(metrics()[metric]); }
   /// @param source, target different
   const MatrixCell& cell(std::size_t source, std::size_t target) const {
     return cells[source * (n() - 1) + (target < source ? target : target - 1)];

@@ -6,6 +6,7 @@
 #include "matrix/write_matrix.h"
 
 #include "base/formatted.h"
+#include "matrix/write_through_template.h"
 
 namespace espdiff {
 namespace {
@@ -36,6 +37,9 @@ Range range_of(const Matrix& matrix, std::size_t metric) {
     if (range.most == nullptr || value > range.most->values[metric]) range.most = &cell;
   }
   range.mean = n > 0 ? range.mean / static_cast<double>(n) : std::nan("");
+  // Through a template the two directions have opposite signs: what is left of their sum is rounding.
+  constexpr double kRounding = 1e-12;
+  if (n > 0 && std::fabs(range.mean) < kRounding * std::fabs(range.most->values[metric])) range.mean = 0;
   return range;
 }
 
@@ -99,6 +103,10 @@ void print_trust(std::ostream& out, const Matrix& matrix) {
 void print_matrix(std::ostream& out, const Matrix& matrix, std::size_t metric) {
   out << matrix.n() << " variants, " << matrix.cells.size() << " ordered pairs";
   if (!matrix.plan.potential.empty()) out << ", potentials: " << matrix.plan.potential;
+  if (matrix.through)
+    out << formatted("\nthrough one template: %s, %zu vertices, %.1f A2; pairs have %.1f %% of it (least %.1f %%)",
+                     matrix.through->name.c_str(), matrix.through->n_vertices, matrix.through->area_A2,
+                     100 * matrix.through->mean_area_fraction, 100 * matrix.through->least_area_fraction);
   out << "\n\n"
       << padded("Over all pairs", label_width(matrix) + 13) << right("least", 11) << right("mean", 11)
       << right("greatest", 11) << right("asymmetry", 12) << '\n';
@@ -116,6 +124,7 @@ void print_matrix(std::ostream& out, const Matrix& matrix, std::size_t metric) {
   }
   print_groups(out, matrix, metric);
   print_trust(out, matrix);
+  if (matrix.through) print_through_template(out, matrix);
 }
 
 }  // namespace espdiff

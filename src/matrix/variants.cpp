@@ -73,6 +73,14 @@ void check_columns(const CsvTable& table, const std::vector<std::string>& known)
 
 }  // namespace
 
+std::vector<std::string> input_paths(const std::vector<Variant>& variants) {
+  std::vector<std::string> paths;
+  for (const Variant& variant : variants) {
+    for (const InputFile& input : variant.inputs) paths.push_back(input.path);
+  }
+  return paths;
+}
+
 std::vector<VariantFiles> variants_of_files(const std::vector<std::string>& paths) {
   std::vector<VariantFiles> variants;
   for (const std::string& path : paths) {

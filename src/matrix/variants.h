@@ -29,6 +29,9 @@ struct Variant {
   bool has_potential() const { return map || make_map != nullptr; }
 };
 
+/// Every file that made them.
+std::vector<std::string> input_paths(const std::vector<Variant>& variants);
+
 /// Files of a variant.
 struct VariantFiles {
   std::string structure;

@@ -6,6 +6,7 @@
 
 #include "io/atomic_file.h"
 #include "io/write_csv.h"
+#include "matrix/write_through_template.h"
 #include "report/write_compare.h"
 
 namespace espdiff {
@@ -60,6 +61,7 @@ Json metric_json(const Matrix& matrix, std::size_t m) {
 Json asymmetry_json(const Matrix& matrix) {
   Json json = Json::object();
   for (std::size_t m = 0; m < matrix.metrics().size(); ++m) {
+    if (!matrix.gives(m)) continue;
     const Asymmetry a = asymmetry(matrix, m);
     json[matrix.metrics()[m].name] = {
         {"mean", number(a.mean)},
@@ -72,6 +74,7 @@ Json asymmetry_json(const Matrix& matrix) {
 Json groups_json(const Matrix& matrix) {
   Json json = Json::object();
   for (std::size_t m = 0; m < matrix.metrics().size(); ++m) {
+    if (!matrix.gives(m)) continue;
     Json means = Json::array();
     for (const GroupMean& g : group_means(matrix, m)) {
       means.push_back({{"source", g.source},
@@ -153,8 +156,10 @@ Json matrix_json(const Matrix& matrix, std::size_t metric) {
   for (const char* key : {"version", "device", "potential", "potential_unit"}) json[key] = plan[key];
   json["options"] = options_json(matrix.plan.settings);
   json["variants"] = plan["variants"];
-  for (std::size_t m = 0; m < matrix.metrics().size(); ++m)
-    json["metrics"][matrix.metrics()[m].name] = metric_json(matrix, m);
+  if (matrix.through) json["template"] = through_template_json(matrix);
+  for (std::size_t m = 0; m < matrix.metrics().size(); ++m) {
+    if (matrix.gives(m)) json["metrics"][matrix.metrics()[m].name] = metric_json(matrix, m);
+  }
   const auto known = [](const MatrixCell& cell, bool value) {
     return cell.error.empty() ? Json(value) : Json(nullptr);
   };

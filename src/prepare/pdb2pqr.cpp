@@ -1,8 +1,6 @@
 // pdb2pqr.cpp: writes PDB2PQR's input, runs it or takes its output from the cache, and reads what it wrote.
 #include "prepare/pdb2pqr.h"
 
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
@@ -171,9 +169,10 @@ std::vector<std::string> arguments(const ChargeOptions& options, bool with_propk
 
 /// The version of a program by its file, so that a new one does not take outputs of an old one from the cache.
 std::string identity_of(const std::string& program) {
-  struct stat status {};
-  stat(program.c_str(), &status);
-  return program + " " + std::to_string(status.st_size) + " " + std::to_string(status.st_mtime);
+  std::error_code ignored;
+  namespace fs = std::filesystem;
+  return program + " " + std::to_string(fs::file_size(program, ignored)) + " " +
+         std::to_string(fs::last_write_time(program, ignored).time_since_epoch().count());
 }
 
 /// The reason in a log: its last error, in our words where they are known.

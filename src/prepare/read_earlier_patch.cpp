@@ -28,12 +28,19 @@ struct Record {
   std::vector<std::string> runs;
 };
 
+Residue residue_of(const std::string& label, const std::string& path) {
+  Residue residue = parse_residue_label(label);
+  if (residue_label(residue) != label)
+    throw FormatError(path, 0, "a residue is " + in_quotes(label) + ", which an ensemble does not write; run it again");
+  return residue;
+}
+
 Record record_of(const std::string& text, const std::string& path) {
   try {
     const Json json = Json::parse(text);
     Record record;
     for (const Json& label : json.at("plan").at("residues"))
-      record.residues.push_back(parse_residue_label(label.get<std::string>()));
+      record.residues.push_back(residue_of(label.get<std::string>(), path));
     for (const Json& replicate : json.at("plan").at("replicates")) {
       for (const Json& sha256 : replicate.at("sha256")) record.runs.push_back(sha256.get<std::string>());
     }
@@ -97,7 +104,7 @@ std::shared_ptr<const EarlierPatch> read_earlier_patch(const EarlierPatchName& n
     patch.inside.push_back(value == static_cast<double>(number) ? 1 : 0);
   const auto n_residues = static_cast<double>(patch.residues.size());
   for (const double value : array_of(vtp, "residue_index", vtp_path).values) {
-    if (!(value >= -1 && value < n_residues))
+    if (!(value >= -1 && value < n_residues && value == std::floor(value)))
       throw FormatError(vtp_path, 0, "a vertex belongs to no residue of " + name.path + "; give files of one run");
     patch.residue.push_back(static_cast<std::int32_t>(value));
   }

@@ -1,9 +1,9 @@
 // display.cpp: tries the X server through libX11, loaded at run time so that nothing here links to it.
 #include "view/display.h"
 
-#include <dlfcn.h>
-
 #include <cstdlib>
+
+#include "system/shared_library.h"
 
 namespace espdiff {
 namespace {
@@ -15,11 +15,6 @@ using OpenDisplay = void* (*)(const char*);
 using CloseDisplay = int (*)(void*);
 using QueryExtension = int (*)(void*, const char*, int*, int*, int*);
 
-template <typename Function>
-Function find_function(void* library, const char* name) {
-  return reinterpret_cast<Function>(dlsym(library, name));
-}
-
 }  // namespace
 
 std::string display_problem() {
@@ -28,7 +23,7 @@ std::string display_problem() {
     return std::string("drawing needs an X display and DISPLAY is not set; ") + kRemedy;
   }
   // Never closed: VTK keeps it loaded anyway, and Xlib leaves handlers that point into it.
-  void* library = dlopen("libX11.so.6", RTLD_NOW | RTLD_GLOBAL);
+  void* library = load_library("libX11.so.6", LibraryUse::kGlobal);
   if (library == nullptr) return "drawing needs libX11.so.6, which cannot be loaded; install it (Debian: libx11-6)";
   const auto open_display = find_function<OpenDisplay>(library, "XOpenDisplay");
   const auto close_display = find_function<CloseDisplay>(library, "XCloseDisplay");

@@ -1,7 +1,6 @@
 // render_window.cpp: chooses the kind of window.
 #include "view/render_window.h"
 
-#include <dlfcn.h>
 #include <vtkRenderWindow.h>
 #include <vtkVersionMacros.h>
 
@@ -16,6 +15,8 @@
 #endif
 
 #include "base/error.h"
+#include "system/shared_library.h"
+#include "system/this_process.h"
 #include "view/display.h"
 #include "view/vtk_messages.h"
 
@@ -26,7 +27,7 @@ namespace {
 /// VTK's window ends the program if it is missing.
 bool has_osmesa() {
   for (const char* name : {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"}) {
-    if (dlopen(name, RTLD_LAZY) != nullptr) return true;
+    if (load_library(name, LibraryUse::kLazy) != nullptr) return true;
   }
   return false;
 }
@@ -36,8 +37,7 @@ bool has_osmesa() {
 vtkSmartPointer<vtkRenderWindow> without_display() {
 #if defined(ESPDIFF_VTK_CHOOSES)
   // By default VTK would first try X, with warnings. If EGL does not work it uses OSMesa.
-  // NOLINTNEXTLINE(concurrency-mt-unsafe): only one thread draws
-  setenv("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow", 0);
+  set_environment_default("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow");  // only one thread draws
   const VtkMessages messages;
   vtkSmartPointer<vtkRenderWindow> window = vtkSmartPointer<vtkOpenGLRenderWindow>::New();
   window->SetShowWindow(false);

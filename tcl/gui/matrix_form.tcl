@@ -3,7 +3,7 @@
 namespace eval ::espdiff::gui {
     variable form
     array set form {matrix,mol "" matrix,frames now matrix,sel "not water" matrix,label "" matrix,group ""
-        matrix,potential automatic matrix,output matrix matrix,resume 0}
+        matrix,potential automatic matrix,output matrix matrix,resume 0 matrix,template ""}
     variable variants {}      ;# dicts: endpoint (without map), label, group, what (a description)
     variable data_set "data set 0 of each"
 
@@ -100,16 +100,20 @@ namespace eval ::espdiff::gui {
             in VMD the molecule's data set, or none to compare the shapes alone"
         ttk::entry $path.output -textvariable ::espdiff::gui::form(matrix,output) -width 16
         form_row $path 0 "Results" $path.output "Files begin with this: NAME.csv and NAME.json, and NAME.state while\
-            the run goes on" 2
+            the run goes on; with a template NAME.h5 too" 2
+        ttk::combobox $path.template -textvariable ::espdiff::gui::form(matrix,template) -width 18 -values {{} medoid}
+        form_row $path 1 Template $path.template "Empty: compare each pair by itself. Otherwise map one surface onto\
+            each variant, which is faster with many variants and gives differences of potentials only: medoid (the\
+            variant nearest to all others), a label, or a structure file"
         ttk::checkbutton $path.resume -text "resume an interrupted run" \
             -variable ::espdiff::gui::form(matrix,resume)
         tip $path.resume "Needs its state file, and the same variants and settings"
         grid $path.resume -row 1 -column 3 -sticky w
         ttk::label $path.note -text "The settings are those of the tab Pair." -foreground gray40
-        grid $path.note -row 1 -column 0 -columnspan 3 -sticky w
+        grid $path.note -row 2 -column 0 -columnspan 4 -sticky w
         grid configure $path.label_output -padx {16 6}
         grid columnconfigure $path {1 3} -weight 1
-        foreach name {potential output resume} { set widget(matrix,$name) $path.$name }
+        foreach name {potential output resume template} { set widget(matrix,$name) $path.$name }
     }
 
     proc show_variants {} {

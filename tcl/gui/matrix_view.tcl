@@ -5,7 +5,7 @@ namespace eval ::espdiff::gui {
     variable matrix_shown ""    ;# handle of the heat map shown
     variable matrix_result {}   ;# its `espdiff result`
     variable matrix_pairs {}    ;# its endpoints and settings
-    variable matrix_run {}      ;# the same as arguments of `espdiff matrix`: variants, output, settings
+    variable matrix_run {}      ;# the same as arguments of `espdiff matrix`: variants, output, settings, template
     variable draw_when_done ""  ;# comparison to draw when it is done
     variable form
     array set form {matrix,metric "" matrix,ordered 0}
@@ -32,7 +32,7 @@ namespace eval ::espdiff::gui {
         tip $path.top.table "Summary of the matrix"
         pack $path.top.label $path.top.metric $path.top.ordered -side left -padx {0 6}
         pack $path.top.table $path.top.plot -side right -padx {6 0}
-        canvas $path.map -width 420 -height 240 -background white -highlightthickness 1 -takefocus 1 \
+        canvas $path.map -width 420 -height 212 -background white -highlightthickness 1 -takefocus 1 \
             -highlightbackground gray80 -highlightcolor #3060c0
         ttk::label $path.pair -anchor w -text "A click on a cell compares and draws its pair."
         pack $path.top -fill x
@@ -62,8 +62,14 @@ namespace eval ::espdiff::gui {
         if {$matrix_running ne ""} return
         set output [string trim $form(matrix,output)]
         if {$output eq ""} { error "Results: no name is given" }
+        set template [string trim $form(matrix,template)]
         set options [list -output $output -resume $form(matrix,resume)]
-        if {!$form(matrix,resume) && [llength [glob -nocomplain $output.csv $output.json $output.state]] > 0} {
+        set results [list $output.csv $output.json $output.state]
+        if {$template ne ""} {
+            lappend options -template $template
+            lappend results $output.h5
+        }
+        if {!$form(matrix,resume) && [llength [glob -nocomplain {*}$results]] > 0} {
             if {![confirm_overwrite $output]} return
             lappend options -overwrite 1
         }
@@ -75,7 +81,8 @@ namespace eval ::espdiff::gui {
         set endpoints {}
         foreach variant $variants { lappend endpoints [variant_endpoint $variant] }
         set matrix_pairs [list $endpoints $settings]
-        set matrix_run [dict create variants [matrix_variants] output [file normalize $output] settings $settings]
+        set matrix_run [dict create variants [matrix_variants] output [file normalize $output] settings $settings \
+            template $template]
         remember_molecules matrix $endpoints
         save_settings
         show_matrix_running

@@ -150,9 +150,10 @@ namespace eval ::espdiff::gui {
         dict with matrix_run {
             set text "set variants \[list"
             foreach variant $variants { append text " \\\n    [script_word $variant]" }
+            set through [expr {$template eq "" ? {} : [list -template $template]}]
             return [list "$text\]" \
                 "puts \[espdiff table \[espdiff matrix \$variants[option_lines \
-                    [concat [list -output $output -overwrite 1] $settings]]\]\]"]
+                    [concat [list -output $output -overwrite 1] $through $settings]]\]\]"]
         }
     }
 

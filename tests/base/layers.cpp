@@ -15,38 +15,39 @@ using Rooms = std::map<std::string, std::set<std::string>>;
 
 /// What each room may include besides itself; only rooms below it.
 const Rooms kAllowed = {
-    {"base", {}},
-    {"io", {"base"}},
+    {"system", {}},
+    {"base", {"system"}},
+    {"io", {"system", "base"}},
     {"align", {"base"}},
     {"statistics", {"base"}},
-    {"prepare", {"base", "align", "io"}},
+    {"prepare", {"system", "base", "align", "io"}},
     {"engine", {"base"}},
     {"cuda/device", {"base", "engine"}},
     {"cuda/surface", {"base", "engine", "cuda/device"}},
     {"cuda/deform", {"base", "engine", "cuda/device", "cuda/surface"}},
     {"cuda/morph", {"base", "engine", "cuda/device", "cuda/surface"}},
     {"cuda/certificate", {"base", "engine", "cuda/device", "cuda/surface"}},
-    {"cuda/potential", {"base", "engine", "cuda/device", "cuda/surface"}},
+    {"cuda/potential", {"system", "base", "engine", "cuda/device", "cuda/surface"}},
     {"cuda",
      {"base", "engine", "cuda/device", "cuda/surface", "cuda/deform", "cuda/morph", "cuda/certificate",
       "cuda/potential"}},
     {"compare", {"base", "align", "engine"}},
     {"potential", {"base", "align", "engine", "io", "compare", "prepare"}},
     {"plot", {"base", "io"}},
-    {"view", {"base", "io", "plot"}},
+    {"view", {"system", "base", "io", "plot"}},
     {"verify", {"base", "io"}},
     {"report", {"base", "align", "engine", "io", "compare", "prepare", "potential"}},
     {"trajectory", {"base", "align", "engine", "io", "compare", "prepare", "potential", "plot", "report"}},
-    {"matrix", {"base", "align", "engine", "io", "compare", "prepare", "potential", "report"}},
+    {"matrix", {"system", "base", "align", "engine", "io", "compare", "prepare", "potential", "report"}},
     {"ensemble",
-     {"base", "align", "engine", "io", "statistics", "compare", "prepare", "potential", "report", "trajectory",
-      "matrix"}},
+     {"system", "base", "align", "engine", "io", "statistics", "compare", "prepare", "potential", "report",
+      "trajectory", "matrix"}},
     {"cli",
-     {"base", "align", "engine", "io", "statistics", "compare", "prepare", "potential", "plot", "view", "verify",
-      "report", "trajectory", "matrix", "ensemble"}},
+     {"system", "base", "align", "engine", "io", "statistics", "compare", "prepare", "potential", "plot", "view",
+      "verify", "report", "trajectory", "matrix", "ensemble"}},
     {"vmdplugin",
-     {"base", "align", "engine", "io", "statistics", "compare", "prepare", "potential", "plot", "report", "trajectory",
-      "matrix", "ensemble"}},
+     {"system", "base", "align", "engine", "io", "statistics", "compare", "prepare", "potential", "plot", "report",
+      "trajectory", "matrix", "ensemble"}},
     {"python/src",
      {"base", "align", "engine", "io", "statistics", "compare", "prepare", "potential", "report", "trajectory",
       "matrix", "ensemble", "cli"}},
@@ -99,6 +100,27 @@ TEST_CASE("rooms include only rooms below them") {
   }
   CHECK(n_files > 40);
   CHECK(n_includes > 40);
+}
+
+TEST_CASE("only src/system calls POSIX") {
+  const std::regex posix(
+      "#include <(csignal|dirent|dlfcn|fcntl|glob|poll|pthread|pwd|signal|spawn|sys/.*|termios|unistd)");
+  int n_in_system = 0;
+  for (const char* folder : {"src", "cuda", "vmdplugin", "python/src"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(ESPDIFF_SOURCE_DIR) / folder)) {
+      const std::string extension = entry.path().extension().string();
+      if (extension != ".h" && extension != ".cpp" && extension != ".cu") continue;
+      std::ifstream in(entry.path());
+      for (std::string line; std::getline(in, line);) {
+        if (!std::regex_search(line, posix)) continue;
+        INFO(entry.path().string(), ": ", line);
+        const bool is_in_system = entry.path().parent_path().filename() == "system";
+        n_in_system += is_in_system ? 1 : 0;
+        CHECK(is_in_system);
+      }
+    }
+  }
+  CHECK(n_in_system > 10);
 }
 
 TEST_CASE("every folder of src has a rule") {

@@ -478,6 +478,56 @@ TEST_CASE("models of ubiquitin: through the template, a pair differs as compare 
   CHECK(through_template == doctest::Approx(pair.at("mean_abs_difference").get<double>()).epsilon(0.15));
 }
 
+TEST_CASE("models of ubiquitin: a matrix through a template is near the exact one, and says how near") {
+  const auto models = real_input("series19_ubq_2k39");
+  if (!models) return;
+  const Runs in;
+  std::string files;
+  for (const char* name : {"m01", "m02", "m04"}) files += " " + *models + "/" + name + ".pqr";
+  const std::string common = "matrix" + files + " --grid-spacing 1.5 --potential coulomb --template ";
+  const Outcome out = in.run(common + "m02 --exact-sample 6 -o ubq");
+  INFO(out.err);
+  REQUIRE(out.status == 0);
+  CHECK(contains(out.out, "through one template: m02, "));
+  CHECK(contains(out.out, "6 pairs by themselves, chosen at random"));
+  CHECK(contains(out.out, "3 states mapped in "));
+  const auto json = nlohmann::json::parse(read_file(in.folder.file("ubq.json")));
+  const auto& agreement = json["template"]["exact"]["agreement"]["mean_abs_difference"];
+  CHECK(agreement["n"] == 6);
+  CHECK(agreement["largest_difference"].get<double>() < 0.15 * agreement["exact_mean"].get<double>());
+  CHECK(json["template"]["states"].size() == 3);
+  CHECK(json["template"]["states"][1]["rmsd_A"].get<double>() == doctest::Approx(0).scale(1));
+  CHECK(json["template"]["options"]["max_step_A"] == 0.7);
+  CHECK(json["options"]["max_step_A"] == 0.35);
+  // The heat map reads it as any matrix; the ensemble's components read its file.
+  CHECK(in.run("ensemble --from ubq.h5 --states -q -o pca").status == 0);
+  CHECK(n_lines(read_file(in.folder.file("pca.components.csv"))) == 4);
+  CHECK(contains(in.run(common + "m07 -o bad").err, "--template m07 is neither medoid, nor the label of a variant"));
+}
+
+TEST_CASE("a matrix through a template: two processes merge to the bytes of one, and bad parts are named") {
+  const Runs in;
+  const std::string common =
+      "matrix w1.pqr --grid-spacing 1.5 --potential coulomb --template medoid --exact-sample 2 -q ";
+  REQUIRE(in.run(common + "-o whole").status == 0);
+  for (const char* shard : {"1/2", "2/2"}) REQUIRE(in.run(common + "-o part --shard " + shard).status == 0);
+  const auto merge = [&](const std::string& parts) {
+    return run_espdiff("merge " + parts + " -o merged", "cd " + in.folder.file("") + " && ");
+  };
+  const std::string files = "part.shard-1-of-2.h5 part.shard-2-of-2.h5", first = " part.shard-1-of-2.state";
+  CHECK(contains(merge(files + first).err, "is missing; resume the shard that lacks it, or name its state file too"));
+  CHECK(contains(merge("part.shard-1-of-2.h5" + first + " part.shard-2-of-2.state").err,
+                 "none of the files has frame 2 (w1:3)"));
+  CHECK_FALSE(std::filesystem::exists(in.folder.file("merged.h5")));
+  const Outcome out = merge(files + first + " part.shard-2-of-2.state");
+  INFO(out.err);
+  REQUIRE(out.status == 0);
+  CHECK(contains(out.out, "through one template: medoid: w1:"));
+  for (const char* ending : {".csv", ".json", ".h5"})
+    CHECK(read_file(in.folder.file(std::string("merged") + ending)) ==
+          read_file(in.folder.file(std::string("whole") + ending)));
+}
+
 TEST_CASE("what cannot be an ensemble is refused in one line") {
   const Runs in;
   in.folder.write("one.pqr", models(1, false, true).substr(0, models(1, false, true).find("MODEL     2")));

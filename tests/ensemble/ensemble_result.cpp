@@ -241,11 +241,12 @@ TEST_CASE("frames against frames, and the component that was planted") {
     product += w * x * y;
     norms += w * (x * x + y * y);
   }
-  CHECK(states.mean_abs[3 * 80 + 61] == doctest::Approx(difference));
-  CHECK(states.mean_abs[61 * 80 + 3] == states.mean_abs[3 * 80 + 61]);
-  CHECK(states.rms[3 * 80 + 61] == doctest::Approx(std::sqrt(squares)));
-  CHECK(states.hodgkin[3 * 80 + 61] == doctest::Approx(2 * product / norms));
-  CHECK(states.mean_abs[5 * 80 + 5] == 0);
+  const espdiff::Metrics pair = states.sums.metrics(3, 61);
+  CHECK(pair.mean_abs_difference == doctest::Approx(difference));
+  CHECK(states.sums.metrics(61, 3).mean_abs_difference == pair.mean_abs_difference);
+  CHECK(pair.rms_difference == doctest::Approx(std::sqrt(squares)));
+  CHECK(pair.hodgkin_index == doctest::Approx(2 * product / norms));
+  CHECK(states.sums.metrics(5, 5).mean_abs_difference == 0);
   // The effect of -4 is the first component: 2 for one standard deviation, since half of the frames have it.
   const auto& first = states.components[0];
   CHECK(first.share > 2 * states.components[1].share);

@@ -3,8 +3,11 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
+#include <vector>
 
+#include "io/write_vtp.h"
 #include "planted_ensemble.h"
 #include "trajectory/series_csv.h"
 #include "trajectory/series_file.h"
@@ -69,6 +72,24 @@ void write_ensemble(const std::string& folder) {
   write(folder + "_plan/plan.json", plan_text(espdiff_fuzz::planted_plan()));
 }
 
+/// A square of two triangles, of which three corners are in the patch; both files behind one another.
+void write_earlier_patch(const std::string& folder) {
+  const std::vector<Vec3d> positions{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0}};
+  const std::vector<Triangle> triangles{{0, 1, 2}, {1, 3, 2}};
+  const std::vector<std::int32_t> patch{1, 1, 1, 0}, residue{0, 0, 1, -1};
+  VtpSurface surface;
+  surface.points = {"", positions};
+  surface.triangles = &triangles;
+  surface.point_arrays = {{"patch", patch}, {"residue_index", residue}};
+  std::ostringstream text;
+  write_vtp(text, surface);
+  write(folder + "/square",
+        R"({"plan": {"residues": ["ALA 1 of chain A", "GLY 2B of chain A"], "replicates": [{"sha256": ["ab"]}]}, )"
+        R"("patches": [{"area_A2": 3.3333333333333335}, {"area_A2": 0.0}]})"
+        "\n" +
+            text.str());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -78,4 +99,5 @@ int main(int argc, char** argv) {
   write_series_states(seeds + "/series_state");
   write_series_csv(seeds + "/series_csv");
   write_ensemble(seeds + "/ensemble");
+  write_earlier_patch(seeds + "/earlier_patch");
 }

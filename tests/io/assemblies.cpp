@@ -144,6 +144,53 @@ TEST_CASE("assemblies of more atoms or operations than are read are refused befo
   CHECK(message("(1,2)(1-2)", "2").find("there is no assembly '2'") != std::string::npos);
 }
 
+TEST_CASE("an assembly whose operations are not all described is refused, where gemmi would leave them out") {
+  const ScratchFolder folder;
+  const auto message = [&](const std::string& name, std::string text, const char* from, const char* to) {
+    const std::size_t at = text.find(from);
+    REQUIRE(at != std::string::npos);
+    const std::string path = folder.write(name, text.replace(at, std::string(from).size(), to));
+    const std::string refusal = message_of([&] { read_structure(path, assembly("1")); });
+    return refusal.find(path) == 0 ? refusal.substr(path.size()) : refusal;
+  };
+  const auto contains = [](const std::string& text, const char* part) { return text.find(part) != std::string::npos; };
+  CHECK(message("a.cif", kCif, "oper_expression 1,2", "oper_expression 1,3") ==
+        ": assembly '1' has 2 operations, and 1 are described with the chains that they apply to (REMARK 350, "
+        "_pdbx_struct_assembly_gen, _pdbx_struct_oper_list)");
+  // Once a conversion of NaN to an integer in gemmi: a model without atoms has no box.
+  CHECK(contains(message("a.cif", kCif, "matrix[3][2]", "matrix[6][2]"), "has 2 operations, and 0 are described"));
+  CHECK(contains(message("a.cif", kCif, "asym_id_list A", "asym_id_list X"), ": assembly '1' has no atoms: none are"));
+  // Once one chain, or a wrong copy, in silence.
+  const std::string rows = ": the operations of assembly '1' have ";
+  CHECK(message("a.pdb", kPdb, "REMARK 350   BIOMT3   2  0.000000  0.000000  1.000000        5.00000\n", "") ==
+        rows + "an incomplete last one; rows BIOMT1, BIOMT2 and BIOMT3 of numbers in their columns were expected");
+  CHECK(contains(message("a.pdb", kPdb, "BIOMT2   1", "BIOMT3   1"), (rows + "the line 'REMARK 350   BIOMT3").c_str()));
+  CHECK(contains(message("a.pdb", kPdb, " 5.00000", " 5.oooo0"), (rows + "the line").c_str()));
+  CHECK(contains(message("a.pdb", kPdb, "        5.00000", " 123456.00000  "), (rows + "the line").c_str()));
+  CHECK(contains(message("a.pdb", kPdb, "REMARK 350 APPLY THE FOLLOWING TO CHAINS: A\n", ""),
+                 "has 2 operations, and 0 are described with the chains"));
+}
+
+TEST_CASE("operations of assemblies that are no rotations, or lead far away, are refused") {
+  const ScratchFolder folder;
+  const auto message = [&](const char* operation) {
+    const std::string path = folder.write(
+        "a.cif", std::string(kCif).replace(std::string(kCif).find("-1 0 0 0 0 -1 0 0 0 0 1 5"), 25, operation));
+    const std::string text = message_of([&] { read_structure(path, assembly("1")); });
+    return text.find(path) == 0 ? text.substr(path.size()) : text;
+  };
+  const std::string not_rigid =
+      ": operation '2' of assembly '1' is not a rotation with a shift of at most 10^6 Angstrom";
+  for (const char* const operation :
+       {"1 0 0 0 0 1 0 0 0 0 -1 5", "2 0 0 0 0 1 0 0 0 0 1 5", "1 0 0 0 0 1 0 0 0 0 1 1e7", "1 0 0 0 0 1 0 0 0 0 1 ?",
+        "0 0 0 0 0 0 0 0 0 0 0 0"})
+    CHECK(message(operation) == not_rigid);
+  CHECK(message("0.5 -0.866 0 0 0.866 0.5 0 0 0 0 1 100") == "(nothing thrown)");
+  // gemmi's grid over their box would take 2.4 GB.
+  CHECK(message("1 0 0 2e4 0 1 0 2e4 0 0 1 0") ==
+        ": assembly '1' spans 20001.5 x 20000 x 0 Angstrom with 4 atoms; its operations cannot be right");
+}
+
 TEST_CASE("an assembly with more atoms than are read is refused before it is made") {
   const ScratchFolder folder;
   std::string text;

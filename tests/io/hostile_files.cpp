@@ -77,6 +77,13 @@ TEST_CASE("hostile structures: numbers that mean something else than they say") 
 #ifdef ESPDIFF_HAVE_GEMMI
   CHECK(contains(refused("cif_resid_overflow.cif"),
                  ": _atom_site.auth_seq_id of atom 1 is '4294967301'; an integer below"));
+  CHECK(contains(refusal(corpus("cif_assembly_without_matrices.cif"),
+                         [](const std::string& path) {
+                           StructureOptions options;
+                           options.assembly = "1";
+                           read_structure(path, options);
+                         }),
+                 ": assembly '1' has 2 operations, and 0 are described"));
 #endif
   CHECK(refused("ala.pqr") == "");
 }

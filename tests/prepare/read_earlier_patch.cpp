@@ -22,11 +22,14 @@ namespace {
 struct MadeResult {
   ScratchFolder folder;
   std::string area = "3.3333333333333335";
-  std::vector<std::int32_t> patch{1, 1, 1, 0}, residue{0, 0, 1, -1};
+  std::string second_residue = "GLY 2B of chain A";
+  std::vector<std::int32_t> patch{1, 1, 1, 0};
+  std::vector<double> residue{0, 0, 1, -1};
 
   EarlierPatch read(const std::string& number = "1") const {
-    folder.write("out.json", R"({"plan": {"residues": ["ALA 1 of chain A", "GLY 2B of chain A"], "replicates":)"
-                             R"( [{"sha256": ["ab", "cd"]}]}, "patches": [{"area_A2": )" +
+    folder.write("out.json", R"({"plan": {"residues": ["ALA 1 of chain A", ")" + second_residue +
+                                 R"("], "replicates":)"
+                                 R"( [{"sha256": ["ab", "cd"]}]}, "patches": [{"area_A2": )" +
                                  area + "}]}");
     const std::vector<Vec3d> positions{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0}};
     const std::vector<Triangle> triangles{{0, 1, 2}, {1, 3, 2}};
@@ -79,6 +82,17 @@ TEST_CASE("read_earlier_patch: numbers without a patch, and files of two runs") 
 
 TEST_CASE("read_earlier_patch: residues that the record lacks") {
   MadeResult made;
-  made.residue.back() = 2;
-  CHECK(made.refusal().find("out.vtp: a vertex belongs to no residue of") == 0);
+  for (const double residue : {2.0, 0.5, -2.0, 1e300}) {
+    made.residue.back() = residue;
+    CHECK(made.refusal().find("out.vtp: a vertex belongs to no residue of") == 0);
+  }
+}
+
+TEST_CASE("read_earlier_patch: residues whose numbers would be others are refused") {
+  MadeResult made;
+  for (const char* const label : {"GLY 4294967297 of chain A", "GLY", "GLY 2BC", "GLY  2"}) {
+    made.second_residue = label;
+    CHECK(made.refusal() ==
+          "out.json: a residue is '" + std::string(label) + "', which an ensemble does not write; run it again");
+  }
 }

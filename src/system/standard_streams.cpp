@@ -1,12 +1,22 @@
-// quiet_output.cpp: standard output points to nowhere for a while.
-#include "io/quiet_output.h"
+// standard_streams.cpp: descriptors 0 to 2.
+#include "system/standard_streams.h"
 
 #include <fcntl.h>
 #include <unistd.h>
 
 #include <cstdio>
+#include <initializer_list>
 
 namespace espdiff {
+
+bool open_closed_streams() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(descriptor, F_GETFD) < 0 && open("/dev/null", O_RDWR) != descriptor) return false;
+  }
+  return true;
+}
+
+bool is_error_stream_terminal() { return isatty(STDERR_FILENO) != 0; }
 
 QuietOutput::QuietOutput() {
   std::fflush(stdout);

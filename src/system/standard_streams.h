@@ -1,7 +1,13 @@
-// quiet_output.h: keeps what foreign code prints away from our standard output.
+// standard_streams.h: standard input, output and error: whether they are open, a terminal, or kept quiet.
 #pragma once
 
 namespace espdiff {
+
+/// Where a standard stream is closed, the next file that is opened gets its number, and what is printed its content:
+/// opens such streams to nowhere. @returns false if that fails
+bool open_closed_streams();
+
+bool is_error_stream_terminal();
 
 /// While it lives, what the process prints on standard output is lost: VMD's plugins tell there what they read.
 /// Only one at a time, and none while another thread prints.

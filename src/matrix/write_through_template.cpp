@@ -1,0 +1,146 @@
+// write_through_template.cpp: the template of a matrix as JSON and as a table.
+#include "matrix/write_through_template.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/formatted.h"
+#include "report/write_compare.h"
+
+namespace espdiff {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json state_json(const std::string& label, const TemplateState& state) {
+  Json json = {{"label", label}};
+  if (!state.error.empty()) {
+    json["error"] = state.error;
+    return json;
+  }
+  json["rmsd_A"] = number(state.rmsd_A);
+  json["no_counterpart_area_fraction"] = {{"template", number(state.unmatched_template)},
+                                          {"state", number(state.unmatched_state)}};
+  json["mapped_to_state_mean_within_limit_A"] = number(state.distance_A);
+  json["same_residue_area_fraction"] = number(state.same_residue_area_fraction);
+  json["trustworthy"] = state.trustworthy;
+  if (!state.trustworthy) json["reason"] = state.reason;
+  return json;
+}
+
+Json pair_json(const Matrix& matrix, const MatrixCell& cell) {
+  Json json = {{"source", matrix.plan.variants[cell.source].label},
+               {"target", matrix.plan.variants[cell.target].label},
+               {"trustworthy", cell.error.empty() ? Json(cell.trustworthy) : Json(nullptr)}};
+  if (!cell.error.empty()) json["error"] = cell.error;
+  for (std::size_t m = 0; m < cell.values.size(); ++m) {
+    if (matrix.gives(m)) json["metrics"][matrix.metrics()[m].name] = number(cell.values[m]);
+  }
+  return json;
+}
+
+Json exact_json(const Matrix& matrix) {
+  Json json = {{"pairs", Json::array()}, {"agreement", Json::object()}};
+  for (const MatrixCell& cell : matrix.through->exact) json["pairs"].push_back(pair_json(matrix, cell));
+  for (const TemplateAgreement& of : agreement(matrix)) {
+    json["agreement"][matrix.metrics()[of.metric].name] = {
+        {"n", of.n},
+        {"exact_mean", of.exact_mean},
+        {"template_mean", of.template_mean},
+        {"mean_difference", of.mean_difference},
+        {"largest_difference", of.largest_difference},
+        {"pair", {matrix.plan.variants[of.farthest.first].label, matrix.plan.variants[of.farthest.second].label}},
+        {"correlation", number(of.correlation)}};
+  }
+  return json;
+}
+
+void print_agreement(std::ostream& out, const Matrix& matrix) {
+  const std::vector<MatrixCell>& exact = matrix.through->exact;
+  if (exact.empty()) {
+    out << "\nNo pair was compared by itself: how far these values are from exact ones was not measured\n";
+    return;
+  }
+  std::size_t n_trustworthy = 0, n_through = 0;
+  for (const MatrixCell& cell : exact) {
+    n_trustworthy += cell.trustworthy ? 1 : 0;
+    n_through += matrix.cell(cell.source, cell.target).trustworthy ? 1 : 0;
+  }
+  out << formatted("\n%-37s%8s%9s%12s%10s%10s  of\n",
+                   formatted("%zu pair%s by %s, chosen at random", exact.size(), exact.size() == 1 ? "" : "s",
+                             exact.size() == 1 ? "itself" : "themselves")
+                       .c_str(),
+                   "exact", "template", "mean diff.", "largest", "correl.");
+  for (const TemplateAgreement& of : agreement(matrix)) {
+    const Metric& metric = matrix.metrics()[of.metric];
+    out << formatted("  %-35.35s%8.4g%9.4g%12.3g%10.3g%10s  %s to %s\n", metric.label, of.exact_mean, of.template_mean,
+                     of.mean_difference, of.largest_difference,
+                     std::isnan(of.correlation) ? "-" : formatted("%.4f", of.correlation).c_str(),
+                     matrix.plan.variants[of.farthest.first].label.c_str(),
+                     matrix.plan.variants[of.farthest.second].label.c_str());
+  }
+  out << "  trustworthy: " << n_trustworthy << " of them, " << n_through << " through the template\n";
+}
+
+void print_doubtful(std::ostream& out, const Matrix& matrix) {
+  constexpr std::size_t kMostShown = 10;
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < matrix.n(); ++i) {
+    const TemplateState& state = matrix.through->states[i];
+    if (state.trustworthy) continue;
+    if (n == 0)
+      out << "\nThe template's mapping is not trustworthy onto these states; their rows and columns are marked\n";
+    if (++n <= kMostShown)
+      out << formatted("  %-20.60s %.200s\n", matrix.plan.variants[i].label.c_str(),
+                       (state.error.empty() ? state.reason : state.error).c_str());
+  }
+  if (n > kMostShown) out << "  and " << n - kMostShown << " more, which are in the files\n";
+}
+
+void print_absent(std::ostream& out, const Matrix& matrix) {
+  std::string line = "\nA template does not give:", text;
+  for (std::size_t m = 0; m < matrix.metrics().size(); ++m) {
+    const Metric& metric = matrix.metrics()[m];
+    const bool is_shown = metric.section != MetricSection::kCertificate && metric.section != MetricSection::kMapping;
+    if (matrix.gives(m) || !is_shown) continue;
+    line += (text.empty() ? " " : ", ") + std::string(metric.label);
+    text = "said";
+  }
+  if (!text.empty())
+    out << line
+        << "; nor are round trips and the residues' own\npotentials "
+           "checked. `espdiff compare` of a pair tells them\n";
+}
+
+}  // namespace
+
+Json through_template_json(const Matrix& matrix) {
+  const ThroughTemplate& through = *matrix.through;
+  Json json = {{"name", through.name},
+               {"sha256", through.sha256},
+               {"n_vertices", through.n_vertices},
+               {"area_A2", through.area_A2},
+               {"options", options_json(through.settings)},
+               {"compared_area_fraction",
+                {{"mean", number(through.mean_area_fraction)}, {"least", number(through.least_area_fraction)}}}};
+  json["states"] = Json::array();
+  for (std::size_t i = 0; i < matrix.n(); ++i)
+    json["states"].push_back(state_json(matrix.plan.variants[i].label, through.states[i]));
+  json["absent"] = Json::array();
+  for (std::size_t m = 0; m < matrix.metrics().size(); ++m) {
+    if (!matrix.gives(m)) json["absent"].push_back(matrix.metrics()[m].name);
+  }
+  json["not_checked"] = {"residues", "round_trip"};
+  json["exact"] = exact_json(matrix);
+  return json;
+}
+
+void print_through_template(std::ostream& out, const Matrix& matrix) {
+  print_agreement(out, matrix);
+  print_doubtful(out, matrix);
+  print_absent(out, matrix);
+}
+
+}  // namespace espdiff

@@ -1,0 +1,26 @@
+// this_process.h: this process' number, program, environment and limit of memory, and its place taken by another
+// program.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace espdiff {
+
+int process_number();
+/// Whether there is a process of that number, whoever's it is.
+bool is_process(int number);
+/// The file of the running program; empty where it cannot be told.
+std::string own_program();
+/// Only while there is one thread, or where no other one asks. A value that the user gave is kept.
+void set_environment_default(const char* name, const char* value);
+/// Runs another program (looked up on PATH without a slash) in place of this one. Returns only if that fails.
+/// @param words its name and arguments  @returns the error's number
+int become_program(const std::string& program, const std::vector<std::string>& words);
+
+/// The most bytes of addresses that this process may use (`ulimit -v`); UINT64_MAX without a limit.
+std::uint64_t address_space_limit();
+std::uint64_t memory_page_size();
+
+}  // namespace espdiff
