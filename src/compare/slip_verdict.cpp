@@ -76,6 +76,7 @@ std::vector<std::string> slipped_residues(const CompareResult& result, const Mol
   std::stable_sort(rows.begin(), rows.end(),
                    [](const ResidueRow* a, const ResidueRow* b) { return a->mean_slip_A > b->mean_slip_A; });
   std::vector<std::string> names;
+  names.reserve(rows.size());
   for (const ResidueRow* row : rows)
     names.push_back(residue_label(source.residues[row->residue]) + " (" + angstrom(row->mean_slip_A) + ")");
   return names;
