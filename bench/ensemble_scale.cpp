@@ -2,6 +2,7 @@
 //
 //     espdiff_ensemble_scale 10000 5000 /tmp/scale.h5            # goes on with a file that is there
 //     espdiff_ensemble_scale 10000 5000 /tmp/scale.1.h5 1/4      # writes a quarter, for espdiff merge
+//     espdiff_ensemble_scale 1000 5000 /tmp/scale.h5 matrix      # the states as a matrix, with its files
 #include <sys/resource.h>
 
 #include <chrono>
@@ -14,6 +15,8 @@
 #include "ensemble/ensemble_file.h"
 #include "ensemble/ensemble_result.h"
 #include "ensemble/states.h"
+#include "ensemble/template_values.h"
+#include "matrix/write_matrix.h"
 #include "statistics/counter_random.h"
 
 using namespace espdiff;
@@ -66,6 +69,28 @@ EnsemblePlan plan_of(std::size_t n_frames, std::size_t n_residues) {
   return plan;
 }
 
+/// The same frames as the variants of a matrix.
+EnsemblePlan as_matrix(EnsemblePlan plan, std::size_t n_states) {
+  MatrixPlan matrix;
+  matrix.potential = plan.potential;
+  matrix.potential_unit = plan.potential_unit;
+  for (std::size_t i = 0; i < n_states; ++i) matrix.variants.push_back({"s" + std::to_string(i), "", {}});
+  plan.matrix = std::make_shared<const MatrixPlan>(matrix);
+  plan.replicates = {{"variants", "variants", {"all"}, {"0"}, n_states}};
+  return plan;
+}
+
+int time_matrix(const std::string& path) {
+  const EnsembleFile file(path, false);
+  const double start = seconds();
+  const Matrix matrix = matrix_through_template(file, {});
+  const double made = seconds();
+  std::printf("N x N       %7.1f s  %7.0f MB peak\n", made - start, peak_megabytes());
+  write_matrix(path, matrix, find_metric("mean_abs_difference"));
+  std::printf("files       %7.1f s  %7.0f MB peak\n", seconds() - made, peak_megabytes());
+  return 0;
+}
+
 /// Frames that the file lacks, from `begin` to `end`: noise that remembers the frame before, so it is made from the
 /// first frame on.
 void write_frames(EnsembleFile& file, std::size_t begin, std::size_t end) {
@@ -83,12 +108,13 @@ void write_frames(EnsembleFile& file, std::size_t begin, std::size_t end) {
 
 int main(int argc, char** argv) {
   if (argc != 4 && argc != 5) {
-    std::fprintf(stderr, "usage: espdiff_ensemble_scale FRAMES VERTICES FILE.h5 [I/N]\n");
+    std::fprintf(stderr, "usage: espdiff_ensemble_scale FRAMES VERTICES FILE.h5 [I/N|matrix]\n");
     return 2;
   }
   const std::size_t n_frames = std::strtoul(argv[1], nullptr, 10);
   const TemplateSurface surface = sphere(std::strtoul(argv[2], nullptr, 10));
-  const std::string path = argv[3], part = argc == 5 ? argv[4] : "1/1";
+  const bool is_matrix = argc == 5 && std::string(argv[4]) == "matrix";
+  const std::string path = argv[3], part = argc == 5 && !is_matrix ? argv[4] : "1/1";
   const std::size_t index = std::strtoul(part.c_str(), nullptr, 10),
                     n_parts = std::strtoul(part.c_str() + part.find('/') + 1, nullptr, 10);
   if (index < 1 || index > n_parts || part.find('/') == std::string::npos) {
@@ -96,8 +122,8 @@ int main(int argc, char** argv) {
     return 2;
   }
   const double start = seconds();
-  if (!std::filesystem::exists(path))
-    EnsembleFile::create(path, plan_of(n_frames, surface.residue.back() + 1U), surface);
+  const EnsemblePlan plan = plan_of(n_frames, surface.residue.back() + 1U);
+  if (!std::filesystem::exists(path)) EnsembleFile::create(path, is_matrix ? as_matrix(plan, n_frames) : plan, surface);
   {
     EnsembleFile file(path, true);
     if (file.n_done() > 0) std::printf("%zu frames were there\n", file.n_done());
@@ -107,6 +133,7 @@ int main(int argc, char** argv) {
   std::printf("%s frames of %zu vertices\nwrite       %7.1f s  %7.0f MB peak\n", argv[1], surface.positions.size(),
               written - start, peak_megabytes());
   if (n_parts > 1) return 0;
+  if (is_matrix) return time_matrix(path);
   const EnsembleFile file(path, false);
   const double opened = seconds();
   std::printf("check       %7.1f s  %7.0f MB peak\n", opened - written, peak_megabytes());

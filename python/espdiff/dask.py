@@ -60,7 +60,7 @@ def matrix(client, states, labels=None, *, output, parts=None, resume=False, ove
     # Through a template a part is some states, and each part makes the template's surface again.
     through = options.get("template") is not None
     usual, most = (_n_workers(client), len(states)) if through else (4 * _n_workers(client), len(states) * (len(states) - 1))
-    n_parts = min(parts or usual, max(1, most))
+    n_parts = max(2, min(parts or usual, most))  # one part would be a whole matrix
     prefix = os.path.abspath(output)
     done = [prefix + ending for ending in (".csv", ".json", ".h5")[:3 if through else 2]]
     if not overwrite and any(os.path.exists(path) for path in done):

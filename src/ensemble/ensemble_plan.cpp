@@ -172,6 +172,7 @@ void check_replicates(const std::vector<EnsembleReplicate>& replicates) {
     throw InputError("there are " + std::to_string(groups.size()) + " groups (" + groups[0] + ", " + groups[1] + ", " +
                      groups[2] + (groups.size() > 3 ? ", ...)" : ")") +
                      "; two are compared at a time, and one is described alone");
+  const bool is_pair = replicates.size() == 2 && replicates[0].n_frames < 2 && replicates[1].n_frames < 2;
   std::map<std::string, std::string> seen;
   for (std::size_t i = 0; i < replicates.size(); ++i) {
     const EnsembleReplicate& r = replicates[i];
@@ -188,7 +189,7 @@ void check_replicates(const std::vector<EnsembleReplicate>& replicates) {
     if (r.n_frames < 2)
       throw InputError(label(r) + " has " + std::to_string(r.n_frames) + " frame" + (r.n_frames == 1 ? "" : "s") +
                        "; a replicate needs two or more" +
-                       (replicates.size() == 2 ? ", and two single structures are a pair for `espdiff compare`" : ""));
+                       (is_pair ? ", and two single structures are a pair for `espdiff compare`" : ""));
   }
 }
 

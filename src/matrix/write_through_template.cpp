@@ -68,16 +68,16 @@ void print_agreement(std::ostream& out, const Matrix& matrix) {
     n_trustworthy += cell.trustworthy ? 1 : 0;
     n_through += matrix.cell(cell.source, cell.target).trustworthy ? 1 : 0;
   }
-  out << formatted("\n%-37s%8s%9s%12s%10s%10s  of\n",
+  out << formatted("\n%-37s%8s%10s%12s%10s%9s  of\n",
                    formatted("%zu pair%s by %s, chosen at random", exact.size(), exact.size() == 1 ? "" : "s",
                              exact.size() == 1 ? "itself" : "themselves")
                        .c_str(),
                    "exact", "template", "mean diff.", "largest", "correl.");
   for (const TemplateAgreement& of : agreement(matrix)) {
     const Metric& metric = matrix.metrics()[of.metric];
-    out << formatted("  %-35.35s%8.4g%9.4g%12.3g%10.3g%10s  %s to %s\n", metric.label, of.exact_mean, of.template_mean,
+    out << formatted("  %-34.34s %8.3g %9.3g%12.3g%10.3g%9s  %s to %s\n", metric.label, of.exact_mean, of.template_mean,
                      of.mean_difference, of.largest_difference,
-                     std::isnan(of.correlation) ? "-" : formatted("%.4f", of.correlation).c_str(),
+                     std::isnan(of.correlation) ? "-" : formatted("%.3f", of.correlation).c_str(),
                      matrix.plan.variants[of.farthest.first].label.c_str(),
                      matrix.plan.variants[of.farthest.second].label.c_str());
   }

@@ -10,6 +10,15 @@
 namespace espdiff {
 namespace {
 
+/// Without pairs where too few atoms pair.
+AtomPairing pairing_or_none(const Molecule& molecule, const Molecule& frame) {
+  try {
+    return pair_atoms(molecule, frame, PairOthers::kByNumber);
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
 std::string name_of(const Molecule& molecule, std::size_t atom) {
   const Atom& a = molecule.atoms[atom];
   const Residue& residue = molecule.residues[static_cast<std::size_t>(a.residue)];
@@ -31,7 +40,7 @@ std::string first_unpaired(const Molecule& molecule, const AtomPairing& pairing,
 
 void take_values(Molecule& frame, const Molecule& molecule, const std::string& name) {
   if (!frame.charges.empty()) return;
-  const AtomPairing pairing = pair_atoms(molecule, frame, PairOthers::kByNumber);
+  const AtomPairing pairing = pairing_or_none(molecule, frame);
   if (pairing.pairs.size() != frame.size() || pairing.pairs.size() != molecule.size()) {
     const std::string missing = first_unpaired(molecule, pairing, [](const auto& pair) { return pair.first; });
     const std::string extra = first_unpaired(frame, pairing, [](const auto& pair) { return pair.second; });
@@ -50,12 +59,7 @@ void take_values(Molecule& frame, const Molecule& molecule, const std::string& n
 }
 
 bool has_same_atoms(const Molecule& frame, const Molecule& molecule) {
-  if (frame.size() != molecule.size()) return false;
-  try {
-    return pair_atoms(molecule, frame, PairOthers::kByNumber).pairs.size() == frame.size();
-  } catch (const InputError&) {
-    return false;
-  }
+  return frame.size() == molecule.size() && pairing_or_none(molecule, frame).pairs.size() == frame.size();
 }
 
 }  // namespace espdiff

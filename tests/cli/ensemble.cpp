@@ -532,6 +532,7 @@ TEST_CASE("what cannot be an ensemble is refused in one line") {
   const Runs in;
   in.folder.write("one.pqr", models(1, false, true).substr(0, models(1, false, true).find("MODEL     2")));
   in.folder.write("bare.pdb", models(1, false, false));
+  in.folder.write("bare2.pdb", models(2, false, false));
   in.folder.write("copy.pqr", models(1, false, true));
   in.folder.write("other.pqr", "ATOM 1 ZN ZN B 1 0 0 0 2 1\nATOM 2 ZN ZN B 2 3 0 0 2 1\nATOM 3 ZN ZN B 3 0 3 0 2 1\n");
   const auto refused = [&](const std::string& arguments) {
@@ -559,6 +560,11 @@ TEST_CASE("what cannot be an ensemble is refused in one line") {
         "espdiff: --template 99: there are 32 frames in all groups, numbered from 0");
   CHECK(refused(in.groups + " --template medoid:apo") ==
         "espdiff: --template medoid:apo: there is no group of this name");
+  CHECK(refused("--group wild bare.pdb bare2.pdb --charges wild=other.pqr") ==
+        "espdiff: bare.pdb, model 1 has no charges and radii, and cannot take those of other.pqr: it lacks ZN of ZN B "
+        "1, CA "
+        "of ALA A 1 is not in other.pqr (8 and 3 atoms); give frames and source of the same "
+        "atoms, or frames as PQR");
   CHECK(refused(in.groups + " --charges wild.pqr") ==
         "espdiff: --charges wild.pqr is not GROUP=FILE with one of the groups, such as wild=wild.pqr");
   CHECK(refused(in.groups + " --template other.pqr").find("wild, replicate w1, frame 0: ") != std::string::npos);

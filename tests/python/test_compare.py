@@ -103,6 +103,28 @@ def test_a_matrix_has_the_bytes_of_the_command_line(data, program, tmp_path):
         assert (tmp_path / f"python{ending}").read_bytes() == (tmp_path / f"cli{ending}").read_bytes()
 
 
+def test_a_matrix_through_a_template(made, tmp_path):
+    states = [*made, made[0]]
+    matrix = espdiff.matrix(states, ["a", "b", "c"], template="a", exact_sample=2, output=tmp_path / "m", **QUICK)
+    table = matrix["mean_abs_difference"]
+    assert np.array_equal(table, table.T, equal_nan=True) and table[0, 2] == 0 and table[0, 1] > 0
+    assert "rmsd_A" not in matrix.metrics and "rmsd_A" in matrix.template["absent"]
+    assert [state["label"] for state in matrix.template["states"]] == ["a", "b", "c"]
+    assert len(matrix.template["exact"]["pairs"]) == 2
+    assert (tmp_path / "m.h5").is_file()
+    for shard in ("1/2", "2/2"):
+        assert espdiff.matrix(states, ["a", "b", "c"], template="a", exact_sample=2, output=tmp_path / "p", shard=shard,
+                              **QUICK) is None
+    parts = sorted(tmp_path.glob("p.shard-*"))
+    merged = espdiff.merge(parts, tmp_path / "merged")
+    assert merged.to_dict() == matrix.to_dict()
+    assert espdiff.matrix(made, ["a", "b"], **QUICK).template is None
+    with pytest.raises(espdiff.InputError, match="template=d. is neither medoid"):
+        espdiff.matrix(states, ["a", "b", "c"], template="d", **QUICK)
+    with pytest.raises(espdiff.InputError, match="exact_sample: -1"):
+        espdiff.matrix(states, ["a", "b", "c"], template="a", exact_sample=-1, **QUICK)
+
+
 def test_surface(made):
     surface = espdiff.surface(made[0], **QUICK)
     assert len(surface.positions) == len(surface.potential) == len(surface.residue_index)

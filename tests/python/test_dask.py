@@ -42,6 +42,7 @@ def one_process(tmp_path_factory):
     """Matrix and ensemble in this process, as bytes."""
     folder = tmp_path_factory.mktemp("whole")
     espdiff.matrix(states(), ["a", "b", "c"], output=folder / "matrix", **QUICK)
+    espdiff.matrix(states(), ["a", "b", "c"], template="medoid", exact_sample=1, output=folder / "through", **QUICK)
     espdiff.ensemble(GROUPS, charges=CHARGES, output=folder / "groups", **QUICK_GROUPS)
     return {path.name: path.read_bytes() for path in folder.iterdir()}
 
@@ -58,6 +59,15 @@ def test_matrix(client, one_process, tmp_path):
     assert not list(tmp_path.glob("*.state"))
     with pytest.raises(espdiff.InputError, match="output: .*matrix.csv or .*exists; set overwrite=True"):
         espdiff.dask.matrix(client, states(), ["a", "b", "c"], output=tmp_path / "matrix", **QUICK)
+
+
+def test_matrix_through_a_template(client, one_process, tmp_path):
+    made = espdiff.dask.matrix(client, states(), ["a", "b", "c"], template="medoid", exact_sample=1,
+                               output=tmp_path / "through", **QUICK)
+    assert len(made.template["exact"]["pairs"]) == 1
+    for ending in (".csv", ".json", ".h5"):
+        assert (tmp_path / f"through{ending}").read_bytes() == one_process[f"through{ending}"], ending
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["through.csv", "through.h5", "through.json"]
 
 
 def test_ensemble(client, one_process, tmp_path):
