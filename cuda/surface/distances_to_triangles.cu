@@ -142,7 +142,10 @@ ESPDIFF_INLINE void search_block(const Search& in, std::size_t block, std::uint3
 }
 
 ESPDIFF_MULTIVERSION void search_blocks(const Search& in, std::size_t first, std::size_t last) {
-  std::uint32_t guess = 0;
+  // Points and triangles follow the same curve through nearly the same box.
+  const std::size_t n_triangles = in.tree.n_triangles;
+  std::uint32_t guess =
+      static_cast<std::uint32_t>(std::min(first * kBlock, in.points.n) * (n_triangles - 1) / in.points.n);
   for (std::size_t block = first; block < last; ++block) search_block(in, block, guess);
 }
 

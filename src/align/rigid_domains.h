@@ -12,9 +12,12 @@
 
 namespace espdiff {
 
-/// @throws InputError unless the text is `none`, `chains`, `auto`, or ranges of residues: domains separated by `/`,
-/// each of ranges CHAIN:FIRST-LAST separated by commas, such as 1-29,68-117/30-67. A chain applies to the ranges after
-/// it and may be omitted.
+/// The text that gives each residue a motion of its own; see local_motions.h.
+constexpr const char* kLocalMotions = "local";
+
+/// @throws InputError unless the text is `none`, `chains`, `auto`, `local`, or ranges of residues: domains separated by
+/// `/`, each of ranges CHAIN:FIRST-LAST separated by commas, such as 1-29,68-117/30-67. A chain applies to the ranges
+/// after it and may be omitted.
 void check_domains(const std::string& text);
 
 /// The domains of the source that `text` asks for, with their motions. A domain with fewer than three paired atoms is
@@ -25,6 +28,7 @@ void check_domains(const std::string& text);
 /// then join the domain whose motion fits them best. Runs shorter than 5 residues join the domain on both sides of
 /// them.
 /// @param pairs   the atom pairs used to fit motions
+/// `local` has no domains, as `none`.
 /// @throws InputError as check_domains(), and if a named range has no residue or a residue is named twice
 std::vector<RigidDomain> find_domains(const std::string& text, const Molecule& source, const Molecule& target,
                                       const std::vector<std::pair<std::size_t, std::size_t>>& pairs);

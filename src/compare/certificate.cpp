@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "align/rigid_domains.h"
 #include "base/formatted.h"
+#include "compare/options.h"
 #include "compare/short_numbers.h"
 #include "compare/slip.h"
 #include "engine/engine.h"
@@ -96,7 +98,7 @@ double same_residue_share(const MappedSurface& s, const std::vector<std::int32_t
   return all > 0 ? same / all : std::numeric_limits<double>::quiet_NaN();
 }
 
-void judge(CompareResult& result, const Molecule& source) {
+void judge(CompareResult& result, const Molecule& source, const CompareOptions& options) {
   Certificate& c = result.certificate;
   for (const Warning& warning : result.warnings) {
     if (warning.refuses) c.reasons.push_back(warning.text);
@@ -126,7 +128,8 @@ void judge(CompareResult& result, const Molecule& source) {
   refuse(c.round_trip && c.round_trip->mean_A > Limits::kRoundTrip_A,
          "the round-trip error is " + angstrom(c.round_trip ? c.round_trip->mean_A : 0) + " on average (limit " +
              angstrom(Limits::kRoundTrip_A) + ")");
-  for (const Message& reason : slip_reasons(result, source)) c.reasons.push_back(reason);
+  const double most_slipped = options.domains == kLocalMotions ? kMostSlippedAreaOfLocalMotions : kMostSlippedArea;
+  for (const Message& reason : slip_reasons(result, source, most_slipped)) c.reasons.push_back(reason);
   refuse(disagrees(c.residues), "the differences by residue correlate by " +
                                     formatted("%.2f", c.residues ? c.residues->correlation : 0) +
                                     " with those of each residue's potentials on its own surfaces (limit " +

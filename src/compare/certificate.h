@@ -7,6 +7,7 @@
 
 namespace espdiff {
 
+struct CompareOptions;
 struct CompareResult;
 struct MappedSurface;
 
@@ -20,6 +21,7 @@ double same_residue_share(const MappedSurface& surface, const std::vector<std::i
                           const std::vector<std::int32_t>& target_residue, const std::vector<std::int32_t>& target_of);
 
 /// Sets the certificate's `trustworthy` and `reasons`.
-void judge(CompareResult& result, const Molecule& source);
+/// @param options those of the comparison: local motions have a lower limit of the slip
+void judge(CompareResult& result, const Molecule& source, const CompareOptions& options);
 
 }  // namespace espdiff

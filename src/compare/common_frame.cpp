@@ -7,6 +7,8 @@
 #include "align/rigid_domains.h"
 #include "align/superpose.h"
 #include "base/error.h"
+#include "base/message.h"
+#include "compare/local_motions.h"
 #include "compare/options.h"
 #include "compare/result.h"
 
@@ -47,8 +49,16 @@ CommonFrame align(const Molecule& source, const Molecule& target, const CompareO
   const auto pairs =
       options.align == AlignAtoms::kNone ? result.pairing.pairs : select_pairs(result.pairing, source, options.align);
   if (pairs.empty()) throw InputError("domains need paired atoms, and none pair; give domains none");
+  if (options.domains == kLocalMotions) {
+    if (options.method != Method::kMorph)
+      throw InputError(option("domains", kLocalMotions) + ": only the morph follows the motions of residues; use " +
+                       option("method", "morph") + ", or " + option("domains", "auto"));
+    frame.followed = local_motions(source, target, result.pairing, frame.from_source, frame.from_target);
+    return frame;
+  }
   result.domains = find_domains(options.domains, source, target, pairs);
   frame.domains = domain_motions(result.domains, source, frame.from_source, frame.from_target);
+  frame.followed = frame.domains;
   return frame;
 }
 

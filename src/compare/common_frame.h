@@ -11,6 +11,7 @@ struct CompareResult;
 struct CommonFrame {
   RigidTransform from_source, from_target;  // own frame -> common frame
   DomainMotions domains{};
+  DomainMotions followed{};  ///< what atoms follow to the target: the domains, or each residue's own motion
 };
 
 /// Pairs atoms, superposes the target, and finds the rigid domains, as the options say.

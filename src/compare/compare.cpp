@@ -133,9 +133,9 @@ struct Series::Steps {
     back.regularized = espdiff::regularize(engine, target_surface, mesh, options, progress, &back.regularize_report);
     CompareResult scratch;
     for (const auto& [s, t] : pairing.pairs) scratch.pairing.pairs.emplace_back(t, s);
-    const CommonFrame reversed{
-        frame.from_target, frame.from_source,
-        inverse(frame.domains, paired_residues(*target.molecule, *source.molecule, scratch.pairing))};
+    const auto source_of = paired_residues(*target.molecule, *source.molecule, scratch.pairing);
+    const CommonFrame reversed{frame.from_target, frame.from_source, inverse(frame.domains, source_of),
+                               inverse(frame.followed, source_of)};
     Mapping mapping;
     if (options.method == Method::kMorph) {
       const auto paths = back.paths_to(*source.molecule, reversed, scratch.pairing, progress);
@@ -152,7 +152,7 @@ struct Series::Steps {
   /// The paths of all atoms from the source to a target; see atom_paths().
   std::vector<MovingAtom> paths_to(const Molecule& target, const CommonFrame& frame, const AtomPairing& pairing,
                                    const Progress& progress) const {
-    return atom_paths(*source.molecule, target, pairing, frame.from_source, frame.from_target, frame.domains,
+    return atom_paths(*source.molecule, target, pairing, frame.from_source, frame.from_target, frame.followed,
                       options.surface.radius_scale, progress);
   }
 
@@ -389,7 +389,7 @@ struct Series::Steps {
     result.residues = residue_rows(s, source.molecule->residues.size(), result.has_potential);
     check_against_own(target, target_map, mapping, target_surface, target_of, result);
     describe_chains(target, target_of, result);
-    judge(result, *source.molecule);
+    judge(result, *source.molecule, options);
     for (const MeasuredPart& part : parts) finish_part(part, result);
     clock.lap("metrics");
   }
@@ -463,7 +463,7 @@ struct Series::Steps {
     const double n_outside = static_cast<double>(std::max(part.n_outside_source_map, part.n_outside_target_map));
     part.certificate.outside_maps = n > 0 ? n_outside / static_cast<double>(n) : 0;
     if (!judge_missing_part(part, measured.placement.get())) {
-      judge(part, *source.molecule);
+      judge(part, *source.molecule, options);
       if (measured.placement != nullptr) judge_placement(part, *measured.placement);
     }
   }

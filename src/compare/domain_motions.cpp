@@ -32,10 +32,10 @@ DomainMotions domain_motions(const std::vector<RigidDomain>& domains, const Mole
 DomainMotions inverse(const DomainMotions& motions, const std::vector<std::int32_t>& source_residue) {
   DomainMotions result;
   if (motions.none()) return result;
-  for (const RigidTransform& motion : motions.motions) {
-    result.motions.push_back(inverse(motion));
-    result.screws.push_back(screw_of(result.motions.back()));
-  }
+  for (const RigidTransform& motion : motions.motions) result.motions.push_back(inverse(motion));
+  // Back along the same way, which may turn by more than 180 degrees.
+  for (const Screw& screw : motions.screws)
+    result.screws.push_back({screw.axis, screw.through, -screw.angle, -1.0 * screw.shift});
   for (const std::int32_t r : source_residue)
     result.of_residue.push_back(r < 0 ? -1 : motions.of_residue[static_cast<std::size_t>(r)]);
   return result;

@@ -280,8 +280,8 @@ std::vector<Setting> make_settings() {
                   SettingKind::kText,
                   {},
                   "Rigid domains to superpose separately before the mapping: none, chains, auto (found by a "
-                  "search), or the "
-                  "source's residues, such as A:1-29,68-117/A:30-67",
+                  "search), or the source's residues, such as A:1-29,68-117/A:30-67; local superposes the whole, and "
+                  "each residue follows the motion of its neighbourhood (morph only)",
                   false,
                   nullptr,
                   nullptr};

@@ -21,9 +21,15 @@ SlipSummary summarize_slip(const MappedSurface& surface, const std::vector<doubl
 /// [triangle] nonzero where the mean slip of the corners exceeds kMediumSlip_A or is not known.
 std::vector<float> slipped_triangles(const MappedSurface& surface);
 
+/// The limits of the area beyond kLargeSlip_A. Easy pairs (below 2 A RMSD) have at most 6 %; pairs whose differences by
+/// residue do not agree with the residues' own potentials have 10 % and more. Local motions leave less slip: of ten
+/// such pairs of ubiquitin, those whose differences do not agree have 5 % and more.
+constexpr double kMostSlippedArea = 0.08, kMostSlippedAreaOfLocalMotions = 0.04;
+
 /// Why the slip makes a result untrustworthy: over the whole area, in a chain or rigid domain, at a ligand. Each reason
 /// names where.
-std::vector<Message> slip_reasons(const CompareResult& result, const Molecule& source);
+/// @param most_slipped the limit over the whole area
+std::vector<Message> slip_reasons(const CompareResult& result, const Molecule& source, double most_slipped);
 
 /// The residues that slipped by more than kLargeSlip_A on average, farthest first: "ARG 247 of chain B (8.5 A)".
 std::vector<std::string> slipped_residues(const CompareResult& result, const Molecule& source);

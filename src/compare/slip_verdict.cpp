@@ -11,9 +11,6 @@
 namespace espdiff {
 namespace {
 
-/// Easy pairs (below 2 A RMSD) have at most 6 % of their area beyond kLargeSlip_A; pairs whose differences by residue
-/// do not agree with the residues' own potentials have 10 % and more.
-constexpr double kMostSlippedArea = 0.08;
 /// A chain or domain has fewer residues, so that one loop weighs more.
 constexpr double kMostSlippedPart = 0.15;
 /// A smaller part is judged like a ligand: by its mean.
@@ -79,18 +76,19 @@ std::vector<std::string> slipped_residues(const CompareResult& result, const Mol
   std::stable_sort(rows.begin(), rows.end(),
                    [](const ResidueRow* a, const ResidueRow* b) { return a->mean_slip_A > b->mean_slip_A; });
   std::vector<std::string> names;
+  names.reserve(rows.size());
   for (const ResidueRow* row : rows)
     names.push_back(residue_label(source.residues[row->residue]) + " (" + angstrom(row->mean_slip_A) + ")");
   return names;
 }
 
-std::vector<Message> slip_reasons(const CompareResult& result, const Molecule& source) {
+std::vector<Message> slip_reasons(const CompareResult& result, const Molecule& source, double most_slipped) {
   std::vector<Message> reasons;
   if (!result.certificate.slip) return reasons;
   const double large = result.certificate.slip->large_area_fraction;
   const std::string beyond = " slipped by more than " + angstrom(kLargeSlip_A) + " from its own atoms (limit ";
-  if (large > kMostSlippedArea)
-    reasons.emplace_back(percent(large) + " of the mapped area" + beyond + percent(kMostSlippedArea) + ")" +
+  if (large > most_slipped)
+    reasons.emplace_back(percent(large) + " of the mapped area" + beyond + percent(most_slipped) + ")" +
                          most_at(slipped_residues(result, source)));
   for (const Part& part : parts_of(result, source, residue_kinds(source, atoms_of_residues(source)))) {
     if (part.area < kLeastArea_A2) continue;

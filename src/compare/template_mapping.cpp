@@ -88,7 +88,7 @@ struct TemplateMapping::Parts {
   std::vector<MovingAtom> paths_to(const CompareInput& frame, const CommonFrame& common, const AtomPairing& pairing,
                                    const Progress& progress) const {
     return atom_paths(*source.molecule, *frame.molecule, pairing, common.from_source, common.from_target,
-                      common.domains, options.surface.radius_scale, progress);
+                      common.followed, options.surface.radius_scale, progress);
   }
 
   Mapping morph(const std::vector<MovingAtom>& paths, const Surface& target, const Progress& progress) {
@@ -185,7 +185,7 @@ TemplateFrame TemplateMapping::map(const CompareInput& frame, bool check_slip, c
   if (check_slip) p.measure_slip(mapping, target, paths, result);
   clock.lap("certificate");
   out.potential = p.sample(map, frame, mapping, target, result.surface.triangles, result.certificate.outside_maps);
-  judge(result, *p.source.molecule);
+  judge(result, *p.source.molecule, p.options);
   out.unit = unit_of(frame);
   out.rmsd_A = result.rmsd_A;
   out.unmatched_template = result.certificate.unmatched_source;
