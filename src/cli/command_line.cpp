@@ -24,6 +24,19 @@ std::string joined(int argc, char** argv) {
   return line;
 }
 
+/// What is wrong with the words of the command, in ours; the library's begin with the option's name and a colon.
+std::string in_our_words(const CLI::ParseError& error) {
+  const std::string text = error.what(), name = text.substr(0, text.find(": "));
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ArgumentMismatch)) {
+    const bool too_many = text.find("At Most") != std::string::npos;
+    return name + (too_many ? ": is given more than once; give it once" : ": a value is missing behind it");
+  }
+  // All that is left over, the first word last.
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError))
+    return "'" + text.substr(text.rfind(' ') + 1) + "': there is no such option, and no place for another argument";
+  return text;
+}
+
 /// Runs the chosen command; errors become one line on standard error.
 int run_verb(const espdiff::cli::Verb& verb, const std::string& command_line) {
   espdiff::cli::TerminalProgress terminal;
@@ -67,7 +80,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
     std::fprintf(stderr, "espdiff: %s\nTry 'espdiff --help' or 'espdiff VERB --help'.\n",
-                 espdiff::printable(error.what()).c_str());
+                 espdiff::printable(in_our_words(error)).c_str());
     return 2;
   }
   for (const auto& verb : verbs) {

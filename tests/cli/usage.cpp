@@ -38,7 +38,11 @@ TEST_CASE("wrong usage exits 2 with one line that says what and where to look") 
                         {"compare a b -o x --device tpu", "--device"},
                         {"compare a b -o x --threads -1", "--threads"},
                         {"compare a b -o x --grid-spacing 0", "--grid-spacing"},
-                        {"compare a b -o x --no-such-option", "--no-such-option"}}) {
+                        {"compare a b -o x --no-such-option", "'--no-such-option': there is no such option"},
+                        {"compare a b -o x --no-such-option value", "'--no-such-option': there is no such option"},
+                        {"compare a b c -o x", "'c': there is no such option, and no place for another argument"},
+                        {"compare a b -o x -o y", "--output: is given more than once; give it once"},
+                        {"compare a b -o x --potential", "--potential: a value is missing behind it"}}) {
     const Outcome outcome = run_espdiff(c.arguments);
     CHECK_MESSAGE(outcome.status == 2, c.arguments);
     CHECK_MESSAGE(contains(outcome.err, c.expected), outcome.err);
