@@ -1,5 +1,5 @@
-// about_commands.cpp: version, build, back_ends, device, settings, renamed_settings, metrics, abi, models, map_unit,
-// colours, volumes: version and contents of this module.
+// about_commands.cpp: version, build, allocated_bytes, back_ends, device, settings, renamed_settings, metrics, abi,
+// models, map_unit, colours, volumes: version and contents of this module.
 #include <sstream>
 
 #include "base/error.h"
@@ -21,6 +21,7 @@
 #include "potential/potential_settings.h"
 #include "prepare/pdb2pqr.h"
 #include "report/metrics.h"
+#include "system/this_process.h"
 #include "tcl_values.h"
 
 namespace espdiff::vmdplugin {
@@ -49,6 +50,8 @@ Tcl_Obj* build(const Call&) {
                   {"compiler", to_obj("g++ " __VERSION__)},
                   {"tcl", to_obj(TCL_PATCH_LEVEL)}});
 }
+
+Tcl_Obj* allocated(const Call&) { return to_obj(static_cast<std::size_t>(allocated_bytes())); }
 
 /// The devices that a name given as -device means.
 Tcl_Obj* device(const Call& call) {
@@ -272,6 +275,7 @@ Tcl_Obj* colours(const Call& call) {
 std::vector<Command> about_commands() {
   return {{"version", 0, 0, "", version},
           {"build", 0, 0, "", build},
+          {"allocated_bytes", 0, 0, "", allocated},
           {"back_ends", 0, 0, "", back_ends},
           {"device", 1, 1, "name", device},
           {"settings", 0, 0, "", list_settings},

@@ -1,6 +1,9 @@
 // this_process.cpp: what the kernel knows of this process.
 #include "system/this_process.h"
 
+#if __has_include(<malloc.h>)
+#include <malloc.h>
+#endif
 #include <signal.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -42,5 +45,15 @@ std::uint64_t address_space_limit() {
 }
 
 std::uint64_t memory_page_size() { return static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)); }
+
+std::uint64_t allocated_bytes() {
+#if defined(__GLIBC__)
+#if __GLIBC_PREREQ(2, 33)
+  const struct mallinfo2 heap = ::mallinfo2();
+  return heap.uordblks + heap.hblkhd;
+#endif
+#endif
+  return 0;
+}
 
 }  // namespace espdiff

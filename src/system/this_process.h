@@ -22,5 +22,8 @@ int become_program(const std::string& program, const std::vector<std::string>& w
 /// The most bytes of addresses that this process may use (`ulimit -v`); UINT64_MAX without a limit.
 std::uint64_t address_space_limit();
 std::uint64_t memory_page_size();
+/// Bytes that anyone in this process allocated and did not give back; exact, but for small blocks that the allocator
+/// keeps for each thread. 0 where the C library does not tell.
+std::uint64_t allocated_bytes();
 
 }  // namespace espdiff

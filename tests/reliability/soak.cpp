@@ -2,7 +2,6 @@
 // as they were. ESPDIFF_COMPARISONS=1000 makes the long form of it (scripts/soak); ESPDIFF_PLANTED_LEAK=8192 loses so
 // many bytes in each comparison, which must make the test fail: reliability.soak_finds_a_leak.
 #include <doctest/doctest.h>
-#include <malloc.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -27,6 +26,7 @@
 #include "report/provenance.h"
 #include "report/write_compare.h"
 #include "support/limit_memory.h"
+#include "system/this_process.h"
 
 using namespace espdiff;
 using namespace espdiff_test;  // NOLINT: a test
@@ -43,8 +43,7 @@ Memory memory_now() {
   std::ifstream statm("/proc/self/statm");
   long size = 0, resident = 0;
   statm >> size >> resident;
-  const struct mallinfo2 heap = mallinfo2();
-  return {static_cast<long>(heap.uordblks + heap.hblkhd), resident * sysconf(_SC_PAGESIZE)};
+  return {static_cast<long>(allocated_bytes()), resident * sysconf(_SC_PAGESIZE)};
 }
 
 std::size_t n_entries(const char* folder) {
