@@ -23,7 +23,7 @@ int print(const char* title, const std::vector<PlantedCase>& cases, int threads)
     n_easy += counts ? 1 : 0;
     n_wrong += counts && !outcome.right ? 1 : 0;
     std::printf("| %s | %.2f | %.2f | %.1f | %s%s%s | %s |\n", planted.name.c_str(), outcome.rmsd_A,
-                100 * outcome.slip_beyond_3A, 100 * outcome.same_residue,
+                100 * outcome.slip_area_fraction, 100 * outcome.same_residue,
                 outcome.trustworthy ? "trustworthy" : "not trustworthy", outcome.right ? "" : " (WRONG)",
                 counts ? "" : " (not counted)", outcome.reasons.c_str());
     std::fflush(stdout);

@@ -312,7 +312,7 @@ PlantedOutcome run_case(const PlantedCase& planted, int threads) {
     outcome.trustworthy = c.trustworthy;
     outcome.rmsd_A = result.rmsd_A;
     outcome.same_residue = c.same_residue_area_fraction;
-    outcome.slip_beyond_3A = c.slip ? c.slip->large_area_fraction : NAN;
+    outcome.slip_area_fraction = c.slip ? c.slip->large_area_fraction : NAN;
     for (const espdiff::Message& reason : c.reasons)
       outcome.reasons += (outcome.reasons.empty() ? "" : "; ") + reason.plain();
   } catch (const espdiff::Error& error) {

@@ -28,7 +28,7 @@ std::vector<PlantedCase> easy_pairs(const std::string& folder);
 /// What became of one case.
 struct PlantedOutcome {
   bool trustworthy = false, right = false;
-  double rmsd_A = 0, slip_beyond_3A = 0, same_residue = 0;
+  double rmsd_A = 0, slip_area_fraction = 0, same_residue = 0;
   std::string reasons;  ///< or the error
 };
 PlantedOutcome run_case(const PlantedCase& planted, int threads = 0);

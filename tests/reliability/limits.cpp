@@ -69,12 +69,13 @@ TEST_CASE("text maps of 1024^3 points are refused: too few values, or more than 
       "object 2 class gridconnections counts 1024 1024 1024\n"
       "object 3 class array type double rank 0 items 1073741824 data follows\n1 2 3\n";
   const std::string cube = "a map\nof a molecule\n 1 0 0 0\n 1024 1 0 0\n 1024 0 1 0\n 1024 0 0 1\n 6 6 0 0 0\n1 2 3\n";
-  for (const auto& [name, text] : {std::pair("big.dx", dx), std::pair("big.cube", cube)}) {
+  for (const std::string& text : {dx, cube}) {
+    const std::string name = text == dx ? "big.dx" : "big.cube";
     CAPTURE(name);
     // What a file is, its first 64 kB tell.
     const std::string path = folder.write(name, text + std::string(70000, '\n'));
     const auto run = [&] {
-      return run_espdiff(std::string("surface a.pqr --map ") + name + " --map-unit kT/e --device cpu -o out.vtp",
+      return run_espdiff("surface a.pqr --map " + name + " --map-unit kT/e --device cpu -o out.vtp",
                          "cd " + folder.file("") + " && ulimit -v 2000000 &&");
     };
     const Outcome cut = run();
@@ -84,7 +85,7 @@ TEST_CASE("text maps of 1024^3 points are refused: too few values, or more than 
     std::filesystem::resize_file(path, std::uintmax_t{3} << 30U);  // holes: no room on the disk
     const Outcome whole = run();
     CHECK(whole.status == 1);
-    CHECK_MESSAGE(contains(whole.err, std::string("espdiff: ") + name + ": needs 3.2 GB of memory, and "), whole.err);
+    CHECK_MESSAGE(contains(whole.err, "espdiff: " + name + ": needs 3.2 GB of memory, and "), whole.err);
     CHECK(n_lines(whole.err) == 1);
     std::filesystem::remove(path);
   }

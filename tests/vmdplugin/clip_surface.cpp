@@ -76,7 +76,7 @@ TEST_CASE("a polygon on one side of the level stays whole, or goes") {
 }
 
 TEST_CASE("the border of a flagged region is a smooth line through its middle") {
-  constexpr int n = 20;
+  const int n = 20;
   const Square s = square(n);
   std::vector<std::uint8_t> flags;
   for (const Triangle& t : s.triangles) {
