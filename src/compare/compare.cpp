@@ -1,5 +1,6 @@
 // compare.cpp: the stages of a comparison, in order.
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -283,23 +284,29 @@ struct Series::Steps {
     return step;
   }
 
-  /// Maps once, or twice where the first mapping slips and the options ask for local motions as needed. A step that
-  /// continues from the one before is mapped once: its way is composed of small steps.
+  /// Whether a mapping that slips is tried again. Inputs that cannot be right, such as mirror images, are refused
+  /// whatever the mapping, and their local motions are wild and slow to follow.
+  /// @param result with the warnings about the molecules, not those about maps, which play no part
+  bool may_map_again(const CompareResult& result) const {
+    return options.domains == kLocalAsNeeded && options.method == Method::kMorph &&
+           std::none_of(result.warnings.begin(), result.warnings.end(), [](const Warning& w) { return w.refuses; });
+  }
+
+  /// Maps once, or twice where the first mapping slips. A step that continues from the one before is mapped once: its
+  /// way is composed of small steps.
+  /// @param again from may_map_again()
   MappedStep map_as_needed(const CompareInput& target, const Surface& target_surface, const CommonFrame& frame,
-                           const CompareResult& result, const LastStep* before, const Progress& progress,
+                           const CompareResult& result, const LastStep* before, bool again, const Progress& progress,
                            StageClock& clock) {
     MappedStep straight = map(target, target_surface, frame, result, before, "morph", progress, clock);
-    const bool may_map_again =
-        options.domains == kLocalAsNeeded && options.method == Method::kMorph && before == nullptr;
-    if (!may_map_again || !slips(straight.result, *source.molecule)) return straight;
+    if (!again || before != nullptr || !slips(straight.result, *source.molecule)) return straight;
     CommonFrame local = frame;
     local.followed =
         local_motions(*source.molecule, *target.molecule, result.pairing, frame.from_source, frame.from_target);
     CompareResult anew = result;
     anew.domains_used = kLocalMotions;
     try {
-      MappedStep second =
-          map(target, target_surface, local, std::move(anew), nullptr, "second morph", progress, clock);
+      MappedStep second = map(target, target_surface, local, std::move(anew), nullptr, "second morph", progress, clock);
       return better_of(std::move(straight), std::move(second), *source.molecule);
     } catch (const GeometryError& error) {  // no surface remains
       return without_second(std::move(straight), error.message());
@@ -315,6 +322,7 @@ struct Series::Steps {
     progress.report("align", 0.0);
     const CommonFrame frame = align(*source.molecule, *target.molecule, options, result);
     result.warnings = input_warnings(*source.molecule, *target.molecule, result);
+    const bool again = may_map_again(result);
     check_given_maps(target, result);
     clock.lap("align");
     const GridPtr target_map = make_maps(target, frame, result, progress);
@@ -333,7 +341,7 @@ struct Series::Steps {
     if (start == StartFrom::kPrevious && from && can_continue(*from, *source.molecule, frame, target_atoms))
       result.start = StartFrom::kPrevious;
     const LastStep* const before = result.start == StartFrom::kPrevious ? &*from : nullptr;
-    MappedStep mapped = map_as_needed(target, target_surface, frame, result, before, progress, clock);
+    MappedStep mapped = map_as_needed(target, target_surface, frame, result, before, again, progress, clock);
     Certificate& certificate = mapped.result.certificate;
     if (options.round_trip) {
       const Mapping back = map_back(target, target_surface, mapped.frame, result.pairing, progress);

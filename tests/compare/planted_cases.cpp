@@ -300,14 +300,16 @@ std::vector<PlantedCase> easy_pairs(const std::string& folder) {
   return maker.cases;
 }
 
-PlantedOutcome run_case(const PlantedCase& planted, int threads) {
+PlantedOutcome run_case(const PlantedCase& planted, int threads, const std::string& domains) {
   PlantedOutcome outcome;
   const bool must_map = planted.reason.empty() || planted.reason == "=";
   try {
     const MoleculePair pair = planted.load();
     const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, threads);
+    espdiff::CompareOptions options;
+    options.domains = domains;
     const espdiff::CompareResult result =
-        espdiff::compare(*engine, {&pair.first, nullptr, nullptr}, {&pair.second, nullptr, nullptr}, {}, {});
+        espdiff::compare(*engine, {&pair.first, nullptr, nullptr}, {&pair.second, nullptr, nullptr}, options, {});
     const espdiff::Certificate& c = result.certificate;
     outcome.trustworthy = c.trustworthy;
     outcome.rmsd_A = result.rmsd_A;

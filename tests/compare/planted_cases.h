@@ -31,6 +31,7 @@ struct PlantedOutcome {
   double rmsd_A = 0, slip_area_fraction = 0, same_residue = 0;
   std::string reasons;  ///< or the error
 };
-PlantedOutcome run_case(const PlantedCase& planted, int threads = 0);
+/// @param domains as the setting of that name
+PlantedOutcome run_case(const PlantedCase& planted, int threads = 0, const std::string& domains = "as-needed");
 
 }  // namespace espdiff_test
