@@ -176,7 +176,10 @@ class BackEndEngine : public Engine {
   }
 
   std::vector<ComponentSummary> components(const MeshPtr& mesh) override {
-    return run([&] { return label_components(unwrap<SurfaceMesh>(mesh)).summaries; });
+    return run([&] {
+      const auto& surface = unwrap<SurfaceMesh>(mesh);
+      return summarize_components(surface, label_components(surface));
+    });
   }
 
   MeshPtr keep_components(const MeshPtr& mesh, const std::vector<bool>& keep) override {

@@ -1,9 +1,8 @@
 // certificate.cu: measures a mapped mesh against the target's density and surface.
 #include "cuda/certificate/certificate.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
+#include <memory>
 #include <utility>
 
 #include "base/error.h"
@@ -52,18 +51,17 @@ ESPDIFF_INLINE bool is_surrounded(const TopologyView& topology, std::uint32_t v)
   return begin < end;
 }
 
-/// Over the surrounded vertices: elsewhere the mean of the neighbours lies to one side.
-double mean_umbrella_length(const SurfaceMesh& mesh) {
+/// Over the surrounded vertices: elsewhere the mean of the neighbours lies to one side. In element 0.
+Buffer<UmbrellaSum> umbrella_lengths(const SurfaceMesh& mesh) {
   const TopologyView topology = mesh.view();
   const Vec4f* const x = raw(mesh.positions);
-  const UmbrellaSum sum = sum_over<UmbrellaSum>(mesh.n_vertices(), [=] ESPDIFF_HD(std::size_t v) {
+  return sum_on_device<UmbrellaSum>(mesh.n_vertices(), [=] ESPDIFF_HD(std::size_t v) {
     UmbrellaSum one;
     if (!is_surrounded(topology, static_cast<std::uint32_t>(v))) return one;
     one.length = static_cast<double>(norm(umbrella(topology, x, v).xyz()));
     one.n = 1;
     return one;
   });
-  return sum.length / sum.n;
 }
 
 Buffer<Vec4f> triangle_centroids(const SurfaceMesh& mesh) {
@@ -100,6 +98,18 @@ ESPDIFF_INLINE double weight_of_point(const float* vertices, std::size_t n_verti
                         : kShareOfCentroids * static_cast<double>(triangles[i - n_vertices]);
 }
 
+struct DistanceSums {
+  double area = 0, moment = 0, beyond = 0, within = 0;
+
+  ESPDIFF_HD DistanceSums& operator+=(const DistanceSums& o) {
+    area += o.area;
+    moment += o.moment;
+    beyond += o.beyond;
+    within += o.within;
+    return *this;
+  }
+};
+
 /// Area-weighted quantities over corners_and_centroids().
 /// @param distances [point]
 DistanceSummary summarize(const SurfaceMesh& mesh, const Buffer<float>& distances, float limit_A) {
@@ -112,28 +122,30 @@ DistanceSummary summarize(const SurfaceMesh& mesh, const Buffer<float>& distance
     rounded[i] = static_cast<float>(weight_of_point(vertex, n_vertices, triangle, i));
   });
 
-  const std::vector<float> distance = to_host(distances), vertices = to_host(of_vertices),
-                           triangles = to_host(of_triangles);
-  double area = 0, sum = 0, beyond = 0, within = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double w = weight_of_point(vertices.data(), n_vertices, triangles.data(), i),
-                 d = static_cast<double>(distance[i]);
-    area += w;
-    sum += w * d;
-    (distance[i] > limit_A ? beyond : within) += distance[i] > limit_A ? w : w * d;
-  }
+  const float* const distance = raw(distances);
+  const Buffer<DistanceSums> sums = sum_on_device<DistanceSums>(n, [=] ESPDIFF_HD(std::size_t i) {
+    const double w = weight_of_point(vertex, n_vertices, triangle, i), d = static_cast<double>(distance[i]);
+    const bool is_beyond = distance[i] > limit_A;
+    DistanceSums s;
+    s.area = w;
+    s.moment = w * d;
+    s.beyond = is_beyond ? w : 0;
+    s.within = is_beyond ? 0 : w * d;
+    return s;
+  });
+  WeightedOrder order(distances, weights);
+  DistanceSums sum;
+  HostReads reads;
+  read_element(reads, sum, sums, 0);
+  order.read_sums(reads);
+  reads.wait();
   DistanceSummary result;
-  result.mean = sum / area;
-  result.area_fraction_beyond_limit = beyond / area;
-  result.mean_within_limit = area > beyond ? within / (area - beyond) : 0;
-  const std::vector<std::pair<float, float>> sorted = in_ascending_order(distances, weights);
-  result.max = static_cast<double>(sorted.back().first);
-  double below = 0;
-  for (const auto& [value, w] : sorted) {
-    below += static_cast<double>(w);
-    result.p95 = static_cast<double>(value);
-    if (below >= 0.95 * area) break;
-  }
+  result.mean = sum.moment / sum.area;
+  result.area_fraction_beyond_limit = sum.beyond / sum.area;
+  result.mean_within_limit = sum.area > sum.beyond ? sum.within / (sum.area - sum.beyond) : 0;
+  const std::vector<float> at = order.quantiles(sum.area, {0.95, INFINITY});
+  result.p95 = static_cast<double>(at[0]);
+  result.max = static_cast<double>(at[1]);
   return result;
 }
 
@@ -142,18 +154,25 @@ FitReport fit_report(const SurfaceMesh& mapped, std::shared_ptr<const Scalars> c
   const Corners* const corners = raw(mapped.topology->triangles);
   const Vec4f* const x = raw(mapped.positions);
   const float *const corrupt = raw(corrupt_flags->values), *const flipped = raw(flipped_flags->values);
-  const FitSums sums = sum_over<FitSums>(mapped.n_triangles(), [=] ESPDIFF_HD(std::size_t t) {
+  const Buffer<FitSums> areas = sum_on_device<FitSums>(mapped.n_triangles(), [=] ESPDIFF_HD(std::size_t t) {
     FitSums s;
     s.area = 0.5 * static_cast<double>(norm(twice_area_vector(x, corners[t])));
     s.corrupt = corrupt[t] != 0.0F ? s.area : 0;
     s.flipped = flipped[t] != 0.0F ? s.area : 0;
     return s;
   });
+  const Buffer<UmbrellaSum> lengths = umbrella_lengths(mapped);
+  FitSums sums;
+  UmbrellaSum umbrellas;
+  HostReads reads;
+  read_element(reads, sums, areas, 0);
+  read_element(reads, umbrellas, lengths, 0);
+  reads.wait();
   FitReport report;
   report.area_A2 = sums.area;
   report.corrupt_area_fraction = sums.corrupt / sums.area;
   report.flipped_area_fraction = sums.flipped / sums.area;
-  report.irregularity_A = mean_umbrella_length(mapped);
+  report.irregularity_A = umbrellas.length / umbrellas.n;
   report.corrupt = std::move(corrupt_flags);
   report.flipped = std::move(flipped_flags);
   return report;

@@ -2,7 +2,6 @@
 #include "cuda/certificate/distortion.h"
 
 #include <cmath>
-#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -39,16 +38,6 @@ ESPDIFF_INLINE TriangleChange change_of(const Vec4f* from, const Vec4f* to, cons
   return {area_g, area_g > 0 ? area_m / area_g : INFINITY, energy};
 }
 
-/// Weighted quantile: the value below which this share of the weight lies; `values` are sorted by value.
-double quantile(const std::vector<std::pair<float, float>>& values, double total, double share) {
-  double below = 0;
-  for (const auto& [value, weight] : values) {
-    below += static_cast<double>(weight);
-    if (below >= share * total) return static_cast<double>(value);
-  }
-  return static_cast<double>(values.back().first);
-}
-
 }  // namespace
 
 DistortionReport distortion(const SurfaceMesh& source, const SurfaceMesh& mapped, double limit) {
@@ -82,15 +71,22 @@ DistortionReport distortion(const SurfaceMesh& source, const SurfaceMesh& mapped
 
   DistortionReport report;
   report.excessive = flags;
+  const Buffer<double> totals =
+      sum_on_device<double>(n, [=] ESPDIFF_HD(std::size_t t) { return static_cast<double>(area[t]); });
+  WeightedOrder by_ratio(ratios, areas), by_energy(energies, areas);
   double total = 0;
-  for (const float a : to_host(areas)) total += static_cast<double>(a);
-  const std::vector<std::pair<float, float>> by_ratio = in_ascending_order(ratios, areas),
-                                             by_energy = in_ascending_order(energies, areas);
-  report.area_ratio_p05 = quantile(by_ratio, total, 0.05);
-  report.area_ratio_median = quantile(by_ratio, total, 0.5);
-  report.area_ratio_p95 = quantile(by_ratio, total, 0.95);
-  report.dirichlet_median = quantile(by_energy, total, 0.5);
-  report.dirichlet_p95 = quantile(by_energy, total, 0.95);
+  HostReads reads;
+  read_element(reads, total, totals, 0);
+  by_ratio.read_sums(reads);
+  by_energy.read_sums(reads);
+  reads.wait();
+  const std::vector<float> ratio_at = by_ratio.quantiles(total, {0.05, 0.5, 0.95}),
+                           energy_at = by_energy.quantiles(total, {0.5, 0.95});
+  report.area_ratio_p05 = static_cast<double>(ratio_at[0]);
+  report.area_ratio_median = static_cast<double>(ratio_at[1]);
+  report.area_ratio_p95 = static_cast<double>(ratio_at[2]);
+  report.dirichlet_median = static_cast<double>(energy_at[0]);
+  report.dirichlet_p95 = static_cast<double>(energy_at[1]);
   return report;
 }
 

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
+#include "cuda/device/sort.h"
 #include "cuda/device/spatial_order.h"
 #include "cuda/surface/point_sums.h"
 #include "cuda/surface/vertex_residues.h"
@@ -68,22 +70,15 @@ Carriers carriers(const std::vector<MovingAtom>& atoms) {
     pairs.push_back(atom.pair);
     motions.push_back(motion_of(atom));
   }
-  std::vector<std::uint32_t> order;
+  Buffer<std::uint32_t> order;
   Carriers all;
   all.cells = make_atom_cells(positions, widths, pairs, &order);
-  std::vector<Motion> sorted;
-  for (const std::uint32_t atom : order) sorted.push_back(motions[atom]);
-  all.motions = to_device(sorted);
+  all.motions = in_cell_order(motions, order);
   return all;
 }
 
 /// The vertices of the target's surface by the pair that owns them: row k holds those of pair k.
-struct OwnedPlaces {
-  Buffer<std::uint32_t> first;   ///< [pair + 1]
-  Buffer<std::uint32_t> vertex;  ///< [place]
-};
-
-OwnedPlaces owned_places(const SurfaceMesh& target, const std::vector<MovingAtom>& atoms) {
+Rows owned_places(const SurfaceMesh& target, const std::vector<MovingAtom>& atoms) {
   std::vector<Vec3d> positions;
   std::vector<float> widths;
   std::vector<std::int32_t> pairs;
@@ -95,18 +90,15 @@ OwnedPlaces owned_places(const SurfaceMesh& target, const std::vector<MovingAtom
     widths.push_back(static_cast<float>(atom.end_width));
     pairs.push_back(atom.pair);
   }
-  const std::vector<std::int32_t> owner = to_host(vertex_residues(target, *make_atom_cells(positions, widths, pairs)));
-  std::vector<std::uint32_t> first(static_cast<std::size_t>(last) + 2, 0), vertex;
-  for (const std::int32_t pair : owner) {
-    if (pair >= 0) ++first[static_cast<std::size_t>(pair) + 1];
-  }
-  for (std::size_t k = 1; k < first.size(); ++k) first[k] += first[k - 1];
-  vertex.resize(first.back());
-  std::vector<std::uint32_t> next(first.begin(), first.end());
-  for (std::size_t v = 0; v < owner.size(); ++v) {
-    if (owner[v] >= 0) vertex[next[static_cast<std::size_t>(owner[v])]++] = static_cast<std::uint32_t>(v);
-  }
-  return {to_device(first), to_device(vertex)};
+  const Buffer<std::int32_t> owners = vertex_residues(target, *make_atom_cells(positions, widths, pairs));
+  const std::uint32_t n_pairs = static_cast<std::uint32_t>(last + 1);
+  Buffer<std::uint32_t> rows(owners.size());
+  const std::int32_t* const owner = raw(owners);
+  std::uint32_t* const row = raw(rows);
+  for_each_index(rows.size(), [=] ESPDIFF_HD(std::size_t v) {
+    row[v] = owner[v] >= 0 ? static_cast<std::uint32_t>(owner[v]) : n_pairs;
+  });
+  return sort_into_rows(std::move(rows), n_pairs);
 }
 
 ESPDIFF_INLINE Vec3f nearest_on_segment(Vec3f p, Vec3f a, Vec3f b) {
@@ -283,10 +275,10 @@ std::vector<float> slip_in_form(const SurfaceMesh& source, const SurfaceMesh& ma
   if (source.n_vertices() != mapped.n_vertices()) throw GeometryError("slip: the meshes differ in topology");
   const std::size_t n = source.n_vertices();
   const Carriers carried_by = carriers(atoms);
-  const OwnedPlaces places = owned_places(target, atoms);
+  const Rows places = owned_places(target, atoms);
   Buffer<float> slips(n);
   const SlipInputs in{carried_by.cells->view(), raw(carried_by.motions), raw(places.first),
-                      raw(places.vertex),       target.view(),           raw(source.positions),
+                      raw(places.item),         target.view(),           raw(source.positions),
                       raw(mapped.positions),    raw(target.positions),   raw(slips)};
 #if defined(__CUDACC__)
   static_cast<void>(by_blocks);

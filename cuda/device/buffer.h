@@ -121,4 +121,16 @@ std::vector<T> to_host(const Buffer<T>& buffer) {
   return host;
 }
 
+/// Adds the read of an element.
+template <typename T>
+void read_element(HostReads& reads, T& to, const Buffer<T>& buffer, std::size_t i) {
+  reads.add(&to, buffer.data() + i, sizeof(T));
+}
+/// Adds the read of the elements [first, first + n).
+template <typename T>
+void read_elements(HostReads& reads, std::vector<T>& to, const Buffer<T>& buffer, std::size_t first, std::size_t n) {
+  to.resize(n);
+  reads.add(to.data(), buffer.data() + first, n * sizeof(T));
+}
+
 }  // namespace espdiff::ESPDIFF_BACKEND

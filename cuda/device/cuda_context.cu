@@ -125,7 +125,8 @@ void* CudaContext::allocate(std::size_t n_bytes) {
   void* start = nullptr;
   cudaError_t status = try_allocate(&start, n_bytes);
   if (status == cudaErrorMemoryAllocation && pool_ != nullptr) {
-    // The pool may hold blocks that are too small.
+    // The pool may hold blocks that are too small, and others are released once the work before is done.
+    pending_ = true;
     synchronize();
     check_cuda(cudaMemPoolTrimTo(pool_, 0), "giving memory back");
     status = try_allocate(&start, n_bytes);
@@ -158,36 +159,39 @@ void CudaContext::upload(void* to, const void* from, std::size_t n_bytes) {
   if (n_bytes == 0) return;
   char* const staged = stage(n_bytes);
   if (staged != nullptr) std::memcpy(staged, from, n_bytes);
-  check_cuda(cudaMemcpyAsync(to, staged != nullptr ? staged : from, n_bytes, cudaMemcpyHostToDevice, stream_),
+  check_cuda(cudaMemcpyAsync(to, staged != nullptr ? staged : from, n_bytes, cudaMemcpyHostToDevice, stream()),
              "copying to it");
   // Unstaged memory may change or be freed after we return.
   if (staged == nullptr) synchronize();
 }
 
-void CudaContext::download(void* to, const void* from, std::size_t n_bytes) {
+void CudaContext::begin_read(void* to, const void* from, std::size_t n_bytes) {
   if (n_bytes == 0) return;
   char* const staged = stage(n_bytes);
-  check_cuda(cudaMemcpyAsync(staged != nullptr ? staged : to, from, n_bytes, cudaMemcpyDeviceToHost, stream_),
+  check_cuda(cudaMemcpyAsync(staged != nullptr ? staged : to, from, n_bytes, cudaMemcpyDeviceToHost, stream()),
              "copying from it");
-  synchronize();
-  if (staged != nullptr) std::memcpy(to, staged, n_bytes);
+  if (staged != nullptr) reads_.push_back({to, staged, n_bytes});
 }
 
 void CudaContext::copy(void* to, const void* from, std::size_t n_bytes) {
   if (n_bytes == 0) return;
-  check_cuda(cudaMemcpyAsync(to, from, n_bytes, cudaMemcpyDeviceToDevice, stream_), "copying on it");
+  check_cuda(cudaMemcpyAsync(to, from, n_bytes, cudaMemcpyDeviceToDevice, stream()), "copying on it");
 }
 
 void CudaContext::synchronize() {
+  if (!pending_) return;
   check_cuda(cudaStreamSynchronize(stream_), "computing");
+  for (const Read& read : reads_) std::memcpy(read.to, read.staged, read.n_bytes);
+  reads_.clear();
   n_staged_ = 0;
+  pending_ = false;
 }
 
 double CudaContext::elapsed_ms(const std::function<void()>& calls) {
   const Event start, end;
-  check_cuda(cudaEventRecord(start.get(), stream_), "timing");
+  check_cuda(cudaEventRecord(start.get(), stream()), "timing");
   calls();
-  check_cuda(cudaEventRecord(end.get(), stream_), "timing");
+  check_cuda(cudaEventRecord(end.get(), stream()), "timing");
   synchronize();
   float ms = 0;
   check_cuda(cudaEventElapsedTime(&ms, start.get(), end.get()), "timing");
@@ -218,8 +222,15 @@ MemoryBlock::~MemoryBlock() {
 void copy_to_device(void* to, const void* from, std::size_t n_bytes) {
   if (n_bytes > 0) CudaContext::current()->upload(to, from, n_bytes);
 }
+HostReads::HostReads() : context_(CudaContext::current()) {}
+HostReads::~HostReads() { context_->forget_reads(); }
+void HostReads::add(void* to, const void* from, std::size_t n_bytes) { context_->begin_read(to, from, n_bytes); }
+void HostReads::wait() { context_->synchronize(); }
+
 void copy_to_host(void* to, const void* from, std::size_t n_bytes) {
-  if (n_bytes > 0) CudaContext::current()->download(to, from, n_bytes);
+  HostReads reads;
+  reads.add(to, from, n_bytes);
+  reads.wait();
 }
 void copy_on_device(void* to, const void* from, std::size_t n_bytes) {
   if (n_bytes > 0) CudaContext::current()->copy(to, from, n_bytes);

@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "cuda/device/cuda_errors.h"
 
@@ -43,7 +44,11 @@ class CudaContext {
   };
 
   int device() const { return device_; }
-  cudaStream_t stream() const { return stream_; }
+  /// For enqueuing work, for which synchronize() then waits.
+  cudaStream_t stream() {
+    pending_ = true;
+    return stream_;
+  }
 
   /// Allocates memory for later work on the stream. Comes from the pool, which keeps released memory, so a second run
   /// of the same size does not call the driver; from the device if it has no pools.
@@ -53,10 +58,12 @@ class CudaContext {
   void release(void* start) noexcept;
 
   void upload(void* to, const void* from, std::size_t n_bytes);
-  void download(void* to, const void* from, std::size_t n_bytes);
   void copy(void* to, const void* from, std::size_t n_bytes);
+  /// Enqueues a copy to the host; the next synchronize() sets `to`, unless forget_reads() is called before.
+  void begin_read(void* to, const void* from, std::size_t n_bytes);
+  void forget_reads() noexcept { reads_.clear(); }
 
-  /// Waits for all enqueued work.
+  /// Waits for all enqueued work; returns at once if there is none since the last wait.
   /// @throws DeviceError if any of that work failed
   void synchronize();
 
@@ -76,6 +83,14 @@ class CudaContext {
   cudaMemPool_t pool_ = nullptr;  ///< null where the device has no pools
   char* staging_ = nullptr;       ///< pinned, so transfers are asynchronous and copied once; null for none
   std::size_t n_staged_ = 0;
+  /// Copies to the host that lie in the staging area until the next wait.
+  struct Read {
+    void* to;
+    const char* staged;
+    std::size_t n_bytes;
+  };
+  std::vector<Read> reads_;
+  bool pending_ = false;  ///< work was enqueued since the last wait
 };
 
 /// "NVIDIA H200 (compute capability 9.0, 139.81 GiB)"

@@ -35,6 +35,10 @@ namespace espdiff::ESPDIFF_BACKEND {
 
 constexpr std::size_t kReductionChunk = 2048;
 
+struct IndexRange {
+  std::size_t begin, end;
+};
+
 #if defined(ESPDIFF_BACKEND_CUDA)
 
 constexpr unsigned kReductionThreads = 128;
@@ -74,41 +78,94 @@ __global__ void __launch_bounds__(kReductionThreads) sum_partial_kernel(std::siz
   block_sum<T>(0, n, ElementOf<T>{partial}, total);
 }
 
-/// Sum of term(i) over [0, n) as a T (with operator+=, value-initialized to zero). Bitwise reproducible: sums chunks of
-/// fixed size, then the chunks.
+/// Sums of term(i) over chunks of kReductionChunk indices of [0, n): [chunk], after one element that is left free.
 template <typename T, typename Term>
-T sum_over(std::size_t n, Term term) {
-  if (n == 0) return T{};
+Buffer<T> chunk_sums(std::size_t n, Term term) {
   const std::size_t n_chunks = (n + kReductionChunk - 1) / kReductionChunk;
-  Buffer<T> partial(n_chunks + 1);  // the last one is the total
-  const cudaStream_t stream = CudaContext::current()->stream();
-  sum_chunks_kernel<<<static_cast<unsigned>(n_chunks), kReductionThreads, 0, stream>>>(n, term, raw(partial));
-  sum_partial_kernel<<<1, kReductionThreads, 0, stream>>>(n_chunks, raw(partial), raw(partial) + n_chunks);
+  Buffer<T> sums(n_chunks + 1);
+  if (n == 0) return sums;
+  sum_chunks_kernel<<<static_cast<unsigned>(n_chunks), kReductionThreads, 0, CudaContext::current()->stream()>>>(
+      n, term, raw(sums) + 1);
   check_cuda(cudaGetLastError(), "starting a sum");
-  return partial.back();
+  return sums;
+}
+
+template <typename T, typename Term>
+__global__ void __launch_bounds__(kReductionThreads) sum_ranges_kernel(const IndexRange* ranges, Term term, T* sums) {
+  const IndexRange range = ranges[blockIdx.x];
+  block_sum<T>(range.begin, range.end, term, sums + blockIdx.x);
+}
+
+/// [range] the sum of term(i) over each range, in the order of chunk_sums().
+template <typename T, typename Term>
+Buffer<T> range_sums(const Buffer<IndexRange>& ranges, Term term) {
+  Buffer<T> sums(ranges.size());
+  if (ranges.empty()) return sums;
+  sum_ranges_kernel<<<static_cast<unsigned>(ranges.size()), kReductionThreads, 0, CudaContext::current()->stream()>>>(
+      raw(ranges), term, raw(sums));
+  check_cuda(cudaGetLastError(), "starting a sum");
+  return sums;
+}
+
+/// Element 0 is sum_over(n, term), which stays on the device.
+template <typename T, typename Term>
+Buffer<T> sum_on_device(std::size_t n, Term term) {
+  Buffer<T> sums = chunk_sums<T>(n, term);
+  sum_partial_kernel<<<1, kReductionThreads, 0, CudaContext::current()->stream()>>>(sums.size() - 1, raw(sums) + 1,
+                                                                                    raw(sums));
+  check_cuda(cudaGetLastError(), "starting a sum");
+  return sums;
 }
 
 #else
 
-/// Sum of term(i) over [0, n) as a T (with operator+=, value-initialized to zero). Adds chunks of fixed size in order,
-/// then the chunks in order, so the result does not depend on the number of threads.
+/// Sums of term(i) over chunks of kReductionChunk indices of [0, n): [chunk], after one element that is left free.
 template <typename T, typename Term>
-T sum_over(std::size_t n, Term term) {
+Buffer<T> chunk_sums(std::size_t n, Term term) {
   const std::size_t n_chunks = (n + kReductionChunk - 1) / kReductionChunk;
-  Buffer<T> partial(n_chunks);
-  T* const partial_sums = raw(partial);
+  Buffer<T> sums(n_chunks + 1);
+  T* const of_chunk = raw(sums) + 1;
   for_each_index(n_chunks, [=] ESPDIFF_HD(std::size_t chunk) {
     T sum{};
     const std::size_t end = (chunk + 1) * kReductionChunk < n ? (chunk + 1) * kReductionChunk : n;
     for (std::size_t i = chunk * kReductionChunk; i < end; ++i) sum += term(i);
-    partial_sums[chunk] = sum;
+    of_chunk[chunk] = sum;
   });
+  return sums;
+}
+
+/// [range] the sum of term(i) over each range, in the order of chunk_sums().
+template <typename T, typename Term>
+Buffer<T> range_sums(const Buffer<IndexRange>& ranges, Term term) {
+  Buffer<T> sums(ranges.size());
+  T* const out = raw(sums);
+  const IndexRange* const range = raw(ranges);
+  for_each_index(ranges.size(), [=] ESPDIFF_HD(std::size_t r) {
+    T sum{};
+    for (std::size_t i = range[r].begin; i < range[r].end; ++i) sum += term(i);
+    out[r] = sum;
+  });
+  return sums;
+}
+
+/// Element 0 is sum_over(n, term), which stays on the device.
+template <typename T, typename Term>
+Buffer<T> sum_on_device(std::size_t n, Term term) {
+  Buffer<T> sums = chunk_sums<T>(n, term);
   T total{};
-  for (const T& sum : to_host(partial)) total += sum;
-  return total;
+  for (const T* sum = sums.begin() + 1; sum != sums.end(); ++sum) total += *sum;
+  *sums.begin() = total;
+  return sums;
 }
 
 #endif
+
+/// Sum of term(i) over [0, n) as a T (with operator+=, value-initialized to zero); waits for it. Bitwise reproducible:
+/// sums chunks of fixed size, then the chunks, so the result does not depend on the number of threads.
+template <typename T, typename Term>
+T sum_over(std::size_t n, Term term) {
+  return n == 0 ? T{} : sum_on_device<T>(n, term)[0];
+}
 
 /// Exclusive prefix sum, in place.
 template <typename T>
@@ -116,13 +173,32 @@ void running_sum_in_place(Buffer<T>& counts) {
   if (!counts.empty()) thrust::exclusive_scan(on_device(), counts.begin(), counts.end(), counts.begin());
 }
 
+/// The total of an exclusive prefix sum in place, read together with other numbers.
+template <typename T>
+class ScanTotal {
+ public:
+  /// Computes the prefix sum and adds the total to `reads`, which must wait before get().
+  ScanTotal(Buffer<T>& counts, HostReads& reads) {
+    if (counts.empty()) return;
+    read_element(reads, last_, counts, counts.size() - 1);
+    running_sum_in_place(counts);
+    read_element(reads, before_last_, counts, counts.size() - 1);
+  }
+  ScanTotal(const ScanTotal&) = delete;
+  ScanTotal& operator=(const ScanTotal&) = delete;
+  T get() const { return static_cast<T>(before_last_ + last_); }
+
+ private:
+  T last_{}, before_last_{};
+};
+
 /// Exclusive prefix sum, in place; waits for the total and returns it.
 template <typename T>
 T exclusive_scan_in_place(Buffer<T>& counts) {
-  if (counts.empty()) return T{};
-  const T last = counts.back();
-  running_sum_in_place(counts);
-  return static_cast<T>(counts.back() + last);
+  HostReads reads;
+  ScanTotal<T> total(counts, reads);
+  reads.wait();
+  return total.get();
 }
 
 /// The larger and the smaller of two floats, faster on the host than the library calls fmaxf and fminf. They return the
@@ -140,6 +216,17 @@ ESPDIFF_INLINE std::uint32_t atomic_increment(std::uint32_t* counter) {
   return atomicAdd(counter, 1U);
 #else
   return __atomic_fetch_add(counter, 1U, __ATOMIC_RELAXED);
+#endif
+}
+
+/// Atomically replaces *value by `desired` if it is `expected`; returns its previous value.
+ESPDIFF_INLINE std::uint32_t atomic_compare_exchange(std::uint32_t* value, std::uint32_t expected,
+                                                     std::uint32_t desired) {
+#if defined(__CUDA_ARCH__)
+  return atomicCAS(value, expected, desired);
+#else
+  __atomic_compare_exchange_n(value, &expected, desired, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED);
+  return expected;
 #endif
 }
 

@@ -53,6 +53,24 @@ void copy_to_device(void* to, const void* from, std::size_t n_bytes);
 void copy_to_host(void* to, const void* from, std::size_t n_bytes);
 void copy_on_device(void* to, const void* from, std::size_t n_bytes);
 
+/// Copies to the host that are waited for together.
+class HostReads {
+ public:
+  HostReads();
+  /// Drops what was not waited for.
+  ~HostReads();
+  HostReads(const HostReads&) = delete;
+  HostReads& operator=(const HostReads&) = delete;
+  /// Enqueues a copy of what `from` holds after all work enqueued before. wait() sets `to`.
+  void add(void* to, const void* from, std::size_t n_bytes);
+  void wait();
+
+#if defined(ESPDIFF_BACKEND_CUDA)
+ private:
+  std::shared_ptr<CudaContext> context_;
+#endif
+};
+
 /// Bytes that can still be taken: available_memory() on the CPU; 90 % of a GPU's memory that is free or unused in the
 /// engine's pool.
 double available_bytes();

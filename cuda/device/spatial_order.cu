@@ -1,10 +1,13 @@
 // spatial_order.cu: sorts points along the Morton curve.
 #include "cuda/device/spatial_order.h"
 
-#include <thrust/copy.h>
-#include <thrust/sort.h>
-
 #include <cfloat>
+
+#include "cuda/device/sort.h"
+
+#if !defined(ESPDIFF_BACKEND_CUDA)
+#include <thrust/copy.h>
+#endif
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
@@ -24,21 +27,23 @@ struct Extent {
 Buffer<std::uint32_t> spatial_order(const Buffer<Vec4f>& points) {
   const std::size_t n = points.size();
   const Vec4f* const x = raw(points);
-  const Extent box = sum_over<Extent>(n, [=] ESPDIFF_HD(std::size_t i) { return Extent{x[i].xyz(), x[i].xyz()}; });
-  const Vec3f size = box.upper - box.lower;
-  const float scale = 1023.0F / larger(larger(size.x, size.y), larger(size.z, 1e-6F));
-  const Vec3f lower = box.lower;
-  Buffer<std::uint64_t> codes(n);  // the index in the low bits makes every key unique
-  std::uint64_t* const code = raw(codes);
-  for_each_index(n, [=] ESPDIFF_HD(std::size_t i) {
-    code[i] = static_cast<std::uint64_t>(morton_code(scale * (x[i].xyz() - lower))) << 32 | i;
+  // The box stays on the device.
+  const Buffer<Extent> boxes = sum_on_device<Extent>(n, [=] ESPDIFF_HD(std::size_t i) {
+    return Extent{x[i].xyz(), x[i].xyz()};
   });
-  thrust::sort(on_device(), codes.begin(), codes.end());
-  Buffer<std::uint32_t> order(n);
-  std::uint32_t* const out = raw(order);
-  for_each_index(n, [=] ESPDIFF_HD(std::size_t i) { out[i] = static_cast<std::uint32_t>(code[i]); });
+  const Extent* const box = raw(boxes);
+  Buffer<std::uint32_t> codes(n), order(n);
+  std::uint32_t* const code = raw(codes);
+  std::uint32_t* const index = raw(order);
+  for_each_index(n, [=] ESPDIFF_HD(std::size_t i) {
+    code[i] = morton_code(morton_scale(box->lower, box->upper) * (x[i].xyz() - box->lower));
+    index[i] = static_cast<std::uint32_t>(i);
+  });
+  sort_by_key(codes, order, kMortonBits);
   return order;
 }
+
+#if !defined(ESPDIFF_BACKEND_CUDA)
 
 std::size_t drop_done(Buffer<std::uint32_t>& list, std::size_t n, const Buffer<std::uint8_t>& done) {
   const std::uint8_t* const flag = raw(done);
@@ -48,5 +53,7 @@ std::size_t drop_done(Buffer<std::uint32_t>& list, std::size_t n, const Buffer<s
   list.swap(rest);
   return static_cast<std::size_t>(end - list.begin());
 }
+
+#endif
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -1,5 +1,6 @@
 // follow_level_set.cu: moves vertices with the atoms' velocity, then back onto the level set by Newton's method.
 #include "cuda/device/spatial_order.h"
+#include "cuda/morph/flow_sums.h"
 #include "cuda/morph/moving_surface.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
@@ -34,14 +35,64 @@ void advance(MovingSurface& surface, float dt) {
   });
 }
 
-// Converged vertices leave the list, so all passes but the first are short.
+namespace {
+
+/// The vertices that return to the level set.
+struct ReturningVertices {
+  MovingSurfaceView surface;
+  const Vec4f* start;
+  float isovalue;
+};
+
+/// One step of Newton's method at a vertex.
+/// @param last whether no other step follows
+/// @returns whether the vertex needs none
+ESPDIFF_INLINE bool return_step(const ReturningVertices& in, std::size_t v, const FlowSample& sample, bool last) {
+  const MovingSurfaceView& s = in.surface;
+  const float excess = sample.density - in.isovalue;
+  const float square = dot(sample.gradient, sample.gradient);
+  const float slope = larger(sqrtf(square), kLeastSlope);
+  s.gradient[v] = make_vec4(sample.gradient, sample.density);
+  s.flow[v] = make_vec4(sample.velocity, -(sample.rate + dot(sample.gradient, sample.velocity)) / slope);
+  if (s.unmatched[v] != 0) return true;
+  Vec3f shift = (-excess / (slope * slope)) * sample.gradient;
+  const float length = norm(shift);
+  if (length > 0.5F * kMaxShift_A) shift = (0.5F * kMaxShift_A / length) * shift;
+  const Vec3f moved = s.x[v].xyz() + shift;
+  const bool broken = !(square > kLeastSlope * kLeastSlope) || norm(moved - in.start[v].xyz()) > kMaxShift_A ||
+                      (last && fabsf(excess) > kUnmatchedExcess);
+  s.unmatched[v] = broken ? 1 : 0;
+  s.x[v] = broken ? in.start[v] : make_vec4(moved, s.x[v].w + norm(shift));
+  return broken || fabsf(excess) < kLastStepExcess;
+}
+
+}  // namespace
+
+void return_vertex_by_vertex(MovingSurface& surface, const MovingAtoms& atoms, float isovalue) {
+  const Buffer<Vec4f> before = surface.x;
+  const ReturningVertices in{view_of(surface), raw(before), isovalue};
+  const AtomCellsView cells = atoms.cells->view();
+  const AtomChange* const changes = raw(atoms.change);
+  const std::uint32_t* const list = raw(surface.order);
+  for_each_index(surface.x.size(), [=] ESPDIFF_HD(std::size_t i) {
+    const std::uint32_t v = list[i];
+    for (int step = 0; step <= kMaxNewtonSteps; ++step) {
+      const FlowSample sample = flow_at(cells, changes, in.surface.x[v].xyz());
+      if (return_step(in, v, sample, step == kMaxNewtonSteps)) return;
+    }
+  });
+}
+
 void return_to_level_set(MovingSurface& surface, const MovingAtoms& atoms, float isovalue) {
-  const MovingSurfaceView s = view_of(surface);
+#if defined(__CUDACC__)
+  return_vertex_by_vertex(surface, atoms, isovalue);
+#else
+  // Converged vertices leave the list, so all passes but the first are short.
   const std::size_t n = surface.x.size();
   Buffer<FlowSample> sampled(n);
   const Buffer<Vec4f> before = surface.x;
+  const ReturningVertices in{view_of(surface), raw(before), isovalue};
   const FlowSample* const samples = raw(sampled);
-  const Vec4f* const start = raw(before);
   Buffer<std::uint32_t> pending = surface.order;
   Buffer<std::uint8_t> done_flags(n, 0);
   std::uint8_t* const done = raw(done_flags);
@@ -50,28 +101,13 @@ void return_to_level_set(MovingSurface& surface, const MovingAtoms& atoms, float
     flow_at_points(atoms, surface.x, pending, n_pending, sampled);
     const std::uint32_t* const list = raw(pending);
     const bool last = step == kMaxNewtonSteps;
-    for_each_index(n_pending, [=] ESPDIFF_HD(std::size_t i) {
+    for_each_index(n_pending, [=](std::size_t i) {
       const std::uint32_t v = list[i];
-      const FlowSample sample = samples[v];
-      const float excess = sample.density - isovalue;
-      const float square = dot(sample.gradient, sample.gradient);
-      const float slope = larger(sqrtf(square), kLeastSlope);
-      s.gradient[v] = make_vec4(sample.gradient, sample.density);
-      s.flow[v] = make_vec4(sample.velocity, -(sample.rate + dot(sample.gradient, sample.velocity)) / slope);
-      done[v] = 1;
-      if (s.unmatched[v] != 0) return;
-      Vec3f shift = (-excess / (slope * slope)) * sample.gradient;
-      const float length = norm(shift);
-      if (length > 0.5F * kMaxShift_A) shift = (0.5F * kMaxShift_A / length) * shift;
-      const Vec3f moved = s.x[v].xyz() + shift;
-      const bool broken = !(square > kLeastSlope * kLeastSlope) || norm(moved - start[v].xyz()) > kMaxShift_A ||
-                          (last && fabsf(excess) > kUnmatchedExcess);
-      s.unmatched[v] = broken ? 1 : 0;
-      s.x[v] = broken ? start[v] : make_vec4(moved, s.x[v].w + norm(shift));
-      if (!broken && fabsf(excess) >= kLastStepExcess) done[v] = 0;
+      done[v] = return_step(in, v, samples[v], last) ? 1 : 0;
     });
     n_pending = drop_done(pending, n_pending, done_flags);
   }
+#endif
 }
 
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -138,20 +138,24 @@ MorphResult run_steps(MovingSurface surface, const SurfaceMesh& mesh, const std:
   const float max_edge = static_cast<float>(options.max_edge_A), max_stretch = static_cast<float>(options.max_stretch);
   const int n_steps = steps_for(atoms, options);
   std::size_t n_added = 0;
-  return_to_level_set(surface, atoms_at(atoms, 0.0), isovalue);
+  MovingAtoms now = atoms_at(atoms, 0.0);
+  return_to_level_set(surface, now, isovalue);
   surface.previous = surface.flow;
+  now = atoms_at(atoms, 1.0 / n_steps);
   for (int step = 1; step <= n_steps; ++step) {
     progress.report(stage, static_cast<double>(step - 1) / n_steps);
     advance(surface, 1.0F / static_cast<float>(n_steps));
-    return_to_level_set(surface, atoms_at(atoms, static_cast<double>(step) / n_steps), isovalue);
+    return_to_level_set(surface, now, isovalue);
     remove_torn_triangles(surface);
     smooth_tangentially(surface);
-    n_added += split_long_edges(surface, max_edge, max_stretch);
+    const LongEdges edges = find_long_edges(surface, max_edge, max_stretch);
+    // The host computes the next atoms while a GPU still works on this step.
+    if (step < n_steps) now = atoms_at(atoms, static_cast<double>(step + 1) / n_steps);
+    n_added += split_long_edges(surface, edges);
   }
   // The vertices added or moved in the last step lie beside the level set.
-  const MovingAtoms final_atoms = atoms_at(atoms, 1.0);
   for (int round = 0; round < kLastRounds; ++round) {
-    return_to_level_set(surface, final_atoms, isovalue);
+    return_to_level_set(surface, now, isovalue);
     remove_torn_triangles(surface);
     if (round + 1 < kLastRounds) smooth_tangentially(surface);
   }

@@ -59,6 +59,9 @@ void advance(MovingSurface& surface, float dt);
 /// become unmatched (follow_level_set.cu).
 void return_to_level_set(MovingSurface& surface, const MovingAtoms& atoms, float isovalue);
 
+/// The general form, in which each vertex takes all its steps at once; gives the same bits.
+void return_vertex_by_vertex(MovingSurface& surface, const MovingAtoms& atoms, float isovalue);
+
 /// Removes triangles that have an unmatched vertex or are flipped. Vertices become unmatched if their normal is flipped
 /// or no triangle remains at them (remove_torn_triangles.cu).
 void remove_torn_triangles(MovingSurface& surface);
@@ -68,9 +71,18 @@ void remove_torn_triangles(MovingSurface& surface);
 /// (smooth_tangentially.cu).
 void smooth_tangentially(MovingSurface& surface);
 
-/// Splits edges longer than `max_edge_A`; a vertex becomes unmatched where such an edge has grown more than
+/// Edges to be split.
+struct LongEdges {
+  Buffer<std::uint32_t> marks;  ///< as split_edges() takes them
+  Buffer<std::size_t> n;        ///< [0] how many
+};
+
+/// Finds the edges longer than `max_edge_A`; a vertex becomes unmatched where such an edge has grown more than
 /// `max_stretch` times (split_long_edges.cu).
+LongEdges find_long_edges(MovingSurface& surface, float max_edge_A, float max_stretch);
+
+/// Splits them; waits for their number.
 /// @returns the number of vertices added
-std::size_t split_long_edges(MovingSurface& surface, float max_edge_A, float max_stretch);
+std::size_t split_long_edges(MovingSurface& surface, const LongEdges& edges);
 
 }  // namespace espdiff::ESPDIFF_BACKEND

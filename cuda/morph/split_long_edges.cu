@@ -23,10 +23,11 @@ Buffer<T> with_middles(const Buffer<T>& values, const EdgeSplit& split) {
 
 }  // namespace
 
-std::size_t split_long_edges(MovingSurface& surface, float max_edge_A, float max_stretch) {
+LongEdges find_long_edges(MovingSurface& surface, float max_edge_A, float max_stretch) {
   const MovingSurfaceView s = view_of(surface);
-  Buffer<std::uint32_t> marks(3 * surface.removed.size());
-  std::uint32_t* const mark = raw(marks);
+  LongEdges edges;
+  edges.marks.resize(3 * surface.removed.size());
+  std::uint32_t* const mark = raw(edges.marks);
   for_each_index(surface.x.size(), [=] ESPDIFF_HD(std::size_t v) {
     for (std::uint32_t p = s.topology.first[v]; p < s.topology.first[v + 1]; ++p) {
       mark[p] = 0;
@@ -55,10 +56,14 @@ std::size_t split_long_edges(MovingSurface& surface, float max_edge_A, float max
       s.unmatched[v] = 1;
     }
   });
-  const std::size_t n_marked =
-      sum_over<std::size_t>(marks.size(), [=] ESPDIFF_HD(std::size_t p) { return std::size_t{mark[p]}; });
-  if (n_marked == 0) return 0;
-  EdgeSplit split = split_edges(*surface.topology, marks, surface.x);
+  edges.n =
+      sum_on_device<std::size_t>(edges.marks.size(), [=] ESPDIFF_HD(std::size_t p) { return std::size_t{mark[p]}; });
+  return edges;
+}
+
+std::size_t split_long_edges(MovingSurface& surface, const LongEdges& edges) {
+  if (edges.n[0] == 0) return 0;
+  EdgeSplit split = split_edges(*surface.topology, edges.marks, surface.x);
   Buffer<std::uint8_t> removed(split.parent.size());
   const std::uint8_t* const was_removed = raw(surface.removed);
   std::uint8_t* const is_removed = raw(removed);

@@ -197,17 +197,16 @@ ProbeAtomsView view_of(const ProbeAtoms& atoms) {
 
 ProbeAtoms make_probe_atoms(const std::vector<PbAtom>& atoms, float probe_radius) {
   std::vector<Vec3d> positions;
-  std::vector<float> widths;
+  std::vector<float> widths, radii;
   for (const PbAtom& atom : atoms) {
     positions.push_back(atom.position);
-    widths.push_back((atom.radius + probe_radius) / kCutoffInWidths);
+    radii.push_back(atom.radius + probe_radius);
+    widths.push_back(radii.back() / kCutoffInWidths);
   }
   ProbeAtoms result;
-  std::vector<std::uint32_t> order;
+  Buffer<std::uint32_t> order;
   result.cells = make_atom_cells(positions, widths, std::vector<std::int32_t>(atoms.size(), 0), &order);
-  std::vector<float> radius;
-  for (const std::uint32_t i : order) radius.push_back(atoms[i].radius + probe_radius);
-  result.radius = to_device(radius);
+  result.radius = in_cell_order(radii, order);
   return result;
 }
 

@@ -1,11 +1,13 @@
-// atom_cells.cu: sorts atoms into cells by a counting sort on the host, which is fast enough for their number.
+// atom_cells.cu: sorts atoms into cells: checked and bounded on the host, sorted on the device.
 #include "cuda/surface/atom_cells.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "base/error.h"
+#include "cuda/device/sort.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 
@@ -15,20 +17,30 @@ namespace {
 constexpr float kCellsPerReach = 3.0F;
 constexpr double kMaxCells = 6.4e7;
 
+/// An atom as it is sent to the device.
+struct SentAtom {
+  Vec3f position;
+  float width;
+  std::int32_t residue;
+  std::uint32_t index;  ///< in the input
+};
+
 struct HostAtoms {
-  std::vector<std::size_t> kept;                                    // input indices of atoms with a positive width
+  std::vector<SentAtom> kept;                                       // those with a positive width, in input order
   Vec3d lower{1e300, 1e300, 1e300}, upper{-1e300, -1e300, -1e300};  // of the centres
   float max_reach = 0;
 };
 
-HostAtoms check_atoms(const std::vector<Vec3d>& positions, const std::vector<float>& widths, AtomCells& cells) {
+HostAtoms check_atoms(const std::vector<Vec3d>& positions, const std::vector<float>& widths,
+                      const std::vector<std::int32_t>& residues, AtomCells& cells) {
   HostAtoms atoms;
+  atoms.kept.reserve(positions.size());
   cells.lower = atoms.lower;
   cells.upper = atoms.upper;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     if (!(widths[i] > 0)) continue;
     const float reach = kCutoffInWidths * widths[i];
-    atoms.kept.push_back(i);
+    atoms.kept.push_back({static_cast<Vec3f>(positions[i]), widths[i], residues[i], static_cast<std::uint32_t>(i)});
     atoms.max_reach = std::max(atoms.max_reach, reach);
     for (int axis = 0; axis < 3; ++axis) {
       const double c = positions[i][axis];
@@ -66,54 +78,44 @@ AtomCellsView AtomCells::view() const {
 }
 
 std::shared_ptr<AtomCells> make_atom_cells(const std::vector<Vec3d>& positions, const std::vector<float>& widths,
-                                           const std::vector<std::int32_t>& residues,
-                                           std::vector<std::uint32_t>* order) {
+                                           const std::vector<std::int32_t>& residues, Buffer<std::uint32_t>* order) {
   auto cells = std::make_shared<AtomCells>();
-  const HostAtoms atoms = check_atoms(positions, widths, *cells);
+  const HostAtoms atoms = check_atoms(positions, widths, residues, *cells);
   choose_cells(atoms, *cells);
 
+  const Buffer<SentAtom> sent = to_device(atoms.kept);
+  const std::size_t n = sent.size();
+  const SentAtom* const atom = raw(sent);
+  Buffer<std::uint32_t> cell_of(n);
+  std::uint32_t* const own = raw(cell_of);
+  const AtomCellsView locate = cells->view();
+  for_each_index(n, [=] ESPDIFF_HD(std::size_t i) {
+    const Vec3f p = atom[i].position;
+    own[i] = static_cast<std::uint32_t>(
+        locate.clamped_cell(p.x, 0) +
+        locate.size[0] * (locate.clamped_cell(p.y, 1) + locate.size[1] * locate.clamped_cell(p.z, 2)));
+  });
   const auto& size = cells->size;
-  const std::size_t n_cells =
-      static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(size[2]);
-  std::vector<std::uint32_t> first(n_cells + 1, 0);
-  std::vector<std::size_t> cell_of(atoms.kept.size());
-  AtomCellsView locate{};
-  std::copy(size.begin(), size.end(), locate.size);
-  locate.origin = cells->origin;
-  locate.cell = cells->cell;
-  for (std::size_t n = 0; n < atoms.kept.size(); ++n) {
-    const Vec3f p = static_cast<Vec3f>(positions[atoms.kept[n]]);
-    cell_of[n] = static_cast<std::size_t>(locate.clamped_cell(p.x, 0)) +
-                 static_cast<std::size_t>(size[0]) *
-                     (static_cast<std::size_t>(locate.clamped_cell(p.y, 1)) +
-                      static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(locate.clamped_cell(p.z, 2)));
-    ++first[cell_of[n] + 1];
-  }
-  for (std::size_t c = 0; c < n_cells; ++c) first[c + 1] += first[c];
-
-  const std::size_t n_kept = atoms.kept.size();
-  std::vector<float> x(n_kept), y(n_kept), z(n_kept), exponent(n_kept), reach(n_kept);
-  std::vector<std::int32_t> residue(n_kept);
-  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
-  if (order != nullptr) order->resize(n_kept);
-  for (std::size_t n = 0; n < atoms.kept.size(); ++n) {
-    const std::size_t i = atoms.kept[n];
-    const std::size_t slot = next[cell_of[n]]++;
-    x[slot] = static_cast<float>(positions[i].x);
-    y[slot] = static_cast<float>(positions[i].y);
-    z[slot] = static_cast<float>(positions[i].z);
-    exponent[slot] = -0.5F / (widths[i] * widths[i]);
-    reach[slot] = kCutoffInWidths * widths[i];
-    residue[slot] = residues[i];
-    if (order != nullptr) (*order)[slot] = static_cast<std::uint32_t>(i);
-  }
-  cells->x = to_device(x);
-  cells->y = to_device(y);
-  cells->z = to_device(z);
-  cells->exponent = to_device(exponent);
-  cells->reach = to_device(reach);
-  cells->residue = to_device(residue);
-  cells->first = to_device(first);
+  Rows rows = sort_into_rows(std::move(cell_of), static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
+                                                     static_cast<std::size_t>(size[2]));
+  cells->first = std::move(rows.first);
+  for (Buffer<float>* values : {&cells->x, &cells->y, &cells->z, &cells->exponent, &cells->reach}) values->resize(n);
+  cells->residue.resize(n);
+  float *const x = raw(cells->x), *const y = raw(cells->y), *const z = raw(cells->z),
+               *const exponent = raw(cells->exponent), *const reach = raw(cells->reach);
+  std::int32_t* const residue = raw(cells->residue);
+  std::uint32_t* const item = raw(rows.item);
+  for_each_index(n, [=] ESPDIFF_HD(std::size_t place) {
+    const SentAtom a = atom[item[place]];
+    x[place] = a.position.x;
+    y[place] = a.position.y;
+    z[place] = a.position.z;
+    exponent[place] = -0.5F / (a.width * a.width);
+    reach[place] = kCutoffInWidths * a.width;
+    residue[place] = a.residue;
+    item[place] = a.index;
+  });
+  if (order != nullptr) *order = std::move(rows.item);
   return cells;
 }
 

@@ -44,11 +44,25 @@ struct AtomCells : DeviceAtoms {
   AtomCellsView view() const;
 };
 
+/// Sorts on the device; waits for nothing.
 /// @param order if not null, receives [sorted atom] the atom's index in the input
 /// @throws InputError if no atom has a positive width, or a coordinate is not finite
 std::shared_ptr<AtomCells> make_atom_cells(const std::vector<Vec3d>& positions, const std::vector<float>& widths,
                                            const std::vector<std::int32_t>& residues,
-                                           std::vector<std::uint32_t>* order = nullptr);
+                                           Buffer<std::uint32_t>* order = nullptr);
+
+/// [sorted atom] the values of the atoms in the order of their cells.
+/// @param values [atom in the input]
+template <typename T>
+Buffer<T> in_cell_order(const std::vector<T>& values, const Buffer<std::uint32_t>& order) {
+  const Buffer<T> sent = to_device(values);
+  Buffer<T> sorted(order.size());
+  const T* const from = raw(sent);
+  const std::uint32_t* const index = raw(order);
+  T* const to = raw(sorted);
+  for_each_index(sorted.size(), [=] ESPDIFF_HD(std::size_t place) { to[place] = from[index[place]]; });
+  return sorted;
+}
 
 /// Calls visit(begin, end) for each range of atoms that may reach p, in ascending order.
 template <typename Visit>

@@ -1,26 +1,10 @@
 // density_at_points.cu: sums of Gaussians and of their gradients at points.
 #include "cuda/surface/density_at_points.h"
 
-#include "cuda/surface/point_sums.h"
+#include "cuda/surface/density_sums.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
-
-/// `Number` is float, or a vector of lanes.
-template <typename Number>
-struct DensitySums {
-  Number value{}, gx{}, gy{}, gz{};
-};
-
-template <typename Number>
-ESPDIFF_INLINE void add_atom(DensitySums<Number>& sum, float exponent, const Number& dx, const Number& dy,
-                             const Number& dz, const Number& gaussian) {
-  const Number slope = exponent * gaussian;
-  sum.value += gaussian;
-  sum.gx += slope * dx;
-  sum.gy += slope * dy;
-  sum.gz += slope * dz;
-}
 
 struct Sampling {
   AtomCellsView cells;
@@ -54,11 +38,7 @@ void density_point_by_point(const AtomCells& atoms, const Buffer<Vec4f>& points,
   const Sampling in{atoms.view(), {raw(points), raw(list), n}, raw(samples)};
   for_each_index(n, [=] ESPDIFF_HD(std::size_t i) {
     const std::uint32_t at = in.points.list[i];
-    DensitySums<float> sum;
-    sum_at_point(in.cells, in.points.points[at].xyz(),
-                 [&](std::uint32_t, float k, float dx, float dy, float dz, float, float gaussian)
-                     ESPDIFF_INLINE_LAMBDA { add_atom(sum, k, dx, dy, dz, gaussian); });
-    in.samples[at] = {sum.value, 2.0F * Vec3f{sum.gx, sum.gy, sum.gz}};
+    in.samples[at] = density_at(in.cells, in.points.points[at].xyz());
   });
 }
 

@@ -2,7 +2,7 @@
 #include "cuda/surface/project.h"
 
 #include "cuda/device/spatial_order.h"
-#include "cuda/surface/density_at_points.h"
+#include "cuda/surface/density_sums.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
@@ -14,43 +14,93 @@ constexpr float kLastStepShare = 0.008F;
 /// Longest step as a fraction of the largest shift: over longer distances the density is far from linear.
 constexpr float kStepShare = 0.5F;
 
-}  // namespace
+/// The vertices that are projected.
+struct Projection {
+  const Vec4f* start;
+  Vec4f* x;
+  float isovalue, max_shift_A;
+};
 
-// Converged vertices leave the list.
-std::shared_ptr<SurfaceMesh> project(const SurfaceMesh& mesh, const AtomCells& atoms, float isovalue,
-                                     float max_shift_A) {
-  const std::size_t n = mesh.n_vertices();
-  auto result = std::make_shared<SurfaceMesh>();
-  result->topology = mesh.topology;
-  result->positions = mesh.positions;
+/// One step of Newton's method at a vertex.
+/// @returns whether it was the last
+ESPDIFF_INLINE bool newton_step(const Projection& in, std::size_t v, const DensitySample& sample) {
+  const float excess = sample.value - in.isovalue;
+  const float slope_squared = dot(sample.gradient, sample.gradient);
+  Vec3f shift = (-excess / larger(slope_squared, 1e-12F)) * sample.gradient;
+  const float length = norm(shift);
+  if (length > kStepShare * in.max_shift_A) shift = (kStepShare * in.max_shift_A / length) * shift;
+  const Vec3f moved = in.x[v].xyz() + shift;
+  const bool stays = !(slope_squared > 1e-12F) || norm(moved - in.start[v].xyz()) > in.max_shift_A;
+  in.x[v] = make_vec4(stays ? in.start[v].xyz() : moved, 0.0F);
+  return stays || fabsf(excess) < kLastStepShare * in.isovalue;
+}
+
+/// The general form: each vertex takes all its steps.
+void vertex_by_vertex(const Projection& in, const AtomCells& atoms, const Buffer<std::uint32_t>& order) {
+  const AtomCellsView cells = atoms.view();
+  const std::uint32_t* const list = raw(order);
+  for_each_index(order.size(), [=] ESPDIFF_HD(std::size_t i) {
+    const std::uint32_t v = list[i];
+    for (int step = 0; step < kMaxNewtonSteps; ++step) {
+      if (newton_step(in, v, density_at(cells, in.x[v].xyz()))) return;
+    }
+  });
+}
+
+#if !defined(__CUDACC__)
+
+/// Step by step, in blocks of vertices; converged ones leave the list.
+void step_by_step(const Projection& in, const AtomCells& atoms, const Buffer<Vec4f>& positions,
+                  Buffer<std::uint32_t> pending) {
+  const std::size_t n = positions.size();
   Buffer<DensitySample> sampled(n);
   Buffer<std::uint8_t> done_flags(n, 0);
-  Buffer<std::uint32_t> pending = spatial_order(mesh.positions);
-  const Vec4f* const start = raw(mesh.positions);
   const DensitySample* const samples = raw(sampled);
-  Vec4f* const x = raw(result->positions);
   std::uint8_t* const done = raw(done_flags);
-  for_each_index(n, [=] ESPDIFF_HD(std::size_t v) { x[v].w = 0.0F; });
   std::size_t n_pending = n;
   for (int step = 0; n_pending > 0 && step < kMaxNewtonSteps; ++step) {
-    density_at_points(atoms, result->positions, pending, n_pending, sampled);
+    density_at_points(atoms, positions, pending, n_pending, sampled);
     const std::uint32_t* const list = raw(pending);
-    for_each_index(n_pending, [=] ESPDIFF_HD(std::size_t i) {
+    for_each_index(n_pending, [=](std::size_t i) {
       const std::uint32_t v = list[i];
-      const DensitySample sample = samples[v];
-      const float excess = sample.value - isovalue;
-      const float slope_squared = dot(sample.gradient, sample.gradient);
-      Vec3f shift = (-excess / larger(slope_squared, 1e-12F)) * sample.gradient;
-      const float length = norm(shift);
-      if (length > kStepShare * max_shift_A) shift = (kStepShare * max_shift_A / length) * shift;
-      const Vec3f moved = x[v].xyz() + shift;
-      const bool stays = !(slope_squared > 1e-12F) || norm(moved - start[v].xyz()) > max_shift_A;
-      x[v] = make_vec4(stays ? start[v].xyz() : moved, 0.0F);
-      done[v] = stays || fabsf(excess) < kLastStepShare * isovalue ? 1 : 0;
+      done[v] = newton_step(in, v, samples[v]) ? 1 : 0;
     });
     n_pending = drop_done(pending, n_pending, done_flags);
   }
+}
+
+#endif
+
+std::shared_ptr<SurfaceMesh> project_in_form(const SurfaceMesh& mesh, const AtomCells& atoms, float isovalue,
+                                             float max_shift_A, bool by_blocks) {
+  auto result = std::make_shared<SurfaceMesh>();
+  result->topology = mesh.topology;
+  result->positions = mesh.positions;
+  const Projection in{raw(mesh.positions), raw(result->positions), isovalue, max_shift_A};
+  Vec4f* const x = in.x;
+  for_each_index(mesh.n_vertices(), [=] ESPDIFF_HD(std::size_t v) { x[v].w = 0.0F; });
+#if !defined(__CUDACC__)
+  if (by_blocks) {
+    step_by_step(in, atoms, result->positions, spatial_order(mesh.positions));
+    return result;
+  }
+#else
+  static_cast<void>(by_blocks);
+#endif
+  vertex_by_vertex(in, atoms, spatial_order(mesh.positions));
   return result;
+}
+
+}  // namespace
+
+std::shared_ptr<SurfaceMesh> project(const SurfaceMesh& mesh, const AtomCells& atoms, float isovalue,
+                                     float max_shift_A) {
+  return project_in_form(mesh, atoms, isovalue, max_shift_A, true);
+}
+
+std::shared_ptr<SurfaceMesh> project_vertex_by_vertex(const SurfaceMesh& mesh, const AtomCells& atoms, float isovalue,
+                                                      float max_shift_A) {
+  return project_in_form(mesh, atoms, isovalue, max_shift_A, false);
 }
 
 }  // namespace espdiff::ESPDIFF_BACKEND

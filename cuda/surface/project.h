@@ -11,4 +11,8 @@ namespace espdiff::ESPDIFF_BACKEND {
 std::shared_ptr<SurfaceMesh> project(const SurfaceMesh& mesh, const AtomCells& atoms, float isovalue,
                                      float max_shift_A);
 
+/// The general form, in which each vertex takes all its steps at once; gives the same bits.
+std::shared_ptr<SurfaceMesh> project_vertex_by_vertex(const SurfaceMesh& mesh, const AtomCells& atoms, float isovalue,
+                                                      float max_shift_A);
+
 }  // namespace espdiff::ESPDIFF_BACKEND

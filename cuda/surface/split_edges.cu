@@ -99,8 +99,18 @@ EdgeSplit split_edges(const Topology& topology, const Buffer<std::uint32_t>& mar
     for (std::uint32_t p = view.first[v]; p < view.first[v + 1]; ++p)
       number[p] = mark[p] != 0 && v < view.neighbour[p] ? 1U : 0U;
   });
+  const Division division{view, mark, number, static_cast<std::uint32_t>(n_vertices)};
+  Buffer<std::uint32_t> begins(n_triangles);
+  std::uint32_t* const begin = raw(begins);
+  for_each_index(n_triangles, [=] ESPDIFF_HD(std::size_t t) {
+    begin[t] = 1U + static_cast<std::uint32_t>(halves_of(division, view.triangles[t]).n);
+  });
+  HostReads totals;
+  ScanTotal<std::uint32_t> new_vertices(numbers, totals), parts_of_all(begins, totals);
+  totals.wait();
+  const std::uint32_t n_new = new_vertices.get(), n_parts = parts_of_all.get();
+
   EdgeSplit split;
-  const std::uint32_t n_new = exclusive_scan_in_place(numbers);
   split.ends.resize(n_new);
   EdgeSplit::Ends* const ends = raw(split.ends);
   for_each_index(n_vertices, [=] ESPDIFF_HD(std::size_t v) {
@@ -108,14 +118,6 @@ EdgeSplit split_edges(const Topology& topology, const Buffer<std::uint32_t>& mar
       if (mark[p] != 0 && v < view.neighbour[p]) ends[number[p]] = {static_cast<std::uint32_t>(v), view.neighbour[p]};
     }
   });
-
-  const Division division{view, mark, number, static_cast<std::uint32_t>(n_vertices)};
-  Buffer<std::uint32_t> begins(n_triangles);
-  std::uint32_t* const begin = raw(begins);
-  for_each_index(n_triangles, [=] ESPDIFF_HD(std::size_t t) {
-    begin[t] = 1U + static_cast<std::uint32_t>(halves_of(division, view.triangles[t]).n);
-  });
-  const std::uint32_t n_parts = exclusive_scan_in_place(begins);
   Buffer<Corners> parts(n_parts);
   split.parent.resize(n_parts);
   Corners* const part = raw(parts);

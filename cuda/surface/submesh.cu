@@ -25,8 +25,10 @@ std::shared_ptr<SurfaceMesh> keep_triangles(const SurfaceMesh& mesh, const Buffe
     vertex[v] = used[v];
   });
   for_each_index(n_triangles, [=] ESPDIFF_HD(std::size_t t) { triangle[t] = kept[t] != 0 ? 1U : 0U; });
-  const std::uint32_t n_kept_vertices = exclusive_scan_in_place(new_vertex);
-  const std::uint32_t n_kept_triangles = exclusive_scan_in_place(new_triangle);
+  HostReads totals;
+  ScanTotal<std::uint32_t> vertices(new_vertex, totals), triangles(new_triangle, totals);
+  totals.wait();
+  const std::uint32_t n_kept_vertices = vertices.get(), n_kept_triangles = triangles.get();
   if (n_kept_triangles == 0) throw GeometryError("no triangle of the surface remains");
 
   auto result = std::make_shared<SurfaceMesh>();

@@ -1,11 +1,10 @@
 // triangle_tree.cu: builds the tree: Morton order, leaves, boxes level by level.
 #include "cuda/surface/triangle_tree.h"
 
-#include <thrust/sort.h>
-
 #include <cfloat>
 #include <cmath>
 
+#include "cuda/device/sort.h"
 #include "cuda/device/spatial_order.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
@@ -29,49 +28,47 @@ struct BoxSum {
   }
 };
 
-Box mesh_box(const SurfaceMesh& mesh) {
+/// In element 0.
+Buffer<BoxSum> mesh_box(const SurfaceMesh& mesh) {
   const Vec4f* const x = raw(mesh.positions);
-  return sum_over<BoxSum>(mesh.n_vertices(),
-                          [=] ESPDIFF_HD(std::size_t v) {
-                            BoxSum point;
-                            point.box = {x[v].xyz(), x[v].xyz()};
-                            return point;
-                          })
-      .box;
+  return sum_on_device<BoxSum>(mesh.n_vertices(), [=] ESPDIFF_HD(std::size_t v) {
+    BoxSum point;
+    point.box = {x[v].xyz(), x[v].xyz()};
+    return point;
+  });
 }
 
 }  // namespace
 
 TriangleTree make_triangle_tree(const SurfaceMesh& mesh) {
   const std::uint32_t n = static_cast<std::uint32_t>(mesh.n_triangles());
-  const Box bounds = mesh_box(mesh);
-  const Vec3f extent = bounds.upper - bounds.lower;
-  const float scale = 1023.0F / larger(larger(extent.x, extent.y), larger(extent.z, 1e-6F));
+  const Buffer<BoxSum> bounds = mesh_box(mesh);
+  const Box* const bound = &raw(bounds)->box;
   const Corners* const corners = raw(mesh.topology->triangles);
   const Vec4f* const x = raw(mesh.positions);
 
-  Buffer<std::uint64_t> codes(n);  // the triangle's index in the low bits makes every key unique
-  std::uint64_t* const code = raw(codes);
+  TriangleTree tree;
+  tree.order.resize(n);
+  Buffer<std::uint32_t> codes(n);
+  std::uint32_t* const code = raw(codes);
+  std::uint32_t* const index = raw(tree.order);
   for_each_index(n, [=] ESPDIFF_HD(std::size_t t) {
     const Vec3f sum = x[corners[t].v[0]].xyz() + x[corners[t].v[1]].xyz() + x[corners[t].v[2]].xyz();
-    const Vec3f c = scale * ((1.0F / 3.0F) * sum - bounds.lower);
-    code[t] = static_cast<std::uint64_t>(morton_code(c)) << 32 | t;
+    code[t] = morton_code(morton_scale(bound->lower, bound->upper) * ((1.0F / 3.0F) * sum - bound->lower));
+    index[t] = static_cast<std::uint32_t>(t);
   });
-  thrust::sort(on_device(), codes.begin(), codes.end());
+  sort_by_key(codes, tree.order, kMortonBits);
 
-  TriangleTree tree;
   tree.n_leaves = 1;
   while (tree.n_leaves * kTrianglesPerLeaf < n) tree.n_leaves *= 2;
   tree.triangles.resize(n);
   tree.boxes.resize(2 * static_cast<std::size_t>(tree.n_leaves) - 1);
   PlacedTriangle* const placed = raw(tree.triangles);
   tree.spheres.resize(n);
-  tree.order.resize(n);
-  std::uint32_t* const order = raw(tree.order);
+  const std::uint32_t* const order = raw(tree.order);
   Box* const boxes = raw(tree.boxes);
   Vec4f* const spheres = raw(tree.spheres);
   for_each_index(n, [=] ESPDIFF_HD(std::size_t place) {
-    order[place] = static_cast<std::uint32_t>(code[place]);
     const Corners t = corners[order[place]];
     const PlacedTriangle corner = {x[t.v[0]].xyz(), x[t.v[1]].xyz(), x[t.v[2]].xyz()};
     const Vec3f centre = (1.0F / 3.0F) * (corner.a + corner.b + corner.c);

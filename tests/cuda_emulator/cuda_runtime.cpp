@@ -46,13 +46,35 @@ constexpr cudaError_t kLost = cudaErrorLaunchFailure;
 
 bool exists(int device) { return device >= 0 && device < settings().n_devices; }
 
+struct Copies {
+  std::size_t n = 0, n_bytes = 0;
+  void add(std::size_t bytes) {
+    ++n;
+    n_bytes += bytes;
+  }
+};
+
 struct Count {
   std::size_t launches = 0, graphs = 0, allocations = 0, waits = 0;
+  std::size_t radix_sorts = 0, radix_passes = 0, merge_sorts = 0;
+  Copies to_device, to_host, within;
+  /// CUB's kernels tell by their names what they are part of. A radix sort of few elements is one kernel.
+  void add_kernel(const std::string& name) {
+    const auto is = [&name](const char* part) { return name.find(part) != std::string::npos; };
+    ++launches;
+    if (is("DeviceRadixSortHistogramKernel") || is("DeviceRadixSortSingleTileKernel")) ++radix_sorts;
+    if (is("DeviceRadixSortOnesweepKernel") || is("DeviceRadixSortSingleTileKernel")) ++radix_passes;
+    if (is("DeviceMergeSortBlockSortKernel")) ++merge_sorts;
+  }
   ~Count() {
     if (!settings().count) return;
-    std::fprintf(stderr,
-                 "cuda_emulator: %zu kernels and %zu graphs launched, %zu allocations, %zu times waited for a stream\n",
-                 launches, graphs, allocations, waits);
+    std::fprintf(
+        stderr,
+        "cuda_emulator: %zu kernels and %zu graphs launched, %zu allocations, %zu times waited for a stream\n"
+        "cuda_emulator: %zu radix sorts in %zu passes, %zu merge sorts\n"
+        "cuda_emulator: copies: %zu to the device (%zu bytes), %zu to the host (%zu bytes), %zu on it (%zu bytes)\n",
+        launches, graphs, allocations, waits, radix_sorts, radix_passes, merge_sorts, to_device.n, to_device.n_bytes,
+        to_host.n, to_host.n_bytes, within.n, within.n_bytes);
   }
 };
 Count& count() {
@@ -86,7 +108,7 @@ cudaError_t launch(const Kernel* kernel, dim3 grid, dim3 block, void** parameter
   if (n == 0 || n > kernel->max_threads || grid.x == 0 || grid.y == 0 || grid.z == 0 || grid.x > INT32_MAX ||
       grid.y > UINT16_MAX || grid.z > UINT16_MAX || kernel->shared_bytes + shared_bytes > kMaxShared)
     return result(cudaErrorInvalidConfiguration);
-  ++count().launches;
+  count().add_kernel(kernel->name);
   // The parameters' values of now.
   auto values = std::make_shared<std::vector<std::vector<char>>>();
   for (std::size_t i = 0; i < kernel->parameter_bytes.size(); ++i) {
@@ -155,6 +177,8 @@ const char* error_name(cudaError_t error) {
     case cudaErrorInvalidDeviceFunction: return "cudaErrorInvalidDeviceFunction";
     case cudaErrorInvalidDevice: return "cudaErrorInvalidDevice";
     case cudaErrorNoDevice: return "cudaErrorNoDevice";
+    case cudaErrorInsufficientDriver: return "cudaErrorInsufficientDriver";
+    case cudaErrorDevicesUnavailable: return "cudaErrorDevicesUnavailable";
     case cudaErrorIllegalAddress: return "cudaErrorIllegalAddress";
     case cudaErrorLaunchFailure: return "cudaErrorLaunchFailure";
     case cudaErrorStreamCaptureUnsupported: return "cudaErrorStreamCaptureUnsupported";
@@ -245,7 +269,8 @@ cudaError_t cudaLaunchKernelExC(const cudaLaunchConfig_t* config, const void* fu
 // ---- devices and errors
 
 cudaError_t cudaGetDeviceCount(int* n) {
-  *n = settings().n_devices;
+  *n = settings().driver ? settings().n_devices : 0;
+  if (!settings().driver) return result(cudaErrorInsufficientDriver);
   return *n > 0 ? cudaSuccess : result(cudaErrorNoDevice);
 }
 cudaError_t cudaGetDevice(int* device) {
@@ -254,11 +279,12 @@ cudaError_t cudaGetDevice(int* device) {
 }
 cudaError_t cudaSetDevice(int device) {
   if (!exists(device)) return result(cudaErrorInvalidDevice);
+  if (!settings().shared) return result(cudaErrorDevicesUnavailable);
   current_device = device;
   return cudaSuccess;
 }
 cudaError_t cudaDriverGetVersion(int* version) {
-  *version = CUDART_VERSION;
+  *version = settings().driver ? CUDART_VERSION : 0;
   return cudaSuccess;
 }
 cudaError_t cudaGetLastError() { return std::exchange(last_error, cudaSuccess); }
@@ -333,7 +359,7 @@ cudaError_t cudaMemGetInfo(std::size_t* free, std::size_t* total) {
   const Lock lock(turn);
   if (is_lost()) return result(kLost);
   *total = settings().memory;
-  *free = settings().memory - std::min(settings().memory, allocated_bytes());
+  *free = settings().memory - std::min(settings().memory, settings().others + allocated_bytes());
   return cudaSuccess;
 }
 cudaError_t cudaMemPoolCreate(cudaMemPool_t* pool, const cudaMemPoolProps*) {
@@ -384,6 +410,7 @@ cudaError_t cudaMemcpyAsync(void* to, const void* from, std::size_t n_bytes, cud
   if (kind == cudaMemcpyDefault || on_device(to) != to_device || on_device(from) != from_device ||
       !allocated(to, n_bytes) || !allocated(from, n_bytes))
     return result(cudaErrorInvalidValue);
+  (!from_device ? count().to_device : !to_device ? count().to_host : count().within).add(n_bytes);
   Stream& it = stream_of(stream);
   // Of host memory that is not locked a GPU takes a copy first, or waits.
   if (!from_device && !is_locked(from)) {

@@ -73,7 +73,8 @@ char* allocate(std::size_t n_bytes) {
     start = piece->second;
     d.free_domains.erase(piece);
   } else {
-    if (taken > static_cast<std::size_t>(device_begin + device_size - d.untouched)) return nullptr;
+    const std::size_t given = static_cast<std::size_t>(d.untouched - device_begin);
+    if (given + taken + settings().others > device_size) return nullptr;
     start = d.untouched;
     d.untouched += taken;
   }

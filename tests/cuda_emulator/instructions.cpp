@@ -55,6 +55,11 @@ TEST_CASE("bits and bytes") {
   CHECK(extract_bits(0x0000F0F0U, 4, 8) == 0x0FU);
   CHECK(extract_bits(std::int32_t{0x00000080}, 4, 4) == -8);
   CHECK(insert_bits(0xFU, 0xFFFF0000U, 4, 8) == 0xFFFF00F0U);
+  CHECK(bit_mask(4, 8) == 0x0FF0U);
+  CHECK(bit_mask(0, 32) == 0xFFFFFFFFU);
+  CHECK(bit_mask(28, 8) == 0xF0000000U);
+  CHECK(bit_mask(3, 0) == 0);
+  CHECK(bit_mask(32, 4) == 0);
   CHECK(count_ones(0xF0F0ULL) == 8);
   CHECK(leading_zeros(1U) == 31);
   CHECK(leading_zeros(0U) == 32);

@@ -284,6 +284,11 @@ class Function:
     def op_bfi(self, q, o, _):
         return self.call("insert_bits", q, o, q[-1], q[-1], "u32", "u32")
 
+    def op_bmsk(self, q, o, _):
+        if q[0] != "clamp":
+            raise Unknown("mode of bmsk")
+        return self.call("bit_mask", q, o, "u32", "u32")
+
     def op_bfind(self, q, o, _):
         if "shiftamt" in q:
             raise Unknown("mode of bfind")

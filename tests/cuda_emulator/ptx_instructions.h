@@ -340,6 +340,13 @@ inline T insert_bits(T from, T into, std::uint32_t position, std::uint32_t n) {
   return into;
 }
 
+/// n ones from a position on; they end at the register's width.
+inline std::uint32_t bit_mask(std::uint32_t position, std::uint32_t n) {
+  if (position > 31) return 0;
+  const std::uint32_t ones = n > 31 ? ~0U : (1U << n) - 1U;
+  return ones << position;
+}
+
 template <typename T>
 inline std::uint32_t count_ones(T a) {
   return static_cast<std::uint32_t>(__builtin_popcountll(wide(a)));

@@ -28,6 +28,12 @@ Settings read_settings() {
       settings.eager = true;
     else if (name == "no-pools")
       settings.pools = false;
+    else if (name == "others")
+      settings.others = static_cast<std::size_t>(value) << 20;
+    else if (name == "no-driver")
+      settings.driver = false;
+    else if (name == "exclusive")
+      settings.shared = false;
     else if (name == "count")
       settings.count = true;
     else if (name == "devices")
@@ -40,8 +46,8 @@ Settings read_settings() {
       settings.memory = static_cast<std::size_t>(value) << 20;
     else
       fail(
-          "ESPDIFF_CUDA_EMULATOR: '%s' is none of check, reverse, eager, no-pools, count, devices=N, fill=BYTE, "
-          "memory=MIB, lost=N",
+          "ESPDIFF_CUDA_EMULATOR: '%s' is none of check, reverse, eager, no-pools, no-driver, exclusive, count, "
+          "devices=N, fill=BYTE, memory=MIB, others=MIB, lost=N",
           word.c_str());
   }
   return settings;

@@ -14,6 +14,9 @@ struct Settings {
   int n_devices = 1;     ///< "devices=N"
   int fill = 0xAB;       ///< "fill=BYTE": what new memory is filled with
   std::size_t memory = std::size_t{16} << 30;  ///< "memory=MIB": all of a device's
+  std::size_t others = 0;                      ///< "others=MIB": of that, what other processes hold
+  bool driver = true;                          ///< "no-driver": none is installed
+  bool shared = true;                          ///< "exclusive": another process has the device for itself
   bool count = false;                          ///< "count": says at the end what the program asked for
   std::size_t lost = 0;  ///< "lost=N": the device fails at the N-th operation, and at each after that; 0 for never
 };

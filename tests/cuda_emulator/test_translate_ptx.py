@@ -69,6 +69,7 @@ class Translation(unittest.TestCase):
 
     def test_a_mode_that_is_not_known_is_refused_instead_of_ignored(self):
         for instruction in ("add.rz.f32 %r1, %r1, %r1;", "add.sat.s32 %r1, %r1, %r1;", "shf.l.clamp.b32 %r1, %r1, %r1, %r2;",
+                            "bmsk.wrap.b32 %r1, %r1, %r2;",
                             "bar.arrive 0, 64;"):
             status, said, _ = translate(HEADER + KERNEL.replace("INSTRUCTION", instruction))
             self.assertEqual(status, 1, instruction)

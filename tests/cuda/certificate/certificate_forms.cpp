@@ -17,6 +17,7 @@
 #include "cuda/surface/back_ends.h"
 #include "cuda/surface/distances_to_triangles.h"
 #include "cuda/surface/oracles.h"
+#include "cuda/surface/project.h"
 #include "cuda/surface/read_atoms.h"
 #include "cuda/surface/shapes.h"
 #include "cuda/surface/vertex_residues.h"
@@ -163,19 +164,59 @@ TEST_CASE("intersections agree in both forms, from one triangle's neighbours to 
   CHECK(check(flat) > 0);
 }
 
-TEST_CASE("weighted values are sorted as pairs of floats are") {
+TEST_CASE("projection gives the same bits in blocks and vertex by vertex") {
+  const auto engine = cpu();
+  const auto check = [&](const AtomSet& atoms, double spacing, float max_shift_A) {
+    const auto cells = make_atom_cells(atoms.positions, atoms.widths, atoms.residues);
+    const auto mesh = engine->isosurface(engine->density(upload(*engine, atoms), spacing), 0.5F);
+    const auto blocks = to_host(project(mesh_of(mesh), *cells, 0.5F, max_shift_A)->positions),
+               singly = to_host(project_vertex_by_vertex(mesh_of(mesh), *cells, 0.5F, max_shift_A)->positions);
+    CHECK(n_different(blocks, singly) == 0);
+    CHECK(n_different(blocks, to_host(mesh_of(mesh).positions)) > blocks.size() / 4);
+  };
+  check(random_cloud(150, 46), 0.8, 0.5F);
+  check(random_cloud(150, 47), 1.5, 0.05F);  // many would move too far, and stay
+  const auto path = real_input("ubq/ubq.pqr");
+  if (path) check(read_atoms(*path), 1.0, 0.5F);
+}
+
+TEST_CASE("weighted quantiles are those of a serial sum over the sorted values") {
   Random random(44);
-  std::vector<float> values, weights;
-  for (int i = 0; i < 5000; ++i) {
-    values.push_back(static_cast<float>(std::round(400 * random.in_box(1).x)) / 16.0F + 0.0F);
-    weights.push_back(static_cast<float>(random.in_box(1).y));
+  for (const std::size_t n : {1, 2, 2047, 2048, 2049, 10000}) {
+    std::vector<float> values, weights;
+    for (std::size_t i = 0; i < n; ++i) {
+      // Many equal values, of both signs; weights whose sums are exact.
+      values.push_back(static_cast<float>(std::round(400 * random.in_box(1).x)) / 16.0F + 0.0F);
+      weights.push_back(static_cast<float>(random.below(1000)) / 64.0F);
+    }
+    if (n > 2) values[n / 2] = std::numeric_limits<float>::infinity();
+    std::vector<std::pair<float, float>> sorted;
+    double total = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      sorted.emplace_back(values[i], weights[i]);
+      total += static_cast<double>(weights[i]);
+    }
+    std::sort(sorted.begin(), sorted.end());
+    const std::vector<double> shares = {0, 0.05, 0.25, 0.5, 0.95, 1, 2, std::numeric_limits<double>::infinity()};
+    WeightedOrder order(to_device(values), to_device(weights));
+    HostReads reads;
+    order.read_sums(reads);
+    reads.wait();
+    const std::vector<float> found = order.quantiles(total, shares);
+    for (std::size_t s = 0; s < shares.size(); ++s) {
+      double below = 0;
+      float expected = sorted.back().first;
+      for (const auto& [value, weight] : sorted) {
+        below += static_cast<double>(weight);
+        if (!(below >= shares[s] * total)) continue;
+        expected = value;
+        break;
+      }
+      CAPTURE(n);
+      CAPTURE(shares[s]);
+      CHECK(found[s] == expected);
+    }
   }
-  values.push_back(std::numeric_limits<float>::infinity());
-  weights.push_back(0.0F);
-  std::vector<std::pair<float, float>> expected;
-  for (std::size_t i = 0; i < values.size(); ++i) expected.emplace_back(values[i], weights[i]);
-  std::sort(expected.begin(), expected.end());
-  CHECK(in_ascending_order(to_device(values), to_device(weights)) == expected);
 }
 
 TEST_CASE("vertex residues agree in both forms, with few labels and with more than a table holds") {

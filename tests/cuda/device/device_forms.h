@@ -15,7 +15,9 @@
 #include "base/error.h"
 #include "cuda/deform/deform_iteration.h"
 #include "cuda/device/device.h"
+#include "cuda/device/sort.h"
 #include "cuda/device/spatial_order.h"
+#include "cuda/surface/components.h"
 #include "engine/deform_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND::forms {
@@ -142,25 +144,114 @@ inline void check_running_sums() {
   }
 }
 
-/// Sorting and selecting by Thrust, in the engine's memory and stream order.
+/// Keys at the limits of their range, and many equal ones: against std::stable_sort.
 inline void check_sorting() {
+  CHECK(bits_below(0) == 0);
+  CHECK(bits_below(1) == 0);
+  CHECK(bits_below(2) == 1);
+  CHECK(bits_below(256) == 8);
+  CHECK(bits_below(257) == 9);
+  CHECK(bits_below(std::size_t{1} << 32) == 32);
+  for (const int n_bits : {1, 2, 7, 8, 9, 16, 17, 30, 32}) {
+    const std::uint32_t largest = 0xFFFFFFFFU >> (32 - n_bits);
+    for (const std::size_t n : kSizes) {
+      CAPTURE(n_bits);
+      CAPTURE(n);
+      std::vector<std::uint32_t> keys = numbers(n), index(n);
+      for (std::size_t i = 0; i < n; ++i) keys[i] = i % 5 == 0 ? largest - keys[i] % 2 : (keys[i] * 257U) & largest;
+      std::iota(index.begin(), index.end(), 0U);
+      Buffer<std::uint32_t> sorted = to_device(keys), values = to_device(index);
+      sort_by_key(sorted, values, n_bits);
+      std::stable_sort(index.begin(), index.end(), [&](std::uint32_t a, std::uint32_t b) { return keys[a] < keys[b]; });
+      CHECK(to_host(values) == index);
+      std::sort(keys.begin(), keys.end());
+      CHECK(to_host(sorted) == keys);
+    }
+  }
+}
+
+/// Rows of items against a count; empty rows at both ends and between, and items of no row.
+inline void check_rows() {
+  for (const std::size_t n_buckets : {0, 1, 2, 255, 256, 5000}) {
+    for (const std::size_t n : kSizes) {
+      CAPTURE(n_buckets);
+      CAPTURE(n);
+      std::vector<std::uint32_t> bucket = numbers(n);
+      std::vector<std::vector<std::uint32_t>> expected(n_buckets + 1);
+      for (std::size_t i = 0; i < n; ++i) {
+        // The first and the last bucket stay empty where there are more than two.
+        bucket[i] = i % 7 == 0 || n_buckets == 0 ? static_cast<std::uint32_t>(n_buckets)
+                    : n_buckets < 3              ? bucket[i] % static_cast<std::uint32_t>(n_buckets)
+                                                 : 1 + bucket[i] % static_cast<std::uint32_t>(n_buckets - 2);
+        expected[bucket[i]].push_back(static_cast<std::uint32_t>(i));
+      }
+      const Rows rows = sort_into_rows(to_device(bucket), n_buckets);
+      const std::vector<std::uint32_t> first = to_host(rows.first), item = to_host(rows.item);
+      REQUIRE(first.size() == n_buckets + 1);
+      REQUIRE(item.size() == n);
+      std::vector<std::uint32_t> expected_first(1, 0), expected_item;
+      for (const std::vector<std::uint32_t>& row : expected) {
+        expected_item.insert(expected_item.end(), row.begin(), row.end());
+        expected_first.push_back(static_cast<std::uint32_t>(expected_item.size()));
+      }
+      expected_first.pop_back();  // the end of the items of no row
+      CHECK(first == expected_first);
+      CHECK(item == expected_item);
+    }
+  }
+}
+
+/// Reads that wait together, more than the staging area holds; what was not waited for is dropped.
+inline void check_reads() {
+  const std::vector<std::uint32_t> host = numbers(700000);  // 2.7 MB
+  const Buffer<std::uint32_t> buffer = to_device(host);
+  std::vector<std::uint32_t> all[4];
+  std::uint32_t first = 0, last = 0, untouched = 7;
+  {
+    HostReads reads;
+    read_element(reads, first, buffer, 0);
+    for (std::vector<std::uint32_t>& part : all) read_elements(reads, part, buffer, 3, host.size() - 3);
+    const Buffer<std::uint32_t> other = to_device(host);  // also by the staging area
+    read_element(reads, last, other, host.size() - 1);
+    reads.wait();
+  }
+  CHECK(first == host.front());
+  CHECK(last == host.back());
+  for (const std::vector<std::uint32_t>& part : all)
+    CHECK(part == std::vector<std::uint32_t>(host.begin() + 3, host.end()));
+#if defined(ESPDIFF_BACKEND_CUDA)
+  {
+    HostReads reads;
+    read_element(reads, untouched, buffer, 0);
+  }
+  CHECK(buffer.back() == host.back());  // waits
+  CHECK(untouched == 7);
+#else
+  static_cast<void>(untouched);
+#endif
+}
+
+/// The spatial order contains each index once, and repeats.
+inline void check_spatial_order() {
   const std::size_t n = 30000;
   const std::vector<std::uint32_t> random = numbers(3 * n);
   std::vector<Vec4f> points(n);
   const auto coordinate = [&](std::size_t i) { return static_cast<float>(random[i] % 100000) * 1e-3F; };
   for (std::size_t i = 0; i < n; ++i) points[i] = {coordinate(3 * i), coordinate(3 * i + 1), coordinate(3 * i + 2), 0};
   Buffer<std::uint32_t> order = spatial_order(to_device(points));
-  std::vector<std::uint32_t> all = to_host(order), expected(n);
+  std::vector<std::uint32_t> all = to_host(order);
   CHECK(to_host(spatial_order(to_device(points))) == all);
+#if !defined(ESPDIFF_BACKEND_CUDA)
   std::vector<std::uint8_t> done(n);
   for (std::size_t i = 0; i < n; ++i) done[i] = random[i] % 3 == 0 ? 1 : 0;
   const std::size_t left = drop_done(order, n, to_device(done));
-  expected.clear();
+  std::vector<std::uint32_t> expected;
   for (const std::uint32_t i : all) {
     if (done[i] == 0) expected.push_back(i);
   }
   order.resize(left);
   CHECK(to_host(order) == expected);
+#endif
   std::sort(all.begin(), all.end());
   std::vector<std::uint32_t> whole(n);
   std::iota(whole.begin(), whole.end(), 0U);
@@ -200,6 +291,62 @@ inline SurfaceMesh bumpy_ball(int n) {
   mesh.positions = to_device(placed);
   mesh.topology = make_topology(placed.size(), to_device(triangles));
   return mesh;
+}
+
+/// Several balls whose vertices are shuffled together: numbers, sizes, areas and volumes of each.
+inline void check_components() {
+  const SurfaceMesh ball = bumpy_ball(4);
+  const std::vector<Vec4f> x = to_host(ball.positions);
+  const std::vector<Corners> triangles = to_host(ball.topology->triangles);
+  constexpr std::size_t kBalls = 9;
+  const std::vector<std::uint32_t> random = numbers(kBalls * x.size());
+  std::vector<std::uint32_t> vertices(random.size()), place(random.size());
+  std::iota(vertices.begin(), vertices.end(), 0U);
+  std::sort(vertices.begin(), vertices.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return random[a] != random[b] ? random[a] < random[b] : a < b; });
+  std::vector<Vec4f> positions(vertices.size());
+  std::vector<std::uint32_t> ball_of(vertices.size());
+  for (std::uint32_t v = 0; v < vertices.size(); ++v) {
+    place[vertices[v]] = v;
+    ball_of[v] = vertices[v] / static_cast<std::uint32_t>(x.size());
+    positions[v] = (1.0F + 0.5F * static_cast<float>(ball_of[v])) * x[vertices[v] % x.size()];
+  }
+  std::vector<Corners> corners;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (std::uint32_t b = 0; b < kBalls; ++b) {
+      const auto corner = [&](int c) { return place[b * static_cast<std::uint32_t>(x.size()) + triangles[t].v[c]]; };
+      corners.push_back({{corner(0), corner(1), corner(2)}});
+    }
+  }
+  SurfaceMesh mesh;
+  mesh.positions = to_device(positions);
+  mesh.topology = make_topology(positions.size(), to_device(corners));
+  const ComponentLabels labels = label_components(mesh);
+  REQUIRE(labels.n_components == kBalls);
+  // Numbered in the order of their first vertices.
+  std::vector<std::uint32_t> number(kBalls, kBalls), expected(vertices.size());
+  std::uint32_t n_seen = 0;
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    if (number[ball_of[v]] == kBalls) number[ball_of[v]] = n_seen++;
+    expected[v] = number[ball_of[v]];
+  }
+  CHECK(to_host(labels.label) == expected);
+  const std::vector<ComponentSummary> summaries = summarize_components(mesh, labels);
+  REQUIRE(summaries.size() == kBalls);
+  for (std::uint32_t b = 0; b < kBalls; ++b) {
+    double area = 0, volume = 0;
+    for (const Corners& t : corners) {
+      if (ball_of[t.v[0]] != b) continue;
+      const auto at = [&](int c) { return static_cast<Vec3d>(positions[t.v[c]].xyz()); };
+      area += 0.5 * norm(cross(at(1) - at(0), at(2) - at(0)));
+      volume += dot(at(0), cross(at(1), at(2))) / 6.0;
+    }
+    const ComponentSummary& s = summaries[number[b]];
+    CHECK(s.n_vertices == x.size());
+    CHECK(s.n_triangles == triangles.size());
+    CHECK(s.area_A2 == doctest::Approx(area).epsilon(1e-12));
+    CHECK(s.volume_A3 == doctest::Approx(volume).epsilon(1e-12));
+  }
 }
 
 /// The distance to a ball of radius 6 on a lattice, positive inside.
@@ -265,7 +412,11 @@ inline void check_all() {
   SUBCASE("a body for each index agrees with Thrust's") { check_for_each(); }
   SUBCASE("sums agree with serial ones and repeat to the bit") { check_sums(); }
   SUBCASE("prefix sums") { check_running_sums(); }
-  SUBCASE("sorting and selecting") { check_sorting(); }
+  SUBCASE("sorting by keys of as many bits as they need") { check_sorting(); }
+  SUBCASE("rows of items by bucket") { check_rows(); }
+  SUBCASE("reads that wait together") { check_reads(); }
+  SUBCASE("spatial order") { check_spatial_order(); }
+  SUBCASE("components, joined by threads in any order") { check_components(); }
   SUBCASE("iterations of deform, however they are launched") { check_deform(); }
 }
 

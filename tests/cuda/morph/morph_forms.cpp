@@ -2,12 +2,17 @@
 // edge splitting. Compiled with the CPU back end's flags.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "cuda/certificate/mesh_checks.h"
 #include "cuda/device/spatial_order.h"
 #include "cuda/morph/moving_atoms.h"
+#include "cuda/morph/moving_surface.h"
+#include "cuda/surface/density.h"
+#include "cuda/surface/isosurface.h"
 #include "cuda/surface/shapes.h"
 #include "cuda/surface/split_edges.h"
 #include "engine/morph_stage.h"
@@ -120,6 +125,70 @@ TEST_CASE("blocks of points and single points give the same bits") {
       }
       CHECK(n_different == 0);
     }
+  }
+}
+
+TEST_CASE("vertices return to the level set with the same bits in blocks and one by one") {
+  const std::vector<MovingAtom> paths = random_paths(200, 26);
+  const MovingAtoms at_start = atoms_at(paths, 0.0);
+  const auto density = density_by_points(*at_start.cells, density_lattice(*at_start.cells, 0.9));
+  const auto mesh = isosurface(*density, 0.5F);
+  MovingSurface blocks = start_surface(*mesh), singly = start_surface(*mesh);
+  for (int step = 0; step < 4; ++step) {
+    const MovingAtoms atoms = atoms_at(paths, 0.06 * step);
+    for (MovingSurface* surface : {&blocks, &singly}) advance(*surface, 0.06F);
+    return_to_level_set(blocks, atoms, 0.5F);
+    return_vertex_by_vertex(singly, atoms, 0.5F);
+    for (const auto member : {&MovingSurface::x, &MovingSurface::flow, &MovingSurface::gradient}) {
+      const std::vector<Vec4f> a = to_host(blocks.*member), b = to_host(singly.*member);
+      CHECK(std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec4f)) == 0);
+    }
+    CHECK(to_host(blocks.unmatched) == to_host(singly.unmatched));
+  }
+  const std::vector<std::uint8_t> unmatched = to_host(blocks.unmatched);
+  const auto n_unmatched = std::count(unmatched.begin(), unmatched.end(), 1);
+  CHECK(n_unmatched > 0);
+  CHECK(n_unmatched < static_cast<std::ptrdiff_t>(unmatched.size() / 2));
+}
+
+TEST_CASE("atoms lie in their cells in the order of the input, without those of no width") {
+  Random random(27);
+  for (const std::size_t n : {1, 2, 500, 5000}) {
+    std::vector<Vec3d> positions;
+    std::vector<float> widths;
+    std::vector<std::int32_t> residues;
+    for (std::size_t i = 0; i < n; ++i) {
+      positions.push_back(random.in_box(n == 500 ? 2.0 : 15.0));  // all in few cells, or spread
+      widths.push_back(i % 4 == 1 ? 0.0F : static_cast<float>(random.uniform(0.8, 2.0)));
+      residues.push_back(static_cast<std::int32_t>(i / 3));
+    }
+    Buffer<std::uint32_t> order;
+    const auto cells = make_atom_cells(positions, widths, residues, &order);
+    const AtomCellsView view = cells->view();
+    std::vector<std::pair<int, std::uint32_t>> expected;  // cell, atom
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const Vec3f p = static_cast<Vec3f>(positions[i]);
+      const int cell = view.clamped_cell(p.x, 0) +
+                       view.size[0] * (view.clamped_cell(p.y, 1) + view.size[1] * view.clamped_cell(p.z, 2));
+      if (widths[i] > 0) expected.emplace_back(cell, i);
+    }
+    std::sort(expected.begin(), expected.end());
+    CAPTURE(n);
+    REQUIRE(order.size() == expected.size());
+    REQUIRE(cells->first.size() == static_cast<std::size_t>(view.size[0] * view.size[1] * view.size[2]) + 1);
+    std::size_t n_wrong = 0;
+    for (std::uint32_t place = 0; place < expected.size(); ++place) {
+      const auto [cell, i] = expected[place];
+      const Vec3f p = static_cast<Vec3f>(positions[i]);
+      const bool right = order[place] == i && view.first[cell] <= place && place < view.first[cell + 1] &&
+                         view.x[place] == p.x && view.y[place] == p.y && view.z[place] == p.z &&
+                         view.residue[place] == residues[i] && view.reach[place] == kCutoffInWidths * widths[i] &&
+                         view.exponent[place] == -0.5F / (widths[i] * widths[i]);
+      n_wrong += right ? 0 : 1;
+    }
+    CHECK(n_wrong == 0);
+    CHECK(view.first[0] == 0);
+    CHECK(cells->first.back() == expected.size());
   }
 }
 

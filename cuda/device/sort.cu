@@ -1,0 +1,85 @@
+// sort.cu: radix sort, by CUB on a GPU.
+#include "cuda/device/sort.h"
+
+#include <array>
+#include <numeric>
+#include <utility>
+
+#if defined(ESPDIFF_BACKEND_CUDA)
+#include <cub/device/device_radix_sort.cuh>
+#endif
+
+namespace espdiff::ESPDIFF_BACKEND {
+
+int bits_below(std::size_t n) {
+  int bits = 0;
+  while (n > 1 && (n - 1) >> bits != 0) ++bits;
+  return bits;
+}
+
+#if defined(ESPDIFF_BACKEND_CUDA)
+
+void sort_by_key(Buffer<std::uint32_t>& keys, Buffer<std::uint32_t>& values, int n_bits) {
+  namespace cub = CUB_NS_QUALIFIER;
+  const std::uint32_t n = static_cast<std::uint32_t>(keys.size());
+  if (n < 2 || n_bits == 0) return;
+  Buffer<std::uint32_t> other_keys(n), other_values(n);
+  cub::DoubleBuffer<std::uint32_t> key(raw(keys), raw(other_keys)), value(raw(values), raw(other_values));
+  const auto sort = [&](void* scratch, std::size_t& n_bytes) {
+    check_cuda(
+        cub::DeviceRadixSort::SortPairs(scratch, n_bytes, key, value, n, 0, n_bits, CudaContext::current()->stream()),
+        "sorting");
+  };
+  std::size_t n_bytes = 0;
+  sort(nullptr, n_bytes);  // only tells how much memory it needs
+  Buffer<unsigned char> scratch(n_bytes);
+  sort(raw(scratch), n_bytes);
+  if (key.selector != 0) keys.swap(other_keys);
+  if (value.selector != 0) values.swap(other_values);
+}
+
+#else
+
+// The lowest digit first, which keeps the order of equal keys. By one thread: for a surface's 100,000 keys that is
+// faster than Thrust's stable sort by two.
+void sort_by_key(Buffer<std::uint32_t>& keys, Buffer<std::uint32_t>& values, int n_bits) {
+  constexpr int kDigitBits = 11;
+  constexpr std::uint32_t kMask = (1U << kDigitBits) - 1U;
+  const std::size_t n = keys.size();
+  Buffer<std::uint32_t> sorted_keys(n), sorted_values(n);
+  for (int shift = 0; shift < n_bits; shift += kDigitBits) {
+    std::array<std::uint32_t, kMask + 2> place{};  // of the next key of each digit
+    for (const std::uint32_t key : keys) ++place[(key >> shift & kMask) + 1];
+    std::partial_sum(place.begin(), place.end(), place.begin());
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::uint32_t key = keys.begin()[i], to = place[key >> shift & kMask]++;
+      sorted_keys.begin()[to] = key;
+      sorted_values.begin()[to] = values.begin()[i];
+    }
+    keys.swap(sorted_keys);
+    values.swap(sorted_values);
+  }
+}
+
+#endif
+
+Rows sort_into_rows(Buffer<std::uint32_t> bucket, std::size_t n_buckets) {
+  const std::size_t n = bucket.size();
+  Rows rows;
+  rows.first.resize(n_buckets + 1);
+  rows.item.resize(n);
+  std::uint32_t* const item = raw(rows.item);
+  for_each_index(n, [=] ESPDIFF_HD(std::size_t i) { item[i] = static_cast<std::uint32_t>(i); });
+  sort_by_key(bucket, rows.item, bits_below(n_buckets + 1));
+  const std::uint32_t* const sorted = raw(bucket);
+  std::uint32_t* const first = raw(rows.first);
+  // Each place begins the rows after that of the place before it, up to its own.
+  for_each_index(n + 1, [=] ESPDIFF_HD(std::size_t place) {
+    const std::size_t begin = place == 0 ? 0 : std::size_t{sorted[place - 1]} + 1,
+                      end = place == n ? n_buckets : sorted[place];
+    for (std::size_t row = begin; row <= end; ++row) first[row] = static_cast<std::uint32_t>(place);
+  });
+  return rows;
+}
+
+}  // namespace espdiff::ESPDIFF_BACKEND
