@@ -1,5 +1,6 @@
 // certificate_rates.cpp: how many planted errors the certificate catches, and how many easy pairs it refuses; the
 // tables of docs/study.md.
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <string>
@@ -40,10 +41,18 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "certificate_rates: real inputs are absent; set ESPDIFF_DATA to their folder\n");
     return 2;
   }
-  // certificate_rates [--planted] [DOMAINS]
+  // certificate_rates [--planted] [DOMAINS [PART OF A CASE'S NAME]]
   const bool planted_only = argc > 1 && std::strcmp(argv[1], "--planted") == 0;
   const std::string domains = argc > (planted_only ? 2 : 1) ? argv[planted_only ? 2 : 1] : "as-needed";
-  int n_wrong = print("Planted errors", planted_cases(folder), domains);
-  if (!planted_only) n_wrong += print("Easy pairs", easy_pairs(folder), domains);
+  const int n_used = planted_only ? 3 : 2;
+  const std::string part = argc > n_used ? argv[n_used] : "";
+  const auto chosen = [&](std::vector<PlantedCase> cases) {
+    cases.erase(std::remove_if(cases.begin(), cases.end(),
+                               [&](const PlantedCase& c) { return c.name.find(part) == std::string::npos; }),
+                cases.end());
+    return cases;
+  };
+  int n_wrong = print("Planted errors", chosen(planted_cases(folder)), domains);
+  if (!planted_only) n_wrong += print("Easy pairs", chosen(easy_pairs(folder)), domains);
   return n_wrong == 0 ? 0 : 1;
 }

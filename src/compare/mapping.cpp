@@ -27,6 +27,7 @@ void set_reason(Engine& engine, const ScalarsPtr& flags, Removal reason, const s
 /// [triangle] its place in the matched part, -1 if it is unmatched.
 std::vector<std::ptrdiff_t> places_in_matched(const std::vector<float>& unmatched) {
   std::vector<std::ptrdiff_t> places;
+  places.reserve(unmatched.size());
   std::ptrdiff_t n = 0;
   for (const float flag : unmatched) places.push_back(flag != 0 ? -1 : n++);
   return places;

@@ -161,7 +161,7 @@ TEST_CASE("domains that cannot be read, found or fitted are refused with the rem
   const auto refusal = [&](const std::string& text) {
     return message_of([&] { find_domains(text, m, m, one_to_one(m)); });
   };
-  const std::string remedy = "; give none, chains, auto, local, or residues such as A:1-29,68-117/A:30-67";
+  const std::string remedy = "; give as-needed, none, local, chains, auto, or residues such as A:1-29,68-117/A:30-67";
   CHECK(refusal("") == "domains: '' has an unreadable range of residues, ''" + remedy);
   CHECK(refusal("A:1-x") == "domains: 'A:1-x' has an unreadable range of residues, 'A:1-x'" + remedy);
   CHECK(refusal("domain") == "domains: 'domain' has an unreadable range of residues, 'domain'" + remedy);
