@@ -7,6 +7,7 @@
 #include <limits>
 #include <sstream>
 
+#include "align/rigid_domains.h"
 #include "report/metrics.h"
 
 namespace espdiff_bench {
@@ -36,6 +37,12 @@ constexpr Column kColumns[] = {
     {"no_counterpart_target_percent", &PairRow::no_counterpart_target_percent},
     {"intersecting_pairs", &PairRow::intersecting_pairs},
     {"same_residue_percent", &PairRow::same_residue_percent},
+    {"slip_median_A", &PairRow::slip_median_A},
+    {"slip_beyond_2A_percent", &PairRow::slip_beyond_2A_percent},
+    {"slip_beyond_3A_percent", &PairRow::slip_beyond_3A_percent},
+    {"trustworthy", &PairRow::trustworthy},
+    {"mapped_twice", &PairRow::mapped_twice},
+    {"local_motions", &PairRow::local_motions},
     {"round_trip_mean_A", &PairRow::round_trip_mean_A},
     {"round_trip_p95_A", &PairRow::round_trip_p95_A},
     {"steps", &PairRow::steps},
@@ -88,6 +95,13 @@ PairRow make_row(const std::string& name, const espdiff::CompareResult& result) 
       static_cast<double>(result.source_surface.n_cavities_left_out + result.target_surface.n_cavities_left_out);
   row.intersecting_pairs = static_cast<double>(c.self_intersecting_pairs);
   row.same_residue_percent = 100 * c.same_residue_area_fraction;
+  const espdiff::SlipSummary slip = c.slip.value_or(espdiff::SlipSummary{});
+  row.slip_median_A = slip.median_A;
+  row.slip_beyond_2A_percent = 100 * slip.medium_area_fraction;
+  row.slip_beyond_3A_percent = 100 * slip.large_area_fraction;
+  row.trustworthy = c.trustworthy ? 1 : 0;
+  row.mapped_twice = result.other_mapping ? 1 : 0;
+  row.local_motions = result.domains_used == espdiff::kLocalMotions ? 1 : 0;
   row.round_trip_mean_A = row.round_trip_p95_A = std::numeric_limits<double>::quiet_NaN();
   if (c.round_trip) {
     row.round_trip_mean_A = c.round_trip->mean_A;

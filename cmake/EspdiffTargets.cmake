@@ -13,3 +13,10 @@ function(espdiff_add_library name)
   add_library(${name} STATIC ${ARG_SOURCES})
   target_link_libraries(${name} PUBLIC espdiff_flags ${ARG_LIBRARIES} PRIVATE ${ARG_PRIVATE_LIBRARIES})
 endfunction()
+
+# espdiff_optimize_little(target ...): what takes longer to compile than it ever runs: options, commands, reports, tests.
+function(espdiff_optimize_little)
+  foreach(target ${ARGN})
+    target_compile_options(${target} PRIVATE $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<CONFIG:Release>>:-O1>)
+  endforeach()
+endfunction()

@@ -336,6 +336,20 @@ class BackEndEngine : public Engine {
     });
   }
 
+  FitReport fit_without(const MeshPtr& part, const FitReport& whole, const ScalarsPtr& removed) override {
+    return run([&] {
+      return ESPDIFF_BACKEND::fit_without(unwrap<SurfaceMesh>(part), whole, unwrap<Scalars>(removed).values);
+    });
+  }
+
+  DistanceSummary distances_without(const MeshPtr& part, const MeshPtr& mesh, const DistanceSummary& whole,
+                                    const ScalarsPtr& removed, double limit_A) override {
+    return run([&] {
+      return ESPDIFF_BACKEND::distances_without(unwrap<SurfaceMesh>(part), unwrap<SurfaceMesh>(mesh), whole,
+                                                unwrap<Scalars>(removed).values, static_cast<float>(limit_A));
+    });
+  }
+
   IntersectionReport self_intersections(const MeshPtr& mesh) override {
     return run([&] { return ESPDIFF_BACKEND::self_intersections(unwrap<SurfaceMesh>(mesh)); });
   }

@@ -2,9 +2,12 @@
 #include "cuda/certificate/certificate.h"
 
 #include <cmath>
+#include <utility>
 
+#include "base/error.h"
 #include "cuda/certificate/weighted_order.h"
 #include "cuda/device/spatial_order.h"
+#include "cuda/device/unwrap.h"
 #include "cuda/surface/adjacency.h"
 #include "cuda/surface/density_at_points.h"
 #include "cuda/surface/distances_to_triangles.h"
@@ -145,6 +148,81 @@ DistanceSummary summarize(const SurfaceMesh& mesh, const Buffer<float>& distance
   return result;
 }
 
+FitReport fit_report(const SurfaceMesh& mapped, std::shared_ptr<const Scalars> corrupt_flags,
+                     std::shared_ptr<const Scalars> flipped_flags) {
+  const Corners* const corners = raw(mapped.topology->triangles);
+  const Vec4f* const x = raw(mapped.positions);
+  const float *const corrupt = raw(corrupt_flags->values), *const flipped = raw(flipped_flags->values);
+  const Buffer<FitSums> areas = sum_on_device<FitSums>(mapped.n_triangles(), [=] ESPDIFF_HD(std::size_t t) {
+    FitSums s;
+    s.area = 0.5 * static_cast<double>(norm(twice_area_vector(x, corners[t])));
+    s.corrupt = corrupt[t] != 0.0F ? s.area : 0;
+    s.flipped = flipped[t] != 0.0F ? s.area : 0;
+    return s;
+  });
+  const Buffer<UmbrellaSum> lengths = umbrella_lengths(mapped);
+  FitSums sums;
+  UmbrellaSum umbrellas;
+  HostReads reads;
+  read_element(reads, sums, areas, 0);
+  read_element(reads, umbrellas, lengths, 0);
+  reads.wait();
+  FitReport report;
+  report.area_A2 = sums.area;
+  report.corrupt_area_fraction = sums.corrupt / sums.area;
+  report.flipped_area_fraction = sums.flipped / sums.area;
+  report.irregularity_A = umbrellas.length / umbrellas.n;
+  report.corrupt = std::move(corrupt_flags);
+  report.flipped = std::move(flipped_flags);
+  return report;
+}
+
+/// @param distances [point] of corners_and_centroids()
+DistanceSummary distance_report(const SurfaceMesh& from, Buffer<float> distances, float limit_A) {
+  auto beyond_flags = std::make_shared<Scalars>();
+  beyond_flags->values.resize(from.n_triangles());
+  float* const beyond_limit = raw(beyond_flags->values);
+  const float* const distance = raw(distances);
+  const Corners* const corners = raw(from.topology->triangles);
+  for_each_index(from.n_triangles(), [=] ESPDIFF_HD(std::size_t t) {
+    const Corners c = corners[t];
+    const float farthest = larger(distance[c.v[0]], larger(distance[c.v[1]], distance[c.v[2]]));
+    beyond_limit[t] = farthest > limit_A ? 1.0F : 0.0F;
+  });
+  DistanceSummary summary = summarize(from, distances, limit_A);
+  summary.beyond = beyond_flags;
+  auto kept = std::make_shared<Scalars>();
+  kept->values = std::move(distances);
+  summary.distances = kept;
+  return summary;
+}
+
+/// [triangle of the part] its index in the whole.
+Buffer<std::uint32_t> kept_triangles(const Buffer<float>& removed, std::size_t n_kept) {
+  const std::size_t n = removed.size();
+  Buffer<std::uint32_t> places(n), kept_list(n_kept);
+  const float* const flag = raw(removed);
+  std::uint32_t *const place = raw(places), *const kept = raw(kept_list);
+  for_each_index(n, [=] ESPDIFF_HD(std::size_t t) { place[t] = flag[t] == 0.0F ? 1U : 0U; });
+  if (exclusive_scan_in_place(places) != n_kept)
+    throw GeometryError("the part has another number of triangles than remain of the whole");
+  for_each_index(n, [=] ESPDIFF_HD(std::size_t t) {
+    if (flag[t] == 0.0F) kept[place[t]] = static_cast<std::uint32_t>(t);
+  });
+  return kept_list;
+}
+
+/// The values of the listed triangles.
+std::shared_ptr<const Scalars> at_triangles(const ScalarsPtr& whole, const Buffer<std::uint32_t>& list) {
+  auto part = std::make_shared<Scalars>();
+  part->values.resize(list.size());
+  const float* const from = raw(unwrap<Scalars>(whole).values);
+  const std::uint32_t* const place = raw(list);
+  float* const to = raw(part->values);
+  for_each_index(list.size(), [=] ESPDIFF_HD(std::size_t t) { to[t] = from[place[t]]; });
+  return part;
+}
+
 }  // namespace
 
 FitReport fit_to_density(const SurfaceMesh& mapped, const AtomCells& target, float isovalue) {
@@ -167,45 +245,36 @@ FitReport fit_to_density(const SurfaceMesh& mapped, const AtomCells& target, flo
     // The density falls outward, so a normal along the gradient is flipped.
     flipped[t] = dot(twice_area_vector(x, c), density[t].gradient) > 0 ? 1.0F : 0.0F;
   });
-  const Buffer<FitSums> areas = sum_on_device<FitSums>(n, [=] ESPDIFF_HD(std::size_t t) {
-    FitSums s;
-    s.area = 0.5 * static_cast<double>(norm(twice_area_vector(x, corners[t])));
-    s.corrupt = corrupt[t] != 0.0F ? s.area : 0;
-    s.flipped = flipped[t] != 0.0F ? s.area : 0;
-    return s;
-  });
-  const Buffer<UmbrellaSum> lengths = umbrella_lengths(mapped);
-  FitSums sums;
-  UmbrellaSum umbrellas;
-  HostReads reads;
-  read_element(reads, sums, areas, 0);
-  read_element(reads, umbrellas, lengths, 0);
-  reads.wait();
-  FitReport report;
-  report.area_A2 = sums.area;
-  report.corrupt_area_fraction = sums.corrupt / sums.area;
-  report.flipped_area_fraction = sums.flipped / sums.area;
-  report.irregularity_A = umbrellas.length / umbrellas.n;
-  report.corrupt = corrupt_flags;
-  report.flipped = flipped_flags;
-  return report;
+  return fit_report(mapped, std::move(corrupt_flags), std::move(flipped_flags));
+}
+
+FitReport fit_without(const SurfaceMesh& part, const FitReport& whole, const Buffer<float>& removed) {
+  const Buffer<std::uint32_t> kept = kept_triangles(removed, part.n_triangles());
+  return fit_report(part, at_triangles(whole.corrupt, kept), at_triangles(whole.flipped, kept));
 }
 
 DistanceSummary distance_summary(const SurfaceMesh& from, const SurfaceMesh& to, float limit_A) {
-  const Buffer<float> distances = distances_to_triangles(make_triangle_tree(to), corners_and_centroids(from));
-  auto beyond_flags = std::make_shared<Scalars>();
-  beyond_flags->values.resize(from.n_triangles());
-  float* const beyond_limit = raw(beyond_flags->values);
-  const float* const distance = raw(distances);
-  const Corners* const corners = raw(from.topology->triangles);
-  for_each_index(from.n_triangles(), [=] ESPDIFF_HD(std::size_t t) {
-    const Corners c = corners[t];
-    const float farthest = larger(distance[c.v[0]], larger(distance[c.v[1]], distance[c.v[2]]));
-    beyond_limit[t] = farthest > limit_A ? 1.0F : 0.0F;
+  return distance_report(from, distances_to_triangles(make_triangle_tree(to), corners_and_centroids(from)), limit_A);
+}
+
+DistanceSummary distances_without(const SurfaceMesh& part, const SurfaceMesh& mesh, const DistanceSummary& whole,
+                                  const Buffer<float>& removed, float limit_A) {
+  const std::size_t n_vertices = part.n_vertices(), n_triangles = part.n_triangles(), n_of_whole = mesh.n_vertices();
+  const Buffer<std::uint32_t> kept_list = kept_triangles(removed, n_triangles);
+  Buffer<float> distances(n_vertices + n_triangles);
+  const float* const of_whole = raw(unwrap<Scalars>(whole.distances).values);
+  const std::uint32_t* const kept = raw(kept_list);
+  const Corners* const corners = raw(mesh.topology->triangles);
+  const TopologyView topology = part.view();
+  float* const distance = raw(distances);
+  for_each_index(n_triangles,
+                 [=] ESPDIFF_HD(std::size_t t) { distance[n_vertices + t] = of_whole[n_of_whole + kept[t]]; });
+  for_each_index(n_vertices, [=] ESPDIFF_HD(std::size_t v) {
+    const std::uint32_t t = topology.incident[topology.first[v]];
+    const Corners &own = topology.triangles[t], &same = corners[kept[t]];
+    distance[v] = of_whole[own.v[0] == v ? same.v[0] : own.v[1] == v ? same.v[1] : same.v[2]];
   });
-  DistanceSummary summary = summarize(from, distances, limit_A);
-  summary.beyond = beyond_flags;
-  return summary;
+  return distance_report(part, std::move(distances), limit_A);
 }
 
 }  // namespace espdiff::ESPDIFF_BACKEND

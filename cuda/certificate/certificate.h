@@ -15,8 +15,17 @@ constexpr float kCorruptDensity = 0.1F;
 
 FitReport fit_to_density(const SurfaceMesh& mapped, const AtomCells& target, float isovalue);
 
+/// The fit of a mesh without some of its triangles, from that of the whole mesh.
+/// @param removed [triangle of the whole] nonzero if it is not in the part
+FitReport fit_without(const SurfaceMesh& part, const FitReport& whole, const Buffer<float>& removed);
+
 /// Exact distances from the corners (a quarter of each triangle's area) and centroids (the rest) of `from` to the
 /// triangles of `to`.
 DistanceSummary distance_summary(const SurfaceMesh& from, const SurfaceMesh& to, float limit_A);
+
+/// The distances of a mesh without some of its triangles, from those of the whole mesh.
+/// @param removed [triangle of the whole] nonzero if it is not in the part
+DistanceSummary distances_without(const SurfaceMesh& part, const SurfaceMesh& mesh, const DistanceSummary& whole,
+                                  const Buffer<float>& removed, float limit_A);
 
 }  // namespace espdiff::ESPDIFF_BACKEND

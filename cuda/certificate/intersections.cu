@@ -1,5 +1,5 @@
 // intersections.cu: finds pairs of triangles with overlapping boxes and counts those that intersect: leaf by leaf of
-// the tree, or on the CPU in groups of 16 triangles.
+// the tree, or on the CPU in groups of 8 triangles.
 #include "cuda/certificate/intersections.h"
 
 #include <cstring>
@@ -83,7 +83,7 @@ struct ByLeaves {
 
 #if !defined(__CUDACC__)
 
-/// The boxes of 16 triangles in the order of the places. Empty ones, of degenerate triangles and beyond the last,
+/// The boxes of 8 triangles in the order of the places. Empty ones, of degenerate triangles and beyond the last,
 /// overlap nothing.
 struct GroupOfBoxes {
   float lower_x[kBlock], lower_y[kBlock], lower_z[kBlock], upper_x[kBlock], upper_y[kBlock], upper_z[kBlock];
@@ -105,7 +105,7 @@ ESPDIFF_INLINE LaneMask overlap_lanes(const BoxLanes& a, const Box& b) {
 
 /// The lanes of a mask as bits.
 ESPDIFF_INLINE std::uint32_t bits_of(const LaneMask& mask) {
-  const LaneMask bit = {1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768};
+  const LaneMask bit = {1, 2, 4, 8, 16, 32, 64, 128};
   const std::uint64_t both = joined_words(mask & bit);
   return static_cast<std::uint32_t>(both | both >> 32U);
 }

@@ -1,6 +1,8 @@
 // distances_to_triangles.cu: nearest triangles of points, one by one or in blocks of lanes.
 #include "cuda/surface/distances_to_triangles.h"
 
+#include <cstring>
+
 #include "cuda/device/spatial_order.h"
 #include "cuda/surface/point_sums.h"
 
@@ -129,13 +131,17 @@ ESPDIFF_INLINE Lanes nearest_of_lanes(const TriangleTreeView& tree, const LaneVe
 
 ESPDIFF_INLINE void search_block(const Search& in, std::size_t block, std::uint32_t& guess) {
   const std::size_t begin = block * kBlock, end = std::min(begin + kBlock, in.points.n);
-  LaneVector p{};
+  float x[kBlock], y[kBlock], z[kBlock];
   for (std::size_t lane = 0; lane < kBlock; ++lane) {
     const Vec3f point = in.points.points[in.points.list[std::min(begin + lane, end - 1)]].xyz();
-    p.x[lane] = point.x;
-    p.y[lane] = point.y;
-    p.z[lane] = point.z;
+    x[lane] = point.x;
+    y[lane] = point.y;
+    z[lane] = point.z;
   }
+  LaneVector p;
+  std::memcpy(&p.x, x, sizeof x);
+  std::memcpy(&p.y, y, sizeof y);
+  std::memcpy(&p.z, z, sizeof z);
   const Lanes nearest = nearest_of_lanes(in.tree, p, guess);
   for (std::size_t lane = 0; begin + lane < end; ++lane)
     in.distances[in.points.list[begin + lane]] = sqrtf(nearest[lane]);

@@ -32,8 +32,9 @@ ESPDIFF_INLINE void sum_at_point(const AtomCellsView& cells, Vec3f p, Add add) {
 
 #if !defined(__CUDACC__)
 
-/// Points per block, one per lane.
-constexpr std::size_t kBlock = 16;
+/// Points per block, one per lane. Comparisons and minima of wider vectors than the processor's are taken apart into
+/// single lanes by GCC 12, so blocks are no wider than AVX2's vectors.
+constexpr std::size_t kBlock = 8;
 using Lanes = float __attribute__((vector_size(kBlock * sizeof(float))));
 using LaneMask = std::int32_t __attribute__((vector_size(kBlock * sizeof(float))));
 using LaneBits = std::uint32_t __attribute__((vector_size(kBlock * sizeof(float))));
@@ -51,13 +52,12 @@ ESPDIFF_INLINE Lanes smaller_lanes(const Lanes& a, const Lanes& b) { return a < 
 ESPDIFF_INLINE Lanes larger_lanes(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
 ESPDIFF_INLINE LaneMask smaller_lanes(const LaneMask& a, const LaneMask& b) { return a < b ? a : b; }
 
-/// All pairs of lanes in one word by "or". Halves are joined twice first, because taking out words is slow.
+/// All pairs of lanes in one word by "or". Halves are joined first, because taking out words is slow.
 ESPDIFF_INLINE std::uint64_t joined_words(const LaneMask& mask) {
   using Words = std::uint64_t __attribute__((vector_size(sizeof(LaneMask))));
   const Words all = (Words)mask;
-  const auto half = __builtin_shufflevector(all, all, 0, 1, 2, 3) | __builtin_shufflevector(all, all, 4, 5, 6, 7);
-  const auto quarter = __builtin_shufflevector(half, half, 0, 1) | __builtin_shufflevector(half, half, 2, 3);
-  return quarter[0] | quarter[1];
+  const auto half = __builtin_shufflevector(all, all, 0, 1) | __builtin_shufflevector(all, all, 2, 3);
+  return half[0] | half[1];
 }
 
 ESPDIFF_INLINE bool any_lane(const LaneMask& mask) { return joined_words(mask) != 0; }

@@ -36,7 +36,7 @@ struct Range {
 
 [[noreturn]] void refuse(const std::string& text, const std::string& why) {
   throw InputError("domains: '" + text + "' " + why +
-                   "; give none, chains, auto, local, or residues such as A:1-29,68-117/A:30-67");
+                   "; give as-needed, none, local, chains, auto, or residues such as A:1-29,68-117/A:30-67");
 }
 
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -79,9 +79,13 @@ Range parse_range(const std::string& part, const std::string& text) {
   return range;
 }
 
+bool has_no_domains(const std::string& text) {
+  return text == kNoDomains || text == kLocalMotions || text == kLocalAsNeeded;
+}
+
 /// [domain][range]; empty if the text is one of the keywords.
 std::vector<std::vector<Range>> parse(const std::string& text) {
-  if (text == "none" || text == "chains" || text == "auto" || text == kLocalMotions) return {};
+  if (has_no_domains(text) || text == "chains" || text == "auto") return {};
   std::vector<std::vector<Range>> domains;
   for (const std::string& domain : split(text, '/')) {
     domains.emplace_back();
@@ -241,7 +245,7 @@ void check_domains(const std::string& text) { parse(text); }
 std::vector<RigidDomain> find_domains(const std::string& text, const Molecule& source, const Molecule& target,
                                       const AtomPairs& pairs) {
   const std::vector<std::vector<Range>> ranges = parse(text);
-  if (text == "none" || text == kLocalMotions) return {};
+  if (has_no_domains(text)) return {};
   const Search search{source, target, pairs_of_residues(source, pairs)};
   const std::vector<std::size_t> number = text == "chains" ? by_chain(source)
                                           : text == "auto" ? search.domains()

@@ -12,12 +12,15 @@
 
 namespace espdiff {
 
-/// The text that gives each residue a motion of its own; see local_motions.h.
+/// The texts without rigid domains: the superposition of the whole; a motion of its own for each residue (see
+/// local_motions.h); and that only where the mapping slips otherwise (see choose_motions.h).
+constexpr const char* kNoDomains = "none";
 constexpr const char* kLocalMotions = "local";
+constexpr const char* kLocalAsNeeded = "as-needed";
 
-/// @throws InputError unless the text is `none`, `chains`, `auto`, `local`, or ranges of residues: domains separated by
-/// `/`, each of ranges CHAIN:FIRST-LAST separated by commas, such as 1-29,68-117/30-67. A chain applies to the ranges
-/// after it and may be omitted.
+/// @throws InputError unless the text is `none`, `local`, `as-needed`, `chains`, `auto`, or ranges of residues: domains
+/// separated by `/`, each of ranges CHAIN:FIRST-LAST separated by commas, such as 1-29,68-117/30-67. A chain applies to
+/// the ranges after it and may be omitted.
 void check_domains(const std::string& text);
 
 /// The domains of the source that `text` asks for, with their motions. A domain with fewer than three paired atoms is
@@ -28,7 +31,7 @@ void check_domains(const std::string& text);
 /// then join the domain whose motion fits them best. Runs shorter than 5 residues join the domain on both sides of
 /// them.
 /// @param pairs   the atom pairs used to fit motions
-/// `local` has no domains, as `none`.
+/// `local` and `as-needed` have no domains, as `none`.
 /// @throws InputError as check_domains(), and if a named range has no residue or a residue is named twice
 std::vector<RigidDomain> find_domains(const std::string& text, const Molecule& source, const Molecule& target,
                                       const std::vector<std::pair<std::size_t, std::size_t>>& pairs);

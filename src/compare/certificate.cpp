@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "align/rigid_domains.h"
 #include "base/formatted.h"
-#include "compare/options.h"
 #include "compare/short_numbers.h"
 #include "compare/slip.h"
 #include "engine/engine.h"
@@ -98,13 +96,10 @@ double same_residue_share(const MappedSurface& s, const std::vector<std::int32_t
   return all > 0 ? same / all : std::numeric_limits<double>::quiet_NaN();
 }
 
-void judge(CompareResult& result, const Molecule& source, const CompareOptions& options) {
-  Certificate& c = result.certificate;
-  for (const Warning& warning : result.warnings) {
-    if (warning.refuses) c.reasons.push_back(warning.text);
-  }
+std::vector<Message> fit_reasons(const Certificate& c) {
+  std::vector<Message> reasons;
   const auto refuse = [&](bool bad, const Message& reason) {
-    if (bad) c.reasons.push_back(reason);
+    if (bad) reasons.push_back(reason);
   };
   refuse(!c.converged, "the mapping did not converge; raise " + option("max-iterations"));
   refuse(c.corrupt_area_fraction > Limits::kCorruptArea, percent(c.corrupt_area_fraction) +
@@ -125,11 +120,25 @@ void judge(CompareResult& result, const Molecule& source, const CompareOptions& 
   refuse(c.unmatched_target > Limits::kMaxUnmatchedTarget, percent(c.unmatched_target) +
                                                                " of the target's area is unmatched (limit " +
                                                                percent(Limits::kMaxUnmatchedTarget) + ")");
+  return reasons;
+}
+
+void judge(CompareResult& result, const Molecule& source) {
+  Certificate& c = result.certificate;
+  for (const Warning& warning : result.warnings) {
+    if (warning.refuses) c.reasons.push_back(warning.text);
+  }
+  const auto refuse_all = [&](const std::vector<Message>& reasons) {
+    c.reasons.insert(c.reasons.end(), reasons.begin(), reasons.end());
+  };
+  const auto refuse = [&](bool bad, const Message& reason) {
+    if (bad) c.reasons.push_back(reason);
+  };
+  refuse_all(fit_reasons(c));
   refuse(c.round_trip && c.round_trip->mean_A > Limits::kRoundTrip_A,
          "the round-trip error is " + angstrom(c.round_trip ? c.round_trip->mean_A : 0) + " on average (limit " +
              angstrom(Limits::kRoundTrip_A) + ")");
-  const double most_slipped = options.domains == kLocalMotions ? kMostSlippedAreaOfLocalMotions : kMostSlippedArea;
-  for (const Message& reason : slip_reasons(result, source, most_slipped)) c.reasons.push_back(reason);
+  refuse_all(slip_reasons(result, source));
   refuse(disagrees(c.residues), "the differences by residue correlate by " +
                                     formatted("%.2f", c.residues ? c.residues->correlation : 0) +
                                     " with those of each residue's potentials on its own surfaces (limit " +

@@ -7,7 +7,6 @@
 
 namespace espdiff {
 
-struct CompareOptions;
 struct CompareResult;
 struct MappedSurface;
 
@@ -20,8 +19,11 @@ Certificate certify(Engine& engine, const Mapping& mapping, const MeshPtr& targe
 double same_residue_share(const MappedSurface& surface, const std::vector<std::int32_t>& source_residue,
                           const std::vector<std::int32_t>& target_residue, const std::vector<std::int32_t>& target_of);
 
+/// Why the fit of the mapped surface makes a result untrustworthy: corrupt, flipped, intersecting and unmatched area,
+/// and distances.
+std::vector<Message> fit_reasons(const Certificate& certificate);
+
 /// Sets the certificate's `trustworthy` and `reasons`.
-/// @param options those of the comparison: local motions have a lower limit of the slip
-void judge(CompareResult& result, const Molecule& source, const CompareOptions& options);
+void judge(CompareResult& result, const Molecule& source);
 
 }  // namespace espdiff

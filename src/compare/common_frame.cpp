@@ -45,11 +45,12 @@ CommonFrame superposed(const Molecule& source, const Molecule& target, AlignAtom
 CommonFrame align(const Molecule& source, const Molecule& target, const CompareOptions& options,
                   CompareResult& result) {
   CommonFrame frame = superposed(source, target, options.align, result);
-  if (options.domains == "none") return frame;
+  result.domains_used = options.domains == kLocalAsNeeded ? kNoDomains : options.domains;
+  if (result.domains_used == kNoDomains) return frame;
   const auto pairs =
       options.align == AlignAtoms::kNone ? result.pairing.pairs : select_pairs(result.pairing, source, options.align);
   if (pairs.empty()) throw InputError("domains need paired atoms, and none pair; give domains none");
-  if (options.domains == kLocalMotions) {
+  if (result.domains_used == kLocalMotions) {
     if (options.method != Method::kMorph)
       throw InputError(option("domains", kLocalMotions) + ": only the morph follows the motions of residues; use " +
                        option("method", "morph") + ", or " + option("domains", "auto"));

@@ -14,7 +14,8 @@ struct CommonFrame {
   DomainMotions followed{};  ///< what atoms follow to the target: the domains, or each residue's own motion
 };
 
-/// Pairs atoms, superposes the target, and finds the rigid domains, as the options say.
+/// Pairs atoms, superposes the target, and finds the rigid domains, as the options say. With `as-needed` everything
+/// follows the superposition of the whole.
 /// @param result receives the pairing, the superposition and its RMSD, and the domains
 /// @throws InputError (no pairs where they are needed, domains), GeometryError (too few pairs)
 CommonFrame align(const Molecule& source, const Molecule& target, const CompareOptions& options, CompareResult& result);

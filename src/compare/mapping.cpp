@@ -94,14 +94,22 @@ void find_matched_part(Engine& engine, Mapping& mapping, const AtomsPtr& target_
   if (!has_flags) return;
   mark_faults(engine, mapping);
   if (!remove_marked(mapping)) return;
-  // Only the area growth depends on a triangle's surroundings and must be checked again: whatever fitted, fits still.
+  // Only the area growth depends on a triangle's surroundings and must be checked again: whatever fitted, fits still,
+  // and keeps its distances.
+  const MeshPtr first = mapping.matched;
   mapping.intersections = {};
   do {
     extract_matched(engine, mapping);
     measure_distortion(engine, mapping);
     mark_growth(engine, mapping);
   } while (remove_marked(mapping));
-  measure(engine, mapping, target_atoms, target, isovalue);
+  std::vector<float> removed;  // [triangle of the first matched part]
+  for (std::size_t t = 0; t < mapping.unmatched.size(); ++t) {
+    if (mapping.removed_for[t] != Removal::kTorn) removed.push_back(mapping.unmatched[t]);
+  }
+  const ScalarsPtr flags = engine.upload_scalars(removed);
+  mapping.fit = engine.fit_without(mapping.matched, mapping.fit, flags);
+  mapping.to_target = engine.distances_without(mapping.matched, first, mapping.to_target, flags, kMatchLimit_A);
 }
 
 void drop_closed_cavities(Engine& engine, Mapping& mapping) {

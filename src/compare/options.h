@@ -40,7 +40,7 @@ struct CompareOptions {
   InputOptions input;
   SurfaceOptions surface;
   AlignAtoms align = AlignAtoms::kAll;
-  std::string domains = "none";  ///< rigid domains to superpose separately; see check_domains()
+  std::string domains = "as-needed";  ///< rigid domains to superpose separately, or local motions; see check_domains()
   Method method = Method::kMorph;
   MorphOptions morph;
   double morph_max_edge = 1.4;  ///< in grid spacings; sets MorphOptions::max_edge_A

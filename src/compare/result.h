@@ -65,6 +65,16 @@ struct RoundTrip {
   double unmatched_target_area_fraction = 0;  ///< of the target's surface, by the mapping back
 };
 
+/// The mapping that was not kept where a pair was mapped twice; see choose_motions.h.
+struct OtherMapping {
+  std::string because;           ///< why the kept one was kept
+  std::string domains;           ///< as CompareResult::domains_used
+  std::vector<Message> reasons;  ///< the limits of fit and slip that it exceeds
+  double slip_area_fraction = 0, same_residue_area_fraction = 0;
+  double unmatched_source = 0, unmatched_target = 0;
+  double own_residue_area_fraction = 0;  ///< see own_residue_share()
+};
+
 /// What the mapping removed of itself, as shares of the source's area by the first reason that holds: surface torn or
 /// crushed on the way, and triangles at its end that intersect, are flipped, corrupt, farther than 1 A from the target,
 /// or have grown more than tenfold.
@@ -161,6 +171,9 @@ struct CompareResult {
   std::size_t n_superposed_atoms = 0;
   RigidTransform source_to_target;   ///< the superposition
   std::vector<RigidDomain> domains;  ///< superposed separately; displacements start where their motions end
+  /// The value of the setting `domains` that the mapping followed: with `as-needed`, `none` or `local`.
+  std::string domains_used = "none";
+  std::optional<OtherMapping> other_mapping;  ///< empty if the pair was mapped once
   bool has_potential = false;
   std::string shapes_because;  ///< why there is none, where nobody asked for shapes alone
   PotentialUnit unit = PotentialUnit::kUnknown;

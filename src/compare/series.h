@@ -54,7 +54,8 @@ class Series {
   /// target to this one, so the correspondence is composed of small steps. Path lengths add up, split edges stay split,
   /// and lost surface stays unmatched until a step starts from the source again. Triangles that find_matched_part()
   /// removed beyond that concern one target only and are not inherited. A surface that starts from the source again
-  /// takes the correspondence of the direct mapping, which may jump.
+  /// takes the correspondence of the direct mapping, which may jump. Only steps that start from the source are mapped
+  /// twice where they slip (`--domains as-needed`; see choose_motions.h).
   /// @throws as compare()
   CompareResult step(const CompareInput& target, StartFrom start, const Progress& progress);
 

@@ -279,9 +279,10 @@ std::vector<Setting> make_settings() {
                   "Molecules",
                   SettingKind::kText,
                   {},
-                  "Rigid domains to superpose separately before the mapping: none, chains, auto (found by a "
-                  "search), or the source's residues, such as A:1-29,68-117/A:30-67; local superposes the whole, and "
-                  "each residue follows the motion of its neighbourhood (morph only)",
+                  "Motions that the mapping follows: none superposes the whole; with local, each residue follows the "
+                  "motion of its neighbourhood (morph only); as-needed maps with local once more where the mapping "
+                  "with none slips, and keeps the better one. Rigid domains, each superposed by itself: chains, auto "
+                  "(found by a search), or the source's residues, such as A:1-29,68-117/A:30-67",
                   false,
                   nullptr,
                   nullptr};

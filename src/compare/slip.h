@@ -26,10 +26,10 @@ std::vector<float> slipped_triangles(const MappedSurface& surface);
 /// such pairs of ubiquitin, those whose differences do not agree have 5 % and more.
 constexpr double kMostSlippedArea = 0.08, kMostSlippedAreaOfLocalMotions = 0.04;
 
-/// Why the slip makes a result untrustworthy: over the whole area, in a chain or rigid domain, at a ligand. Each reason
-/// names where.
-/// @param most_slipped the limit over the whole area
-std::vector<Message> slip_reasons(const CompareResult& result, const Molecule& source, double most_slipped);
+/// Why the slip makes a result untrustworthy: over the whole area (the limit depends on CompareResult::domains_used),
+/// in a chain or rigid domain, at a ligand. Each reason names where.
+/// @param result with its residues' rows
+std::vector<Message> slip_reasons(const CompareResult& result, const Molecule& source);
 
 /// The residues that slipped by more than kLargeSlip_A on average, farthest first: "ARG 247 of chain B (8.5 A)".
 std::vector<std::string> slipped_residues(const CompareResult& result, const Molecule& source);

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "align/residue_names.h"
+#include "align/rigid_domains.h"
 #include "base/residue_label.h"
 #include "compare/short_numbers.h"
 #include "compare/slip.h"
@@ -82,9 +83,10 @@ std::vector<std::string> slipped_residues(const CompareResult& result, const Mol
   return names;
 }
 
-std::vector<Message> slip_reasons(const CompareResult& result, const Molecule& source, double most_slipped) {
+std::vector<Message> slip_reasons(const CompareResult& result, const Molecule& source) {
   std::vector<Message> reasons;
   if (!result.certificate.slip) return reasons;
+  const double most_slipped = result.domains_used == kLocalMotions ? kMostSlippedAreaOfLocalMotions : kMostSlippedArea;
   const double large = result.certificate.slip->large_area_fraction;
   const std::string beyond = " slipped by more than " + angstrom(kLargeSlip_A) + " from its own atoms (limit ";
   if (large > most_slipped)

@@ -185,7 +185,7 @@ TemplateFrame TemplateMapping::map(const CompareInput& frame, bool check_slip, c
   if (check_slip) p.measure_slip(mapping, target, paths, result);
   clock.lap("certificate");
   out.potential = p.sample(map, frame, mapping, target, result.surface.triangles, result.certificate.outside_maps);
-  judge(result, *p.source.molecule, p.options);
+  judge(result, *p.source.molecule);
   out.unit = unit_of(frame);
   out.rmsd_A = result.rmsd_A;
   out.unmatched_template = result.certificate.unmatched_source;

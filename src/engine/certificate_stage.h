@@ -30,6 +30,7 @@ struct DistanceSummary {
   double area_fraction_beyond_limit = 0;
   double mean_within_limit = 0;  ///< over the area within the limit
   ScalarsPtr beyond;             ///< [triangle of the first surface] 1 if a corner lies beyond the limit, otherwise 0
+  ScalarsPtr distances{};        ///< [vertex of the first surface, then triangle] of the corners and centroids
 };
 
 /// How well a mapped mesh fits its target.

@@ -253,6 +253,15 @@ class Engine {
   virtual FitReport fit(const MeshPtr& mapped, const AtomsPtr& target_atoms, float isovalue) = 0;
   /// Exact distances from the corners and centroids of `from` to the triangles of `to`.
   virtual DistanceSummary distances(const MeshPtr& from, const MeshPtr& to, double limit_A) = 0;
+  /// The fit of a mesh without some of its triangles, from that of the whole mesh; the same bits as fit() gives.
+  /// @param part    without(mesh, removed)  @param whole from fit()
+  /// @param removed [triangle of the whole]
+  virtual FitReport fit_without(const MeshPtr& part, const FitReport& whole, const ScalarsPtr& removed) = 0;
+  /// The distances of a mesh without some of its triangles, from those of the whole mesh; the same bits as distances()
+  /// gives.
+  /// @param part without(mesh, removed)  @param whole from distances()
+  virtual DistanceSummary distances_without(const MeshPtr& part, const MeshPtr& mesh, const DistanceSummary& whole,
+                                            const ScalarsPtr& removed, double limit_A) = 0;
   /// Pairs of intersecting triangles, as CGAL's Polygon_mesh_processing::self_intersections counts them:
   /// - two triangles without a shared vertex that have a point in common, touching included;
   /// - two that share a vertex and have another point in common;

@@ -76,7 +76,7 @@ class InputStream {
 
  private:
   void wait_for_writer() {
-    // Nothing within this time: either nobody writes, or who does has not begun. Reading tells which.
+    // No data within this time: there is no writer, or it has not begun. A read tells which.
     if (!file_.wait_until_readable(kWaitForWriterMs)) {
       std::size_t n_read = 0;
       if (file_.read(&first_, 1, n_read) == 0 && n_read == 0)
@@ -206,7 +206,7 @@ FileContent read_chunks(const std::string& path, const HeadCheck& check_head) {
     }
     if (n_read == 0) throw InputError(path + ": is empty; give a file with content");
     const bool at_end = n < chunk.size();
-    // What a whole beginning tells counts more than that the end is missing.
+    // An error in the part that is there counts more than the missing end.
     if (at_end && unpacker != nullptr && content.size() < kRecogniseBytes) unpacker->finish(content);
     if (!head_is_checked && (at_end || content.size() >= kRecogniseBytes)) {
       if (content.empty()) throw InputError(path + ": the gzip file is empty inside; give a file with content");
@@ -220,7 +220,7 @@ FileContent read_chunks(const std::string& path, const HeadCheck& check_head) {
     if (at_end && unpacker != nullptr) unpacker->finish(content);
     if (at_end) break;
     if (content.size() > next_look) {
-      // What grows without a known end does so by doubling: old and new are there at once.
+      // A buffer of unknown final size doubles; the old and the new one exist at once.
       if (content.size() == content.capacity() || unpacker != nullptr)
         require_memory(2.0 * static_cast<double>(content.size()), path);
       next_look = 2 * content.size();

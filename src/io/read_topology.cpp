@@ -100,7 +100,7 @@ std::map<std::string, Section> prmtop_sections(const std::string& text) {
     } else if (line.substr(0, 1) != "%" && section != nullptr && width > 0) {
       std::string_view rest = line;
       while (!rest.empty() && (rest.back() == '\r' || rest.back() == '\n')) rest.remove_suffix(1);
-      // What is beyond the most atoms is refused later; it takes no memory until then.
+      // More atoms than kMostAtoms are refused later; until then they take no memory.
       for (std::size_t at = 0; at < rest.size() && section->fields.size() <= kMostAtoms; at += width)
         section->fields.push_back(trimmed(rest.substr(at, width)));
     }

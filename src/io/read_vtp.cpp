@@ -99,7 +99,7 @@ std::vector<Triangle> read_triangles(const VtkXmlFile& file, const XmlElement& p
   return triangles;
 }
 
-/// Numeric arrays of an element; of `n_before` tuples more, which are skipped.
+/// Numeric arrays of an element, after `n_before` tuples that are skipped.
 std::vector<VtpNumbers> read_arrays(const VtkXmlFile& file, const XmlElement* element, std::size_t n_before,
                                     std::size_t n) {
   std::vector<VtpNumbers> arrays;

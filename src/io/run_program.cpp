@@ -18,7 +18,7 @@
 namespace espdiff {
 namespace {
 
-/// What a program may print: it is in memory.
+/// Limit of a program's output, which is kept in memory.
 constexpr std::size_t kMostOutput = std::size_t{64} << 20;
 
 [[noreturn]] void cannot_start(const std::string& program, int error_number) {

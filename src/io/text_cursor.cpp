@@ -215,7 +215,7 @@ long long TextCursor::next_integer(const char* what) {
 }
 
 long TextCursor::line() const {
-  // At the very end, behind the last line's newline, the last line is meant and not an empty one after it.
+  // After the last newline the last line counts, not an empty one behind it.
   std::size_t position = mark_;
   if (position == text_.size()) {
     while (position > 0 && is_space(text_[position - 1])) --position;

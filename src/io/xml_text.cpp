@@ -48,7 +48,7 @@ class XmlParser {
     throw FormatError(path_, current_line(), "damaged XML: " + problem + "; write or fetch the file again");
   }
 
-  /// Lines are counted on from where they were counted last, so that a file is gone through once.
+  /// Counts lines on from the last counted place, so that a file is scanned once.
   long current_line() {
     const std::size_t end = std::min(position_, text_.size());
     if (end > counted_to_) {

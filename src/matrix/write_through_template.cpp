@@ -63,14 +63,17 @@ void print_agreement(std::ostream& out, const Matrix& matrix) {
     out << "\nNo pair was compared by itself: how far these values are from exact ones was not measured\n";
     return;
   }
-  std::size_t n_trustworthy = 0, n_through = 0;
+  std::size_t n_trustworthy = 0, n_through = 0, n_both = 0;
   for (const MatrixCell& cell : exact) {
-    n_trustworthy += cell.trustworthy ? 1 : 0;
-    n_through += matrix.cell(cell.source, cell.target).trustworthy ? 1 : 0;
+    const bool by_itself = cell.trustworthy, through = matrix.cell(cell.source, cell.target).trustworthy;
+    n_trustworthy += by_itself ? 1 : 0;
+    n_through += through ? 1 : 0;
+    n_both += by_itself && through ? 1 : 0;
   }
+  const bool are_all = exact.size() == matrix.n() * (matrix.n() - 1);
   out << formatted("\n%-37s%8s%10s%12s%10s%9s  of\n",
-                   formatted("%zu pair%s by %s, chosen at random", exact.size(), exact.size() == 1 ? "" : "s",
-                             exact.size() == 1 ? "itself" : "themselves")
+                   formatted("%zu pair%s by %s%s", exact.size(), exact.size() == 1 ? "" : "s",
+                             exact.size() == 1 ? "itself" : "themselves", are_all ? "" : ", chosen at random")
                        .c_str(),
                    "exact", "template", "mean diff.", "largest", "correl.");
   for (const TemplateAgreement& of : agreement(matrix)) {
@@ -81,7 +84,8 @@ void print_agreement(std::ostream& out, const Matrix& matrix) {
                      matrix.plan.variants[of.farthest.first].label.c_str(),
                      matrix.plan.variants[of.farthest.second].label.c_str());
   }
-  out << "  trustworthy: " << n_trustworthy << " of them, " << n_through << " through the template\n";
+  out << "  trustworthy: " << n_trustworthy << " of them, " << n_through << " through the template, " << n_both
+      << " both\n";
 }
 
 void print_doubtful(std::ostream& out, const Matrix& matrix) {

@@ -5,6 +5,7 @@
 
 #include "align/protonation.h"
 #include "align/rigid_domains.h"
+#include "compare/choose_motions.h"
 #include "compare/options.h"
 #include "compare/result.h"
 #include "compare/settings.h"
@@ -144,6 +145,26 @@ Json superposition(const Molecule& source, const CompareResult& result) {
   return json;
 }
 
+/// What the mapping followed, and the other mapping where the pair was mapped twice.
+Json motions(const CompareResult& result) {
+  Json json{{"domains", result.domains_used},
+            {"own_residue_area_fraction", number(own_residue_share(result))},
+            {"because", nullptr},
+            {"other", nullptr}};
+  if (!result.other_mapping) return json;
+  const OtherMapping& other = *result.other_mapping;
+  json["because"] = other.because;
+  json["other"] = {{"domains", other.domains},
+                   {"own_residue_area_fraction", number(other.own_residue_area_fraction)},
+                   {"beyond_3A_area_fraction", number(other.slip_area_fraction)},
+                   {"same_residue_area_fraction", number(other.same_residue_area_fraction)},
+                   {"no_counterpart_area_fraction",
+                    {{"source", number(other.unmatched_source)}, {"target", number(other.unmatched_target)}}},
+                   {"reasons", Json::array()}};
+  for (const Message& reason : other.reasons) json["other"]["reasons"].push_back(reason.plain());
+  return json;
+}
+
 Json surface(const SurfaceSummary& s) {
   return {{"n_vertices", s.n_vertices},     {"n_triangles", s.n_triangles},
           {"n_components", s.n_components}, {"n_cavities_left_out", s.n_cavities_left_out},
@@ -233,6 +254,7 @@ void add_results(Json& json, const Molecule& source, const CompareResult& result
     json["protonation_differences"].push_back(in_words(difference, source));
   json["chains"] = chains(result);
   json["superposition"] = superposition(source, result);
+  json["motions"] = motions(result);
   json["n_vertices"] = result.surface.positions.size();
   json["n_triangles"] = result.surface.triangles.size();
   json["n_components"] = result.source_surface.n_components;

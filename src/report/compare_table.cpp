@@ -1,5 +1,6 @@
 // compare_table.cpp: a comparison's result as a table for a terminal.
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "align/compared_chains.h"
@@ -220,6 +221,16 @@ void print_surfaces(std::ostream& out, const CompareResult& result) {
     counts("Vertices outside the map", result.n_outside_source_map, result.n_outside_target_map);
 }
 
+/// "12.3 %", "-" for none.
+std::string share_of(double fraction) {
+  return std::isfinite(fraction) ? formatted("%.3g", 100 * fraction) + " %" : "-";
+}
+
+/// What a mapping followed.
+std::string words_of_motions(const std::string& domains) {
+  return domains == kLocalMotions ? "local motions" : "the superposition of the whole";
+}
+
 void print_mapping(std::ostream& out, const CompareResult& result) {
   const Certificate& c = result.certificate;
   const auto n_of = [](int n) { return static_cast<std::size_t>(std::max(n, 0)); };
@@ -234,6 +245,14 @@ void print_mapping(std::ostream& out, const CompareResult& result) {
              (result.n_vertices_subdivided > 0
                   ? ", " + counted(result.n_vertices_subdivided, "vertex", "vertices") + " added"
                   : ""));
+  }
+  if (result.other_mapping) {
+    const OtherMapping& other = *result.other_mapping;
+    line(out, "Mapped twice, kept", words_of_motions(result.domains_used) + ": " + other.because);
+    line(out, "The other",
+         words_of_motions(other.domains) + ": " + share_of(other.slip_area_fraction) + " beyond 3 A, " +
+             share_of(other.same_residue_area_fraction) + " on the same residue, unmatched " +
+             share_of(other.unmatched_source) + ", " + share_of(other.unmatched_target));
   }
   if (result.flow_report.sweeps > 0) {
     line(out, "Gradient vector flow",
@@ -251,11 +270,6 @@ void print_certificate(std::ostream& out, const CompareResult& result) {
     not_checked += (not_checked.empty() ? "" : ", ") + name;
   std::replace(not_checked.begin(), not_checked.end(), '_', ' ');
   if (!not_checked.empty()) line(out, "Not checked", not_checked);
-}
-
-/// "12.3 %", "-" for none.
-std::string share_of(double fraction) {
-  return std::isfinite(fraction) ? formatted("%.3g", 100 * fraction) + " %" : "-";
 }
 
 /// The metrics, unmatched area and verdict of a region or patch.

@@ -36,7 +36,10 @@ std::vector<Column> make_columns() {
     (metric.section == MetricSection::kMapping ? of_mapping : all).push_back({metric.name, metric.json_pointer()});
   }
   const auto add = [&all](const std::vector<Column>& more) { all.insert(all.end(), more.begin(), more.end()); };
-  add({{"converged", "/certificate/converged"}, {"trustworthy", "/certificate/trustworthy"}, {"start", "/start"}});
+  add({{"converged", "/certificate/converged"},
+       {"trustworthy", "/certificate/trustworthy"},
+       {"start", "/start"},
+       {"domains", "/motions/domains"}});
   add(of_mapping);
   add({{"reasons", "/certificate/reasons"}, {"warnings", "/warnings"}, {"error", ""}});
   return all;

@@ -181,6 +181,12 @@ namespace eval ::espdiff::gui {
         foreach warning [labelled { espdiff result $shown warnings }] {
             if {![dict get $warning refuses]} { lappend warnings "\u2022 [dict get $warning text]" }
         }
+        set because [espdiff result $shown motions because]
+        if {$because ne ""} {
+            set used [espdiff result $shown motions domains]
+            lappend warnings "\u2022 mapped twice, kept [expr {$used eq {local} ? {local motions}
+                : {the superposition of the whole}}]: $because"
+        }
         if {[dict get $certificate trustworthy]} {
             set lines [linsert $warnings 0 "The mapping is within every limit that was checked."]
             say_verdict Trustworthy $lines #d3efd8 #0b4a1c

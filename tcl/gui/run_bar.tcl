@@ -13,9 +13,10 @@ namespace eval ::espdiff::gui {
         potential "Computing the potentials" 2 4
         surface "Building the surfaces" 4 8
         regularize "Regularizing the triangles" 8 25
-        morph "Mapping source onto target" 25 70
+        morph "Mapping source onto target" 25 60
         deform "Mapping source onto target" 25 70
-        certificate "Checking the mapping" 70 96
+        "second morph" "Mapping again by local motions" 60 85
+        certificate "Checking the mapping" 60 96
         metrics "Comparing" 96 100
     }
 

@@ -69,7 +69,7 @@ TEST_CASE("20 real comparisons are verified") {
     pairs.push_back(*ph14 + " " + *ph7 + " --potential coulomb " + options);
   }
   pairs.push_back(*m00 + " " + *m07 + " --potential none");
-  pairs.push_back(*aaf + " " + *aaf + " --target-model 10 --potential none");  // far, and not trustworthy
+  pairs.push_back(*aaf + " " + *aaf + " --target-model 10 --potential none");  // far, mapped twice, not trustworthy
   pairs.push_back(*hiv + " " + *other_hiv + " --potential none");
   pairs.push_back(*tim + " " + *mutant + " --source-map " + *real_input("pair_tim_maps/scTIM_chainA_pot-PE0.dx") +
                   " --target-map " + *real_input("pair_tim_maps/dTIM_chainA_pot-PE0.dx") +

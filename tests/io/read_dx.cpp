@@ -1,8 +1,6 @@
 // read_dx.cpp: OpenDX maps, real ones and every way to be broken.
 #include "io/read_dx.h"
 
-#include <chrono>
-
 #include "base/error.h"
 #include "io/read_grid.h"
 #include "support/test_data.h"
@@ -171,13 +169,10 @@ TEST_CASE("read_dx: kinds of OpenDX file that are not read") {
         "f.dx:2: OpenDX header has 'foo'; object, origin, delta or a comment was expected");
 }
 
-TEST_CASE("read_dx: APBS' map, values picked from the file, and the time") {
+TEST_CASE("read_dx: APBS' map, values picked from the file") {
   const auto path = real_input("pair_tim_maps/scTIM_chainA_pot-PE0.dx");
   if (!path) return;
-  const auto start = std::chrono::steady_clock::now();
   const Grid grid = read_grid(*path);
-  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-  CHECK(time.count() < 1.0);  // 0.02 s; a loaded machine or a debug build may take longer
   CHECK(grid.lattice.size == std::array<int, 3>{65, 65, 65});
   CHECK(grid.lattice.origin == Vec3d{52.232, 7.2525, 28.8975});
   CHECK(grid.lattice.step[2] == Vec3d{0, 0, 0.9591406});

@@ -125,6 +125,42 @@ def test_a_matrix_through_a_template(made, tmp_path):
         espdiff.matrix(states, ["a", "b", "c"], template="a", exact_sample=-1, **QUICK)
 
 
+def metrics_of(a, b, areas):
+    """The metrics of two potentials, in the field's formulas; a vertex counts where both have a value."""
+    counts = np.isfinite(a) & np.isfinite(b)
+    a, b, w = a[counts].astype(float), b[counts].astype(float), areas[counts]
+    mean = lambda values: (w * values).sum() / w.sum()
+    return {
+        "mean_abs_difference": mean(np.abs(b - a)),
+        "rms_difference": np.sqrt(mean((b - a) ** 2)),
+        "mean_signed_difference": mean(b - a),
+        "sign_change_area_fraction": mean(a * b < 0),
+        "hodgkin_index": 2 * mean(a * b) / (mean(a * a) + mean(b * b)),
+        "carbo_index": mean(a * b) / np.sqrt(mean(a * a) * mean(b * b)),
+    }
+
+
+def test_a_matrix_through_a_template_follows_from_its_file(data, tmp_path):
+    h5py = pytest.importorskip("h5py")
+    files = [data / "series19_ubq_2k39" / f"m0{i}.pqr" for i in (0, 1, 2, 4)]
+    labels = ["a", "b", "c", "d"]
+    matrix = espdiff.matrix(files, labels, template="b", exact_sample=0, output=tmp_path / "m", potential="coulomb", **QUICK)
+    with h5py.File(tmp_path / "m.h5") as file:
+        grid = file["VTKHDF"]
+        points, corners = grid["Points"][:], grid["Polygons/Connectivity"][:].reshape(-1, 3)
+        potentials = grid["PointData/potential"][:].reshape(len(files), -1)
+    sides = points[corners].astype(float)
+    triangles = 0.5 * np.linalg.norm(np.cross(sides[:, 1] - sides[:, 0], sides[:, 2] - sides[:, 0]), axis=1)
+    areas = np.bincount(corners.ravel(), np.repeat(triangles / 3, 3), minlength=len(points))
+    assert np.isfinite(potentials).mean() > 0.9
+    for i in range(len(files)):
+        for j in range(len(files)):
+            if i == j:
+                continue
+            for name, expected in metrics_of(potentials[i], potentials[j], areas).items():
+                assert matrix[name][i, j] == pytest.approx(expected, rel=1e-6, abs=1e-9), (name, i, j)
+
+
 def test_surface(made):
     surface = espdiff.surface(made[0], **QUICK)
     assert len(surface.positions) == len(surface.potential) == len(surface.residue_index)

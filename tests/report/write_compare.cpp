@@ -162,6 +162,33 @@ TEST_CASE("OUT.json has the result's values") {
   CHECK(json["version"] == "1.2.3");
 }
 
+TEST_CASE("a pair that was mapped twice says which mapping was kept, why, and what the other gave") {
+  CompareResult result = made_result();
+  Json motions = made_json(result)["motions"];
+  CHECK(motions["domains"] == "none");
+  CHECK(motions["because"].is_null());
+  CHECK(motions["other"].is_null());
+  CHECK(table_of(result).find("Mapped twice") == std::string::npos);
+  result.domains_used = "local";
+  result.certificate.same_residue_area_fraction = 0.75;
+  result.other_mapping = {"more is on its own residue", "none", {"12.5 % slipped"}, 0.125, 0.5, 0.01, 0.02, 0.4925};
+  motions = made_json(result)["motions"];
+  CHECK(motions["domains"] == "local");
+  CHECK(motions["own_residue_area_fraction"].get<double>() == doctest::Approx(0.75 * (11 + 0.75 * 12) / 23));
+  CHECK(motions["because"] == "more is on its own residue");
+  CHECK(motions["other"] == Json({{"domains", "none"},
+                                  {"own_residue_area_fraction", 0.4925},
+                                  {"beyond_3A_area_fraction", 0.125},
+                                  {"same_residue_area_fraction", 0.5},
+                                  {"no_counterpart_area_fraction", {{"source", 0.01}, {"target", 0.02}}},
+                                  {"reasons", {"12.5 % slipped"}}}));
+  const std::string table = table_of(result);
+  CHECK(table.find("Mapped twice, kept") != std::string::npos);
+  CHECK(table.find("local motions: more is on its own residue") != std::string::npos);
+  CHECK(table.find("the superposition of the whole: 12.5 % beyond 3 A, 50 % on the same residue, unmatched 1 %, 2 %") !=
+        std::string::npos);
+}
+
 TEST_CASE("OUT.json echoes all options under their names") {
   CompareOptions options;
   options.surface.grid_spacing_A = 0.5;

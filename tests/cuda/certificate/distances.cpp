@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/error.h"
 #include "cuda/surface/back_ends.h"
 #include "cuda/surface/oracles.h"
 #include "cuda/surface/read_atoms.h"
@@ -13,6 +14,7 @@
 
 using namespace espdiff_test;
 using espdiff::DistanceSummary;
+using espdiff::FitReport;
 
 namespace {
 
@@ -56,6 +58,34 @@ TEST_CASE("distances between random meshes are those of a brute-force search") {
     // Far apart, so that the tree's boxes are uninformative.
     const Mesh a = random_potato(2, 2.0, 0.2, 78), b = random_potato(3, 3.0, 0.3, 79, {40, 5, -9});
     check_summary(engine->distances(engine->upload_mesh(a), engine->upload_mesh(b), 30), distances_oracle(a, b, 30));
+  }
+}
+
+TEST_CASE("fit and distances of a part follow from those of the whole, bit by bit") {
+  const Mesh mesh = random_potato(3, 4.0, 0.5, 81), other = random_potato(2, 4.3, 0.4, 82);
+  for (const auto& engine : back_ends()) {
+    const auto whole = engine->upload_mesh(mesh), to = engine->upload_mesh(other);
+    const auto atoms = upload(*engine, one_gaussian({0, 0, 0}, 2));
+    const FitReport fit = engine->fit(whole, atoms, 0.5F);
+    const DistanceSummary distances = engine->distances(whole, to, 1);
+    std::vector<float> removed;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) removed.push_back(t % 7 < 3 || t > 900 ? 1.0F : 0.0F);
+    const auto flags = engine->upload_scalars(removed);
+    const auto part = engine->without(whole, flags);
+    const FitReport again = engine->fit(part, atoms, 0.5F), kept = engine->fit_without(part, fit, flags);
+    CHECK(kept.area_A2 == again.area_A2);
+    CHECK(kept.corrupt_area_fraction == again.corrupt_area_fraction);
+    CHECK(kept.flipped_area_fraction == again.flipped_area_fraction);
+    CHECK(engine->download(kept.corrupt) == engine->download(again.corrupt));
+    CHECK(engine->download(kept.flipped) == engine->download(again.flipped));
+    const DistanceSummary anew = engine->distances(part, to, 1),
+                          left = engine->distances_without(part, whole, distances, flags, 1);
+    CHECK(engine->download(left.distances) == engine->download(anew.distances));
+    CHECK(engine->download(left.beyond) == engine->download(anew.beyond));
+    CHECK(std::vector<double>{left.mean, left.p95, left.max, left.area_fraction_beyond_limit, left.mean_within_limit} ==
+          std::vector<double>{anew.mean, anew.p95, anew.max, anew.area_fraction_beyond_limit, anew.mean_within_limit});
+    CHECK_THROWS_WITH_AS(engine->fit_without(whole, fit, flags),
+                         "the part has another number of triangles than remain of the whole", espdiff::GeometryError);
   }
 }
 

@@ -1,0 +1,69 @@
+// choose_motions.cpp: compares two mappings of one pair by their limits, then by the area on its own residue.
+#include "compare/choose_motions.h"
+
+#include <limits>
+#include <utility>
+
+#include "align/rigid_domains.h"
+#include "compare/certificate.h"
+#include "compare/slip.h"
+
+namespace espdiff {
+namespace {
+
+std::vector<Message> mapping_reasons(const CompareResult& result, const Molecule& source) {
+  std::vector<Message> reasons = fit_reasons(result.certificate);
+  const std::vector<Message> of_slip = slip_reasons(result, source);
+  reasons.insert(reasons.end(), of_slip.begin(), of_slip.end());
+  return reasons;
+}
+
+OtherMapping described(const CompareResult& result, const Molecule& source, const char* because) {
+  const Certificate& c = result.certificate;
+  OtherMapping other;
+  other.because = because;
+  other.domains = result.domains_used;
+  other.reasons = mapping_reasons(result, source);
+  other.slip_area_fraction = c.slip ? c.slip->large_area_fraction : 0;
+  other.same_residue_area_fraction = c.same_residue_area_fraction;
+  other.unmatched_source = c.unmatched_source;
+  other.unmatched_target = c.unmatched_target;
+  other.own_residue_area_fraction = own_residue_share(result);
+  return other;
+}
+
+MappedStep keep(MappedStep kept, const MappedStep& other, const Molecule& source, const char* because) {
+  kept.result.other_mapping = described(other.result, source, because);
+  return kept;
+}
+
+}  // namespace
+
+bool slips(const CompareResult& result, const Molecule& source) { return !slip_reasons(result, source).empty(); }
+
+double own_residue_share(const CompareResult& result) {
+  const Certificate& c = result.certificate;
+  const double of_source = result.source_surface.area_A2, of_target = result.target_surface.area_A2;
+  const double matched = of_source * (1 - c.unmatched_source) + of_target * (1 - c.unmatched_target);
+  return c.same_residue_area_fraction * matched / (of_source + of_target);
+}
+
+MappedStep without_second(MappedStep straight, const Message& error) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  straight.result.other_mapping = {"the mapping by local motions failed", kLocalMotions, {error}, kNan, kNan,
+                                   kNan, kNan, kNan};
+  return straight;
+}
+
+MappedStep better_of(MappedStep straight, MappedStep local, const Molecule& source) {
+  if (mapping_reasons(local.result, source).empty())
+    return keep(std::move(local), straight, source,
+                "the superposition of the whole slips, and local motions are within the limits");
+  if (own_residue_share(local.result) > own_residue_share(straight.result))
+    return keep(std::move(local), straight, source,
+                "neither is within the limits; with local motions more of the surfaces is on its own residue");
+  return keep(std::move(straight), local, source,
+              "neither is within the limits; with local motions no more of the surfaces is on its own residue");
+}
+
+}  // namespace espdiff

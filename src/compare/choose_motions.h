@@ -1,0 +1,26 @@
+// choose_motions.h: the default of `--domains`: a mapping that slips is tried once more with local motions, and the
+// better one of the two is kept.
+#pragma once
+
+#include "compare/mapped_step.h"
+
+namespace espdiff {
+
+/// Whether a mapping is refused by its slip, so that local motions may map better.
+bool slips(const CompareResult& result, const Molecule& source);
+
+/// The share of both surfaces' area that is matched and on its own residue, by which two refused mappings are compared.
+/// Unlike the slip, it does not depend on the motions that the mapping followed.
+double own_residue_share(const CompareResult& result);
+
+/// Keeps `local` if it is within every limit of fit and slip, or if it has the larger own_residue_share(); otherwise
+/// `straight`. Potentials, regions and the round trip play no part: a pair has the same mapping with and without them.
+/// Sets the kept result's `other_mapping`.
+/// @param straight by the superposition of the whole; it slips
+/// @param local    by local motions
+MappedStep better_of(MappedStep straight, MappedStep local, const Molecule& source);
+
+/// Keeps `straight` where the second mapping failed, and says so.
+MappedStep without_second(MappedStep straight, const Message& error);
+
+}  // namespace espdiff

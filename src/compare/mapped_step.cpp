@@ -1,0 +1,83 @@
+// mapped_step.cpp: downloads a mapping, with its residues and its slip.
+#include "compare/mapped_step.h"
+
+#include <limits>
+#include <utility>
+
+#include "align/superpose.h"
+#include "compare/certificate.h"
+#include "compare/paired_residues.h"
+#include "compare/residue_rows.h"
+#include "compare/slip.h"
+#include "engine/engine.h"
+
+namespace espdiff {
+namespace {
+
+std::vector<bool> matched_vertices(const MappedSurface& s) {
+  if (s.unmatched.empty()) return std::vector<bool>(s.positions.size(), true);
+  std::vector<bool> has(s.positions.size(), false);
+  for (std::size_t t = 0; t < s.triangles.size(); ++t) {
+    if (s.unmatched[t] != 0) continue;
+    for (const std::uint32_t v : s.triangles[t]) has[v] = true;
+  }
+  return has;
+}
+
+void download_surface(Engine& engine, const MappedStep& step, MappedSurface& surface) {
+  const RigidTransform to_source = inverse(step.frame.from_source), to_target = inverse(step.frame.from_target);
+  const Mapping& mapping = step.mapping;
+  Mesh mapped = engine.download_shape(mapping.mapped);
+  surface.triangles = std::move(mapped.triangles);
+  for (const Vec3f& p : mapped.positions) surface.positions.push_back(to_target.apply(static_cast<Vec3d>(p)));
+  for (const Vec3f& p : engine.download_positions(mapping.source))
+    surface.source_positions.push_back(to_source.apply(static_cast<Vec3d>(p)));
+  surface.displacement = engine.download(engine.displacement(step.moved, mapping.mapped));
+  surface.unmatched.assign(mapping.unmatched.begin(), mapping.unmatched.end());
+  surface.corrupt = to_full_mesh(engine.download(mapping.fit.corrupt), mapping.unmatched);
+  surface.path_length = mapping.path_length;
+}
+
+std::vector<Vec3f> rotated(std::vector<Vec3f> normals, const RigidTransform& to_frame) {
+  for (Vec3f& n : normals) n = static_cast<Vec3f>(to_frame.rotate(static_cast<Vec3d>(n)));
+  return normals;
+}
+
+}  // namespace
+
+void set_unmatched_to_nan(const std::vector<bool>& is_matched, std::vector<float>& values) {
+  for (std::size_t v = 0; v < values.size(); ++v) {
+    if (!is_matched[v]) values[v] = std::numeric_limits<float>::quiet_NaN();
+  }
+}
+
+void describe(Engine& engine, const Molecule& source, const Molecule& target, const Surface& source_surface,
+              const Surface& target_surface, MappedStep& step) {
+  const Mapping& mapping = step.mapping;
+  MappedSurface& s = step.result.surface;
+  step.moved = step.frame.domains.carry(engine, mapping.source, source_surface.atoms);
+  download_surface(engine, step, s);
+  step.is_matched = matched_vertices(s);
+  set_unmatched_to_nan(step.is_matched, s.displacement);
+  set_unmatched_to_nan(step.is_matched, s.path_length);
+  s.residue = engine.vertex_residues(mapping.source, source_surface.atoms);
+  if (!step.paths.empty()) {
+    s.slip = engine.slip(mapping.source, mapping.mapped, target_surface.mesh, step.paths);
+    set_unmatched_to_nan(step.is_matched, s.slip);
+    step.result.certificate.slip = summarize_slip(s, matched_areas(s));
+  }
+  step.mapped_residue = engine.vertex_residues(mapping.mapped, target_surface.atoms);
+  step.result.certificate.same_residue_area_fraction =
+      same_residue_share(s, s.residue, step.mapped_residue, paired_residues(source, target, step.result.pairing));
+  step.result.residues = residue_rows(s, source.residues.size(), false);
+}
+
+void add_normals(Engine& engine, const Surface& source_surface, const Surface& target_surface, float isovalue,
+                 MappedStep& step) {
+  const RigidTransform to_source = inverse(step.frame.from_source), to_target = inverse(step.frame.from_target);
+  MappedSurface& s = step.result.surface;
+  s.normals = rotated(engine.level_set_normals(step.mapping.mapped, target_surface.atoms, isovalue), to_target);
+  s.source_normals = rotated(engine.level_set_normals(step.mapping.source, source_surface.atoms, isovalue), to_source);
+}
+
+}  // namespace espdiff

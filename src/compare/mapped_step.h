@@ -1,0 +1,41 @@
+// mapped_step.h: one mapping of a step, and what its fit and its slip are judged by.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/handles.h"
+#include "compare/build_surface.h"
+#include "compare/common_frame.h"
+#include "compare/mapping.h"
+#include "compare/result.h"
+#include "engine/morph_stage.h"
+
+namespace espdiff {
+
+struct MappedStep {
+  CommonFrame frame;
+  std::vector<MovingAtom> paths;  ///< of all atoms from the source to the target; empty if the method needs none
+  MorphResult morphed;            ///< by the morph
+  Mapping mapping;
+  MeshPtr moved;                             ///< the source's surface, moved by its rigid domains
+  std::vector<bool> is_matched;              ///< [vertex] whether it lies in a matched triangle
+  std::vector<std::int32_t> mapped_residue;  ///< [vertex] index of the target residue, -1 for none
+  CompareResult result;
+};
+
+/// Sets unmatched vertices to NaN.
+/// @param is_matched [vertex]
+void set_unmatched_to_nan(const std::vector<bool>& is_matched, std::vector<float>& values);
+
+/// Downloads a certified mapping and finds its residues and its slip: fills in the result's surface without normals and
+/// potentials, the slip, the area on the same residue, and the residues' rows without potentials.
+/// @param source_surface, target_surface in the common frame
+void describe(Engine& engine, const Molecule& source, const Molecule& target, const Surface& source_surface,
+              const Surface& target_surface, MappedStep& step);
+
+/// Fills in the normals of the result's surface.
+void add_normals(Engine& engine, const Surface& source_surface, const Surface& target_surface, float isovalue,
+                 MappedStep& step);
+
+}  // namespace espdiff

@@ -1,0 +1,193 @@
+// choose_motions.cpp: which of two mappings is kept, that pairs which pass are untouched, and what a second mapping
+// leaves in a series, in progress reports and after a cancellation.
+#include "compare/choose_motions.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/progress.h"
+#include "compare/compare.h"
+#include "compare/made_side.h"
+#include "compare/options.h"
+#include "compare/series.h"
+#include "engine/engine.h"
+#include "engine/select_engine.h"
+#include "io/read_structure.h"
+#include "support/test_data.h"
+
+using namespace espdiff_test;
+using espdiff::MappedStep;
+using espdiff::Progress;
+using espdiff::Series;
+using espdiff::StartFrom;
+
+namespace {
+
+/// A mapping with nothing but numbers.
+MappedStep step_of(const char* domains, double slipped, double same_residue, double unmatched = 0) {
+  MappedStep step{};
+  CompareResult& result = step.result;
+  result.domains_used = domains;
+  result.source_surface.area_A2 = 100;
+  result.target_surface.area_A2 = 300;
+  result.certificate.converged = true;
+  result.certificate.slip.emplace();
+  result.certificate.slip->large_area_fraction = slipped;
+  result.certificate.same_residue_area_fraction = same_residue;
+  result.certificate.unmatched_source = result.certificate.unmatched_target = unmatched;
+  return step;
+}
+
+std::string kept(const MappedStep& straight, const MappedStep& local) {
+  const MappedStep step = better_of(straight, local, Molecule{});
+  REQUIRE(step.result.other_mapping.has_value());
+  CHECK(step.result.other_mapping->domains == (step.result.domains_used == "none" ? "local" : "none"));
+  return step.result.domains_used;
+}
+
+CompareOptions with(const std::string& domains) {
+  CompareOptions options;
+  options.domains = domains;
+  return options;
+}
+
+/// Two models of a nucleocapsid, whose halves turn: the superposition of the whole maps little of it rightly.
+struct Nucleocapsid {
+  Molecule source, target;
+  bool is_there = false;
+
+  Nucleocapsid() {
+    const auto path = real_input("pairs/1aaf.pdb");
+    if (!path) return;
+    espdiff::StructureOptions tenth;
+    tenth.model = 10;
+    source = espdiff::read_structure(*path, {});
+    target = espdiff::read_structure(*path, tenth);
+    is_there = true;
+  }
+  CompareResult compared(const CompareOptions& options, int threads = 2, const Progress& progress = {}) const {
+    const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, threads);
+    return compare(*engine, {&source, nullptr}, {&target, nullptr}, options, progress);
+  }
+};
+
+}  // namespace
+
+TEST_SUITE_BEGIN("choose_motions");
+
+TEST_CASE("a mapping within its limits is kept, then the one with more area on its own residue, then the first") {
+  CHECK(kept(step_of("none", 0.10, 0.8), step_of("local", 0.03, 0.7)) == "local");
+  CHECK(kept(step_of("none", 0.10, 0.8), step_of("local", 0.05, 0.81)) == "local");
+  CHECK(kept(step_of("none", 0.10, 0.8), step_of("local", 0.05, 0.79)) == "none");
+  CHECK(kept(step_of("none", 0.10, 0.8), step_of("local", 0.05, 0.8)) == "none");
+  // 5 % slip is within the limit of the superposition, not of local motions; lost area is no gain.
+  CHECK(kept(step_of("none", 0.10, 0.8), step_of("local", 0.05, 0.82, 0.04)) == "none");
+  CHECK(kept(step_of("none", 0.10, 0.8), step_of("local", 0.01, 0.9, 0.06)) == "local");
+}
+
+TEST_CASE("the area on its own residue counts both surfaces, by their areas") {
+  MappedStep step = step_of("none", 0.1, 0.5);
+  step.result.certificate.unmatched_source = 0.2;
+  step.result.certificate.unmatched_target = 0.4;
+  CHECK(own_residue_share(step.result) == doctest::Approx(0.5 * (100 * 0.8 + 300 * 0.6) / 400));
+}
+
+TEST_CASE("the mapping that was not kept is described with its limits") {
+  const MappedStep step = better_of(step_of("none", 0.125, 0.8), step_of("local", 0.03, 0.9), Molecule{});
+  const espdiff::OtherMapping& other = *step.result.other_mapping;
+  CHECK(other.slip_area_fraction == 0.125);
+  CHECK(other.same_residue_area_fraction == 0.8);
+  CHECK(other.own_residue_area_fraction == doctest::Approx(0.8));
+  REQUIRE(other.reasons.size() == 1);
+  CHECK(other.reasons[0].plain() ==
+        "12.5 % of the mapped area slipped by more than 3 A from its own atoms (limit 8 %)");
+  CHECK(other.because == "the superposition of the whole slips, and local motions are within the limits");
+  const MappedStep failed = without_second(step_of("none", 0.125, 0.8), "nothing remains");
+  CHECK(failed.result.domains_used == "none");
+  CHECK(failed.result.other_mapping->reasons[0].plain() == "nothing remains");
+}
+
+TEST_CASE("pairs that do not slip have the bits of the superposition, by either method") {
+  const Side a = make_side(1, 0), b = make_side(2, 0.3);
+  const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
+  for (const espdiff::Method method : {espdiff::Method::kMorph, espdiff::Method::kDeform}) {
+    CompareOptions options = quick_options();
+    options.method = method;
+    REQUIRE(options.domains == "as-needed");
+    const CompareResult result = compare(*engine, a.input(), b.input(), options, {});
+    CHECK(result.domains_used == "none");
+    CHECK_FALSE(result.other_mapping.has_value());
+    options.domains = "none";
+    CHECK(hash_of(result) == hash_of(compare(*engine, a.input(), b.input(), options, {})));
+  }
+}
+
+TEST_CASE("a pair that slips has the bits of local motions where they map better, at any number of threads") {
+  const Nucleocapsid pair;
+  if (!pair.is_there) return;
+  const CompareResult result = pair.compared(with("as-needed")), straight = pair.compared(with("none"));
+  CHECK(hash_of(result) == hash_of(pair.compared(with("local"))));
+  CHECK(hash_of(result) == hash_of(pair.compared(with("as-needed"), 1)));
+  CHECK(result.domains_used == "local");
+  CHECK_FALSE(result.certificate.trustworthy);
+  REQUIRE(result.other_mapping.has_value());
+  const espdiff::OtherMapping& other = *result.other_mapping;
+  CHECK(other.domains == "none");
+  CHECK(other.slip_area_fraction == straight.certificate.slip->large_area_fraction);
+  CHECK(other.same_residue_area_fraction == straight.certificate.same_residue_area_fraction);
+  CHECK(other.own_residue_area_fraction < own_residue_share(result));
+  CHECK(other.own_residue_area_fraction == own_residue_share(straight));
+}
+
+TEST_CASE("potentials and the round trip do not change which mapping is kept") {
+  const Nucleocapsid pair;
+  if (!pair.is_there) return;
+  CompareOptions options = with("as-needed");
+  options.round_trip = true;
+  const CompareResult result = pair.compared(options), again = pair.compared(with("as-needed"));
+  CHECK(hash_of(result) == hash_of(again));
+  REQUIRE(result.certificate.round_trip.has_value());
+  CHECK(result.certificate.round_trip->mean_A < 1);
+}
+
+TEST_CASE("the second mapping reports its own stage, and can be cancelled there") {
+  const Nucleocapsid pair;
+  if (!pair.is_there) return;
+  std::vector<std::string> stages;
+  Progress* running = nullptr;
+  Progress progress([&](const std::string& stage, double) {
+    if (stages.empty() || stages.back() != stage) stages.push_back(stage);
+    if (stage == "second morph") running->request_cancel();
+  });
+  running = &progress;
+  const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
+  const CompareOptions options = with("as-needed");
+  Series series(*engine, {&pair.source, nullptr}, options);
+  CHECK_THROWS_AS(series.step({&pair.target, nullptr}, StartFrom::kSource, progress), espdiff::Cancelled);
+  REQUIRE(stages.size() >= 3);
+  CHECK(std::vector<std::string>(stages.end() - 3, stages.end()) ==
+        std::vector<std::string>{"morph", "certificate", "second morph"});
+  const CompareResult after = series.step({&pair.target, nullptr}, StartFrom::kSource, {});
+  CHECK(hash_of(after) == hash_of(pair.compared(options)));
+}
+
+TEST_CASE("a step that continues from the one before is mapped once") {
+  const Nucleocapsid pair;
+  if (!pair.is_there) return;
+  Molecule next = pair.target;
+  for (Vec3d& p : next.positions) p.z += 0.002 * p.x;
+  const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
+  Series series(*engine, {&pair.source, nullptr}, with("as-needed"));
+  const CompareResult first = series.step({&pair.target, nullptr}, StartFrom::kPrevious, {});
+  CHECK(first.domains_used == "local");
+  const CompareResult second = series.step({&next, nullptr}, StartFrom::kPrevious, {});
+  CHECK(second.start == StartFrom::kPrevious);
+  CHECK(second.domains_used == "none");
+  CHECK_FALSE(second.other_mapping.has_value());
+}
+
+TEST_SUITE_END();
