@@ -50,8 +50,8 @@ double own_residue_share(const CompareResult& result) {
 
 MappedStep without_second(MappedStep straight, const Message& error) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  straight.result.other_mapping = {"the mapping by local motions failed", kLocalMotions, {error}, kNan, kNan,
-                                   kNan, kNan, kNan};
+  straight.result.other_mapping = {
+      "the mapping by local motions failed", kLocalMotions, {error}, kNan, kNan, kNan, kNan, kNan};
   return straight;
 }
 

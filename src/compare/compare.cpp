@@ -298,8 +298,7 @@ struct Series::Steps {
     CompareResult anew = result;
     anew.domains_used = kLocalMotions;
     try {
-      MappedStep second =
-          map(target, target_surface, local, std::move(anew), nullptr, "second morph", progress, clock);
+      MappedStep second = map(target, target_surface, local, std::move(anew), nullptr, "second morph", progress, clock);
       return better_of(std::move(straight), std::move(second), *source.molecule);
     } catch (const GeometryError& error) {  // no surface remains
       return without_second(std::move(straight), error.message());
