@@ -2,7 +2,6 @@
 #include "cuda/certificate/certificate.h"
 
 #include <cmath>
-#include <memory>
 #include <utility>
 
 #include "base/error.h"
