@@ -7,7 +7,8 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
-/// Values sorted in ascending order with their weights; NaN last, or first if its sign bit is set. They stay on the device.
+/// Values sorted in ascending order with their weights; NaN last, or first if its sign bit is set. They stay on the
+/// device.
 class WeightedOrder {
  public:
   /// Waits for nothing. @param values, weights [point]
