@@ -57,8 +57,10 @@ void copy_on_device(void* to, const void* from, std::size_t n_bytes);
 class HostReads {
  public:
   HostReads();
-  /// Drops what was not waited for.
+#if defined(ESPDIFF_BACKEND_CUDA)
+  /// Drops what was not waited for. On the CPU nothing is left to drop.
   ~HostReads();
+#endif
   HostReads(const HostReads&) = delete;
   HostReads& operator=(const HostReads&) = delete;
   /// Enqueues a copy of what `from` holds after all work enqueued before. wait() sets `to`.

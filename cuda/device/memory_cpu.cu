@@ -27,7 +27,6 @@ void copy_to_device(void* to, const void* from, std::size_t n_bytes) {
 }
 void copy_to_host(void* to, const void* from, std::size_t n_bytes) { copy_to_device(to, from, n_bytes); }
 HostReads::HostReads() = default;
-HostReads::~HostReads() = default;
 void HostReads::add(void* to, const void* from, std::size_t n_bytes) { copy_to_device(to, from, n_bytes); }
 void HostReads::wait() {}
 void copy_on_device(void* to, const void* from, std::size_t n_bytes) { copy_to_device(to, from, n_bytes); }

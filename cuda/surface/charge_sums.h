@@ -62,7 +62,7 @@ struct ChargeSumsView {
   }
 
   /// The direct part of one bin's charges, as seen from `part` where the bin lies `shift` cells away.
-  ESPDIFF_INLINE double direct_of_bin(std::size_t bin, const double (&part)[3], const double (&shift)[3]) const {
+  ESPDIFF_INLINE double direct_of_bin(int bin, const double (&part)[3], const double (&shift)[3]) const {
     double sum = 0;
     for (std::uint32_t i = first[bin]; i < first[bin + 1]; ++i) {
       const Vec3d f = charges[i].place;
@@ -92,7 +92,7 @@ struct ChargeSumsView {
         const int y = image(j, 1, shift[1]);
         for (int i = home[0] - reach[0]; i <= home[0] + reach[0]; ++i) {
           const int x = image(i, 0, shift[0]);
-          sum += direct_of_bin(static_cast<std::size_t>(x + bins[0] * (y + bins[1] * z)), part, shift);
+          sum += direct_of_bin(x + bins[0] * (y + bins[1] * z), part, shift);
         }
       }
     }

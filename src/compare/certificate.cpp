@@ -68,9 +68,9 @@ Certificate certify(Engine& engine, const Mapping& mapping, const MeshPtr& targe
   c.corrupt_area_fraction = mapping.fit.corrupt_area_fraction;
   c.flipped_area_fraction = mapping.fit.flipped_area_fraction;
   c.irregularity_A = mapping.fit.irregularity_A;
-  c.mapped_to_target = mapping.to_target;
+  c.mapped_to_target = numbers_of(mapping.to_target);
   c.distortion = mapping.distortion;
-  c.target_to_mapped = engine.distances(target, mapping.matched, kMatchLimit_A);
+  c.target_to_mapped = numbers_of(engine.distances(target, mapping.matched, kMatchLimit_A));
   c.self_intersecting_pairs = mapping.intersections.n_pairs;
   const double kept = engine.area(mapping.matched_source) / engine.area(mapping.source);
   c.unmatched_source = 1 - kept * (1 - c.mapped_to_target.area_fraction_beyond_limit);

@@ -45,6 +45,9 @@ void find_matched_part(Engine& engine, Mapping& mapping, const AtomsPtr& target_
 /// Removes the source's closed cavities where they are unmatched; any part that remains has opened.
 void drop_closed_cavities(Engine& engine, Mapping& mapping);
 
+/// The same without the distances of single points, which would stay on the device as long as the result.
+DistanceSummary numbers_of(DistanceSummary summary);
+
 /// [triangle of the full mesh] from [triangle of the matched part]; 0 if unmatched.
 std::vector<std::uint8_t> to_full_mesh(const std::vector<float>& matched, const std::vector<float>& unmatched);
 

@@ -119,7 +119,7 @@ std::shared_ptr<CompareResult> part_result(Engine& engine, const SurfacePart& pa
     c.flipped_area_fraction = fit.flipped_area_fraction;
     c.irregularity_A = fit.irregularity_A;
     result->area_mapped_A2 = fit.area_A2;
-    c.mapped_to_target = engine.distances(matched, target.mesh, kMatchLimit_A);
+    c.mapped_to_target = numbers_of(engine.distances(matched, target.mesh, kMatchLimit_A));
     c.distortion = engine.distortion(matched_source, matched, kAreaRatioLimit);
     c.self_intersecting_pairs = engine.self_intersections(matched).n_pairs;
     const double kept = engine.area(matched_source) / engine.area(source);
@@ -131,7 +131,7 @@ std::shared_ptr<CompareResult> part_result(Engine& engine, const SurfacePart& pa
   c.target_to_mapped = nothing();
   c.unmatched_target = target_part != nullptr ? 1 : kNaN;
   if (target_part != nullptr && matched != nullptr) {
-    c.target_to_mapped = engine.distances(target_part, mapping.matched, kMatchLimit_A);
+    c.target_to_mapped = numbers_of(engine.distances(target_part, mapping.matched, kMatchLimit_A));
     c.unmatched_target = c.target_to_mapped.area_fraction_beyond_limit;
   }
   MappedSurface of_part;
