@@ -19,7 +19,7 @@ namespace {
 constexpr double kReach_A = 4;
 /// Residues whose superposition moves a point: about those that line a binding site.
 constexpr std::size_t kNeighbours = 16;
-constexpr std::size_t kLeastResidues = 3;
+constexpr std::size_t kLeastPaired = 3;
 
 using IndexPairs = std::vector<std::pair<std::size_t, std::size_t>>;
 using Cell = std::tuple<std::string, int, int, int>;
@@ -93,7 +93,7 @@ PolymerMotion::PolymerMotion(const ResidueView& source, const ResidueView& targe
   }
 }
 
-bool PolymerMotion::known() const { return source_.size() >= kLeastResidues; }
+bool PolymerMotion::known() const { return source_.size() >= kLeastPaired; }
 
 Vec3d PolymerMotion::apply(const Vec3d& point) const {
   std::vector<std::pair<double, std::size_t>> by_distance;

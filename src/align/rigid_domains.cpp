@@ -20,7 +20,7 @@ using AtomPairs = std::vector<std::pair<std::size_t, std::size_t>>;
 /// A residue fits a rigid motion that moves it to within this distance of its partner.
 constexpr double kTolerance_A = 2.0;
 /// Minimum size of a domain.
-constexpr std::size_t kLeastResidues = 20;
+constexpr std::size_t kLeastInDomain = 20;
 /// Length of the stretches that seed the search, and the maximum number of seeds.
 constexpr std::size_t kSeed = 10, kMostSeeds = 400;
 constexpr int kRounds = 10;
@@ -172,9 +172,9 @@ struct Search {
       if (!pairs[r].empty()) free.push_back(r);
     }
     std::vector<RigidTransform> motions;
-    while (free.size() >= kLeastResidues) {
+    while (free.size() >= kLeastInDomain) {
       const std::vector<std::size_t> block = largest_block(free);
-      if (block.size() < kLeastResidues) break;
+      if (block.size() < kLeastInDomain) break;
       for (const std::size_t r : block) domain[r] = motions.size();
       motions.push_back(superpose(source.positions, target.positions, representatives(block)).transform);
       free.erase(std::remove_if(free.begin(), free.end(), [&](std::size_t r) { return domain[r] != kNone; }),

@@ -1,10 +1,10 @@
 // choose_motions.cpp: compares two mappings of one pair by their limits, then by the area on its own residue.
 #include "compare/choose_motions.h"
 
-#include <limits>
 #include <utility>
 
 #include "align/rigid_domains.h"
+#include "base/not_a_number.h"
 #include "compare/certificate.h"
 #include "compare/slip.h"
 
@@ -49,9 +49,8 @@ double own_residue_share(const CompareResult& result) {
 }
 
 MappedStep without_second(MappedStep straight, const Message& error) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   straight.result.other_mapping = {
-      "the mapping by local motions failed", kLocalMotions, {error}, kNan, kNan, kNan, kNan, kNan};
+      "the mapping by local motions failed", kLocalMotions, {error}, kNaN, kNaN, kNaN, kNaN, kNaN};
   return straight;
 }
 

@@ -15,10 +15,6 @@
 namespace espdiff {
 namespace {
 
-[[noreturn]] void refuse(const std::string& name, const std::string& text, const std::string& accepted) {
-  throw InputError(option(name) + ": '" + text + "' is not " + accepted);
-}
-
 /// A setting that is a text; `at` finds it in the options.
 template <typename At>
 Setting text_row(const std::string& name, const char* group, At at, const std::string& help, bool is_file = false) {
@@ -33,7 +29,7 @@ template <typename At>
 Setting boolean_row(const std::string& name, const char* group, At at, const std::string& help) {
   Setting row{name, group, SettingKind::kBoolean, {}, help, false, nullptr, nullptr};
   row.set = [name, at](CompareOptions& o, const std::string& text) {
-    if (text != "0" && text != "1") refuse(name, text, "0 or 1");
+    if (text != "0" && text != "1") refuse_value(name, text, "0 or 1");
     at(o.input) = text == "1";
   };
   row.get = [at](const CompareOptions& o) { return at(o.input) ? "1" : "0"; };
@@ -48,7 +44,7 @@ Setting number_row(const std::string& name, const char* group, double low, doubl
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool whole = error == std::errc() && end == text.data() + text.size();
-    if (!whole || !std::isfinite(value) || value < low || value > high) refuse(name, text, accepted);
+    if (!whole || !std::isfinite(value) || value < low || value > high) refuse_value(name, text, accepted);
     at(o.input) = value;
   };
   row.get = [at](const CompareOptions& o) {
@@ -66,7 +62,7 @@ Setting choice_row(const std::string& name, const char* group, std::vector<std::
   for (std::size_t i = 0; i < choices.size(); ++i)
     list += (i == 0 ? "" : i + 1 == choices.size() ? " or " : ", ") + choices[i];
   row.set = [=](CompareOptions& o, const std::string& text) {
-    if (std::find(choices.begin(), choices.end(), text) == choices.end()) refuse(name, text, list);
+    if (std::find(choices.begin(), choices.end(), text) == choices.end()) refuse_value(name, text, list);
     set(o.input, text);
   };
   row.get = [get](const CompareOptions& o) { return get(o.input); };
@@ -96,11 +92,6 @@ Setting ligand_row() {
     return text;
   };
   row.is_list = row.is_file = true;
-  return row;
-}
-
-Setting of_surface(Setting row) {
-  row.of_surface = true;
   return row;
 }
 

@@ -14,6 +14,12 @@ struct Setting;
 /// Appends their rows to the table of settings.
 void add_input_settings(std::vector<Setting>& all);
 
+/// @throws InputError "--NAME: 'TEXT' is not ACCEPTED"
+[[noreturn]] void refuse_value(const std::string& name, const std::string& text, const std::string& accepted);
+
+/// The row, marked as one that the surface depends on.
+Setting of_surface(Setting row);
+
 /// Reads "NAME=SELECTION|NAME=SELECTION".
 /// @throws InputError (form, name)
 std::vector<PatchRequest> parse_patches(const std::string& text);

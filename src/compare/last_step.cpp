@@ -8,6 +8,7 @@
 #include "align/pair_atoms.h"
 #include "align/superpose.h"
 #include "base/error.h"
+#include "base/not_a_number.h"
 #include "compare/atom_paths.h"
 #include "compare/options.h"
 #include "compare/paired_residues.h"
@@ -76,8 +77,7 @@ std::vector<RigidDomain> domains_on(const Molecule& last, const Molecule& source
 
 std::vector<Vec3d> counterparts(const Molecule& source, const Molecule& target, const AtomPairing& pairing,
                                 const RigidTransform& to_common) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  std::vector<Vec3d> positions(source.size(), Vec3d{kNan, kNan, kNan});
+  std::vector<Vec3d> positions(source.size(), Vec3d{kNaN, kNaN, kNaN});
   for (const auto& pair : pairing.pairs) positions[pair.first] = to_common.apply(target.positions[pair.second]);
   return positions;
 }

@@ -20,9 +20,9 @@ namespace {
 /// Neighbours along the chain, and in space at both ends. With 4 places and 10 A the motions of neighbours differ so
 /// much that a tenth of the surface of 1AAF tears; with 15 and 18 A less of it stays on its residue.
 constexpr std::size_t kWindow = 8;
-constexpr double kReach_A = 12;
+constexpr double kResidueReach_A = 12;
 /// Added to the covariance: without neighbours, as for an ion, nothing says that a residue rotates.
-constexpr double kDamping_A2 = 50;
+constexpr double kResidueDamping_A2 = 50;
 /// A chain is broken where the centres of successive residues lie farther apart. Nucleotides have up to 8 A.
 constexpr double kLongestLink_A = 12;
 constexpr double kTurn = 2 * 3.14159265358979323846;
@@ -50,7 +50,7 @@ double weight_at(double squared_share) {
 RigidTransform best_motion(const Moments& sum) {
   const Eigen::Vector3d start = sum.start / sum.n, end = sum.end / sum.n;
   const Eigen::Matrix3d covariance =
-      sum.product - sum.n * start * end.transpose() + kDamping_A2 * Eigen::Matrix3d::Identity();
+      sum.product - sum.n * start * end.transpose() + kResidueDamping_A2 * Eigen::Matrix3d::Identity();
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const double sign = svd.matrixV().determinant() * svd.matrixU().determinant() < 0 ? -1.0 : 1.0;
   const Eigen::Matrix3d rotation = svd.matrixV() * Eigen::Vector3d(1, 1, sign).asDiagonal() * svd.matrixU().transpose();
@@ -63,7 +63,7 @@ RigidTransform best_motion(const Moments& sum) {
   return motion;
 }
 
-struct Neighbourhoods {
+struct ResidueNeighbourhoods {
   using Cell = std::array<int, 3>;
 
   const Molecule& source;
@@ -71,7 +71,7 @@ struct Neighbourhoods {
   std::vector<Eigen::Vector3d> start{}, end{};       ///< [residue] centres of the paired atoms
   std::map<Cell, std::vector<std::size_t>> cells{};  ///< of residues with paired atoms, by the start
 
-  Neighbourhoods(const Molecule& molecule, std::vector<Moments> moments) : source(molecule), own(std::move(moments)) {
+  ResidueNeighbourhoods(const Molecule& molecule, std::vector<Moments> moments) : source(molecule), own(std::move(moments)) {
     for (std::size_t r = 0; r < own.size(); ++r) {
       const double n = std::max(own[r].n, 1.0);
       start.emplace_back(own[r].start / n);
@@ -81,8 +81,8 @@ struct Neighbourhoods {
   }
 
   static Cell cell_of(const Eigen::Vector3d& p) {
-    return {static_cast<int>(std::floor(p.x() / kReach_A)), static_cast<int>(std::floor(p.y() / kReach_A)),
-            static_cast<int>(std::floor(p.z() / kReach_A))};
+    return {static_cast<int>(std::floor(p.x() / kResidueReach_A)), static_cast<int>(std::floor(p.y() / kResidueReach_A)),
+            static_cast<int>(std::floor(p.z() / kResidueReach_A))};
   }
 
   /// Whether the chain goes on from the residue before.
@@ -123,7 +123,7 @@ struct Neighbourhoods {
     Moments sum;
     for (const std::size_t k : around(r)) {
       const double far = std::max((start[k] - start[r]).squaredNorm(), (end[k] - end[r]).squaredNorm());
-      double weight = weight_at(far / (kReach_A * kReach_A));
+      double weight = weight_at(far / (kResidueReach_A * kResidueReach_A));
       if (k >= first && k <= last) {
         const double places = static_cast<double>(k > r ? k - r : r - k) / static_cast<double>(kWindow + 1);
         weight += weight_at(places * places);
@@ -155,7 +155,7 @@ DomainMotions local_motions(const Molecule& source, const Molecule& target, cons
     own.end += end;
     own.product += start * end.transpose();
   }
-  const Neighbourhoods neighbourhoods(source, std::move(moments));
+  const ResidueNeighbourhoods neighbourhoods(source, std::move(moments));
   DomainMotions result;
   result.of_residue.assign(source.residues.size(), -1);
   Vec3d rotation{};

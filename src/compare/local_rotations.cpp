@@ -12,12 +12,12 @@ namespace espdiff {
 namespace {
 
 /// Atoms farther apart than this at either end are not neighbours.
-constexpr double kReach_A = 12;
+constexpr double kAtomReach_A = 12;
 /// Added to the covariance. Damps rotations that few neighbours support: loops that move on their own, few atoms,
 /// collinear atoms. A neighbourhood inside a protein has about 2600 along each axis, at the surface about half. Less
 /// damping keeps more of the surface on its residue but tears more of it between neighbourhoods; see
 /// bench/study_notes.md.
-constexpr double kDamping_A2 = 300;
+constexpr double kAtomDamping_A2 = 300;
 
 using Cell = std::array<int, 3>;
 
@@ -29,17 +29,17 @@ bool same_motion(const Screw& a, const Screw& b) {
 }
 
 Cell cell_of(const Eigen::Vector3d& p) {
-  return {static_cast<int>(std::floor(p.x() / kReach_A)), static_cast<int>(std::floor(p.y() / kReach_A)),
-          static_cast<int>(std::floor(p.z() / kReach_A))};
+  return {static_cast<int>(std::floor(p.x() / kAtomReach_A)), static_cast<int>(std::floor(p.y() / kAtomReach_A)),
+          static_cast<int>(std::floor(p.z() / kAtomReach_A))};
 }
 
 /// Both ends of all paths, without the motions of their domains.
-struct Neighbourhoods {
+struct AtomNeighbourhoods {
   const std::vector<MovingAtom>& paths;
   std::vector<Eigen::Vector3d> start{}, end{};
   std::map<Cell, std::vector<std::size_t>> cells{};  ///< by the start; of atoms present at both ends
 
-  explicit Neighbourhoods(const std::vector<MovingAtom>& all) : paths(all) {
+  explicit AtomNeighbourhoods(const std::vector<MovingAtom>& all) : paths(all) {
     for (std::size_t i = 0; i < paths.size(); ++i) {
       start.push_back(to_eigen(paths[i].start));
       end.push_back(to_eigen(paths[i].start + paths[i].own_path()));
@@ -67,7 +67,7 @@ struct Neighbourhoods {
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
     visit(i, [&](std::size_t j) {
       const Eigen::Vector3d a = start[j] - start[i], b = end[j] - end[i];
-      const double share = 1 - std::max(a.squaredNorm(), b.squaredNorm()) / (kReach_A * kReach_A);
+      const double share = 1 - std::max(a.squaredNorm(), b.squaredNorm()) / (kAtomReach_A * kAtomReach_A);
       if (share <= 0 || !same_motion(paths[i].motion, paths[j].motion)) return;
       const double weight = share * share;
       all += weight;
@@ -76,7 +76,7 @@ struct Neighbourhoods {
       covariance += weight * a * b.transpose();
     });
     if (all <= 0) return {};
-    covariance += kDamping_A2 * Eigen::Matrix3d::Identity() - sum_start * sum_end.transpose() / all;
+    covariance += kAtomDamping_A2 * Eigen::Matrix3d::Identity() - sum_start * sum_end.transpose() / all;
     const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
     const double sign = svd.matrixV().determinant() * svd.matrixU().determinant() < 0 ? -1.0 : 1.0;
     const Eigen::Matrix3d rotation =
@@ -90,7 +90,7 @@ struct Neighbourhoods {
 }  // namespace
 
 void set_local_rotations(std::vector<MovingAtom>& paths, const Progress& progress) {
-  const Neighbourhoods neighbourhoods(paths);
+  const AtomNeighbourhoods neighbourhoods(paths);
   // Each atom's is its own: the same bits at any number of threads. Between blocks there is time to be cancelled.
   constexpr std::ptrdiff_t kBlock = 4096;
   const auto n = static_cast<std::ptrdiff_t>(paths.size());

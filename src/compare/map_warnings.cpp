@@ -3,15 +3,14 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "base/formatted.h"
+#include "base/not_a_number.h"
 #include "compare/input.h"
 
 namespace espdiff {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kLeastAtoms = 20;
 /// Chosen between what a right map reaches, near 1, and one shifted by 3 A, near 0. The range of real maps has not been
 /// measured.
@@ -37,7 +36,7 @@ class MapSampler {
       const double n = map_.lattice.size[axis];
       double place = dot(reciprocal_[axis], p - map_.lattice.origin);
       if (map_.periodic) place -= n * std::floor(place / n);
-      if (!(place >= 0) || place > (map_.periodic ? n : n - 1)) return kNan;
+      if (!(place >= 0) || place > (map_.periodic ? n : n - 1)) return kNaN;
       const double whole = std::min(std::floor(place), map_.periodic ? n - 1 : std::max(n - 2, 0.0));
       share[axis] = place - whole;
       low[axis] = static_cast<std::size_t>(whole);
@@ -80,15 +79,15 @@ double map_correlation(const Grid& map, const Molecule& molecule) {
     xy += q * value;
   }
   const double square = (xx - x * x / n) * (yy - y * y / n);
-  return n >= kLeastAtoms && square > 0 ? (xy - x * y / n) / std::sqrt(square) : kNan;
+  return n >= kLeastAtoms && square > 0 ? (xy - x * y / n) / std::sqrt(square) : kNaN;
 }
 
 std::vector<Warning> map_warnings(const CompareInput& source, const CompareInput& target, bool& checked) {
   std::vector<Warning> warnings;
   checked = true;
   if (source.map == nullptr && target.map == nullptr) return warnings;
-  const double of_source = source.map != nullptr ? map_correlation(*source.map, *source.molecule) : kNan,
-               of_target = target.map != nullptr ? map_correlation(*target.map, *target.molecule) : kNan;
+  const double of_source = source.map != nullptr ? map_correlation(*source.map, *source.molecule) : kNaN,
+               of_target = target.map != nullptr ? map_correlation(*target.map, *target.molecule) : kNaN;
   checked = (source.map == nullptr || std::isfinite(of_source)) && (target.map == nullptr || std::isfinite(of_target));
   if (source.map != nullptr && target.map != nullptr) {
     const double a = map_correlation(*source.map, *target.molecule), b = map_correlation(*target.map, *source.molecule);

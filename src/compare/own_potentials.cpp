@@ -3,14 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "base/not_a_number.h"
 
 namespace espdiff {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 /// Residues with less surface have no potential worth comparing.
-constexpr double kLeastArea_A2 = 5;
+constexpr double kLeastOwnArea_A2 = 5;
 
 /// [residue] whether a residue without a partner touches it.
 std::vector<bool> border_residues(const Mesh& surface, const std::vector<std::int32_t>& residue,
@@ -46,14 +46,14 @@ std::vector<OwnPotential> own_potentials(const Mesh& surface, const std::vector<
   }
   const std::vector<bool> borders = border_residues(surface, residue, partner_of);
   for (std::size_t r = 0; r < own.size(); ++r)
-    own[r].mean = borders[r] || own[r].area_A2 < kLeastArea_A2 ? kNan : own[r].mean / own[r].area_A2;
+    own[r].mean = borders[r] || own[r].area_A2 < kLeastOwnArea_A2 ? kNaN : own[r].mean / own[r].area_A2;
   return own;
 }
 
 void set_own_differences(std::vector<ResidueRow>& rows, const std::vector<OwnPotential>& source,
                          const std::vector<OwnPotential>& target, const std::vector<std::int32_t>& target_of) {
   for (ResidueRow& row : rows) {
-    row.own_difference = row.own_area_A2 = kNan;
+    row.own_difference = row.own_area_A2 = kNaN;
     const std::int32_t partner = target_of[row.residue];
     if (partner < 0) continue;
     const OwnPotential &a = source[row.residue], &b = target[static_cast<std::size_t>(partner)];
@@ -64,9 +64,9 @@ void set_own_differences(std::vector<ResidueRow>& rows, const std::vector<OwnPot
 
 ResidueCheck check_residues(const std::vector<ResidueRow>& rows, const std::vector<OwnPotential>& source) {
   double area = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0, errors = 0, potentials = 0;
-  ResidueCheck check{kNan, kNan, kNan, 0};
+  ResidueCheck check{kNaN, kNaN, kNaN, 0};
   for (const ResidueRow& row : rows) {
-    if (!(row.area_A2 >= kLeastArea_A2) || !std::isfinite(row.own_difference)) continue;
+    if (!(row.area_A2 >= kLeastOwnArea_A2) || !std::isfinite(row.own_difference)) continue;
     const double w = row.own_area_A2, a = row.own_difference, b = row.mean_signed_difference;
     area += w;
     x += w * a;

@@ -7,6 +7,7 @@
 
 #include "align/superpose.h"
 #include "base/earlier_patch.h"
+#include "base/not_a_number.h"
 #include "base/surface_parts.h"
 #include "compare/build_surface.h"
 #include "compare/certificate.h"
@@ -48,7 +49,6 @@ MeshPtr cut(Engine& engine, const MeshPtr& mesh, const std::vector<float>& exclu
   return engine.without(mesh, engine.upload_scalars(excluded));
 }
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 DistanceSummary nothing() { return {kNaN, kNaN, kNaN, kNaN, kNaN, nullptr}; }
 

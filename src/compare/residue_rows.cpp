@@ -2,7 +2,8 @@
 #include "compare/residue_rows.h"
 
 #include <cmath>
-#include <limits>
+
+#include "base/not_a_number.h"
 
 namespace espdiff {
 namespace {
@@ -48,18 +49,17 @@ std::vector<ResidueRow> residue_rows(const MappedSurface& s, std::size_t n_resid
     row.mean_target += weight[v] * b;
     row.sign_change_area_fraction += signs_differ(a, b) ? weight[v] : 0;
   }
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t r = 0; r < rows.size(); ++r) {
     ResidueRow& row = rows[r];
     row.residue = r;
-    const double scale = row.area_A2 > 0 ? 1 / row.area_A2 : kNan;
+    const double scale = row.area_A2 > 0 ? 1 / row.area_A2 : kNaN;
     row.mean_displacement_A *= scale;
     row.mean_path_length_A *= scale;
-    row.mean_slip_A *= slip_area[r] > 0 ? 1 / slip_area[r] : kNan;
-    row.slip_area_fraction *= slip_area[r] > 0 ? 1 / slip_area[r] : kNan;
+    row.mean_slip_A *= slip_area[r] > 0 ? 1 / slip_area[r] : kNaN;
+    row.slip_area_fraction *= slip_area[r] > 0 ? 1 / slip_area[r] : kNaN;
     for (double* value : {&row.mean_abs_difference, &row.mean_signed_difference, &row.mean_source, &row.mean_target,
                           &row.sign_change_area_fraction}) {
-      *value *= has_potential ? scale : kNan;
+      *value *= has_potential ? scale : kNaN;
     }
   }
   return rows;

@@ -17,10 +17,6 @@
 namespace espdiff {
 namespace {
 
-[[noreturn]] void refuse(const std::string& name, const std::string& text, const std::string& accepted) {
-  throw InputError(option(name) + ": '" + text + "' is not " + accepted);
-}
-
 /// Reads a number in the C locale, whatever locale the host program has set.
 template <typename Number>
 bool parse(const std::string& text, Number& value) {
@@ -60,7 +56,7 @@ Setting number(const std::string& name, const std::string& group, Range range, A
   Setting s{name, group, SettingKind::kNumber, {}, help, false, nullptr, nullptr};
   s.set = [name, range, at](CompareOptions& o, const std::string& text) {
     double value = 0;
-    if (!parse(text, value) || !within(range, value)) refuse(name, text, range.words);
+    if (!parse(text, value) || !within(range, value)) refuse_value(name, text, range.words);
     at(o) = value;
   };
   s.get = [at](const CompareOptions& o) { return written(at(o)); };
@@ -72,7 +68,7 @@ Setting count(const std::string& name, const std::string& group, At at, const st
   Setting s{name, group, SettingKind::kInteger, {}, help, false, nullptr, nullptr};
   s.set = [name, at](CompareOptions& o, const std::string& text) {
     int value = 0;
-    if (!parse(text, value) || value < 0) refuse(name, text, kCount.words);
+    if (!parse(text, value) || value < 0) refuse_value(name, text, kCount.words);
     at(o) = value;
   };
   s.get = [at](const CompareOptions& o) { return written(at(o)); };
@@ -83,7 +79,7 @@ template <typename At>
 Setting boolean(const std::string& name, const std::string& group, At at, const std::string& help) {
   Setting s{name, group, SettingKind::kBoolean, {}, help, false, nullptr, nullptr};
   s.set = [name, at](CompareOptions& o, const std::string& text) {
-    if (text != "0" && text != "1") refuse(name, text, "0 or 1");
+    if (text != "0" && text != "1") refuse_value(name, text, "0 or 1");
     at(o) = text == "1";
   };
   s.get = [at](const CompareOptions& o) { return at(o) ? "1" : "0"; };
@@ -99,14 +95,9 @@ Setting choice(const std::string& name, const std::string& group, std::vector<st
     list += (i == 0 ? "" : i + 1 == choices.size() ? " or " : ", ") + choices[i];
   Setting s{name, group, SettingKind::kChoice, choices, help, false, nullptr, get};
   s.set = [=](CompareOptions& o, const std::string& text) {
-    if (std::find(choices.begin(), choices.end(), text) == choices.end()) refuse(name, text, list);
+    if (std::find(choices.begin(), choices.end(), text) == choices.end()) refuse_value(name, text, list);
     set(o, text);
   };
-  return s;
-}
-
-Setting of_surface(Setting s) {
-  s.of_surface = true;
   return s;
 }
 
@@ -221,7 +212,7 @@ void add_mapping_settings(std::vector<Setting>& all) {
                  nullptr,
                  nullptr};
   thesis.set = [](CompareOptions&, const std::string& text) {
-    if (text != "0" && text != "1") refuse(kThesisSetting, text, "0 or 1");
+    if (text != "0" && text != "1") refuse_value(kThesisSetting, text, "0 or 1");
   };
   thesis.get = [](const CompareOptions&) { return "0"; };
   all.push_back(thesis);
@@ -235,11 +226,11 @@ std::vector<double> parse_offsets(const std::string& name, const std::string& te
   std::istringstream list(text);
   for (std::string part; std::getline(list, part, ',');) {
     double value = 0;
-    if (!parse(part, value) || !std::isfinite(value) || value < 0 || value > kMost_A) refuse(name, text, accepted);
-    if (std::find(offsets.begin(), offsets.end(), value) != offsets.end()) refuse(name, text, accepted + ", each once");
+    if (!parse(part, value) || !std::isfinite(value) || value < 0 || value > kMost_A) refuse_value(name, text, accepted);
+    if (std::find(offsets.begin(), offsets.end(), value) != offsets.end()) refuse_value(name, text, accepted + ", each once");
     offsets.push_back(value);
   }
-  if (offsets.empty() || text.back() == ',') refuse(name, text, accepted);
+  if (offsets.empty() || text.back() == ',') refuse_value(name, text, accepted);
   return offsets;
 }
 
@@ -312,6 +303,15 @@ std::vector<Setting> make_settings() {
 }
 
 }  // namespace
+
+void refuse_value(const std::string& name, const std::string& text, const std::string& accepted) {
+  throw InputError(option(name) + ": '" + text + "' is not " + accepted);
+}
+
+Setting of_surface(Setting row) {
+  row.of_surface = true;
+  return row;
+}
 
 std::string Setting::key() const {
   std::string key = unit.empty() ? name : name + "_" + unit;

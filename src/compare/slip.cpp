@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
+
+#include "base/not_a_number.h"
 
 namespace espdiff {
 
@@ -42,8 +43,7 @@ SlipSummary summarize_slip(const MappedSurface& surface, const std::vector<doubl
     if (slip > kLargeSlip_A) summary.large_area_fraction += areas[v];
     by_slip.emplace_back(slip, areas[v]);
   }
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  if (by_slip.empty()) return {kNan, kNan, kNan, kNan, kNan, kNan, 1};
+  if (by_slip.empty()) return {kNaN, kNaN, kNaN, kNaN, kNaN, kNaN, 1};
   summary.mean_A = sum / known;
   summary.medium_area_fraction /= known;
   summary.large_area_fraction /= known;

@@ -17,7 +17,7 @@ constexpr double kMostSlippedPart = 0.15;
 /// A smaller part is judged like a ligand: by its mean.
 constexpr std::size_t kLeastResidues = 10;
 /// Less surface than this says nothing about a ligand or an ion.
-constexpr double kLeastArea_A2 = 5;
+constexpr double kLeastJudgedArea_A2 = 5;
 constexpr std::size_t kMostNamed = 3;
 
 /// A chain, a rigid domain or a ligand.
@@ -72,7 +72,7 @@ std::vector<Part> parts_of(const CompareResult& result, const Molecule& source, 
 std::vector<std::string> slipped_residues(const CompareResult& result, const Molecule& source) {
   std::vector<const ResidueRow*> rows;
   for (const ResidueRow& row : result.residues) {
-    if (row.area_A2 >= kLeastArea_A2 && row.mean_slip_A > kLargeSlip_A) rows.push_back(&row);
+    if (row.area_A2 >= kLeastJudgedArea_A2 && row.mean_slip_A > kLargeSlip_A) rows.push_back(&row);
   }
   std::stable_sort(rows.begin(), rows.end(),
                    [](const ResidueRow* a, const ResidueRow* b) { return a->mean_slip_A > b->mean_slip_A; });
@@ -93,7 +93,7 @@ std::vector<Message> slip_reasons(const CompareResult& result, const Molecule& s
     reasons.emplace_back(percent(large) + " of the mapped area" + beyond + percent(most_slipped) + ")" +
                          most_at(slipped_residues(result, source)));
   for (const Part& part : parts_of(result, source, residue_kinds(source, atoms_of_residues(source)))) {
-    if (part.area < kLeastArea_A2) continue;
+    if (part.area < kLeastJudgedArea_A2) continue;
     if (part.n_residues >= kLeastResidues && part.large > kMostSlippedPart * part.area) {
       reasons.emplace_back(percent(part.large / part.area) + " of the mapped area of " + part.name + beyond +
                            percent(kMostSlippedPart) + ")");

@@ -6,6 +6,7 @@
 #include "ensemble/ensemble_file.h"
 #include "ensemble/ensemble_result.h"
 #include "ensemble/write_ensemble.h"
+#include "report/json_number.h"
 #include "report/placement.h"
 #include "statistics/arrangements.h"
 
@@ -13,8 +14,6 @@ namespace espdiff {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json options_json(const EnsembleOptions& options) {
   Json json;
@@ -38,13 +37,13 @@ Json replicates_json(const EnsembleResult& result) {
                    {"n_cut_off", r.n_cut_off},
                    {"n_failed", r.n_failed},
                    {"n_not_trustworthy", r.n_not_trustworthy},
-                   {"median_inefficiency", number(r.inefficiency)},
-                   {"median_effective_samples", number(r.effective)},
-                   {"median_error_by_blocks_over_error", number(r.error_ratio)},
-                   {"trend_share", number(r.drift.share)},
-                   {"trend_p", number(r.drift.p)},
-                   {"mean_potential", number(r.mean_potential)},
-                   {"mean_rmsd_A", number(r.mean_rmsd_A)}});
+                   {"median_inefficiency", json_number(r.inefficiency)},
+                   {"median_effective_samples", json_number(r.effective)},
+                   {"median_error_by_blocks_over_error", json_number(r.error_ratio)},
+                   {"trend_share", json_number(r.drift.share)},
+                   {"trend_p", json_number(r.drift.p)},
+                   {"mean_potential", json_number(r.mean_potential)},
+                   {"mean_rmsd_A", json_number(r.mean_rmsd_A)}});
   return all;
 }
 
@@ -59,9 +58,9 @@ Json test_json(const EnsembleResult& result) {
   json["exact"] = test.exact;
   json["smallest_p"] = test.smallest_p;
   if (!test.block_lengths.empty()) json["block_lengths"] = test.block_lengths;
-  json["mean_abs_difference"] = number(test.mean_abs_difference);
-  json["mean_abs_difference_p"] = number(test.mean_abs_difference_p);
-  json["mean_abs_difference_exchanged"] = number(test.mean_abs_difference_exchanged);
+  json["mean_abs_difference"] = json_number(test.mean_abs_difference);
+  json["mean_abs_difference_p"] = json_number(test.mean_abs_difference_p);
+  json["mean_abs_difference_exchanged"] = json_number(test.mean_abs_difference_exchanged);
   json["significant_area_A2"] = result.significant_area_A2;
   json["significant_area_fraction"] = result.significant_area_A2 / result.tested_area_A2;
   double smallest_max_t = 1, smallest_tfce = 1;
@@ -77,9 +76,9 @@ Json test_json(const EnsembleResult& result) {
 Json noise_json(const EnsembleResult& result) {
   Json json = Json::object();
   for (std::size_t g = 0; g < result.groups.size(); ++g)
-    json[result.groups[g].name] = {{"halves", number(result.noise.halves[g])},
-                                   {"replicates", number(result.noise.replicates[g])}};
-  if (result.compares) json["replicates_across_groups"] = number(result.noise.across);
+    json[result.groups[g].name] = {{"halves", json_number(result.noise.halves[g])},
+                                   {"replicates", json_number(result.noise.replicates[g])}};
+  if (result.compares) json["replicates_across_groups"] = json_number(result.noise.across);
   return json;
 }
 
@@ -87,19 +86,19 @@ Json regression_json(const EnsembleFile& file, const EnsembleRegression& regress
   const SurfaceRegression& surface = regression.surface;
   Json json = {{"column", regression.column.name}, {"n_arrangements", surface.n_arrangements},
                {"exact", surface.exact},           {"smallest_p", surface.smallest_p},
-               {"q2", number(surface.q2)},         {"q2_p", number(surface.q2_p)},
+               {"q2", json_number(surface.q2)},         {"q2_p", json_number(surface.q2_p)},
                {"replicates", Json::array()},      {"patches", Json::array()}};
   for (std::size_t r = 0; r < regression.column.values.size(); ++r)
     json["replicates"].push_back({{"group", file.plan().replicates[r].group},
                                   {"name", file.plan().replicates[r].name},
-                                  {"value", number(regression.column.values[r])},
-                                  {"predicted", number(surface.predicted[r])}});
+                                  {"value", json_number(regression.column.values[r])},
+                                  {"predicted", json_number(surface.predicted[r])}});
   for (const EnsembleRegression::Patch& patch : regression.patches) {
     Json residues = Json::array();
     for (const auto& [residue, share] : patch.residues) residues.push_back({{"residue", residue}, {"share", share}});
     json["patches"].push_back({{"area_A2", patch.patch.area},
-                               {"correlation", number(patch.correlation)},
-                               {"slope", number(patch.slope)},
+                               {"correlation", json_number(patch.correlation)},
+                               {"slope", json_number(patch.slope)},
                                {"smallest_p", patch.smallest_p},
                                {"residues", std::move(residues)}});
   }
@@ -114,9 +113,9 @@ Json patches_json(const EnsembleFile& file, const EnsembleResult& result) {
     Json residues = Json::array();
     for (const auto& [residue, share] : patch.residues) residues.push_back({{"residue", residue}, {"share", share}});
     all.push_back({{"area_A2", patch.patch.area},
-                   {"difference", number(result.patch_tests.difference[k])},
-                   {"low", number(result.patch_tests.low[k])},
-                   {"high", number(result.patch_tests.high[k])},
+                   {"difference", json_number(result.patch_tests.difference[k])},
+                   {"low", json_number(result.patch_tests.low[k])},
+                   {"high", json_number(result.patch_tests.high[k])},
                    {"smallest_p", patch.smallest_p},
                    {"peak_A", {peak.x, peak.y, peak.z}},
                    {"residues", std::move(residues)}});
@@ -144,13 +143,13 @@ Json ensemble_json(const EnsembleFile& file, const EnsembleResult& result) {
     const FixedPatch& patch = result.fixed_patches[k];
     Json entry = {{"area_A2", patch.area_A2}, {"means", Json::object()}};
     for (std::size_t g = 0; g < result.groups.size(); ++g)
-      entry["means"][result.groups[g].name] = number(patch.means[g]);
+      entry["means"][result.groups[g].name] = json_number(patch.means[g]);
     if (result.compares) {
       const PlaceTests& t = result.fixed_patch_tests;
-      entry["difference"] = number(t.difference[k]);
-      entry["low"] = number(t.low[k]);
-      entry["high"] = number(t.high[k]);
-      entry["p"] = number(t.p[k]);
+      entry["difference"] = json_number(t.difference[k]);
+      entry["low"] = json_number(t.low[k]);
+      entry["high"] = json_number(t.high[k]);
+      entry["p"] = json_number(t.p[k]);
     }
     if (patch.placement != nullptr) entry["placement"] = placement_json(*patch.placement);
     json["fixed_patches"][patch.name] = std::move(entry);
@@ -159,19 +158,19 @@ Json ensemble_json(const EnsembleFile& file, const EnsembleResult& result) {
     json["states"] = {{"n", result.states->size()}, {"area_fraction", result.states->area_fraction}};
     json["states"]["component_shares"] = Json::array();
     for (const auto& component : result.states->components)
-      json["states"]["component_shares"].push_back(number(component.share));
+      json["states"]["component_shares"].push_back(json_number(component.share));
   }
   if (!result.template_checks.empty()) {
     json["template_check"] = Json::array();
     for (const TemplateCheck& check : result.template_checks) {
       Json differences = Json::array();
-      for (const double difference : check.patch_differences) differences.push_back(number(difference));
+      for (const double difference : check.patch_differences) differences.push_back(json_number(difference));
       json["template_check"].push_back({{"template", check.template_name},
-                                        {"mean_abs_difference", number(check.mean_abs_difference)},
+                                        {"mean_abs_difference", json_number(check.mean_abs_difference)},
                                         {"significant_area_A2", check.significant_area_A2},
-                                        {"overlap", number(check.overlap)},
+                                        {"overlap", json_number(check.overlap)},
                                         {"patch_differences", std::move(differences)},
-                                        {"largest_change", number(check.largest_change)}});
+                                        {"largest_change", json_number(check.largest_change)}});
     }
   }
   if (result.compares) json["patches"] = patches_json(file, result);

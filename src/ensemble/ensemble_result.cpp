@@ -9,6 +9,7 @@
 #include "base/earlier_patch.h"
 #include "base/error.h"
 #include "base/formatted.h"
+#include "base/not_a_number.h"
 #include "ensemble/ensemble_file.h"
 #include "ensemble/template_patches.h"
 #include "statistics/false_discovery.h"
@@ -17,7 +18,6 @@
 namespace espdiff {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kFewEffective = 20;
 using Means = std::vector<std::vector<double>>;
 

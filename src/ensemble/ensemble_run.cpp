@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/not_a_number.h"
 #include "base/residue_label.h"
 #include "compare/options.h"
 #include "compare/template_mapping.h"
@@ -141,7 +142,6 @@ EnsembleReport run_ensemble(Engine& engine, EnsemblePlan plan, const CompareInpu
         if (file.n_done() == 0) fs::remove(report.path);  // nothing is lost
         throw Error(error.error_class(), name + ": " + error.message());
       }
-      constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
       file.write(f, std::vector<float>(file.n_vertices(), std::numeric_limits<float>::quiet_NaN()),
                  {kNaN, 1, 1, kNaN, kNaN, kNaN, false, error.what()});
       ++report.n_skipped;

@@ -3,17 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "align/pair_atoms.h"
 #include "align/superpose.h"
 #include "base/error.h"
+#include "base/not_a_number.h"
 
 namespace espdiff {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// [atom of the first frame] positions in another frame; NaN if it has no partner.
 std::vector<Vec3d> as_in_first(const Molecule& first, const Molecule& frame) {

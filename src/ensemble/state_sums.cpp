@@ -3,14 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/not_a_number.h"
 #include "ensemble/ensemble_file.h"
 
 namespace espdiff {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// The block's sums of two frames. Each is added up by itself first, so that long sums stay exact.
 PairSums sums_of(const StateBlock& block, std::size_t i, std::size_t j, const double* weights) {

@@ -4,9 +4,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/error.h"
+#include "base/not_a_number.h"
 #include "ensemble/ensemble_file.h"
 #include "ensemble/ensemble_result.h"
 #include "io/atomic_file.h"
@@ -14,8 +14,6 @@
 
 namespace espdiff {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<std::size_t> usable_frames(const EnsembleFile& file, const EnsembleResult& result) {
   std::vector<std::size_t> frames;

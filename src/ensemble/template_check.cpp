@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/not_a_number.h"
 #include "ensemble/ensemble_file.h"
 #include "ensemble/ensemble_result.h"
 
@@ -12,7 +12,6 @@ namespace espdiff {
 namespace {
 
 constexpr double kFar_A = 2;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// [vertex of the first] the nearest vertex of the other; -1 beyond kFar_A.
 std::vector<std::int64_t> nearest_vertices(const std::vector<Vec3d>& first, const std::vector<Vec3d>& other) {

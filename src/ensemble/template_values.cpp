@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/not_a_number.h"
 #include "compare/options.h"
 #include "compare/settings.h"
 #include "ensemble/ensemble_file.h"
@@ -20,8 +21,6 @@
 
 namespace espdiff {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 void require_states(const EnsembleFile& file) {
   for (std::size_t i = 0; i < file.plan().n_frames(); ++i) {

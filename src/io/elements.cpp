@@ -6,6 +6,7 @@
 
 #include "io/elements.h"
 #include "io/molecule_builder.h"
+#include "io/text_cursor.h"
 
 namespace espdiff {
 namespace {
@@ -53,7 +54,6 @@ const ElementRadius* find_element(std::string_view element) {
 
 char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-bool is_letter(char c) { return upper(c) >= 'A' && upper(c) <= 'Z'; }
 
 /// "FE" -> "Fe".
 std::string as_symbol(std::string_view letters) {

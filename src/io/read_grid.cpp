@@ -13,7 +13,7 @@
 namespace espdiff {
 namespace {
 
-[[noreturn]] void refuse(const std::string& path, FileKind kind) {
+[[noreturn]] void refuse_as_grid(const std::string& path, FileKind kind) {
   std::string remedy = "give an OpenDX, cube or VTI file";
   switch (kind) {
     case FileKind::kCcp4: remedy = "load it in VMD and save it as OpenDX (.dx)"; break;
@@ -53,7 +53,7 @@ GridFile read_grid_file(const std::string& path, const GridOptions& options) {
   FileContent file = read_input(path, [&](std::string_view head) {
     kind = recognise(head);
     if (kind == FileKind::kVti) return;
-    if (kind != FileKind::kDx && kind != FileKind::kCube) refuse(path, kind);
+    if (kind != FileKind::kDx && kind != FileKind::kCube) refuse_as_grid(path, kind);
     refuse_array(path, options);
   });
   std::string sha256 = file.sha256;

@@ -21,8 +21,6 @@ struct PqrAtom {
   double radius = 0;
 };
 
-bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
-
 /// "52", "-3", "52A" (insertion code), "A52" (chain in front; only when `may_have_chain`).
 bool parse_residue_number(std::string_view word, bool may_have_chain, AtomEntry& entry) {
   std::string chain;

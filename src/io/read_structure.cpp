@@ -25,7 +25,7 @@
 namespace espdiff {
 namespace {
 
-[[noreturn]] void refuse(const std::string& path, FileKind kind) {
+[[noreturn]] void refuse_as_structure(const std::string& path, FileKind kind) {
   std::string remedy = "give a PQR, PDB or mmCIF file";
   switch (kind) {
     case FileKind::kDx:
@@ -105,7 +105,7 @@ StructureFile::StructureFile(const std::string& path) {
   parsed->file = read_input(path, [&](std::string_view head) {
     const FileKind kind = recognise(head);
     parsed->is_mmcif = kind == FileKind::kMmcif;
-    if (!parsed->is_mmcif && kind != FileKind::kAtomRecords) refuse(path, kind);
+    if (!parsed->is_mmcif && kind != FileKind::kAtomRecords) refuse_as_structure(path, kind);
   });
   unify_line_ends(parsed->file.content);
   if (!parsed->is_mmcif) parsed->models = split_models(parsed->file.content, path);

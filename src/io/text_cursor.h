@@ -14,6 +14,9 @@ bool parse_number(std::string_view word, double& value);
 /// Reads all of `word` as a decimal integer that fits; a leading "+" is allowed.
 bool parse_integer(std::string_view word, long long& value);
 
+/// Of the Latin alphabet, whatever locale the host program has set.
+bool is_letter(char c);
+
 /// `text` without blanks (space, tab, carriage return) at both ends.
 std::string_view trimmed(std::string_view text);
 

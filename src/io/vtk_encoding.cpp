@@ -176,6 +176,13 @@ std::string_view unpack(EncodedText& text, const VtkEncoding& encoding, std::uin
 
 }  // namespace
 
+const char* vtk_byte_order() {
+  const std::uint16_t probe = 1;
+  unsigned char first = 0;
+  std::memcpy(&first, &probe, 1);
+  return first == 1 ? "LittleEndian" : "BigEndian";
+}
+
 std::uint64_t load_unsigned(const char* bytes, std::size_t n_bytes, bool big_endian) {
   std::uint64_t value = 0;
   for (std::size_t i = 0; i < n_bytes; ++i) {

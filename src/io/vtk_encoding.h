@@ -17,6 +17,9 @@ struct VtkEncoding {
 /// For decode_array(): the file says how many bytes there are, up to 1,000,000.
 constexpr std::uint64_t kAnyLength = ~std::uint64_t{0};
 
+/// This machine's, as a file's head names it: "LittleEndian" or "BigEndian".
+const char* vtk_byte_order();
+
 /// The unsigned number in the first `n_bytes` (at most 8) of `bytes`.
 std::uint64_t load_unsigned(const char* bytes, std::size_t n_bytes, bool big_endian);
 

@@ -31,4 +31,10 @@ void write_csv_row(std::ostream& out, const std::vector<std::string>& fields) {
   out << '\n';
 }
 
+std::string csv_row(const std::vector<std::string>& fields) {
+  std::ostringstream row;
+  write_csv_row(row, fields);
+  return row.str();
+}
+
 }  // namespace espdiff

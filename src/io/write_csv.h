@@ -13,4 +13,7 @@ std::string csv_number(double value, int n_digits = 6);
 /// Writes one row; a field with a comma, a quote or a line break is quoted.
 void write_csv_row(std::ostream& out, const std::vector<std::string>& fields);
 
+/// The same as text, with the line's end.
+std::string csv_row(const std::vector<std::string>& fields);
+
 }  // namespace espdiff

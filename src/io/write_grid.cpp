@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "io/atomic_file.h"
+#include "io/vtk_encoding.h"
 
 namespace espdiff {
 namespace {
@@ -92,13 +93,6 @@ std::string vti_numbers(std::initializer_list<double> values) {
   return text;
 }
 
-const char* byte_order() {
-  const std::uint16_t probe = 1;
-  unsigned char first = 0;
-  std::memcpy(&first, &probe, 1);
-  return first == 1 ? "LittleEndian" : "BigEndian";
-}
-
 void write_vti_content(std::ostream& out, const Grid& grid) {
   const Lattice& lattice = grid.lattice;
   const double length[3] = {norm(lattice.step[0]), norm(lattice.step[1]), norm(lattice.step[2])};
@@ -107,7 +101,7 @@ void write_vti_content(std::ostream& out, const Grid& grid) {
   std::string extent;
   for (const int n : lattice.size) extent += (extent.empty() ? "0 " : " 0 ") + std::to_string(n - 1);
   const Vec3d& o = lattice.origin;
-  out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"" << byte_order()
+  out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"" << vtk_byte_order()
       << "\" header_type=\"UInt64\">\n  <ImageData WholeExtent=\"" << extent << "\" Origin=\""
       << vti_numbers({o.x, o.y, o.z}) << "\" Spacing=\"" << vti_numbers({length[0], length[1], length[2]})
       << "\" Direction=\"" << vti_numbers({a.x, b.x, c.x, a.y, b.y, c.y, a.z, b.z, c.z}) << "\">\n    <FieldData>\n"

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "io/vtk_encoding.h"
 
 namespace espdiff {
 namespace {
@@ -30,13 +31,6 @@ const char* name_of(VtpType type) {
     case VtpType::kUInt8: break;
   }
   return "UInt8";
-}
-
-const char* byte_order() {
-  const std::uint16_t probe = 1;
-  unsigned char first = 0;
-  std::memcpy(&first, &probe, 1);
-  return first == 1 ? "LittleEndian" : "BigEndian";
 }
 
 std::string escaped(const std::string& text) {
@@ -139,7 +133,7 @@ void write_vtp(std::ostream& out, const VtpSurface& surface) {
   }
   AppendedData appended;
   out << "<?xml version=\"1.0\"?>\n"
-      << "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"" << byte_order() << "\" header_type=\"UInt64\">\n"
+      << "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"" << vtk_byte_order() << "\" header_type=\"UInt64\">\n"
       << "  <PolyData>\n";
   write_texts(out, surface.texts);
   out << "    <Piece NumberOfPoints=\"" << surface.points.n_tuples

@@ -9,10 +9,10 @@
 namespace espdiff {
 namespace {
 
-constexpr int kMostLevels = 64;
+constexpr int kMostXmlLevels = 64;
 constexpr std::size_t kMostElements = 100'000;
 
-bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+bool is_xml_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
 bool is_name_character(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
@@ -62,7 +62,7 @@ class XmlParser {
   bool next_is(std::string_view what) const { return text_.substr(position_, what.size()) == what; }
 
   void skip_space() {
-    while (position_ < text_.size() && is_space(text_[position_])) ++position_;
+    while (position_ < text_.size() && is_xml_space(text_[position_])) ++position_;
   }
 
   void skip_past(std::string_view end, const char* what) {
@@ -195,7 +195,7 @@ class XmlParser {
 
   XmlElement parse_element(int level) {
     if (!next_is("<")) fail("an element was expected, but " + shown_next() + " follows");
-    if (level > kMostLevels) fail("elements lie in each other more than " + std::to_string(kMostLevels) + " deep");
+    if (level > kMostXmlLevels) fail("elements lie in each other more than " + std::to_string(kMostXmlLevels) + " deep");
     if (++n_elements_ > kMostElements) fail("there are more than " + std::to_string(kMostElements) + " elements");
     XmlElement element;
     element.line = current_line();

@@ -6,10 +6,10 @@
 #include <limits>
 #include <numeric>
 
+#include "base/not_a_number.h"
+
 namespace espdiff {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// Sum and number of the known distances between two clusters' variants.
 struct Link {
@@ -99,7 +99,7 @@ std::vector<ClusterMerge> average_linkage(const DistanceTable& distances, std::s
   while (clusters.size() > 1) {
     const auto [a, b] = nearest(clusters);
     const double distance = clusters[a].links[b].mean();
-    merges.push_back({clusters[a].id, clusters[b].id, std::isfinite(distance) ? distance : kNan,
+    merges.push_back({clusters[a].id, clusters[b].id, std::isfinite(distance) ? distance : kNaN,
                       clusters[a].n_variants + clusters[b].n_variants});
     join(clusters, a, b, n + merges.size() - 1);
   }
@@ -121,7 +121,7 @@ double correlation(const std::vector<double>& a_given, const std::vector<double>
   std::vector<double> a = a_given, b = b_given;
   keep_known(a, b);
   const std::size_t n = a.size();
-  if (n < 3) return kNan;
+  if (n < 3) return kNaN;
   const double mean_a = std::accumulate(a.begin(), a.end(), 0.0) / static_cast<double>(n);
   const double mean_b = std::accumulate(b.begin(), b.end(), 0.0) / static_cast<double>(n);
   double aa = 0, bb = 0, ab = 0;
@@ -130,7 +130,7 @@ double correlation(const std::vector<double>& a_given, const std::vector<double>
     bb += (b[i] - mean_b) * (b[i] - mean_b);
     ab += (a[i] - mean_a) * (b[i] - mean_b);
   }
-  return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : kNan;
+  return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : kNaN;
 }
 
 double rank_correlation(const std::vector<double>& a_given, const std::vector<double>& b_given) {

@@ -2,12 +2,12 @@
 #include "matrix/matrix.h"
 
 #include <cmath>
-#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
 
 #include "base/error.h"
+#include "base/not_a_number.h"
 #include "compare/input_settings.h"
 #include "compare/options.h"
 #include "compare/region_result.h"
@@ -17,8 +17,6 @@
 
 namespace espdiff {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<Metric> make_metrics(const std::vector<std::string>& parts) {
   std::vector<Metric> all;
@@ -39,7 +37,7 @@ MatrixCell cell_of(const MatrixPair& pair, const CompareResult& result) {
   const std::vector<std::string> parts = part_names(result);
   for (const Metric& metric : matrix_metrics(parts)) {
     const double value = value_of(metric, result);
-    cell.values.push_back(std::isfinite(value) ? value : kNan);
+    cell.values.push_back(std::isfinite(value) ? value : kNaN);
   }
   cell.converged = result.certificate.converged;
   cell.trustworthy = result.certificate.trustworthy;
@@ -53,7 +51,7 @@ MatrixCell failed_cell(const MatrixPair& pair, const std::string& error, const s
   MatrixCell cell;
   cell.source = pair.first;
   cell.target = pair.second;
-  cell.values.assign(matrix_metrics(parts).size(), kNan);
+  cell.values.assign(matrix_metrics(parts).size(), kNaN);
   cell.parts_trustworthy.assign(parts.size(), 0);
   cell.error = error;
   return cell;

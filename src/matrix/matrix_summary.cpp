@@ -3,14 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/error.h"
+#include "base/not_a_number.h"
 
 namespace espdiff {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 bool same_value(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
@@ -88,7 +86,7 @@ Asymmetry asymmetry(const Matrix& matrix, std::size_t metric) {
     }
   }
   const double mean_magnitude = magnitudes / static_cast<double>(n_pairs);  // NaN without pairs
-  const double scale = mean_magnitude > 0 ? 1 / mean_magnitude : (n_pairs > 0 ? 0 : kNan);
+  const double scale = mean_magnitude > 0 ? 1 / mean_magnitude : (n_pairs > 0 ? 0 : kNaN);
   result.mean = scale * sum / static_cast<double>(std::max<std::size_t>(n_pairs, 1));
   result.max *= scale;
   return result;
@@ -103,7 +101,7 @@ std::vector<GroupMean> group_means(const Matrix& matrix, std::size_t metric) {
   std::vector<GroupMean> means;
   for (const std::string& source : groups) {
     for (const std::string& target : groups) {
-      GroupMean mean{source, target, 0, 0, 0, kNan, kNan};
+      GroupMean mean{source, target, 0, 0, 0, kNaN, kNaN};
       for (const MatrixCell& cell : matrix.cells) {
         const double value = cell.values[metric];
         if (matrix.plan.variants[cell.source].group != source || matrix.plan.variants[cell.target].group != target ||
@@ -115,7 +113,7 @@ std::vector<GroupMean> group_means(const Matrix& matrix, std::size_t metric) {
         mean.n_trustworthy += cell.trustworthy ? 1 : 0;
         ++mean.n;
       }
-      mean.mean = mean.n > 0 ? mean.mean / static_cast<double>(mean.n) : kNan;
+      mean.mean = mean.n > 0 ? mean.mean / static_cast<double>(mean.n) : kNaN;
       means.push_back(mean);
     }
   }

@@ -7,14 +7,13 @@
 #include "io/atomic_file.h"
 #include "io/write_csv.h"
 #include "matrix/write_through_template.h"
+#include "report/json_number.h"
 #include "report/write_compare.h"
 
 namespace espdiff {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 std::string dumped(const Json& json) {
   // A path need not be UTF-8, JSON must be.
@@ -55,7 +54,7 @@ Json metric_json(const Matrix& matrix, std::size_t m) {
   const Metric& metric = matrix.metrics()[m];
   return {{"title", metric.label},
           {"unit", unit_of(metric, matrix.plan.potential_unit)},
-          {"values", table(matrix, [m](const MatrixCell& cell) { return number(cell.values[m]); })}};
+          {"values", table(matrix, [m](const MatrixCell& cell) { return json_number(cell.values[m]); })}};
 }
 
 Json asymmetry_json(const Matrix& matrix) {
@@ -64,8 +63,8 @@ Json asymmetry_json(const Matrix& matrix) {
     if (!matrix.gives(m)) continue;
     const Asymmetry a = asymmetry(matrix, m);
     json[matrix.metrics()[m].name] = {
-        {"mean", number(a.mean)},
-        {"max", number(a.max)},
+        {"mean", json_number(a.mean)},
+        {"max", json_number(a.max)},
         {"pair", {matrix.plan.variants[a.first].label, matrix.plan.variants[a.second].label}}};
   }
   return json;
@@ -81,9 +80,9 @@ Json groups_json(const Matrix& matrix) {
                        {"target", g.target},
                        {"n", g.n},
                        {"n_trustworthy", g.n_trustworthy},
-                       {"mean", number(g.mean)},
-                       {"min", number(g.min)},
-                       {"max", number(g.max)}});
+                       {"mean", json_number(g.mean)},
+                       {"min", json_number(g.min)},
+                       {"max", json_number(g.max)}});
     }
     if (!means.empty()) json[matrix.metrics()[m].name] = std::move(means);
   }
@@ -93,7 +92,7 @@ Json groups_json(const Matrix& matrix) {
 Json clustering_json(const Matrix& matrix, const Clustering& clustering) {
   Json merges = Json::array(), order = Json::array();
   for (const ClusterMerge& merge : clustering.merges)
-    merges.push_back({merge.left, merge.right, number(merge.distance), merge.n_variants});
+    merges.push_back({merge.left, merge.right, json_number(merge.distance), merge.n_variants});
   for (const std::size_t i : clustering.order) order.push_back(matrix.plan.variants[i].label);
   return {{"metric", matrix.metrics()[clustering.metric].name},
           {"linkage", "average"},
@@ -116,8 +115,8 @@ Json hodgkin_json(const Matrix& matrix, std::size_t metric) {
   const std::vector<double> a = upper_triangle(symmetric_distances(matrix, metric), matrix.n());
   const std::vector<double> b = upper_triangle(symmetric_distances(matrix, hodgkin), matrix.n());
   return {{"distance", "sqrt(2 - 2 H)"},
-          {"correlation", number(correlation(a, b))},
-          {"rank_correlation", number(rank_correlation(a, b))},
+          {"correlation", json_number(correlation(a, b))},
+          {"rank_correlation", json_number(rank_correlation(a, b))},
           {"clustering", clustering_json(matrix, cluster(matrix, hodgkin))}};
 }
 

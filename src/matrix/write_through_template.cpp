@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/formatted.h"
+#include "report/json_number.h"
 #include "report/write_compare.h"
 
 namespace espdiff {
@@ -12,19 +13,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 Json state_json(const std::string& label, const TemplateState& state) {
   Json json = {{"label", label}};
   if (!state.error.empty()) {
     json["error"] = state.error;
     return json;
   }
-  json["rmsd_A"] = number(state.rmsd_A);
-  json["no_counterpart_area_fraction"] = {{"template", number(state.unmatched_template)},
-                                          {"state", number(state.unmatched_state)}};
-  json["mapped_to_state_mean_within_limit_A"] = number(state.distance_A);
-  json["same_residue_area_fraction"] = number(state.same_residue_area_fraction);
+  json["rmsd_A"] = json_number(state.rmsd_A);
+  json["no_counterpart_area_fraction"] = {{"template", json_number(state.unmatched_template)},
+                                          {"state", json_number(state.unmatched_state)}};
+  json["mapped_to_state_mean_within_limit_A"] = json_number(state.distance_A);
+  json["same_residue_area_fraction"] = json_number(state.same_residue_area_fraction);
   json["trustworthy"] = state.trustworthy;
   if (!state.trustworthy) json["reason"] = state.reason;
   return json;
@@ -36,7 +35,7 @@ Json pair_json(const Matrix& matrix, const MatrixCell& cell) {
                {"trustworthy", cell.error.empty() ? Json(cell.trustworthy) : Json(nullptr)}};
   if (!cell.error.empty()) json["error"] = cell.error;
   for (std::size_t m = 0; m < cell.values.size(); ++m) {
-    if (matrix.gives(m)) json["metrics"][matrix.metrics()[m].name] = number(cell.values[m]);
+    if (matrix.gives(m)) json["metrics"][matrix.metrics()[m].name] = json_number(cell.values[m]);
   }
   return json;
 }
@@ -52,7 +51,7 @@ Json exact_json(const Matrix& matrix) {
         {"mean_difference", of.mean_difference},
         {"largest_difference", of.largest_difference},
         {"pair", {matrix.plan.variants[of.farthest.first].label, matrix.plan.variants[of.farthest.second].label}},
-        {"correlation", number(of.correlation)}};
+        {"correlation", json_number(of.correlation)}};
   }
   return json;
 }
@@ -128,7 +127,7 @@ Json through_template_json(const Matrix& matrix) {
                {"area_A2", through.area_A2},
                {"options", options_json(through.settings)},
                {"compared_area_fraction",
-                {{"mean", number(through.mean_area_fraction)}, {"least", number(through.least_area_fraction)}}}};
+                {{"mean", json_number(through.mean_area_fraction)}, {"least", json_number(through.least_area_fraction)}}}};
   json["states"] = Json::array();
   for (std::size_t i = 0; i < matrix.n(); ++i)
     json["states"].push_back(state_json(matrix.plan.variants[i].label, through.states[i]));

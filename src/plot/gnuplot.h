@@ -5,6 +5,9 @@
 
 namespace espdiff {
 
+/// Of text and axes.
+inline constexpr const char* kInk = "#202020";
+
 enum class PictureFormat { kPng, kSvg };
 
 /// By the extension. @throws InputError unless it is .png or .svg

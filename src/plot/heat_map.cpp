@@ -12,7 +12,6 @@
 namespace espdiff {
 namespace {
 
-constexpr const char* kInk = "#202020";
 constexpr const char* kNoValue = "#ececec";
 constexpr double kTreeShare = 0.18;  // height above the matrix, as a fraction of its side
 

@@ -11,7 +11,6 @@
 namespace espdiff {
 namespace {
 
-constexpr const char* kInk = "#202020";
 /// M. Okabe and K. Ito's colours, distinguishable with any colour vision; without yellow, which is too light for lines.
 constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#000000"};
 constexpr std::size_t kColourCount = sizeof kColours / sizeof *kColours;

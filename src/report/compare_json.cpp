@@ -9,6 +9,7 @@
 #include "compare/options.h"
 #include "compare/result.h"
 #include "compare/settings.h"
+#include "report/json_number.h"
 #include "report/metrics.h"
 #include "report/placement.h"
 #include "report/potential_json.h"
@@ -21,9 +22,6 @@ namespace espdiff {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// JSON has no NaN: what has no value is null.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 const char* name_of(ValueOrigin origin) {
   switch (origin) {
@@ -38,7 +36,7 @@ const char* name_of(ValueOrigin origin) {
 /// Counts stay whole numbers.
 Json number_of(const Metric& metric, double value) {
   if (metric.unit == MetricUnit::kCount && std::isfinite(value)) return static_cast<long long>(std::llround(value));
-  return number(value);
+  return json_number(value);
 }
 
 /// Every metric at its place. What was not checked is null as a whole.
@@ -76,7 +74,7 @@ void add_verdict(Json& json, const Certificate& c) {
 Json metrics_all_triangles(const CompareResult& result) {
   Json json;
   for (const Metric& metric : metrics()) {
-    if (metric.source.of_area != nullptr) json[metric.name] = number(value_over_all_triangles(metric, result));
+    if (metric.source.of_area != nullptr) json[metric.name] = json_number(value_over_all_triangles(metric, result));
   }
   return json;
 }
@@ -85,7 +83,7 @@ Json metrics_all_triangles(const CompareResult& result) {
 Json metrics_without_slip(const CompareResult& result) {
   Json json;
   for (const Metric& metric : metrics()) {
-    if (metric.source.of_area != nullptr) json[metric.name] = number(value_without_slip(metric, result));
+    if (metric.source.of_area != nullptr) json[metric.name] = json_number(value_without_slip(metric, result));
   }
   return json;
 }
@@ -95,9 +93,9 @@ Json offsets(const CompareResult& result) {
   Json json = Json::array();
   for (const OffsetMetrics& at : result.by_offset) {
     Json entry;
-    entry["offset_A"] = number(at.offset_A);
+    entry["offset_A"] = json_number(at.offset_A);
     for (const Metric& metric : metrics()) {
-      if (metric.source.of_area != nullptr) entry[metric.name] = number(at.metrics.*metric.source.of_area);
+      if (metric.source.of_area != nullptr) entry[metric.name] = json_number(at.metrics.*metric.source.of_area);
     }
     entry["n_vertices_inside"] = {{"source", at.n_inside_source}, {"target", at.n_inside_target}};
     entry["n_vertices_outside_map"] = {{"source", at.n_outside_source_map}, {"target", at.n_outside_target_map}};
@@ -112,7 +110,7 @@ Json domains(const Molecule& source, const std::vector<RigidDomain>& all) {
     json.push_back({{"residues", residue_ranges(source, domain.residues)},
                     {"n_residues", domain.residues.size()},
                     {"n_superposed_atoms", domain.n_atoms},
-                    {"rmsd_A", number(domain.rmsd_A)}});
+                    {"rmsd_A", json_number(domain.rmsd_A)}});
   return json;
 }
 
@@ -132,14 +130,14 @@ Json paired_atoms(const AtomPairing& pairing) {
 Json superposition(const Molecule& source, const CompareResult& result) {
   const RigidTransform& t = result.source_to_target;
   Json rotation = Json::array();
-  for (const double entry : t.rotation) rotation.push_back(number(entry));
+  for (const double entry : t.rotation) rotation.push_back(json_number(entry));
   Json json;
   json["pairing"] = result.pairing.method;
   json["n_aligned_residues"] = result.pairing.n_aligned_residues;
   json["n_substituted_residues"] = result.pairing.n_substituted_residues;
   json["n_superposed_atoms"] = result.n_superposed_atoms;
   json["rotation_row_major"] = std::move(rotation);
-  json["translation_A"] = {number(t.translation.x), number(t.translation.y), number(t.translation.z)};
+  json["translation_A"] = {json_number(t.translation.x), json_number(t.translation.y), json_number(t.translation.z)};
   json["domains"] = domains(source, result.domains);
   json["paired_atoms"] = paired_atoms(result.pairing);
   return json;
@@ -148,18 +146,18 @@ Json superposition(const Molecule& source, const CompareResult& result) {
 /// What the mapping followed, and the other mapping where the pair was mapped twice.
 Json motions(const CompareResult& result) {
   Json json{{"domains", result.domains_used},
-            {"own_residue_area_fraction", number(own_residue_share(result))},
+            {"own_residue_area_fraction", json_number(own_residue_share(result))},
             {"because", nullptr},
             {"other", nullptr}};
   if (!result.other_mapping) return json;
   const OtherMapping& other = *result.other_mapping;
   json["because"] = other.because;
   json["other"] = {{"domains", other.domains},
-                   {"own_residue_area_fraction", number(other.own_residue_area_fraction)},
-                   {"beyond_3A_area_fraction", number(other.slip_area_fraction)},
-                   {"same_residue_area_fraction", number(other.same_residue_area_fraction)},
+                   {"own_residue_area_fraction", json_number(other.own_residue_area_fraction)},
+                   {"beyond_3A_area_fraction", json_number(other.slip_area_fraction)},
+                   {"same_residue_area_fraction", json_number(other.same_residue_area_fraction)},
                    {"no_counterpart_area_fraction",
-                    {{"source", number(other.unmatched_source)}, {"target", number(other.unmatched_target)}}},
+                    {{"source", json_number(other.unmatched_source)}, {"target", json_number(other.unmatched_target)}}},
                    {"reasons", Json::array()}};
   for (const Message& reason : other.reasons) json["other"]["reasons"].push_back(reason.plain());
   return json;
@@ -168,7 +166,7 @@ Json motions(const CompareResult& result) {
 Json surface(const SurfaceSummary& s) {
   return {{"n_vertices", s.n_vertices},     {"n_triangles", s.n_triangles},
           {"n_components", s.n_components}, {"n_cavities_left_out", s.n_cavities_left_out},
-          {"area_A2", number(s.area_A2)},   {"cavity_area_A2", number(s.cavity_area_A2)}};
+          {"area_A2", json_number(s.area_A2)},   {"cavity_area_A2", json_number(s.cavity_area_A2)}};
 }
 
 /// A setting's value, of the type that its kind says.
@@ -216,9 +214,9 @@ Json part_json(const CompareResult& part) {
   add_metrics(json, part);
   json["by_offset"] = Json::array();
   for (const OffsetMetrics& at : part.by_offset) {
-    Json entry{{"offset_A", number(at.offset_A)}};
+    Json entry{{"offset_A", json_number(at.offset_A)}};
     for (const Metric& metric : metrics()) {
-      if (metric.source.of_area != nullptr) entry[metric.name] = number(at.metrics.*metric.source.of_area);
+      if (metric.source.of_area != nullptr) entry[metric.name] = json_number(at.metrics.*metric.source.of_area);
     }
     json["by_offset"].push_back(std::move(entry));
   }
@@ -265,7 +263,7 @@ void add_results(Json& json, const Molecule& source, const CompareResult& result
   json["start"] = result.start == StartFrom::kPrevious ? "previous" : "source";
   if (result.flow_report.sweeps > 0) {
     json["gvf"] = {{"sweeps", result.flow_report.sweeps},
-                   {"residual", number(result.flow_report.residual)},
+                   {"residual", json_number(result.flow_report.residual)},
                    {"converged", result.flow_report.converged}};
   }
   json["n_vertices_added"] =
@@ -289,7 +287,7 @@ Json compare_json(const Molecule& source, const Molecule& target, const CompareR
   Json json;
   add_results(json, source, result);
   json["time_ms"] = Json::object();
-  for (const auto& [stage, ms] : result.time_ms) json["time_ms"][stage] = number(ms);
+  for (const auto& [stage, ms] : result.time_ms) json["time_ms"][stage] = json_number(ms);
   json["device"] = provenance.device;
   json["device_description"] = provenance.device_description;
   json["threads"] = provenance.threads;

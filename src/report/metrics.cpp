@@ -4,20 +4,18 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <limits>
 #include <map>
 #include <mutex>
 
 #include "base/error.h"
 #include "base/formatted.h"
+#include "base/not_a_number.h"
 #include "base/surface_parts.h"
 #include "compare/region_result.h"
 #include "compare/result.h"
 
 namespace espdiff {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 template <double Certificate::*Member>
 double of_certificate(const CompareResult& result) {
@@ -33,7 +31,7 @@ double of_distortion(const CompareResult& result) {
 }
 template <double RoundTrip::*Member>
 double of_round_trip(const CompareResult& result) {
-  return result.certificate.round_trip ? (*result.certificate.round_trip).*Member : kNan;
+  return result.certificate.round_trip ? (*result.certificate.round_trip).*Member : kNaN;
 }
 
 template <double RemovedArea::*Member>
@@ -42,16 +40,16 @@ double of_removed(const CompareResult& result) {
 }
 
 double residue_correlation(const CompareResult& result) {
-  return result.certificate.residues ? result.certificate.residues->correlation : kNan;
+  return result.certificate.residues ? result.certificate.residues->correlation : kNaN;
 }
 
 double outside_maps(const CompareResult& result) {
-  return result.has_potential ? result.certificate.outside_maps : kNan;
+  return result.has_potential ? result.certificate.outside_maps : kNaN;
 }
 
 template <double SlipSummary::*Member>
 double of_slip(const CompareResult& result) {
-  return result.certificate.slip ? (*result.certificate.slip).*Member : kNan;
+  return result.certificate.slip ? (*result.certificate.slip).*Member : kNaN;
 }
 
 double rmsd(const CompareResult& result) { return result.rmsd_A; }
@@ -328,7 +326,7 @@ const Metric* find_metric_or_null(const std::string& name) {
 double value_of(const Metric& metric, const CompareResult& result) {
   if (*metric.part != '\0') {
     const CompareResult* const part = part_of(result, metric.part);
-    if (part == nullptr) return kNan;
+    if (part == nullptr) return kNaN;
     Metric whole = metric;
     whole.part = "";
     return value_of(whole, *part);
@@ -338,17 +336,17 @@ double value_of(const Metric& metric, const CompareResult& result) {
 }
 
 double value_over_all_triangles(const Metric& metric, const CompareResult& result) {
-  if (metric.source.of_area == nullptr || !result.has_potential) return kNan;
+  if (metric.source.of_area == nullptr || !result.has_potential) return kNaN;
   return result.metrics_all.*metric.source.of_area;
 }
 
 double value_without_slip(const Metric& metric, const CompareResult& result) {
-  if (metric.source.of_area == nullptr || !result.has_potential || !result.certificate.slip) return kNan;
+  if (metric.source.of_area == nullptr || !result.has_potential || !result.certificate.slip) return kNaN;
   return result.metrics_without_slip.*metric.source.of_area;
 }
 
 double value_of(const Metric& metric, const CompareResult& result, const ResidueRow& row) {
-  if (metric.section == MetricSection::kPotential && !result.has_potential) return kNan;
+  if (metric.section == MetricSection::kPotential && !result.has_potential) return kNaN;
   return row.*metric.source.of_residue;
 }
 
@@ -388,14 +386,14 @@ std::string formatted(const Metric& metric, double value) {
 
 Metrics counted_metrics(const CompareResult& result) {
   if (result.has_potential) return result.metrics;
-  Metrics counted{0, kNan, kNan, kNan, kNan, kNan, kNan, 0, 0};
+  Metrics counted{0, kNaN, kNaN, kNaN, kNaN, kNaN, kNaN, 0, 0};
   for (const ResidueRow& row : result.residues) {
     if (!(row.area_A2 > 0)) continue;
     counted.area_A2 += row.area_A2;
     counted.mean_displacement_A += row.area_A2 * row.mean_displacement_A;
     counted.mean_path_length_A += row.area_A2 * row.mean_path_length_A;
   }
-  const double area = counted.area_A2 > 0 ? counted.area_A2 : kNan;
+  const double area = counted.area_A2 > 0 ? counted.area_A2 : kNaN;
   counted.mean_displacement_A /= area;
   counted.mean_path_length_A /= area;
   return counted;

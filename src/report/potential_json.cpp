@@ -5,16 +5,14 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/result.h"
+#include "report/json_number.h"
 
 namespace espdiff {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// JSON has no NaN and no infinity: they are null.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json vector(const Vec3d& v) { return {number(v.x), number(v.y), number(v.z)}; }
+Json vector(const Vec3d& v) { return {json_number(v.x), json_number(v.y), json_number(v.z)}; }
 
 const char* name_of(DielectricBoundary boundary) {
   switch (boundary) {
@@ -33,41 +31,41 @@ void add_pme(Json& json, const MapRecipe& r) {
   json["cell_edges_A"] = {vector(edges[0]), vector(edges[1]), vector(edges[2])};
   json["grid"] = r.pme.size;
   json["spline_order"] = r.pme.order;
-  json["ewald_factor"] = number(r.pme.ewald_factor);
+  json["ewald_factor"] = json_number(r.pme.ewald_factor);
   json["compatible"] = r.pme.compatible;
   json["precision"] = r.pme.precision == Precision::kDouble ? "double" : "single";
   json["sampling"] = r.pme.smooth_samples ? "spline" : "trilinear";
-  json["temperature_K"] = number(r.pme.temperature_K);
-  if (r.made) json["bulk_fraction"] = number(r.bulk_fraction);
+  json["temperature_K"] = json_number(r.pme.temperature_K);
+  if (r.made) json["bulk_fraction"] = json_number(r.bulk_fraction);
 }
 
 void add_pb(Json& json, const MapRecipe& r) {
   const PoissonBoltzmannOptions& o = r.pb;
   json["equation"] = o.nonlinear ? "nonlinear" : "linear";
-  json["solute_dielectric"] = number(o.solute_dielectric);
-  json["solvent_dielectric"] = number(o.solvent_dielectric);
-  json["ionic_strength_M"] = number(o.ionic_strength);
-  json["ion_radius_A"] = number(o.ion_radius_A);
+  json["solute_dielectric"] = json_number(o.solute_dielectric);
+  json["solvent_dielectric"] = json_number(o.solvent_dielectric);
+  json["ionic_strength_M"] = json_number(o.ionic_strength);
+  json["ion_radius_A"] = json_number(o.ion_radius_A);
   json["dielectric_boundary"] = name_of(o.dielectric_boundary);
   json["dielectric_smoothing"] = o.smoothing == DielectricSmoothing::kEdges ? "edges" : "nine-point";
-  json["probe_radius_A"] = number(o.probe_radius_A);
-  json["gaussian_sigma"] = number(o.gaussian_sigma);
+  json["probe_radius_A"] = json_number(o.probe_radius_A);
+  json["gaussian_sigma"] = json_number(o.gaussian_sigma);
   json["far_boundary"] = o.far_boundary == FarBoundary::kFocus ? "focus" : "debye-hueckel";
-  json["tolerance"] = number(o.tolerance);
+  json["tolerance"] = json_number(o.tolerance);
   json["max_cycles"] = o.max_cycles;
-  json["temperature_K"] = number(o.temperature_K);
-  json["spacing_A"] = number(r.pb_spacing_A);
+  json["temperature_K"] = json_number(o.temperature_K);
+  json["spacing_A"] = json_number(r.pb_spacing_A);
   if (!r.made) return;
   const PoissonBoltzmannReport& report = r.pb_report;
   json["grid"] = r.pb_lattice.size;
   json["grid_origin_A"] = vector(r.pb_lattice.origin);
-  json["start_residual"] = number(report.start_residual);
-  json["relative_residual"] = number(report.relative_residual);
+  json["start_residual"] = json_number(report.start_residual);
+  json["relative_residual"] = json_number(report.relative_residual);
   json["cycles"] = report.cycles;
   json["newton_steps"] = report.newton_steps;
   json["levels"] = report.levels;
-  json["bytes_per_point"] = number(report.bytes_per_point);
-  json["debye_length_A"] = number(report.debye_length_A);
+  json["bytes_per_point"] = json_number(report.bytes_per_point);
+  json["debye_length_A"] = json_number(report.debye_length_A);
 }
 
 }  // namespace
@@ -78,17 +76,17 @@ Json recipe_json(const MapRecipe& r) {
   json["label"] = potential_label(r);
   json["charges_from"] = r.charges_from;
   json["n_charges"] = r.n_charges;
-  json["net_charge"] = number(r.net_charge);
+  json["net_charge"] = json_number(r.net_charge);
   json["explicit_water"] = r.has_water;
   if (r.method == PotentialMethod::kPme) add_pme(json, r);
   if (r.method == PotentialMethod::kPoissonBoltzmann) add_pb(json, r);
   if (r.method == PotentialMethod::kCoulomb) {
-    json["dielectric"] = number(r.coulomb.dielectric);
+    json["dielectric"] = json_number(r.coulomb.dielectric);
     json["distance_dependent"] = r.coulomb.distance_dependent;
-    json["temperature_K"] = number(r.coulomb.temperature_K);
+    json["temperature_K"] = json_number(r.coulomb.temperature_K);
   }
   json["zero"] = to_string(r.zero);
-  if (r.made) json["subtracted"] = number(r.subtracted);
+  if (r.made) json["subtracted"] = json_number(r.subtracted);
   return json;
 }
 

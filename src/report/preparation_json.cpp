@@ -11,14 +11,14 @@
 namespace espdiff {
 namespace {
 
-void line(std::ostream& out, const std::string& label, const std::string& text) {
+void labelled_line(std::ostream& out, const std::string& label, const std::string& text) {
   constexpr std::size_t kLabelWidth = 16;
   out << label << std::string(label.size() < kLabelWidth ? kLabelWidth - label.size() : 1, ' ') << text << '\n';
 }
 
 /// The first label stands before the first line only.
 void list(std::ostream& out, const std::string& label, const std::vector<std::string>& items) {
-  for (std::size_t i = 0; i < items.size(); ++i) line(out, i == 0 ? label : "", items[i]);
+  for (std::size_t i = 0; i < items.size(); ++i) labelled_line(out, i == 0 ? label : "", items[i]);
 }
 
 }  // namespace
@@ -44,10 +44,10 @@ nlohmann::ordered_json preparation_json(const Preparation& p) {
 }
 
 void print_preparation(std::ostream& out, const Preparation& p) {
-  line(out, "prepared by",
+  labelled_line(out, "prepared by",
        p.program + ", force field " + p.force_field + ", pH " + formatted("%g", p.ph) + " (PROPKA)" +
            (p.from_cache ? ", from the cache" : ""));
-  line(out, "atoms",
+  labelled_line(out, "atoms",
        std::to_string(p.n_atoms) + " (" + std::to_string(p.n_atoms_before) + " before, " +
            std::to_string(p.n_hydrogens_added) + " hydrogens added)");
   list(out, "added", p.added);
@@ -55,7 +55,7 @@ void print_preparation(std::ostream& out, const Preparation& p) {
   list(out, "renamed", p.renamed);
   list(out, "protonation", p.protonation);
   list(out, "missing", p.gaps);
-  line(out, "net charge", formatted("%.4f", p.net_charge) + " e");
+  labelled_line(out, "net charge", formatted("%.4f", p.net_charge) + " e");
 }
 
 }  // namespace espdiff

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "base/not_a_number.h"
+
 namespace espdiff {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 struct Moments {
   std::size_t n = 0;

@@ -14,7 +14,7 @@ namespace {
 
 /// Sums over columns of products of two blocks' deviations from the column's mean: all that any order of them needs.
 using Products = std::array<std::array<double, kBlocks>, kBlocks>;
-using Order = std::array<std::size_t, kBlocks>;
+using BlockOrder = std::array<std::size_t, kBlocks>;
 
 Products products_of(const std::vector<double>& blocks, const std::vector<double>& weights) {
   Products products{};
@@ -30,7 +30,7 @@ Products products_of(const std::vector<double>& blocks, const std::vector<double
 }
 
 /// The share of the variance that a straight line through the blocks explains.
-double trend_of(const Products& products, const Order& order) {
+double trend_of(const Products& products, const BlockOrder& order) {
   const auto step = [](std::size_t place) { return static_cast<double>(place) - (kBlocks - 1) / 2.0; };
   double explained = 0, squares = 0, variance = 0;
   for (std::size_t a = 0; a < kBlocks; ++a) {
@@ -42,8 +42,8 @@ double trend_of(const Products& products, const Order& order) {
 }
 
 /// The order of Fisher and Yates.
-Order random_order(std::uint64_t seed, std::uint64_t number) {
-  Order order;
+BlockOrder random_order(std::uint64_t seed, std::uint64_t number) {
+  BlockOrder order;
   std::iota(order.begin(), order.end(), std::size_t{0});
   for (std::size_t i = kBlocks - 1; i > 0; --i) std::swap(order[i], order[random_below(i + 1, seed, number, i)]);
   return order;
@@ -53,7 +53,7 @@ Order random_order(std::uint64_t seed, std::uint64_t number) {
 
 Drift measure_drift(const std::vector<double>& blocks, const std::vector<double>& weights, std::uint64_t seed) {
   const Products products = products_of(blocks, weights);
-  Order observed;
+  BlockOrder observed;
   std::iota(observed.begin(), observed.end(), std::size_t{0});
   Drift drift;
   drift.share = trend_of(products, observed);

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "base/error.h"
+#include "base/not_a_number.h"
 #include "statistics/counter_random.h"
 #include "statistics/mesh_graph.h"
 #include "statistics/null_maxima.h"
@@ -17,18 +17,17 @@
 namespace espdiff {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-using Order = std::vector<std::size_t>;
+using StateOrder = std::vector<std::size_t>;
 
 /// The observed order first.
 struct Orders {
-  std::vector<Order> all;
+  std::vector<StateOrder> all;
   bool exact = true;
 };
 
 Orders make_orders(std::size_t n, std::uint64_t most, std::uint64_t seed) {
   Orders orders;
-  Order order(n);
+  StateOrder order(n);
   std::iota(order.begin(), order.end(), std::size_t{0});
   double possible = 1;
   for (std::size_t i = 2; i <= n; ++i) possible *= static_cast<double>(i);
@@ -86,7 +85,7 @@ class Regressed {
   const std::vector<double>& values() const { return values_; }
 
   /// Correlations of the values in some order; NaN where a column is missing or does not vary.
-  std::vector<double> correlations(const Order& order) const {
+  std::vector<double> correlations(const StateOrder& order) const {
     std::vector<double> y;
     for (const std::size_t i : order) y.push_back(values_[i]);
     y = centred(y);
@@ -109,7 +108,7 @@ class Regressed {
   }
 
   /// The value of replicate `left` from the others, in an order of the values.
-  double predict(const Order& order, std::size_t left) const {
+  double predict(const StateOrder& order, std::size_t left) const {
     const std::size_t n = values_.size();
     std::vector<std::size_t> others;
     for (std::size_t i = 0; i < n; ++i) {
@@ -140,7 +139,7 @@ class Regressed {
     return squares > 0 ? mean + product / squares * score(left) : mean;
   }
 
-  double q2(const Order& order) const {
+  double q2(const StateOrder& order) const {
     const std::size_t n = values_.size();
     double sum = 0, error = 0, by_mean = 0;
     for (const double value : values_) sum += value;
@@ -207,7 +206,7 @@ SurfaceRegression regress_on_surface(const std::vector<std::vector<double>>& mea
                 static_cast<double>(q2.size());
   const std::vector<double>& y = data.values();
   std::size_t n_same = 0;  // orders of equal values are the same
-  for (const Order& order : orders.all) {
+  for (const StateOrder& order : orders.all) {
     bool same = true;
     for (std::size_t i = 0; i < order.size(); ++i) same = same && y[order[i]] == y[i];
     n_same += same ? 1U : 0U;

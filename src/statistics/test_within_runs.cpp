@@ -1,8 +1,8 @@
 // test_within_runs.cpp: circular block bootstrap of runs, for groups of one replicate.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/not_a_number.h"
 #include "statistics/columns.h"
 #include "statistics/counter_random.h"
 #include "statistics/mesh_graph.h"
@@ -13,8 +13,6 @@
 
 namespace espdiff {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 std::size_t block_length(const ReplicateColumns& replicate, const std::vector<char>& tested) {
   std::vector<double> g;

@@ -3,11 +3,11 @@
 
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-#include <limits>
+
+#include "base/not_a_number.h"
 
 namespace espdiff {
 namespace {
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Rounding of equal values is no variance.
 double standard_error(const GroupMoments& a, const GroupMoments& b) {

@@ -18,12 +18,6 @@ namespace {
 
 constexpr const char* kFrame = "frame";
 
-std::string line_of(const std::vector<std::string>& cells) {
-  std::ostringstream line;
-  write_csv_row(line, cells);
-  return line.str();
-}
-
 constexpr const char* kFingerprint = "trajectory: ";
 
 /// The quantity of the head's first line; empty for another file.
@@ -104,12 +98,12 @@ void ResidueCsv::add(const ResidueLine& row, const std::string& fingerprint) {
   std::string text;
   if (columns_.empty()) {
     text = std::string("# ") + kHeadWord + row.quantity + (row.unit.empty() ? "" : " [" + row.unit + "]") + "\n# " +
-           kFingerprint + fingerprint + "\n" + line_of(row.columns);
+           kFingerprint + fingerprint + "\n" + csv_row(row.columns);
     file_.truncate(0);
     columns_ = row.columns;
     quantity_ = row.quantity;
   }
-  file_.append(text + line_of(row.cells));
+  file_.append(text + csv_row(row.cells));
 }
 
 }  // namespace espdiff

@@ -14,12 +14,6 @@
 namespace espdiff {
 namespace {
 
-std::string line_of(const std::vector<std::string>& cells) {
-  std::ostringstream line;
-  write_csv_row(line, cells);
-  return line.str();
-}
-
 /// Every file begins with this.
 constexpr const char* kFirstWords = "# espdiff: ";
 
@@ -92,11 +86,11 @@ void SeriesCsv::add(const SeriesRow& row) {
   std::string text;
   if (!has_head_) {
     for (const auto& [name, value] : head_) text += "# " + name + ": " + value + "\n";
-    text += line_of(row.columns());
+    text += csv_row(row.columns());
     file_.truncate(0);
     has_head_ = true;
   }
-  file_.append(text + line_of(row.cells()));
+  file_.append(text + csv_row(row.cells()));
   rows_.push_back(row);
 }
 

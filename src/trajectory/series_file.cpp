@@ -27,7 +27,7 @@ using Json = nlohmann::json;
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr const char* kFormat = "espdiff series state";
-constexpr int kVersion = 3;
+constexpr int kStateVersion = 3;
 
 template <typename T>
 Json binary(const std::vector<T>& values) {
@@ -168,7 +168,7 @@ void write_series_state(const std::string& path, const SeriesState& state, const
   Bytes content = Json::to_cbor(state_json(state));
   const std::string hash = hash_of(content);
   const Bytes bytes = Json::to_cbor({{"format", kFormat},
-                                     {"version", kVersion},
+                                     {"version", kStateVersion},
                                      {"fingerprint", fingerprint},
                                      {"sha256", hash},
                                      {"state", Json::binary(std::move(content))}});
@@ -186,7 +186,7 @@ SeriesState read_series_state(const std::string& path, const std::string& finger
   try {
     const Json json = parse_cbor(bytes, path);
     if (json.at("format") != kFormat) throw damaged(path);
-    if (json.at("version") != kVersion) throw other_version;
+    if (json.at("version") != kStateVersion) throw other_version;
     const auto found = json.at("fingerprint").get<std::string>();
     if (found != fingerprint)
       throw InputError(path + ": the saved state is of another run (" + found + " instead of " + fingerprint +

@@ -16,7 +16,7 @@
 namespace espdiff {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 /// A column, and where its value stands in OUT.json; "" where it is in none.
 struct Column {
@@ -72,21 +72,21 @@ const Columns& columns_for(const std::vector<std::string>& parts) {
   return columns;
 }
 
-std::string cell_of(const Json& value) {
+std::string cell_of(const OrderedJson& value) {
   if (value.is_null()) return {};
   if (value.is_boolean()) return value.get<bool>() ? "1" : "0";
   if (value.is_string()) return one_line(value.get<std::string>());
   if (value.is_object()) return one_line(value.value("text", ""));  // a warning
   if (!value.is_array()) return value.dump();
   std::string text;
-  for (const Json& element : value) text += (text.empty() ? "" : "; ") + cell_of(element);
+  for (const OrderedJson& element : value) text += (text.empty() ? "" : "; ") + cell_of(element);
   return text;
 }
 
 /// The value in OUT.json; null where it is part of what was not checked, which is null as a whole.
-const Json& value_at(const Json& json, const std::string& pointer) {
-  const Json::json_pointer at(pointer);
-  const Json& parent = json.at(at.parent_pointer());
+const OrderedJson& value_at(const OrderedJson& json, const std::string& pointer) {
+  const OrderedJson::json_pointer at(pointer);
+  const OrderedJson& parent = json.at(at.parent_pointer());
   return parent.is_null() ? parent : json.at(at);
 }
 
@@ -105,7 +105,7 @@ const std::vector<std::string>& series_columns(const std::vector<std::string>& p
 SeriesRow::SeriesRow(int frame, const std::string& reference, const Molecule& source, const Molecule& target,
                      const CompareResult& result, const CompareOptions& options)
     : columns_(&series_columns(part_names(result))) {
-  const Json json = compare_json(source, target, result, options, {});
+  const OrderedJson json = compare_json(source, target, result, options, {});
   for (const Column& column : columns_for(part_names(result)).table)
     cells_.push_back(column.pointer.empty() ? std::string() : cell_of(value_at(json, column.pointer)));
   at("frame") = std::to_string(frame);

@@ -5,14 +5,14 @@
 #include <limits>
 #include <map>
 
+#include "base/not_a_number.h"
 #include "io/read_csv.h"
 #include "verify/mapped_file.h"
 
 namespace espdiff {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kRelative = 2e-4;  ///< of a mean whose sign may cancel
+constexpr double kRelativeOfMean = 2e-4;  ///< of a mean whose sign may cancel
 constexpr double kMediumSlip_A = 2, kLargeSlip_A = 3;
 constexpr double kLeastResidueArea_A2 = 5;
 
@@ -106,7 +106,7 @@ void add_metrics(const MappedFile& file, const std::vector<bool>& counts, const 
   if (a.empty()) return;
   lines.add(at + "mean_abs_difference", absolute / area, 0);
   lines.add(at + "rms_difference", std::sqrt(square / area), 0);
-  lines.add(at + "mean_signed_difference", sum / area, kRelative * absolute / area);
+  lines.add(at + "mean_signed_difference", sum / area, kRelativeOfMean * absolute / area);
   lines.add(at + "sign_change_area_fraction", changes / area, 1e-4);
   lines.add(at + "hodgkin_index", 2 * ab / (aa + bb), 1e-4);
   lines.add(at + "carbo_index", ab / std::sqrt(aa * bb), 1e-4);
@@ -188,7 +188,7 @@ double correlation(const CsvTable& table, int area, int weight, int own, int map
     values.push_back({at(weight), at(own), at(mapped)});
     total += at(weight);
   }
-  if (values.size() < 5) return kNan;
+  if (values.size() < 5) return kNaN;
   for (const auto& [w, a, b] : values) {
     x += w * a / total;
     y += w * b / total;
@@ -237,7 +237,7 @@ void add_residue_lines(const MappedFile& file, const std::string& path, Lines& l
     absolute[r] += weight[v] * std::fabs(file.potential_target[v] - file.potential_source[v]);
   }
   const auto means = [&](std::vector<double> sums, const std::vector<double>& areas) {
-    for (std::size_t r = 0; r < n; ++r) sums[r] = areas[r] > 0 ? sums[r] / areas[r] : kNan;
+    for (std::size_t r = 0; r < n; ++r) sums[r] = areas[r] > 0 ? sums[r] / areas[r] : kNaN;
     return sums;
   };
   const auto check = [&](const char* name, const std::vector<double>& expected) {

@@ -13,7 +13,7 @@ namespace {
 
 bool draws_source_shape(const Scene& scene) { return scene.layout != Layout::kTurned || scene.morph < 1; }
 
-bool draws_maps(const Scene& scene) {
+bool reads_maps(const Scene& scene) {
   return !scene.isopotentials.empty() || scene.n_field_lines > 0 || scene.slice.has_value() || !scene.offsets_A.empty();
 }
 
@@ -92,7 +92,7 @@ ComparisonFiles read_comparison(const std::string& vtp_path, const Scene& scene)
   files.surface = read_surface_file(vtp_path);
   files.surface.values(scene.array);
   files.record = read_run_record(vtp_path);
-  const bool needs_maps = (shows_potentials(scene) && !scene.per_vertex) || draws_maps(scene);
+  const bool needs_maps = (shows_potentials(scene) && !scene.per_vertex) || reads_maps(scene);
   if (needs_maps) files.maps = read_map_pair(files.record, files.surface);
   read_missing_files(files, scene);
   return files;
@@ -116,7 +116,7 @@ void read_missing_files(ComparisonFiles& files, const Scene& scene) {
     surface.values(RenderArray::kSource);
     surface.values(RenderArray::kTarget);
   }
-  if (draws_maps(scene) && !files.maps.complete()) {
+  if (reads_maps(scene) && !files.maps.complete()) {
     throw InputError("isopotential and offset surfaces, field lines and slices need the maps: " + files.maps.why_not);
   }
   if (draws_molecules(scene)) read_molecules(files, scene);

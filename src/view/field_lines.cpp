@@ -14,7 +14,7 @@
 namespace espdiff {
 namespace {
 
-constexpr double kStep_A = 0.25, kLongest_A = 60, kApart_A = 4;
+constexpr double kStep_A = 0.25, kLongest_A = 60, kLinesApart_A = 4;
 /// Step of the gradient's central differences.
 constexpr double kReach_A = 0.25;
 /// Depth below the surface at which a line ends; it starts on the surface.
@@ -107,7 +107,7 @@ std::vector<Vec3d> choose_starts(const Field& field, const std::vector<Vec3d>& p
   for (const auto& [strength, i] : order) {
     if (static_cast<int>(starts.size()) == n) break;
     const Vec3d p = positions[i];
-    const bool crowds = std::any_of(starts.begin(), starts.end(), [&](Vec3d s) { return norm(s - p) < kApart_A; });
+    const bool crowds = std::any_of(starts.begin(), starts.end(), [&](Vec3d s) { return norm(s - p) < kLinesApart_A; });
     if (!crowds) starts.push_back(p);
   }
   return starts;

@@ -18,7 +18,7 @@ namespace espdiff {
 namespace {
 
 constexpr int kFewestVertices = 20;
-constexpr double kApart_A = 9, kOffSurface_A = 4;
+constexpr double kLabelsApart_A = 9, kOffSurface_A = 4;
 constexpr double kPin_A = 2.8;  // ends before the text
 
 struct Sum {
@@ -66,7 +66,7 @@ std::vector<ResidueMark> most_different_residues(const SurfaceFile& surface, int
     const std::size_t at = nearest_vertex(surface, static_cast<float>(residue), (1.0 / sum.n) * sum.place);
     const Vec3d place = surface.positions[at];
     const bool crowds =
-        std::any_of(marks.begin(), marks.end(), [&](const ResidueMark& m) { return norm(m.place - place) < kApart_A; });
+        std::any_of(marks.begin(), marks.end(), [&](const ResidueMark& m) { return norm(m.place - place) < kLabelsApart_A; });
     if (!crowds) marks.push_back({residue, -negative, place, static_cast<Vec3d>(surface.normals[at])});
   }
   return marks;

@@ -19,7 +19,7 @@
 namespace espdiff {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr int kMinSize = 400, kMaxSize = 6000;
 constexpr std::array<const char*, 3> kLayouts = {"turned", "linked", "split"};
@@ -38,27 +38,27 @@ Enum parse_word(const std::array<const char*, Count>& words, const std::string& 
 // Writing and reading a member by its type; numbers, texts and lists are JSON's own.
 
 template <typename T>
-Json json_of(const T& value) {
+OrderedJson json_of(const T& value) {
   return value;
 }
 template <typename T>
-void read(const Json& json, T& value) {
+void read(const OrderedJson& json, T& value) {
   if constexpr (std::is_same_v<T, int>)
     value = integer_of<int>(json);
   else
     json.get_to(value);
 }
 
-Json json_of(const Vec3d& v) { return {v.x, v.y, v.z}; }
-void read(const Json& json, Vec3d& v) { v = {json.at(0), json.at(1), json.at(2)}; }
+OrderedJson json_of(const Vec3d& v) { return {v.x, v.y, v.z}; }
+void read(const OrderedJson& json, Vec3d& v) { v = {json.at(0), json.at(1), json.at(2)}; }
 
-Json json_of(const CameraView& camera) {
+OrderedJson json_of(const CameraView& camera) {
   return {{"centre_A", json_of(camera.centre)},
           {"toward_viewer", json_of(camera.toward_viewer)},
           {"up", json_of(camera.up)},
           {"half_height_A", camera.half_height_A}};
 }
-void read(const Json& json, CameraView& camera) {
+void read(const OrderedJson& json, CameraView& camera) {
   read(json.at("centre_A"), camera.centre);
   read(json.at("toward_viewer"), camera.toward_viewer);
   read(json.at("up"), camera.up);
@@ -66,28 +66,28 @@ void read(const Json& json, CameraView& camera) {
 }
 
 template <typename T>
-Json json_of(const std::optional<T>& value) {
-  return value ? json_of(*value) : Json(nullptr);
+OrderedJson json_of(const std::optional<T>& value) {
+  return value ? json_of(*value) : OrderedJson(nullptr);
 }
 template <typename T>
-void read(const Json& json, std::optional<T>& value) {
+void read(const OrderedJson& json, std::optional<T>& value) {
   value.reset();
   if (!json.is_null()) read(json, value.emplace());
 }
 
-Json json_of(RenderArray array) { return to_string(array); }
-void read(const Json& json, RenderArray& array) { array = parse_render_array(json); }
-Json json_of(Layout layout) { return kLayouts[static_cast<std::size_t>(layout)]; }
-void read(const Json& json, Layout& layout) { layout = parse_layout(json); }
-Json json_of(MoleculeStyle style) { return kStyles[static_cast<std::size_t>(style)]; }
-void read(const Json& json, MoleculeStyle& style) { style = parse_molecule_style(json); }
+OrderedJson json_of(RenderArray array) { return to_string(array); }
+void read(const OrderedJson& json, RenderArray& array) { array = parse_render_array(json); }
+OrderedJson json_of(Layout layout) { return kLayouts[static_cast<std::size_t>(layout)]; }
+void read(const OrderedJson& json, Layout& layout) { layout = parse_layout(json); }
+OrderedJson json_of(MoleculeStyle style) { return kStyles[static_cast<std::size_t>(style)]; }
+void read(const OrderedJson& json, MoleculeStyle& style) { style = parse_molecule_style(json); }
 
 /// A limit, or both ends; the percentile has an entry of its own.
-Json json_of(const ScaleRange& range) {
+OrderedJson json_of(const ScaleRange& range) {
   if (range.given_ends) return {range.low, range.high};
   return range.limit;
 }
-void read(const Json& json, ScaleRange& range) {
+void read(const OrderedJson& json, ScaleRange& range) {
   range.given_ends = json.is_array();
   if (!range.given_ends) {
     range.limit = json;
@@ -100,15 +100,15 @@ void read(const Json& json, ScaleRange& range) {
 /// One entry of a scene file.
 struct Entry {
   const char* key;
-  std::function<Json(const Scene&)> get;
-  std::function<void(Scene&, const Json&)> set;
+  std::function<OrderedJson(const Scene&)> get;
+  std::function<void(Scene&, const OrderedJson&)> set;
 };
 
 /// `at` finds the member in a scene.
 template <typename At>
 Entry entry(const char* key, At at) {
   return {key, [at](const Scene& s) { return json_of(at(s)); },
-          [at](Scene& s, const Json& json) { read(json, at(s)); }};
+          [at](Scene& s, const OrderedJson& json) { read(json, at(s)); }};
 }
 
 /// A member by its path from the scene.
@@ -156,7 +156,7 @@ const std::vector<Entry>& entries() {
 #undef ESPDIFF_ENTRY_OF
 
 /// Sets one entry of a scene. @returns false when there is none of this name
-bool set(Scene& scene, const std::string& key, const Json& value) {
+bool set(Scene& scene, const std::string& key, const OrderedJson& value) {
   for (const Entry& entry : entries()) {
     if (key != entry.key) continue;
     entry.set(scene, value);
@@ -180,7 +180,7 @@ MoleculeStyle parse_molecule_style(const std::string& text) {
 }
 
 std::string scene_json(const Scene& scene) {
-  Json json;
+  OrderedJson json;
   for (const Entry& entry : entries()) json[entry.key] = entry.get(scene);
   return json.dump(1, ' ', true);
 }
@@ -194,7 +194,7 @@ Scene read_scene(const std::string& path, const Scene& defaults) {
   Scene scene = defaults;
   std::string key;
   try {
-    const Json json = Json::parse(in);
+    const OrderedJson json = OrderedJson::parse(in);
     if (!json.is_object()) throw FormatError(path, 0, "a scene is a JSON object");
     for (const auto& [name, value] : json.items()) {
       key = name;

@@ -1,0 +1,11 @@
+// not_a_number.h: what a value is that does not exist.
+#pragma once
+
+#include <limits>
+
+namespace espdiff {
+
+/// No value; written as an empty cell (CSV) or null (JSON).
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace espdiff
