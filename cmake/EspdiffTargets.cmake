@@ -14,6 +14,22 @@ function(espdiff_add_library name)
   target_link_libraries(${name} PUBLIC espdiff_flags ${ARG_LIBRARIES} PRIVATE ${ARG_PRIVATE_LIBRARIES})
 endfunction()
 
+# espdiff_combine(OUTPUT N SOURCE ...): sets OUTPUT to generated .cu files that include N sources of cuda/ each.
+function(espdiff_combine output n)
+  set(combined "")
+  while(ARGN)
+    list(SUBLIST ARGN 0 ${n} part)
+    list(REMOVE_ITEM ARGN ${part})
+    list(LENGTH combined number)
+    list(TRANSFORM part REPLACE "(.+)" "#include \"cuda/\\1\"\n")
+    string(CONCAT content ${part})
+    file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/combined_${number}.cu CONTENT "${content}")
+    list(APPEND combined combined_${number}.cu)
+  endwhile()
+  list(TRANSFORM combined PREPEND ${CMAKE_CURRENT_BINARY_DIR}/)
+  set(${output} ${combined} PARENT_SCOPE)
+endfunction()
+
 # espdiff_optimize_little(target ...): what takes longer to compile than it ever runs: options, commands, reports, tests.
 function(espdiff_optimize_little)
   foreach(target ${ARGN})

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/vector.h"
 #include "compare/options.h"
 #include "fingerprint.h"
 #include "io/molecule_builder.h"
@@ -163,7 +164,7 @@ void parse_map_request(DictReader& reader, DictReader& endpoint_reader, Endpoint
 /// Whether a lattice repeats with the cell: its points cover each edge once, as those of PME's maps do. A lattice that
 /// ends at the cell's border has a point more.
 bool covers_cell(const Lattice& lattice, const UnitCell& cell) {
-  constexpr double kDegree = 3.14159265358979323846 / 180;
+  constexpr double kDegree = kPi / 180;
   const auto edge = [&](std::size_t axis) { return static_cast<double>(lattice.size[axis]) * lattice.step[axis]; };
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (std::fabs(norm(edge(axis)) - cell.lengths[static_cast<int>(axis)]) > 0.3 * norm(lattice.step[axis]))

@@ -31,7 +31,7 @@ ESPDIFF_INLINE bool overlap(const Box& p, const Box& q) {
 }
 
 /// Input and output of the search.
-struct Search {
+struct MeetingSearch {
   TriangleTreeView tree;
   const Corners* vertices;         ///< [place]
   const Box* boxes;                ///< [place]
@@ -41,7 +41,7 @@ struct Search {
 };
 
 /// Whether two triangles share a vertex around which none intersect.
-ESPDIFF_INLINE bool share_clear_fan(const Search& in, const Corners& a, const Corners& b) {
+ESPDIFF_INLINE bool share_clear_fan(const MeetingSearch& in, const Corners& a, const Corners& b) {
   for (const std::uint32_t v : a.v) {
     if ((v == b.v[0] || v == b.v[1] || v == b.v[2]) && in.clear_fan[v] != 0) return true;
   }
@@ -49,7 +49,7 @@ ESPDIFF_INLINE bool share_clear_fan(const Search& in, const Corners& a, const Co
 }
 
 /// Whether the triangles at two places intersect; if so, counts it for both.
-ESPDIFF_HD inline bool meet(const Search& in, std::uint32_t p, std::uint32_t q) {
+ESPDIFF_HD inline bool meet(const MeetingSearch& in, std::uint32_t p, std::uint32_t q) {
   const Corners vertices_p = in.vertices[p], vertices_q = in.vertices[q];
   if (share_clear_fan(in, vertices_p, vertices_q)) return false;
   const PlacedTriangle first = in.tree.triangles[p];
@@ -64,7 +64,7 @@ ESPDIFF_HD inline bool meet(const Search& in, std::uint32_t p, std::uint32_t q) 
 struct ByLeaves {
   static constexpr std::uint32_t kWidth = 1;  ///< in leaves of the tree
 
-  ESPDIFF_HD std::uint32_t operator()(const Search& in, std::uint32_t leaf, std::uint32_t other) const {
+  ESPDIFF_HD std::uint32_t operator()(const MeetingSearch& in, std::uint32_t leaf, std::uint32_t other) const {
     const std::uint32_t n = in.tree.n_triangles;
     const std::uint32_t end = (leaf + 1) * kTrianglesPerLeaf < n ? (leaf + 1) * kTrianglesPerLeaf : n;
     const std::uint32_t other_end = (other + 1) * kTrianglesPerLeaf < n ? (other + 1) * kTrianglesPerLeaf : n;
@@ -115,7 +115,7 @@ struct ByGroups {
   static constexpr std::uint32_t kWidth = kBlock / kTrianglesPerLeaf;
   const GroupOfBoxes* boxes;  ///< [group]
 
-  ESPDIFF_INLINE std::uint32_t operator()(const Search& in, std::uint32_t group, std::uint32_t other) const {
+  ESPDIFF_INLINE std::uint32_t operator()(const MeetingSearch& in, std::uint32_t group, std::uint32_t other) const {
     BoxLanes own, others;
     load(boxes[group], own);
     load(boxes[other], others);
@@ -138,7 +138,7 @@ struct ByGroups {
 /// Number of intersecting pairs of a triangle in this part of the tree with another in it or in a later part.
 /// @param compare ByLeaves or ByGroups, whose width is that of a part
 template <typename Compare>
-ESPDIFF_INLINE std::uint32_t meetings_from(const Search& in, const Compare& compare, std::uint32_t part) {
+ESPDIFF_INLINE std::uint32_t meetings_from(const MeetingSearch& in, const Compare& compare, std::uint32_t part) {
   struct Pending {
     std::uint32_t node, last, width;  ///< `width` parts lie below the node; the last is `last`
   };
@@ -170,11 +170,11 @@ ESPDIFF_INLINE std::uint32_t meetings_from(const Search& in, const Compare& comp
 
 #if !defined(__CUDACC__)
 
-ESPDIFF_MULTIVERSION std::uint32_t meetings_from_group(const Search& in, const ByGroups& compare, std::uint32_t group) {
+ESPDIFF_MULTIVERSION std::uint32_t meetings_from_group(const MeetingSearch& in, const ByGroups& compare, std::uint32_t group) {
   return meetings_from(in, compare, group);
 }
 
-GroupOfBoxes boxes_of_group(const Search& in, std::size_t group) {
+GroupOfBoxes boxes_of_group(const MeetingSearch& in, std::size_t group) {
   GroupOfBoxes lanes;
   for (std::size_t lane = 0; lane < kBlock; ++lane) {
     const std::size_t p = group * kBlock + lane;
@@ -208,11 +208,11 @@ std::size_t sum_over_parts(std::uint32_t n_parts, Count count) {
 }
 
 struct CountFromLeaf {
-  Search in;
+  MeetingSearch in;
   ESPDIFF_HD std::uint32_t operator()(std::uint32_t leaf) const { return meetings_from(in, ByLeaves{}, leaf); }
 };
 
-std::size_t count_pairs(const Search& in, bool by_groups) {
+std::size_t count_pairs(const MeetingSearch& in, bool by_groups) {
 #if !defined(__CUDACC__)
   if (by_groups && in.tree.n_leaves >= ByGroups::kWidth) {
     const std::uint32_t n_groups = in.tree.n_leaves / ByGroups::kWidth;
@@ -254,7 +254,7 @@ IntersectionReport intersections_in_form(const SurfaceMesh& mesh, bool by_groups
   for_each_index(mesh.n_vertices(), [=] ESPDIFF_HD(std::size_t v) {
     clear_fan[v] = fan_has_no_intersection(topology, x, static_cast<std::uint32_t>(v)) ? 1 : 0;
   });
-  const Search search{view, vertex, box, no_area, clear_fan, met};
+  const MeetingSearch search{view, vertex, box, no_area, clear_fan, met};
   IntersectionReport report;
   report.n_degenerate =
       sum_over<std::size_t>(n, [=] ESPDIFF_HD(std::size_t place) { return std::size_t{no_area[place]}; });

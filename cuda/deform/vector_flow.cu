@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kStage = "gradient vector flow";
 /// Sweeps between checks for convergence and cancellation.
-constexpr int kCheckInterval = 10;
+constexpr int kSweepsPerCheck = 10;
 /// Normals are imposed where the density differs from the isovalue by less than this fraction of it.
 constexpr float kHeldShare = 0.5F;
 
@@ -163,7 +163,7 @@ std::shared_ptr<SurfaceField> vector_flow(const DensityGrid& target, const Densi
     flow.swap(next);
     ++result.sweeps;
     omega = result.sweeps == 1 ? 1 / (1 - radius * radius / 2) : 1 / (1 - radius * radius * omega / 4);
-    if (result.sweeps % kCheckInterval == 0 || result.sweeps == options.max_sweeps) {
+    if (result.sweeps % kSweepsPerCheck == 0 || result.sweeps == options.max_sweeps) {
       const Vec4f* const u = raw(flow);
       result.residual = static_cast<double>(
           sum_over<Largest>(n, [=] ESPDIFF_HD(std::size_t point) { return Largest{u[point].w}; }).value);

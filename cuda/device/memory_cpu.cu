@@ -8,11 +8,11 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-constexpr std::align_val_t kCacheLine{64};
+constexpr std::align_val_t kAlignment{64};
 
 }  // namespace
 
-MemoryBlock::MemoryBlock(std::size_t n_bytes) : start_(n_bytes > 0 ? ::operator new(n_bytes, kCacheLine) : nullptr) {
+MemoryBlock::MemoryBlock(std::size_t n_bytes) : start_(n_bytes > 0 ? ::operator new(n_bytes, kAlignment) : nullptr) {
 #if defined(ESPDIFF_POISON_MEMORY)
   // All ones is NaN in every precision and an index out of every range, so a stage that reads uninitialized memory
   // fails.
@@ -20,7 +20,7 @@ MemoryBlock::MemoryBlock(std::size_t n_bytes) : start_(n_bytes > 0 ? ::operator 
 #endif
 }
 
-MemoryBlock::~MemoryBlock() { ::operator delete(start_, kCacheLine); }
+MemoryBlock::~MemoryBlock() { ::operator delete(start_, kAlignment); }
 
 void copy_to_device(void* to, const void* from, std::size_t n_bytes) {
   if (n_bytes > 0) std::memcpy(to, from, n_bytes);

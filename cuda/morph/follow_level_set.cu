@@ -6,7 +6,7 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-constexpr int kMaxNewtonSteps = 4;
+constexpr int kMaxReturnSteps = 4;
 /// With a smaller density error than this, the next Newton step is the last.
 constexpr float kLastStepExcess = 0.03F;
 /// A vertex with a larger density error than this after the last step is unmatched.
@@ -76,9 +76,9 @@ void return_vertex_by_vertex(MovingSurface& surface, const MovingAtoms& atoms, f
   const std::uint32_t* const list = raw(surface.order);
   for_each_index(surface.x.size(), [=] ESPDIFF_HD(std::size_t i) {
     const std::uint32_t v = list[i];
-    for (int step = 0; step <= kMaxNewtonSteps; ++step) {
+    for (int step = 0; step <= kMaxReturnSteps; ++step) {
       const FlowSample sample = flow_at(cells, changes, in.surface.x[v].xyz());
-      if (return_step(in, v, sample, step == kMaxNewtonSteps)) return;
+      if (return_step(in, v, sample, step == kMaxReturnSteps)) return;
     }
   });
 }
@@ -97,10 +97,10 @@ void return_to_level_set(MovingSurface& surface, const MovingAtoms& atoms, float
   Buffer<std::uint8_t> done_flags(n, 0);
   std::uint8_t* const done = raw(done_flags);
   std::size_t n_pending = n;
-  for (int step = 0; n_pending > 0 && step <= kMaxNewtonSteps; ++step) {
+  for (int step = 0; n_pending > 0 && step <= kMaxReturnSteps; ++step) {
     flow_at_points(atoms, surface.x, pending, n_pending, sampled);
     const std::uint32_t* const list = raw(pending);
-    const bool last = step == kMaxNewtonSteps;
+    const bool last = step == kMaxReturnSteps;
     for_each_index(n_pending, [=](std::size_t i) {
       const std::uint32_t v = list[i];
       done[v] = return_step(in, v, samples[v], last) ? 1 : 0;

@@ -7,21 +7,21 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-struct Sampling {
+struct MovingSampling {
   AtomCellsView cells;
   const AtomChange* change;
   PointList points;
   FlowSample* samples;
 };
 
-Sampling sampling(const MovingAtoms& atoms, const Buffer<Vec4f>& points, const Buffer<std::uint32_t>& list,
+MovingSampling sampling(const MovingAtoms& atoms, const Buffer<Vec4f>& points, const Buffer<std::uint32_t>& list,
                   std::size_t n, Buffer<FlowSample>& samples) {
   return {atoms.cells->view(), raw(atoms.change), {raw(points), raw(list), n}, raw(samples)};
 }
 
 #if !defined(__CUDACC__)
 
-ESPDIFF_INLINE void sample_block(const Sampling& in, std::size_t block) {
+ESPDIFF_INLINE void sample_moving_block(const MovingSampling& in, std::size_t block) {
   FlowSums<Lanes> sum;
   sum_at_block(in.cells, in.points, block,
                [&](std::uint32_t a, float k, const Lanes& dx, const Lanes& dy, const Lanes& dz, const Lanes& square,
@@ -35,8 +35,8 @@ ESPDIFF_INLINE void sample_block(const Sampling& in, std::size_t block) {
   }
 }
 
-ESPDIFF_MULTIVERSION void sample_blocks(const Sampling& in, std::size_t first, std::size_t last) {
-  for (std::size_t block = first; block < last; ++block) sample_block(in, block);
+ESPDIFF_MULTIVERSION void sample_moving_blocks(const MovingSampling& in, std::size_t first, std::size_t last) {
+  for (std::size_t block = first; block < last; ++block) sample_moving_block(in, block);
 }
 
 #endif
@@ -69,7 +69,7 @@ MovingAtoms atoms_at(const std::vector<MovingAtom>& atoms, double time) {
 
 void flow_point_by_point(const MovingAtoms& atoms, const Buffer<Vec4f>& points, const Buffer<std::uint32_t>& list,
                          std::size_t n, Buffer<FlowSample>& samples) {
-  const Sampling in = sampling(atoms, points, list, n, samples);
+  const MovingSampling in = sampling(atoms, points, list, n, samples);
   for_each_index(n, [=] ESPDIFF_HD(std::size_t i) {
     const std::uint32_t at = in.points.list[i];
     in.samples[at] = flow_at(in.cells, in.change, in.points.points[at].xyz());
@@ -81,8 +81,8 @@ void flow_at_points(const MovingAtoms& atoms, const Buffer<Vec4f>& points, const
 #if defined(__CUDACC__)
   flow_point_by_point(atoms, points, list, n, samples);
 #else
-  const Sampling in = sampling(atoms, points, list, n, samples);
-  for_all_blocks(n, [=](std::size_t first, std::size_t last) { sample_blocks(in, first, last); });
+  const MovingSampling in = sampling(atoms, points, list, n, samples);
+  for_all_blocks(n, [=](std::size_t first, std::size_t last) { sample_moving_blocks(in, first, last); });
 #endif
 }
 

@@ -15,17 +15,16 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kLeastCompatibleSize = 8, kMostSize = 4096;
 
 std::string text_of(const Vec3d& v) {
   return "(" + formatted(v.x) + ", " + formatted(v.y) + ", " + formatted(v.z) + ")";
 }
-bool is_finite(const Vec3d& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool all_finite(const Vec3d& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 double checked_volume(const PmeCell& cell) {
   const auto& e = cell.edges;
-  if (!is_finite(cell.centre) || !is_finite(e[0]) || !is_finite(e[1]) || !is_finite(e[2]))
+  if (!all_finite(cell.centre) || !all_finite(e[0]) || !all_finite(e[1]) || !all_finite(e[2]))
     throw InputError("the cell has a centre or an edge that is not finite; give twelve numbers in Angstrom");
   const double volume = dot(e[0], cross(e[1], e[2]));
   // In a flatter cell the reciprocal edges would be rounding noise.

@@ -18,7 +18,6 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 /// Ions of one kind per cubic Angstrom at 1 mol/l: Avogadro's number, 6.02214076e23 (CODATA 2018), times 1e-27.
 constexpr double kIonsPerA3 = 6.02214076e-4;
 

@@ -10,7 +10,7 @@ namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
 /// Points processed consecutively: neighbours in the list are neighbours in space.
-constexpr std::size_t kRun = 32;
+constexpr std::size_t kVerticesPerRun = 32;
 
 /// Weights of a triangle's corners.
 struct Barycentric {
@@ -60,9 +60,9 @@ std::shared_ptr<SurfaceMesh> carry(const SurfaceMesh& points, const SurfaceMesh&
   const Corners* const corners = raw(surface.topology->triangles);
   const Vec4f *const from = raw(points.positions), *const to = raw(image.positions);
   Vec4f* const out = raw(carried->positions);
-  for_each_index((n + kRun - 1) / kRun, [=] ESPDIFF_HD(std::size_t run) {
+  for_each_index((n + kVerticesPerRun - 1) / kVerticesPerRun, [=] ESPDIFF_HD(std::size_t run) {
     std::uint32_t guess = 0;
-    for (std::size_t v = run * kRun; v < (run + 1) * kRun && v < n; ++v) {
+    for (std::size_t v = run * kVerticesPerRun; v < (run + 1) * kVerticesPerRun && v < n; ++v) {
       const Vec3f p = from[v].xyz();
       const NearestTriangle nearest = nearest_triangle(tree, p, guess);
       guess = nearest.place;

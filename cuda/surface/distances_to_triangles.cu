@@ -18,7 +18,7 @@ struct LaneVector {
   Lanes x, y, z;
 };
 
-struct Search {
+struct NearestSearch {
   TriangleTreeView tree;
   PointList points;
   float* distances;
@@ -129,7 +129,7 @@ ESPDIFF_INLINE Lanes nearest_of_lanes(const TriangleTreeView& tree, const LaneVe
   }
 }
 
-ESPDIFF_INLINE void search_block(const Search& in, std::size_t block, std::uint32_t& guess) {
+ESPDIFF_INLINE void search_block(const NearestSearch& in, std::size_t block, std::uint32_t& guess) {
   const std::size_t begin = block * kBlock, end = std::min(begin + kBlock, in.points.n);
   float x[kBlock], y[kBlock], z[kBlock];
   for (std::size_t lane = 0; lane < kBlock; ++lane) {
@@ -147,7 +147,7 @@ ESPDIFF_INLINE void search_block(const Search& in, std::size_t block, std::uint3
     in.distances[in.points.list[begin + lane]] = sqrtf(nearest[lane]);
 }
 
-ESPDIFF_MULTIVERSION void search_blocks(const Search& in, std::size_t first, std::size_t last) {
+ESPDIFF_MULTIVERSION void search_blocks(const NearestSearch& in, std::size_t first, std::size_t last) {
   // Points and triangles follow the same curve through nearly the same box.
   const std::size_t n_triangles = in.tree.n_triangles;
   std::uint32_t guess =
@@ -184,7 +184,7 @@ Buffer<float> distances_to_triangles(const TriangleTree& tree, const Buffer<Vec4
 #else
   const Buffer<std::uint32_t> order = spatial_order(points);
   Buffer<float> distances(points.size());
-  const Search in{tree.view(), {raw(points), raw(order), points.size()}, raw(distances)};
+  const NearestSearch in{tree.view(), {raw(points), raw(order), points.size()}, raw(distances)};
   for_all_blocks(points.size(), [=](std::size_t first, std::size_t last) { search_blocks(in, first, last); });
   return distances;
 #endif

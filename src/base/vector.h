@@ -13,6 +13,8 @@
 
 namespace espdiff {
 
+constexpr double kPi = 3.14159265358979323846;
+
 /// A 3-vector; lengths are in Angstrom unless the declaration says otherwise.
 template <typename T>
 struct Vec3 {

@@ -23,7 +23,7 @@
 namespace espdiff::cli {
 namespace {
 
-struct Arguments {
+struct CompareArguments {
   std::string source, target, output;
   MapArguments maps;
   std::string residue_pdb, residue_quantity;
@@ -34,7 +34,7 @@ struct Arguments {
   GivenSettings settings;
 };
 
-void add_input_options(CLI::App& p, Arguments& a) {
+void add_input_options(CLI::App& p, CompareArguments& a) {
   p.add_option("SOURCE", a.source, "Structure of the first state: PQR, PDB or mmCIF")->required();
   p.add_option("TARGET", a.target, "Structure of the second state")->required();
   p.add_option("-o,--output", a.output, "Prefix of the results OUT.json, OUT.vtp and OUT.residues.csv")->required();
@@ -70,13 +70,13 @@ struct Side {
   }
 };
 
-StructureOptions structure_options(const Arguments& a, const std::string& role) {
+StructureOptions structure_options(const CompareArguments& a, const std::string& role) {
   StructureOptions options = a.structure;
   options.model = role == "source" ? a.source_model : a.target_model;
   return options;
 }
 
-Side read_side(const Arguments& a, const std::string& role, const InputOptions& options, const Molecule* source,
+Side read_side(const CompareArguments& a, const std::string& role, const InputOptions& options, const Molecule* source,
                Provenance& provenance, const Progress& progress) {
   const bool is_source = role == "source";
   const std::string& path = is_source ? a.source : a.target;
@@ -92,7 +92,7 @@ Side read_side(const Arguments& a, const std::string& role, const InputOptions& 
 }
 
 /// The maps of both sides: given, computed, or none. @returns why there is none, where that was not asked for
-std::string add_maps(const Arguments& a, Side& source, Side& target, double temperature_K,
+std::string add_maps(const CompareArguments& a, Side& source, Side& target, double temperature_K,
                      std::vector<InputFile>& inputs) {
   if (has_given_maps(a.maps)) {
     for (Side* side : {&source, &target}) side->map = given_map(a.maps, side->role, inputs);
@@ -107,14 +107,14 @@ std::string add_maps(const Arguments& a, Side& source, Side& target, double temp
   return plan.because();
 }
 
-std::vector<std::string> all_inputs(const Arguments& a) {
+std::vector<std::string> all_inputs(const CompareArguments& a) {
   std::vector<std::string> inputs = input_files(a.settings);
   inputs.insert(inputs.end(), {a.source, a.target, a.maps.source_map, a.maps.target_map});
   return inputs;
 }
 
 /// The structures that are written beside the results. An output that would replace an input is found before the work.
-std::vector<KeptFile> kept_structures(const Arguments& a, const Side& source, const Side& target) {
+std::vector<KeptFile> kept_structures(const CompareArguments& a, const Side& source, const Side& target) {
   std::vector<KeptFile> kept;
   for (const Side* side : {&source, &target}) {
     for (KeptFile& file : kept_structure(side->role, side->state)) {
@@ -125,7 +125,7 @@ std::vector<KeptFile> kept_structures(const Arguments& a, const Side& source, co
   return kept;
 }
 
-int run(const Arguments& a, const Context& context) {
+int compare_verb(const CompareArguments& a, const Context& context) {
   check_map_options(a.maps);
   const CompareOptions options = make_options(a.settings);
   check_outputs(all_inputs(a), {a.output + ".json", a.output + ".vtp", a.output + ".residues.csv", a.residue_pdb});
@@ -172,7 +172,7 @@ int run(const Arguments& a, const Context& context) {
 }  // namespace
 
 Verb add_compare(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<CompareArguments>();
   CLI::App* parser =
       app.add_subcommand("compare", "Compare the electrostatic surface potentials of two states of a molecule");
   parser->footer(
@@ -189,7 +189,7 @@ Verb add_compare(CLI::App& app) {
   add_settings(*parser, arguments->settings, SettingsFor::kPair);
   add_device_options(*parser, arguments->device);
   parser->add_flag("-q,--quiet", arguments->quiet, "Print no table");
-  return {parser, [arguments](const Context& context) { return run(*arguments, context); }};
+  return {parser, [arguments](const Context& context) { return compare_verb(*arguments, context); }};
 }
 
 }  // namespace espdiff::cli

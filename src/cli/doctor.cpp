@@ -33,7 +33,7 @@ std::string vmd_module() {
   return std::filesystem::exists(module, ignored) ? module.string() : std::string();
 }
 
-int run() {
+int doctor_verb() {
   std::cout << formatted("espdiff %s\n", kVersion);
   const BackEndStatus cpu = cpu_status(), cuda = cuda_status();
   line("cpu", cpu.available, cpu.description);
@@ -97,7 +97,7 @@ int run() {
 Verb add_doctor(CLI::App& app) {
   CLI::App* parser =
       app.add_subcommand("doctor", "List the parts of this build and machine, and how to get missing ones");
-  return {parser, [](const Context&) { return run(); }};
+  return {parser, [](const Context&) { return doctor_verb(); }};
 }
 
 }  // namespace espdiff::cli

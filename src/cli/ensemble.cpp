@@ -17,7 +17,7 @@
 namespace espdiff::cli {
 namespace {
 
-struct Arguments {
+struct EnsembleArguments {
   std::vector<std::vector<std::string>> groups;  ///< NAME FILE...
   std::string list;
   std::vector<std::string> charges;  ///< GROUP=FILE
@@ -49,7 +49,7 @@ void print_run(const EnsembleReport& report, const std::string& device) {
 }
 
 /// The groups, from options or the list.
-void name_inputs(const Arguments& a, EnsembleStudy& study) {
+void name_inputs(const EnsembleArguments& a, EnsembleStudy& study) {
   if (!a.groups.empty() && !a.list.empty()) throw InputError("--group and --list exclude each other; leave one out");
   if (study.from.empty() && a.groups.empty() && a.list.empty())
     throw InputError("no group was given; name one or two by --group, or a --list of them");
@@ -67,7 +67,7 @@ void name_inputs(const Arguments& a, EnsembleStudy& study) {
   study.read_files.push_back(a.list);
 }
 
-int run(const Arguments& a, const Context& context) {
+int ensemble_verb(const EnsembleArguments& a, const Context& context) {
   EnsembleStudy study = a.study;
   study.statistics.equilibration = parse_equilibration(a.equilibration);
   study.statistics.control = a.control == "tfce" ? ErrorControl::kTfce : ErrorControl::kMaxT;
@@ -88,7 +88,7 @@ int run(const Arguments& a, const Context& context) {
   return 0;
 }
 
-void add_input_options(CLI::App& p, Arguments& a) {
+void add_input_options(CLI::App& p, EnsembleArguments& a) {
   const char* const group = "Groups";
   EnsembleRequest& inputs = a.study.inputs;
   p.add_option("--group", a.groups,
@@ -132,7 +132,7 @@ void add_input_options(CLI::App& p, Arguments& a) {
   add_computed_map_options(p, inputs.potential);
 }
 
-void add_run_options(CLI::App& p, Arguments& a) {
+void add_run_options(CLI::App& p, EnsembleArguments& a) {
   p.add_flag("--resume", a.study.run.resume,
              "Go on with OUT.h5 of an interrupted run; a complete one gets new statistics")
       ->group("Run");
@@ -147,7 +147,7 @@ void add_run_options(CLI::App& p, Arguments& a) {
       ->group("Run");
 }
 
-void add_statistics_options(CLI::App& p, Arguments& a) {
+void add_statistics_options(CLI::App& p, EnsembleArguments& a) {
   const char* const group = "Statistics";
   p.add_option("--from", a.study.from, "Compute the statistics of this complete OUT.h5 again; maps nothing")
       ->group(group);
@@ -200,7 +200,7 @@ void add_statistics_options(CLI::App& p, Arguments& a) {
 }  // namespace
 
 Verb add_ensemble(CLI::App& app) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<EnsembleArguments>();
   CLI::App* parser =
       app.add_subcommand("ensemble", "Compare two groups of simulations: where the difference is more than noise");
   parser->footer(
@@ -223,7 +223,7 @@ Verb add_ensemble(CLI::App& app) {
   add_settings(*parser, a->settings, SettingsFor::kVariants);
   add_device_options(*parser, a->device);
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
-  return {parser, [a](const Context& context) { return run(*a, context); }};
+  return {parser, [a](const Context& context) { return ensemble_verb(*a, context); }};
 }
 
 }  // namespace espdiff::cli

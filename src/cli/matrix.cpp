@@ -24,7 +24,7 @@
 namespace espdiff::cli {
 namespace {
 
-struct Arguments {
+struct MatrixArguments {
   std::vector<std::string> files;
   std::string list, groups, map_array, shard = "1/1", on_error = "stop", template_text;
   std::size_t exact_sample = 6;
@@ -36,7 +36,7 @@ struct Arguments {
   GivenSettings settings;
 };
 
-std::vector<VariantFiles> chosen_variants(const Arguments& a) {
+std::vector<VariantFiles> chosen_variants(const MatrixArguments& a) {
   if (a.files.empty() == a.list.empty())
     throw InputError(a.list.empty() ? "no molecules were given: name files, or a --list of them"
                                     : "files and a --list were given; leave one out");
@@ -61,7 +61,7 @@ struct States {
 };
 
 /// Each structure is read once.
-States read_states(const Arguments& a, const std::vector<VariantFiles>& files, const CompareOptions& options,
+States read_states(const MatrixArguments& a, const std::vector<VariantFiles>& files, const CompareOptions& options,
                    const Progress& progress) {
   States all;
   std::vector<LoadedState> states;
@@ -121,7 +121,7 @@ void print_template_work(const TemplateWork& work) {
             << in_words(work.exact_seconds);
 }
 
-void print_report(const Arguments& a, const Engine& engine, const MatrixReport& report) {
+void print_report(const MatrixArguments& a, const Engine& engine, const MatrixReport& report) {
   if (report.matrix) {
     print_matrix(std::cout, *report.matrix, metric_to_cluster_by(a.run, *report.matrix));
   }
@@ -143,7 +143,7 @@ void print_report(const Arguments& a, const Engine& engine, const MatrixReport& 
   std::cout << '\n';
 }
 
-MatrixReport compute(const Arguments& a, Engine& engine, const std::vector<Variant>& variants,
+MatrixReport compute(const MatrixArguments& a, Engine& engine, const std::vector<Variant>& variants,
                      const CompareOptions& options, const Progress& progress) {
   if (a.template_text.empty()) return run_matrix(engine, variants, options, a.run, progress);
 #ifdef ESPDIFF_HAVE_HDF5
@@ -154,7 +154,7 @@ MatrixReport compute(const Arguments& a, Engine& engine, const std::vector<Varia
 #endif
 }
 
-int run(Arguments& a, const Context& context) {
+int matrix_verb(MatrixArguments& a, const Context& context) {
   const CompareOptions options = make_options(a.settings);
   a.run.shard = parse_shard(a.shard);
   a.run.skip_errors = a.on_error == "skip";
@@ -172,7 +172,7 @@ int run(Arguments& a, const Context& context) {
   return 0;
 }
 
-void add_template_options(CLI::App& p, Arguments& a) {
+void add_template_options(CLI::App& p, MatrixArguments& a) {
   p.add_option(
        "--template", a.template_text,
        "Map the surface of one structure onto each variant, and compare all variants in its vertices: a mapping "
@@ -186,7 +186,7 @@ void add_template_options(CLI::App& p, Arguments& a) {
       ->group("Template");
 }
 
-void add_run_options(CLI::App& p, Arguments& a) {
+void add_run_options(CLI::App& p, MatrixArguments& a) {
   p.add_flag("--resume", a.run.resume, "Resume an interrupted run from its state file OUT.state")->group("Run");
   p.add_flag("--overwrite", a.run.overwrite, "Start again and replace results and state files")->group("Run");
   p.add_option("--on-error", a.on_error,
@@ -204,7 +204,7 @@ void add_run_options(CLI::App& p, Arguments& a) {
 }  // namespace
 
 Verb add_matrix(CLI::App& app) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<MatrixArguments>();
   CLI::App* parser =
       app.add_subcommand("matrix", "Compare many states of a molecule, each with each, in both directions");
   parser->footer(
@@ -231,7 +231,7 @@ Verb add_matrix(CLI::App& app) {
   add_settings(*parser, a->settings, SettingsFor::kVariants);
   add_device_options(*parser, a->device);
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
-  return {parser, [a](const Context& context) { return run(*a, context); }};
+  return {parser, [a](const Context& context) { return matrix_verb(*a, context); }};
 }
 
 }  // namespace espdiff::cli

@@ -13,7 +13,7 @@
 namespace espdiff::cli {
 namespace {
 
-struct Arguments {
+struct MergeArguments {
   std::vector<std::string> states;
   MatrixRun run;
   bool quiet = false;
@@ -21,7 +21,7 @@ struct Arguments {
 
 #ifdef ESPDIFF_HAVE_HDF5
 /// Parts of an ensemble.
-int run_ensemble_merge(const Arguments& a) {
+int run_ensemble_merge(const MergeArguments& a) {
   EnsembleRun run;
   run.output = a.run.output;
   run.overwrite = a.run.overwrite;
@@ -33,14 +33,14 @@ int run_ensemble_merge(const Arguments& a) {
 }
 #endif
 
-MatrixReport merged(const Arguments& a) {
+MatrixReport merged(const MergeArguments& a) {
 #ifdef ESPDIFF_HAVE_HDF5
   if (are_parts_of_template_matrix(a.states)) return merge_template_matrix(a.states, a.run);
 #endif
   return merge_matrix(a.states, a.run);
 }
 
-int run(const Arguments& a, const Context&) {
+int merge_verb(const MergeArguments& a, const Context&) {
 #ifdef ESPDIFF_HAVE_HDF5
   if (is_hdf5_file(a.states.front()) && !are_parts_of_template_matrix(a.states)) return run_ensemble_merge(a);
 #endif
@@ -57,7 +57,7 @@ int run(const Arguments& a, const Context&) {
 }  // namespace
 
 Verb add_merge(CLI::App& app) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<MergeArguments>();
   CLI::App* parser = app.add_subcommand("merge", "Merge the parts of a matrix or an ensemble");
   parser->footer(
       "The parts are the state files of `espdiff matrix --shard I/N` (with --template the HDF5 files too), or the HDF5 "
@@ -69,7 +69,7 @@ Verb add_merge(CLI::App& app) {
   parser->add_option("--cluster-by", a->run.cluster_by, "Metric for clustering, as in `espdiff matrix`");
   parser->add_flag("--overwrite", a->run.overwrite, "Replace results that exist");
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
-  return {parser, [a](const Context& context) { return run(*a, context); }};
+  return {parser, [a](const Context& context) { return merge_verb(*a, context); }};
 }
 
 }  // namespace espdiff::cli

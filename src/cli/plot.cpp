@@ -17,7 +17,7 @@
 namespace espdiff::cli {
 namespace {
 
-struct Arguments {
+struct PlotArguments {
   std::string input, output, source, order = "given", x, title;
   std::vector<std::string> metrics;
   std::vector<double> range;
@@ -59,19 +59,19 @@ bool is_antisymmetric(const std::string& name) {
   return metric != nullptr && (metric->flags & kAntisymmetric) != 0;
 }
 
-std::string only_metric(const Arguments& a, const std::string& otherwise) {
+std::string only_metric(const PlotArguments& a, const std::string& otherwise) {
   if (a.metrics.size() > 1) throw InputError("a heat map shows one metric; name one, or one variant by --source");
   return a.metrics.empty() ? otherwise : a.metrics.front();
 }
 
 /// Ends of the colours; equal if none were chosen.
-std::pair<double, double> chosen_range(const Arguments& a) {
+std::pair<double, double> chosen_range(const PlotArguments& a) {
   if (a.range.empty()) return {0, 0};
   if (!(a.range[0] < a.range[1])) throw InputError("--range: the lower end comes first, and both differ");
   return {a.range[0], a.range[1]};
 }
 
-HeatMap heat_map(const Arguments& a, const MatrixFile& matrix) {
+HeatMap heat_map(const PlotArguments& a, const MatrixFile& matrix) {
   const MatrixFileMetric& metric = matrix.metric(only_metric(a, matrix.clustered_by));
   const Quantity quantity = quantity_of(metric.name, metric.unit);
   HeatMap map;
@@ -95,7 +95,7 @@ HeatMap heat_map(const Arguments& a, const MatrixFile& matrix) {
 
 /// One variant as the source against all others; with both_ways the mean of both directions, with bars that reach to
 /// each.
-LinePlot one_against_all(const Arguments& a, const MatrixFile& matrix) {
+LinePlot one_against_all(const PlotArguments& a, const MatrixFile& matrix) {
   const std::size_t n = matrix.n(), one = matrix.find(a.source);
   LinePlot plot;
   plot.x_title = a.both_ways ? "Variant" : "Target";
@@ -136,7 +136,7 @@ std::string potential_unit_of(const CsvTable& table) {
 
 /// Columns of a table along another column, such as the frames of a trajectory. A column NAME_error gives NAME error
 /// bars.
-LinePlot along_table(const Arguments& a, const CsvTable& table) {
+LinePlot along_table(const PlotArguments& a, const CsvTable& table) {
   if (!a.source.empty() || a.both_ways)
     throw InputError("--source and --both-ways need a matrix; give its OUT.json instead of " + table.path);
   if (table.find("source") >= 0 && table.find("target") >= 0)
@@ -174,7 +174,7 @@ LinePlot along_table(const Arguments& a, const CsvTable& table) {
   return plot;
 }
 
-int run(const Arguments& a, const Context&) {
+int plot_verb(const PlotArguments& a, const Context&) {
   const PictureFormat format = picture_format(a.output);
   check_outputs({a.input}, {a.output});
   const bool is_json = lower_case(a.input).size() > 5 && lower_case(a.input).substr(a.input.size() - 5) == ".json";
@@ -204,7 +204,7 @@ int run(const Arguments& a, const Context&) {
 }  // namespace
 
 Verb add_plot(CLI::App& app) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<PlotArguments>();
   CLI::App* parser =
       app.add_subcommand("plot", "Draw a matrix, one variant against all, or a trajectory and its residues");
   parser->footer(
@@ -236,7 +236,7 @@ Verb add_plot(CLI::App& app) {
       ->group("Lines");
   parser->add_option("--x", a->x, "Column of a CSV file that is the x axis (frame)")->group("Lines");
   parser->add_flag("--no-marks", a->no_marks, "Do not mark results that are not trustworthy");
-  return {parser, [a](const Context& context) { return run(*a, context); }};
+  return {parser, [a](const Context& context) { return plot_verb(*a, context); }};
 }
 
 }  // namespace espdiff::cli

@@ -26,7 +26,7 @@
 namespace espdiff::cli {
 namespace {
 
-struct Arguments {
+struct PotentialArguments {
   std::string molecule, output, variance, standard_error;
   std::string method = "pme", frames = "all", averaging = "mean", align = "none";
   std::string cell, xsc_file;
@@ -39,7 +39,7 @@ struct Arguments {
   DeviceArguments device;
 };
 
-void add_cell_options(CLI::App& p, Arguments& a) {
+void add_cell_options(CLI::App& p, PotentialArguments& a) {
   const char* const group = "Cell";
   p.add_option("--cell", a.cell,
                "Cell of every frame, '{{ox oy oz} {ax ay az} {bx by bz} {cx cy cz}}', o its centre. Default: each "
@@ -48,7 +48,7 @@ void add_cell_options(CLI::App& p, Arguments& a) {
   p.add_option("--xscfile", a.xsc_file, "Cell of every frame from a NAMD .xsc file")->group(group);
 }
 
-void add_method_options(CLI::App& p, Arguments& a) {
+void add_method_options(CLI::App& p, PotentialArguments& a) {
   const char* const group = "Method";
   p.add_option("--method", a.method,
                "pme: particle-mesh Ewald in a periodic cell (mean zero; a net charge is neutralized by a uniform "
@@ -64,7 +64,7 @@ void add_method_options(CLI::App& p, Arguments& a) {
   add_potential_settings(p, a.given, true);
 }
 
-void add_frame_options(CLI::App& p, Arguments& a) {
+void add_frame_options(CLI::App& p, PotentialArguments& a) {
   const char* const group = "Frames";
   p.add_option("--frames", a.frames,
                "Models of the file, from 0: all, a frame, begin:end or begin:step:end; see `espdiff trajectory`")
@@ -88,7 +88,7 @@ void add_frame_options(CLI::App& p, Arguments& a) {
       ->group(group);
 }
 
-PotentialOptions options_from(const Arguments& a) {
+PotentialOptions options_from(const PotentialArguments& a) {
   const PotentialMethod method = parse_potential_method(a.method);
   PotentialOptions o = make_potential_options(method, a.given, a.temperature_K, true);
   if (!a.cell.empty() && !a.xsc_file.empty()) throw InputError("--cell and --xscfile were given; leave one out");
@@ -114,7 +114,7 @@ std::string numbered(const std::string& path, int frame) {
 /// all or none.
 class Outputs {
  public:
-  Outputs(const Arguments& a, const std::vector<int>& frames) : each_(a.averaging == "each") {
+  Outputs(const PotentialArguments& a, const std::vector<int>& frames) : each_(a.averaging == "each") {
     std::vector<std::string> paths;
     if (!each_) paths.push_back(a.output);
     for (std::size_t i = 0; each_ && i < frames.size(); ++i) paths.push_back(numbered(a.output, frames[i]));
@@ -131,7 +131,7 @@ class Outputs {
   void write_frame(std::size_t number, const Grid& map) {
     if (each_) write_map(*files_[number], map);
   }
-  void finish(const Arguments& a, const RunningMap& average) {
+  void finish(const PotentialArguments& a, const RunningMap& average) {
     if (!each_) write_map(*files_[0], average.mean());
     std::size_t next = n_maps_;
     if (!a.variance.empty()) write_map(*files_[next++], average.variance());
@@ -170,7 +170,7 @@ void print_summary(const Molecule& molecule, const Grid& map, std::size_t n_fram
 /// The molecules of the frames, with charges.
 class Frames {
  public:
-  Frames(const Arguments& a, const StructureFile& file, const Progress& progress)
+  Frames(const PotentialArguments& a, const StructureFile& file, const Progress& progress)
       : a_(a), options_(make_options(a.settings).input), file_(file), progress_(progress) {
     if (a.method == "pb") structure_.include_water = false;
   }
@@ -192,7 +192,7 @@ class Frames {
   const std::optional<Preparation>& preparation() const { return first_->preparation; }
 
  private:
-  const Arguments& a_;
+  const PotentialArguments& a_;
   const InputOptions options_;
   const StructureFile& file_;
   const Progress& progress_;
@@ -200,7 +200,7 @@ class Frames {
   std::optional<LoadedState> first_;
 };
 
-int run(const Arguments& a, const Context& context) {
+int potential_verb(const PotentialArguments& a, const Context& context) {
   const PotentialOptions options = options_from(a);
   const auto start = std::chrono::steady_clock::now();
   context.progress->report("read", 0.0);
@@ -235,7 +235,7 @@ int run(const Arguments& a, const Context& context) {
 }  // namespace
 
 Verb add_potential(CLI::App& app) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<PotentialArguments>();
   CLI::App* parser =
       app.add_subcommand("potential", "Compute the electrostatic potential around a molecule, or its mean over frames");
   parser->footer(
@@ -259,7 +259,7 @@ Verb add_potential(CLI::App& app) {
       ->group("Molecules");
   add_device_options(*parser, a->device);
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
-  return {parser, [a](const Context& context) { return run(*a, context); }};
+  return {parser, [a](const Context& context) { return potential_verb(*a, context); }};
 }
 
 }  // namespace espdiff::cli

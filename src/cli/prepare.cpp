@@ -19,7 +19,7 @@
 namespace espdiff::cli {
 namespace {
 
-struct Arguments {
+struct PrepareArguments {
   std::string input, output, json;
   bool quiet = false;
   StructureOptions structure;
@@ -32,7 +32,7 @@ std::string json_beside(const std::string& output) {
   return (dot != std::string::npos && dot + 4 == output.size() ? output.substr(0, dot) : output) + ".json";
 }
 
-nlohmann::ordered_json as_json(const Arguments& a, const Context& context, const StructureFile& file,
+nlohmann::ordered_json as_json(const PrepareArguments& a, const Context& context, const StructureFile& file,
                                const LoadedState& state) {
   nlohmann::ordered_json json;
   json["input"] = {{"path", a.input}, {"sha256", file.sha256()}, {"model", a.structure.model}};
@@ -44,7 +44,7 @@ nlohmann::ordered_json as_json(const Arguments& a, const Context& context, const
   return json;
 }
 
-void print_summary(const Arguments& a, const LoadedState& state) {
+void print_summary(const PrepareArguments& a, const LoadedState& state) {
   if (state.preparation) {
     print_preparation(std::cout, *state.preparation);
   } else {
@@ -62,7 +62,7 @@ void print_summary(const Arguments& a, const LoadedState& state) {
   std::cout << "written         " << a.output << ", " << a.json << '\n';
 }
 
-int run(Arguments& a, const Context& context) {
+int prepare_verb(PrepareArguments& a, const Context& context) {
   const CompareOptions options = make_options(a.settings);
   if (a.json.empty()) a.json = json_beside(a.output);
   std::vector<std::string> inputs = input_files(a.settings);
@@ -85,7 +85,7 @@ int run(Arguments& a, const Context& context) {
 }  // namespace
 
 Verb add_prepare(CLI::App& app) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<PrepareArguments>();
   CLI::App* parser = app.add_subcommand("prepare", "Add hydrogens, charges and radii to a structure");
   parser->footer(
       "Runs PDB2PQR (Debian: pdb2pqr) with PROPKA. The verbs that compare do the same for structures without "
@@ -104,7 +104,7 @@ Verb add_prepare(CLI::App& app) {
   add_structure_options(*parser, a->structure);
   add_settings(*parser, a->settings, SettingsFor::kPreparation);
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
-  return {parser, [a](const Context& context) { return run(*a, context); }};
+  return {parser, [a](const Context& context) { return prepare_verb(*a, context); }};
 }
 
 }  // namespace espdiff::cli

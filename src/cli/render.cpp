@@ -15,12 +15,12 @@ namespace espdiff::cli {
 #if defined(ESPDIFF_HAVE_VTK)
 namespace {
 
-struct Arguments {
+struct RenderArguments {
   std::string input, output;
   SceneArguments scene;
 };
 
-int run(Arguments& a, const Context& context) {
+int render_verb(RenderArguments& a, const Context& context) {
   const Scene scene = scene_of(a.scene);
   check_outputs({a.input, a.scene.scene_file}, {a.output, a.scene.saved_scene});
   const std::unique_ptr<AtomicFile> saved = saved_scene_of(a.scene, scene);
@@ -34,7 +34,7 @@ int run(Arguments& a, const Context& context) {
 }  // namespace
 
 Verb add_render(CLI::App& app) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<RenderArguments>();
   CLI::App* parser = app.add_subcommand("render", "Draw a comparison to a PNG");
   parser->footer(
       "Needs an X display; without one: xvfb-run -a espdiff render ...\n\nExamples:\n  espdiff render result.vtp -o "
@@ -43,7 +43,7 @@ Verb add_render(CLI::App& app) {
   parser->add_option("SURFACE", a->input, "OUT.vtp of compare; OUT.json must be beside it")->required();
   parser->add_option("-o,--output", a->output, "Picture to write (.png)")->required();
   add_scene_options(*parser, a->scene);
-  return {parser, [a](const Context& context) { return run(*a, context); }};
+  return {parser, [a](const Context& context) { return render_verb(*a, context); }};
 }
 
 #else

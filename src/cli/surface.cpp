@@ -25,7 +25,7 @@
 namespace espdiff::cli {
 namespace {
 
-struct Arguments {
+struct SurfaceArguments {
   std::string molecule, output, density, map, map_unit, map_array;
   bool regularize = false;
   bool quiet = false;
@@ -36,7 +36,7 @@ struct Arguments {
 };
 
 /// The structure with charges where a potential is asked for.
-LoadedState load(const Arguments& a, const InputOptions& options, const Progress& progress) {
+LoadedState load(const SurfaceArguments& a, const InputOptions& options, const Progress& progress) {
   const bool asks = a.potential.potential != "none";
   if (!a.map.empty() && asks)
     throw InputError(option("potential") + " computes the map, and --map was given; leave out one of them");
@@ -71,7 +71,7 @@ void print_summary(const SurfaceResult& result) {
   }
 }
 
-int run(const Arguments& a, const Context& context) {
+int surface_verb(const SurfaceArguments& a, const Context& context) {
   const CompareOptions options = make_options(a.settings);
   std::vector<std::string> inputs = input_files(a.settings);
   inputs.insert(inputs.end(), {a.molecule, a.map});
@@ -113,7 +113,7 @@ int run(const Arguments& a, const Context& context) {
 }  // namespace
 
 Verb add_surface(CLI::App& app) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<SurfaceArguments>();
   CLI::App* parser =
       app.add_subcommand("surface", "Write a molecule's surface, with its potential if one is given or asked for");
   parser->footer(
@@ -138,7 +138,7 @@ Verb add_surface(CLI::App& app) {
   add_structure_options(*parser, a->structure);
   add_settings(*parser, a->settings, SettingsFor::kSurface);
   add_device_options(*parser, a->device);
-  return {parser, [a](const Context& context) { return run(*a, context); }};
+  return {parser, [a](const Context& context) { return surface_verb(*a, context); }};
 }
 
 }  // namespace espdiff::cli

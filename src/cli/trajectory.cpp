@@ -108,7 +108,7 @@ SeriesHead head_of(const TrajectoryArguments& a, const TrajectoryPlan& plan, con
   return series_head(run, plan.options);
 }
 
-int run(const TrajectoryArguments& a, const Context& context) {
+int trajectory_verb(const TrajectoryArguments& a, const Context& context) {
   check_map_options(a.maps);
   if (a.resume && a.overwrite) throw InputError("--resume and --overwrite exclude each other");
   if (a.residues.empty() && !a.residue_quantity.empty()) throw InputError("--residue-quantity needs --residues FILE");
@@ -184,7 +184,7 @@ Verb add_trajectory(CLI::App& app) {
   add_settings(*parser, a->settings, SettingsFor::kPair);
   add_device_options(*parser, a->device);
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
-  return {parser, [a](const Context& context) { return run(*a, context); }};
+  return {parser, [a](const Context& context) { return trajectory_verb(*a, context); }};
 }
 
 }  // namespace espdiff::cli

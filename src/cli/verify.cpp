@@ -13,7 +13,7 @@ namespace espdiff::cli {
 #if defined(ESPDIFF_HAVE_VTK)
 namespace {
 
-int run(const std::string& prefix) {
+int verify_verb(const std::string& prefix) {
   const Verification verification = verify(prefix);
   std::cout << formatted("%-58s %12s %12s %10s\n", "Number", "recorded", "recomputed", "tolerance");
   std::size_t n_different = 0;
@@ -41,7 +41,7 @@ Verb add_verify(CLI::App& app) {
       "Exit status 1 if a number differs.\n\nExample:\n  espdiff compare a.pqr b.pqr -o result && espdiff verify "
       "result");
   parser->add_option("OUT", *prefix, "Prefix of OUT.json and OUT.vtp; the inputs must be where they were")->required();
-  return {parser, [prefix](const Context&) { return run(*prefix); }};
+  return {parser, [prefix](const Context&) { return verify_verb(*prefix); }};
 }
 
 #else

@@ -15,12 +15,12 @@ namespace espdiff::cli {
 #if defined(ESPDIFF_HAVE_VTK)
 namespace {
 
-struct Arguments {
+struct ViewArguments {
   std::string input, prefix;
   SceneArguments scene;
 };
 
-int run(Arguments& a, const Context&) {
+int view_verb(ViewArguments& a, const Context&) {
   Scene window;
   window.width = 1280;
   window.height = 860;
@@ -43,14 +43,14 @@ std::string footer() {
 }  // namespace
 
 Verb add_view(CLI::App& app) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<ViewArguments>();
   CLI::App* parser = app.add_subcommand("view", "Show a comparison in a window");
   parser->footer(footer());
   parser->add_option("SURFACE", a->input, "OUT.vtp of compare; OUT.json must be beside it")->required();
   parser->add_option("-o,--output", a->prefix,
                      "Pictures and scenes are saved as PREFIX.png and PREFIX.json [OUT-view]");
   add_scene_options(*parser, a->scene);
-  return {parser, [a](const Context& context) { return run(*a, context); }};
+  return {parser, [a](const Context& context) { return view_verb(*a, context); }};
 }
 
 #else

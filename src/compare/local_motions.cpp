@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "align/superpose.h"
+#include "base/vector.h"
 
 namespace espdiff {
 namespace {
@@ -25,7 +26,7 @@ constexpr double kResidueReach_A = 12;
 constexpr double kResidueDamping_A2 = 50;
 /// A chain is broken where the centres of successive residues lie farther apart. Nucleotides have up to 8 A.
 constexpr double kLongestLink_A = 12;
-constexpr double kTurn = 2 * 3.14159265358979323846;
+constexpr double kTurn = 2 * kPi;
 
 /// Sums over the paired atoms of residues, from which the best motion follows.
 struct Moments {

@@ -5,11 +5,10 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/vector.h"
 
 namespace espdiff {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 struct Lab {
   double lightness = 0, a = 0, b = 0;

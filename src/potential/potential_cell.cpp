@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/formatted.h"
+#include "base/vector.h"
 #include "io/text_cursor.h"
 #include "potential/potential.h"
 
@@ -113,7 +114,7 @@ PmeCell padded_cell(const std::vector<Vec3d>& positions, double pad_A) {
 }
 
 PmeCell cell_from(const UnitCell& cell, Vec3d centre) {
-  constexpr double kDegree = 3.14159265358979323846 / 180;
+  constexpr double kDegree = kPi / 180;
   // Right angles are exact: the cosine of 90 degrees in radians is not zero.
   const auto cosine = [](double angle) { return angle == 90 ? 0.0 : std::cos(angle * kDegree); };
   const double cos_bc = cosine(cell.angles.x), cos_ac = cosine(cell.angles.y), cos_ab = cosine(cell.angles.z);

@@ -12,8 +12,8 @@ namespace espdiff {
 namespace {
 
 void labelled_line(std::ostream& out, const std::string& label, const std::string& text) {
-  constexpr std::size_t kLabelWidth = 16;
-  out << label << std::string(label.size() < kLabelWidth ? kLabelWidth - label.size() : 1, ' ') << text << '\n';
+  constexpr std::size_t kHeadingWidth = 16;
+  out << label << std::string(label.size() < kHeadingWidth ? kLabelWidth - label.size() : 1, ' ') << text << '\n';
 }
 
 /// The first label stands before the first line only.

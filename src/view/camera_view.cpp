@@ -9,12 +9,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/vector.h"
 #include "view/orientation.h"
 
 namespace espdiff {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
+constexpr double kDegree = kPi / 180;
 /// Margin around the surface in each view.
 constexpr double kMargin = 1.06;
 

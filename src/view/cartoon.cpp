@@ -11,6 +11,7 @@
 
 #include <cmath>
 
+#include "base/vector.h"
 #include "view/secondary_structure.h"
 
 namespace espdiff {
@@ -18,7 +19,6 @@ namespace {
 
 constexpr int kSteps = 8;     ///< spline steps per residue
 constexpr int kCorners = 16;  ///< corners of the profile
-constexpr double kPi = 3.14159265358979323846;
 
 /// Half axes of the profile, Angstrom.
 struct Profile {
