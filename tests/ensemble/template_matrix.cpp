@@ -329,3 +329,5 @@ TEST_CASE("a file of other states or another template is refused, and a state th
   CHECK(contains(report.matrix->through->states[1].error, "does not cover"));
   CHECK(report.matrix->cell(0, 2).error.empty());
 }
+
+TEST_SUITE_END();

@@ -251,3 +251,5 @@ TEST_CASE("asymmetry, distances and groups of a matrix made by hand") {
   CHECK(groups[0].mean == 4);
   CHECK(groups[0].n_trustworthy == 1);
 }
+
+TEST_SUITE_END();

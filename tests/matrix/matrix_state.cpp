@@ -168,3 +168,5 @@ TEST_CASE("one process at a time writes a state file") {
       contains(message_of([&] { MatrixState::go_on(path, plan_of_three(), content); }), "another process is writing"));
   CHECK(contains(message_of([&] { MatrixState::begin(path, plan_of_three()); }), "another process is writing"));
 }
+
+TEST_SUITE_END();

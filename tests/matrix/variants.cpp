@@ -125,3 +125,5 @@ TEST_CASE("maps in several units become those of the first; some with and some w
   variants[1].map.reset();
   CHECK(contains(message_of([&] { espdiff::unite_map_units(variants, 300); }), "missing for the variant 'v1'"));
 }
+
+TEST_SUITE_END();

@@ -218,3 +218,5 @@ TEST_CASE("without gnuplot the message says what to install") {
   CHECK(contains(message, "gnuplot, which is not installed"));
   CHECK(contains(message, "gnuplot-nox"));
 }
+
+TEST_SUITE_END();
