@@ -1,10 +1,18 @@
-// bent_row.h: states of a made molecule for the tests of regions and patches.
+// bent_row.h: what the tests of regions and patches share: states of a made molecule, options, cells of tables.
 #pragma once
 
+#include <doctest/doctest.h>
+
+#include <algorithm>
 #include <cstdio>
 #include <string>
 
+#include "io/read_csv.h"
+
 namespace espdiff_test {
+
+/// Options of a quick run.
+inline const std::string kUsual = " --device cpu --pb-spacing 1 -q";
 
 /// A row of atoms that is bent, with charges of both signs.
 inline std::string bent_row(double bend, int n = 9) {
@@ -17,6 +25,13 @@ inline std::string bent_row(double bend, int n = 9) {
     text += line;
   }
   return text;
+}
+
+/// The text in a row and under a column.
+inline std::string cell(const espdiff::CsvTable& table, std::size_t row, const std::string& column) {
+  const auto found = std::find(table.columns.begin(), table.columns.end(), column);
+  REQUIRE_MESSAGE(found != table.columns.end(), column);
+  return table.rows.at(row).at(static_cast<std::size_t>(found - table.columns.begin()));
 }
 
 }  // namespace espdiff_test

@@ -14,7 +14,7 @@
 #include "io/run_program.h"
 
 using namespace espdiff_test;  // NOLINT: a test
-using nlohmann::json;
+using Json = nlohmann::json;
 
 namespace {
 
@@ -70,17 +70,17 @@ TEST_CASE("charges are those of pdb2pqr to the last digit, and a difference that
     const Outcome outcome =
         run_espdiff("compare " + arguments + " --offset 0,1.4,3 --device cpu -q -o " + folder.file(output));
     REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
-    return json::parse(read_file(folder.file(output + ".json")));
+    return Json::parse(read_file(folder.file(output + ".json")));
   };
   const auto file = [&](const std::string& name) { return folder.file(name); };
-  const json by_hand = compared(file("hand7.pqr") + " " + file("hand2.pqr") + " --source-map " +
+  const Json by_hand = compared(file("hand7.pqr") + " " + file("hand2.pqr") + " --source-map " +
                                     file("hand7.pqr-PE0.dx") + " --target-map " + file("hand2.pqr-PE0.dx"),
                                 "by_hand");
   // That input has no salt, and 298.15 K.
-  const json ours = compared(
+  const Json ours = compared(
       file("ours7.pqr") + " " + file("ours2.pqr") + " --potential pb --ionic-strength 0 --temperature 298.15", "ours");
   for (std::size_t i = 0; i < 3; ++i) {
-    const json &a = by_hand["by_offset"][i], &b = ours["by_offset"][i];
+    const Json &a = by_hand["by_offset"][i], &b = ours["by_offset"][i];
     const double difference = a["mean_abs_difference"], own = b["mean_abs_difference"];
     MESSAGE(a["offset_A"].get<double>(), " A outside: ", difference, " kT/e by hand, ", own, " by espdiff");
     CHECK(difference > 1);

@@ -13,7 +13,7 @@
 #include "io/read_vtp.h"
 
 using namespace espdiff_test;  // NOLINT: a test
-using nlohmann::json;
+using Json = nlohmann::json;
 
 namespace {
 
@@ -29,10 +29,10 @@ std::string as_pdb(const std::string& pqr) {
   return pdb;
 }
 
-json run(const std::string& arguments, const std::string& output) {
+Json run(const std::string& arguments, const std::string& output) {
   const Outcome outcome = run_espdiff(arguments + kQuick + output);
   REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
-  return json::parse(read_file(output + ".json"));
+  return Json::parse(read_file(output + ".json"));
 }
 
 /// The rows of a trajectory without its head.
@@ -48,12 +48,6 @@ std::string rows(const std::string& csv) {
   return text;
 }
 
-bool has_pdb2pqr() {
-  if (contains(run_espdiff("doctor").out, "prepare        ok")) return true;
-  MESSAGE("SKIPPED: no PDB2PQR on PATH");
-  return false;
-}
-
 }  // namespace
 
 TEST_CASE("compare, trajectory and matrix --charges-from: the numbers of files that have these charges") {
@@ -63,13 +57,13 @@ TEST_CASE("compare, trajectory and matrix --charges-from: the numbers of files t
   const std::string a = folder.write("a.pdb", as_pdb(read_file(*first))),
                     b = folder.write("b.pdb", as_pdb(read_file(*second)));
   const std::string from = " --charges-from " + *first;
-  const json given = run("compare " + *first + " " + *second, folder.file("given")),
+  const Json given = run("compare " + *first + " " + *second, folder.file("given")),
              taken = run("compare " + a + " " + b + from, folder.file("taken"));
   for (const char* metric : {"mean_abs_difference", "hodgkin_index", "mean_displacement_A", "rmsd_A"})
     CHECK(taken[metric] == given[metric]);
   CHECK(given["mean_abs_difference"].get<double>() > 0.1);
   bool is_listed = false;
-  for (const json& input : taken["inputs"])
+  for (const Json& input : taken["inputs"])
     is_listed = is_listed || input["path"] == *first;  // beside the states that were kept
   CHECK_MESSAGE(is_listed, taken["inputs"].dump());
   const auto trajectory = [&](const std::string& arguments, const std::string& name) {
@@ -78,7 +72,7 @@ TEST_CASE("compare, trajectory and matrix --charges-from: the numbers of files t
     return rows(folder.file(name));
   };
   CHECK(trajectory(*first + " " + *second, "given.csv") == trajectory(a + " " + b + from, "taken.csv"));
-  const json matrix = run("matrix " + a + " " + b + from + " --potential pb", folder.file("m"));
+  const Json matrix = run("matrix " + a + " " + b + from + " --potential pb", folder.file("m"));
   CHECK(matrix["metrics"]["mean_abs_difference"]["values"][0][1] == given["mean_abs_difference"]);
   // A state of other atoms.
   const std::string cut = folder.write("cut.pdb", as_pdb(read_file(*second)).substr(0, 81 * 600));
@@ -105,17 +99,17 @@ TEST_CASE("compare and trajectory --topology: a PSF's charges beside coordinates
     bent += line + "\n";
   }
   const std::string target = folder.write("bent.pdb", bent), pair = *pdb + " " + target;
-  const json both = run("compare " + pair + " --topology " + *psf, folder.file("both"));
+  const Json both = run("compare " + pair + " --topology " + *psf, folder.file("both"));
   CHECK(both["potential"]["label"] == "Poisson-Boltzmann, 0.15 mol/l");
   CHECK(both["mean_abs_difference"].get<double>() > 0.001);
   double charge = 1, n = 0;
-  for (const json& input : both["inputs"]) {
+  for (const Json& input : both["inputs"]) {
     if (input["role"] == "source_map") charge = input["computed"]["net_charge"];
     n += input["role"] == "source_topology" || input["role"] == "target_topology" ? 1 : 0;
   }
   CHECK(std::fabs(charge) < 1e-3);
   CHECK_MESSAGE(n == 2, both["inputs"].dump());
-  const json sides =
+  const Json sides =
       run("compare " + pair + " --source-topology " + *psf + " --target-topology " + *psf, folder.file("sides"));
   CHECK(sides["mean_abs_difference"] == both["mean_abs_difference"]);
   const Outcome trajectory =

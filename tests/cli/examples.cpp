@@ -17,10 +17,10 @@ bool has(const char* program) {
   return found;
 }
 
-struct Files {
+struct ExampleFiles {
   ScratchFolder folder;
   std::string molecules, list = "structure\n";
-  Files() {
+  ExampleFiles() {
     for (int i = 0; i < 4; ++i) {
       const std::string name = "m" + std::to_string(i) + ".pqr";
       molecules += " " + folder.write(name, row_of_atoms(9 + i, 0.3 * i));
@@ -48,21 +48,21 @@ struct Files {
 
 TEST_CASE("GNU parallel") {
   if (!has("parallel")) return;
-  const Files files;
+  const ExampleFiles files;
   CHECK(files.run("matrix_parallel.sh 2 par" + files.molecules) == 0);
   files.check_same("par");
 }
 
 TEST_CASE("mpirun") {
   if (!has("mpirun")) return;
-  const Files files;
+  const ExampleFiles files;
   CHECK(files.run("matrix_mpi.sh 2 mpi" + files.molecules,
                   "MPIRUN_OPTIONS=--oversubscribe OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1") == 0);
   files.check_same("mpi");
 }
 
 TEST_CASE("the tasks of a Slurm array, as Slurm calls them") {
-  const Files files;
+  const ExampleFiles files;
   for (int task = 1; task <= 3; ++task) {
     const std::string environment =
         "SLURM_ARRAY_TASK_COUNT=3 SLURM_CPUS_PER_TASK=1 SLURM_ARRAY_TASK_ID=" + std::to_string(task);

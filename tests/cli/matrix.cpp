@@ -13,10 +13,10 @@ using namespace espdiff_test;  // NOLINT: a test
 namespace {
 
 /// Four molecules that differ, with groups.
-struct Files {
+struct MatrixFiles {
   ScratchFolder folder;
   std::string molecules, groups;
-  Files() {
+  MatrixFiles() {
     for (int i = 0; i < 4; ++i) {
       const std::string name = "m" + std::to_string(i) + ".pqr";
       molecules += " " + folder.write(name, row_of_atoms(9 + i, 0.3 * i));
@@ -32,7 +32,7 @@ struct Files {
 }  // namespace
 
 TEST_CASE("a matrix of files prints its sum and writes both files") {
-  const Files files;
+  const MatrixFiles files;
   const Outcome outcome = files.matrix("m", "--groups " + files.groups);
   REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
   CHECK(contains(outcome.out,
@@ -49,14 +49,14 @@ TEST_CASE("a matrix of files prints its sum and writes both files") {
 }
 
 TEST_CASE("any number of threads gives the same bytes") {
-  const Files files;
+  const MatrixFiles files;
   REQUIRE(files.matrix("one", "--threads 1 -q").status == 0);
   REQUIRE(files.matrix("three", "--threads 3 -q").status == 0);
   CHECK(read_file(files.out("one.json")) == read_file(files.out("three.json")));
 }
 
 TEST_CASE("a run that was killed goes on and writes the same bytes") {
-  const Files files;
+  const MatrixFiles files;
   REQUIRE(files.matrix("whole", "-q").status == 0);
   // Killed as soon as the state file has a few rows: by a watcher, since the time that takes is not known.
   const std::string state = files.out("killed.state");
@@ -79,7 +79,7 @@ TEST_CASE("a run that was killed goes on and writes the same bytes") {
 }
 
 TEST_CASE("parts of several processes merge into the same bytes") {
-  const Files files;
+  const MatrixFiles files;
   REQUIRE(files.matrix("whole", "-q").status == 0);
   for (int i = 1; i <= 5; ++i) REQUIRE(files.matrix("part", "-q --shard " + std::to_string(i) + "/5").status == 0);
   const Outcome merged = run_espdiff("merge " + files.out("part.shard-*-of-5.state") + " -o " + files.out("merged"));
@@ -90,7 +90,7 @@ TEST_CASE("parts of several processes merge into the same bytes") {
 }
 
 TEST_CASE("a changed input or a damaged state file is named, and nothing is lost") {
-  const Files files;
+  const MatrixFiles files;
   REQUIRE(files.matrix("part", "-q --shard 1/2").status == 0);
   const std::string state = files.out("part.shard-1-of-2.state"), content = read_file(state);
   files.folder.write("m3.pqr", row_of_atoms(13));
@@ -108,7 +108,7 @@ TEST_CASE("a changed input or a damaged state file is named, and nothing is lost
 }
 
 TEST_CASE("wrong usage of matrix and merge exits 2 with one line") {
-  const Files files;
+  const MatrixFiles files;
   const std::string output = " -o " + files.out("x");
   for (const auto& wrong : std::vector<std::pair<std::string, std::string>>{
            {"matrix" + output, "no molecules were given"},

@@ -8,11 +8,11 @@ using namespace espdiff_test;  // NOLINT: a test
 namespace {
 
 /// A folder of inputs whose content must not change.
-struct Inputs {
+struct OwnInputs {
   ScratchFolder folder;
   std::map<std::string, std::string> before;
 
-  Inputs() {
+  OwnInputs() {
     folder.write("a.pqr", row_of_atoms(6));
     folder.write("b.pqr", row_of_atoms(6, 0.2));
     folder.write("a.dx", constant_dx(17, 3.0, 1.0));
@@ -40,7 +40,7 @@ struct Inputs {
 }  // namespace
 
 TEST_CASE("an output that is an input is refused by every verb") {
-  Inputs in;
+  OwnInputs in;
   const std::string replaces = "an output would replace an input: ";
   in.check_refused("surface a.pqr -o a.pqr --device cpu", replaces + "'a.pqr'");
   in.check_refused("surface a.pqr -o link.pqr --device cpu", replaces + "'link.pqr' and 'a.pqr', which are one file");
@@ -62,7 +62,7 @@ TEST_CASE("an output that is an input is refused by every verb") {
 }
 
 TEST_CASE("an output that is a file named by a setting is refused by every verb that has the setting") {
-  Inputs in;
+  OwnInputs in;
   const std::string replaces = "an output would replace an input: ";
   for (const char* setting : {"topology", "source-topology", "target-topology", "charges-from", "ligand"}) {
     const std::string option = std::string(" --") + setting + " ";
@@ -77,7 +77,7 @@ TEST_CASE("an output that is a file named by a setting is refused by every verb 
 }
 
 TEST_CASE("two outputs of one name are refused") {
-  Inputs in;
+  OwnInputs in;
   const std::string twice = "two outputs would have one name: ";
   in.check_refused("surface a.pqr -o d --density d --device cpu", twice + "'d'");
   in.check_refused("surface a.pqr -o d.vtp --density ./d.vtp --device cpu", twice + "'d.vtp' and './d.vtp'");
@@ -89,12 +89,12 @@ TEST_CASE("two outputs of one name are refused") {
 }
 
 TEST_CASE("outputs appear together: one that cannot be written leaves none") {
-  Inputs in;
+  OwnInputs in;
   in.check_refused("surface a.pqr -o d.vtp --density no/x.dx --device cpu", "no/x.dx: cannot write: the folder no");
 }
 
 TEST_CASE("numbers that mean nothing are refused in our words") {
-  Inputs in;
+  OwnInputs in;
   const auto refused = [&](const std::string& arguments, const std::string& expected) {
     const Outcome outcome = run_espdiff(arguments, "cd " + in.folder.file("") + " &&");
     CHECK_MESSAGE(outcome.status == 2, outcome.err);
@@ -109,7 +109,7 @@ TEST_CASE("numbers that mean nothing are refused in our words") {
 }
 
 TEST_CASE("a plot needs no folder for temporary files and does not read the user's own settings of gnuplot") {
-  Inputs in;
+  OwnInputs in;
   in.folder.write(".gnuplot", "set title 'MINE'\nexit\n");
   const std::string where = "cd " + in.folder.file("") + " && HOME=" + in.folder.file("") + " TMPDIR=/nowhere/at/all";
   const Outcome outcome = run_espdiff("plot t.csv --metric rmsd_A -o p.svg", where);

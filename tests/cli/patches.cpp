@@ -14,13 +14,11 @@
 #include "io/read_vtp.h"
 
 using namespace espdiff_test;  // NOLINT: a test
-using nlohmann::json;
+using Json = nlohmann::json;
 
 namespace {
 
-const std::string kUsual = " --device cpu --pb-spacing 1 -q";
-
-struct Files {
+struct PatchFiles {
   ScratchFolder folder;
   std::string a = folder.write("a.pqr", bent_row(0)), b = folder.write("b.pqr", bent_row(0.3)),
               c = folder.write("c.pqr", bent_row(0.6)),
@@ -31,23 +29,17 @@ struct Files {
 
 const std::string kPatches = " --patch site=//A/2-4 --patch far-end=//A/8-9";
 
-json compared(const Files& files, const std::string& arguments, const std::string& name = "one") {
+Json compared(const PatchFiles& files, const std::string& arguments, const std::string& name = "one") {
   const Outcome outcome = run_espdiff("compare " + arguments + kUsual + " -o " + files.out(name));
   REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
-  return json::parse(read_file(files.out(name + ".json")));
+  return Json::parse(read_file(files.out(name + ".json")));
 }
 
-std::string refusal(const std::string& arguments) {
+std::string refused_patch(const std::string& arguments) {
   const Outcome outcome = run_espdiff(arguments + kUsual);
   CHECK(outcome.status == 2);
   CHECK(n_lines(outcome.err) <= 2);  // of wrong options the second names --help
   return outcome.err;
-}
-
-std::string cell(const espdiff::CsvTable& table, std::size_t row, const std::string& column) {
-  const auto found = std::find(table.columns.begin(), table.columns.end(), column);
-  REQUIRE_MESSAGE(found != table.columns.end(), column);
-  return table.rows.at(row).at(static_cast<std::size_t>(found - table.columns.begin()));
 }
 
 /// Mean, mean magnitude and area of the difference over residues, from OUT.vtp alone: a third of each triangle's area
@@ -86,11 +78,11 @@ Sums sums_of(const std::string& path, int first, int last) {
 }  // namespace
 
 TEST_CASE("compare: a patch has the numbers of its surface, by a sum of its own over OUT.vtp") {
-  const Files files;
-  const json result = compared(files, files.a + " " + files.c + kPatches);
+  const PatchFiles files;
+  const Json result = compared(files, files.a + " " + files.c + kPatches);
   REQUIRE(result["fixed_patches"].size() == 2);
   for (const auto& [name, first, last] : {std::tuple("site", 2, 4), std::tuple("far-end", 8, 9)}) {
-    const json& patch = result["fixed_patches"][name];
+    const Json& patch = result["fixed_patches"][name];
     const Sums sums = sums_of(files.out("one.vtp"), first, last);
     CHECK(patch["mean_signed_difference"].get<double>() == doctest::Approx(sums.mean).epsilon(1e-4));
     CHECK(patch["mean_abs_difference"].get<double>() == doctest::Approx(sums.magnitude).epsilon(1e-4));
@@ -106,8 +98,8 @@ TEST_CASE("compare: a patch has the numbers of its surface, by a sum of its own 
 }
 
 TEST_CASE("compare: a patch has the region's numbers of the same residues, beside a region") {
-  const Files files;
-  json result = compared(files, files.a + " " + files.c + " --region //A/2-4" + kPatches);
+  const PatchFiles files;
+  Json result = compared(files, files.a + " " + files.c + " --region //A/2-4" + kPatches);
   CHECK(result["region"] == result["fixed_patches"]["site"]);
   const Outcome printed = run_espdiff("compare " + files.a + " " + files.c + kPatches +
                                       " --device cpu --pb-spacing 1 -o " + files.out("p"));
@@ -116,16 +108,16 @@ TEST_CASE("compare: a patch has the region's numbers of the same residues, besid
 }
 
 TEST_CASE("trajectory: the columns of patches are compare's numbers, frame by frame, and resume to the same bytes") {
-  const Files files;
+  const PatchFiles files;
   const std::string run =
       "trajectory " + files.a + " " + files.frames + kPatches + kUsual + " -o " + files.out("t.csv");
   REQUIRE(run_espdiff(run).status == 0);
   const espdiff::CsvTable table = espdiff::read_csv(files.out("t.csv"));
   for (int model = 1; model <= 2; ++model) {
-    const json one =
+    const Json one =
         compared(files, files.a + " " + files.frames + kPatches + " --target-model " + std::to_string(model));
     for (const char* name : {"site", "far-end"}) {
-      const json& patch = one["fixed_patches"][name];
+      const Json& patch = one["fixed_patches"][name];
       const auto there = [&](const std::string& column) {
         return std::stod(cell(table, static_cast<std::size_t>(model - 1), std::string(name) + "_" + column));
       };
@@ -139,20 +131,20 @@ TEST_CASE("trajectory: the columns of patches are compare's numbers, frame by fr
   files.folder.write("t.csv", whole.substr(0, whole.size() - 20));
   REQUIRE(run_espdiff(run + " --resume").status == 0);
   CHECK(read_file(files.out("t.csv")) == whole);
-  const std::string other =
-      refusal("trajectory " + files.a + " " + files.frames + " --patch site=//A/2-5 --resume -o " + files.out("t.csv"));
+  const std::string other = refused_patch("trajectory " + files.a + " " + files.frames +
+                                          " --patch site=//A/2-5 --resume -o " + files.out("t.csv"));
   CHECK_MESSAGE(contains(other, "was made with settings"), other);
 }
 
 TEST_CASE("matrix: the metrics of patches are compare's numbers, in files, parts and clusters") {
-  const Files files;
+  const PatchFiles files;
   const std::string run = "matrix " + files.a + " " + files.b + " " + files.c + kPatches + kUsual + " -o ",
                     by = " --cluster-by site_mean_abs_difference";
   const Outcome outcome = run_espdiff(run + files.out("m") + by);
   REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
-  const json matrix = json::parse(read_file(files.out("m.json"))),
+  const Json matrix = Json::parse(read_file(files.out("m.json"))),
              one = compared(files, files.a + " " + files.c + kPatches);
-  const json& metric = matrix["metrics"]["site_mean_abs_difference"];
+  const Json& metric = matrix["metrics"]["site_mean_abs_difference"];
   CHECK(metric["values"][0][2] == one["fixed_patches"]["site"]["mean_abs_difference"]);
   CHECK(metric["title"] == "Mean absolute difference, site");
   CHECK(matrix["far-end_trustworthy"][0][2] == one["fixed_patches"]["far-end"]["certificate"]["trustworthy"]);
@@ -171,13 +163,13 @@ TEST_CASE("matrix: the metrics of patches are compare's numbers, in files, parts
 }
 
 TEST_CASE("a patch that is buried says so; one without counterparts says so") {
-  const Files files;
+  const PatchFiles files;
   // A small atom within a large one has no surface.
   const std::string inner = "ATOM     10  CB  GLY A  10       7.800   0.000   0.500  0.1000 0.5000\n";
   const std::string with = files.folder.write("with.pqr", bent_row(0) + inner);
-  const json result = compared(files, with + " " + with + " --patch core=//A/10 --patch rest=//A/1-9");
-  const json& core = result["fixed_patches"]["core"];
-  CHECK(core["certificate"]["reasons"] == json({"it has no surface: its residues are buried in the source"}));
+  const Json result = compared(files, with + " " + with + " --patch core=//A/10 --patch rest=//A/1-9");
+  const Json& core = result["fixed_patches"]["core"];
+  CHECK(core["certificate"]["reasons"] == Json({"it has no surface: its residues are buried in the source"}));
   CHECK(core["certificate"]["trustworthy"] == false);
   CHECK(core["area_A2"]["source"] == 0);
   for (const char* name : {"mean_abs_difference", "mean_displacement_A"}) CHECK(core[name].is_null());
@@ -186,17 +178,17 @@ TEST_CASE("a patch that is buried says so; one without counterparts says so") {
   // A ligand that the target lacks.
   const std::string ligand = "HETATM   10  C1  LIG B   1      10.000  30.000   0.000  0.1000 2.5000\n";
   const std::string far = files.folder.write("far.pqr", bent_row(0) + ligand);
-  const json lost = compared(files, far + " " + files.b + " --patch ligand=//B --cavities")["fixed_patches"]["ligand"];
+  const Json lost = compared(files, far + " " + files.b + " --patch ligand=//B --cavities")["fixed_patches"]["ligand"];
   CHECK(lost["area_A2"]["source"].get<double>() > 10);
-  CHECK(lost["certificate"]["reasons"] == json({"none of its surface has a counterpart on the target"}));
+  CHECK(lost["certificate"]["reasons"] == Json({"none of its surface has a counterpart on the target"}));
   CHECK(lost["certificate"]["no_counterpart_area_fraction"]["source"] == 1);
   CHECK(lost["mean_abs_difference"].is_null());
 }
 
 TEST_CASE("what cannot be a patch is refused, before any file is written") {
-  const Files files;
+  const PatchFiles files;
   const std::string pair = "compare " + files.a + " " + files.b + " -o " + files.out("u");
-  const auto refused = [&](const std::string& patch) { return refusal(pair + " --patch " + patch); };
+  const auto refused = [&](const std::string& patch) { return refused_patch(pair + " --patch " + patch); };
   CHECK(contains(refused("site"), "--patch: 'site' is not NAME=SELECTION, such as site=//A/8-12"));
   CHECK(contains(refused("site="), "--patch: 'site=' is not NAME=SELECTION"));
   CHECK(contains(refused("'=//A/8'"), "--patch: the name '' of '=//A/8' is not a letter followed by"));
@@ -212,6 +204,7 @@ TEST_CASE("what cannot be a patch is refused, before any file is written") {
   CHECK_MESSAGE(contains(empty, "patch site: " + files.a + ": --patch '//Q' selects no atom"), empty);
   CHECK(contains(empty, "chain A"));
   CHECK_FALSE(std::filesystem::exists(files.out("u.json")));
-  const std::string in_matrix = refusal("matrix " + files.a + " " + files.b + " --patch site=//Q -o " + files.out("u"));
+  const std::string in_matrix =
+      refused_patch("matrix " + files.a + " " + files.b + " --patch site=//Q -o " + files.out("u"));
   CHECK_MESSAGE(contains(in_matrix, "patch site: " + files.a + ": --patch '//Q' selects no atom"), in_matrix);
 }

@@ -6,9 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "run_espdiff.h"
+#include "cli/run_espdiff.h"
 
 using espdiff_test::contains;
+using espdiff_test::has_pdb2pqr;
 using espdiff_test::n_lines;
 using espdiff_test::Outcome;
 using espdiff_test::read_file;
@@ -17,12 +18,6 @@ using espdiff_test::run_espdiff;
 using espdiff_test::ScratchFolder;
 
 namespace {
-
-bool has_pdb2pqr() {
-  if (contains(run_espdiff("doctor").out, "prepare        ok")) return true;
-  MESSAGE("SKIPPED: no PDB2PQR on PATH");
-  return false;
-}
 
 nlohmann::json json_of(const std::string& path) { return nlohmann::json::parse(read_file(path)); }
 

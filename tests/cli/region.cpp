@@ -13,17 +13,15 @@
 #include "io/read_csv.h"
 
 using namespace espdiff_test;  // NOLINT: a test
-using nlohmann::json;
+using Json = nlohmann::json;
 
 namespace {
 
-const std::string kUsual = " --device cpu --pb-spacing 1 -q";
-
 /// Three states; the second has a ligand beside it.
-struct Files {
+struct RegionFiles {
   ScratchFolder folder;
   std::string a, b, c, frames;
-  Files() {
+  RegionFiles() {
     a = folder.write("a.pqr", bent_row(0));
     b = folder.write("b.pqr",
                      bent_row(0.3) + "HETATM   10  C1  LIG B   1       3.000   4.500   0.000  0.0000 1.7000\n");
@@ -39,24 +37,18 @@ void check_run(const std::string& arguments) {
   REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
 }
 
-std::string refusal(const std::string& arguments) {
+std::string refused_region(const std::string& arguments) {
   const Outcome outcome = run_espdiff(arguments + kUsual);
   CHECK(outcome.status == 2);
   CHECK(n_lines(outcome.err) == 1);
   return outcome.err;
 }
 
-std::string cell(const espdiff::CsvTable& table, std::size_t row, const std::string& column) {
-  const auto found = std::find(table.columns.begin(), table.columns.end(), column);
-  REQUIRE_MESSAGE(found != table.columns.end(), column);
-  return table.rows.at(row).at(static_cast<std::size_t>(found - table.columns.begin()));
-}
-
 /// Each value under `region` of a comparison must stand under its column.
 /// @param digits a relative difference, where the file has fewer digits
-void check_region(const json& whole, const espdiff::CsvTable& table, std::size_t row, double digits = 0) {
-  const json& region = whole["region"];
-  const auto same = [&](const std::string& column, const json& value) {
+void check_region(const Json& whole, const espdiff::CsvTable& table, std::size_t row, double digits = 0) {
+  const Json& region = whole["region"];
+  const auto same = [&](const std::string& column, const Json& value) {
     const double there = std::stod(cell(table, row, column)), here = value.get<double>();
     CHECK_MESSAGE(std::fabs(there - here) <= digits * std::fabs(here), column << ": " << there << ", " << here);
   };
@@ -74,7 +66,7 @@ void check_region(const json& whole, const espdiff::CsvTable& table, std::size_t
 }  // namespace
 
 TEST_CASE("trajectory: the region's columns are compare's region, frame by frame, and resume to the same bytes") {
-  const Files files;
+  const RegionFiles files;
   const std::string region = " --region '//*/1-4' ";
   const std::string run = "trajectory " + files.a + " " + files.frames + region;
   check_run(run + "-o " + files.out("t.csv"));
@@ -82,7 +74,7 @@ TEST_CASE("trajectory: the region's columns are compare's region, frame by frame
   for (int model = 1; model <= 3; ++model) {
     check_run("compare " + files.a + " " + files.frames + region + "--target-model " + std::to_string(model) + " -o " +
               files.out("one"));
-    check_region(json::parse(read_file(files.out("one.json"))), table, static_cast<std::size_t>(model - 1));
+    check_region(Json::parse(read_file(files.out("one.json"))), table, static_cast<std::size_t>(model - 1));
   }
   CHECK(cell(table, 0, "region_reasons").size() < 500);
   CHECK(std::find(table.columns.begin(), table.columns.end(), "region_slip_mean_A") == table.columns.end());
@@ -91,12 +83,12 @@ TEST_CASE("trajectory: the region's columns are compare's region, frame by frame
   files.folder.write("t.csv", whole.substr(0, whole.size() - 20));
   check_run(run + "--resume -o " + files.out("t.csv"));
   CHECK(read_file(files.out("t.csv")) == whole);
-  CHECK(contains(refusal("trajectory " + files.a + " " + files.frames + " --resume -o " + files.out("t.csv")),
+  CHECK(contains(refused_region("trajectory " + files.a + " " + files.frames + " --resume -o " + files.out("t.csv")),
                  "was made with settings"));
 }
 
 TEST_CASE("trajectory: without a region there are no such columns; a frame with an error has all columns") {
-  const Files files;
+  const RegionFiles files;
   check_run("trajectory " + files.a + " " + files.frames + " -o " + files.out("t.csv"));
   CHECK_FALSE(contains(read_file(files.out("t.csv")), "region"));
   const std::string frames =
@@ -111,27 +103,28 @@ TEST_CASE("trajectory: without a region there are no such columns; a frame with 
 }
 
 TEST_CASE("trajectory: a region near atoms of the source's file that are not compared; one that is empty") {
-  const Files files;
+  const RegionFiles files;
   const std::string near_to = " --select '(ALA)' --region-within 4 --of '(LIG)' -o ";
   check_run("trajectory " + files.b + " " + files.frames + near_to + files.out("t.csv"));
   CHECK_FALSE(cell(espdiff::read_csv(files.out("t.csv")), 0, "region_mean_abs_difference").empty());
-  CHECK(contains(refusal("trajectory " + files.a + " " + files.frames + near_to + files.out("u.csv")),
+  CHECK(contains(refused_region("trajectory " + files.a + " " + files.frames + near_to + files.out("u.csv")),
                  "--of '(LIG)' selects no atom; " + files.a + " has "));
-  CHECK(contains(refusal("trajectory " + files.a + " " + files.frames + " --region '//Q' -o " + files.out("u.csv")),
-                 "--region '//Q' selects no atom"));
+  CHECK(contains(
+      refused_region("trajectory " + files.a + " " + files.frames + " --region '//Q' -o " + files.out("u.csv")),
+      "--region '//Q' selects no atom"));
   CHECK_FALSE(std::filesystem::exists(files.out("u.csv")));
 }
 
 TEST_CASE("matrix: the region's values are compare's region, in files, states and parts") {
-  const Files files;
+  const RegionFiles files;
   const std::string region = " --region '//*/1-4' ", run = "matrix " + files.a + " " + files.b + " " + files.c + region;
   check_run(run + "--cluster-by region_mean_abs_difference -o " + files.out("m"));
   const espdiff::CsvTable table = espdiff::read_csv(files.out("m.csv"));
   check_run("compare " + files.a + " " + files.c + region + "-o " + files.out("one"));
-  const json one = json::parse(read_file(files.out("one.json")));
+  const Json one = Json::parse(read_file(files.out("one.json")));
   check_region(one, table, 1, 1e-5);
-  const json matrix = json::parse(read_file(files.out("m.json")));
-  const json& metric = matrix["metrics"]["region_mean_abs_difference"];
+  const Json matrix = Json::parse(read_file(files.out("m.json")));
+  const Json& metric = matrix["metrics"]["region_mean_abs_difference"];
   CHECK(metric["values"][0][2] == one["region"]["mean_abs_difference"]);
   CHECK(metric["title"] == "Mean absolute difference, region");
   CHECK(metric["unit"] == "kT/e");
@@ -149,16 +142,17 @@ TEST_CASE("matrix: the region's values are compare's region, in files, states an
 }
 
 TEST_CASE("matrix: a variant without the atoms takes the region of the first one that has them") {
-  const Files files;
+  const RegionFiles files;
   const std::string near_to = " --select '(ALA)' --region-within 4 --of '(LIG)' -o ";
   check_run("matrix " + files.a + " " + files.b + " " + files.c + near_to + files.out("m"));
   check_run("compare " + files.a + " " + files.b + near_to + files.out("one"));
   const espdiff::CsvTable table = espdiff::read_csv(files.out("m.csv"));
-  check_region(json::parse(read_file(files.out("one.json"))), table, 0, 1e-5);
+  check_region(Json::parse(read_file(files.out("one.json"))), table, 0, 1e-5);
   CHECK_FALSE(cell(table, 1, "region_rmsd_A").empty());  // neither of the two has the ligand
-  CHECK(contains(refusal("matrix " + files.a + " " + files.c + near_to + files.out("u")),
+  CHECK(contains(refused_region("matrix " + files.a + " " + files.c + near_to + files.out("u")),
                  "--of '(LIG)' selects no atom; " + files.a));
-  const std::string nothing = refusal("matrix " + files.a + " " + files.c + " --region '//Q' -o " + files.out("u"));
+  const std::string nothing =
+      refused_region("matrix " + files.a + " " + files.c + " --region '//Q' -o " + files.out("u"));
   CHECK_MESSAGE(contains(nothing, files.a + ": --region '//Q' selects no atom"), nothing);
   CHECK_FALSE(std::filesystem::exists(files.out("u.csv")));
 }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "support/test_data.h"
+#include "support/text.h"
 
 namespace espdiff_test {
 
@@ -29,12 +30,17 @@ inline Outcome run_espdiff(const std::string& arguments, const std::string& befo
   return outcome;
 }
 
-inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 inline std::size_t n_lines(const std::string& text) {
   std::size_t n = 0;
   for (const char c : text) n += c == '\n' ? 1 : 0;
   return n;
+}
+
+/// Whether there is a PDB2PQR to prepare structures with; says so where there is none.
+inline bool has_pdb2pqr() {
+  if (contains(run_espdiff("doctor").out, "prepare        ok")) return true;
+  MESSAGE("SKIPPED: no PDB2PQR on PATH");
+  return false;
 }
 
 /// A PQR of a row of atoms along x from `first_x`, one residue each.

@@ -11,7 +11,7 @@
 #include "cli/run_espdiff.h"
 
 using namespace espdiff_test;
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 namespace {
 
@@ -30,11 +30,11 @@ struct SmallResult {
         run_espdiff("compare " + *file + " " + *file + " --target-model 5 " + options + " -q -o " + prefix);
     REQUIRE(compared.status == 0);
   }
-  Json record() const { return Json::parse(read_file(prefix + ".json")); }
-  void set(const char* pointer, const Json& value) const {
-    Json json = record();
-    REQUIRE(json.contains(Json::json_pointer(pointer)));
-    json[Json::json_pointer(pointer)] = value;
+  OrderedJson record() const { return OrderedJson::parse(read_file(prefix + ".json")); }
+  void set(const char* pointer, const OrderedJson& value) const {
+    OrderedJson json = record();
+    REQUIRE(json.contains(OrderedJson::json_pointer(pointer)));
+    json[OrderedJson::json_pointer(pointer)] = value;
     write_file(prefix + ".json", json.dump(2));
   }
   Outcome verified() const { return run_espdiff("verify " + prefix); }
@@ -94,7 +94,7 @@ TEST_CASE("a wrong number in OUT.json is found, wherever it stands") {
   const SmallResult result("--potential none --method deform");
   if (result.prefix.empty()) return;
   REQUIRE(result.verified().status == 0);
-  const Json right = result.record();
+  const OrderedJson right = result.record();
   const struct {
     const char* pointer;
     double change;
@@ -119,7 +119,7 @@ TEST_CASE("a wrong number in OUT.json is found, wherever it stands") {
                  {"/rmsd_A", -0.01}};
   for (const auto& change : changes) {
     write_file(result.prefix + ".json", right.dump(2));
-    const double recorded = right[Json::json_pointer(change.pointer)].get<double>();
+    const double recorded = right[OrderedJson::json_pointer(change.pointer)].get<double>();
     result.set(change.pointer, recorded + change.change);
     const Outcome verified = result.verified();
     CAPTURE(std::string(change.pointer));
@@ -201,9 +201,9 @@ TEST_CASE("damaged results are refused with the file and the remedy") {
   write_file(json, R"({"certificate": {}, "inputs": {}})");
   refused(json + ": is not the record of a comparison: it has no certificate, or no inputs; compare again");
   write_file(json, right);
-  result.set("/superposition/paired_atoms", Json::array({Json::array({0, 0, 100000})}));
+  result.set("/superposition/paired_atoms", OrderedJson::array({OrderedJson::array({0, 0, 100000})}));
   refused(json + ": superposition/paired_atoms names atoms that the structures lack; compare again");
-  result.set("/superposition/paired_atoms", Json::array({Json::array({0, -1, 2})}));
+  result.set("/superposition/paired_atoms", OrderedJson::array({OrderedJson::array({0, -1, 2})}));
   refused(json + ": superposition/paired_atoms has an entry that is not three whole numbers; compare again");
   write_file(json, right);
   result.set("/inputs/0/sha256", "abc");

@@ -12,7 +12,7 @@ using namespace espdiff_test;  // NOLINT: a test
 namespace {
 
 /// A folder with two molecules and maps that fit them, and a way to spoil one input.
-struct Inputs {
+struct WrongInputs {
   ScratchFolder folder;
   std::string source = folder.write("a.pqr", row_of_atoms(8));
   std::string target = folder.write("b.pqr", row_of_atoms(8, 0.2));
@@ -37,7 +37,7 @@ struct Inputs {
 }  // namespace
 
 TEST_CASE("good input: the files, and a constant difference") {
-  Inputs in;
+  WrongInputs in;
   const Outcome outcome = in.compare();
   CHECK_MESSAGE(outcome.status == 0, outcome.err);
   for (const char* suffix : {".json", ".vtp", ".residues.csv"})
@@ -47,43 +47,43 @@ TEST_CASE("good input: the files, and a constant difference") {
 }
 
 TEST_CASE("a missing file") {
-  Inputs in;
+  WrongInputs in;
   in.source = in.folder.file("absent.pqr");
   in.check_refused(in.compare(), 2, "absent.pqr: ");
 }
 
 TEST_CASE("a folder instead of a file") {
-  Inputs in;
+  WrongInputs in;
   in.target = std::filesystem::temp_directory_path().string();
   in.check_refused(in.compare(), 2, "directory");
 }
 
 TEST_CASE("a DX file cut off") {
-  Inputs in;
+  WrongInputs in;
   in.source_map = in.folder.write("cut.dx", constant_dx(33, 2.0, 1.0).substr(0, 5000));
   in.check_refused(in.compare(), 2, "cut.dx:");
 }
 
 TEST_CASE("a DX file with fewer values than promised") {
-  Inputs in;
+  WrongInputs in;
   in.target_map = in.folder.write("few.dx", constant_dx(33, 2.0, 1.0, "kT/e", 0, 1000));
   in.check_refused(in.compare(), 2, "35937");
 }
 
 TEST_CASE("coordinates that are not numbers") {
-  Inputs in;
+  WrongInputs in;
   in.source = in.folder.write("nan.pqr", "ATOM      1  CA  ALA A   1         nan   0.000   0.000  0.5000 2.0000\n");
   in.check_refused(in.compare(), 2, "nan.pqr:1:");
 }
 
 TEST_CASE("no atoms") {
-  Inputs in;
+  WrongInputs in;
   in.source = in.folder.write("empty.pqr", "REMARK nothing here\nEND\n");
   in.check_refused(in.compare(), 2, "empty.pqr");
 }
 
 TEST_CASE("two molecules with nothing in common") {
-  Inputs in;
+  WrongInputs in;
   std::string other = row_of_atoms(8, 0, "LYS");
   for (std::size_t at = 0; (at = other.find(" CA ", at)) != std::string::npos; ++at) other.replace(at, 4, " QX ");
   in.target = in.folder.write("other.pqr", other);
@@ -91,7 +91,7 @@ TEST_CASE("two molecules with nothing in common") {
 }
 
 TEST_CASE("options that the core names are spelled as the command line's, and plainly in files") {
-  Inputs in;
+  WrongInputs in;
   in.check_refused(in.compare("--mu 0.5"), 2,
                    "--mu is a setting of the method deform, and the method is morph; give --method deform as well, or "
                    "leave --mu out");
@@ -103,13 +103,13 @@ TEST_CASE("options that the core names are spelled as the command line's, and pl
 }
 
 TEST_CASE("a map that does not cover the molecule") {
-  Inputs in;
+  WrongInputs in;
   in.target_map = in.folder.write("far.dx", constant_dx(9, 1.0, 1.0, "kT/e", 500));
   in.check_refused(in.compare(), 2, "does not cover");
 }
 
 TEST_CASE("a map on one side only") {
-  Inputs in;
+  WrongInputs in;
   in.n_before = in.folder.n_files();
   const Outcome outcome = run_espdiff("compare " + in.source + " " + in.target + " --source-map " + in.source_map +
                                       " -o " + in.folder.file("out"));
@@ -117,7 +117,7 @@ TEST_CASE("a map on one side only") {
 }
 
 TEST_CASE("maps in two units: converted when both are known, refused when one is not") {
-  Inputs in;
+  WrongInputs in;
   in.target_map = in.folder.write("volt.dx", constant_dx(33, 2.0, 1.0, "V"));
   in.target_map = in.folder.write("unknown.dx", constant_dx(33, 2.0, 1.0, "bananas"));
   in.check_refused(in.compare(), 2, "two units");
@@ -130,7 +130,7 @@ TEST_CASE("maps in two units: converted when both are known, refused when one is
 }
 
 TEST_CASE("an output that cannot be written is found before the work") {
-  Inputs in;
+  WrongInputs in;
   in.check_refused(in.compare("", "/no/such/folder/out"), 2, "/no/such/folder/out");
   std::filesystem::create_directory(in.folder.file("taken.vtp"));
   in.check_refused(in.compare("", in.folder.file("taken")), 2, "taken.vtp");
@@ -150,18 +150,18 @@ TEST_CASE("a structure through a pipe is what a file of it is, hash and all") {
 }
 
 TEST_CASE("a grid too large for memory") {
-  Inputs in;
+  WrongInputs in;
   const Outcome outcome = in.compare("--grid-spacing 0.001");
   in.check_refused(outcome, 1, "would fit");
 }
 
 TEST_CASE("an isovalue above the density") {
-  Inputs in;
+  WrongInputs in;
   in.check_refused(in.compare("--isovalue 1000"), 1, "no surface");
 }
 
 TEST_CASE("a model that does not exist") {
-  Inputs in;
+  WrongInputs in;
   in.check_refused(in.compare("--source-model 7"), 2, "model");
 }
 

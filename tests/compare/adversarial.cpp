@@ -20,9 +20,9 @@ using espdiff::compare;
 
 namespace {
 
-using Motion = std::function<Vec3d(std::size_t atom, Vec3d p)>;
+using AtomMotion = std::function<Vec3d(std::size_t atom, Vec3d p)>;
 
-Molecule moved(Molecule molecule, const Motion& motion) {
+Molecule moved(Molecule molecule, const AtomMotion& motion) {
   for (std::size_t i = 0; i < molecule.size(); ++i) molecule.positions[i] = motion(i, molecule.positions[i]);
   return molecule;
 }

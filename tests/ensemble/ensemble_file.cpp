@@ -254,3 +254,5 @@ TEST_CASE("a file that no run writes is replaced") {
     CHECK(folder.n_files() == 1);
   }
 }
+
+TEST_SUITE_END();

@@ -318,3 +318,5 @@ TEST_CASE("designs that cannot show anything are named beforehand") {
   CHECK(message_of([&] { check_replicates(plan.replicates); }) ==
         "replicate 1 of mutant has 1 frame; a replicate needs two or more");
 }
+
+TEST_SUITE_END();

@@ -92,3 +92,5 @@ TEST_CASE("replicates of the same states, in all splits, do not differ; the two 
                     [](const auto& share) { return share.first.find(" 8 ") != std::string::npos; }));
   CHECK(answer.result->patch_tests.difference.front() < 0);
 }
+
+TEST_SUITE_END();

@@ -19,6 +19,7 @@
 #include "matrix/made_variants.h"
 #include "matrix/write_matrix.h"
 #include "statistics/mesh_graph.h"
+#include "support/text.h"
 
 using namespace espdiff_test;  // NOLINT: a test
 using espdiff::EnsembleFile;
@@ -35,8 +36,6 @@ using espdiff::Variant;
 namespace {
 
 constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 MatrixRun run_to(const std::string& output) {
   MatrixRun run;
@@ -150,10 +149,10 @@ TEST_CASE("a state onto which the mapping is not trustworthy is named, and its r
   std::ostringstream text;
   print_matrix(text, matrix, find_metric("mean_abs_difference"));
   INFO(text.str());
-  CHECK(has(text.str(), "is not trustworthy onto these states"));
-  CHECK(has(text.str(), "  s1                   it slipped\n  s3                   it failed\n"));
-  CHECK(has(text.str(), "No pair was compared by itself"));
-  CHECK(has(text.str(), "A template does not give: RMSD, Mean displacement, Area of the mapped surface"));
+  CHECK(contains(text.str(), "is not trustworthy onto these states"));
+  CHECK(contains(text.str(), "  s1                   it slipped\n  s3                   it failed\n"));
+  CHECK(contains(text.str(), "No pair was compared by itself"));
+  CHECK(contains(text.str(), "A template does not give: RMSD, Mean displacement, Area of the mapped surface"));
   espdiff::write_matrix(folder.file("m"), matrix, find_metric("mean_abs_difference"));
   const auto json = nlohmann::json::parse(read_file(folder.file("m.json")));
   CHECK(json["template"]["states"][1]["reason"] == "it slipped");
@@ -188,7 +187,7 @@ TEST_CASE("identical states differ by nothing") {
   CHECK(matrix.value(find_metric("mean_abs_difference"), 0, 1) == 0);
   CHECK(matrix.value(find_metric("hodgkin_index"), 1, 0) == doctest::Approx(1));
   // The made chains are broken, which the certificate of a template says too.
-  CHECK(has(matrix.through->states[0].reason, "is broken"));
+  CHECK(contains(matrix.through->states[0].reason, "is broken"));
   CHECK_FALSE(matrix.cells[0].trustworthy);
   REQUIRE(matrix.through->exact.size() == 2);
   for (const espdiff::TemplateAgreement& of : espdiff::agreement(matrix)) {
@@ -239,12 +238,12 @@ TEST_CASE("interrupted, resumed and in parts: the same bytes") {
   std::unique_ptr<espdiff::Progress> progress;
   for (const char* where : {"state 3 of 4", "pair 2 of 3"}) {
     progress = std::make_unique<espdiff::Progress>([&](const std::string& stage, double) {
-      if (has(stage, where)) progress->request_cancel();
+      if (contains(stage, where)) progress->request_cancel();
     });
     const std::string message = message_of([&] { compute(run, *progress); });
     INFO(message);
-    CHECK(has(message, "cancelled after "));
-    CHECK(has(message, "resume goes on"));
+    CHECK(contains(message, "cancelled after "));
+    CHECK(contains(message, "resume goes on"));
     run.resume = true;
   }
   const MatrixReport report = compute(run, {});
@@ -275,8 +274,8 @@ TEST_CASE("interrupted, resumed and in parts: the same bytes") {
     CHECK_FALSE(std::filesystem::exists(folder.file("two.json")));
     return message;
   };
-  CHECK(has(refused({parts[0], parts[1], parts[2]}), "the exact pair "));
-  CHECK(has(refused({parts[0], parts[1], parts[3]}), "none of the files has frame 0 (v0)"));
+  CHECK(contains(refused({parts[0], parts[1], parts[2]}), "the exact pair "));
+  CHECK(contains(refused({parts[0], parts[1], parts[3]}), "none of the files has frame 0 (v0)"));
 }
 
 TEST_CASE("what a template cannot do is refused in one sentence, before any file is made") {
@@ -294,16 +293,17 @@ TEST_CASE("what a template cannot do is refused in one sentence, before any file
   };
   std::vector<Variant> bare = variants;
   for (Variant& v : bare) v.map.reset();
-  CHECK(has(refused(bare, matrix_options(), "0"), "a template gives differences of potentials, and v0 has none"));
-  CHECK(has(refused(variants, matrix_options(), "3"),
-            "template 3 is neither medoid, nor the label of a variant, nor its number from 0 to 2, nor a structure"));
-  CHECK(has(refused(variants, matrix_options(), "0", "rmsd_A"), "a template does not give this metric"));
+  CHECK(contains(refused(bare, matrix_options(), "0"), "a template gives differences of potentials, and v0 has none"));
+  CHECK(contains(
+      refused(variants, matrix_options(), "3"),
+      "template 3 is neither medoid, nor the label of a variant, nor its number from 0 to 2, nor a structure"));
+  CHECK(contains(refused(variants, matrix_options(), "0", "rmsd_A"), "a template does not give this metric"));
   espdiff::CompareOptions options = matrix_options();
   options.input.region = "//A/1";
-  CHECK(has(refused(variants, options, "0"), "a region is of each pair's source"));
+  CHECK(contains(refused(variants, options, "0"), "a region is of each pair's source"));
   options = matrix_options();
   options.method = espdiff::Method::kDeform;
-  CHECK(has(refused(variants, options, "0"), "a template is mapped by the morph"));
+  CHECK(contains(refused(variants, options, "0"), "a template is mapped by the morph"));
 }
 
 TEST_CASE("a file of other states or another template is refused, and a state that fails is noted or stops the run") {
@@ -315,17 +315,19 @@ TEST_CASE("a file of other states or another template is refused, and a state th
     return message_of([&] { run_template_matrix(*engine, variants, matrix_options(), request_of(text, 0), run, {}); });
   };
   run_template_matrix(*engine, variants, matrix_options(), request_of("0", 0), run, {});
-  CHECK(has(message("0"), "exists"));
+  CHECK(contains(message("0"), "exists"));
   run.resume = true;
-  CHECK(has(message("1"), "m.h5 is of another run: the template is v0 there and v1 here"));
+  CHECK(contains(message("1"), "m.h5 is of another run: the template is v0 there and v1 here"));
   variants[2].inputs.front().sha256 = "changed";
-  CHECK(has(message("0"), "m.h5 is of another run: the structure of v2 has changed"));
+  CHECK(contains(message("0"), "m.h5 is of another run: the structure of v2 has changed"));
   run = run_to(folder.file("n"));
   variants[1].map->lattice.origin += Vec3d{500, 0, 0};  // covers nothing
-  CHECK(has(message("0"), "v1: "));
+  CHECK(contains(message("0"), "v1: "));
   CHECK_FALSE(std::filesystem::exists(folder.file("n.csv")));
   run.overwrite = run.skip_errors = true;
   const MatrixReport report = run_template_matrix(*engine, variants, matrix_options(), request_of("0", 0), run, {});
-  CHECK(has(report.matrix->through->states[1].error, "does not cover"));
+  CHECK(contains(report.matrix->through->states[1].error, "does not cover"));
   CHECK(report.matrix->cell(0, 2).error.empty());
 }
+
+TEST_SUITE_END();

@@ -13,7 +13,7 @@ using espdiff_test::ScratchFolder;
 namespace {
 
 /// A dimer: the identity, and a rotation by 180 degrees about z with a shift along it.
-const char* const kPdb =
+const char* const kDimerPdb =
     "REMARK 350 BIOMOLECULE: 1\n"
     "REMARK 350 AUTHOR DETERMINED BIOLOGICAL UNIT: DIMERIC\n"
     "REMARK 350 APPLY THE FOLLOWING TO CHAINS: A\n"
@@ -58,7 +58,7 @@ TEST_CASE("an assembly of a PDB file: the copy is rotated and has a chain name o
   return;
 #endif
   const ScratchFolder folder;
-  const std::string path = folder.write("dimer.pdb", kPdb);
+  const std::string path = folder.write("dimer.pdb", kDimerPdb);
   CHECK(read_structure(path).size() == 4);
   const Molecule dimer = read_structure(path, assembly("1"));
   REQUIRE(dimer.size() == 6);
@@ -89,10 +89,11 @@ TEST_CASE("an assembly of an mmCIF file, without occupancies and alternate locat
 TEST_CASE("an assembly that is not there is refused with those there are") {
 #ifdef ESPDIFF_HAVE_GEMMI
   const ScratchFolder folder;
-  const std::string path = folder.write("dimer.pdb", kPdb);
+  const std::string path = folder.write("dimer.pdb", kDimerPdb);
   CHECK(message_of([&] { read_structure(path, assembly("3")); }) ==
         path + ": assembly: there is no assembly '3'; there are 1");
-  const std::string plain = folder.write("plain.pdb", std::string(kPdb).substr(std::string(kPdb).find("ATOM")));
+  const std::string plain =
+      folder.write("plain.pdb", std::string(kDimerPdb).substr(std::string(kDimerPdb).find("ATOM")));
   CHECK(message_of([&] { read_structure(plain, assembly("1")); }).find("the file describes none (REMARK 350") !=
         std::string::npos);
   const std::string pqr = folder.write("a.pqr", "ATOM 1 CA ALA A 1 0.0 0.0 0.0 0.5 1.5\n");
@@ -162,12 +163,13 @@ TEST_CASE("an assembly whose operations are not all described is refused, where 
   CHECK(contains(message("a.cif", kCif, "asym_id_list A", "asym_id_list X"), ": assembly '1' has no atoms: none are"));
   // Once one chain, or a wrong copy, in silence.
   const std::string rows = ": the operations of assembly '1' have ";
-  CHECK(message("a.pdb", kPdb, "REMARK 350   BIOMT3   2  0.000000  0.000000  1.000000        5.00000\n", "") ==
+  CHECK(message("a.pdb", kDimerPdb, "REMARK 350   BIOMT3   2  0.000000  0.000000  1.000000        5.00000\n", "") ==
         rows + "an incomplete last one; rows BIOMT1, BIOMT2 and BIOMT3 of numbers in their columns were expected");
-  CHECK(contains(message("a.pdb", kPdb, "BIOMT2   1", "BIOMT3   1"), (rows + "the line 'REMARK 350   BIOMT3").c_str()));
-  CHECK(contains(message("a.pdb", kPdb, " 5.00000", " 5.oooo0"), (rows + "the line").c_str()));
-  CHECK(contains(message("a.pdb", kPdb, "        5.00000", " 123456.00000  "), (rows + "the line").c_str()));
-  CHECK(contains(message("a.pdb", kPdb, "REMARK 350 APPLY THE FOLLOWING TO CHAINS: A\n", ""),
+  CHECK(contains(message("a.pdb", kDimerPdb, "BIOMT2   1", "BIOMT3   1"),
+                 (rows + "the line 'REMARK 350   BIOMT3").c_str()));
+  CHECK(contains(message("a.pdb", kDimerPdb, " 5.00000", " 5.oooo0"), (rows + "the line").c_str()));
+  CHECK(contains(message("a.pdb", kDimerPdb, "        5.00000", " 123456.00000  "), (rows + "the line").c_str()));
+  CHECK(contains(message("a.pdb", kDimerPdb, "REMARK 350 APPLY THE FOLLOWING TO CHAINS: A\n", ""),
                  "has 2 operations, and 0 are described with the chains"));
 }
 

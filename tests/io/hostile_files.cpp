@@ -14,6 +14,7 @@
 #include "io/structure_file.h"
 #include "io/write_vtp.h"
 #include "support/test_data.h"
+#include "support/text.h"
 
 using namespace espdiff;
 using namespace espdiff_test;
@@ -39,8 +40,6 @@ std::string refusal(const std::string& path, Read read) {
 std::string refusal_of_map(const std::string& name) {
   return refusal(corpus(name), [](const std::string& path) { read_grid(path); });
 }
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
 
@@ -212,11 +211,6 @@ std::string surface_text() {
   std::ostringstream text;
   write_vtp(text, surface);
   return text.str();
-}
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  REQUIRE(contains(text, what));
-  return text.replace(text.find(what), what.size(), by);
 }
 
 }  // namespace

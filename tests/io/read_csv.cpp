@@ -56,3 +56,5 @@ TEST_CASE("what is wrong is named with its line") {
   CHECK(message_of([&] { table.number(0, 1); }).find("n.csv:2: column b: 'x' is no number") != std::string::npos);
   CHECK(message_of([&] { table.require("c"); }).find("there is no column 'c'; there are: a, b") != std::string::npos);
 }
+
+TEST_SUITE_END();

@@ -19,7 +19,7 @@ std::string cube(const std::string& third, const std::string& sizes, const std::
   return "title\n comment\n" + third + "\n " + nx + " 1 0 0\n " + ny + " 0 2 0\n " + nz + " 0.5 0 3\n" + rest;
 }
 
-std::string error(const std::string& text) {
+std::string cube_error(const std::string& text) {
   return message_of([&] { read_cube("f.cube", text); });
 }
 
@@ -43,7 +43,7 @@ TEST_CASE("read_cube: negative counts mean Angstrom") {
   CHECK(grid.lattice.size == std::array<int, 3>{2, 2, 2});
   CHECK(grid.lattice.origin == Vec3d{1, 2, 3});
   CHECK(grid.lattice.step[2] == Vec3d{0.5, 0, 3});
-  CHECK(error(cube("0 1 2 3", "-2 2 -2", kEight)) ==
+  CHECK(cube_error(cube("0 1 2 3", "-2 2 -2", kEight)) ==
         "f.cube:6: the three counts differ in sign; positive means Bohr, negative Angstrom");
 }
 
@@ -56,7 +56,7 @@ TEST_CASE("read_cube: columns that touch, with exponents of three digits and wit
                                  kAtomLine + "  5.00000E-01-1.00000E-02-2.50000E-05 1.00000-120\n"
                                              " -3.00000E+00 1.00000E-03 1.00000D+00-1.00000D+01\n"))
             .values == in_memory);
-  CHECK(error(cube("1 0 0 0", "2 2 2", kAtomLine + "5.0E-01x1.0E-02 0 0 0 0 0 0\n"))
+  CHECK(cube_error(cube("1 0 0 0", "2 2 2", kAtomLine + "5.0E-01x1.0E-02 0 0 0 0 0 0\n"))
             .find("f.cube:8: value 1 is '5.0E-01x1.0E-02'; a finite number was expected") == 0);
 }
 
@@ -70,23 +70,25 @@ TEST_CASE("read_cube: of several volumes the first") {
 }
 
 TEST_CASE("read_cube: fewer or more values, bad values, bad headers") {
-  CHECK(error(cube("1 0 0 0", "2 2 2", kAtomLine + "0 1 10 11\n100 1011.5 110\n")) ==
+  CHECK(cube_error(cube("1 0 0 0", "2 2 2", kAtomLine + "0 1 10 11\n100 1011.5 110\n")) ==
         "f.cube:9: only 7 values were found, but the header promises 8; is the file cut short?");
-  CHECK(error(cube("1 0 0 0", "2 2 2", kAtomLine + kEight + "5\n")) ==
+  CHECK(cube_error(cube("1 0 0 0", "2 2 2", kAtomLine + kEight + "5\n")) ==
         "f.cube:10: more values than the 8 that the header promises, the first '5'");
-  CHECK(error(cube("1 0 0 0", "2 2 2", kAtomLine + "0 1 10 11\n100 NaN 110 111\n")) ==
+  CHECK(cube_error(cube("1 0 0 0", "2 2 2", kAtomLine + "0 1 10 11\n100 NaN 110 111\n")) ==
         "f.cube:9: value 6 is 'NaN'; a finite number was expected");
-  CHECK(error(cube("2 0 0 0", "2 2 2", kAtomLine + kEight)).find("f.cube:8: atom 2 of 2 does not have five numbers") ==
+  CHECK(cube_error(cube("2 0 0 0", "2 2 2", kAtomLine + kEight))
+            .find("f.cube:8: atom 2 of 2 does not have five numbers") == 0);
+  CHECK(cube_error(cube("1 0 0 x", "2 2 2", kEight)).find("f.cube:3: cube header without number of atoms and origin") ==
         0);
-  CHECK(error(cube("1 0 0 x", "2 2 2", kEight)).find("f.cube:3: cube header without number of atoms and origin") == 0);
-  CHECK(error(cube("1 0 0 0", "2 1 2", kEight)).find("f.cube:6: the grid has 2 x 1 x 2 points; at least 2") == 0);
-  CHECK(error(cube("-1 0 0 0", "2 2 2", kAtomLine + " 0\n" + kEight)).find("f.cube:8: number of orbitals is 0") == 0);
-  CHECK(error("title\ncomment\n 0 0 0 0\n 2 1 0 0\n 2 1 0 0\n 2 0 0 1\n" + kEight)
+  CHECK(cube_error(cube("1 0 0 0", "2 1 2", kEight)).find("f.cube:6: the grid has 2 x 1 x 2 points; at least 2") == 0);
+  CHECK(cube_error(cube("-1 0 0 0", "2 2 2", kAtomLine + " 0\n" + kEight)).find("f.cube:8: number of orbitals is 0") ==
+        0);
+  CHECK(cube_error("title\ncomment\n 0 0 0 0\n 2 1 0 0\n 2 1 0 0\n 2 0 0 1\n" + kEight)
             .find("f.cube:6: the three grid axes lie in one plane") == 0);
 }
 
 TEST_CASE("read_cube: headers that promise more than the file holds do not allocate") {
-  CHECK(error(cube("0 0 0 0", "1000 1000 1000", kEight)) ==
+  CHECK(cube_error(cube("0 0 0 0", "1000 1000 1000", kEight)) ==
         "f.cube:6: the header promises 1000000000 values, but only " + std::to_string(kEight.size()) +
             " bytes follow; the file is cut short or its counts are wrong");
   CHECK_THROWS_AS(read_cube("f", cube("0 0 0 0", "100000 100000 100000", kEight)), FormatError);

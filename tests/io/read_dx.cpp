@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "io/read_grid.h"
 #include "support/test_data.h"
+#include "support/text.h"
 
 using namespace espdiff;
 using namespace espdiff_test;
@@ -36,13 +37,8 @@ void check_values(const Grid& grid) {
   }
 }
 
-std::string error(const std::string& text) {
+std::string dx_error(const std::string& text) {
   return message_of([&] { read_dx("f.dx", text); });
-}
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  REQUIRE(text.find(what) != std::string::npos);
-  return text.replace(text.find(what), what.size(), by);
 }
 
 }  // namespace
@@ -105,67 +101,67 @@ TEST_CASE("read_dx: the unit from APBS' comment, PMEPot's comment or field name,
 }
 
 TEST_CASE("read_dx: fewer or more values than promised, and what is no number") {
-  CHECK(error(kHeader + values(20) + kTrailer) ==
+  CHECK(dx_error(kHeader + values(20) + kTrailer) ==
         "f.dx:14: only 20 values were found, but 'items' promises 24; is the file cut short?");
-  CHECK(error(kHeader + values(23)) ==
+  CHECK(dx_error(kHeader + values(23)) ==
         "f.dx:15: only 23 values were found, but 'items' promises 24; is the file cut short?");
-  CHECK(error(kHeader + values() + "7 8 9\n" + kTrailer) ==
+  CHECK(dx_error(kHeader + values() + "7 8 9\n" + kTrailer) ==
         "f.dx:16: more values than the 24 that 'items' promises, the first '7'; correct the counts or the values");
-  CHECK(error(kHeader + replaced(values(), "100 ", "nan "))
+  CHECK(dx_error(kHeader + replaced(values(), "100 ", "nan "))
             .find("f.dx:12: value 13 is 'nan'; a finite number was expected") == 0);
-  CHECK(error(kHeader + replaced(values(), "100 ", "inf ")).find("f.dx:12: value 13 is 'inf'") == 0);
-  CHECK(error(kHeader + replaced(values(), "100 ", "1e39 ")).find("f.dx:12: value 13 is '1e39'") == 0);
-  CHECK(error(kHeader + replaced(values(), "100 ", "1.0.0 ")).find("f.dx:12: value 13 is '1.0.0'") == 0);
+  CHECK(dx_error(kHeader + replaced(values(), "100 ", "inf ")).find("f.dx:12: value 13 is 'inf'") == 0);
+  CHECK(dx_error(kHeader + replaced(values(), "100 ", "1e39 ")).find("f.dx:12: value 13 is '1e39'") == 0);
+  CHECK(dx_error(kHeader + replaced(values(), "100 ", "1.0.0 ")).find("f.dx:12: value 13 is '1.0.0'") == 0);
 }
 
 TEST_CASE("read_dx: a header that promises more than the file holds does not allocate") {
   const std::string huge =
       replaced(replaced(kHeader, "counts 2 3 4", "counts 1000 1000 1000"), "items 24", "items 1000000000");
-  CHECK(error(huge + values()) == "f.dx:7: the header promises 1000000000 values, but only " +
-                                      std::to_string(values().size() + 0) +
-                                      " bytes follow; the file is cut short or its counts are wrong");
+  CHECK(dx_error(huge + values()) == "f.dx:7: the header promises 1000000000 values, but only " +
+                                         std::to_string(values().size() + 0) +
+                                         " bytes follow; the file is cut short or its counts are wrong");
   const std::string absurd = replaced(kHeader, "counts 2 3 4", "counts 10000 10000 10000");
-  CHECK(error(absurd + values()) ==
+  CHECK(dx_error(absurd + values()) ==
         "f.dx:1: the grid has 10000 x 10000 x 10000 points; at most 2^31 - 1 can be read; crop or coarsen it");
   CHECK_THROWS_AS(read_dx("f", replaced(kHeader, "counts 2 3 4", "counts 9223372036854775807 2 2") + values()),
                   FormatError);
 }
 
 TEST_CASE("read_dx: counts and axes") {
-  CHECK(error(replaced(kHeader, "counts 2 3 4", "counts 2 0 4")) ==
+  CHECK(dx_error(replaced(kHeader, "counts 2 3 4", "counts 2 0 4")) ==
         "f.dx:1: the grid has 2 x 0 x 4 points; at least 2 along each axis were expected");
-  CHECK(error(replaced(kHeader, "counts 2 3 4", "counts 2 -3 4")).find("f.dx:1: the grid has 2 x -3 x 4 points") == 0);
-  CHECK(error(replaced(kHeader, "counts 2 3 4", "counts 2 3")) ==
-        "f.dx:1: gridpositions without three counts; 'counts nx ny nz' was expected");
-  CHECK(error(replaced(kHeader, "counts 2 3 4", "counts 2 3 x")).find("f.dx:1: a grid count is 'x'") == 0);
-  CHECK(error(replaced(kHeader, "items 24", "items 25") + values()) ==
-        "f.dx:7: the array has '25' items, but the grid has 24 points; the numbers must be equal");
-  CHECK(error(replaced(kHeader, "delta 0 0 0.7", "delta 0 0 0") + values()) ==
-        "f.dx:7: a grid step is zero; the three axes must have a length");
-  CHECK(error(replaced(kHeader, "delta 0 0 0.7", "delta 1 1 0") + values()) ==
-        "f.dx:7: the three grid axes lie in one plane; they must span a volume");
-  CHECK(error(replaced(kHeader, "delta 0 0 0.7", "delta 0 0 x") + values()) ==
-        "f.dx:5: delta is 'x'; a finite number was expected");
-  CHECK(error(replaced(kHeader, "delta 0 0 0.7\n", "") + values()).find("f.dx:6: values before the grid is complete") ==
+  CHECK(dx_error(replaced(kHeader, "counts 2 3 4", "counts 2 -3 4")).find("f.dx:1: the grid has 2 x -3 x 4 points") ==
         0);
-  CHECK(
-      error(replaced(kHeader, "delta 0 0 0.7", "delta 0 0 1\ndelta 0 0 1") + values()).find("f.dx:6: a fourth delta") ==
-      0);
+  CHECK(dx_error(replaced(kHeader, "counts 2 3 4", "counts 2 3")) ==
+        "f.dx:1: gridpositions without three counts; 'counts nx ny nz' was expected");
+  CHECK(dx_error(replaced(kHeader, "counts 2 3 4", "counts 2 3 x")).find("f.dx:1: a grid count is 'x'") == 0);
+  CHECK(dx_error(replaced(kHeader, "items 24", "items 25") + values()) ==
+        "f.dx:7: the array has '25' items, but the grid has 24 points; the numbers must be equal");
+  CHECK(dx_error(replaced(kHeader, "delta 0 0 0.7", "delta 0 0 0") + values()) ==
+        "f.dx:7: a grid step is zero; the three axes must have a length");
+  CHECK(dx_error(replaced(kHeader, "delta 0 0 0.7", "delta 1 1 0") + values()) ==
+        "f.dx:7: the three grid axes lie in one plane; they must span a volume");
+  CHECK(dx_error(replaced(kHeader, "delta 0 0 0.7", "delta 0 0 x") + values()) ==
+        "f.dx:5: delta is 'x'; a finite number was expected");
+  CHECK(dx_error(replaced(kHeader, "delta 0 0 0.7\n", "") + values())
+            .find("f.dx:6: values before the grid is complete") == 0);
+  CHECK(dx_error(replaced(kHeader, "delta 0 0 0.7", "delta 0 0 1\ndelta 0 0 1") + values())
+            .find("f.dx:6: a fourth delta") == 0);
 }
 
 TEST_CASE("read_dx: kinds of OpenDX file that are not read") {
   CHECK_THROWS_AS(read_dx("f", replaced(kHeader, "data follows", "lsb ieee data follows") + values()), InputError);
-  CHECK(error(replaced(kHeader, "data follows", "binary data follows") + values()) ==
+  CHECK(dx_error(replaced(kHeader, "data follows", "binary data follows") + values()) ==
         "f.dx:7: the OpenDX values are binary; write them as text");
-  CHECK(error(replaced(kHeader, "rank 0", "rank 1 shape 3") + values()).find("holds vectors (rank 1)") !=
+  CHECK(dx_error(replaced(kHeader, "rank 0", "rank 1 shape 3") + values()).find("holds vectors (rank 1)") !=
         std::string::npos);
-  CHECK(error(replaced(kHeader, "data follows", "data file values.bin,0") + values()).find("not in this file") !=
+  CHECK(dx_error(replaced(kHeader, "data follows", "data file values.bin,0") + values()).find("not in this file") !=
         std::string::npos);
-  CHECK(error(replaced(kHeader, "class gridpositions", "class productarray") + values()).find("class 'productarray'") !=
-        std::string::npos);
-  CHECK(error("object 1 class gridpositions counts 2 2 2\n") ==
+  CHECK(dx_error(replaced(kHeader, "class gridpositions", "class productarray") + values())
+            .find("class 'productarray'") != std::string::npos);
+  CHECK(dx_error("object 1 class gridpositions counts 2 2 2\n") ==
         "f.dx:1: the file ends before its values; 'object 3 class array ...' was expected");
-  CHECK(error("object 1 class gridpositions counts 2 2 2\nfoo 1\n") ==
+  CHECK(dx_error("object 1 class gridpositions counts 2 2 2\nfoo 1\n") ==
         "f.dx:2: OpenDX header has 'foo'; object, origin, delta or a comment was expected");
 }
 

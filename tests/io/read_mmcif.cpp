@@ -1,6 +1,7 @@
 // read_mmcif.cpp: mmCIF files through gemmi.
 #include "base/error.h"
 #include "io/read_structure.h"
+#include "io/structure_text.h"
 #include "support/test_data.h"
 
 #ifdef ESPDIFF_HAVE_GEMMI
@@ -10,7 +11,7 @@ using namespace espdiff_test;
 
 namespace {
 
-const std::string kHead =
+const std::string kMmcifHead =
     "data_TEST\n#\nloop_\n_atom_site.group_PDB\n_atom_site.id\n_atom_site.type_symbol\n_atom_site.label_atom_id\n"
     "_atom_site.label_alt_id\n_atom_site.label_comp_id\n_atom_site.label_asym_id\n_atom_site.pdbx_PDB_ins_code\n"
     "_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n_atom_site.occupancy\n_atom_site.B_iso_or_equiv\n"
@@ -25,21 +26,16 @@ const std::string kRows =
     "HETATM 6 O O . HOH D ? 6.0 2.0 3.0 1.0 5 10 X 1\n"
     "ATOM 1 N N . ALA A ? 11.0 2.0 3.0 1.0 5 7 X 2\n";
 
-Molecule read(const std::string& text, const StructureOptions& options = {}) {
-  const ScratchFolder scratch;
-  return read_structure(scratch.write("a.cif", text), options);
+Molecule molecule_of_mmcif(const std::string& text, const StructureOptions& options = {}) {
+  return structure_of("a.cif", text, options);
 }
 
-std::string error(const std::string& text) {
-  const std::string message = message_of([&] { read(text); });
-  const std::size_t name = message.find("a.cif");
-  return name == std::string::npos ? message : message.substr(name);
-}
+std::string mmcif_error(const std::string& text) { return structure_error("a.cif", text); }
 
 }  // namespace
 
 TEST_CASE("read_mmcif: author's names, file order, locations, models, filters") {
-  const Molecule m = read(kHead + kRows);
+  const Molecule m = molecule_of_mmcif(kMmcifHead + kRows);
   REQUIRE(m.size() == 4);
   CHECK(m.positions[0] == Vec3d{1, 2, 3});
   CHECK(m.positions[1].x == 1.6);
@@ -55,63 +51,64 @@ TEST_CASE("read_mmcif: author's names, file order, locations, models, filters") 
   CHECK(m.radii_origin == ValueOrigin::kElement);
   StructureOptions options;
   options.model = 2;
-  CHECK(read(kHead + kRows, options).positions[0].x == 11.0);
+  CHECK(molecule_of_mmcif(kMmcifHead + kRows, options).positions[0].x == 11.0);
   options.model = 1;
   options.include_hetero = false;
-  CHECK(read(kHead + kRows, options).size() == 3);
+  CHECK(molecule_of_mmcif(kMmcifHead + kRows, options).size() == 3);
   const ScratchFolder scratch;
-  CHECK(count_models(scratch.write("a.cif", kHead + kRows)) == 2);
+  CHECK(count_models(scratch.write("a.cif", kMmcifHead + kRows)) == 2);
 }
 
 TEST_CASE("read_mmcif: coordinates that are no numbers are refused with line and value") {
-  CHECK(
-      error(kHead + "ATOM 1 N N . ALA A ? 1.0 2.0 3.0 1.0 5 7 X 1\nATOM 2 C CA . ALA A ? 1.5 nan 3.0 1.0 5 7 X 1\n") ==
-      "a.cif:21: _atom_site.Cartn_y of atom 2 is 'nan'; a finite number was expected");
-  CHECK(error(kHead + "ATOM 1 N N . ALA A ? 1.0 2.0 ? 1.0 5 7 X 1\n") ==
+  CHECK(mmcif_error(kMmcifHead +
+                    "ATOM 1 N N . ALA A ? 1.0 2.0 3.0 1.0 5 7 X 1\nATOM 2 C CA . ALA A ? 1.5 nan 3.0 1.0 5 7 X 1\n") ==
+        "a.cif:21: _atom_site.Cartn_y of atom 2 is 'nan'; a finite number was expected");
+  CHECK(mmcif_error(kMmcifHead + "ATOM 1 N N . ALA A ? 1.0 2.0 ? 1.0 5 7 X 1\n") ==
         "a.cif:20: _atom_site.Cartn_z of atom 1 is '?'; a finite number was expected");
 }
 
 TEST_CASE("read_mmcif: bad syntax, no atoms, missing columns, missing model") {
-  CHECK(error(kHead + "ATOM 1 N N\n").find("a.cif:3: not valid CIF: Wrong number of values in the loop") == 0);
+  CHECK(mmcif_error(kMmcifHead + "ATOM 1 N N\n").find("a.cif:3: not valid CIF: Wrong number of values in the loop") ==
+        0);
   CHECK(
-      error("data_X\n_cell.length_a 1\n") ==
+      mmcif_error("data_X\n_cell.length_a 1\n") ==
       "a.cif: mmCIF without the column _atom_site.id (no atoms at all); give a macromolecular mmCIF with coordinates");
-  std::string without = kHead + "ATOM 1 N N . ALA A ? 1.0 2.0 3.0 1.0 5 7 X 1\n";
+  std::string without = kMmcifHead + "ATOM 1 N N . ALA A ? 1.0 2.0 3.0 1.0 5 7 X 1\n";
   without.replace(without.find("auth_seq_id"), 11, "auth_seq_ix");
-  CHECK(error(without).find("a.cif: mmCIF without the column _atom_site.auth_seq_id;") == 0);
-  CHECK(error(kHead + "ATOM 1 N N . ALA A ? 1.0 2.0 3.0 1.0 5 7a1b X 1\n") ==
+  CHECK(mmcif_error(without).find("a.cif: mmCIF without the column _atom_site.auth_seq_id;") == 0);
+  CHECK(mmcif_error(kMmcifHead + "ATOM 1 N N . ALA A ? 1.0 2.0 3.0 1.0 5 7a1b X 1\n") ==
         "a.cif:20: _atom_site.auth_seq_id of atom 1 is '7a1b'; an integer below 2^31 in size was expected");
   StructureOptions options;
   options.model = 3;
   CHECK(message_of([&] {
-          read(kHead + kRows, options);
+          molecule_of_mmcif(kMmcifHead + kRows, options);
         }).find("a.cif: model 3 was asked for, but the file has models 1 to 2") != std::string::npos);
 }
 
 TEST_CASE("read_mmcif: columns that may be missing: occupancy, alternate locations, B factors") {
-  std::string head = kHead;
+  std::string head = kMmcifHead;
   for (const char* column : {"_atom_site.label_alt_id\n", "_atom_site.occupancy\n", "_atom_site.B_iso_or_equiv\n"})
     head.erase(head.find(column), std::string(column).size());
-  const Molecule m = read(head +
-                          "ATOM 1 N N ALA A ? 1.0 2.0 3.0 7 X 1\nATOM 2 C CA ALA A ? 1.5 2.0 3.0 7 X 1\n"
-                          "ATOM 1 N N ALA A ? 11.0 2.0 3.0 7 X 2\n");
+  const Molecule m = molecule_of_mmcif(head +
+                                       "ATOM 1 N N ALA A ? 1.0 2.0 3.0 7 X 1\nATOM 2 C CA ALA A ? 1.5 2.0 3.0 7 X 1\n"
+                                       "ATOM 1 N N ALA A ? 11.0 2.0 3.0 7 X 2\n");
   REQUIRE(m.size() == 2);
   CHECK(m.positions[1] == Vec3d{1.5, 2, 3});
   CHECK(m.atoms[1].name == "CA");
   CHECK(m.residues[0].number == 7);
-  std::string without_occupancy = kHead;
+  std::string without_occupancy = kMmcifHead;
   without_occupancy.erase(without_occupancy.find("_atom_site.occupancy\n"), 21);
   // Two locations without an occupancy are equal: the first counts.
-  CHECK(
-      read(without_occupancy + "ATOM 1 C CA A ALA A ? 1.5 2.0 3.0 5 7 X 1\nATOM 2 C CA B ALA A ? 1.6 2.0 3.0 5 7 X 1\n")
-          .positions == std::vector<Vec3d>{{1.5, 2, 3}});
+  CHECK(molecule_of_mmcif(without_occupancy +
+                          "ATOM 1 C CA A ALA A ? 1.5 2.0 3.0 5 7 X 1\nATOM 2 C CA B ALA A ? 1.6 2.0 3.0 5 7 X 1\n")
+            .positions == std::vector<Vec3d>{{1.5, 2, 3}});
 }
 
 TEST_CASE("read_mmcif: a mistake in another category does no harm") {
-  CHECK(read(kHead + kRows +
-             "loop_\n_struct_conn.id\n_struct_conn.conn_type_id\n_struct_conn.ptnr1_label_comp_id\n"
-             "_struct_conn.ptnr2_label_comp_id\n_struct_conn.ptnr1_label_atom_id\n"
-             "_struct_conn.ptnr2_label_atom_id\n a b c d e f\n")
+  CHECK(molecule_of_mmcif(kMmcifHead + kRows +
+                          "loop_\n_struct_conn.id\n_struct_conn.conn_type_id\n_struct_conn.ptnr1_label_comp_id\n"
+                          "_struct_conn.ptnr2_label_comp_id\n_struct_conn.ptnr1_label_atom_id\n"
+                          "_struct_conn.ptnr2_label_atom_id\n a b c d e f\n")
             .size() == 4);
 }
 

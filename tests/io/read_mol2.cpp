@@ -13,7 +13,7 @@ using espdiff_test::ScratchFolder;
 
 namespace {
 
-const char* const kHead = "@<TRIPOS>MOLECULE\nLIG\n3 2\n@<TRIPOS>ATOM\n";
+const char* const kMol2Head = "@<TRIPOS>MOLECULE\nLIG\n3 2\n@<TRIPOS>ATOM\n";
 
 /// What reading a file of this text is refused with, without its path.
 std::string refusal(const std::string& text) {
@@ -29,7 +29,7 @@ TEST_CASE("read_mol2: names, elements and positions of the first molecule's atom
   const ScratchFolder folder;
   const std::string atoms = "# a comment\n1 C1 0.5 -1 2 C.ar 1 LIG 0.1\n\n2 H1 1e0 2 3 H\r\n3 N1 4 5 6 N.pl3 1 LIG\n";
   const Mol2File file = read_mol2(folder.write(
-      "a.mol2", kHead + atoms + "@<TRIPOS>BOND\n1 1 2 1\n@<TRIPOS>MOLECULE\nB\n@<TRIPOS>ATOM\n1 O1 0 0 0 O.3\n"));
+      "a.mol2", kMol2Head + atoms + "@<TRIPOS>BOND\n1 1 2 1\n@<TRIPOS>MOLECULE\nB\n@<TRIPOS>ATOM\n1 O1 0 0 0 O.3\n"));
   REQUIRE(file.atoms.size() == 3);
   CHECK(file.atoms[0].name == "C1");
   CHECK(file.atoms[0].element == "C");
@@ -41,27 +41,27 @@ TEST_CASE("read_mol2: names, elements and positions of the first molecule's atom
 
 TEST_CASE("read_mol2: lines that are no atoms are refused with their number") {
   const std::string expected = "; number, name, x, y, z and type were expected";
-  CHECK(refusal(kHead + std::string("1 C1 0 0 0\n")) == ":5: a MOL2 atom is '1 C1 0 0 0'" + expected);
-  CHECK(refusal(kHead + std::string("1 C1 0 0 0 C\n2 C2 0 zero 0 C\n")) ==
+  CHECK(refusal(kMol2Head + std::string("1 C1 0 0 0\n")) == ":5: a MOL2 atom is '1 C1 0 0 0'" + expected);
+  CHECK(refusal(kMol2Head + std::string("1 C1 0 0 0 C\n2 C2 0 zero 0 C\n")) ==
         ":6: a MOL2 atom is '2 C2 0 zero 0 C'" + expected);
-  CHECK(refusal(kHead + std::string("1 C1 0 nan 0 C\n")).find(":5: a MOL2 atom is '1 C1 0 nan 0 C'; ") == 0);
-  CHECK(refusal(kHead + std::string("1 C1 0 1e300 0 C.ar\n")) ==
+  CHECK(refusal(kMol2Head + std::string("1 C1 0 nan 0 C\n")).find(":5: a MOL2 atom is '1 C1 0 nan 0 C'; ") == 0);
+  CHECK(refusal(kMol2Head + std::string("1 C1 0 1e300 0 C.ar\n")) ==
         ":5: a MOL2 atom is '1 C1 0 1e300 0 C.ar'; coordinates of at most 10^6 Angstrom were expected");
-  CHECK(refusal(kHead) == ": has no @<TRIPOS>ATOM section; give a MOL2 file with atoms");
+  CHECK(refusal(kMol2Head) == ": has no @<TRIPOS>ATOM section; give a MOL2 file with atoms");
   CHECK(refusal("@<TRIPOS>MOLECULE\nLIG\n") == ": has no @<TRIPOS>ATOM section; give a MOL2 file with atoms");
   CHECK(refusal("ATOM 1 CA ALA A 1 0 0 0 0 1\n").find("; convert it, with hydrogens") != std::string::npos);
   CHECK(refusal("") == ": is empty; give a file with content");
 }
 
 TEST_CASE("read_mol2: a line, or a name, of any length is shown in part") {
-  const std::string message = refusal(kHead + std::string("1 ") + std::string(1'000'000, 'C') + " 0 0\n");
+  const std::string message = refusal(kMol2Head + std::string("1 ") + std::string(1'000'000, 'C') + " 0 0\n");
   CHECK(message.size() < 300);
   CHECK(message.find("...'; number, name, x, y, z and type were expected") != std::string::npos);
 }
 
 TEST_CASE("read_mol2: more atoms than a molecule has are refused") {
   const ScratchFolder folder;
-  std::string text = kHead;
+  std::string text = kMol2Head;
   text.reserve(std::size_t{12} * (espdiff::kMostAtoms + 10));
   for (std::size_t i = 0; i <= espdiff::kMostAtoms; ++i) text += "1 C 0 0 0 C\n";
   const std::string path = folder.write("many.mol2", text);

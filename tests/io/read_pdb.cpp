@@ -1,6 +1,7 @@
 // read_pdb.cpp: PDB files through gemmi: alternate locations, short and broken lines, models, elements.
 #include "base/error.h"
 #include "io/read_structure.h"
+#include "io/structure_text.h"
 #include "support/test_data.h"
 
 using namespace espdiff;
@@ -41,17 +42,11 @@ std::string text_of(const PdbLine& a) {
   return line;
 }
 
-Molecule read(const std::string& text, const StructureOptions& options = {}) {
-  const ScratchFolder scratch;
-  return read_structure(scratch.write("a.pdb", text), options);
+Molecule molecule_of_pdb(const std::string& text, const StructureOptions& options = {}) {
+  return structure_of("a.pdb", text, options);
 }
 
-/// The message without the scratch folder's name.
-std::string error(const std::string& text) {
-  const std::string message = message_of([&] { read(text); });
-  const std::size_t name = message.find("a.pdb");
-  return name == std::string::npos ? message : message.substr(name);
-}
+std::string pdb_error(const std::string& text) { return structure_error("a.pdb", text); }
 
 std::vector<double> xs(const Molecule& m) {
   std::vector<double> x;
@@ -64,7 +59,7 @@ using Xs = std::vector<double>;
 }  // namespace
 
 TEST_CASE("read_pdb: one atom, all of it") {
-  const Molecule m = read(text_of({"HETATM", "FE  ", ' ', "HEM ", 'B', -3, 'C', -12.5, 1, "FE"}));
+  const Molecule m = molecule_of_pdb(text_of({"HETATM", "FE  ", ' ', "HEM ", 'B', -3, 'C', -12.5, 1, "FE"}));
   REQUIRE(m.size() == 1);
   CHECK(m.positions[0] == Vec3d{-12.5, 2, 3});
   CHECK(m.atoms[0].name == "FE");
@@ -87,9 +82,9 @@ TEST_CASE("read_pdb: the location of highest occupancy, the first on ties, other
            text_of({"ATOM", " OG ", 'A', "SER ", 'A', 1, ' ', 4, occupancy_a, " O"}) +
            text_of({"ATOM", " OG ", 'B', "SER ", 'A', 1, ' ', 5, occupancy_b, " O"});
   };
-  CHECK(xs(read(shared + pair(0.6, 0.4))) == Xs{1, 2, 4});
-  CHECK(xs(read(shared + pair(0.4, 0.6))) == Xs{1, 3, 5});
-  CHECK(xs(read(shared + pair(0.5, 0.5))) == Xs{1, 2, 4});
+  CHECK(xs(molecule_of_pdb(shared + pair(0.6, 0.4))) == Xs{1, 2, 4});
+  CHECK(xs(molecule_of_pdb(shared + pair(0.4, 0.6))) == Xs{1, 3, 5});
+  CHECK(xs(molecule_of_pdb(shared + pair(0.5, 0.5))) == Xs{1, 2, 4});
 }
 
 TEST_CASE("read_pdb: locations are chosen per residue, not per atom, and no atom gets lost") {
@@ -100,7 +95,7 @@ TEST_CASE("read_pdb: locations are chosen per residue, not per atom, and no atom
                            text_of({"ATOM", " OG ", 'B', "SER ", 'A', 1, ' ', 4, 0.9}) +
                            text_of({"ATOM", " CG ", 'A', "SER ", 'A', 1, ' ', 5, 0.1}) +
                            text_of({"ATOM", " CG ", 'C', "SER ", 'A', 1, ' ', 6, 0.2});
-  CHECK(xs(read(text)) == Xs{2, 4, 6});
+  CHECK(xs(molecule_of_pdb(text)) == Xs{2, 4, 6});
 }
 
 TEST_CASE("read_pdb: a residue that is another in part of the crystal") {
@@ -108,7 +103,7 @@ TEST_CASE("read_pdb: a residue that is another in part of the crystal") {
                            text_of({"ATOM", " N  ", 'B', "THR ", 'A', 1, ' ', 2, 0.7}) +
                            text_of({"ATOM", " CA ", 'A', "SER ", 'A', 1, ' ', 3, 0.3}) +
                            text_of({"ATOM", " CA ", 'B', "THR ", 'A', 1, ' ', 4, 0.7});
-  const Molecule m = read(text);
+  const Molecule m = molecule_of_pdb(text);
   CHECK(xs(m) == Xs{2, 4});
   REQUIRE(m.residues.size() == 1);
   CHECK(m.residues[0].name == "THR");
@@ -118,14 +113,14 @@ TEST_CASE("read_pdb: an atom given twice at one place counts once, two atoms of 
   const PdbLine atom;
   PdbLine moved = atom;
   moved.x = 1;
-  CHECK(xs(read(text_of(atom) + text_of(atom) + text_of(moved))) == Xs{0, 1});
+  CHECK(xs(molecule_of_pdb(text_of(atom) + text_of(atom) + text_of(moved))) == Xs{0, 1});
 }
 
 TEST_CASE("read_pdb: file order stays, though gemmi gathers residues") {
   const std::string text = text_of({"ATOM", " N  ", ' ', "SER ", 'A', 1, ' ', 1}) +
                            text_of({"ATOM", " N  ", ' ', "SER ", 'B', 1, ' ', 2}) +
                            text_of({"ATOM", " H  ", ' ', "SER ", 'A', 1, ' ', 3, 1, " H"});
-  const Molecule m = read(text);
+  const Molecule m = molecule_of_pdb(text);
   CHECK(xs(m) == Xs{1, 2, 3});
   CHECK(m.atoms[2].residue == 0);
   CHECK(m.residues.size() == 2);
@@ -136,14 +131,14 @@ TEST_CASE("read_pdb: more atoms than five digits count") {
   for (int i = 0; i < 100010; ++i) {
     text += text_of({"ATOM", " CA ", ' ', "ALA ", static_cast<char>('A' + i / 9999), i % 9999, ' ', i * 0.01});
   }
-  const Molecule m = read(text);
+  const Molecule m = molecule_of_pdb(text);
   REQUIRE(m.size() == 100010);
   CHECK(m.positions[100000].x == 1000.0);
   CHECK(m.positions[100009].x == 1000.09);
 }
 
 TEST_CASE("read_pdb: elements from their columns, else from the name and residue") {
-  const auto element = [](const PdbLine& line) { return read(text_of(line)).atoms[0].element; };
+  const auto element = [](const PdbLine& line) { return molecule_of_pdb(text_of(line)).atoms[0].element; };
   CHECK(element({"ATOM", "CA  ", ' ', "ALA ", 'A', 1, ' ', 0, 1, "  "}) == "C");  // name in the wrong column
   CHECK(element({"HETATM", "CA  ", ' ', " CA ", 'A', 1, ' ', 0, 1, "  "}) == "Ca");
   CHECK(element({"ATOM", " CA ", ' ', "ALA ", 'A', 1, ' ', 0, 1, "CA"}) == "Ca");  // the columns win
@@ -152,9 +147,9 @@ TEST_CASE("read_pdb: elements from their columns, else from the name and residue
 }
 
 TEST_CASE("read_pdb: residue names of four letters, chain names of two") {
-  const Molecule m = read(text_of({"ATOM", " P  ", ' ', "POPC", 'M', 1, ' ', 0, 1, " P"}) +
-                          text_of({"ATOM", " CA ", ' ', "ALAB", 'C', 1, ' ', 0, 1, " C"}) +
-                          text_of({"ATOM", " OH2", ' ', "TIP3", 'W', 1, ' ', 0, 1, " O"}));
+  const Molecule m = molecule_of_pdb(text_of({"ATOM", " P  ", ' ', "POPC", 'M', 1, ' ', 0, 1, " P"}) +
+                                     text_of({"ATOM", " CA ", ' ', "ALAB", 'C', 1, ' ', 0, 1, " C"}) +
+                                     text_of({"ATOM", " OH2", ' ', "TIP3", 'W', 1, ' ', 0, 1, " O"}));
   REQUIRE(m.residues.size() == 2);
   CHECK(m.residues[0].name == "POPC");
   CHECK(m.residues[0].chain == "M");
@@ -169,34 +164,35 @@ TEST_CASE("read_pdb: lines that gemmi would read as something else are refused")
     return "REMARK\n" + line.replace(column - 1, field.size(), field);
   };
   CHECK(
-      error(with(31, "     nan")) ==
+      pdb_error(with(31, "     nan")) ==
       "a.pdb:2: the x coordinate (columns 31 to 38) is 'nan'; a finite number was expected; are the columns shifted?");
-  CHECK(error(with(39, "********")).find("a.pdb:2: the y coordinate (columns 39 to 46) is '********'") == 0);
-  CHECK(error(with(47, "        ")).find("a.pdb:2: the z coordinate (columns 47 to 54) is ''") == 0);
-  CHECK(error(with(30, " 1.000 2.000")).find("a.pdb:2: the x coordinate") == 0);
-  CHECK(error(with(23, "****")) == "a.pdb:2: the residue number (columns 23 to 26) is '****'; an integer was expected");
-  CHECK(error(with(29, "\t")).find("a.pdb:2: a PDB atom line has a tab") == 0);
-  CHECK(error(good + good.substr(0, 50) + "\n") ==
+  CHECK(pdb_error(with(39, "********")).find("a.pdb:2: the y coordinate (columns 39 to 46) is '********'") == 0);
+  CHECK(pdb_error(with(47, "        ")).find("a.pdb:2: the z coordinate (columns 47 to 54) is ''") == 0);
+  CHECK(pdb_error(with(30, " 1.000 2.000")).find("a.pdb:2: the x coordinate") == 0);
+  CHECK(pdb_error(with(23, "****")) ==
+        "a.pdb:2: the residue number (columns 23 to 26) is '****'; an integer was expected");
+  CHECK(pdb_error(with(29, "\t")).find("a.pdb:2: a PDB atom line has a tab") == 0);
+  CHECK(pdb_error(good + good.substr(0, 50) + "\n") ==
         "a.pdb:2: a PDB atom line has 50 columns; at least 54 were expected (z ends there); complete the line");
-  CHECK_THROWS_AS(read(with(31, "     nan")), FormatError);
+  CHECK_THROWS_AS(molecule_of_pdb(with(31, "     nan")), FormatError);
 }
 
 TEST_CASE("read_pdb: what follows the coordinates may be missing or odd") {
   const std::string line = text_of({}).substr(0, 54);
-  CHECK(xs(read(line + "\n" + text_of({"ATOM", " CB ", ' ', "ALA ", 'A', 1, ' ', 4}))) == Xs{0, 4});
-  CHECK(xs(read(line)) == Xs{0});                                  // and no newline at the end
-  CHECK(xs(read(text_of({}).substr(0, 78) + "x+\r\n")) == Xs{0});  // a charge that gemmi refuses
+  CHECK(xs(molecule_of_pdb(line + "\n" + text_of({"ATOM", " CB ", ' ', "ALA ", 'A', 1, ' ', 4}))) == Xs{0, 4});
+  CHECK(xs(molecule_of_pdb(line)) == Xs{0});                                  // and no newline at the end
+  CHECK(xs(molecule_of_pdb(text_of({}).substr(0, 78) + "x+\r\n")) == Xs{0});  // a charge that gemmi refuses
 }
 
 TEST_CASE("read_pdb: filters") {
   const std::string text = text_of({}) + text_of({"HETATM", "ZN  ", ' ', " ZN ", 'A', 2, ' ', 1, 1, "ZN"}) +
                            text_of({"HETATM", " O  ", ' ', "HOH ", 'A', 3, ' ', 2, 1, " O"});
   StructureOptions options;
-  CHECK(xs(read(text, options)) == Xs{0, 1});
+  CHECK(xs(molecule_of_pdb(text, options)) == Xs{0, 1});
   options.include_hetero = false;
-  CHECK(xs(read(text, options)) == Xs{0});
+  CHECK(xs(molecule_of_pdb(text, options)) == Xs{0});
   options.include_hetero = options.include_water = true;
-  CHECK(xs(read(text, options)) == Xs{0, 1, 2});
+  CHECK(xs(molecule_of_pdb(text, options)) == Xs{0, 1, 2});
 }
 
 TEST_CASE("read_pdb: models") {

@@ -2,34 +2,31 @@
 #include "io/read_pqr.h"
 
 #include <filesystem>
-#include <numeric>
 
 #include "base/error.h"
 #include "io/read_structure.h"
+#include "io/structure_text.h"
 #include "support/test_data.h"
+#include "support/text.h"
 
 using namespace espdiff;
 using namespace espdiff_test;
 
 namespace {
 
-Molecule read(const std::string& text, const StructureOptions& options = {}) {
+Molecule molecule_of_pqr(const std::string& text, const StructureOptions& options = {}) {
   const auto models = split_models(text, "f.pqr");
   return read_pqr("f.pqr", models.front(), options);
 }
 
-double sum(const std::vector<float>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
-
-std::string error(const std::string& text) {
-  return message_of([&] { read(text); });
+std::string pqr_error(const std::string& text) {
+  return message_of([&] { molecule_of_pqr(text); });
 }
-
-bool mentions(const std::string& message, const std::string& part) { return message.find(part) != std::string::npos; }
 
 }  // namespace
 
 TEST_CASE("read_pqr: with and without chain") {
-  const Molecule m = read(
+  const Molecule m = molecule_of_pqr(
       "REMARK x\nATOM      1  N   MET A   1      44.360  -3.155   8.971 -0.3000 1.8500\n"
       "HETATM 2 ZN ZN -7 1.5 +2 -3e1 2.0 0\nTER\nEND\n");
   REQUIRE(m.size() == 2);
@@ -52,7 +49,7 @@ TEST_CASE("read_pqr: with and without chain") {
 }
 
 TEST_CASE("read_pqr: insertion code and chain glued to the residue number") {
-  const Molecule m = read(
+  const Molecule m = molecule_of_pqr(
       "ATOM 1 C ALA A 52A 0 0 0 0 1\nATOM 2 C ALA 52 0 0 0 0 1\nATOM 3 C ALA A52B 0 0 0 0 1\nATOM 4 C CHG A0 0 0 0 0 "
       "1\n");
   REQUIRE(m.residues.size() == 4);
@@ -67,7 +64,7 @@ TEST_CASE("read_pqr: insertion code and chain glued to the residue number") {
 }
 
 TEST_CASE("read_pqr: columns that run together are read by PDB's columns") {
-  const Molecule m = read(
+  const Molecule m = molecule_of_pqr(
       "HETATM12345  HA  LYS A1000    -111.222-333.444-555.666  1.0000 2.0000\n"
       "ATOM      1 HD21AASN A 248    1105.0961037.7451054.659  0.3200 0.2245\n"
       "ATOM      1  CA  POPC1 248     105.096 -37.745-154.659-12.345610.2245\n");
@@ -87,7 +84,7 @@ TEST_CASE("read_pqr: columns that run together are read by PDB's columns") {
 }
 
 TEST_CASE("read_pqr: names that run together do not shift the fields") {
-  const Molecule m = read(
+  const Molecule m = molecule_of_pqr(
       "ATOM   3777 HD21AASN A 248     105.096  37.745  54.659  0.3200 0.2245\n"
       "ATOM   3778  P   POPCM   7       1.000   2.000   3.000  0.3200 0.2245\n"
       "ATOM 3779 LONGNAME LIGAND 9 1 2 3 0 1\n");
@@ -102,49 +99,49 @@ TEST_CASE("read_pqr: names that run together do not shift the fields") {
 }
 
 TEST_CASE("read_pqr: a glued serial number in free format") {
-  const Molecule m = read("HETATM10000 C ALA 1 1 2 3 0.5 1.5\n");
+  const Molecule m = molecule_of_pqr("HETATM10000 C ALA 1 1 2 3 0.5 1.5\n");
   CHECK(m.positions[0] == Vec3d{1, 2, 3});
   CHECK(m.atoms[0].name == "C");
 }
 
 TEST_CASE("read_pqr: lines that cannot be told apart are refused with their line number") {
-  CHECK(error("REMARK\nATOM 1 N MET A 1 1.0 2.0 3.0 0.5\n") ==
+  CHECK(pqr_error("REMARK\nATOM 1 N MET A 1 1.0 2.0 3.0 0.5\n") ==
         "f.pqr:2: this PQR line cannot be read: by blanks, the residue number is 'A'; by columns, the line is too "
         "short for PDB "
         "columns; expected: record, serial, atom, residue, [chain,] number, x, y, z, charge, radius, finite and parted "
         "by "
         "blanks");
-  CHECK(mentions(error("ATOM 1 N MET 1 1 2 3\n"), "f.pqr:1: this PQR line cannot be read: by blanks, 8 fields"));
-  CHECK(mentions(error("ATOM 1 N MET A 1 1.0 nan 3.0 0.5 1.0\n"), "by blanks, the y coordinate is 'nan'"));
-  CHECK(mentions(error("ATOM 1 N MET A 1 1.0 2.0 3.0 inf 1.0\n"), "by blanks, the charge is 'inf'"));
-  CHECK(mentions(error("ATOM 1 N MET A 1 1.0 2.0 3.0 0.5 1.0x\n"), "by blanks, the radius is '1.0x'"));
-  CHECK(mentions(error("ATOM 1 N MET A one 1.0 2.0 3.0 0.5 1.0\n"), "the residue number is 'one'"));
-  CHECK(mentions(error("ATOM      1  N   MET A   1      44.360  -3.155  *******  1.0000 1.8500\n"),
+  CHECK(contains(pqr_error("ATOM 1 N MET 1 1 2 3\n"), "f.pqr:1: this PQR line cannot be read: by blanks, 8 fields"));
+  CHECK(contains(pqr_error("ATOM 1 N MET A 1 1.0 nan 3.0 0.5 1.0\n"), "by blanks, the y coordinate is 'nan'"));
+  CHECK(contains(pqr_error("ATOM 1 N MET A 1 1.0 2.0 3.0 inf 1.0\n"), "by blanks, the charge is 'inf'"));
+  CHECK(contains(pqr_error("ATOM 1 N MET A 1 1.0 2.0 3.0 0.5 1.0x\n"), "by blanks, the radius is '1.0x'"));
+  CHECK(contains(pqr_error("ATOM 1 N MET A one 1.0 2.0 3.0 0.5 1.0\n"), "the residue number is 'one'"));
+  CHECK(contains(pqr_error("ATOM      1  N   MET A   1      44.360  -3.155  *******  1.0000 1.8500\n"),
                  "the z coordinate is '*******'"));
-  CHECK_THROWS_AS(read("ATOM\n"), FormatError);
+  CHECK_THROWS_AS(molecule_of_pqr("ATOM\n"), FormatError);
 }
 
 TEST_CASE("read_pqr: radii and coordinates out of bounds") {
-  CHECK(mentions(error("ATOM 1 N MET A 1 1 2 3 0.5 -1.5\n"),
+  CHECK(contains(pqr_error("ATOM 1 N MET A 1 1 2 3 0.5 -1.5\n"),
                  "f.pqr:1: radius of atom 'N' is -1.5; 0 or more was expected"));
-  CHECK(mentions(error("ATOM 1 N MET A 1 1 2e7 3 0.5 1.5\n"), "f.pqr:1: y coordinate of atom 'N' is 2e+07;"));
+  CHECK(contains(pqr_error("ATOM 1 N MET A 1 1 2e7 3 0.5 1.5\n"), "f.pqr:1: y coordinate of atom 'N' is 2e+07;"));
 }
 
 TEST_CASE("read_pqr: water and HETATM by choice") {
   const std::string text =
       "ATOM 1 N MET 1 1 2 3 0 1\nHETATM 2 ZN ZN 2 1 2 3 2 1\nHETATM 3 O HOH 3 1 2 3 0 1\nATOM 4 OH2 TIP3 4 1 2 3 0 1\n";
   StructureOptions options;
-  CHECK(read(text, options).size() == 2);
+  CHECK(molecule_of_pqr(text, options).size() == 2);
   options.include_hetero = false;
-  CHECK(read(text, options).size() == 1);
+  CHECK(molecule_of_pqr(text, options).size() == 1);
   options.include_water = true;
-  CHECK(read(text, options).size() == 3);
-  CHECK(message_of([&] { read("HETATM 3 O HOH 3 1 2 3 0 1\nATOM 1 O WAT 3 1 2 3 0 1\n"); }) ==
+  CHECK(molecule_of_pqr(text, options).size() == 3);
+  CHECK(message_of([&] { molecule_of_pqr("HETATM 3 O HOH 3 1 2 3 0 1\nATOM 1 O WAT 3 1 2 3 0 1\n"); }) ==
         "f.pqr: no atoms are left: 2 are water and 0 are HETATM records that were not asked for; include them");
 }
 
 TEST_CASE("read_pqr: residues in file order; late hydrogens go home, a second molecule does not") {
-  const Molecule m = read(
+  const Molecule m = molecule_of_pqr(
       "ATOM 1 N ALA 1 0 0 0 0 1\nATOM 2 N GLY 2 0 0 0 0 1\nATOM 3 H ALA 1 0 0 0 0 1\nATOM 4 N ALA 1 9 0 0 0 1\n"
       "ATOM 5 H ALA 1 9 0 0 0 1\n");
   REQUIRE(m.residues.size() == 3);

@@ -3,16 +3,18 @@
 
 #include <doctest/doctest.h>
 
-#include <numeric>
-
 #include "base/error.h"
 #include "io/read_structure.h"
+#include "io/structure_text.h"
 #include "support/test_data.h"
+#include "support/text.h"
 
 using namespace espdiff;
 using espdiff_test::message_of;
 using espdiff_test::real_input;
+using espdiff_test::replaced;
 using espdiff_test::ScratchFolder;
+using espdiff_test::sum;
 
 namespace {
 
@@ -25,12 +27,6 @@ const char* const kPrmtop =
     "%VERSION  VERSION_STAMP = V0001.000\n%FLAG TITLE\n%FORMAT(20a4)\nmade\n%FLAG POINTERS\n%FORMAT(10I8)\n"
     "       2       1\n%FLAG ATOM_NAME\n%FORMAT(20a4)\nN   H1  \n%FLAG CHARGE\n%FORMAT(5E16.8)\n"
     "  2.90090000E+00  1.82223000E+01\n%FLAG RADII\n%FORMAT(5E16.8)\n  1.55000000E+00  1.30000000E+00\n";
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  return text.replace(text.find(from), from.size(), to);
-}
-
-double sum(const std::vector<float>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
 }  // namespace
 

@@ -13,7 +13,7 @@ using namespace espdiff_test;
 
 namespace {
 
-const char* const kAtom = "ATOM      1  CA  ALA A   1       1.000   2.000   3.000  0.5000 2.0000\n";
+const char* const kPqrAtom = "ATOM      1  CA  ALA A   1       1.000   2.000   3.000  0.5000 2.0000\n";
 
 std::vector<std::optional<UnitCell>> cells_of(const std::string& path) {
   const StructureFile file(path);
@@ -31,8 +31,8 @@ TEST_CASE("unit cells: each model has the last CRYST1 before it; none and dummie
   const std::string first = cryst1("   42.439   42.500   43.125 109.47  90.00  80.50"),
                     second = cryst1("   50.000   51.000   52.000  90.00  90.00  90.00"),
                     dummy = cryst1("    1.000    1.000    1.000  90.00  90.00  90.00");
-  const auto cells =
-      cells_of(scratch.write("a.pqr", first + kAtom + "END\n" + second + kAtom + "END\n" + dummy + kAtom + "END\n"));
+  const auto cells = cells_of(
+      scratch.write("a.pqr", first + kPqrAtom + "END\n" + second + kPqrAtom + "END\n" + dummy + kPqrAtom + "END\n"));
   REQUIRE(cells.size() == 3);
   REQUIRE(cells[0].has_value());
   CHECK(cells[0]->lengths == Vec3d{42.439, 42.5, 43.125});
@@ -42,12 +42,12 @@ TEST_CASE("unit cells: each model has the last CRYST1 before it; none and dummie
   CHECK_FALSE(cells[2].has_value());
   // One record for all models of a file.
   const auto shared =
-      cells_of(scratch.write("b.pqr", second + "MODEL 1\n" + kAtom + "ENDMDL\nMODEL 2\n" + kAtom + "ENDMDL\n"));
+      cells_of(scratch.write("b.pqr", second + "MODEL 1\n" + kPqrAtom + "ENDMDL\nMODEL 2\n" + kPqrAtom + "ENDMDL\n"));
   REQUIRE(shared.size() == 2);
   CHECK(shared[1].has_value());
-  CHECK_FALSE(cells_of(scratch.write("c.pqr", kAtom))[0].has_value());
+  CHECK_FALSE(cells_of(scratch.write("c.pqr", kPqrAtom))[0].has_value());
   CHECK(message_of([&] {
-          cells_of(scratch.write("d.pqr", "CRYST1   42.439\n" + std::string(kAtom)));
+          cells_of(scratch.write("d.pqr", "CRYST1   42.439\n" + std::string(kPqrAtom)));
         }).find("d.pqr:1: the CRYST1 record's length is ''") != std::string::npos);
 }
 
@@ -58,7 +58,7 @@ TEST_CASE("unit cells: four times the frames take about four times as long, not 
     for (int i = 0; i < n_frames; ++i) {
       char lengths[32];
       std::snprintf(lengths, sizeof lengths, "%9.3f", 40.0 + i % 1000);
-      text += cryst1((lengths + std::string("   51.000   52.000  90.00  90.00  90.00")).c_str()) + kAtom + "END\n";
+      text += cryst1((lengths + std::string("   51.000   52.000  90.00  90.00  90.00")).c_str()) + kPqrAtom + "END\n";
     }
     const std::string path = scratch.write("many.pqr", text);
     const std::clock_t begun = std::clock();  // processor time, which other programs do not add to

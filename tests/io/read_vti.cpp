@@ -7,6 +7,7 @@
 #include "io/read_grid.h"
 #include "io/read_vti.h"
 #include "support/test_data.h"
+#include "support/text.h"
 
 using namespace espdiff;
 using namespace espdiff_test;
@@ -108,11 +109,6 @@ Outcome attempt(const std::string& text, const GridOptions& options = {}) {
   }
   CHECK(output.text() == "");
   return outcome;
-}
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  REQUIRE(text.find(what) != std::string::npos);
-  return text.replace(text.find(what), what.size(), by);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ using espdiff_test::ScratchFolder;
 namespace {
 
 /// Chain A: ALA 1, GLY 2, ATP 9 (HETATM), water; chain B: ALA 1, SER 1A.
-const char* const kPdb =
+const char* const kTwoChainPdb =
     "ATOM      1  N   ALA A   1       0.000   0.000   0.000  1.00  0.00           N\n"
     "ATOM      2  CA  ALA A   1       1.500   0.000   0.000  1.00  0.00           C\n"
     "ATOM      3  C   ALA A   1       2.000   1.400   0.000  1.00  0.00           C\n"
@@ -31,7 +31,7 @@ const char* const kPdb =
 
 Molecule made() {
   const ScratchFolder folder;
-  Molecule molecule = read_structure(folder.write("made.pdb", kPdb), {1, true, true});
+  Molecule molecule = read_structure(folder.write("made.pdb", kTwoChainPdb), {1, true, true});
   molecule.name = "made.pdb";
   return molecule;
 }

@@ -76,3 +76,5 @@ TEST_CASE("the file reads back as the molecule") {
   CHECK(back.residues[1].insertion_code == 'B');
 }
 #endif
+
+TEST_SUITE_END();

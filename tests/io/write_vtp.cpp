@@ -99,7 +99,7 @@ TEST_CASE("arrays that do not fit the surface are refused") {
 
 namespace {
 
-vtkNew<vtkXMLPolyDataReader> read(const std::string& path) {
+vtkNew<vtkXMLPolyDataReader> read_by_vtk(const std::string& path) {
   vtkNew<vtkXMLPolyDataReader> reader;
   reader->SetFileName(path.c_str());
   reader->Update();
@@ -118,7 +118,7 @@ std::string text_of(vtkPolyData* surface, const char* name) {
 TEST_CASE("VTK reads back every point, triangle, array and text, bit by bit") {
   const ScratchFolder folder;
   const Tetrahedron shape;
-  const auto reader = read(folder.write("shape.vtp", written(shape.surface())));
+  const auto reader = read_by_vtk(folder.write("shape.vtp", written(shape.surface())));
   vtkPolyData* surface = reader->GetOutput();
   REQUIRE(surface->GetNumberOfPoints() == 4);
   REQUIRE(surface->GetNumberOfPolys() == 4);
@@ -153,12 +153,12 @@ TEST_CASE("VTK reads a surface of single-precision points without arrays, and an
   VtpSurface s;
   s.points = VtpArray("Points", points);
   s.triangles = &one;
-  const auto reader = read(folder.write("plain.vtp", written(s)));
+  const auto reader = read_by_vtk(folder.write("plain.vtp", written(s)));
   CHECK(reader->GetOutput()->GetNumberOfPolys() == 1);
   CHECK(reader->GetOutput()->GetPoint(2)[1] == 1.5);
   s.points = VtpArray("Points", none);
   s.triangles = &no_triangles;
-  const auto empty = read(folder.write("empty.vtp", written(s)));
+  const auto empty = read_by_vtk(folder.write("empty.vtp", written(s)));
   CHECK(empty->GetOutput()->GetNumberOfPoints() == 0);
 }
 

@@ -117,3 +117,5 @@ TEST_CASE("correlations of series that rise together, oppose each other, or do n
   CHECK(std::isnan(correlation({1, 2}, {1, 2})));
   CHECK(std::isnan(correlation({1, 1, 1}, {1, 2, 3})));
 }
+
+TEST_SUITE_END();

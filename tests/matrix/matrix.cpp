@@ -16,6 +16,7 @@
 #include "matrix/made_variants.h"
 #include "matrix/write_matrix.h"
 #include "support/test_data.h"
+#include "support/text.h"
 
 using namespace espdiff_test;  // NOLINT: a test
 using espdiff::Matrix;
@@ -27,8 +28,6 @@ using espdiff::Progress;
 using espdiff::Variant;
 
 namespace {
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 MatrixRun run_to(const std::string& output) {
   MatrixRun run;
@@ -77,7 +76,7 @@ TEST_CASE("a shard is i/n and nothing else") {
   CHECK(shard.index == 2);
   CHECK(shard.count == 8);
   for (const char* wrong : {"", "2", "0/4", "5/4", "a/4", "1/0", "1/4/2", "-1/4"})
-    CHECK_MESSAGE(has(message_of([&] { espdiff::parse_shard(wrong); }), "is not i/n"), wrong);
+    CHECK_MESSAGE(contains(message_of([&] { espdiff::parse_shard(wrong); }), "is not i/n"), wrong);
 }
 
 TEST_CASE("every cell holds the bits of the comparison of its pair") {
@@ -109,8 +108,8 @@ TEST_CASE("a pair that cannot be compared stops the run, or becomes a cell with 
   const auto keep = [&](const MatrixCell& cell) { cells.push_back(cell); };
   const std::string message = message_of(
       [&] { espdiff::compute_pairs(*engine, variants, matrix_options(), espdiff::matrix_pairs(3), false, keep, {}); });
-  CHECK(has(message, "v0 to v1: "));
-  CHECK(has(message, "does not cover"));
+  CHECK(contains(message, "v0 to v1: "));
+  CHECK(contains(message, "does not cover"));
   cells.clear();
   espdiff::compute_pairs(*engine, variants, matrix_options(), espdiff::matrix_pairs(3), true, keep, {});
   REQUIRE(cells.size() == 6);
@@ -148,9 +147,9 @@ TEST_CASE("an interrupted run goes on and writes the same bytes; so do parts tha
   Stopper stopper(5);
   const std::string message =
       message_of([&] { run_matrix(*engine, variants, matrix_options(), run, *stopper.progress); });
-  CHECK(has(message, "cancelled after 5 of 12 pairs"));
+  CHECK(contains(message, "cancelled after 5 of 12 pairs"));
   CHECK_FALSE(std::filesystem::exists(folder.file("stopped.csv")));
-  CHECK(has(message_of([&] { run_matrix(*engine, variants, matrix_options(), run, {}); }), "resume goes on"));
+  CHECK(contains(message_of([&] { run_matrix(*engine, variants, matrix_options(), run, {}); }), "resume goes on"));
   run.resume = true;
   const MatrixReport report = run_matrix(*engine, variants, matrix_options(), run, {});
   CHECK(report.n_resumed == 5);
@@ -170,11 +169,11 @@ TEST_CASE("an interrupted run goes on and writes the same bytes; so do parts tha
   merge_matrix(parts, run_to(folder.file("merged")));
   CHECK(read_file(folder.file("merged.csv")) == csv);
   CHECK(read_file(folder.file("merged.json")) == json);
-  CHECK(has(message_of([&] {
-              merge_matrix({parts[0], parts[1]}, run_to(folder.file("two")));
-            }),
-            "4 of 12 pairs are missing, the first v1 to v2"));
-  CHECK(has(message_of([&] { merge_matrix(parts, run_to(folder.file("merged"))); }), "overwrite replaces it"));
+  CHECK(contains(message_of([&] {
+                   merge_matrix({parts[0], parts[1]}, run_to(folder.file("two")));
+                 }),
+                 "4 of 12 pairs are missing, the first v1 to v2"));
+  CHECK(contains(message_of([&] { merge_matrix(parts, run_to(folder.file("merged"))); }), "overwrite replaces it"));
   // A part of a run with another setting.
   MatrixRun other = run_to(folder.file("other"));
   other.shard = {2, 3};
@@ -182,8 +181,8 @@ TEST_CASE("an interrupted run goes on and writes the same bytes; so do parts tha
   finer.deform.rho = 0.4;
   parts[2] = run_matrix(*engine, variants, finer, other, {}).files[0];
   const std::string refusal = message_of([&] { merge_matrix(parts, run_to(folder.file("mixed"))); });
-  CHECK(has(refusal, "a part of another matrix"));
-  CHECK(has(refusal, "the setting rho is 0.4 there and 0.3 here"));
+  CHECK(contains(refusal, "a part of another matrix"));
+  CHECK(contains(refusal, "the setting rho is 0.4 there and 0.3 here"));
 }
 
 TEST_CASE("the files say what the cells say") {
@@ -252,3 +251,5 @@ TEST_CASE("asymmetry, distances and groups of a matrix made by hand") {
   CHECK(groups[0].mean == 4);
   CHECK(groups[0].n_trustworthy == 1);
 }
+
+TEST_SUITE_END();

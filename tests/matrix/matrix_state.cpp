@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "support/test_data.h"
+#include "support/text.h"
 
 using namespace espdiff_test;  // NOLINT: a test
 using espdiff::MatrixCell;
@@ -18,8 +19,6 @@ using espdiff::MatrixStateContent;
 using espdiff::read_matrix_state;
 
 namespace {
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 MatrixPlan plan_of_three() {
   MatrixPlan plan;
@@ -109,25 +108,28 @@ TEST_CASE("a byte that was changed, a line left out or moved, is found and its l
     byte = byte == 'x' ? 'y' : 'x';
     const std::string path = folder.write("d.state", changed);
     const std::string message = message_of([&] { read_matrix_state(path); });
-    CHECK_MESSAGE(has(message, "d.state:" + std::to_string(line) + ": the state file is damaged"), message);
-    CHECK(has(message, "overwrite"));
+    CHECK_MESSAGE(contains(message, "d.state:" + std::to_string(line) + ": the state file is damaged"), message);
+    CHECK(contains(message, "overwrite"));
   }
   const std::size_t third = line_start(whole, 3), fourth = line_start(whole, 4);
   const std::string without = whole.substr(0, third) + whole.substr(fourth);
-  CHECK(has(message_of([&] { read_matrix_state(folder.write("d.state", without)); }), "damaged from this line on"));
+  CHECK(
+      contains(message_of([&] { read_matrix_state(folder.write("d.state", without)); }), "damaged from this line on"));
   std::string zeros = whole;
   zeros.replace(line_start(whole, 5), 10, std::string(10, '\0'));
-  CHECK(has(message_of([&] { read_matrix_state(folder.write("d.state", zeros)); }), ":5: the state file is damaged"));
+  CHECK(contains(message_of([&] { read_matrix_state(folder.write("d.state", zeros)); }),
+                 ":5: the state file is damaged"));
 }
 
 TEST_CASE("another kind of file, and one without a row, say so") {
   const ScratchFolder folder;
   const std::string whole = read_file(written_state(folder));
-  CHECK(has(message_of([&] { read_matrix_state(folder.write("x", "source,target\n")); }), "no state file of a matrix"));
-  CHECK(has(message_of([&] { read_matrix_state(folder.write("x", "")); }), "no state file of a matrix"));
-  CHECK(has(message_of([&] { read_matrix_state(folder.write("x", whole.substr(0, line_start(whole, 2) + 50))); }),
-            "cut off before its first row"));
-  CHECK(has(message_of([&] { read_matrix_state(folder.file("absent")); }), "cannot be read"));
+  CHECK(contains(message_of([&] { read_matrix_state(folder.write("x", "source,target\n")); }),
+                 "no state file of a matrix"));
+  CHECK(contains(message_of([&] { read_matrix_state(folder.write("x", "")); }), "no state file of a matrix"));
+  CHECK(contains(message_of([&] { read_matrix_state(folder.write("x", whole.substr(0, line_start(whole, 2) + 50))); }),
+                 "cut off before its first row"));
+  CHECK(contains(message_of([&] { read_matrix_state(folder.file("absent")); }), "cannot be read"));
 }
 
 TEST_CASE("a file of another run says what differs") {
@@ -141,16 +143,16 @@ TEST_CASE("a file of another run says what differs") {
   };
   MatrixPlan plan = plan_of_three();
   plan.settings[0].second = "0.8";
-  CHECK(has(refusal(plan), "of another run: the setting grid-spacing is 1 there and 0.8 here"));
+  CHECK(contains(refusal(plan), "of another run: the setting grid-spacing is 1 there and 0.8 here"));
   plan = plan_of_three();
   plan.variants[2].inputs[0].sha256 = std::string(64, '0');
-  CHECK(has(refusal(plan), "the structure of c has changed"));
+  CHECK(contains(refusal(plan), "the structure of c has changed"));
   plan = plan_of_three();
   plan.variants.pop_back();
-  CHECK(has(refusal(plan), "the number of variants is 3 there and 2 here"));
+  CHECK(contains(refusal(plan), "the number of variants is 3 there and 2 here"));
   plan = plan_of_three();
   plan.device = "cuda";
-  CHECK(has(refusal(plan), "the device is cpu there and cuda here"));
+  CHECK(contains(refusal(plan), "the device is cpu there and cuda here"));
   plan = plan_of_three();
   plan.variants[0].group = "other";
   plan.variants[0].inputs[0].path = "moved/a.pqr";
@@ -162,6 +164,9 @@ TEST_CASE("one process at a time writes a state file") {
   const std::string path = folder.file("m.state");
   const MatrixState state = MatrixState::begin(path, plan_of_three());
   MatrixStateContent content;
-  CHECK(has(message_of([&] { MatrixState::go_on(path, plan_of_three(), content); }), "another process is writing"));
-  CHECK(has(message_of([&] { MatrixState::begin(path, plan_of_three()); }), "another process is writing"));
+  CHECK(
+      contains(message_of([&] { MatrixState::go_on(path, plan_of_three(), content); }), "another process is writing"));
+  CHECK(contains(message_of([&] { MatrixState::begin(path, plan_of_three()); }), "another process is writing"));
 }
+
+TEST_SUITE_END();

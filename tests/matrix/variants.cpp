@@ -6,14 +6,13 @@
 
 #include "base/error.h"
 #include "support/test_data.h"
+#include "support/text.h"
 
 using namespace espdiff_test;  // NOLINT: a test
 using espdiff::Variant;
 using espdiff::VariantFiles;
 
 namespace {
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 constexpr const char* kAtom = "ATOM  1  CA  ALA A  1  0.0 0.0 0.0  0.5 1.7\n";
 
@@ -81,11 +80,11 @@ TEST_CASE("a list that is wrong is refused with its line") {
     const std::string list = folder.write("list.csv", text);
     return message_of([&] { espdiff::read_variant_list(list); });
   };
-  CHECK(has(refusal("label\nx\n"), "there is no column 'structure'"));
-  CHECK(has(refusal("structure,colour\na.pqr,red\n"), "the column 'colour' means nothing here"));
-  CHECK(has(refusal("structure\na.pqr\nb.pqr\n"), "list.csv:3: there is no file"));
-  CHECK(has(refusal("structure,label\n,x\n"), "list.csv:2: the structure is missing"));
-  CHECK(has(refusal("structure,model\na.pqr,0\n"), "model: '0' is no number from 1 on"));
+  CHECK(contains(refusal("label\nx\n"), "there is no column 'structure'"));
+  CHECK(contains(refusal("structure,colour\na.pqr,red\n"), "the column 'colour' means nothing here"));
+  CHECK(contains(refusal("structure\na.pqr\nb.pqr\n"), "list.csv:3: there is no file"));
+  CHECK(contains(refusal("structure,label\n,x\n"), "list.csv:2: the structure is missing"));
+  CHECK(contains(refusal("structure,model\na.pqr,0\n"), "model: '0' is no number from 1 on"));
 }
 
 TEST_CASE("groups go by label") {
@@ -97,14 +96,14 @@ TEST_CASE("groups go by label") {
   const auto refusal = [&](const std::string& text) {
     return message_of([&] { espdiff::read_groups(folder.write("g.csv", text), variants); });
   };
-  CHECK(has(refusal("label,group\nb,x\n"), "g.csv:2: there is no variant 'b'; the first one is labelled 'a:1'"));
-  CHECK(has(refusal("label,group\na:1,x\na:1,y\n"), "g.csv:3: the variant 'a:1' is in a group already"));
-  CHECK(has(refusal("label\na:1\n"), "there is no column 'group'"));
+  CHECK(contains(refusal("label,group\nb,x\n"), "g.csv:2: there is no variant 'b'; the first one is labelled 'a:1'"));
+  CHECK(contains(refusal("label,group\na:1,x\na:1,y\n"), "g.csv:3: the variant 'a:1' is in a group already"));
+  CHECK(contains(refusal("label\na:1\n"), "there is no column 'group'"));
 }
 
 TEST_CASE("labels are there and differ") {
-  CHECK(has(message_of([] { espdiff::check_labels({"a", "b", "a"}); }), "two variants are labelled 'a'"));
-  CHECK(has(message_of([] { espdiff::check_labels({"a", ""}); }), "an empty label"));
+  CHECK(contains(message_of([] { espdiff::check_labels({"a", "b", "a"}); }), "two variants are labelled 'a'"));
+  CHECK(contains(message_of([] { espdiff::check_labels({"a", ""}); }), "an empty label"));
 }
 
 TEST_CASE("maps in several units become those of the first; some with and some without are refused") {
@@ -121,7 +120,10 @@ TEST_CASE("maps in several units become those of the first; some with and some w
   CHECK(variants[2].map->values[0] == doctest::Approx(2000));
   CHECK(variants[2].map->unit == espdiff::PotentialUnit::kMillivolt);
   variants[1].map->unit = espdiff::PotentialUnit::kUnknown;
-  CHECK(has(message_of([&] { espdiff::unite_map_units(variants, 300); }), "the unit of the map of 'v1' is unknown"));
+  CHECK(
+      contains(message_of([&] { espdiff::unite_map_units(variants, 300); }), "the unit of the map of 'v1' is unknown"));
   variants[1].map.reset();
-  CHECK(has(message_of([&] { espdiff::unite_map_units(variants, 300); }), "missing for the variant 'v1'"));
+  CHECK(contains(message_of([&] { espdiff::unite_map_units(variants, 300); }), "missing for the variant 'v1'"));
 }
+
+TEST_SUITE_END();

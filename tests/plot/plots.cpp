@@ -11,8 +11,10 @@
 #include "plot/heat_map.h"
 #include "plot/line_plot.h"
 #include "support/test_data.h"
+#include "support/text.h"
 
 using namespace espdiff;  // NOLINT: a test
+using espdiff_test::contains;
 using espdiff_test::message_of;
 using espdiff_test::read_file;
 using espdiff_test::ScratchFolder;
@@ -20,8 +22,6 @@ using espdiff_test::ScratchFolder;
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 bool has_gnuplot() {
   static const bool found = std::system("gnuplot --version >/dev/null 2>&1") == 0;
@@ -83,9 +83,9 @@ TEST_CASE("every label, group, title and unit of a heat map is text in the SVG")
   const std::string path = folder.file("map.svg");
   write_picture(path, heat_map_script(four(), PictureFormat::kSvg));
   const std::string text = text_of(read_file(path));
-  for (const std::string& label : four().labels) CHECK_MESSAGE(has(text, label), text);
+  for (const std::string& label : four().labels) CHECK_MESSAGE(contains(text, label), text);
   for (const char* word : {"Mean displacement (\u00C5)", "Source", "Target", "\u2022 not trustworthy", "A", "B"})
-    CHECK_MESSAGE(has(text, word), std::string(word));
+    CHECK_MESSAGE(contains(text, word), std::string(word));
 }
 
 TEST_CASE("every title, unit, name and key of lines is text in the SVG") {
@@ -97,14 +97,14 @@ TEST_CASE("every title, unit, name and key of lines is text in the SVG") {
   const std::string apart = text_of(read_file(path));
   for (const char* word : {"one against all", "Target", "m01", "m02", "m03", "Mean absolute difference",
                            "RMS difference", "kT/e", "RMSD (\u00C5)", "hollow points: not trustworthy"})
-    CHECK_MESSAGE(has(apart, word), std::string(word));
-  CHECK_FALSE(has(read_file(path), "scale(0.00)"));  // which readers of SVG refuse
+    CHECK_MESSAGE(contains(apart, word), std::string(word));
+  CHECK_FALSE(contains(read_file(path), "scale(0.00)"));  // which readers of SVG refuse
   plot.normalized = true;
   write_picture(path, line_plot_script(plot, PictureFormat::kSvg));
   const std::string together = text_of(read_file(path));
-  CHECK(has(together, "Mean absolute difference (0: 1 kT/e, 1: 3 kT/e)"));
-  CHECK(has(together, "RMSD (0: 0.5 \u00C5, 1: 1.5 \u00C5)"));
-  CHECK(has(together, "Normalized"));
+  CHECK(contains(together, "Mean absolute difference (0: 1 kT/e, 1: 3 kT/e)"));
+  CHECK(contains(together, "RMSD (0: 0.5 \u00C5, 1: 1.5 \u00C5)"));
+  CHECK(contains(together, "Normalized"));
 }
 
 TEST_CASE("a PNG has the size of its layout, and trajectories have numbers on their axis") {
@@ -122,8 +122,8 @@ TEST_CASE("a PNG has the size of its layout, and trajectories have numbers on th
   const auto byte = [&](std::size_t i) { return static_cast<unsigned>(static_cast<unsigned char>(bytes[i])); };
   CHECK(byte(18) * 256 + byte(19) == 3 * 520);
   write_picture(svg, line_plot_script(plot, PictureFormat::kSvg));
-  CHECK(has(text_of(read_file(svg)), "Frame"));
-  CHECK(has(text_of(read_file(svg)), "100"));
+  CHECK(contains(text_of(read_file(svg)), "Frame"));
+  CHECK(contains(text_of(read_file(svg)), "100"));
 }
 
 TEST_CASE("a title that is longer than its panel stands above it") {
@@ -131,11 +131,11 @@ TEST_CASE("a title that is longer than its panel stands above it") {
   plot.x = {0, 1, 2};
   plot.series = {{"Mean absolute difference", "kT/e", {1, 2, 3}, {}}, {"RMSD", "A", {1, 2, 3}, {}}};
   const std::string two = line_plot_script(plot, PictureFormat::kSvg);
-  CHECK(has(two, "title \"Mean absolute difference (kT/e)\""));
-  CHECK(!has(two, "set label 4 \"Mean"));
-  CHECK(has(two, "set label 4 \"RMSD (A)\""));
+  CHECK(contains(two, "title \"Mean absolute difference (kT/e)\""));
+  CHECK(!contains(two, "set label 4 \"Mean"));
+  CHECK(contains(two, "set label 4 \"RMSD (A)\""));
   plot.series.pop_back();  // the only panel is higher
-  CHECK(has(line_plot_script(plot, PictureFormat::kSvg), "set label 4 \"Mean absolute difference (kT/e)\""));
+  CHECK(contains(line_plot_script(plot, PictureFormat::kSvg), "set label 4 \"Mean absolute difference (kT/e)\""));
 }
 
 TEST_CASE("the colour range excludes the diagonal and is symmetric for signed values") {
@@ -148,10 +148,10 @@ TEST_CASE("the colour range excludes the diagonal and is symmetric for signed va
   map.high = 3;
   CHECK(colour_range(map).first == -2);
   map.low = 4;
-  CHECK(has(message_of([&] { heat_map_script(map, PictureFormat::kSvg); }), "from 4 down to 3"));
+  CHECK(contains(message_of([&] { heat_map_script(map, PictureFormat::kSvg); }), "from 4 down to 3"));
   map.low = map.high = 0;
   map.values.assign(16, kNan);
-  CHECK(has(message_of([&] { heat_map_script(map, PictureFormat::kSvg); }), "there is nothing to draw"));
+  CHECK(contains(message_of([&] { heat_map_script(map, PictureFormat::kSvg); }), "there is nothing to draw"));
 }
 
 TEST_CASE("a dendrogram orders rows and columns and is labelled") {
@@ -160,12 +160,12 @@ TEST_CASE("a dendrogram orders rows and columns and is labelled") {
   map.dendrogram_title = "clustered by RMSD";
   CHECK(drawing_order(map) == std::vector<std::size_t>{0, 2, 3, 1});
   const std::string script = heat_map_script(map, PictureFormat::kSvg);
-  CHECK(has(script, "; clustered by RMSD"));
+  CHECK(contains(script, "; clustered by RMSD"));
   // Row of thing 2, column of thing 3 has no value; that of 3 and 1 is 3.5, in row 2 and column 3.
-  CHECK(has(script, "\n3 2 3.5\n"));
-  CHECK_FALSE(has(script, "\n2 1 "));
+  CHECK(contains(script, "\n3 2 3.5\n"));
+  CHECK_FALSE(contains(script, "\n2 1 "));
   if (!has_gnuplot()) return;
-  CHECK(has(text_of(run_gnuplot(script)), "clustered by RMSD"));
+  CHECK(contains(text_of(run_gnuplot(script)), "clustered by RMSD"));
 }
 
 TEST_CASE("only neighbours of one group share a frame") {
@@ -173,7 +173,7 @@ TEST_CASE("only neighbours of one group share a frame") {
   std::size_t n = 0;
   for (std::size_t at = 0; (at = script.find("linewidth 1.8", at)) != std::string::npos; ++at) ++n;
   CHECK(n == 1);
-  CHECK(has(script, "from -0.5,-0.5 to 1.5,1.5 front"));
+  CHECK(contains(script, "from -0.5,-0.5 to 1.5,1.5 front"));
 }
 
 TEST_CASE("the sequential colours step evenly in lightness") {
@@ -198,15 +198,15 @@ TEST_CASE("texts with any content are strings to gnuplot") {
 
 TEST_CASE("invalid plots are refused with the reason and leave no file") {
   const ScratchFolder folder;
-  CHECK(has(message_of([] { picture_format("a.pdf"); }), "ends in .png or .svg"));
+  CHECK(contains(message_of([] { picture_format("a.pdf"); }), "ends in .png or .svg"));
   LinePlot plot = two_units();
   plot.series[0].values = {kNan, kNan, kNan};
-  CHECK(has(message_of([&] { line_plot_script(plot, PictureFormat::kSvg); }), "has no values"));
+  CHECK(contains(message_of([&] { line_plot_script(plot, PictureFormat::kSvg); }), "has no values"));
   plot.series.clear();
-  CHECK(has(message_of([&] { line_plot_script(plot, PictureFormat::kSvg); }), "no metric"));
+  CHECK(contains(message_of([&] { line_plot_script(plot, PictureFormat::kSvg); }), "no metric"));
   if (!has_gnuplot()) return;
   const std::string message = message_of([&] { write_picture(folder.file("x.svg"), "set no_such_thing\n"); });
-  CHECK(has(message, "gnuplot failed: "));
+  CHECK(contains(message, "gnuplot failed: "));
   CHECK(folder.n_files() == 0);
 }
 
@@ -215,6 +215,8 @@ TEST_CASE("without gnuplot the message says what to install") {
   setenv("PATH", "/nonexistent", 1);
   const std::string message = message_of([] { run_gnuplot("plot x\n"); });
   setenv("PATH", before.c_str(), 1);
-  CHECK(has(message, "gnuplot, which is not installed"));
-  CHECK(has(message, "gnuplot-nox"));
+  CHECK(contains(message, "gnuplot, which is not installed"));
+  CHECK(contains(message, "gnuplot-nox"));
 }
+
+TEST_SUITE_END();

@@ -15,6 +15,7 @@
 #include "cuda/potential/ewald_oracle.h"
 #include "engine/engine.h"
 #include "potential/choose_potential.h"
+#include "potential/cpu_engine.h"
 #include "potential/potential.h"
 #include "potential/potential_series.h"
 #include "potential/potential_settings.h"
@@ -27,18 +28,6 @@ using espdiff::ComputedMap;
 using espdiff::PotentialOptions;
 
 namespace {
-
-std::unique_ptr<Engine> cpu() { return espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2); }
-
-bool can_run() {
-  try {
-    espdiff::potential_map(*cpu(), make_side(1, 0).molecule, {}, {});
-    return true;
-  } catch (const espdiff::DeviceError& error) {
-    MESSAGE("SKIPPED: ", std::string(error.what()));
-    return false;
-  }
-}
 
 PotentialOptions grid_of(double resolution_A) {
   PotentialOptions options;
@@ -77,7 +66,7 @@ TEST_SUITE_BEGIN("computed_map");
 TEST_CASE("splines on 1 A are nearer to the direct Ewald sum at the surface than linear samples on 0.5 A") {
   if (!can_run()) return;
   const Side source = make_side(1, 0), target = other_side();
-  const auto engine = cpu();
+  const auto engine = cpu(2);
   const Grid source_map = espdiff::potential_map(*engine, source.molecule, grid_of(0.5), {}),
              target_map = espdiff::potential_map(*engine, target.molecule, grid_of(0.5), {});
   const CompareResult linear = compare(*engine, {&source.molecule, &source_map}, {&target.molecule, &target_map},
@@ -103,7 +92,7 @@ TEST_CASE("splines on 1 A are nearer to the direct Ewald sum at the surface than
 TEST_CASE("a series makes the source's map once, and gives the same bits as comparisons one by one") {
   if (!can_run()) return;
   const Side source = make_side(1, 0);
-  const auto engine = cpu();
+  const auto engine = cpu(2);
   int n_made = 0;
   CompareInput counted = computed(source);
   counted.make_map = [&n_made, make = counted.make_map](Engine& e, const auto& to_map, const auto& before,
@@ -124,7 +113,7 @@ TEST_CASE("a series makes the source's map once, and gives the same bits as comp
 TEST_CASE("a computed map beside a given one in another unit: both in kT/e") {
   if (!can_run()) return;
   const Side source = make_side(1, 0), target = other_side();
-  const auto engine = cpu();
+  const auto engine = cpu(2);
   Side in_millivolt = target;
   in_millivolt.map.unit = PotentialUnit::kMillivolt;
   const double factor = espdiff::conversion_factor(PotentialUnit::kKtPerE, PotentialUnit::kMillivolt, 300);
@@ -153,7 +142,7 @@ TEST_CASE("charges turned and moved with their molecule give the same potentials
   Side moved = source;
   const espdiff::RigidTransform turn{{0, -1, 0, 1, 0, 0, 0, 0, 1}, {40, -3, 7}};
   for (Vec3d& p : moved.molecule.positions) p = turn.apply(p);
-  const auto engine = cpu();
+  const auto engine = cpu(2);
   const CompareResult result = compare(*engine, computed(source), computed(moved), quick_options(), {});
   CHECK(result.metrics.mean_abs_difference < 0.01 * result.metrics.rms_difference + 0.05);
   CHECK(result.metrics.hodgkin_index > 0.9999);

@@ -12,6 +12,7 @@
 #include "compare/made_side.h"
 #include "cuda/potential/ewald_oracle.h"
 #include "engine/engine.h"
+#include "potential/cpu_engine.h"
 
 using namespace espdiff_test;
 using espdiff::GridChoice;
@@ -21,20 +22,6 @@ using espdiff::PotentialSeries;
 using espdiff::UnitCell;
 
 namespace {
-
-std::unique_ptr<Engine> cpu(int n_threads = 0) {
-  return espdiff::select_engine(espdiff::DeviceChoice::kCpu, n_threads);
-}
-
-bool can_run() {
-  try {
-    espdiff::potential_map(*cpu(), make_side(1, 0).molecule, {}, {});
-    return true;
-  } catch (const espdiff::DeviceError& error) {
-    MESSAGE("SKIPPED: ", std::string(error.what()));
-    return false;
-  }
-}
 
 void move_all(Molecule& molecule, const espdiff::RigidTransform& by) {
   for (Vec3d& p : molecule.positions) p = by.apply(p);

@@ -15,8 +15,8 @@ using namespace espdiff_test;  // NOLINT: a test
 
 namespace {
 
-/// One line besides warnings.
-bool is_one_line_of_ours(const std::string& text) {
+/// All lines are ours, and one is no warning.
+bool is_one_line_besides_warnings(const std::string& text) {
   std::istringstream lines(text);
   std::size_t n = 0;
   for (std::string line; std::getline(lines, line);) {
@@ -107,7 +107,7 @@ TEST_CASE("prepare: a signal ends PDB2PQR and its children, with one line, and l
     in.program("echo $$ >'" + in.folder.file("number") + "'; kill -s " + signal + " $PPID; sleep 60 & wait");
     const Outcome outcome = in.run();
     CHECK(outcome.status == 1);
-    CHECK_MESSAGE(is_one_line_of_ours(outcome.err), outcome.err);
+    CHECK_MESSAGE(is_one_line_besides_warnings(outcome.err), outcome.err);
     CHECK(contains(outcome.err, "cancelled; nothing was written"));
     CHECK(in.nothing_left());
     CHECK_FALSE(in.program_runs());
@@ -123,7 +123,7 @@ TEST_CASE("prepare: after kill -9 the next run removes what the killed one left"
   in.program("exit 1");
   const Outcome outcome = in.run();
   CHECK(outcome.status == 2);
-  CHECK_MESSAGE(is_one_line_of_ours(outcome.err), outcome.err);
+  CHECK_MESSAGE(is_one_line_besides_warnings(outcome.err), outcome.err);
   CHECK(in.nothing_left());
 }
 
@@ -133,13 +133,13 @@ TEST_CASE("prepare: a disk that is full before, while or after PDB2PQR writes is
   in.program("exit 0");
   const Outcome before = in.run("ulimit -f 1 &&");
   CHECK(before.status == 2);
-  CHECK_MESSAGE(is_one_line_of_ours(before.err), before.err);
+  CHECK_MESSAGE(is_one_line_besides_warnings(before.err), before.err);
   CHECK(contains(before.err, "input.pdb: cannot be written; is the disk full? Name another folder in TMPDIR"));
   CHECK(in.nothing_left());
   in.program("for word; do out=$word; done; head -c 100000 /dev/zero >\"$out\"");
   const Outcome meanwhile = in.run("ulimit -f 8 &&");
   CHECK(meanwhile.status == 2);
-  CHECK_MESSAGE(is_one_line_of_ours(meanwhile.err), meanwhile.err);
+  CHECK_MESSAGE(is_one_line_besides_warnings(meanwhile.err), meanwhile.err);
   CHECK(in.nothing_left());
 }
 
@@ -150,7 +150,7 @@ TEST_CASE("prepare: an output of PDB2PQR that is rubbish or of another molecule 
     in.program(std::string("for word; do out=$word; done; printf '") + output + "' >\"$out\"");
     const Outcome outcome = in.run();
     CHECK((outcome.status == 1 || outcome.status == 2));
-    CHECK_MESSAGE(is_one_line_of_ours(outcome.err), outcome.err);
+    CHECK_MESSAGE(is_one_line_besides_warnings(outcome.err), outcome.err);
     CHECK(in.nothing_left());
   }
 }
@@ -173,7 +173,7 @@ TEST_CASE("ensemble: a signal, a full disk and little memory end with one line; 
     const Outcome outcome = in.run(fault);
     if (outcome.status == 0 || outcome.err.empty()) continue;  // was faster; or ended before it began
     ++n_ended;
-    CHECK_MESSAGE(is_one_line_of_ours(outcome.err), outcome.err);
+    CHECK_MESSAGE(is_one_line_besides_warnings(outcome.err), outcome.err);
     for (const std::string& name : files_in(in.folder.file(""))) {
       CHECK_MESSAGE(!contains(name, ".tmp"), name);
       CHECK_MESSAGE(!contains(name, ".new-"), name);
@@ -219,13 +219,13 @@ TEST_CASE("trajectory: an absurd number of atoms in a DCD or topology of VMD's r
   };
   const Outcome dcd = run("a.pqr");
   CHECK(dcd.status == 2);
-  CHECK_MESSAGE(is_one_line_of_ours(dcd.err), dcd.err);
+  CHECK_MESSAGE(is_one_line_besides_warnings(dcd.err), dcd.err);
   CHECK(contains(dcd.err, "b.dcd: has 2000000000 atoms in each frame, and the structure has 2; "));
   folder.write("c.psf", "2000000000\nN ALA 1 PROT -0.5\n");
   folder.write("b.dcd", "2 30\n0 0 0 1 1 1\n");
   const Outcome psf = run("c.psf");
   CHECK(psf.status == 2);
-  CHECK_MESSAGE(is_one_line_of_ours(psf.err), psf.err);
+  CHECK_MESSAGE(is_one_line_besides_warnings(psf.err), psf.err);
   CHECK(contains(psf.err, "c.psf: has 2000000000 atoms, and at most 5000000 are read"));
 }
 
@@ -264,7 +264,7 @@ TEST_CASE("verify: records that name what is not there, or what no memory holds,
     folder.write("out.json", record.substr(0, begin) + change.value + record.substr(end));
     const Outcome outcome = run_espdiff("verify out", in_folder);
     CHECK((outcome.status == 1 || outcome.status == 2));
-    CHECK_MESSAGE(is_one_line_of_ours(outcome.err), outcome.err);
+    CHECK_MESSAGE(is_one_line_besides_warnings(outcome.err), outcome.err);
     CHECK_MESSAGE(contains(outcome.err, change.message), outcome.err);
   }
 }

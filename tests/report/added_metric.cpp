@@ -14,9 +14,11 @@
 #include "report/residue_values.h"
 #include "report/write_compare.h"
 #include "support/test_data.h"
+#include "support/text.h"
 #include "trajectory/series_csv.h"
 
 using namespace espdiff;
+using espdiff_test::contains;
 using espdiff_test::read_file;
 using espdiff_test::ScratchFolder;
 
@@ -61,8 +63,6 @@ CompareResult result_of(double mapped_area) {
   result.residues = {{0, 6, 0, 0, 0, 0, 0, 1, 2.5}};
   return result;
 }
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// The fields of the last line under the names of the first that is no comment.
 std::string field(const std::string& csv, const std::string& column) {

@@ -15,6 +15,7 @@
 #include "cuda/surface/back_ends.h"
 #include "cuda/surface/shapes.h"
 #include "io/read_structure.h"
+#include "support/nan.h"
 #include "support/random.h"
 #include "support/test_data.h"
 
@@ -24,8 +25,6 @@ using espdiff::surface_quantity_map;
 using espdiff::Triangle;
 
 namespace {
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 struct Surface {
   std::vector<Vec3d> positions;

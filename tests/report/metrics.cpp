@@ -16,7 +16,7 @@
 #include "report/write_compare.h"
 
 using namespace espdiff;
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 namespace {
 
@@ -40,7 +40,9 @@ Molecule two_residues() {
   return molecule;
 }
 
-Json json_of(const CompareResult& result) { return compare_json(two_residues(), two_residues(), result, {}, {}); }
+OrderedJson json_of(const CompareResult& result) {
+  return compare_json(two_residues(), two_residues(), result, {}, {});
+}
 
 std::string table_of(const CompareResult& result) {
   std::ostringstream out;
@@ -67,13 +69,13 @@ TEST_CASE("names and places in OUT.json are unique, and every row has a label, h
 
 TEST_CASE("OUT.json and the printed table have every metric") {
   const CompareResult result = full_result();
-  const Json json = json_of(result);
+  const OrderedJson json = json_of(result);
   const std::string table = table_of(result);
   for (const Metric& metric : metrics()) {
     CAPTURE(metric.name);
     if (!metric.has_result()) continue;
-    REQUIRE(json.contains(Json::json_pointer(metric.json_pointer())));
-    const Json& value = json.at(Json::json_pointer(metric.json_pointer()));
+    REQUIRE(json.contains(OrderedJson::json_pointer(metric.json_pointer())));
+    const OrderedJson& value = json.at(OrderedJson::json_pointer(metric.json_pointer()));
     CHECK(value.is_number());
     CHECK(value.get<double>() == value_of(metric, result));
     CHECK(value.is_number_integer() == (metric.unit == MetricUnit::kCount));
@@ -136,9 +138,9 @@ TEST_CASE("lines that are zero by construction say so, and what was removed stan
   CHECK(table_of(result).find("by construction") == std::string::npos);
   result.certificate.zero_by_construction = true;
   result.certificate.removed = {0.02, 0.003, 0.0004, 0.01, 0.05, 0.06};
-  const Json certificate = json_of(result)["certificate"];
+  const OrderedJson certificate = json_of(result)["certificate"];
   CHECK(certificate["zero_by_construction"] ==
-        Json({"corrupt_area_fraction", "flipped_area_fraction", "self_intersecting_pairs"}));
+        OrderedJson({"corrupt_area_fraction", "flipped_area_fraction", "self_intersecting_pairs"}));
   CHECK(certificate["removed"]["torn"] == 0.02);
   CHECK(certificate["removed"]["grown"] == 0.06);
   const std::string table = table_of(result);

@@ -7,23 +7,23 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "../support/test_data.h"
 #include "base/error.h"
 #include "compare/options.h"
 #include "compare/result.h"
 #include "compare/settings.h"
 #include "engine/deform_stage.h"
 #include "report/provenance.h"
+#include "support/nan.h"
+#include "support/test_data.h"
 
 using namespace espdiff;
+using espdiff_test::kNan;
 using espdiff_test::message_of;
 using espdiff_test::read_file;
 using espdiff_test::ScratchFolder;
 using Json = nlohmann::json;
 
 namespace {
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 Molecule made_molecule(const std::string& name) {
   Molecule molecule;
@@ -100,7 +100,7 @@ void write(const std::string& prefix, const CompareResult& result = made_result(
   write_compare(prefix, made_molecule("a.pqr"), made_molecule("b.pqr"), result, {}, made_provenance());
 }
 
-std::string table_of(const CompareResult& result) {
+std::string made_table(const CompareResult& result) {
   std::ostringstream out;
   print_table(out, made_molecule("a.pqr"), made_molecule("b.pqr"), result,
               [](const espdiff::NamedOption& o) { return "--" + o.name; });
@@ -168,7 +168,7 @@ TEST_CASE("a pair that was mapped twice says which mapping was kept, why, and wh
   CHECK(motions["domains"] == "none");
   CHECK(motions["because"].is_null());
   CHECK(motions["other"].is_null());
-  CHECK(table_of(result).find("Mapped twice") == std::string::npos);
+  CHECK(made_table(result).find("Mapped twice") == std::string::npos);
   result.domains_used = "local";
   result.certificate.same_residue_area_fraction = 0.75;
   result.other_mapping = {"more is on its own residue", "none", {"12.5 % slipped"}, 0.125, 0.5, 0.01, 0.02, 0.4925};
@@ -182,7 +182,7 @@ TEST_CASE("a pair that was mapped twice says which mapping was kept, why, and wh
                                   {"same_residue_area_fraction", 0.5},
                                   {"no_counterpart_area_fraction", {{"source", 0.01}, {"target", 0.02}}},
                                   {"reasons", {"12.5 % slipped"}}}));
-  const std::string table = table_of(result);
+  const std::string table = made_table(result);
   CHECK(table.find("Mapped twice, kept") != std::string::npos);
   CHECK(table.find("local motions: more is on its own residue") != std::string::npos);
   CHECK(table.find("the superposition of the whole: 12.5 % beyond 3 A, 50 % on the same residue, unmatched 1 %, 2 %") !=
@@ -333,7 +333,7 @@ TEST_CASE("a result that contradicts itself is not written over an older one") {
 
 TEST_CASE("the table gives the verdict with its reasons, and units") {
   CompareResult result = made_result();
-  std::string table = table_of(result);
+  std::string table = made_table(result);
   for (const char* part :
        {"a.pqr", "3 atoms, by sequence alignment (1 of 3 residues substituted)", "RMSD", "kT/e", "A^2",
         "converged after 42 iterations", "NOT TRUSTWORTHY:\n  - 12.5 % of the mapped area is corrupt",
@@ -346,12 +346,12 @@ TEST_CASE("the table gives the verdict with its reasons, and units") {
 
   result.certificate.trustworthy = true;
   result.certificate.reasons.clear();
-  table = table_of(result);
+  table = made_table(result);
   CHECK(table.find("\nTRUSTWORTHY: ") != std::string::npos);
   CHECK(table.find("NOT TRUSTWORTHY") == std::string::npos);
 
   result.has_potential = false;
-  table = table_of(result);
+  table = made_table(result);
   CHECK(table.find("Shape (no potentials)") != std::string::npos);
   CHECK(table.find("kT/e") == std::string::npos);
 }

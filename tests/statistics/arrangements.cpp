@@ -70,3 +70,5 @@ TEST_CASE("what was not tested does not count among the discoveries") {
   CHECK(adjusted[1] == doctest::Approx(0.02));
   CHECK(adjusted[3] == doctest::Approx(0.02));
 }
+
+TEST_SUITE_END();

@@ -79,3 +79,5 @@ TEST_CASE("the start of a relaxing series is cut off") {
   CHECK(start <= 800);
   CHECK(detect_equilibration({1, 2, 3}) == 0);
 }
+
+TEST_SUITE_END();

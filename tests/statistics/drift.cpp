@@ -84,3 +84,5 @@ TEST_CASE("too few frames, equal values and columns that do not count have no dr
   weights.push_back(1);
   CHECK(measure_drift(blocks, weights).p == whole.p);
 }
+
+TEST_SUITE_END();

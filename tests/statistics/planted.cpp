@@ -86,3 +86,5 @@ TEST_CASE("with more replicates the rate comes near 5 %") {
   CHECK(std::abs(found.by_max_t - 19) <= 13);
   CHECK(std::abs(found.by_tfce - 19) <= 13);
 }
+
+TEST_SUITE_END();

@@ -135,3 +135,5 @@ TEST_CASE("what cannot be regressed is refused") {
   CHECK(message_of([&] { regress_on_surface(s.means(equal, 0, 1), equal, s.graph, {}); }) ==
         "a regression needs values that differ; all 4 are equal");
 }
+
+TEST_SUITE_END();

@@ -145,3 +145,5 @@ TEST_CASE("columns that are read in parts give the same bits as at once") {
   columns.read(0, 161, 162, values);
   CHECK(summary[0].columns[161].mean == summarize_series(std::vector<double>(values.begin(), values.end())).mean);
 }
+
+TEST_SUITE_END();

@@ -124,3 +124,5 @@ TEST_CASE("patches are connected, of one sign, the largest first") {
   }
   CHECK(find_patches(p, values, 0.001, graph).empty());
 }
+
+TEST_SUITE_END();

@@ -38,3 +38,5 @@ TEST_CASE("without variance, or with one value, there is no test") {
   CHECK(is_undefined(welch_test(group_moments(equal.data(), 3), group_moments(one.data(), 1))));
   CHECK(std::isnan(student_quantile(0.95, 0)));
 }
+
+TEST_SUITE_END();

@@ -41,7 +41,7 @@ CompareResult result(double first) {
 
 void add(ResidueCsv& file, int frame, double value) { file.add(file.row(frame, molecule(), result(value)), "abc"); }
 
-constexpr const char* kHead =
+constexpr const char* kResidueHead =
     "# residues: mean_abs_difference [kT/e]\n# trajectory: abc\nframe,A:LYS 12,A:GLY 12B,HEM 1\n";
 
 }  // namespace
@@ -56,7 +56,7 @@ TEST_CASE("residues of a trajectory: a row a frame, empty where a residue has no
     add(file, 3, 0.5);
     add(file, 5, 1.5);
   }
-  CHECK(read_file(path) == std::string(kHead) + "3,0.5,,2.5\n5,1.5,,3.5\n");
+  CHECK(read_file(path) == std::string(kResidueHead) + "3,0.5,,2.5\n5,1.5,,3.5\n");
   CHECK(message_of([&] { ResidueCsv(path, "", ExistingFile::kRefuse); }) ==
         path + ": the file exists; resume goes on with it, overwrite replaces it");
   ResidueCsv other(folder.file("s.csv"), "mean_displacement_A", ExistingFile::kRefuse);
@@ -70,7 +70,7 @@ TEST_CASE("residues of a trajectory: a row a frame, empty where a residue has no
 
 TEST_CASE("residues of a trajectory are resumed at every byte to the same bytes") {
   const ScratchFolder folder;
-  const std::string path = folder.file("r.csv"), head = kHead, whole = head + "3,0.5,,2.5\n5,1.5,,3.5\n";
+  const std::string path = folder.file("r.csv"), head = kResidueHead, whole = head + "3,0.5,,2.5\n5,1.5,,3.5\n";
   // Frame 3 is done, since the trajectory's file has its row; the row of frame 5 is computed again.
   for (std::size_t n = head.size() + 11; n <= whole.size(); ++n) {
     CAPTURE(n);
@@ -93,7 +93,7 @@ TEST_CASE("residues of a trajectory are resumed at every byte to the same bytes"
 
 TEST_CASE("residues of another run are refused, and the file is left as it is") {
   const ScratchFolder folder;
-  const std::string path = folder.file("r.csv"), whole = std::string(kHead) + "3,0.5,,2.5\n5,1.5,,3.5\n";
+  const std::string path = folder.file("r.csv"), whole = std::string(kResidueHead) + "3,0.5,,2.5\n5,1.5,,3.5\n";
   const auto refused = [&](const std::string& text, const std::vector<std::string>& frames, const char* quantity = "",
                            const char* fingerprint = "abc") {
     std::ofstream(path) << text;

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "support/test_data.h"
+#include "trajectory/made_series_head.h"
 
 using namespace espdiff_test;
 using espdiff::ExistingFile;
@@ -17,12 +18,10 @@ using espdiff::SeriesRow;
 
 namespace {
 
-const SeriesHead kHead = {{"espdiff", "1"}, {"frames", "all"}, {"settings", ""}};
-
 SeriesRow failed(int frame) { return {frame, "0", "no, \"surface\"\nat all"}; }
 
 std::string write_rows(const std::string& path, int n) {
-  SeriesCsv file(path, kHead, ExistingFile::kReplace);
+  SeriesCsv file(path, kSeriesHead, ExistingFile::kReplace);
   for (int frame = 0; frame < n; ++frame) file.add(failed(frame));
   return read_file(path);
 }
@@ -37,7 +36,7 @@ TEST_CASE("a file that was cut off anywhere goes on to the same bytes") {
   CHECK(whole.rfind("# espdiff: 1\n# frames: all\n# settings:", 0) == 0);
   for (std::size_t n = 11; n <= whole.size(); ++n) {
     folder.write("part.csv", whole.substr(0, n));
-    SeriesCsv file(path, kHead, ExistingFile::kResume);
+    SeriesCsv file(path, kSeriesHead, ExistingFile::kResume);
     for (int frame = static_cast<int>(file.rows().size()); frame < 3; ++frame) file.add(failed(frame));
     CHECK_MESSAGE(read_file(path) == whole, n);
   }
@@ -48,33 +47,33 @@ TEST_CASE("one run at a time writes a file") {
   const std::string path = folder.file("a.csv"),
                     refused = path + ": another run is writing this file; wait for its end, or name another output";
   {
-    SeriesCsv first(path, kHead, ExistingFile::kRefuse);
+    SeriesCsv first(path, kSeriesHead, ExistingFile::kRefuse);
     for (const ExistingFile existing : {ExistingFile::kRefuse, ExistingFile::kResume, ExistingFile::kReplace})
-      CHECK(message_of([&] { SeriesCsv(path, kHead, existing); }) == refused);
+      CHECK(message_of([&] { SeriesCsv(path, kSeriesHead, existing); }) == refused);
     first.add(failed(0));
     for (const ExistingFile existing : {ExistingFile::kResume, ExistingFile::kReplace})
-      CHECK(message_of([&] { SeriesCsv(path, kHead, existing); }) == refused);
+      CHECK(message_of([&] { SeriesCsv(path, kSeriesHead, existing); }) == refused);
     // In another process too.
     const pid_t child = ::fork();
     if (child == 0) {
-      const bool is_refused = message_of([&] { SeriesCsv(path, kHead, ExistingFile::kResume); }) == refused;
+      const bool is_refused = message_of([&] { SeriesCsv(path, kSeriesHead, ExistingFile::kResume); }) == refused;
       ::_exit(is_refused ? 0 : 1);
     }
     int status = -1;
     REQUIRE(::waitpid(child, &status, 0) == child);
     CHECK(status == 0);
   }
-  SeriesCsv second(path, kHead, ExistingFile::kResume);
+  SeriesCsv second(path, kSeriesHead, ExistingFile::kResume);
   CHECK(second.rows().size() == 1);
 }
 
 TEST_CASE("a run without a row leaves nothing, and an older file as it was") {
   const ScratchFolder folder;
   const std::string path = folder.file("a.csv");
-  { const SeriesCsv file(path, kHead, ExistingFile::kRefuse); }
+  { const SeriesCsv file(path, kSeriesHead, ExistingFile::kRefuse); }
   CHECK(folder.n_files() == 0);
   const std::string older = write_rows(path, 2);
-  { const SeriesCsv file(path, kHead, ExistingFile::kReplace); }
+  { const SeriesCsv file(path, kSeriesHead, ExistingFile::kReplace); }
   CHECK(read_file(path) == older);
   SeriesCsv file(path, {{"espdiff", "2"}}, ExistingFile::kReplace);
   file.add(failed(5));
@@ -86,13 +85,13 @@ TEST_CASE("what is known late belongs to the head, and must be the same when res
   const ScratchFolder folder;
   const std::string path = folder.file("a.csv");
   {
-    SeriesCsv file(path, kHead, ExistingFile::kRefuse);
+    SeriesCsv file(path, kSeriesHead, ExistingFile::kRefuse);
     file.note("source_sha256", "abc");
     file.note("source_sha256", "abc");
     file.add(failed(0));
   }
   CHECK(read_file(path).find("\n# source_sha256: abc\nframe,") != std::string::npos);
-  SeriesCsv file(path, kHead, ExistingFile::kResume);
+  SeriesCsv file(path, kSeriesHead, ExistingFile::kResume);
   file.note("source_sha256", "abc");
   CHECK(message_of([&] { file.note("source_sha256", "def"); }) ==
         path + ": was made with source_sha256 'abc', not with 'def'; overwrite begins anew");
@@ -104,21 +103,21 @@ TEST_CASE("files of something else are refused and left as they are") {
   const auto refusal = [&](const SeriesHead& head) {
     return message_of([&] { SeriesCsv(path, head, ExistingFile::kResume); });
   };
-  CHECK(message_of([&] { SeriesCsv(path, kHead, ExistingFile::kRefuse); }) ==
+  CHECK(message_of([&] { SeriesCsv(path, kSeriesHead, ExistingFile::kRefuse); }) ==
         path + ": the file exists; resume goes on with it, overwrite replaces it");
   CHECK(refusal({{"settings", "mu 0.5"}}) ==
         path + ": was made with settings '', not with 'mu 0.5'; overwrite begins anew");
   for (const char* other : {"a,b\n1,2\n", "no table", "# a comment\n", "frame,reference_frame,time_ms\n"}) {
     folder.write("a.csv", other);
     CAPTURE(other);
-    CHECK_FALSE(refusal(kHead).empty());
+    CHECK_FALSE(refusal(kSeriesHead).empty());
     CHECK(read_file(path) == other);
   }
   folder.write("a.csv", "a,b\n1,2\n");
-  CHECK(refusal(kHead) == path + ":1: this is not this version's line of columns; give another file");
+  CHECK(refusal(kSeriesHead) == path + ":1: this is not this version's line of columns; give another file");
   folder.write("a.csv", good + "2,too,few\n");
-  CHECK(refusal(kHead).find(path + ":6: 3 fields instead of ") == 0);
-  CHECK_THROWS_AS(SeriesCsv(folder.file("absent/a.csv"), kHead, ExistingFile::kRefuse), espdiff::IoError);
+  CHECK(refusal(kSeriesHead).find(path + ":6: 3 fields instead of ") == 0);
+  CHECK_THROWS_AS(SeriesCsv(folder.file("absent/a.csv"), kSeriesHead, ExistingFile::kRefuse), espdiff::IoError);
 }
 
 TEST_SUITE_END();

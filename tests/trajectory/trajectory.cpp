@@ -13,6 +13,7 @@
 #include "prepare/take_charges.h"
 #include "support/test_data.h"
 #include "trajectory/frame_files.h"
+#include "trajectory/made_series_head.h"
 
 using namespace espdiff_test;
 using espdiff::ExistingFile;
@@ -55,8 +56,6 @@ struct Motion {
   const Side& side(int frame) const { return sides.at(static_cast<std::size_t>(frame)); }
 };
 
-const SeriesHead kHead = {{"espdiff", "1"}, {"frames", "all"}, {"settings", ""}};
-
 struct Runner {
   const Motion& motion;
   std::unique_ptr<espdiff::Engine> engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 2);
@@ -67,7 +66,7 @@ struct Runner {
 
   TrajectorySummary operator()(const TrajectoryPlan& plan, const std::string& path,
                                ExistingFile existing = ExistingFile::kRefuse, const Progress& progress = {}) {
-    TrajectoryRun run(plan, SeriesCsv(path, kHead, existing));
+    TrajectoryRun run(plan, SeriesCsv(path, kSeriesHead, existing));
     if (!run.warning().empty()) warnings.push_back(run.warning());
     while (!run.is_done()) {
       run.step(
@@ -115,7 +114,7 @@ TEST_CASE("a row a frame, with the values of the pair, and what the rows were ma
   const TrajectorySummary summary = runner(run, folder.file("a.csv"));
   CHECK(summary.n_frames == 2);
   CHECK(summary.n_rows == 2);
-  const SeriesCsv file(folder.file("a.csv"), kHead, ExistingFile::kResume);
+  const SeriesCsv file(folder.file("a.csv"), kSeriesHead, ExistingFile::kResume);
   REQUIRE(file.rows().size() == 2);
   for (const SeriesRow& row : file.rows()) {
     const auto frame = static_cast<std::size_t>(std::stoi(row["frame"]));
@@ -173,7 +172,7 @@ TEST_CASE("a run that broke off anywhere goes on with the same rows") {
     // Complete: left as it is.
     CHECK(runner(run, whole, ExistingFile::kResume).n_rows == 0);
     CHECK(read_file(whole) == expected);
-    CHECK(SeriesCsv(whole, kHead, ExistingFile::kResume).rows()[3]["start"] == "previous");
+    CHECK(SeriesCsv(whole, kSeriesHead, ExistingFile::kResume).rows()[3]["start"] == "previous");
   }
 }
 
@@ -190,7 +189,7 @@ TEST_CASE("without its mapping a resumed run says so and starts from the source;
   REQUIRE(runner.warnings.size() == 1);
   CHECK(runner.warnings[0].rfind("the mapping of frame 2 is missing, the next one starts from the source: " + state,
                                  0) == 0);
-  CHECK(SeriesCsv(part, kHead, ExistingFile::kResume).rows()[3]["start"] == "source");
+  CHECK(SeriesCsv(part, kSeriesHead, ExistingFile::kResume).rows()[3]["start"] == "source");
 
   // The row after the mapping is computed again, and was of something else.
   folder.write("part.csv", rows);
@@ -222,7 +221,7 @@ TEST_CASE("a frame that fails ends the run and is named, or is a row with the re
   const TrajectorySummary summary = runner(run, folder.file("b.csv"));
   CHECK(summary.n_rows == 5);
   CHECK(summary.n_skipped == 1);
-  const SeriesCsv file(folder.file("b.csv"), kHead, ExistingFile::kResume);
+  const SeriesCsv file(folder.file("b.csv"), kSeriesHead, ExistingFile::kResume);
   CHECK(file.rows()[1]["error"] == "frame1.pqr: cannot be read, \"gone\" for good");
   CHECK(file.rows()[1]["rmsd_A"].empty());
   CHECK(file.rows()[2]["start"] == "source");
@@ -236,7 +235,7 @@ TEST_CASE("each frame against the one before") {
   run.against = espdiff::Reference::kPrevious;
   run.frames = {0, 2, 3};
   CHECK(runner(run, folder.file("a.csv")).n_frames == 2);
-  const SeriesCsv file(folder.file("a.csv"), kHead, ExistingFile::kResume);
+  const SeriesCsv file(folder.file("a.csv"), kSeriesHead, ExistingFile::kResume);
   REQUIRE(file.rows().size() == 2);
   CHECK(file.rows()[0]["frame"] == "2");
   CHECK(file.rows()[0]["reference_frame"] == "0");
@@ -244,7 +243,7 @@ TEST_CASE("each frame against the one before") {
   const CompareResult alone = compare(*runner.engine, motion.side(2).input(), motion.side(3).input(), run.options, {});
   CHECK(std::stod(file.rows()[1]["mean_abs_difference"]) == alone.metrics.mean_abs_difference);
   run.frames = {2};
-  CHECK(message_of([&] { TrajectoryRun(run, SeriesCsv(folder.file("b.csv"), kHead, ExistingFile::kRefuse)); }) ==
+  CHECK(message_of([&] { TrajectoryRun(run, SeriesCsv(folder.file("b.csv"), kSeriesHead, ExistingFile::kRefuse)); }) ==
         "reference previous needs two frames or more");
   CHECK(folder.n_files() == 1);
 }
@@ -259,7 +258,7 @@ TEST_CASE("each frame against the frame of its number of another trajectory") {
   run.frames = {1, 3};
   // Frame i of the other trajectory is frame i of this one, so that nothing differs.
   CHECK(runner(run, folder.file("a.csv")).n_frames == 2);
-  const SeriesCsv file(folder.file("a.csv"), kHead, ExistingFile::kResume);
+  const SeriesCsv file(folder.file("a.csv"), kSeriesHead, ExistingFile::kResume);
   REQUIRE(file.rows().size() == 2);
   for (std::size_t i = 0; i < 2; ++i) {
     CHECK(file.rows()[i]["reference_frame"] == file.rows()[i]["frame"]);
@@ -277,7 +276,7 @@ TEST_CASE("the residues of a run that was killed between its two rows are resume
   plan.start = StartFrom::kSource;
   plan.frames = {0, 1, 2};
   const auto run = [&](const std::string& name, ExistingFile existing) {
-    TrajectoryRun made(plan, SeriesCsv(folder.file(name), kHead, existing),
+    TrajectoryRun made(plan, SeriesCsv(folder.file(name), kSeriesHead, existing),
                        espdiff::ResidueCsv(folder.file("residues_" + name), "", existing));
     while (!made.is_done()) made.step(*runner.engine, [&] { return runner.read(made.next().frame); }, {});
   };

@@ -87,7 +87,7 @@ void compare(const std::string& name, const std::string& drawn) {
 }
 
 /// Draws a scene small.
-std::string draw(const ScratchFolder& scratch, const std::string& vtp, Scene scene) {
+std::string drawn_small(const ScratchFolder& scratch, const std::string& vtp, Scene scene) {
   scene.width = 420;
   scene.height = 400;
   render_surface(vtp, scratch.file("drawn.png"), scene);
@@ -104,21 +104,21 @@ TEST_CASE("pictures equal their accepted baselines") {
   linked.layout = Layout::kLinked;
   linked.molecule = MoleculeStyle::kSticks;
   linked.opacity.greatest = 0.6;
-  compare("linked", draw(scratch, vtp, linked));
+  compare("linked", drawn_small(scratch, vtp, linked));
   split.layout = Layout::kSplit;
   split.split = 0.45;
   split.title = "before and after";
-  compare("split", draw(scratch, vtp, split));
+  compare("split", drawn_small(scratch, vtp, split));
   drawn_maps.isopotentials = {-5, 5};
   drawn_maps.n_field_lines = 30;
   drawn_maps.n_views = 1;
   drawn_maps.turn_deg = 25;
-  compare("maps", draw(scratch, vtp, drawn_maps));
+  compare("maps", drawn_small(scratch, vtp, drawn_maps));
   sign.array = RenderArray::kSign;
   sign.molecule = MoleculeStyle::kLines;
   sign.opacity.greatest = 0.7;
   sign.n_labels = 2;
-  compare("sign", draw(scratch, vtp, sign));
+  compare("sign", drawn_small(scratch, vtp, sign));
 }
 
 TEST_CASE("a picture with a missing part or a wrong colour is far from its baseline") {
@@ -130,7 +130,7 @@ TEST_CASE("a picture with a missing part or a wrong colour is far from its basel
   split.split = 0.45;
   split.title = "before and after";
   const auto off = [&](const Scene& scene) {
-    return difference(Picture(draw(scratch, vtp, scene)), Picture(kFolder + "split.png"));
+    return difference(Picture(drawn_small(scratch, vtp, scene)), Picture(kFolder + "split.png"));
   };
   Scene moved = split, narrow = split;
   moved.split = 0.75;

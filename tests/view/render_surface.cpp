@@ -117,7 +117,7 @@ Scene small_picture(RenderArray array = RenderArray::kDifference) {
   return options;
 }
 
-Picture draw(const ScratchFolder& scratch, const Paint& paint, const Scene& options) {
+Picture drawn_sphere(const ScratchFolder& scratch, const Paint& paint, const Scene& options) {
   render_surface(write_sphere(scratch.file("surface.vtp"), paint), scratch.file("picture.png"), options);
   return Picture(scratch.file("picture.png"));
 }
@@ -127,7 +127,7 @@ Picture draw(const ScratchFolder& scratch, const Paint& paint, const Scene& opti
 TEST_CASE("a picture shows both signs, a legend in both colours, and white paper") {
   if (!can_draw()) return;
   const ScratchFolder scratch;
-  const Picture picture = draw(scratch, {}, small_picture());
+  const Picture picture = drawn_sphere(scratch, {}, small_picture());
   REQUIRE(picture.width() == 640);
   REQUIRE(picture.height() == 400);
   CHECK(picture.count(0, 0.25, 1, 0.9, is_red) > 2000);
@@ -146,7 +146,7 @@ TEST_CASE("the back view shows the other side") {
   Paint paint;
   // More colour on one side: it becomes the front. Both halves of the picture then differ.
   paint.difference = [](Vec3d n) { return n.x > 0.2 ? 5.0 : 0.0; };
-  const Picture picture = draw(scratch, paint, small_picture());
+  const Picture picture = drawn_sphere(scratch, paint, small_picture());
   const int front = picture.count(0, 0.25, 0.5, 0.9, is_blue), back = picture.count(0.5, 0.25, 1, 0.9, is_blue);
   CHECK(front + back > 1000);
   CHECK(front != back);
@@ -157,8 +157,9 @@ TEST_CASE("each array has its colours") {
   const ScratchFolder scratch;
   Paint paint;
   paint.displacement = [](Vec3d n) { return 1 + n.z; };
-  CHECK(draw(scratch, paint, small_picture(RenderArray::kDisplacement)).count(0, 0.25, 1, 0.9, is_green) > 2000);
-  const Picture sign = draw(scratch, {}, small_picture(RenderArray::kSign));
+  CHECK(drawn_sphere(scratch, paint, small_picture(RenderArray::kDisplacement)).count(0, 0.25, 1, 0.9, is_green) >
+        2000);
+  const Picture sign = drawn_sphere(scratch, {}, small_picture(RenderArray::kSign));
   CHECK(sign.count(0, 0.25, 1, 0.9, is_red) > 1000);
   CHECK(sign.count(0, 0.25, 1, 0.9, [](int r, int g, int b) { return b > r + 15 && b > g; }) > 1000);
 }
@@ -170,11 +171,11 @@ TEST_CASE("large displacements and corrupt triangles are paler than trusted part
   far.displacement = [](Vec3d) { return 9.0; };
   Paint corrupt;
   corrupt.corrupt = [](Vec3d) { return true; };
-  const int trusted_blue = draw(scratch, {}, small_picture()).count(0, 0.25, 1, 0.9, is_blue);
-  const Picture faint = draw(scratch, far, small_picture());
+  const int trusted_blue = drawn_sphere(scratch, {}, small_picture()).count(0, 0.25, 1, 0.9, is_blue);
+  const Picture faint = drawn_sphere(scratch, far, small_picture());
   CHECK(faint.count(0, 0.25, 1, 0.9, is_blue) < trusted_blue / 10);
   CHECK(faint.count(0, 0.25, 1, 0.9, [](int r, int g, int b) { return !is_white(r, g, b); }) > 5000);
-  const Picture grey = draw(scratch, corrupt, small_picture());
+  const Picture grey = drawn_sphere(scratch, corrupt, small_picture());
   CHECK(grey.count(0, 0.25, 1, 0.9, [](int r, int g, int b) { return r != g || g != b; }) == 0);
 }
 
@@ -185,9 +186,9 @@ TEST_CASE("the surface of an ensemble is pale where its difference is not signif
   nowhere.p_family_wise = [](Vec3d) { return 0.1; };
   everywhere.p_family_wise = [](Vec3d) { return 0.04; };
   everywhere.displacement = [](Vec3d) { return 9.0; };  // which does not count here
-  const int significant = draw(scratch, everywhere, small_picture()).count(0, 0.25, 1, 0.9, is_blue);
-  CHECK(significant == draw(scratch, {}, small_picture()).count(0, 0.25, 1, 0.9, is_blue));
-  CHECK(draw(scratch, nowhere, small_picture()).count(0, 0.25, 1, 0.9, is_blue) < significant / 10);
+  const int significant = drawn_sphere(scratch, everywhere, small_picture()).count(0, 0.25, 1, 0.9, is_blue);
+  CHECK(significant == drawn_sphere(scratch, {}, small_picture()).count(0, 0.25, 1, 0.9, is_blue));
+  CHECK(drawn_sphere(scratch, nowhere, small_picture()).count(0, 0.25, 1, 0.9, is_blue) < significant / 10);
 }
 
 TEST_CASE("vertices without a value are grey") {
@@ -195,7 +196,7 @@ TEST_CASE("vertices without a value are grey") {
   const ScratchFolder scratch;
   Paint paint;
   paint.difference = [](Vec3d n) { return n.x > 0 ? std::numeric_limits<double>::quiet_NaN() : -3.0; };
-  const Picture picture = draw(scratch, paint, small_picture());
+  const Picture picture = drawn_sphere(scratch, paint, small_picture());
   CHECK(picture.count(0, 0.25, 1, 0.9, is_blue) == 0);
   CHECK(picture.count(0, 0.25, 1, 0.9, is_red) > 1000);
   CHECK(picture.count(0, 0.25, 1, 0.9, [](int r, int g, int b) { return r == g && g == b && r < 200; }) > 1000);

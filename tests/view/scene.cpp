@@ -7,10 +7,12 @@
 
 #include "base/error.h"
 #include "support/test_data.h"
+#include "support/text.h"
 #include "view/scene_keys.h"
 #include "view/viewer.h"
 
 using namespace espdiff;  // NOLINT: a test of these headers
+using espdiff_test::contains;
 using espdiff_test::message_of;
 using espdiff_test::ScratchFolder;
 
@@ -54,8 +56,6 @@ Scene unusual_scene() {
 std::string message_for(const ScratchFolder& scratch, const std::string& json) {
   return message_of([&] { check(read_scene(scratch.write("scene.json", json), {})); });
 }
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
 

@@ -47,13 +47,13 @@ class Vmd {
   }
 };
 
-struct Square {
+struct ColouredSquare {
   std::vector<Vec3f> positions{{0, 0, 0}, {1.5F, -0.0004F, 0}, {-12.3456F, 1000, 0.25F}, {0, 1, -0.0307F}};
   std::vector<Vec3f> normals{{0, 0, 1}, {0.6F, 0, -0.8F}, {0, 1, 0}, {0, 0, 1}};
   std::vector<Triangle> triangles{{{0, 1, 2}}, {{2, 1, 3}}};
   TriangleSoup soup;
 
-  Square() {
+  ColouredSquare() {
     soup.positions = &positions;
     soup.normals = &normals;
     soup.triangles = &triangles;
@@ -66,7 +66,7 @@ struct Square {
 TEST_CASE("draw_triangles: one call of VMD's procedure for each triangle") {
   Vmd vmd;
   vmd.draw_by_strings();
-  const Square square;
+  const ColouredSquare square;
   CHECK(draw_triangles(vmd.interp, 3, square.soup) == 2);
   CHECK(vmd.calls == std::vector<std::string>{"3|tricolor|0.000 0.000 0.000|1.500 0.000 0.000|-12.346 1000.000 0.250|"
                                               "0 0 1000|600 0 -800|0 1000 0|33|1056|7",
@@ -78,7 +78,7 @@ TEST_CASE("draw_triangles: one call of VMD's procedure for each triangle") {
 TEST_CASE("draw_triangles: triangles that are not drawn are left out") {
   Vmd vmd;
   vmd.draw_by_strings();
-  Square square;
+  ColouredSquare square;
   square.soup.drawn = {0, 1};
   CHECK(draw_triangles(vmd.interp, 3, square.soup) == 1);
   REQUIRE(vmd.calls.size() == 1);
@@ -90,7 +90,7 @@ TEST_CASE("draw_triangles: triangles that are not drawn are left out") {
 TEST_CASE("draw_triangles: a command made of objects gets lists of numbers") {
   Vmd vmd;
   vmd.draw_by_procedure();
-  const Square square;
+  const ColouredSquare square;
   CHECK(draw_triangles(vmd.interp, 3, square.soup) == 2);
   CHECK(Tcl_GetStringResult(vmd.interp) == std::string());
   REQUIRE(Tcl_Eval(vmd.interp, "set sum 0; foreach c $calls {incr sum [llength $c]}; set sum") == TCL_OK);
@@ -102,24 +102,26 @@ TEST_CASE("draw_triangles: a command made of objects gets lists of numbers") {
 TEST_CASE("draw_triangles: what cannot be drawn is refused before the first triangle") {
   Vmd vmd;
   const auto refusal = [&](auto change, int mol = 3) {
-    Square square;
+    ColouredSquare square;
     change(square);
     return message_of([&] { draw_triangles(vmd.interp, mol, square.soup); });
   };
-  CHECK(refusal([](Square&) {}) == "there is no command 'graphics', by which VMD draws; run this inside VMD");
+  CHECK(refusal([](ColouredSquare&) {}) == "there is no command 'graphics', by which VMD draws; run this inside VMD");
   vmd.draw_by_strings();
-  CHECK(refusal([](Square&) {}, 4) == "VMD refused triangle 0 in molecule 4: graphics: invalid graphics molecule");
-  CHECK(refusal([](Square& s) { s.soup.colour.pop_back(); }) ==
+  CHECK(refusal([](ColouredSquare&) {}, 4) ==
+        "VMD refused triangle 0 in molecule 4: graphics: invalid graphics molecule");
+  CHECK(refusal([](ColouredSquare& s) { s.soup.colour.pop_back(); }) ==
         "a surface of 4 vertices has 4 normals and 3 colours; the numbers must be equal");
-  CHECK(refusal([](Square& s) { s.soup.colour[2] = 1057; }) == "colour id 1057; 0 to 1056 were expected");
-  CHECK(refusal([](Square& s) { s.soup.colour[0] = -1; }) == "colour id -1; 0 to 1056 were expected");
-  CHECK(refusal([](Square& s) { s.soup.drawn = {1}; }) ==
+  CHECK(refusal([](ColouredSquare& s) { s.soup.colour[2] = 1057; }) == "colour id 1057; 0 to 1056 were expected");
+  CHECK(refusal([](ColouredSquare& s) { s.soup.colour[0] = -1; }) == "colour id -1; 0 to 1056 were expected");
+  CHECK(refusal([](ColouredSquare& s) { s.soup.drawn = {1}; }) ==
         "'drawn' has 1 entries for 2 triangles; the numbers must be equal");
-  CHECK(refusal([](Square& s) { s.triangles[1][2] = 4; }) == "a triangle has vertex 4, but there are 4 vertices");
-  CHECK(refusal([](Square& s) { s.positions[1].y = std::numeric_limits<float>::quiet_NaN(); }) ==
+  CHECK(refusal([](ColouredSquare& s) { s.triangles[1][2] = 4; }) ==
+        "a triangle has vertex 4, but there are 4 vertices");
+  CHECK(refusal([](ColouredSquare& s) { s.positions[1].y = std::numeric_limits<float>::quiet_NaN(); }) ==
         "the position of vertex 1 is 1.5 nan 0; numbers within 1e7 were expected");
-  CHECK(refusal([](Square& s) { s.positions[3].z = -2e7F; }).find("the position of vertex 3 is ") == 0);
-  CHECK(refusal([](Square& s) { s.normals[0].x = std::numeric_limits<float>::infinity(); }) ==
+  CHECK(refusal([](ColouredSquare& s) { s.positions[3].z = -2e7F; }).find("the position of vertex 3 is ") == 0);
+  CHECK(refusal([](ColouredSquare& s) { s.normals[0].x = std::numeric_limits<float>::infinity(); }) ==
         "the normal of vertex 0 is inf 0 1; numbers within 1e7 were expected");
   CHECK(vmd.calls.empty());
 }

@@ -29,7 +29,6 @@ using espdiff::VectorFlowReport;
 
 namespace {
 
-constexpr float kIsovalue = 0.5F;
 const Vec3d kCentre{0.2, 0.1, -0.3};
 
 struct Flow {

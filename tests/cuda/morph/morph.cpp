@@ -20,8 +20,6 @@ using espdiff::MovingAtom;
 
 namespace {
 
-constexpr float kIsovalue = 0.5F;
-
 /// The input of a morph: atoms at both ends.
 struct Journey {
   AtomSet source, target;

@@ -79,13 +79,13 @@ std::vector<bool> shell(const Molecule& m, const Lattice& lattice, double from, 
   return inside;
 }
 
-struct Agreement {
+struct ApbsAgreement {
   Deviation outside, surface;
   std::vector<float> ours, theirs;  ///< [vertex]
 };
 
-Agreement agreement(Engine& engine, const Molecule& m, const Lattice& lattice, const PoissonBoltzmannOptions& options,
-                    const espdiff::MeshPtr& surface) {
+ApbsAgreement agreement(Engine& engine, const Molecule& m, const Lattice& lattice,
+                        const PoissonBoltzmannOptions& options, const espdiff::MeshPtr& surface) {
   const ScratchFolder folder;
   const Grid apbs = apbs_map(folder, m, lattice, options);
   PoissonBoltzmannReport report;
@@ -99,7 +99,7 @@ Agreement agreement(Engine& engine, const Molecule& m, const Lattice& lattice, c
     a.push_back(own.values[p]);
     b.push_back(apbs.values[p]);
   }
-  Agreement result;
+  ApbsAgreement result;
   result.outside = deviation(a, b);
   result.ours = engine.download(engine.sample(on_device, surface));
   result.theirs = engine.download(engine.sample(engine.upload_map(apbs, {}), surface));
@@ -118,7 +118,7 @@ TEST_CASE("FKBP: within 1 % of APBS' potential outside, and on the surface") {
   const auto m = example("FKBP/1d7h-min.pqr");
   if (!m) return;
   for (const auto& engine : fast_back_ends()) {
-    const Agreement found =
+    const ApbsAgreement found =
         agreement(*engine, *m, lattice_of(*m, 97, 0.7), apbs_options(), comparison_surface(*engine, *m));
     CHECK(found.outside.of_rms < 0.01);
     CHECK(found.outside.correlation > 0.9999);
@@ -133,16 +133,16 @@ TEST_CASE("1AJJ: on the surface within 5 % at 0.5 A, and nearer at 0.25 A; the d
   for (const auto& engine : fast_back_ends()) {
     const auto surface = comparison_surface(*engine, *m);
     const Lattice lattice = lattice_of(*m, 97, 0.5);
-    const Agreement coarse = agreement(*engine, *m, lattice, apbs_options(), surface);
+    const ApbsAgreement coarse = agreement(*engine, *m, lattice, apbs_options(), surface);
     CHECK(coarse.outside.of_rms < 0.01);
     CHECK(coarse.outside.correlation > 0.9999);
     CHECK(coarse.surface.of_rms < 0.05);
-    const Agreement second = agreement(*engine, *other, lattice, apbs_options(), surface);
+    const ApbsAgreement second = agreement(*engine, *other, lattice, apbs_options(), surface);
     const double ours = deviation(second.ours, coarse.ours).mean_absolute,
                  theirs = deviation(second.theirs, coarse.theirs).mean_absolute;
     MESSAGE("mean absolute difference of pH 2 and 7: ", ours, ", APBS ", theirs);
     CHECK(ours == doctest::Approx(theirs).epsilon(0.02));
-    const Agreement fine = agreement(*engine, *m, lattice_of(*m, 161, 0.25), apbs_options(), surface);
+    const ApbsAgreement fine = agreement(*engine, *m, lattice_of(*m, 161, 0.25), apbs_options(), surface);
     CHECK(fine.surface.of_rms < coarse.surface.of_rms);
   }
 }
@@ -154,8 +154,8 @@ TEST_CASE("ASP66 charged or not in lysozyme: the mean absolute difference within
   const auto engine = espdiff::select_engine(espdiff::DeviceChoice::kCpu, 0);
   const auto surface = comparison_surface(*engine, *charged);
   const Lattice lattice = lattice_of(*charged, 97, 0.65);
-  const Agreement a = agreement(*engine, *charged, lattice, apbs_options(), surface),
-                  b = agreement(*engine, *neutral, lattice, apbs_options(), surface);
+  const ApbsAgreement a = agreement(*engine, *charged, lattice, apbs_options(), surface),
+                      b = agreement(*engine, *neutral, lattice, apbs_options(), surface);
   const double ours = deviation(a.ours, b.ours).mean_absolute, theirs = deviation(a.theirs, b.theirs).mean_absolute;
   MESSAGE("mean absolute difference: ", ours, ", APBS ", theirs);
   CHECK(ours == doctest::Approx(theirs).epsilon(0.02));
@@ -169,7 +169,7 @@ TEST_CASE("the nonlinear equation on DNA: within 1 % of APBS' npbe outside") {
     options.nonlinear = true;
     const auto surface = comparison_surface(*engine, *m);
     const Lattice lattice = lattice_of(*m, 97, 0.6);
-    const Agreement found = agreement(*engine, *m, lattice, options, surface);
+    const ApbsAgreement found = agreement(*engine, *m, lattice, options, surface);
     CHECK(found.outside.of_rms < 0.01);
     CHECK(found.outside.correlation > 0.9999);
     CHECK(found.surface.of_rms < 0.05);

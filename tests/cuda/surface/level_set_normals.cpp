@@ -16,8 +16,6 @@ using espdiff::MeshPtr;
 
 namespace {
 
-constexpr float kIsovalue = 0.5F;
-
 /// A mesh whose vertices lie on the analytic surface.
 MeshPtr projected(Engine& engine, const AtomsPtr& atoms) {
   return engine.project(engine.isosurface(engine.density(atoms, 1.0), kIsovalue), atoms, kIsovalue, 0.5);

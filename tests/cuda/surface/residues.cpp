@@ -41,18 +41,18 @@ Ranking rank_residues(const AtomSet& atoms, Vec3d p) {
   return ranking;
 }
 
-struct Agreement {
+struct SearchAgreement {
   std::size_t n = 0, n_different = 0;
   double widest_gap = 0;  ///< relative gap between first and second where the engine chose another
 };
 
-Agreement compare_to_search(Engine& engine, const AtomSet& atoms) {
+SearchAgreement compare_to_search(Engine& engine, const AtomSet& atoms) {
   const auto uploaded = upload(engine, atoms);
   const auto surface = engine.project(engine.isosurface(engine.density(uploaded, 1.0), 0.5F), uploaded, 0.5F, 0.5);
   const std::vector<std::int32_t> residues = engine.vertex_residues(surface, uploaded);
   const Mesh mesh = engine.download(surface);
   REQUIRE(residues.size() == mesh.positions.size());
-  Agreement agreement;
+  SearchAgreement agreement;
   for (std::size_t v = 0; v < residues.size(); v += 3) {
     const Ranking exact = rank_residues(atoms, static_cast<Vec3d>(mesh.positions[v]));
     ++agreement.n;
@@ -69,7 +69,7 @@ TEST_SUITE_BEGIN("residues");
 
 TEST_CASE("vertices of a random cloud belong to the residue of highest density") {
   for (const auto& engine : back_ends()) {
-    const Agreement a = compare_to_search(*engine, random_cloud(300, 110));
+    const SearchAgreement a = compare_to_search(*engine, random_cloud(300, 110));
     CHECK(static_cast<double>(a.n_different) < 4e-3 * static_cast<double>(a.n));  // neighbours without bonds: near ties
     CHECK(a.widest_gap < 0.03);
   }
@@ -80,7 +80,7 @@ TEST_CASE("vertices of real proteins belong to the residue of highest density ex
     const auto path = real_input(name);
     if (!path) return;
     for (const auto& engine : back_ends()) {
-      const Agreement a = compare_to_search(*engine, read_atoms(*path));
+      const SearchAgreement a = compare_to_search(*engine, read_atoms(*path));
       std::printf("residues, %s, %s: %zu of %zu vertices differ from the full sum, by at most %.2f %% of the density\n",
                   engine->back_end().c_str(), name.c_str(), a.n_different, a.n, 100 * a.widest_gap);
       CAPTURE(name);

@@ -15,6 +15,9 @@ namespace espdiff_test {
 
 using espdiff::Mesh;
 
+/// Of the density, at the surfaces of most tests.
+constexpr float kIsovalue = 0.5F;
+
 /// Atoms as upload_atoms() takes them.
 struct AtomSet {
   std::vector<Vec3d> positions;
