@@ -14,7 +14,8 @@ function(espdiff_add_library name)
   target_link_libraries(${name} PUBLIC espdiff_flags ${ARG_LIBRARIES} PRIVATE ${ARG_PRIVATE_LIBRARIES})
 endfunction()
 
-# espdiff_combine(OUTPUT N SOURCE ...): sets OUTPUT to generated .cu files that include N sources of cuda/ each.
+# espdiff_combine(OUTPUT N SOURCE ...): sets OUTPUT to generated .cu files, of the binary folder, that include N sources of
+# cuda/ each.
 function(espdiff_combine output n)
   set(combined "")
   while(ARGN)
@@ -26,7 +27,6 @@ function(espdiff_combine output n)
     file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/combined_${number}.cu CONTENT "${content}")
     list(APPEND combined combined_${number}.cu)
   endwhile()
-  list(TRANSFORM combined PREPEND ${CMAKE_CURRENT_BINARY_DIR}/)
   set(${output} ${combined} PARENT_SCOPE)
 endfunction()
 
