@@ -13,7 +13,7 @@ namespace {
 
 void labelled_line(std::ostream& out, const std::string& label, const std::string& text) {
   constexpr std::size_t kHeadingWidth = 16;
-  out << label << std::string(label.size() < kHeadingWidth ? kLabelWidth - label.size() : 1, ' ') << text << '\n';
+  out << label << std::string(label.size() < kHeadingWidth ? kHeadingWidth - label.size() : 1, ' ') << text << '\n';
 }
 
 /// The first label stands before the first line only.
