@@ -10,7 +10,7 @@ test "the example for VMD, in a VMD of its own, ends" {
     set example [file join $env(ESPDIFF_TESTS) .. .. docs examples matrix_vmd.tcl]
     set vmd [expr {[info exists env(VMD)] ? $env(VMD) : "vmd"}]
     exec $vmd -dispdev text -e $example -args [input traj_adk/adk.psf] [input traj_adk/adk_dims.dcd] 0:40:80 \
-        $scratch/example $quick </dev/null 2>@1
+        $scratch/example {*}$quick </dev/null 2>@1
 }
 
 set mol [mol new [input traj_adk/adk.psf] type psf waitfor all]
