@@ -170,7 +170,8 @@ ESPDIFF_INLINE std::uint32_t meetings_from(const MeetingSearch& in, const Compar
 
 #if !defined(__CUDACC__)
 
-ESPDIFF_MULTIVERSION std::uint32_t meetings_from_group(const MeetingSearch& in, const ByGroups& compare, std::uint32_t group) {
+ESPDIFF_MULTIVERSION std::uint32_t meetings_from_group(const MeetingSearch& in, const ByGroups& compare,
+                                                       std::uint32_t group) {
   return meetings_from(in, compare, group);
 }
 

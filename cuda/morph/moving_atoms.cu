@@ -15,7 +15,7 @@ struct MovingSampling {
 };
 
 MovingSampling sampling(const MovingAtoms& atoms, const Buffer<Vec4f>& points, const Buffer<std::uint32_t>& list,
-                  std::size_t n, Buffer<FlowSample>& samples) {
+                        std::size_t n, Buffer<FlowSample>& samples) {
   return {atoms.cells->view(), raw(atoms.change), {raw(points), raw(list), n}, raw(samples)};
 }
 

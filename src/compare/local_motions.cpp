@@ -72,7 +72,8 @@ struct ResidueNeighbourhoods {
   std::vector<Eigen::Vector3d> start{}, end{};       ///< [residue] centres of the paired atoms
   std::map<Cell, std::vector<std::size_t>> cells{};  ///< of residues with paired atoms, by the start
 
-  ResidueNeighbourhoods(const Molecule& molecule, std::vector<Moments> moments) : source(molecule), own(std::move(moments)) {
+  ResidueNeighbourhoods(const Molecule& molecule, std::vector<Moments> moments)
+      : source(molecule), own(std::move(moments)) {
     for (std::size_t r = 0; r < own.size(); ++r) {
       const double n = std::max(own[r].n, 1.0);
       start.emplace_back(own[r].start / n);
@@ -82,7 +83,8 @@ struct ResidueNeighbourhoods {
   }
 
   static Cell cell_of(const Eigen::Vector3d& p) {
-    return {static_cast<int>(std::floor(p.x() / kResidueReach_A)), static_cast<int>(std::floor(p.y() / kResidueReach_A)),
+    return {static_cast<int>(std::floor(p.x() / kResidueReach_A)),
+            static_cast<int>(std::floor(p.y() / kResidueReach_A)),
             static_cast<int>(std::floor(p.z() / kResidueReach_A))};
   }
 

@@ -49,7 +49,6 @@ MeshPtr cut(Engine& engine, const MeshPtr& mesh, const std::vector<float>& exclu
   return engine.without(mesh, engine.upload_scalars(excluded));
 }
 
-
 DistanceSummary nothing() { return {kNaN, kNaN, kNaN, kNaN, kNaN, nullptr}; }
 
 /// What nothing was mapped for cannot be measured; zeros would flatter.

@@ -226,8 +226,10 @@ std::vector<double> parse_offsets(const std::string& name, const std::string& te
   std::istringstream list(text);
   for (std::string part; std::getline(list, part, ',');) {
     double value = 0;
-    if (!parse(part, value) || !std::isfinite(value) || value < 0 || value > kMost_A) refuse_value(name, text, accepted);
-    if (std::find(offsets.begin(), offsets.end(), value) != offsets.end()) refuse_value(name, text, accepted + ", each once");
+    if (!parse(part, value) || !std::isfinite(value) || value < 0 || value > kMost_A)
+      refuse_value(name, text, accepted);
+    if (std::find(offsets.begin(), offsets.end(), value) != offsets.end())
+      refuse_value(name, text, accepted + ", each once");
     offsets.push_back(value);
   }
   if (offsets.empty() || text.back() == ',') refuse_value(name, text, accepted);

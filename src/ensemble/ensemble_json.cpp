@@ -86,7 +86,7 @@ Json regression_json(const EnsembleFile& file, const EnsembleRegression& regress
   const SurfaceRegression& surface = regression.surface;
   Json json = {{"column", regression.column.name}, {"n_arrangements", surface.n_arrangements},
                {"exact", surface.exact},           {"smallest_p", surface.smallest_p},
-               {"q2", json_number(surface.q2)},         {"q2_p", json_number(surface.q2_p)},
+               {"q2", json_number(surface.q2)},    {"q2_p", json_number(surface.q2_p)},
                {"replicates", Json::array()},      {"patches", Json::array()}};
   for (std::size_t r = 0; r < regression.column.values.size(); ++r)
     json["replicates"].push_back({{"group", file.plan().replicates[r].group},

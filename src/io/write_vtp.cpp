@@ -133,7 +133,8 @@ void write_vtp(std::ostream& out, const VtpSurface& surface) {
   }
   AppendedData appended;
   out << "<?xml version=\"1.0\"?>\n"
-      << "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"" << vtk_byte_order() << "\" header_type=\"UInt64\">\n"
+      << "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"" << vtk_byte_order()
+      << "\" header_type=\"UInt64\">\n"
       << "  <PolyData>\n";
   write_texts(out, surface.texts);
   out << "    <Piece NumberOfPoints=\"" << surface.points.n_tuples

@@ -195,7 +195,8 @@ class XmlParser {
 
   XmlElement parse_element(int level) {
     if (!next_is("<")) fail("an element was expected, but " + shown_next() + " follows");
-    if (level > kMostXmlLevels) fail("elements lie in each other more than " + std::to_string(kMostXmlLevels) + " deep");
+    if (level > kMostXmlLevels)
+      fail("elements lie in each other more than " + std::to_string(kMostXmlLevels) + " deep");
     if (++n_elements_ > kMostElements) fail("there are more than " + std::to_string(kMostElements) + " elements");
     XmlElement element;
     element.line = current_line();

@@ -121,13 +121,14 @@ void print_absent(std::ostream& out, const Matrix& matrix) {
 
 Json through_template_json(const Matrix& matrix) {
   const ThroughTemplate& through = *matrix.through;
-  Json json = {{"name", through.name},
-               {"sha256", through.sha256},
-               {"n_vertices", through.n_vertices},
-               {"area_A2", through.area_A2},
-               {"options", options_json(through.settings)},
-               {"compared_area_fraction",
-                {{"mean", json_number(through.mean_area_fraction)}, {"least", json_number(through.least_area_fraction)}}}};
+  Json json = {
+      {"name", through.name},
+      {"sha256", through.sha256},
+      {"n_vertices", through.n_vertices},
+      {"area_A2", through.area_A2},
+      {"options", options_json(through.settings)},
+      {"compared_area_fraction",
+       {{"mean", json_number(through.mean_area_fraction)}, {"least", json_number(through.least_area_fraction)}}}};
   json["states"] = Json::array();
   for (std::size_t i = 0; i < matrix.n(); ++i)
     json["states"].push_back(state_json(matrix.plan.variants[i].label, through.states[i]));

@@ -164,9 +164,9 @@ Json motions(const CompareResult& result) {
 }
 
 Json surface(const SurfaceSummary& s) {
-  return {{"n_vertices", s.n_vertices},     {"n_triangles", s.n_triangles},
-          {"n_components", s.n_components}, {"n_cavities_left_out", s.n_cavities_left_out},
-          {"area_A2", json_number(s.area_A2)},   {"cavity_area_A2", json_number(s.cavity_area_A2)}};
+  return {{"n_vertices", s.n_vertices},        {"n_triangles", s.n_triangles},
+          {"n_components", s.n_components},    {"n_cavities_left_out", s.n_cavities_left_out},
+          {"area_A2", json_number(s.area_A2)}, {"cavity_area_A2", json_number(s.cavity_area_A2)}};
 }
 
 /// A setting's value, of the type that its kind says.

@@ -45,11 +45,11 @@ nlohmann::ordered_json preparation_json(const Preparation& p) {
 
 void print_preparation(std::ostream& out, const Preparation& p) {
   labelled_line(out, "prepared by",
-       p.program + ", force field " + p.force_field + ", pH " + formatted("%g", p.ph) + " (PROPKA)" +
-           (p.from_cache ? ", from the cache" : ""));
+                p.program + ", force field " + p.force_field + ", pH " + formatted("%g", p.ph) + " (PROPKA)" +
+                    (p.from_cache ? ", from the cache" : ""));
   labelled_line(out, "atoms",
-       std::to_string(p.n_atoms) + " (" + std::to_string(p.n_atoms_before) + " before, " +
-           std::to_string(p.n_hydrogens_added) + " hydrogens added)");
+                std::to_string(p.n_atoms) + " (" + std::to_string(p.n_atoms_before) + " before, " +
+                    std::to_string(p.n_hydrogens_added) + " hydrogens added)");
   list(out, "added", p.added);
   list(out, "removed", p.removed);
   list(out, "renamed", p.renamed);

@@ -65,8 +65,8 @@ std::vector<ResidueMark> most_different_residues(const SurfaceFile& surface, int
     const Sum& sum = sums[residue];
     const std::size_t at = nearest_vertex(surface, static_cast<float>(residue), (1.0 / sum.n) * sum.place);
     const Vec3d place = surface.positions[at];
-    const bool crowds =
-        std::any_of(marks.begin(), marks.end(), [&](const ResidueMark& m) { return norm(m.place - place) < kLabelsApart_A; });
+    const bool crowds = std::any_of(marks.begin(), marks.end(),
+                                    [&](const ResidueMark& m) { return norm(m.place - place) < kLabelsApart_A; });
     if (!crowds) marks.push_back({residue, -negative, place, static_cast<Vec3d>(surface.normals[at])});
   }
   return marks;
