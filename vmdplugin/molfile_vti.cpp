@@ -12,6 +12,7 @@ std::vector<StoredVolume> read_vti_volumes(const std::string& path) {
     throw InputError(path + ": has no point array with one number a point; VMD can show nothing else of a VTI file");
   }
   std::vector<StoredVolume> volumes;
+  volumes.reserve(names.size());
   for (const std::string& name : names) {
     volumes.push_back({read_vti(file, GridOptions{name}), name});
   }

@@ -25,13 +25,15 @@ Buffer<std::uint32_t> far_points(const Lattice& lattice, const std::vector<Vec3d
   double to_index[12];
   set_index_transform(lattice, {}, "the cell", to_index);
   double reach[3];  // in lattice steps, along each axis
-  for (int axis = 0; axis < 3; ++axis)
-    reach[axis] = distance_A * norm(Vec3d{to_index[4 * axis], to_index[4 * axis + 1], to_index[4 * axis + 2]});
+  for (int axis = 0; axis < 3; ++axis) {
+    const double* const row = to_index + std::ptrdiff_t{4} * axis;
+    reach[axis] = distance_A * norm(Vec3d{row[0], row[1], row[2]});
+  }
   std::vector<Vec3d> places;
   for (const Vec3d& p : solute) {
     Vec3d c;
     for (int axis = 0; axis < 3; ++axis) {
-      const double* const row = to_index + 4 * axis;
+      const double* const row = to_index + std::ptrdiff_t{4} * axis;
       c[axis] = row[0] * p.x + row[1] * p.y + row[2] * p.z + row[3];
     }
     places.push_back(c);

@@ -78,7 +78,8 @@ std::shared_ptr<MapGrid> coulomb_potential(const std::vector<Vec3d>& positions, 
     const Vec3d corner = lattice.origin + static_cast<double>(z) * lattice.step[2];
     float* const values = out + plane * static_cast<std::size_t>(z);
     for_each_index(plane, [=] ESPDIFF_HD(std::size_t i) {
-      const Vec3d p = corner + static_cast<double>(i % nx) * a + static_cast<double>(i / nx) * b;
+      const std::size_t y = i / nx;
+      const Vec3d p = corner + static_cast<double>(i % nx) * a + static_cast<double>(y) * b;
       values[i] = static_cast<float>(view.isolated(p));
     });
   }

@@ -111,7 +111,7 @@ void set_face(const Face& face, const BorderCharges& charges, int stride, Buffer
         const CubicPlace u = cubic_place(a, stride, face.coarse[0]), v = cubic_place(b, stride, face.coarse[1]);
         float sum = 0;
         for (int row = 0; row < 4; ++row) {
-          const float* const line = from + u.first + face.coarse[0] * (v.first + row);
+          const float* const line = from + u.first + std::ptrdiff_t{face.coarse[0]} * (v.first + row);
           sum += v.weight[row] *
                  ((u.weight[0] * line[0] + u.weight[1] * line[1]) + (u.weight[2] * line[2] + u.weight[3] * line[3]));
         }

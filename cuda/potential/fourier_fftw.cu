@@ -78,7 +78,7 @@ constexpr std::size_t kMostParts = 32;
 /// Multiplies a block of columns [column][z] by the influence.
 template <typename T>
 ESPDIFF_INLINE void multiply_columns_inline(const Influence<T>& f, T (*modes)[2], std::size_t first, std::size_t n) {
-  const std::size_t nx = static_cast<std::size_t>(f.size[0] / 2 + 1);
+  const std::size_t nx = static_cast<std::size_t>(f.size[0]) / 2 + 1;
   const int nz = f.size[2];
   for (std::size_t c = 0; c < n; ++c) {
     const int x = static_cast<int>((first + c) % nx), y = static_cast<int>((first + c) / nx);

@@ -146,8 +146,9 @@ void restrict_to(const GridSize& fine, const Buffer<float>& r, const GridSize& c
           if (y > fine.ny - 1) continue;
           const float weight = (dz == 0 ? 1.0F : 0.5F) * (dy == 0 ? 1.0F : 0.5F);
           const float* const line = from + fine.index(0, y, z);
-          const float right = 2 * i + 1 < fine.nx ? line[2 * i + 1] : 0.0F;
-          sum += weight * (line[2 * i] + 0.5F * (line[2 * i - 1] + right));
+          const int x = 2 * i;
+          const float right = x + 1 < fine.nx ? line[x + 1] : 0.0F;
+          sum += weight * (line[x] + 0.5F * (line[x - 1] + right));
         }
       }
       to[coarse.index(i, j, k)] = 0.5F * sum;

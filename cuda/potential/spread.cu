@@ -149,11 +149,13 @@ ESPDIFF_INLINE void fill_slab_inline(const ChargesView<T>& charges, int z, T* sl
 
 #if !defined(__CUDACC__)
 // Not a template: only plain functions can be compiled for several instruction sets.
+// NOLINTBEGIN(bugprone-macro-parentheses): a type takes none.
 #define ESPDIFF_FILL_SLAB(order, type)                                                                             \
   ESPDIFF_MULTIVERSION void fill_slab(std::integral_constant<int, order>, const ChargesView<type>& charges, int z, \
                                       type* slab) {                                                                \
     fill_slab_inline<order>(charges, z, slab);                                                                     \
   }
+// NOLINTEND(bugprone-macro-parentheses)
 ESPDIFF_FILL_SLAB(4, float)
 ESPDIFF_FILL_SLAB(5, float)
 ESPDIFF_FILL_SLAB(6, float)

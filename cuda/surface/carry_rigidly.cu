@@ -21,7 +21,7 @@ Buffer<Displacement> displacements(const std::vector<RigidTransform>& motions) {
   for (const RigidTransform& motion : motions) {
     Displacement d{};
     for (int axis = 0; axis < 3; ++axis) {
-      const double* const row = motion.rotation + 3 * axis;
+      const double* const row = motion.rotation + std::ptrdiff_t{3} * axis;
       d.row[axis] = static_cast<Vec3f>(Vec3d{row[0], row[1], row[2]});
       d.row[axis][axis] = static_cast<float>(row[axis] - 1);
     }

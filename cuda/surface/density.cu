@@ -127,7 +127,7 @@ ESPDIFF_INLINE void add_row_of(int groups, float* row, const float* gaussian, fl
     case 2: add_row<2>(row, gaussian, weight); break;
     case 3: add_row<3>(row, gaussian, weight); break;
     default:
-      for (int g = 0; g < groups; ++g) add_row<1>(row + g * kVector, gaussian + g * kVector, weight);
+      for (std::ptrdiff_t g = 0; g < groups; ++g) add_row<1>(row + g * kVector, gaussian + g * kVector, weight);
   }
 }
 
@@ -168,7 +168,7 @@ ESPDIFF_INLINE void add_atom(const AtomCellsView& atoms, std::uint32_t a, const 
 
 ESPDIFF_MULTIVERSION void add_slab(const AtomCellsView& atoms, const CubicLattice& lattice, int z_begin, int z_end,
                                    float* values) {
-  const int layer = atoms.size[0] * atoms.size[1];
+  const std::ptrdiff_t layer = std::ptrdiff_t{atoms.size[0]} * atoms.size[1];
   const int z0 = atoms.clamped_cell(lattice.coordinate(2, z_begin) - atoms.max_reach, 2);
   const int z1 = atoms.clamped_cell(lattice.coordinate(2, z_end - 1) + atoms.max_reach, 2);
   const std::uint32_t end = atoms.first[layer * (z1 + 1)];

@@ -53,7 +53,7 @@ struct MapView {
   double to_index[12];
 
   ESPDIFF_INLINE double coordinate(int axis, Vec3d p) const {
-    const double* const row = to_index + 4 * axis;
+    const double* const row = to_index + std::ptrdiff_t{4} * axis;
     return row[0] * p.x + row[1] * p.y + row[2] * p.z + row[3];
   }
 };
@@ -196,8 +196,9 @@ std::shared_ptr<MapGrid> resample(const MapGrid& map, const Lattice& lattice) {
   const std::size_t nx = static_cast<std::size_t>(lattice.size[0]), ny = static_cast<std::size_t>(lattice.size[1]);
   const Vec3d origin = lattice.origin, a = lattice.step[0], b = lattice.step[1], d = lattice.step[2];
   for_each_index(lattice.n_points(), [=] ESPDIFF_HD(std::size_t i) {
-    const Vec3d p = origin + static_cast<double>(i % nx) * a + static_cast<double>(i / nx % ny) * b +
-                    static_cast<double>(i / (nx * ny)) * d;
+    const std::size_t z = i / (nx * ny);
+    const Vec3d p =
+        origin + static_cast<double>(i % nx) * a + static_cast<double>(i / nx % ny) * b + static_cast<double>(z) * d;
     const double c[3] = {view.coordinate(0, p), view.coordinate(1, p), view.coordinate(2, p)};
     out[i] = potential_at(view, c);
   });
@@ -213,8 +214,8 @@ Buffer<float> at_own_points(const MapGrid& map, SampleAt sample_there) {
   const std::size_t nx = static_cast<std::size_t>(map.lattice.size[0]),
                     ny = static_cast<std::size_t>(map.lattice.size[1]);
   for_each_index(values.size(), [=] ESPDIFF_HD(std::size_t i) {
-    const double c[3] = {static_cast<double>(i % nx), static_cast<double>(i / nx % ny),
-                         static_cast<double>(i / (nx * ny))};
+    const std::size_t z = i / (nx * ny);
+    const double c[3] = {static_cast<double>(i % nx), static_cast<double>(i / nx % ny), static_cast<double>(z)};
     out[i] = sample_there(c);
   });
   return values;

@@ -132,8 +132,8 @@ nb::object ensemble(const nb::list& groups, const nb::dict& order, const Setting
 }
 
 /// @returns the number of frames in OUT.h5
-std::size_t merge(const std::vector<std::string>& parts, const std::string& output, bool overwrite,
-                  const nb::object& progress) {
+std::size_t merge_parts(const std::vector<std::string>& parts, const std::string& output, bool overwrite,
+                        const nb::object& progress) {
   EnsembleRun order;
   order.output = output;
   order.overwrite = overwrite;
@@ -148,7 +148,7 @@ void add_ensemble(nb::module_& module) {
   add_ensemble_result(module);
   module.def("ensemble", &ensemble, nb::arg("groups"), nb::arg("order"), nb::arg("settings"), nb::arg("potential"),
              nb::arg("device"), nb::arg("threads"), nb::arg("progress").none());
-  module.def("merge_ensemble", &merge, nb::arg("parts"), nb::arg("output"), nb::arg("overwrite"),
+  module.def("merge_ensemble", &merge_parts, nb::arg("parts"), nb::arg("output"), nb::arg("overwrite"),
              nb::arg("progress").none());
   module.def(
       "parse_frames", [](const std::string& text, int n_frames) { return parse_frames(text, {n_frames}); },

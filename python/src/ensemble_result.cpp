@@ -51,7 +51,7 @@ nb::object patch(const PyEnsemble& e) {
 }
 
 /// The table of OUT.residues.csv.
-nb::dict residue_columns(const PyEnsemble& e) {
+nb::dict ensemble_residue_columns(const PyEnsemble& e) {
   const EnsembleResult& r = result_of(e);
   nb::dict columns;
   std::vector<std::string> labels;
@@ -117,7 +117,7 @@ nb::dict frame_columns(const PyEnsemble& e) {
   return columns;
 }
 
-std::string table(const PyEnsemble& e) {
+std::string ensemble_table(const PyEnsemble& e) {
   std::ostringstream out;
   print_ensemble(out, *e.answer.file, result_of(e));
   return out.str();
@@ -174,7 +174,7 @@ void add_ensemble_result(nb::module_& module) {
       .def("potential", &potential_of_frame, nb::arg("frame"),
            "(vertices) float32: of one frame of all, counted from 0; NaN where it has no counterpart.")
       .def("frame_columns", &frame_columns, "What each frame is, by columns.")
-      .def("residue_columns", &residue_columns, "The table of OUT.residues.csv by columns.")
+      .def("residue_columns", &ensemble_residue_columns, "The table of OUT.residues.csv by columns.")
       .def(
           "json",
           [](const PyEnsemble& e) {
@@ -182,7 +182,7 @@ void add_ensemble_result(nb::module_& module) {
                 .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
           },
           "The content of OUT.json.")
-      .def("table", &table, "The table that the command line prints.");
+      .def("table", &ensemble_table, "The table that the command line prints.");
 }
 
 }  // namespace espdiff::python

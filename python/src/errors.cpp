@@ -32,7 +32,7 @@ const std::array<PythonError, 9> kErrors = {{
 }};
 
 // Immortal, as Python's own exceptions are: errors may be translated until the interpreter ends.
-std::array<PyObject*, kErrors.size()> made{};
+std::array<PyObject*, kErrors.size()> made_classes{};
 
 /// The option grid-spacing of the command line is grid_spacing=1 in Python.
 std::string spelled(const NamedOption& option) {
@@ -45,7 +45,7 @@ std::string spelled(const NamedOption& option) {
 void raise(const Error& error) {
   const std::string text = error.message().spelled(spelled);
   for (std::size_t i = 0; i < kErrors.size(); ++i) {
-    if (kErrors[i].error_class == error.error_class()) PyErr_SetString(made[i], text.c_str());
+    if (kErrors[i].error_class == error.error_class()) PyErr_SetString(made_classes[i], text.c_str());
   }
 }
 
@@ -58,8 +58,8 @@ void add_errors(nb::module_& module) {
   for (std::size_t i = 0; i < kErrors.size(); ++i) {
     const nb::tuple bases = nb::make_tuple(nb::borrow(base), nb::borrow(*kErrors[i].also));
     const std::string name = std::string("espdiff.") + kErrors[i].name;
-    made[i] = PyErr_NewExceptionWithDoc(name.c_str(), kErrors[i].help, bases.ptr(), nullptr);
-    module.attr(kErrors[i].name) = nb::borrow(made[i]);
+    made_classes[i] = PyErr_NewExceptionWithDoc(name.c_str(), kErrors[i].help, bases.ptr(), nullptr);
+    module.attr(kErrors[i].name) = nb::borrow(made_classes[i]);
   }
   nb::register_exception_translator([](const std::exception_ptr& thrown, void*) {
     try {

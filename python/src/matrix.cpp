@@ -107,8 +107,8 @@ std::string compute(const std::vector<StatePtr>& states, const std::vector<std::
 }
 
 /// @returns the content of OUT.json
-std::string merge(const std::vector<std::string>& parts, const std::string& output, bool overwrite,
-                  const nb::object& progress) {
+std::string merge_shards(const std::vector<std::string>& parts, const std::string& output, bool overwrite,
+                         const nb::object& progress) {
   MatrixRun order;
   order.output = output;
   order.overwrite = overwrite;
@@ -139,7 +139,7 @@ void add_matrix(nb::module_& module) {
 #endif
       },
       nb::arg("parts"));
-  module.def("merge_matrix", &merge, nb::arg("parts"), nb::arg("output"), nb::arg("overwrite"),
+  module.def("merge_matrix", &merge_shards, nb::arg("parts"), nb::arg("output"), nb::arg("overwrite"),
              nb::arg("progress").none());
   module.def("matrix", &compute, nb::arg("states"), nb::arg("labels"), nb::arg("groups"), nb::arg("settings"),
              nb::arg("potential"), nb::arg("pme_cell"), nb::arg("device"), nb::arg("threads"), nb::arg("output"),

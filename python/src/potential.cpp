@@ -23,8 +23,8 @@ struct PyMap {
   Grid grid;
 };
 
-std::shared_ptr<PyMap> make(const StatePtr& state, const Settings& settings, const std::string& method,
-                            const std::string& device, int threads, const nb::object& progress) {
+std::shared_ptr<PyMap> make_py_map(const StatePtr& state, const Settings& settings, const std::string& method,
+                                const std::string& device, int threads, const nb::object& progress) {
   auto made = std::make_shared<PyMap>();
   const Computation computation(settings, method, "auto", device, threads);
   run(progress, [&](const Progress& told) {
@@ -79,7 +79,7 @@ void add_potential(nb::module_& module) {
             file.commit();
           },
           nb::arg("path"), "Writes DX or VTI, by the name's ending. Raises InputError for other endings, IoError.");
-  module.def("potential", &make, nb::arg("state"), nb::arg("settings"), nb::arg("method"), nb::arg("device"),
+  module.def("potential", &make_py_map, nb::arg("state"), nb::arg("settings"), nb::arg("method"), nb::arg("device"),
              nb::arg("threads"), nb::arg("progress").none());
 }
 

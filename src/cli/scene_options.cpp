@@ -29,7 +29,7 @@ CLI::Option* add(CLI::App& parser, SceneArguments& a, const std::string& names, 
 }
 
 CLI::Option* add_flag(CLI::App& parser, SceneArguments& a, const std::string& name, const std::string& help,
-                      std::function<void(Scene&)> change) {
+                      const std::function<void(Scene&)>& change) {
   return parser.add_flag_callback(
       name, [&a, change] { a.changes.push_back(change); }, help);
 }

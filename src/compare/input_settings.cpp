@@ -55,8 +55,8 @@ Setting number_row(const std::string& name, const char* group, double low, doubl
 }
 
 Setting choice_row(const std::string& name, const char* group, std::vector<std::string> choices,
-                   std::function<void(InputOptions&, const std::string&)> set,
-                   std::function<std::string(const InputOptions&)> get, const std::string& help) {
+                   const std::function<void(InputOptions&, const std::string&)>& set,
+                   const std::function<std::string(const InputOptions&)>& get, const std::string& help) {
   Setting row{name, group, SettingKind::kChoice, choices, help, false, nullptr, nullptr};
   std::string list;
   for (std::size_t i = 0; i < choices.size(); ++i)

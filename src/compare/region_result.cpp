@@ -68,6 +68,7 @@ const std::vector<std::string>& unchecked_in_parts() {
 std::vector<std::uint8_t> vertices_of(const std::vector<std::int32_t>& vertex_residue,
                                       const std::vector<std::uint8_t>& marked) {
   std::vector<std::uint8_t> inside;
+  inside.reserve(vertex_residue.size());
   for (const std::int32_t r : vertex_residue)
     inside.push_back(r >= 0 && marked[static_cast<std::size_t>(r)] != 0 ? 1 : 0);
   return inside;

@@ -69,6 +69,7 @@ const char* to_string(RenderArray array) { return describe(array).option; }
 
 std::vector<std::string> render_array_names() {
   std::vector<std::string> names;
+  names.reserve(std::size(kArrays));
   for (const ArrayDescription& array : kArrays) names.emplace_back(array.option);
   return names;
 }

@@ -253,6 +253,7 @@ void Legend::opacity(const PixelBox& bar, const OpacityScale& scale) {
   const double highest_A = scale.faint_above_A * 1.2;
   constexpr int kSteps = 64;
   std::vector<double> opacities;
+  opacities.reserve(kSteps);
   for (int i = 0; i < kSteps; ++i) opacities.push_back(scale.opacity(highest_A * (i + 0.5) / kSteps));
   strip(bar, std::vector<Rgb>(kSteps, {110, 110, 110}), opacities);
   frame(bar);
