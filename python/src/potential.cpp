@@ -24,7 +24,7 @@ struct PyMap {
 };
 
 std::shared_ptr<PyMap> make_py_map(const StatePtr& state, const Settings& settings, const std::string& method,
-                                const std::string& device, int threads, const nb::object& progress) {
+                                   const std::string& device, int threads, const nb::object& progress) {
   auto made = std::make_shared<PyMap>();
   const Computation computation(settings, method, "auto", device, threads);
   run(progress, [&](const Progress& told) {
