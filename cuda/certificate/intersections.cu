@@ -13,15 +13,6 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// Inline, because smaller() and larger() would be calls on the host.
-ESPDIFF_INLINE float least(float a, float b, float c) { return a < b ? (a < c ? a : c) : (b < c ? b : c); }
-ESPDIFF_INLINE float largest(float a, float b, float c) { return a > b ? (a > c ? a : c) : (b > c ? b : c); }
-
-ESPDIFF_INLINE Box box_around(const PlacedTriangle& t) {
-  return {{least(t.a.x, t.b.x, t.c.x), least(t.a.y, t.b.y, t.c.y), least(t.a.z, t.b.z, t.c.z)},
-          {largest(t.a.x, t.b.x, t.c.x), largest(t.a.y, t.b.y, t.c.y), largest(t.a.z, t.b.z, t.c.z)}};
-}
-
 /// Whether two boxes overlap. Always makes all six comparisons, since branches would be mispredicted too often.
 ESPDIFF_INLINE bool overlap(const Box& p, const Box& q) {
   const int x = static_cast<int>(p.lower.x <= q.upper.x) & static_cast<int>(q.lower.x <= p.upper.x);
@@ -244,7 +235,7 @@ IntersectionReport intersections_in_form(const SurfaceMesh& mesh, bool by_groups
   std::uint32_t* const met = raw(n_met);
   for_each_index(n, [=] ESPDIFF_HD(std::size_t place) {
     vertex[place] = corners[view.order[place]];
-    box[place] = box_around(view.triangles[place]);
+    box[place] = box_of(view.triangles[place]);
     no_area[place] = has_no_area(view.triangles[place]) ? 1 : 0;
     met[place] = no_area[place];  // counts as a pair with itself
   });

@@ -68,13 +68,6 @@ ESPDIFF_INLINE Lanes triangle_lanes(const LaneVector& p, const PlacedTriangle& t
   return chosen(inside < Lanes{}, edges, height * height / nn);
 }
 
-ESPDIFF_INLINE Box box_of(const PlacedTriangle& t) {
-  return {
-      {smaller(t.a.x, smaller(t.b.x, t.c.x)), smaller(t.a.y, smaller(t.b.y, t.c.y)),
-       smaller(t.a.z, smaller(t.b.z, t.c.z))},
-      {larger(t.a.x, larger(t.b.x, t.c.x)), larger(t.a.y, larger(t.b.y, t.c.y)), larger(t.a.z, larger(t.b.z, t.c.z))}};
-}
-
 /// squared_distance_to_box() per lane.
 ESPDIFF_INLINE Lanes box_lanes(const LaneVector& p, const Box& box) {
   const Lanes dx = outside_lanes(p.x, box.lower.x, box.upper.x), dy = outside_lanes(p.y, box.lower.y, box.upper.y),

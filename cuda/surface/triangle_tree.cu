@@ -17,8 +17,6 @@ ESPDIFF_INLINE Box join(Box a, Box b) {
           {larger(a.upper.x, b.upper.x), larger(a.upper.y, b.upper.y), larger(a.upper.z, b.upper.z)}};
 }
 
-ESPDIFF_INLINE Box box_around_placed(const PlacedTriangle& t) { return join(join({t.a, t.a}, {t.b, t.b}), {t.c, t.c}); }
-
 /// Bounding box that sum_over() can add (union).
 struct BoxSum {
   Box box = {{FLT_MAX, FLT_MAX, FLT_MAX}, {-FLT_MAX, -FLT_MAX, -FLT_MAX}};
@@ -80,7 +78,7 @@ TriangleTree make_triangle_tree(const SurfaceMesh& mesh) {
   for_each_index(n_leaves, [=] ESPDIFF_HD(std::size_t leaf) {
     Box box = empty_box();
     for (std::size_t t = leaf * kTrianglesPerLeaf; t < (leaf + 1) * kTrianglesPerLeaf && t < n; ++t)
-      box = join(box, box_around_placed(placed[t]));
+      box = join(box, box_of(placed[t]));
     boxes[n_leaves - 1 + leaf] = box;
   });
   for (std::size_t width = n_leaves / 2; width > 0; width /= 2) {

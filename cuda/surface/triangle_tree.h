@@ -20,6 +20,13 @@ struct PlacedTriangle {
   Vec3f a, b, c;
 };
 
+ESPDIFF_INLINE Box box_of(const PlacedTriangle& t) {
+  return {
+      {smaller(t.a.x, smaller(t.b.x, t.c.x)), smaller(t.a.y, smaller(t.b.y, t.c.y)),
+       smaller(t.a.z, smaller(t.b.z, t.c.z))},
+      {larger(t.a.x, larger(t.b.x, t.c.x)), larger(t.a.y, larger(t.b.y, t.c.y)), larger(t.a.z, larger(t.b.z, t.c.z))}};
+}
+
 struct TriangleTreeView {
   const Box* boxes;                 ///< [node] children of n are 2n+1 and 2n+2; leaves are the last n_leaves nodes
   const PlacedTriangle* triangles;  ///< [place] in leaf order

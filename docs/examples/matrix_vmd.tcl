@@ -6,7 +6,7 @@
 # Every rank loads the trajectory and computes parts of the matrix; the first one puts them together.
 package require espdiff
 
-# What follows the output are options. Each is a word of its own: the usual script that starts VMD parts words at blanks.
+# Options follow the output, each as a word of its own: VMD's start script splits words at blanks.
 set options [lassign $argv structure trajectory frames out]
 set mol [mol new $structure waitfor all]
 mol addfile $trajectory waitfor all $mol

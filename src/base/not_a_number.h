@@ -1,4 +1,4 @@
-// not_a_number.h: what a value is that does not exist.
+// not_a_number.h: the number that stands for no value.
 #pragma once
 
 #include <limits>
