@@ -50,6 +50,11 @@ class Translation(unittest.TestCase):
         self.assertIn("void function_twice(", made)
         self.assertIn('kernel_0({"twice", function_twice, false, 0, 128, {8}})', made)
 
+    def test_only_a_long_kernel_is_not_optimized(self):
+        for n, is_long in (10, False), (5000, True):
+            _, _, made = translate(HEADER + KERNEL.replace("INSTRUCTION", "add.s64 %rd2, %rd2, %rd3;\n" * n))
+            self.assertEqual('[[gnu::optimize("O0")]]\nvoid function_twice(' in made, is_long)
+
     def test_barriers_and_shared_memory_are_noted(self):
         body = ".shared .align 16 .b8 tile[512];\nbar.sync 0;"
         _, _, made = translate(HEADER + KERNEL.replace("INSTRUCTION", body))

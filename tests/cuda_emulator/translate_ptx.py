@@ -18,6 +18,9 @@ import sys
 from ptx_function import Function
 from ptx_text import C_TYPES, Unknown, c_name, parse_variable, size_of, split_operands
 
+LONG_FUNCTION = 4000
+"""Lines from which a function is not optimized, since the compiler's time grows faster than their number."""
+
 
 class Module:
     """The PTX of one object file."""
@@ -114,6 +117,8 @@ class Module:
             if not function.is_kernel:
                 lines.append(f"void {c_name('function_', name)}(Thread*, void*, void**);")
         for name, function in self.functions.items():
+            if bodies[name].count("\n") > LONG_FUNCTION:
+                lines.append('[[gnu::optimize("O0")]]')
             lines += [f"void {c_name('function_', name)}([[maybe_unused]] Thread* t, [[maybe_unused]] void* result,",
                       "    [[maybe_unused]] void** parameters) {",
                       "  [[maybe_unused]] uint32_t carry = 0;", bodies[name], "}"]
