@@ -30,7 +30,8 @@ function(espdiff_combine output n)
   set(${output} ${combined} PARENT_SCOPE)
 endfunction()
 
-# espdiff_optimize_little(target ...): what takes longer to compile than it ever runs: options, commands, reports, tests.
+# espdiff_optimize_little(target ...): what takes longer to compile than it ever runs: options, commands, reports, tests,
+# and what drives the comparisons of a matrix or of a trajectory.
 function(espdiff_optimize_little)
   foreach(target ${ARGN})
     target_compile_options(${target} PRIVATE $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<CONFIG:Release>>:-O1>)
