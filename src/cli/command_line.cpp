@@ -1,6 +1,7 @@
 // command_line.cpp: parses the command line, runs the command, and turns errors into one line and an exit status.
 #include "cli/command_line.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -11,9 +12,11 @@
 #include "base/printable.h"
 #include "base/translate.h"
 #include "base/version.h"
+#include "cli/help.h"
 #include "cli/spelling.h"
 #include "cli/terminal_progress.h"
 #include "cli/verbs.h"
+#include "cli/words.h"
 #include "system/standard_streams.h"
 
 namespace {
@@ -22,19 +25,6 @@ std::string joined(int argc, char** argv) {
   std::string line = "espdiff";
   for (int i = 1; i < argc; ++i) line += std::string(" ") + argv[i];
   return line;
-}
-
-/// What is wrong with the words of the command, in ours; the library's begin with the option's name and a colon.
-std::string in_our_words(const CLI::ParseError& error) {
-  const std::string text = error.what(), name = text.substr(0, text.find(": "));
-  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ArgumentMismatch)) {
-    const bool too_many = text.find("At Most") != std::string::npos;
-    return name + (too_many ? ": is given more than once; give it once" : ": a value is missing behind it");
-  }
-  // All that is left over, the first word last.
-  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError))
-    return "'" + text.substr(text.rfind(' ') + 1) + "': there is no such option, and no place for another argument";
-  return text;
 }
 
 /// Runs the chosen command; errors become one line on standard error.
@@ -64,32 +54,37 @@ int run(int argc, char** argv) {
       "molecule, and how "
       "far the answer can be trusted.");
   app.name("espdiff");
-  app.set_version_flag("--version", std::string("espdiff ") + espdiff::kVersion);
+  app.set_help_flag("-h,--help", "Print the most used options");
+  app.set_help_all_flag("--help-all", "Print all options");
+  app.set_version_flag("--version,-v", std::string("espdiff ") + espdiff::kVersion, "Print the version");
   app.require_subcommand(0, 1);
+  espdiff::cli::set_help(app, {"",
+                               {"espdiff wild.pdb mutant.pdb", "espdiff render wild_mutant.vtp -o difference.png",
+                                "espdiff help compare"}});
   std::vector<espdiff::cli::Verb> verbs = {
-      espdiff::cli::add_compare(app),   espdiff::cli::add_trajectory(app), espdiff::cli::add_matrix(app),
+      espdiff::cli::add_compare(app),    espdiff::cli::add_trajectory(app), espdiff::cli::add_matrix(app),
 
 #ifdef ESPDIFF_HAVE_HDF5
       espdiff::cli::add_ensemble(app),
 #endif
-      espdiff::cli::add_merge(app),     espdiff::cli::add_plot(app),       espdiff::cli::add_surface(app),
-      espdiff::cli::add_potential(app), espdiff::cli::add_prepare(app),    espdiff::cli::add_render(app),
-      espdiff::cli::add_view(app),      espdiff::cli::add_verify(app),     espdiff::cli::add_doctor(app)};
+      espdiff::cli::add_merge(app),      espdiff::cli::add_plot(app),       espdiff::cli::add_surface(app),
+      espdiff::cli::add_potential(app),  espdiff::cli::add_prepare(app),    espdiff::cli::add_render(app),
+      espdiff::cli::add_view(app),       espdiff::cli::add_verify(app),     espdiff::cli::add_doctor(app),
+      espdiff::cli::add_completion(app), espdiff::cli::add_man(app)};
   try {
-    app.parse(argc, argv);
+    std::vector<std::string> words = espdiff::cli::understood({argv + std::min(argc, 1), argv + argc}, app);
+    std::reverse(words.begin(), words.end());  // as CLI11 takes a vector
+    app.parse(std::move(words));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    std::fprintf(stderr, "espdiff: %s\nTry 'espdiff --help' or 'espdiff VERB --help'.\n",
-                 espdiff::printable(in_our_words(error)).c_str());
+    std::fprintf(stderr, "espdiff: %s\n%s\n", espdiff::printable(espdiff::cli::in_our_words(error, app)).c_str(),
+                 espdiff::cli::where_to_look(app).c_str());
     return 2;
   }
   for (const auto& verb : verbs) {
     if (verb.parser->parsed()) return run_verb(verb, joined(argc, argv));
   }
-  std::fputs(
-      "espdiff: a subcommand is missing: compare, trajectory, matrix, merge, plot, surface, potential, prepare, "
-      "render, view or doctor\nTry 'espdiff --help'.\n",
-      stderr);
+  std::fputs("espdiff: nothing to do: give two structures to compare, or a command\nTry 'espdiff --help'.\n", stderr);
   return 2;
 }
 

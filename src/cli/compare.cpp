@@ -1,7 +1,9 @@
 // compare.cpp: `espdiff compare SOURCE TARGET -o OUT`.
 #include <iostream>
 
+#include "cli/help.h"
 #include "cli/map_options.h"
+#include "cli/output_prefix.h"
 #include "cli/spelling.h"
 #include "cli/verbs.h"
 #include "compare/compare.h"
@@ -37,7 +39,10 @@ struct CompareArguments {
 void add_input_options(CLI::App& p, CompareArguments& a) {
   p.add_option("SOURCE", a.source, "Structure of the first state: PQR, PDB or mmCIF")->required();
   p.add_option("TARGET", a.target, "Structure of the second state")->required();
-  p.add_option("-o,--output", a.output, "Prefix of the results OUT.json, OUT.vtp and OUT.residues.csv")->required();
+  p.add_option("-o,--output", a.output,
+               "Prefix of the results OUT.json, OUT.vtp and OUT.residues.csv, or a folder for them; default: the names "
+               "of both structures")
+      ->type_name("OUT");
   add_map_options(p, a.maps);
   p.add_option(
        "--residue-pdb", a.residue_pdb,
@@ -165,7 +170,10 @@ int compare_verb(const CompareArguments& a, const Context& context) {
   }
   write_compare(a.output, source_molecule, target_molecule, result, options, provenance, kept, pdb.get());
   context.progress->report("write", 1.0);
-  if (!a.quiet) print_table(std::cout, source_molecule, target_molecule, result, spelled_option);
+  if (a.quiet)
+    print_verdict_line(std::cout, result);
+  else
+    print_table(std::cout, source_molecule, target_molecule, result, spelled_option);
   return 0;
 }
 
@@ -179,8 +187,6 @@ Verb add_compare(CLI::App& app) {
       "Maps each point of the source's surface to the corresponding point of the target's, compares the potentials "
       "there, and\n"
       "certifies the mapping. Without maps the potentials are computed (--potential).\n\n"
-      "Example:\n"
-      "  espdiff compare wild.pqr mutant.pqr --source-map wild.dx --target-map mutant.dx -o result\n\n"
       "Writes result.json (numbers, certificate, provenance), result.vtp (mapped surface, for ParaView) and "
       "result.residues.csv.\n"
       "Exit status: 0 done, 1 could not compute, 2 wrong usage or input.");
@@ -188,8 +194,16 @@ Verb add_compare(CLI::App& app) {
   add_structure_options(*parser, arguments->structure);
   add_settings(*parser, arguments->settings, SettingsFor::kPair);
   add_device_options(*parser, arguments->device);
-  parser->add_flag("-q,--quiet", arguments->quiet, "Print no table");
-  return {parser, [arguments](const Context& context) { return compare_verb(*arguments, context); }};
+  parser->add_flag("-q,--quiet", arguments->quiet, "Print the verdict and the main number only");
+  set_help(*parser,
+           {"--output --select --leave-out --ligand --ph --same-protonation --region --region-within --of --potential "
+            "--source-map --target-map --offset --domains --threads --quiet",
+            {"espdiff compare 1t24.pdb 1t2e.pdb --select '//A;polymer' --region-within 5 --of '(NAD,OXQ)' -o ldh",
+             "espdiff compare wild.pqr mutant.pqr --source-map wild.dx --target-map mutant.dx -o result"}});
+  return {parser, [arguments](const Context& context) {
+            arguments->output = output_prefix(arguments->output, arguments->source, arguments->target);
+            return compare_verb(*arguments, context);
+          }};
 }
 
 }  // namespace espdiff::cli

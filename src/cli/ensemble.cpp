@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/formatted.h"
 #include "base/printable.h"
+#include "cli/help.h"
 #include "cli/map_options.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
@@ -208,14 +209,7 @@ Verb add_ensemble(CLI::App& app) {
       "(potential of\n"
       "each frame in each vertex; HDF5), OUT.vtp (means, difference, intervals, p), OUT.residues.csv, OUT.patches.csv, "
       "OUT.json.\n"
-      "docs/ensembles.md explains them. Unlike in other commands, --max-step is 0.7 unless it is given.\n\n"
-      "Examples:\n"
-      "  espdiff ensemble --group wild w1.pdb w2.pdb w3.pdb w4.pdb --group mutant m1.pdb m2.pdb m3.pdb m4.pdb \\\n"
-      "    --charges wild=wild.pqr --charges mutant=mutant.pqr -o mutant\n"
-      "  espdiff ensemble --group wild wild.psf w1.dcd w2.dcd --group mutant mutant.psf m1.dcd m2.dcd -o mutant\n"
-      "  espdiff ensemble --list runs.csv -o mutant --resume\n"
-      "  espdiff ensemble --list runs.csv --shard 2/8 -o part     # one of eight; then:\n"
-      "  espdiff merge part.shard-*-of-8.h5 -o all && espdiff ensemble --from all.h5 -o all");
+      "docs/ensembles.md explains them. Unlike in other commands, --max-step is 0.7 unless it is given.");
   add_input_options(*parser, *a);
   parser->add_option("-o,--output", a->study.run.output, "Prefix of the results")->required();
   add_run_options(*parser, *a);
@@ -223,6 +217,13 @@ Verb add_ensemble(CLI::App& app) {
   add_settings(*parser, a->settings, SettingsFor::kVariants);
   add_device_options(*parser, a->device);
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
+  set_help(*parser,
+           {"--output --group --list --charges --from --resume --overwrite --shard --frames --template "
+            "--check-template --select --patch --threads --quiet",
+            {"espdiff ensemble --group wild wild.psf w1.dcd w2.dcd --group mutant mutant.psf m1.dcd m2.dcd -o mutant",
+             "espdiff ensemble --list runs.csv -o mutant --resume",
+             "espdiff ensemble --list runs.csv --shard 2/8 -o part     # one of eight; then:",
+             "espdiff merge part.shard-*-of-8.h5 -o all && espdiff ensemble --from all.h5 -o all"}});
   return {parser, [a](const Context& context) { return ensemble_verb(*a, context); }};
 }
 

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/formatted.h"
+#include "cli/help.h"
 #include "cli/map_options.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
@@ -210,12 +211,7 @@ Verb add_matrix(CLI::App& app) {
   parser->footer(
       "Writes OUT.csv (a row for each ordered pair) and OUT.json (matrices, groups, clusters); `espdiff plot` draws "
       "them.\nA list is a table of comma-separated values whose first row names its columns: structure, and optionally "
-      "model, map,\nunit (of the map), label, group. Paths are relative to the list.\n\nExamples:\n"
-      "  espdiff matrix m*.pqr -o ubiquitin\n"
-      "  espdiff matrix --list variants.csv -o variants --resume\n"
-      "  espdiff matrix m*.pqr --template medoid -o ubiquitin\n"
-      "  espdiff matrix m*.pqr --shard 2/8 -o part      # one of eight processes; then: espdiff merge part.*.state -o "
-      "all");
+      "model, map,\nunit (of the map), label, group. Paths are relative to the list.");
   parser->add_option("VARIANT", a->files, "Structures: PQR, PDB or mmCIF; each model of a file is a variant");
   parser->add_option("-o,--output", a->run.output, "Prefix of the results")->required();
   parser->add_option("--list", a->list, "Table of the variants, instead of files")->group("Molecules");
@@ -231,6 +227,13 @@ Verb add_matrix(CLI::App& app) {
   add_settings(*parser, a->settings, SettingsFor::kVariants);
   add_device_options(*parser, a->device);
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
+  set_help(
+      *parser,
+      {"--output --list --resume --overwrite --template --shard --cluster-by --select --potential --region --patch "
+       "--offset --threads --quiet",
+       {"espdiff matrix m*.pqr -o ubiquitin",
+        "espdiff matrix --list variants.csv --template medoid -o variants --resume",
+        "espdiff matrix m*.pqr --shard 2/8 -o part      # one of eight; then: espdiff merge part.*.state -o all"}});
   return {parser, [a](const Context& context) { return matrix_verb(*a, context); }};
 }
 

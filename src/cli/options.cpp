@@ -3,6 +3,7 @@
 #include "engine/engine.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "base/error.h"
@@ -88,6 +89,12 @@ void add_plugins_option(CLI::App& parser, std::string& folder, const std::string
 
 namespace {
 
+/// "Do not reuse the cache" of "Reuse the cache".
+std::string negated(std::string help) {
+  help[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(help[0])));
+  return "Do not " + help;
+}
+
 /// Refuses an old name with the new one. Help does not list it.
 void refuse_earlier_names(CLI::App& parser) {
   for (const RenamedSetting& renamed : renamed_settings()) {
@@ -135,7 +142,7 @@ void add_settings(CLI::App& parser, GivenSettings& given, SettingsFor what) {
       parser
           .add_flag_callback((on ? "--no-" : "--") + name,
                              [&given, name, on] { given.emplace_back(name, on ? "0" : "1"); },
-                             (on ? "Not: " : "") + setting.help)
+                             on ? negated(setting.help) : setting.help)
           ->group(setting.group);
       continue;
     }

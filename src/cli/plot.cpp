@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "cli/help.h"
 #include "cli/verbs.h"
 #include "io/check_outputs.h"
 #include "io/read_csv.h"
@@ -211,11 +212,7 @@ Verb add_plot(CLI::App& app) {
       "OUT.json of a matrix becomes a heat map, with --source a plot of one variant against all others; a CSV file, "
       "such as "
       "a\ntrajectory's, becomes lines along its frames, and its table of residues a map, a row a residue. Drawn by "
-      "gnuplot; text stays text in an SVG.\n\nExamples:\n"
-      "  espdiff plot ubiquitin.json --order dendrogram -o map.svg\n"
-      "  espdiff plot ubiquitin.json --source m00 --metric mean_abs_difference --metric rmsd_A --normalize -o m00.png\n"
-      "  espdiff plot adk.csv --metric mean_displacement_A --metric rmsd_A -o adk.svg\n"
-      "  espdiff plot adk.residues.csv -o residues.png");
+      "gnuplot; text stays text in an SVG.");
   parser->add_option("FILE", a->input, "OUT.json of a matrix, or a CSV file")->required();
   parser->add_option("-o,--output", a->output, "Picture to write (.png or .svg)")->required();
   parser->add_option("--metric", a->metrics,
@@ -236,6 +233,11 @@ Verb add_plot(CLI::App& app) {
       ->group("Lines");
   parser->add_option("--x", a->x, "Column of a CSV file that is the x axis (frame)")->group("Lines");
   parser->add_flag("--no-marks", a->no_marks, "Do not mark results that are not trustworthy");
+  set_help(*parser, {"",
+                     {"espdiff plot ubiquitin.json --order dendrogram -o map.svg",
+                      "espdiff plot ubiquitin.json --source m00 --metric mean_abs_difference --normalize -o m00.png",
+                      "espdiff plot adk.csv --metric mean_displacement_A --metric rmsd_A -o adk.svg",
+                      "espdiff plot adk.residues.csv -o residues.png"}});
   return {parser, [a](const Context& context) { return plot_verb(*a, context); }};
 }
 

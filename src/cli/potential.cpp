@@ -7,6 +7,7 @@
 
 #include "align/pair_atoms.h"
 #include "base/formatted.h"
+#include "cli/help.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
 #include "compare/options.h"
@@ -238,11 +239,7 @@ Verb add_potential(CLI::App& app) {
   auto a = std::make_shared<PotentialArguments>();
   CLI::App* parser =
       app.add_subcommand("potential", "Compute the electrostatic potential around a molecule, or its mean over frames");
-  parser->footer(
-      "Options shared with PMEPot have its names and meanings.\n\nExamples:\n"
-      "  espdiff potential protein.pqr -o protein.dx\n"
-      "  espdiff potential entry.pdb --select '//A;polymer' --method pb -o entry.dx\n"
-      "  espdiff potential frames.pqr --align ca --variance variance.dx -o mean.dx");
+  parser->footer("Options shared with PMEPot have its names and meanings.");
   parser
       ->add_option("MOLECULE", a->molecule,
                    "Structure: PQR, or PDB and mmCIF, which PDB2PQR gives charges; several models are frames")
@@ -259,6 +256,11 @@ Verb add_potential(CLI::App& app) {
       ->group("Molecules");
   add_device_options(*parser, a->device);
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
+  set_help(
+      *parser,
+      {"--output --method --select --ph --ligand --ionic-strength --pb-spacing --align --variance --threads --quiet",
+       {"espdiff potential entry.pdb --select '//A;polymer' --method pb -o entry.dx",
+        "espdiff potential frames.pqr --align ca --variance variance.dx -o mean.dx"}});
   return {parser, [a](const Context& context) { return potential_verb(*a, context); }};
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/formatted.h"
+#include "cli/help.h"
 #include "cli/map_options.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
@@ -117,9 +118,6 @@ Verb add_surface(CLI::App& app) {
   CLI::App* parser =
       app.add_subcommand("surface", "Write a molecule's surface, with its potential if one is given or asked for");
   parser->footer(
-      "Examples:\n"
-      "  espdiff surface protein.pqr --map protein.dx --regularize -o surface.vtp\n"
-      "  espdiff surface entry.pdb --select '//A;polymer' --potential pb -o surface.vtp\n\n"
       "A structure without charges is prepared by PDB2PQR where a potential is asked for, as by `espdiff compare`.");
   parser->add_option("MOLECULE", a->molecule, "Structure: PQR, PDB or mmCIF")->required();
   parser->add_option("-o,--output", a->output, "Surface to write (.vtp)")->required();
@@ -138,6 +136,9 @@ Verb add_surface(CLI::App& app) {
   add_structure_options(*parser, a->structure);
   add_settings(*parser, a->settings, SettingsFor::kSurface);
   add_device_options(*parser, a->device);
+  set_help(*parser, {"--output --map --potential --select --ph --ligand --grid-spacing --regularize --threads",
+                     {"espdiff surface protein.pqr --map protein.dx --regularize -o surface.vtp",
+                      "espdiff surface entry.pdb --select '//A;polymer' --potential pb -o surface.vtp"}});
   return {parser, [a](const Context& context) { return surface_verb(*a, context); }};
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/formatted.h"
 #include "base/printable.h"
+#include "cli/help.h"
 #include "cli/trajectory_sides.h"
 #include "cli/verbs.h"
 #include "compare/input_settings.h"
@@ -168,11 +169,7 @@ Verb add_trajectory(CLI::App& app) {
       "(PDB, mmCIF) take those of a PQR source, whose atoms must be theirs, one to one. The source's surface and\n"
       "potential are computed once. An interrupted run can be resumed; OUT.csv.state holds its last mapping "
       "meanwhile.\n"
-      "The columns are explained in docs/tcl.md, Trajectories.\n\n"
-      "Examples:\n"
-      "  espdiff trajectory closed.pqr frames.pdb -o motion.csv\n"
-      "  espdiff trajectory closed.pqr frames.pdb --potential pb --frames 0:10:end -o motion.csv --resume\n"
-      "  espdiff trajectory adk.psf adk.dcd --frames 0:10:end -o motion.csv");
+      "The columns are explained in docs/tcl.md, Trajectories.");
   parser
       ->add_option("SOURCE", a->source, "Structure that each frame is compared with: PQR, PDB or mmCIF; or a topology")
       ->required();
@@ -184,6 +181,10 @@ Verb add_trajectory(CLI::App& app) {
   add_settings(*parser, a->settings, SettingsFor::kPair);
   add_device_options(*parser, a->device);
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
+  set_help(*parser, {"--output --frames --resume --overwrite --select --potential --region --patch --offset --align "
+                     "--domains --plugins --threads --quiet",
+                     {"espdiff trajectory closed.pqr frames.pdb -o motion.csv",
+                      "espdiff trajectory adk.psf adk.dcd --potential pb --frames 0:10:end -o motion.csv --resume"}});
   return {parser, [a](const Context& context) { return trajectory_verb(*a, context); }};
 }
 

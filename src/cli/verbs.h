@@ -41,5 +41,7 @@ Verb add_render(CLI::App& app);
 Verb add_view(CLI::App& app);
 Verb add_verify(CLI::App& app);
 Verb add_doctor(CLI::App& app);
+Verb add_completion(CLI::App& app);
+Verb add_man(CLI::App& app);
 
 }  // namespace espdiff::cli

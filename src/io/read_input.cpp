@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/system_message.h"
+#include "io/entry_code.h"
 #include "io/file_kind.h"
 #include "io/sha256.h"
 #include "system/open_file.h"
@@ -37,7 +38,10 @@ namespace fs = std::filesystem;
 fs::file_type type_of_file(const std::string& path) {
   std::error_code error;
   const fs::file_type type = fs::status(path, error).type();
-  if (error) cannot_read(path, error.value(), "check the path");
+  if (error) {
+    if (const std::string advice = entry_advice(path); !advice.empty()) throw IoError(path, advice);
+    cannot_read(path, error.value(), "check the path");
+  }
   if (type == fs::file_type::directory) throw IoError(path, "is a directory; give a file in it");
   return type;
 }

@@ -1,5 +1,6 @@
 // compare_table.cpp: a comparison's result as a table for a terminal.
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <sstream>
 
@@ -324,6 +325,14 @@ void print_table(std::ostream& out, const Molecule& source, const Molecule& targ
   }
   print_warnings(out, result, spelling);
   print_verdict(out, result, spelling);
+}
+
+void print_verdict_line(std::ostream& out, const CompareResult& result) {
+  const Metric& metric = *find_metric_or_null(result.has_potential ? "mean_abs_difference" : "mean_displacement_A");
+  std::string label = metric.label;
+  label[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(label[0])));
+  out << (result.certificate.trustworthy ? "TRUSTWORTHY: " : "NOT TRUSTWORTHY: ") << label << ' '
+      << formatted(metric, value_of(metric, result)) << ' ' << unit_of(metric, to_string(result.unit)) << '\n';
 }
 
 }  // namespace espdiff

@@ -72,4 +72,7 @@ nlohmann::ordered_json options_json(const std::vector<std::pair<std::string, std
 void print_table(std::ostream& out, const Molecule& source, const Molecule& target, const CompareResult& result,
                  const OptionSpelling& spelling);
 
+/// Prints the verdict and the main number in one line: "TRUSTWORTHY: mean absolute difference 0.397 kT/e".
+void print_verdict_line(std::ostream& out, const CompareResult& result);
+
 }  // namespace espdiff
