@@ -65,7 +65,7 @@ std::string option_entry(const CLI::Option& option, bool is_short) {
   const std::string value = value_name(option);
   if (!value.empty()) name += ' ' + value;
   const std::string start = option.get_default_str();
-  const std::string help = option.get_description();
+  const std::string& help = option.get_description();
   return entry(name, (is_short ? first_statement(help) : help) +
                          (start.empty() || value.empty() ? "" : " (default " + start + ")") +
                          (option.get_required() ? " (required)" : ""));
