@@ -18,15 +18,6 @@ std::string stem(const std::string& path) {
   return name.stem().string();
 }
 
-/// A prefix, of which one of the result's files may have been given.
-std::string without_ending(const std::string& given) {
-  for (const std::string ending : {".json", ".vtp", ".residues.csv"}) {
-    if (given.size() > ending.size() && given.compare(given.size() - ending.size(), ending.size(), ending) == 0)
-      return given.substr(0, given.size() - ending.size());
-  }
-  return given;
-}
-
 /// @throws IoError
 void make_folder(const std::string& folder) {
   std::error_code error;
@@ -36,6 +27,14 @@ void make_folder(const std::string& folder) {
 
 }  // namespace
 
+std::string result_prefix(const std::string& given) {
+  for (const std::string ending : {".json", ".vtp", ".residues.csv"}) {
+    if (given.size() > ending.size() && given.compare(given.size() - ending.size(), ending.size(), ending) == 0)
+      return given.substr(0, given.size() - ending.size());
+  }
+  return given;
+}
+
 std::string output_prefix(const std::string& given, const std::string& source, const std::string& target) {
   std::error_code ignored;
   const bool is_folder = given.empty() || given.back() == '/' || fs::is_directory(given, ignored);
@@ -43,12 +42,12 @@ std::string output_prefix(const std::string& given, const std::string& source, c
     if (!given.empty()) make_folder(given);
     return (fs::path(given) / (stem(source) + '_' + stem(target))).string();
   }
-  return without_ending(given);
+  return result_prefix(given);
 }
 
 std::string surface_of_result(const std::string& given) {
   std::error_code ignored;
-  const std::string surface = without_ending(given) + ".vtp";
+  const std::string surface = result_prefix(given) + ".vtp";
   return fs::exists(surface, ignored) ? surface : given;
 }
 

@@ -11,6 +11,9 @@ namespace espdiff::cli {
 /// @param source, target  the structures, whose names without folder and ending make SOURCE_TARGET in a folder
 std::string output_prefix(const std::string& given, const std::string& source, const std::string& target);
 
+/// The prefix of a result that is named by it or by one of its files: OUT of OUT, OUT.json, OUT.vtp.
+std::string result_prefix(const std::string& given);
+
 /// The surface of a result that is named by its prefix or by one of its files: OUT, OUT.json, OUT.vtp.
 std::string surface_of_result(const std::string& given);
 
