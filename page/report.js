@@ -97,7 +97,7 @@
     const quantity = record.quantities[index], scale = scaleOf(quantity), colours = mesh.colours, column = values[index];
     for (let v = 0; v < n; ++v) {
       const rgb = colourOf(quantity, column[v], range, scale);
-      const s = slip && byId('fade').checked ? Math.max(0, Math.min(1, (slip[v] - 1) / 2)) * 0.75 : 0;
+      const s = slip && column !== slip && byId('fade').checked ? Math.max(0, Math.min(1, (slip[v] - 1) / 2)) * 0.75 : 0;
       for (let k = 0; k < 3; ++k) colours[3 * v + k] = ((1 - s) * rgb[k] + s * 190) / 255;
     }
     mesh.geometry.attributes.color.needsUpdate = true;
@@ -174,7 +174,10 @@
       ([name, label], i) => ({ mesh: linked[i], index: find(name), label }));
   }
 
+  // Both states have one scale, so that they can be compared by eye.
   const ranges = record.quantities.map((q) => q.range);
+  const states = record.quantities.map((q, i) => i).filter((i) => /^potential_(source|target)$/.test(record.quantities[i].name));
+  for (const i of states) ranges[i] = Math.max(...states.map((k) => record.quantities[k].range));
   function repaint() {
     const list = panels();
     for (const old of holder.querySelectorAll('.label')) old.remove();
@@ -203,6 +206,7 @@
     renderer.domElement.style.width = width + 'px';
     renderer.domElement.style.height = height + 'px';
     camera.aspect = width / list.length / height;
+    camera.fov = 2 * Math.atan(Math.tan(15 * Math.PI / 180) / Math.min(1, camera.aspect)) * 180 / Math.PI;
     camera.updateProjectionMatrix();
     renderer.setScissorTest(true);
     list.forEach((panel, i) => {
