@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,11 @@ struct Atom {
   std::string element;       ///< "C", "Na"; empty if neither file nor name determines it
   std::int32_t residue = 0;  ///< index into Molecule::residues
   bool hetero = false;       ///< from a HETATM record
+  /// How well a structure file knows the place, as it says: B factor (Angstrom^2; of a predicted model its confidence),
+  /// NaN where no file says one, as of atoms that a preparation added; occupancy; whether there are other places.
+  float b_factor = std::numeric_limits<float>::quiet_NaN();
+  float occupancy = 1;
+  bool has_alternates = false;
 };
 
 /// A residue: atoms that share chain, number, insertion code and name, in file order.

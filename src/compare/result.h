@@ -21,6 +21,7 @@
 
 namespace espdiff {
 
+struct Causes;
 struct MapRecipe;
 
 /// Per-residue averages over the mapped surface, source residues. Area-weighted; NaN if a residue has no valid area.
@@ -199,7 +200,8 @@ struct CompareResult {
   /// is that of its atoms after the whole superposition. The round trip, slip and the correlation by residue are not
   /// checked for it alone.
   std::shared_ptr<CompareResult> region{};
-  std::vector<PatchResult> patches{};  ///< the same of each patch, in the order of the request
+  std::shared_ptr<const Causes> causes{};  ///< which charges make the readings that were asked for; null without any
+  std::vector<PatchResult> patches{};      ///< the same of each patch, in the order of the request
 };
 
 }  // namespace espdiff
