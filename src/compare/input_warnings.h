@@ -7,22 +7,25 @@
 
 namespace espdiff {
 
-struct ResidueView;
+struct PairedMolecules;
 
 /// Looks for inputs that cannot be compared, or that differ in more than their state:
-/// - residues that follow each other farther apart than a chain can stretch, as in molecules cut by a periodic cell;
+/// - residues that follow each other farther apart than a chain can stretch, as in molecules cut by a periodic cell,
+///   unless both molecules have the gap;
 /// - paired residues of opposite chirality, as in mirror images;
-/// - residues that lie on the place of another residue, all shifted alike along the chain;
+/// - residues that lie on the place of another residue, all shifted alike along the chain, or a stretch of eight;
+/// - side chains that lie in each other's places;
 /// - an RMSD so large that the superposition means nothing (relative to the radii of gyration);
 /// - chains that fit by themselves but are arranged differently;
-/// - ligands that moved, and equal chains that pair by their arrangement against their names;
+/// - ligands that moved or turned, and equal chains that pair by their arrangement against their names;
 /// - hydrogens, or other radii, on one side only.
-/// Time is linear in the number of atoms.
-/// @param result with pairing, superposition and domains
+/// Time is linear in the number of atoms, but for logarithms.
+/// @param result with pairing, superposition, domains and the chains' motions
 std::vector<Warning> input_warnings(const Molecule& source, const Molecule& target, const CompareResult& result);
 
-/// The check of shifted residues (register_warning.cpp).
-void check_register(const ResidueView& source, const ResidueView& target, const CompareResult& result,
-                    std::vector<Warning>& warnings);
+/// The checks that have files of their own: broken_chains.cpp, register_warning.cpp, exchanged_side_chains.cpp.
+void check_chains(const PairedMolecules& pair, std::vector<Warning>& warnings);
+void check_register(const PairedMolecules& pair, const CompareResult& result, std::vector<Warning>& warnings);
+void check_side_chains(const PairedMolecules& pair, std::vector<Warning>& warnings);
 
 }  // namespace espdiff

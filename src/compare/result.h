@@ -57,6 +57,7 @@ struct ResidueCheck {
   double rms_error = 0;      ///< of the mapped differences, in the unit of the potential
   double rms_potential = 0;  ///< of the source's own potentials
   std::size_t n_residues = 0;
+  std::size_t n_slipped = 0;  ///< left out: they slipped, see slip_reasons()
 };
 
 /// Round-trip error: how far from its start a vertex ends after mapping to the target and back by a second mapping,
@@ -163,6 +164,8 @@ struct CompareResult {
   double rmsd_A = 0;
   AtomPairing pairing;
   std::vector<ComparedChains> chains;  ///< which were compared with which
+  /// Of chains with at least 20 paired residues, by name; empty unless there are two.
+  std::vector<ChainMotion> chain_motions;
   /// Chains that repeat one sequence, by name.
   std::vector<std::vector<std::string>> source_copies, target_copies;
   /// Between charged molecules: residues whose protonation makes a difference by itself.

@@ -201,6 +201,13 @@ Json chains(const CompareResult& result) {
   json["compared"] = Json::array();
   for (const ComparedChains& pair : result.chains)
     json["compared"].push_back({{"source", pair.source}, {"target", pair.target}, {"n_residues", pair.n_residues}});
+  json["motions"] = Json::array();
+  for (const ChainMotion& motion : result.chain_motions)
+    json["motions"].push_back({{"source", motion.chain},
+                               {"rotation_degrees", json_number(motion.rotation_degrees)},
+                               {"shift_A", json_number(motion.shift_A)},
+                               {"rmsd_A", json_number(motion.rmsd_A)},
+                               {"own_rmsd_A", json_number(motion.own_rmsd_A)}});
   json["copies"] = {{"source", result.source_copies}, {"target", result.target_copies}};
   return json;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "align/chain_motions.h"
 #include "align/compared_chains.h"
 #include "align/rigid_domains.h"
 #include "base/formatted.h"
@@ -76,6 +77,7 @@ std::string with_unit(const Metric& metric, double value) {
 void print_chains(std::ostream& out, const CompareResult& result) {
   const bool one = result.chains.size() == 1 && result.chains[0].source == result.chains[0].target;
   if (!one && !result.chains.empty()) line(out, "Chains", in_words(result.chains));
+  if (!result.chain_motions.empty()) line(out, "Against the others", in_words(result.chain_motions));
   for (const auto& [label, copies] : {std::pair("Copies in the source", &result.source_copies),
                                       std::pair("Copies in the target", &result.target_copies)}) {
     for (const auto& group : *copies) {
