@@ -71,8 +71,7 @@ Buffer<std::uint32_t> far_points(const Lattice& lattice, const std::vector<Vec3d
 Buffer<float> bulk_weights(const Lattice& lattice, const std::vector<Vec3d>& solute, double distance_A) {
   const Buffer<std::uint32_t> far = far_points(lattice, solute, distance_A);
   const std::uint32_t* const counts = raw(far);
-  const double n =
-      sum_over<double>(far.size(), [=] ESPDIFF_HD(std::size_t i) { return counts[i] != 0 ? 1.0 : 0.0; });
+  const double n = sum_over<double>(far.size(), [=] ESPDIFF_HD(std::size_t i) { return counts[i] != 0 ? 1.0 : 0.0; });
   Buffer<float> weights(far.size());
   float* const out = raw(weights);
   for_each_index(far.size(),

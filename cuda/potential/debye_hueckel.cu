@@ -51,8 +51,7 @@ struct Face {
               v = static_cast<int>(index / static_cast<std::size_t>(coarse[0]));
     const float a = static_cast<float>(u * stride), b = static_cast<float>(v * stride);
     Vec3f p;
-    for (int axis = 0; axis < 3; ++axis)
-      p[axis] = first_coordinate[axis] + a * along[0][axis] + b * along[1][axis];
+    for (int axis = 0; axis < 3; ++axis) p[axis] = first_coordinate[axis] + a * along[0][axis] + b * along[1][axis];
     return p;
   }
 };

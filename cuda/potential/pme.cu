@@ -258,7 +258,8 @@ void subtract_bulk(FourierGrid<T>& grid, const MapGrid& map, double all) {
   bulk.spline_order = map.spline_order;
   bulk.values = bulk_weights(map.lattice, origin.solute, origin.bulk_distance_A);
   bulk.values = lattice_values(bulk);  // splines at grid points are symmetric: this is their transpose too
-  const std::size_t slab = static_cast<std::size_t>(map.lattice.size[0]) * static_cast<std::size_t>(map.lattice.size[1]),
+  const std::size_t slab =
+                        static_cast<std::size_t>(map.lattice.size[0]) * static_cast<std::size_t>(map.lattice.size[1]),
                     stride = grid.slab_stride();
   const float* const subtracted = raw(bulk.values);
   T* const values = grid.values();

@@ -25,7 +25,7 @@ struct MapGrid : DeviceGrid {
   /// Point charges whose potential is added to what the values say: the direct part of Ewald's sum where the map is
   /// periodic; else isolated charges, whose map has no points (size 0) and is nothing but their sum.
   std::shared_ptr<const ChargeSums> charge_sums;
-  double zero = 0;  ///< subtracted from every sample, in the map's unit
+  double zero = 0;                          ///< subtracted from every sample, in the map's unit
   std::shared_ptr<const MapOrigin> origin;  ///< of a map that was computed here; null for others
 };
 
@@ -53,7 +53,8 @@ struct SparseValues {
   std::vector<std::size_t> point;
   std::vector<float> value;
 };
-/// The transpose of linear interpolation: sum_v weight_v sample(v) = sum_p value_p map(p), without charge sums and zero.
+/// The transpose of linear interpolation: sum_v weight_v sample(v) = sum_p value_p map(p), without charge sums and
+/// zero.
 /// @throws InputError for a place outside the map
 SparseValues spread_linearly(const MapGrid& map, const WeightedPlaces& places);
 /// [place] what the values alone say at places in lattice coordinates.

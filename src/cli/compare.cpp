@@ -136,6 +136,10 @@ int compare_verb(const CompareArguments& a, const Context& context) {
   check_outputs(all_inputs(a), {a.output + ".json", a.output + ".vtp", a.output + ".residues.csv", a.residue_pdb});
   // An unwritable output is found before the work.
   for (const char* suffix : {".json", ".vtp", ".residues.csv"}) AtomicFile probe(a.output + suffix);
+  if (!options.causes.empty()) {
+    check_outputs(all_inputs(a), {a.output + kCausesEnding});
+    AtomicFile probe(a.output + kCausesEnding);
+  }
   if (!a.residue_pdb.empty()) AtomicFile probe(a.residue_pdb);
   if (a.residue_pdb.empty() && !a.residue_quantity.empty())
     throw InputError("--residue-quantity needs --residue-pdb FILE");
@@ -188,7 +192,7 @@ Verb add_compare(CLI::App& app) {
       "there, and\n"
       "certifies the mapping. Without maps the potentials are computed (--potential).\n\n"
       "Writes result.json (numbers, certificate, provenance), result.vtp (mapped surface, for ParaView) and "
-      "result.residues.csv.\n"
+      "result.residues.csv,\nwith --causes result.causes.csv.\n"
       "Exit status: 0 done, 1 could not compute, 2 wrong usage or input.");
   add_input_options(*parser, *arguments);
   add_structure_options(*parser, arguments->structure);

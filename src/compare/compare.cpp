@@ -32,6 +32,7 @@
 #include "compare/options.h"
 #include "compare/own_potentials.h"
 #include "compare/paired_residues.h"
+#include "compare/readings.h"
 #include "compare/residue_rows.h"
 #include "compare/result.h"
 #include "compare/round_trip.h"
@@ -55,9 +56,10 @@ struct Series::Steps {
   Surface surface{};
   MeshPtr regularized{};
   DeformReport regularize_report{};
-  PotentialUnit unit = PotentialUnit::kUnknown;  ///< of the source's map
-  MadeMap source_map{};                          ///< made by the first step
-  std::optional<LastStep> last{};                ///< empty if the next step starts from the source
+  PotentialUnit unit = PotentialUnit::kUnknown;      ///< of the source's map
+  MadeMap source_map{};                              ///< made by the first step
+  std::shared_ptr<const Molecule> target_charges{};  ///< of the step's computed map
+  std::optional<LastStep> last{};                    ///< empty if the next step starts from the source
   std::optional<SeriesState> restored{};
 
   void prepare(const RigidTransform& to_common, const Progress& progress, StageClock& clock) {
@@ -153,11 +155,13 @@ struct Series::Steps {
       unit = wanted;
     }
     if (source.make_map) result.source_recipe = std::make_shared<const MapRecipe>(source_map.recipe);
+    refuse_nonlinear(options, source_map.recipe);
     // An iteration may start from the source's potential, whatever steps were made before: the bits of a step do not
     // depend on them.
     const GridPtr before = source.make_map ? source_map.map : nullptr;
     MadeMap made = device_map(engine, target, inverse(frame.from_target), before, wanted, temperature_K, progress);
     if (target.make_map) result.target_recipe = std::make_shared<const MapRecipe>(std::move(made.recipe));
+    target_charges = std::move(made.charges);
     return made.map;
   }
 
@@ -238,6 +242,12 @@ struct Series::Steps {
     judge(result, *source.molecule);
     for (const MeasuredPart& part : parts) finish_part(part, result, *source.molecule);
     clock.lap("metrics");
+    if (options.causes.empty()) return;
+    const PotentialSide of_source{source, source_map.map, surface.atoms},
+        of_target{target, target_map, target_surface.atoms};
+    find_causes(engine, {of_source, *source_map.charges}, {of_target, *target_charges}, options, parts, target_of, step,
+                progress);
+    clock.lap("causes");
   }
 
   /// Which chains and which protonation states were compared.
@@ -319,6 +329,7 @@ struct Series::Steps {
     std::vector<std::pair<std::string, double>> time_ms;
     StageClock clock(time_ms);
     check_maps(source, target);  // before any work
+    check_causes(options, source, target);
     progress.report("align", 0.0);
     const CommonFrame frame = align(*source.molecule, *target.molecule, options, result);
     result.warnings = input_warnings(*source.molecule, *target.molecule, result);

@@ -57,8 +57,8 @@ struct CompareOptions {
   /// is what vertices and residues have; metrics are computed for all.
   std::vector<double> offsets_A{0};
   std::vector<std::string> causes;  ///< readings whose causes are wanted; see causes/reading.h
-  bool round_trip = false;     ///< also map back, which doubles the time, and measure the round-trip error
-  double temperature_K = 300;  ///< for converting between kT/e and other units
+  bool round_trip = false;          ///< also map back, which doubles the time, and measure the round-trip error
+  double temperature_K = 300;       ///< for converting between kT/e and other units
 };
 
 /// The thesis' original iteration, for comparing with its results.

@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "compare/input_settings.h"
 #include "compare/options.h"
+#include "compare/readings.h"
 
 namespace espdiff {
 namespace {
@@ -372,6 +373,7 @@ CompareOptions make_options(const std::vector<std::pair<std::string, std::string
   for (const auto& [name, text] : given) find_setting(name).set(options, text);
   refuse_of_other_method(given, options.method);
   check_input_options(options.input);
+  check_readings(options);
   return options;
 }
 

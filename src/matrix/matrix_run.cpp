@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "compare/input_settings.h"
 #include "compare/options.h"
+#include "compare/readings.h"
 #include "io/atomic_file.h"
 #include "io/check_outputs.h"
 #include "matrix/matrix_state.h"
@@ -130,6 +131,7 @@ MatrixReport run_matrix(Engine& engine, const std::vector<Variant>& variants, co
   if (options.offsets_A.size() > 1)
     throw InputError(option("offset") +
                      ": a list of distances was given, and a matrix has one value of a metric for a pair; give one");
+  refuse_causes(options, "a matrix");
   const MatrixPlan plan = make_plan(engine, variants, options, run.potential);
   MatrixReport report;
   const std::vector<MatrixCell> cells = compute_and_keep(engine, variants, options, run, plan,

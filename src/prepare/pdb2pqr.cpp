@@ -375,6 +375,24 @@ Molecule run_with_ligands(Run& run, const Molecule& molecule, const std::vector<
   return result;
 }
 
+/// Gives heavy atoms what their file says of how well their places are known; those that were added have nothing.
+void take_knowledge(const Molecule& before, Molecule& after) {
+  using Name = std::tuple<std::string, std::int32_t, char, std::string>;
+  const auto name_of = [](const Molecule& m, const Atom& atom) {
+    const Residue& r = m.residues[static_cast<std::size_t>(atom.residue)];
+    return Name(r.chain, r.number, r.insertion_code, atom.name);
+  };
+  std::map<Name, const Atom*> known;
+  for (const Atom& atom : before.atoms) known.emplace(name_of(before, atom), &atom);
+  for (Atom& atom : after.atoms) {
+    const auto found = known.find(name_of(after, atom));
+    if (found == known.end()) continue;
+    atom.b_factor = found->second->b_factor;
+    atom.occupancy = found->second->occupancy;
+    atom.has_alternates = found->second->has_alternates;
+  }
+}
+
 }  // namespace
 
 Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options,
@@ -400,6 +418,7 @@ Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options
   const Molecule given = add_ligand_hydrogens(before, ligands, ligands_of_residues(before, ligands));
   prepared.molecule = run_with_ligands(run, given, kept_states, ligands);
   prepared.molecule.name = molecule.name;
+  take_knowledge(before, prepared.molecule);
   done.program = run.version();
   done.force_field = options.force_field;
   done.ph = options.ph;

@@ -9,6 +9,7 @@
 #include "compare/options.h"
 #include "compare/result.h"
 #include "compare/settings.h"
+#include "report/causes_report.h"
 #include "report/json_number.h"
 #include "report/metrics.h"
 #include "report/placement.h"
@@ -254,6 +255,7 @@ void add_results(Json& json, const Molecule& source, const CompareResult& result
     Json& entry = json["fixed_patches"][patch.name] = part_json(*patch.result);
     if (patch.placement != nullptr) entry["placement"] = placement_json(*patch.placement);
   }
+  json["causes"] = result.causes == nullptr ? Json::array() : causes_json(*result.causes, potential_unit_text(result));
   json["protonation_differences"] = Json::array();
   for (const ProtonationDifference& difference : result.protonation)
     json["protonation_differences"].push_back(in_words(difference, source));

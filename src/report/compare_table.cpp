@@ -8,7 +8,9 @@
 #include "align/compared_chains.h"
 #include "align/rigid_domains.h"
 #include "base/formatted.h"
+#include "causes/causes.h"
 #include "compare/result.h"
+#include "report/causes_report.h"
 #include "report/metrics.h"
 #include "report/placement.h"
 #include "report/potential_json.h"
@@ -293,6 +295,14 @@ void print_part(std::ostream& out, const std::string& title, const CompareResult
   for (const Message& reason : part.certificate.reasons) item(out, reason.spelled(spelling), 4);
 }
 
+void print_causes(std::ostream& out, const CompareResult& result) {
+  if (result.causes == nullptr) return;
+  for (const CausesOfReading& reading : result.causes->readings) {
+    out << "\nCauses of the difference, " << reading.name << '\n';
+    for (const std::string& text : causes_lines(*result.causes, reading, potential_unit_text(result))) item(out, text);
+  }
+}
+
 void print_warnings(std::ostream& out, const CompareResult& result, const OptionSpelling& spelling) {
   if (result.warnings.empty()) return;
   out << "\nWarnings\n";
@@ -325,6 +335,7 @@ void print_table(std::ostream& out, const Molecule& source, const Molecule& targ
     print_part(out, "Patch " + patch.name, *patch.result, spelling);
     if (patch.placement != nullptr) item(out, in_words(*patch.placement));
   }
+  print_causes(out, result);
   print_warnings(out, result, spelling);
   print_verdict(out, result, spelling);
 }

@@ -17,6 +17,9 @@ struct CompareOptions;
 struct CompareResult;
 struct Provenance;
 
+/// Of the file that a comparison with causes writes besides.
+constexpr const char* kCausesEnding = ".causes.csv";
+
 /// A file written beside the results that is the input of a role from then on; the original input stays listed under
 /// ROLE_file.
 struct KeptFile {

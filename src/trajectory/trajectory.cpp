@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "compare/input.h"
+#include "compare/readings.h"
 #include "compare/result.h"
 #include "io/atomic_file.h"
 #include "io/text_cursor.h"
@@ -75,6 +76,7 @@ TrajectoryRun::TrajectoryRun(TrajectoryPlan plan, SeriesCsv file, std::optional<
   if (plan_.options.offsets_A.size() > 1)
     throw InputError(option("offset") +
                      ": a list of distances was given, and a trajectory has one row for a frame; give one");
+  refuse_causes(plan_.options, "a trajectory");
   check_earlier_rows();
   resume_residues();
   position_ = n_resumed_ = file_.rows().size();

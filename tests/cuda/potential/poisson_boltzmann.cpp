@@ -243,8 +243,7 @@ TEST_CASE("what each of two charges in a sphere adds to the potential at a point
       const Vec3d d = static_cast<Vec3d>(points[v]) - centre;
       CHECK(found[0] == 0);
       for (std::size_t i = 0; i < 2; ++i) {
-        const double wanted =
-            static_cast<double>(m.charges[i + 1]) * exact.at(norm(d), dot(d, ways[i]) / norm(d));
+        const double wanted = static_cast<double>(m.charges[i + 1]) * exact.at(norm(d), dot(d, ways[i]) / norm(d));
         CHECK(found[i + 1] == doctest::Approx(wanted).epsilon(0.005));
       }
     }
