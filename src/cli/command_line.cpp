@@ -1,14 +1,17 @@
 // command_line.cpp: parses the command line, runs the command, and turns errors into one line and an exit status.
 #include "cli/command_line.h"
 
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <iostream>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
 #include "base/printable.h"
+#include "base/system_message.h"
 #include "base/translate.h"
 #include "base/version.h"
 #include "cli/spelling.h"
@@ -58,6 +61,18 @@ int run_verb(const espdiff::cli::Verb& verb, const std::string& command_line) {
   }
 }
 
+/// What was printed must have arrived: on a full disk, files may be complete and their summary lost.
+int with_output_written(int status) {
+  errno = 0;
+  const bool is_written = static_cast<bool>(std::cout.flush());
+  if (std::fflush(stdout) == 0 && is_written && std::ferror(stdout) == 0) return status;
+  if (espdiff::is_output_unread()) return status;  // as after `| head`
+  const std::string reason = errno != 0 ? ": " + espdiff::system_message(errno) : std::string();
+  std::fprintf(stderr, "espdiff: the standard output cannot be written%s; files that were asked for are complete\n",
+               reason.c_str());
+  return status == 0 ? 1 : status;
+}
+
 int run(int argc, char** argv) {
   CLI::App app(
       "espdiff shows where and by how much the electrostatic surface potential differs between two states of a "
@@ -79,8 +94,10 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    std::fprintf(stderr, "espdiff: %s\nTry 'espdiff --help' or 'espdiff VERB --help'.\n",
-                 espdiff::printable(in_our_words(error)).c_str());
+    const auto chosen = app.get_subcommands();
+    const std::string help = chosen.empty() ? "" : " " + chosen.front()->get_name();
+    std::fprintf(stderr, "espdiff: %s; see espdiff%s --help\n", espdiff::printable(in_our_words(error)).c_str(),
+                 help.c_str());
     return 2;
   }
   for (const auto& verb : verbs) {
@@ -88,7 +105,7 @@ int run(int argc, char** argv) {
   }
   std::fputs(
       "espdiff: a subcommand is missing: compare, trajectory, matrix, merge, plot, surface, potential, prepare, "
-      "render, view or doctor\nTry 'espdiff --help'.\n",
+      "render, view or doctor; see espdiff --help\n",
       stderr);
   return 2;
 }
@@ -100,7 +117,7 @@ namespace espdiff::cli {
 int run_command_line(int argc, char** argv) {
   if (!open_closed_streams()) return 1;
   try {
-    return run(argc, argv);
+    return with_output_written(run(argc, argv));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "espdiff: internal error: %s; please report it with the command\n", error.what());
   } catch (...) {
