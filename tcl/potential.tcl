@@ -173,8 +173,13 @@ namespace eval ::espdiff {
         set frames [vmd_frames $mol [dict get $options frames] -frames]
         potential_check $options [llength $frames]
         set each [expr {[dict get $options averaging] eq "each"}]
-        core::check_outputs [concat [named_files [list mol $mol]] [list [dict get $options xscfile]]] \
-            [list [dict get $options dxfile]]
+        set outputs {}
+        foreach frame $frames { if {$each} { lappend outputs [potential_file [format .%04d $frame] $options] } }
+        if {!$each} { lappend outputs [potential_file "" $options] }
+        foreach average {variance error} {
+            if {[dict get $options $average]} { lappend outputs [potential_file .$average $options] }
+        }
+        core::check_outputs [concat [named_files [list mol $mol]] [list [dict get $options xscfile]]] $outputs
         set handle [core::potential [dict merge [potential_core_options $options] [list each $each]]]
         finally {
             set begun [clock milliseconds]
@@ -257,13 +262,19 @@ namespace eval ::espdiff {
         core::check $handle
     }
 
+    # The name of a map's file; empty where none is asked for.
+    proc potential_file {suffix options} {
+        set path [dict get $options dxfile]
+        if {$path eq ""} { return "" }
+        return [file rootname $path]$suffix[file extension $path]
+    }
+
     # Stores a map of the handle as requested, and records it in the caller's dict: mol, volumes, files. `suffix`
     # distinguishes its file. A new molecule is made for the first map, after the computation has succeeded.
     proc potential_result {maps_name handle which suffix options} {
         upvar 1 $maps_name maps
-        set path [dict get $options dxfile]
-        if {$path ne ""} {
-            set file [file rootname $path]$suffix[file extension $path]
+        set file [potential_file $suffix $options]
+        if {$file ne ""} {
             dict lappend maps files [core::potential_write $handle $which $file]
         }
         if {[dict get $options loadmol] eq "none"} return

@@ -21,7 +21,7 @@ namespace eval ::espdiff {
         if {![string is list [dict get $options arguments]]} { fail "-arguments: not a list" }
         set prefix [dict get $options output]
         set log [temporary_file .log]
-        set folder [temporary_folder]
+        set folder [core::private_folder [file join [temporary_place] espdiff-[pid]-view-]]
         if {[catch {
             if {[string match *.vtp $input]} {
                 set surface [existing_file $input "espdiff view"]
@@ -55,14 +55,6 @@ namespace eval ::espdiff {
         }
         if {[file exists $log]} { after 1000 [list ::espdiff::watch_viewer $process $log] }
         return $process
-    }
-
-    proc temporary_folder {} {
-        set path [temporary_file .view]
-        file delete $path
-        file mkdir $path
-        file attributes $path -permissions 0700
-        return $path
     }
 
     proc export_for_viewer {folder handle} {

@@ -167,21 +167,27 @@ Tcl_Obj* export_files(const Call& call) {
   }
   const auto comparison = call.handles.finished_comparison(handle);
   const Endpoint &source = comparison->source, &target = comparison->target;
-  check_outputs(input_paths(*comparison), {prefix + ".json", prefix + ".vtp", prefix + ".residues.csv"});
-  if (!to_bool(call.arguments[2], "inputs")) {
-    write_compare(prefix, *source.molecule, *target.molecule, comparison->result, comparison->computation.options,
-                  comparison->provenance, comparison->kept);
-    std::vector<std::string> written{prefix + ".json", prefix + ".vtp", prefix + ".residues.csv"};
-    for (const KeptFile& kept : comparison->kept) written.push_back(prefix + kept.ending);
-    return to_list(written);
-  }
   const auto from_memory = [](const Endpoint& endpoint) {
     return endpoint.map && endpoint.map_path.empty() ? &*endpoint.map : nullptr;
   };
+  const bool with_inputs = to_bool(call.arguments[2], "inputs");
+  const KeptInputs maps{from_memory(source), from_memory(target)};
+  std::vector<std::string> files = {prefix + ".json", prefix + ".vtp", prefix + ".residues.csv"};
+  if (!with_inputs) {
+    for (const KeptFile& kept : comparison->kept) files.push_back(prefix + kept.ending);
+  } else {
+    for (const std::string& ending : kept_input_endings(maps)) files.push_back(prefix + ending);
+  }
+  check_outputs(input_paths(*comparison), files);
+  if (!with_inputs) {
+    write_compare(prefix, *source.molecule, *target.molecule, comparison->result, comparison->computation.options,
+                  comparison->provenance, comparison->kept);
+    return to_list(files);
+  }
   std::vector<Tcl_Obj*> written;
   for (const std::string& path : write_compare_with_inputs(
            prefix, *source.molecule, *target.molecule, comparison->result, comparison->computation.options,
-           comparison->provenance, {from_memory(source), from_memory(target)}))
+           comparison->provenance, maps))
     written.push_back(to_obj(path));
   return to_list(written);
 }

@@ -294,7 +294,7 @@ class Trajectory:
         """{name: one value for each row}: numbers, NaN where there is none; texts where a column has some."""
         with open(self.result["csv"], newline="", encoding="utf-8") as lines:
             rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
-        return {name: _column([row[name] for row in rows]) for name in (rows[0] if rows else ())}
+        return {name: _column([row[name] for row in rows]) for name in (rows[0] if rows else ()) if name != "checksum"}
 
     def __repr__(self):
         return "<espdiff.vmd trajectory of %d rows in %s>" % (self.result["rows"], self.result["csv"])

@@ -2,14 +2,17 @@
 #include "cli/command_line.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <iostream>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
 #include "base/printable.h"
+#include "base/system_message.h"
 #include "base/translate.h"
 #include "base/version.h"
 #include "cli/help.h"
@@ -48,6 +51,18 @@ int run_verb(const espdiff::cli::Verb& verb, const std::string& command_line) {
   }
 }
 
+/// What was printed must have arrived: on a full disk, files may be complete and their summary lost.
+int with_output_written(int status) {
+  errno = 0;
+  const bool is_written = static_cast<bool>(std::cout.flush());
+  if (std::fflush(stdout) == 0 && is_written && std::ferror(stdout) == 0) return status;
+  if (espdiff::is_output_unread()) return status;  // as after `| head`
+  const std::string reason = errno != 0 ? ": " + espdiff::system_message(errno) : std::string();
+  std::fprintf(stderr, "espdiff: the standard output cannot be written%s; files that were asked for are complete\n",
+               reason.c_str());
+  return status == 0 ? 1 : status;
+}
+
 int run(int argc, char** argv) {
   CLI::App app(
       "espdiff shows where and by how much the electrostatic surface potential differs between two states of a "
@@ -77,14 +92,14 @@ int run(int argc, char** argv) {
     app.parse(std::move(words));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    std::fprintf(stderr, "espdiff: %s\n%s\n", espdiff::printable(espdiff::cli::in_our_words(error, app)).c_str(),
-                 espdiff::cli::where_to_look(app).c_str());
+    std::fprintf(stderr, "espdiff: %s; see %s\n", espdiff::printable(espdiff::cli::in_our_words(error, app)).c_str(),
+                 espdiff::cli::help_command(app).c_str());
     return 2;
   }
   for (const auto& verb : verbs) {
     if (verb.parser->parsed()) return run_verb(verb, joined(argc, argv));
   }
-  std::fputs("espdiff: nothing to do: give two structures to compare, or a command\nTry 'espdiff --help'.\n", stderr);
+  std::fputs("espdiff: nothing to do: give two structures to compare, or a command; see espdiff --help\n", stderr);
   return 2;
 }
 
@@ -95,7 +110,7 @@ namespace espdiff::cli {
 int run_command_line(int argc, char** argv) {
   if (!open_closed_streams()) return 1;
   try {
-    return run(argc, argv);
+    return with_output_written(run(argc, argv));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "espdiff: internal error: %s; please report it with the command\n", error.what());
   } catch (...) {

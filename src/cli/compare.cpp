@@ -13,6 +13,7 @@
 #include "io/atomic_file.h"
 #include "io/check_outputs.h"
 #include "io/structure_file.h"
+#include "prepare/input_files.h"
 #include "prepare/load_state.h"
 #include "prepare/preparation.h"
 #include "prepare/region.h"
@@ -112,28 +113,34 @@ std::string add_maps(const CompareArguments& a, Side& source, Side& target, doub
   return plan.because();
 }
 
-std::vector<std::string> all_inputs(const CompareArguments& a) {
-  std::vector<std::string> inputs = input_files(a.settings);
+/// @param kept endings of structures that are written as well
+void check_files(const CompareArguments& a, const InputOptions& options, const std::vector<std::string>& kept) {
+  std::vector<std::string> inputs = input_files(options),
+                           outputs = {a.output + ".json", a.output + ".vtp", a.output + ".residues.csv", a.residue_pdb};
   inputs.insert(inputs.end(), {a.source, a.target, a.maps.source_map, a.maps.target_map});
-  return inputs;
+  for (const std::string& ending : kept) outputs.push_back(a.output + ending);
+  check_outputs(inputs, outputs);
 }
 
 /// The structures that are written beside the results. An output that would replace an input is found before the work.
-std::vector<KeptFile> kept_structures(const CompareArguments& a, const Side& source, const Side& target) {
+std::vector<KeptFile> kept_structures(const CompareArguments& a, const InputOptions& options, const Side& source,
+                                      const Side& target) {
   std::vector<KeptFile> kept;
+  std::vector<std::string> endings;
   for (const Side* side : {&source, &target}) {
     for (KeptFile& file : kept_structure(side->role, side->state)) {
-      check_outputs(all_inputs(a), {a.output + file.ending});
+      endings.push_back(file.ending);
       kept.push_back(std::move(file));
     }
   }
+  check_files(a, options, endings);
   return kept;
 }
 
 int compare_verb(const CompareArguments& a, const Context& context) {
   check_map_options(a.maps);
   const CompareOptions options = make_options(a.settings);
-  check_outputs(all_inputs(a), {a.output + ".json", a.output + ".vtp", a.output + ".residues.csv", a.residue_pdb});
+  check_files(a, options.input, {});
   // An unwritable output is found before the work.
   for (const char* suffix : {".json", ".vtp", ".residues.csv"}) AtomicFile probe(a.output + suffix);
   if (!options.causes.empty()) {
@@ -151,7 +158,7 @@ int compare_verb(const CompareArguments& a, const Context& context) {
   Side target = read_side(a, "target", options.input, &source.state.molecule, provenance, *context.progress);
   check_left_out(options.input, {&source.state, &target.state});
   const std::string because = add_maps(a, source, target, options.temperature_K, provenance.inputs);
-  const std::vector<KeptFile> kept = kept_structures(a, source, target);
+  const std::vector<KeptFile> kept = kept_structures(a, options.input, source, target);
   const std::string radii_note =
       set_surface_radii({&source.state.molecule, &target.state.molecule}, options.input.radii);
   CompareInput source_input = source.input();

@@ -64,8 +64,7 @@ void name_inputs(const EnsembleArguments& a, EnsembleStudy& study) {
     const std::size_t sign = text.find('=');
     inputs.maps.of_group[text.substr(0, sign)] = sign == std::string::npos ? "" : text.substr(sign + 1);
   }
-  study.read_files = input_files(a.settings);
-  study.read_files.push_back(a.list);
+  study.read_files = {a.list};
 }
 
 int ensemble_verb(const EnsembleArguments& a, const Context& context) {

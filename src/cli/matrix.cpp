@@ -1,5 +1,6 @@
 // matrix.cpp: `espdiff matrix VARIANT... -o OUT`.
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 
 #include "base/error.h"
@@ -14,10 +15,10 @@
 #include "ensemble/ensemble_study.h"
 #include "ensemble/template_matrix.h"
 #endif
-#include "io/check_outputs.h"
 #include "io/structure_file.h"
 #include "matrix/matrix_run.h"
 #include "matrix/write_matrix.h"
+#include "prepare/input_files.h"
 #include "prepare/load_state.h"
 #include "prepare/surface_radii.h"
 #include "report/state_report.h"
@@ -160,10 +161,12 @@ int matrix_verb(MatrixArguments& a, const Context& context) {
   a.run.shard = parse_shard(a.shard);
   a.run.skip_errors = a.on_error == "skip";
   const std::vector<VariantFiles> files = chosen_variants(a);
-  std::vector<std::string> inputs = input_files(a.settings);
-  inputs.insert(inputs.end(), {a.list, a.groups});
-  for (const VariantFiles& file : files) inputs.insert(inputs.end(), {file.structure, file.map});
-  check_outputs(inputs, output_paths(a.run));
+  a.run.read_files = input_files(options.input);
+  a.run.read_files.insert(a.run.read_files.end(), {a.list, a.groups});
+  if (std::filesystem::exists(a.template_text)) a.run.read_files.push_back(a.template_text);
+  for (const VariantFiles& file : files) a.run.read_files.insert(a.run.read_files.end(), {file.structure, file.map});
+  a.run.through_template = !a.template_text.empty();
+  check_matrix_files(a.run, {});
   const std::unique_ptr<Engine> engine = make_engine(a.device);
   const States states = read_states(a, files, options, *context.progress);
   a.run.potential = states.plan.computes() ? states.plan.in_words() : "maps";

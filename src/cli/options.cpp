@@ -8,13 +8,11 @@
 
 #include "base/error.h"
 #include "cli/spelling.h"
-#include "compare/input_settings.h"
 #include "compare/options.h"
 #include "engine/select_engine.h"
 #include "io/read_grid.h"
 #include "io/text_cursor.h"
 #include "io/write_csv.h"
-#include "prepare/read_earlier_patch.h"
 
 namespace espdiff::cli {
 namespace {
@@ -118,18 +116,6 @@ bool has_setting(const Setting& setting, SettingsFor what) {
 }
 
 }  // namespace
-
-std::vector<std::string> input_files(const GivenSettings& given) {
-  std::vector<std::string> files;
-  for (const auto& [name, text] : given) {
-    if (find_setting(name).is_file) files.push_back(text);
-    if (!find_setting(name).is_named) continue;
-    for (const PatchRequest& patch : parse_patches(text)) {
-      if (const auto earlier = earlier_patch_name(patch.selection)) files.push_back(earlier->path);
-    }
-  }
-  return files;
-}
 
 void add_settings(CLI::App& parser, GivenSettings& given, SettingsFor what) {
   if (what != SettingsFor::kSurface && what != SettingsFor::kPreparation) refuse_earlier_names(parser);

@@ -20,6 +20,7 @@
 #include "potential/potential.h"
 #include "potential/potential_plan.h"
 #include "potential/potential_series.h"
+#include "prepare/input_files.h"
 #include "prepare/load_state.h"
 #include "report/preparation_json.h"
 #include "trajectory/frame_range.h"
@@ -123,7 +124,7 @@ class Outputs {
     for (const std::string* path : {&a.variance, &a.standard_error}) {
       if (!path->empty()) paths.push_back(*path);
     }
-    std::vector<std::string> inputs = input_files(a.settings);
+    std::vector<std::string> inputs = input_files(make_options(a.settings).input);
     inputs.insert(inputs.end(), {a.molecule, a.xsc_file});
     check_outputs(inputs, paths);
     for (const std::string& path : paths) open(path);
@@ -212,19 +213,18 @@ int potential_verb(const PotentialArguments& a, const Context& context) {
                      std::to_string(frames.size()));
   const std::unique_ptr<Engine> engine = make_engine(a.device);
   PotentialSeries series(*engine, options);
-  std::unique_ptr<Outputs> outputs;
+  Outputs outputs(a, frames);
   Frames states(a, file, *context.progress);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const Molecule molecule = states.read(frames[i]);
     require_charges(molecule);
-    if (!outputs) outputs = std::make_unique<Outputs>(a, frames);
     // A crystal's cell is no cell of a molecule without its water.
     const auto cell = states.preparation() ? std::nullopt : file.unit_cell(frames[i] + 1);
-    outputs->write_frame(i, series.step(molecule, cell, *context.progress));
+    outputs.write_frame(i, series.step(molecule, cell, *context.progress));
     context.progress->report("frames", static_cast<double>(i + 1) / static_cast<double>(frames.size()));
   }
   context.progress->report("write", 0.0);
-  outputs->finish(a, series.average());
+  outputs.finish(a, series.average());
   context.progress->report("write", 1.0);
   const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   if (a.quiet) return 0;

@@ -14,6 +14,7 @@
 #include "io/read_structure.h"
 #include "io/structure_file.h"
 #include "io/write_pqr.h"
+#include "prepare/input_files.h"
 #include "prepare/load_state.h"
 #include "report/preparation_json.h"
 
@@ -66,7 +67,7 @@ void print_summary(const PrepareArguments& a, const LoadedState& state) {
 int prepare_verb(PrepareArguments& a, const Context& context) {
   const CompareOptions options = make_options(a.settings);
   if (a.json.empty()) a.json = json_beside(a.output);
-  std::vector<std::string> inputs = input_files(a.settings);
+  std::vector<std::string> inputs = input_files(options.input);
   inputs.push_back(a.input);
   check_outputs(inputs, {a.output, a.json});
   AtomicFile pqr(a.output), json(a.json);

@@ -18,6 +18,7 @@
 #include "io/check_outputs.h"
 #include "io/structure_file.h"
 #include "io/write_grid.h"
+#include "prepare/input_files.h"
 #include "prepare/load_state.h"
 #include "prepare/surface_radii.h"
 #include "report/preparation_json.h"
@@ -74,7 +75,7 @@ void print_summary(const SurfaceResult& result) {
 
 int surface_verb(const SurfaceArguments& a, const Context& context) {
   const CompareOptions options = make_options(a.settings);
-  std::vector<std::string> inputs = input_files(a.settings);
+  std::vector<std::string> inputs = input_files(options.input);
   inputs.insert(inputs.end(), {a.molecule, a.map});
   check_outputs(inputs, {a.output, a.density});
   // Outputs that cannot be written are better found before the work than after it.

@@ -17,6 +17,7 @@
 #include "engine/engine.h"
 #include "io/check_outputs.h"
 #include "io/molfile_plugins.h"
+#include "prepare/input_files.h"
 #include "report/residue_values.h"
 #include "trajectory/frame_range.h"
 #include "trajectory/series_head.h"
@@ -97,6 +98,7 @@ SeriesHead head_of(const TrajectoryArguments& a, const TrajectoryPlan& plan, con
   run.files = a.targets;
   run.structure = a.structure;
   run.frames = plan.frames;
+  run.frames_of = a.frames_of;
   run.reference = plan.reference;
   run.reference_files = a.source_frames;
   run.start = plan.start;
@@ -117,19 +119,19 @@ int trajectory_verb(const TrajectoryArguments& a, const Context& context) {
     throw InputError(std::string(a.source_frames.empty() ? "--frames-of" : "--source-frames") +
                      " and --reference previous exclude each other" +
                      (a.source_frames.empty() ? "; give the frames' own structure as SOURCE" : ""));
-  std::vector<std::string> inputs = input_files(a.settings);
+  TrajectoryPlan plan;
+  plan.options = make_options(a.settings);
+  std::vector<std::string> inputs = input_files(plan.options.input);
   inputs.insert(inputs.end(), a.targets.begin(), a.targets.end());
   inputs.insert(inputs.end(), a.source_frames.begin(), a.source_frames.end());
   inputs.insert(inputs.end(), {a.source, a.frames_of, a.maps.source_map, a.maps.target_map});
   check_outputs(inputs, {a.output, a.output + ".state", a.residues});
   const auto begun = std::chrono::steady_clock::now();
-  TrajectoryPlan plan;
-  plan.options = make_options(a.settings);
   context.progress->report("read", 0.0);
   TrajectorySides sides(a, plan.options, *context.progress);
   plan.against = reference_of(a);
   plan.reference = reference_words(a);
-  plan.frames = parse_frames(a.frames, {sides.n_frames()});
+  plan.frames = parse_frames(a.frames, sides.frames());
   plan.start = parse_start(a.start, plan.options);
   plan.skip_errors = a.on_error == "skip";
   plan.parts = part_names(plan.options.input);

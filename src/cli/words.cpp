@@ -125,9 +125,9 @@ std::string in_our_words(const CLI::ParseError& error, const CLI::App& app) {
   return text;
 }
 
-std::string where_to_look(const CLI::App& app) {
+std::string help_command(const CLI::App& app) {
   const CLI::App& command = chosen(app);
-  return "Try '" + (&command == &app ? app.get_name() : app.get_name() + ' ' + command.get_name()) + " --help'.";
+  return (&command == &app ? app.get_name() : app.get_name() + ' ' + command.get_name()) + " --help";
 }
 
 std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates) {

@@ -14,8 +14,8 @@ std::vector<std::string> understood(std::vector<std::string> words, const CLI::A
 /// What is wrong with the words, in one sentence, and the nearest right word where there is one.
 std::string in_our_words(const CLI::ParseError& error, const CLI::App& app);
 
-/// Where to look after a wrong word: "Try 'espdiff compare --help'."
-std::string where_to_look(const CLI::App& app);
+/// Where to look after a wrong word: "espdiff compare --help".
+std::string help_command(const CLI::App& app);
 
 /// The candidate that is nearest to the word by changes of letters, at most a third of the word's; empty if none is.
 std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates);

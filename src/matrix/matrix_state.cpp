@@ -149,7 +149,6 @@ MatrixState::MatrixState(std::string path, std::string sum)
   if (!file_) throw IoError(path_, std::string("the state file cannot be written: ") + system_message(file_.error()));
   if (file_.lock() == LockResult::kBusy)
     throw IoError(path_, "another process is writing this state file; wait for it, or name another output");
-  remove_leftovers(path_);
 }
 
 MatrixState MatrixState::begin(const std::string& path, const MatrixPlan& plan) {

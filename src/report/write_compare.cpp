@@ -197,6 +197,13 @@ void write_compare(const std::string& output_prefix, const Molecule& source, con
   files.commit(beside);
 }
 
+std::vector<std::string> kept_input_endings(const KeptInputs& kept) {
+  std::vector<std::string> endings = {".source.pqr", ".target.pqr"};
+  if (kept.source_map != nullptr) endings.emplace_back(".source_map.vti");
+  if (kept.target_map != nullptr) endings.emplace_back(".target_map.vti");
+  return endings;
+}
+
 std::vector<std::string> write_compare_with_inputs(const std::string& output_prefix, const Molecule& source,
                                                    const Molecule& target, const CompareResult& result,
                                                    const CompareOptions& options, Provenance provenance,

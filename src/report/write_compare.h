@@ -51,6 +51,9 @@ struct KeptInputs {
   const Grid* source_map = nullptr;
   const Grid* target_map = nullptr;
 };
+/// What write_compare_with_inputs() writes besides the results: ".source.pqr", ...
+std::vector<std::string> kept_input_endings(const KeptInputs& kept);
+
 /// As write_compare(), with OUT.source.pqr and OUT.target.pqr and, for maps from memory, OUT.source_map.vti and
 /// OUT.target_map.vti, which OUT.json then names as its inputs, by names that lie beside it: the comparison can be
 /// repeated from these files, and drawn with maps and molecules.

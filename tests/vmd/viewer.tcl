@@ -38,7 +38,7 @@ test "the button in the window starts the viewer" {
     espdiff gui
     update
     ::espdiff::gui::show_results $h
-    set before [glob -nocomplain /tmp/espdiff-[pid]-*.view]
+    set before [glob -nocomplain /tmp/espdiff-[pid]-view-*]
     $::espdiff::gui::widget(result,view) invoke
     update
     check "told" {[string match "The viewer is starting*" [$::espdiff::gui::widget(message) get 1.0 end]]}
