@@ -114,16 +114,17 @@ std::string add_maps(const CompareArguments& a, Side& source, Side& target, doub
 }
 
 /// @param kept endings of structures that are written as well
-void check_files(const CompareArguments& a, const InputOptions& options, const std::vector<std::string>& kept) {
-  std::vector<std::string> inputs = input_files(options),
+void check_files(const CompareArguments& a, const CompareOptions& options, const std::vector<std::string>& kept) {
+  std::vector<std::string> inputs = input_files(options.input),
                            outputs = {a.output + ".json", a.output + ".vtp", a.output + ".residues.csv", a.residue_pdb};
   inputs.insert(inputs.end(), {a.source, a.target, a.maps.source_map, a.maps.target_map});
+  if (!options.causes.empty()) outputs.push_back(a.output + kCausesEnding);
   for (const std::string& ending : kept) outputs.push_back(a.output + ending);
   check_outputs(inputs, outputs);
 }
 
 /// The structures that are written beside the results. An output that would replace an input is found before the work.
-std::vector<KeptFile> kept_structures(const CompareArguments& a, const InputOptions& options, const Side& source,
+std::vector<KeptFile> kept_structures(const CompareArguments& a, const CompareOptions& options, const Side& source,
                                       const Side& target) {
   std::vector<KeptFile> kept;
   std::vector<std::string> endings;
@@ -140,13 +141,10 @@ std::vector<KeptFile> kept_structures(const CompareArguments& a, const InputOpti
 int compare_verb(const CompareArguments& a, const Context& context) {
   check_map_options(a.maps);
   const CompareOptions options = make_options(a.settings);
-  check_files(a, options.input, {});
+  check_files(a, options, {});
   // An unwritable output is found before the work.
   for (const char* suffix : {".json", ".vtp", ".residues.csv"}) AtomicFile probe(a.output + suffix);
-  if (!options.causes.empty()) {
-    check_outputs(all_inputs(a), {a.output + kCausesEnding});
-    AtomicFile probe(a.output + kCausesEnding);
-  }
+  if (!options.causes.empty()) AtomicFile probe(a.output + kCausesEnding);
   if (!a.residue_pdb.empty()) AtomicFile probe(a.residue_pdb);
   if (a.residue_pdb.empty() && !a.residue_quantity.empty())
     throw InputError("--residue-quantity needs --residue-pdb FILE");
@@ -158,7 +156,7 @@ int compare_verb(const CompareArguments& a, const Context& context) {
   Side target = read_side(a, "target", options.input, &source.state.molecule, provenance, *context.progress);
   check_left_out(options.input, {&source.state, &target.state});
   const std::string because = add_maps(a, source, target, options.temperature_K, provenance.inputs);
-  const std::vector<KeptFile> kept = kept_structures(a, options.input, source, target);
+  const std::vector<KeptFile> kept = kept_structures(a, options, source, target);
   const std::string radii_note =
       set_surface_radii({&source.state.molecule, &target.state.molecule}, options.input.radii);
   CompareInput source_input = source.input();
