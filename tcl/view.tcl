@@ -68,7 +68,7 @@ namespace eval ::espdiff {
     }
 
     # Whether it has ended; if it failed, an error with the viewer's message.
-    proc viewer_has_ended {process log} {
+    proc viewer_has_ended {process log {name "the viewer"}} {
         set state [core::program_state $process]
         if {$state eq "running"} { return 0 }
         if {$state in {0 ""}} {
@@ -84,7 +84,7 @@ namespace eval ::espdiff {
             }
         }
         file delete $log
-        fail "the viewer: $words" DEVICE
+        fail "$name: $words" DEVICE
     }
 
     # Polls until it has ended.

@@ -47,6 +47,8 @@ Tcl_Obj* build(const Call&) {
                   {"vtk", to_obj(vtk)},
                   {"gemmi", to_obj(gemmi)},
                   {"hdf5", to_obj(hdf5)},
+                  {"pdb2pqr", to_obj(find_pdb2pqr())},
+                  {"pdb2pqr_remedy", to_obj(kPdb2pqrRemedy)},
                   {"compiler", to_obj("g++ " __VERSION__)},
                   {"tcl", to_obj(TCL_PATCH_LEVEL)}});
 }

@@ -19,6 +19,7 @@
 #include "prepare/region.h"
 #include "prepare/surface_radii.h"
 #include "report/state_report.h"
+#include "system/this_process.h"
 #include "tcl_values.h"
 
 namespace espdiff::vmdplugin {
@@ -175,6 +176,7 @@ Tcl_Obj* check(const Call& call) {
 
 Tcl_Obj* remove(const Call& call) {
   call.handles.remove(call.text(0));
+  return_free_memory();
   return nullptr;
 }
 

@@ -202,9 +202,10 @@ class Comparison(_Surface):
     @property
     def residues(self):
         """A dict for each residue of the source; NaN where there is no value."""
-        texts = ("chain", "insertion", "name", "target_name")
+        texts = ("chain", "insertion", "name", "target_chain", "target_insertion", "target_name")
         rows = [split_dict(row) for row in split_list(_call("espdiff", "residues", self.handle))]
-        return [{key: value if key in texts else int(value) if key in ("index", "number") else _number(value)
+        return [{key: value if key in texts else int(value) if value and key in ("index", "number", "target_number")
+                 else _number(value)
                  for key, value in row.items()} for row in rows]
 
     def table(self):

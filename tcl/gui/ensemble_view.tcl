@@ -8,7 +8,7 @@ namespace eval ::espdiff::gui {
     variable ensemble_patch ""    ;# number of the chosen patch; empty for all
 
     proc build_ensemble_bar {path} {
-        build_tab_bar ensemble $path compute Run ::espdiff::gui::run_ensemble ::espdiff::gui::cancel_ensemble \
+        build_tab_bar ensemble $path compute Compare ::espdiff::gui::run_ensemble ::espdiff::gui::cancel_ensemble \
             "Map the template onto every frame, and compare the groups (Return)" \
             "Stop the run; its frames stay in NAME.h5, and it can be resumed (Escape)"
     }
@@ -16,7 +16,7 @@ namespace eval ::espdiff::gui {
     proc build_ensemble_result {path} {
         variable widget
         ttk::frame $path.top
-        ttk::label $path.top.answer -anchor w -wraplength 420 -justify left
+        wrapping_label $path.top.answer
         button $path.top.draw "Draw all" ::espdiff::gui::draw_ensemble
         button $path.top.table Table... ::espdiff::gui::ensemble_table
         tip $path.top.draw "Draw the template: the difference of the groups, faded where it is not significant"
@@ -104,7 +104,7 @@ namespace eval ::espdiff::gui {
             espdiff delete $handle
             set cancelled [expr {[lindex [dict get $options -errorcode] 1] eq "CANCELLED"}]
             if {$cancelled && [file exists [string trim $form(ensemble,output)].h5]} {
-                set message "Stopped. With \u201cresume\u201d, Run computes the frames that are missing."
+                set message "Stopped. With \u201cresume\u201d, Compare computes the frames that are missing."
             }
             tell_in ensemble $message [expr {$cancelled ? "note" : "error"}]
             return
@@ -160,6 +160,7 @@ namespace eval ::espdiff::gui {
         if {![dict get $result equilibrium holds]} {
             append text "\nNOT AN EQUILIBRIUM ANSWER: [join [dict get $result equilibrium reasons] {; }]."
         }
+        foreach warning [::espdiff::value_or $result warnings {}] { append text "\n\u2022 $warning" }
         return $text
     }
 
