@@ -2,7 +2,6 @@
 #include "page/report_page.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -16,6 +15,7 @@
 #include "io/read_vtp.h"
 #include "page/page_arrays.h"
 #include "page/page_texts.h"
+#include "plot/automatic_range.h"
 #include "plot/colour_map.h"
 #include "report/metrics.h"
 
@@ -185,18 +185,6 @@ std::vector<double> superposed(const Json& record, const VtpNumbers& positions) 
   return out;
 }
 
-/// The magnitude that 98 % of the values do not exceed.
-double usual_range(const std::vector<double>& values) {
-  std::vector<double> magnitudes;
-  for (const double value : values) {
-    if (std::isfinite(value)) magnitudes.push_back(std::abs(value));
-  }
-  if (magnitudes.empty()) return 1;
-  const auto at = magnitudes.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(magnitudes.size() - 1));
-  std::nth_element(magnitudes.begin(), at, magnitudes.end());
-  return *at > 0 ? *at : 1;
-}
-
 Json quantity_json(PageArrays& arrays, const VtpNumbers& array, const std::string& label, const std::string& unit,
                    bool is_signed) {
   Json quantity = arrays.add_numbers(array.values);
@@ -204,7 +192,7 @@ Json quantity_json(PageArrays& arrays, const VtpNumbers& array, const std::strin
   quantity["label"] = label;
   quantity["unit"] = unit;
   quantity["signed"] = is_signed;
-  quantity["range"] = usual_range(array.values);
+  quantity["range"] = automatic_limit({array.values.begin(), array.values.end()});
   return quantity;
 }
 
