@@ -266,6 +266,11 @@ std::vector<Warning> input_warnings(const Molecule& source, const Molecule& targ
   const ResidueView source_view(source), target_view(target);
   check_chains("source", source_view, warnings);
   check_chains("target", target_view, warnings);
+  check_geometry("source", source_view, warnings);
+  check_geometry("target", target_view, warnings);
+  check_charges("source", source_view, warnings);
+  check_charges("target", target_view, warnings);
+  check_paired_charges(source_view, target_view, result, warnings);
   check_chirality(source_view, target_view, result.pairing, warnings);
   check_register(source_view, target_view, result, warnings);
   check_rmsd(source, target, result, warnings);
