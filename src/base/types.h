@@ -34,6 +34,14 @@ struct Residue {
   char insertion_code = ' ';
 };
 
+/// A residue of a molecule's file that is no part of the molecule, because an option left it out.
+struct LeftOutResidue {
+  Residue residue;
+  std::vector<Atom> atoms;  ///< those that were left out
+  std::vector<Vec3d> positions;
+  double charge = 0;  ///< elementary charges; NaN where it is not known
+};
+
 /// Origin of a molecule's radii or charges; results report it. kVmd: from VMD, which guesses radii from names, or from
 /// its user.
 enum class ValueOrigin { kNone, kFile, kElement, kVmd };
@@ -48,6 +56,7 @@ struct Molecule {
   std::vector<float> charges;    ///< [atom], elementary charges; empty when the file has none
   ValueOrigin radii_origin = ValueOrigin::kNone;
   std::string name;  ///< for messages: the path, or VMD's molecule name
+  std::vector<LeftOutResidue> left_out{};
 
   std::size_t size() const { return positions.size(); }
 };

@@ -7,6 +7,7 @@
 
 #include "align/pair_atoms.h"
 #include "base/formatted.h"
+#include "base/water.h"
 #include "cli/help.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
@@ -37,7 +38,7 @@ struct PotentialArguments {
   std::size_t frames_per_block = 1;
   bool quiet = false;
   GivenSettings settings;
-  StructureOptions structure{1, true, true};  ///< Poisson-Boltzmann leaves water out
+  StructureOptions structure{1, true, true};
   DeviceArguments device;
 };
 
@@ -154,7 +155,12 @@ class Outputs {
   std::vector<std::unique_ptr<AtomicFile>> files_;
 };
 
-void print_summary(const Molecule& molecule, const Grid& map, std::size_t n_frames, double ms) {
+std::size_t count_waters(const Molecule& molecule) {
+  return static_cast<std::size_t>(std::count_if(molecule.residues.begin(), molecule.residues.end(),
+                                                [](const Residue& residue) { return is_water_name(residue.name); }));
+}
+
+void print_summary(const Molecule& molecule, const Grid& map, std::size_t n_frames, bool in_continuum, double ms) {
   double charge = 0, least = 0, most = 0;
   for (const float q : molecule.charges) charge += static_cast<double>(q);
   for (const float v : map.values) {
@@ -165,6 +171,11 @@ void print_summary(const Molecule& molecule, const Grid& map, std::size_t n_fram
   std::cout << formatted("potential      %d x %d x %d points, %.3f to %.3f kT/e\n", size[0], size[1], size[2], least,
                          most);
   std::cout << formatted("charge         %.4f e in %zu atoms\n", charge, molecule.size());
+  // In a dielectric continuum explicit water is solute, which few mean.
+  const std::size_t n_waters = count_waters(molecule);
+  if (in_continuum && n_waters > 0)
+    std::cout << formatted("water          %zu molecules are part of the solute (--no-water leaves them out)\n",
+                           n_waters);
   std::cout << formatted("frames         %zu\n", n_frames);
   std::cout << formatted("time           %.0f ms\n", ms);
 }
@@ -173,9 +184,7 @@ void print_summary(const Molecule& molecule, const Grid& map, std::size_t n_fram
 class Frames {
  public:
   Frames(const PotentialArguments& a, const StructureFile& file, const Progress& progress)
-      : a_(a), options_(make_options(a.settings).input), file_(file), progress_(progress) {
-    if (a.method == "pb") structure_.include_water = false;
-  }
+      : a_(a), options_(make_options(a.settings).input), file_(file), progress_(progress) {}
 
   /// The first one is loaded as by `compare`, further ones like it.
   Molecule read(int frame) {
@@ -229,7 +238,7 @@ int potential_verb(const PotentialArguments& a, const Context& context) {
   const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   if (a.quiet) return 0;
   if (states.preparation()) print_preparation(std::cout, *states.preparation());
-  print_summary(states.first(), series.average().mean(), frames.size(), ms);
+  print_summary(states.first(), series.average().mean(), frames.size(), a.method == "pb", ms);
   return 0;
 }
 

@@ -68,6 +68,9 @@ void print_summary(const SurfaceResult& result) {
                            static_cast<double>(most), to_string(result.unit).c_str(), result.is_vacuum ? kInVacuum : "",
                            result.potential_label.empty() ? "" : (", " + result.potential_label).c_str());
   }
+  if (result.outside_map > 0)
+    std::cout << formatted("outside map    %.1f %% of the vertices have no potential, since the map ends before them\n",
+                           100 * result.outside_map);
   for (const auto& [stage, ms] : result.time_ms) {
     if (stage == "total") std::cout << formatted("time           %.0f ms\n", ms);
   }

@@ -131,10 +131,11 @@ void add_structure_rows(std::vector<Setting>& all) {
 void add_charge_rows(std::vector<Setting>& all) {
   const char* const group = kChargeGroup;
   all.push_back(of_surface(choice_row(
-      "force-field", group, {"parse", "amber", "charmm", "tyl06", "peoepb", "swanson"},
+      "force-field", group, {"auto", "parse", "amber", "charmm", "tyl06", "peoepb", "swanson"},
       [](InputOptions& o, const std::string& text) { o.charges.force_field = text; },
       [](const InputOptions& o) { return o.charges.force_field; },
-      "Charges and radii for structures without charges, assigned by PDB2PQR")));
+      "Charges and radii for structures without charges, assigned by PDB2PQR; auto: PARSE, or AMBER where there are "
+      "nucleotides")));
   all.push_back(of_surface(number_row(
       "ph", group, 0, 14, "a pH from 0 to 14", [](auto& o) -> auto& { return o.charges.ph; },
       "pH at which PROPKA chooses protonation states")));

@@ -236,6 +236,11 @@ std::vector<Warning> input_warnings(const Molecule& source, const Molecule& targ
   std::vector<Warning> warnings;
   const PairedMolecules pair(source, target, result.pairing);
   check_chains(pair, warnings);
+  check_geometry("source", pair.source, warnings);
+  check_geometry("target", pair.target, warnings);
+  check_charges("source", pair.source, warnings);
+  check_charges("target", pair.target, warnings);
+  check_paired_charges(pair.source, pair.target, result, warnings);
   check_chirality(pair, warnings);
   check_register(pair, result, warnings);
   check_side_chains(pair, warnings);
