@@ -16,7 +16,7 @@ using namespace espdiff;  // NOLINT: a test
 
 namespace {
 
-/// A lysine whose side chain is a zigzag with its angle chi k turned by so many degrees; kTurned is about a bond.
+/// A lysine whose side chain is a zigzag, with one of its angles turned by so many degrees.
 Molecule zigzag_lysine(int turned_chi, double degrees) {
   MadeMolecule made;
   const std::vector<std::string> names{"N", "CA", "CB", "CG", "CD", "CE", "NZ"};
@@ -77,7 +77,7 @@ TEST_CASE("readings are whole, region, a patch or a residue") {
   for (const char* wrong :
        {"", "regions", "patch", "patch ", "residue", "residue A", "residue A:1x", "residue A:1BC"}) {
     CHECK(message_of([&] { parse_reading(wrong); }) ==
-          std::string("--causes: '") + wrong +
+          std::string("causes: '") + wrong +
               "' is not whole, region, patch NAME, or residue CHAIN:NUMBER such as residue A:103");
   }
 }
@@ -104,7 +104,7 @@ TEST_CASE("what changed about a residue is the first that holds") {
   const Molecule source = six_residues();
   Molecule target = source;
   target.residues[0].name = "VAL";                                              // substituted
-  target.positions[13] += Vec3d{0, 0, 40};                                      // NZ of the lysine: turned
+  target.positions[13] += Vec3d{0, 0, -40};                                     // NZ of the lysine: turned
   target.atoms[16].b_factor = std::nanf("");                                    // an atom of ASP 3 was rebuilt
   for (std::size_t i = 19; i < 24; ++i) target.positions[i] += Vec3d{0, 2, 0};  // SER 4 moves as a whole
   target.atoms[20].b_factor = 90;                                               // poorly known, but of the backbone
@@ -167,14 +167,14 @@ TEST_CASE("contributions add up by residue and by kind, those that are not compa
   std::vector<double> of_source(charges.size(), 0.01), of_target = of_source;
   of_target[6] = -0.5;  // in LYS 2
   of_target.back() = 0.2;
-  const std::vector<Vec3d> surface{source.positions[5] + Vec3d{0, 0, 3}};
+  const std::vector<Vec3d> surface{source.positions[5] - Vec3d{0, 3, 0}};
   for (const char* name : {"region", "patch site"})
     add_reading(causes, name, {source, charges, of_source, surface, 0.31}, {target, charges, of_target, surface, 0.0});
   CHECK(causes.changes.size() == 7);
   REQUIRE(causes.readings.size() == 2);
   const CausesOfReading& reading = causes.readings[1];
-  CHECK(reading.sum_of_source == doctest::Approx(0.29));
-  CHECK(reading.sum_of_target == doctest::Approx(0.29 - 0.51 + 0.19));
+  CHECK(reading.sum_of_source == doctest::Approx(0.34));
+  CHECK(reading.sum_of_target == doctest::Approx(0.34 - 0.51 + 0.19));
   REQUIRE(reading.contributions.size() == 7);
   CHECK(causes.changes[reading.contributions[0].change].name(false) == "LYS 2");
   CHECK(reading.contributions[0].difference() == doctest::Approx(-0.51));
