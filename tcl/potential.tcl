@@ -107,7 +107,29 @@ namespace eval ::espdiff {
         if {[catch { vmd_charges $mol all now $role } charges]} { return [list name $name charges 0 solvent 0] }
         lassign [molinfo $mol get {a b c}] a b c
         set has_cell [expr {min($a, $b, $c) > 1}]
-        return [list name $name charges 1 solvent [expr {$has_cell && [vmd_has_water $mol $charges]}]]
+        set solvent [expr {$has_cell && [vmd_has_water $mol $charges]}]
+        return [concat [list name $name charges 1 solvent $solvent] [expr {$solvent ? [vmd_salt $mol $charges] : {}}]]
+    }
+
+    # What stands in the water: {waters N ions N ion_squares X}; ions as core's salt_ions() finds them.
+    proc vmd_salt {mol charges} {
+        set water [atomselect $mol water]
+        set rest [atomselect $mol "not water"]
+        finally {
+            set waters [llength [lsort -unique [$water get residue]]]
+            foreach residue [$rest get residue] index [$rest get index] { dict lappend atoms $residue $index }
+        } {
+            $water delete
+            $rest delete
+        }
+        lassign {0 0.0} ions squares
+        foreach {residue list} [expr {[info exists atoms] ? $atoms : {}}] {
+            set charge [expr {abs([lindex $charges [lindex $list 0]])}]
+            if {[llength $list] > 1 || $charge <= 0.5 || $charge >= 1.2} { continue }
+            incr ions
+            set squares [expr {$squares + $charge * $charge}]
+        }
+        return [list waters $waters ions $ions ion_squares $squares]
     }
 
     # Endpoints, each with the potential that is usual for all of them together where the user named none: `map pb` and

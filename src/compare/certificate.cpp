@@ -157,11 +157,12 @@ void judge(CompareResult& result, const Molecule& source) {
          "the round-trip error is " + angstrom(c.round_trip ? c.round_trip->mean_A : 0) + " on average (limit " +
              angstrom(Limits::kRoundTrip_A) + ")");
   refuse_all(slip_reasons(result, source));
-  refuse(disagrees(c.residues), "the differences by residue correlate by " +
-                                    formatted("%.2f", c.residues ? c.residues->correlation : 0) +
-                                    " with those of each residue's potentials on its own surfaces (limit " +
-                                    formatted("%.2f", Limits::kResidueCorrelation) + ")" +
-                                    (disagrees(c.residues) ? most_disagreeing_residues(result, source) : ""));
+  refuse(disagrees(c.residues),
+         "the differences by residue correlate by " +
+             number_beside(c.residues ? c.residues->correlation : 0, Limits::kResidueCorrelation, 2) +
+             " with those of each residue's potentials on its own surfaces (limit " +
+             formatted("%.2f", Limits::kResidueCorrelation) + ")" +
+             (disagrees(c.residues) ? most_disagreeing_residues(result, source) : ""));
   refuse(c.outside_maps > Limits::kMaxOutsideMaps, percent(c.outside_maps) +
                                                        " of the mapped area lies outside a map (limit " +
                                                        percent(Limits::kMaxOutsideMaps) + ")");

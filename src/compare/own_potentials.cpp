@@ -69,6 +69,16 @@ void set_own_differences(std::vector<ResidueRow>& rows, const std::vector<OwnPot
   }
 }
 
+double rms_own_difference(const std::vector<ResidueRow>& rows) {
+  double area = 0, squares = 0;
+  for (const ResidueRow& row : rows) {
+    if (!std::isfinite(row.own_difference)) continue;
+    area += row.own_area_A2;
+    squares += row.own_area_A2 * row.own_difference * row.own_difference;
+  }
+  return area > 0 ? std::sqrt(squares / area) : kNaN;
+}
+
 ResidueCheck check_residues(const std::vector<ResidueRow>& rows, const std::vector<OwnPotential>& source) {
   double area = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0, errors = 0, potentials = 0;
   ResidueCheck check{kNaN, kNaN, kNaN, 0};

@@ -31,6 +31,9 @@ std::vector<OwnPotential> own_potentials(const Mesh& surface, const std::vector<
 void set_own_differences(std::vector<ResidueRow>& rows, const std::vector<OwnPotential>& source,
                          const std::vector<OwnPotential>& target, const std::vector<std::int32_t>& target_of);
 
+/// Root mean square of the rows' own_difference, weighted by own_area_A2; NaN without any.
+double rms_own_difference(const std::vector<ResidueRow>& rows);
+
 /// Fewer have no correlation.
 constexpr std::size_t kLeastComparedResidues = 5;
 

@@ -22,6 +22,7 @@
 namespace espdiff {
 
 struct Causes;
+struct MapCheck;
 struct MapRecipe;
 
 /// Per-residue averages over the mapped surface, source residues. Area-weighted; NaN if a residue has no valid area.
@@ -183,8 +184,9 @@ struct CompareResult {
   PotentialUnit unit = PotentialUnit::kUnknown;
   std::vector<OffsetMetrics> by_offset;                           ///< [offset of the options]; empty without potentials
   std::shared_ptr<const MapRecipe> source_recipe, target_recipe;  ///< of potentials that were computed, otherwise null
-  Metrics metrics;                                                ///< over valid triangles
-  Metrics metrics_all;                                            ///< over all triangles with samples
+  std::shared_ptr<const MapCheck> source_map_check, target_map_check;  ///< of given maps; null where not checked
+  Metrics metrics;                                                     ///< over valid triangles
+  Metrics metrics_all;                                                 ///< over all triangles with samples
   Metrics metrics_without_slip;  ///< over valid triangles of a slip within kMediumSlip_A
   std::size_t n_outside_source_map = 0, n_outside_target_map = 0;  ///< vertices
   SurfaceSummary source_surface, target_surface;

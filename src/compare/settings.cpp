@@ -291,6 +291,10 @@ std::vector<Setting> make_settings() {
   all.push_back(of_surface(number(
       "temperature", "Potentials", kPositive, [](auto& o) -> auto& { return o.temperature_K; },
       "Temperature of kT in potentials and units, K")));
+  all.push_back(boolean(
+      "trust-maps", "Potentials", [](auto& o) -> auto& { return o.trust_maps; },
+      "Take given maps as they are: maps that do not fit the molecules' charges, or two kinds of potential, give "
+      "warnings and are not refused"));
   add_surface_settings(all);
   add_mapping_settings(all);
   const std::size_t first = all.size();

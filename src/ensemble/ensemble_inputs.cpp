@@ -154,7 +154,9 @@ void EnsembleInputs::load_references() {
   std::vector<PotentialFacts> facts(names.size());
   for (std::size_t g = 0; g < names.size(); ++g) references_.emplace(names[g], reference_of(names[g], facts[g]));
   if (maps_.given()) return;
-  potential_ = PotentialPlan(request_.potential, facts, options_.temperature_K);
+  PotentialRequest asked = request_.potential;
+  asked.averaged = true;
+  potential_ = PotentialPlan(asked, facts, options_.temperature_K);
   if (!potential_.computes())
     throw InputError("an ensemble needs a potential" +
                      (potential_.because().empty() ? std::string() : ", and " + potential_.because()) +

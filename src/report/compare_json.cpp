@@ -243,6 +243,7 @@ void add_results(Json& json, const Molecule& source, const CompareResult& result
   json["n_paired_atoms"] = result.pairing.pairs.size();
   json["potential_unit"] = result.has_potential ? Json(potential_unit_text(result)) : Json(nullptr);
   json["potential"] = potential_json(result);
+  json["given_maps"] = given_maps_json(result);
   add_metrics(json, result);
   json["by_offset"] = offsets(result);
   json["metrics_without_slip"] = metrics_without_slip(result);

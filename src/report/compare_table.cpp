@@ -9,7 +9,9 @@
 #include "align/rigid_domains.h"
 #include "base/formatted.h"
 #include "causes/causes.h"
+#include "compare/map_check.h"
 #include "compare/result.h"
+#include "compare/short_numbers.h"
 #include "report/causes_report.h"
 #include "report/metrics.h"
 #include "report/placement.h"
@@ -154,9 +156,9 @@ void print_lines(std::ostream& out, const CompareResult& result, MetricSection s
 
 /// Which potential it is that differs, and what to know of it.
 void print_kind_of_potential(std::ostream& out, const CompareResult& result) {
-  const std::string label = potential_label(result);
-  if (label.empty()) return;
   const auto &source = result.source_recipe, &target = result.target_recipe;
+  if (!source && !target) return;
+  const std::string label = potential_label(result);
   const std::string because = source ? source->because : target->because;
   out << "\nComputed potential\n";
   line(out, "Kind", label + (because.empty() ? "" : " (" + because + ")"));
@@ -174,9 +176,24 @@ void print_kind_of_potential(std::ostream& out, const CompareResult& result) {
     line(out, "Note", note);
 }
 
+/// How given maps compare with the potentials of the molecules' charges.
+void print_given_maps(std::ostream& out, const CompareResult& result) {
+  if (!result.source_map_check && !result.target_map_check) return;
+  out << "\nGiven maps, against the potentials of the charges\n";
+  for (const auto& [side, check] :
+       {std::pair("Of the source", &result.source_map_check), std::pair("Of the target", &result.target_map_check)}) {
+    if (!*check) continue;
+    const ReferenceFit& fit = (*check)->best();
+    line(out, side,
+         std::string("as in ") + to_string((*check)->kind) + ": slope " + formatted("%.3g", fit.slope) +
+             ", correlation " + number_beside(fit.correlation, 1, 3) + " at " + counted((*check)->n_points, "point"));
+  }
+}
+
 void print_metrics(std::ostream& out, const CompareResult& result) {
   if (result.has_potential) {
     print_kind_of_potential(out, result);
+    print_given_maps(out, result);
     const bool vacuum = potential_unit_text(result) != to_string(result.unit);
     heading(out, std::string("Potential") + (vacuum ? kInVacuum : "") + " (target - source)",
             {"valid area", "all area", "without slip"});
