@@ -245,7 +245,8 @@ namespace eval ::espdiff {
             {-on-error choice stop "A frame that cannot be mapped stops the run, or has no values" {stop skip}}
             {-shard text 1/1 "Map part I of N of the frames, I/N, into OUT.shard-I-of-N.h5; `espdiff merge`\
                 merges the parts"}
-            {-from file {} "Compute the statistics of this complete OUT.h5 again, with {} as groups"}
+            {-from file {} "Compute the statistics of this complete OUT.h5 again, with {} as groups; or with its replicates in\
+                other groups, by NAME or GROUP/NAME, with @FRAMES for some of their frames"}
             {-alpha positive 0.05 "Significance level; intervals have the confidence 1 - alpha"}
             {-control choice tfce "The family-wise p that patches are made of" {tfce max-t}}
             {-equilibration text none "Frames to cut off at the start of each replicate: none, a number, or auto"}
@@ -258,7 +259,6 @@ namespace eval ::espdiff {
             {-states boolean 0 "Also compare every frame with every other one, and find the principal components of\
                 the potential"}
             {-arrangements count 10000 "Exchanges of labels at most; all of them where there are fewer"}
-            {-bootstrap count 999 "Samples, where a group has one replicate"}
             {-seed count 20221 "Of random numbers; results name it"}
         } $computing] \
         summary {Compares two groups of simulations: where is the difference more than noise? One surface, the template,

@@ -55,6 +55,8 @@ void name_inputs(const EnsembleArguments& a, EnsembleStudy& study) {
   if (study.from.empty() && a.groups.empty() && a.list.empty())
     throw InputError("no group was given; name one or two by --group, or a --list of them");
   EnsembleRequest& inputs = study.inputs;
+  if (!study.from.empty() && !a.list.empty())
+    throw InputError("--list names files, and --from has mapped frames; name its replicates by --group");
   inputs.replicates = a.list.empty() ? replicates_of_groups(a.groups) : replicates_of_list(a.list, inputs.charges);
   for (const std::string& text : a.charges) {
     const std::size_t sign = text.find('=');
@@ -149,7 +151,9 @@ void add_run_options(CLI::App& p, EnsembleArguments& a) {
 
 void add_statistics_options(CLI::App& p, EnsembleArguments& a) {
   const char* const group = "Statistics";
-  p.add_option("--from", a.study.from, "Compute the statistics of this complete OUT.h5 again; maps nothing")
+  p.add_option("--from", a.study.from,
+               "Compute the statistics of this complete OUT.h5 again; maps nothing. Groups are then of its replicates: "
+               "--group NAME MEMBER..., each NAME, GROUP/NAME, or with some of its frames, w1@0:49 (see --frames)")
       ->group(group);
   p.add_option("--alpha", a.study.statistics.alpha, "Significance level; intervals have the confidence 1 - alpha")
       ->check(CLI::Range(1e-6, 0.5))
@@ -186,10 +190,6 @@ void add_statistics_options(CLI::App& p, EnsembleArguments& a) {
   p.add_option("--arrangements", a.study.statistics.test.most_arrangements,
                "Exchanges of labels at most; all of them where there are fewer")
       ->check(CLI::Range(20, 1000000))
-      ->capture_default_str()
-      ->group(group);
-  p.add_option("--bootstrap", a.study.statistics.test.n_bootstrap, "Samples, where a group has one replicate")
-      ->check(CLI::Range(99, 100000))
       ->capture_default_str()
       ->group(group);
   p.add_option("--seed", a.study.statistics.test.seed, "Of random numbers; results name it")

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <numeric>
 
 #include "base/error.h"
 #include "base/formatted.h"
@@ -99,6 +100,7 @@ struct EnsembleFile::Contents {
   EnsembleLayout layout;
   std::vector<char> done;
   std::size_t n_damaged = 0;
+  std::vector<std::size_t> chosen;  ///< [frame] its place in the file; see choose()
 
   void open(bool for_writing) {
     file = OpenFile(path, for_writing ? FileAccess::kReadWrite : FileAccess::kRead);
@@ -129,6 +131,8 @@ struct EnsembleFile::Contents {
         throw FormatError(path, 0, "a vertex has a residue that the description of the run lacks; it is damaged");
     }
     check_frames();
+    chosen.resize(layout.n_frames);
+    std::iota(chosen.begin(), chosen.end(), std::size_t{0});
   }
 
   void check_frames() {
@@ -219,10 +223,12 @@ const std::string& EnsembleFile::path() const { return contents_->path; }
 const EnsemblePlan& EnsembleFile::plan() const { return contents_->plan; }
 const TemplateSurface& EnsembleFile::surface() const { return contents_->surface; }
 std::size_t EnsembleFile::n_vertices() const { return contents_->layout.n_vertices; }
-bool EnsembleFile::has(std::size_t frame) const { return contents_->done.at(frame) != 0; }
+bool EnsembleFile::has(std::size_t frame) const { return contents_->done.at(contents_->chosen.at(frame)) != 0; }
 std::size_t EnsembleFile::n_damaged() const { return contents_->n_damaged; }
 std::size_t EnsembleFile::n_done() const {
-  return static_cast<std::size_t>(std::count(contents_->done.begin(), contents_->done.end(), 1));
+  const auto& chosen = contents_->chosen;
+  return static_cast<std::size_t>(
+      std::count_if(chosen.begin(), chosen.end(), [this](std::size_t f) { return contents_->done[f] == 1; }));
 }
 
 void EnsembleFile::finish() {
@@ -238,14 +244,21 @@ void EnsembleFile::write(std::size_t frame, const std::vector<float>& values, co
 }
 
 EnsembleFrame EnsembleFile::numbers(std::size_t frame) const {
-  const std::vector<double> row = contents_->numbers(frame);
-  const std::string note = contents_->note(frame);
+  const std::size_t place = contents_->chosen.at(frame);
+  const std::vector<double> row = contents_->numbers(place);
+  const std::string note = contents_->note(place);
   return {row[0], row[1], row[2], row[3], row[4], row[5], row[6] != 0, note.substr(0, note.find('\0'))};
 }
 
 void EnsembleFile::read_values(std::size_t frame, std::size_t begin, std::size_t end, float* values) const {
-  read_file_at(contents_->file, contents_->path, contents_->layout.values[frame] + begin * sizeof(float), values,
+  read_file_at(contents_->file, contents_->path,
+               contents_->layout.values[contents_->chosen[frame]] + begin * sizeof(float), values,
                (end - begin) * sizeof(float));
+}
+
+void EnsembleFile::choose(EnsemblePlan plan, std::vector<std::size_t> frames) {
+  contents_->plan = std::move(plan);
+  contents_->chosen = std::move(frames);
 }
 
 void EnsembleFile::copy(std::size_t frame, const EnsembleFile& from) {

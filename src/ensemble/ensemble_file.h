@@ -60,6 +60,9 @@ class EnsembleFile {
   void read_values(std::size_t frame, std::size_t begin, std::size_t end, float* values) const;
   /// Closes the file. @throws IoError (what was written has not arrived)
   void finish();
+  /// From now on the file's frames are these, in this order, under another plan; it cannot be written any more.
+  /// @param frames [frame of the plan] of the file, each at most once
+  void choose(EnsemblePlan plan, std::vector<std::size_t> frames);
   /// Copies a whole frame of another file of the same plan, bit for bit.
   void copy(std::size_t frame, const EnsembleFile& from);
 

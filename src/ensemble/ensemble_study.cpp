@@ -8,6 +8,7 @@
 #include "compare/settings.h"
 #include "engine/engine.h"
 #include "ensemble/ensemble_file.h"
+#include "ensemble/relabel.h"
 #include "ensemble/template_patches.h"
 #include "ensemble/write_ensemble.h"
 #include "io/check_outputs.h"
@@ -103,10 +104,9 @@ class Study {
 };
 
 void open_earlier(const EnsembleStudy& study, const Progress& progress, EnsembleAnswer& answer) {
-  if (!study.inputs.replicates.empty())
-    throw InputError(option("from") + " reads mapped frames from a file; leave out the groups");
   check_outputs(inputs_of(study, {study.from}), outputs_of(study));
   answer.file = std::make_unique<EnsembleFile>(study.from, false);
+  if (!study.inputs.replicates.empty()) relabel(*answer.file, study.inputs.replicates);
   EnsembleOptions statistics = study.statistics;
   statistics.fixed_patches = fixed_patches(study.options, residues_of_template(answer.file->plan()));
   if (!study.regress.empty()) statistics.regression = read_regression_column(study.regress, answer.file->plan());

@@ -138,13 +138,16 @@ namespace eval ::espdiff::gui {
 
     # The answer in two or three lines.
     proc ensemble_answer {result} {
-        if {![dict exists $result test]} { return "One group: its mean potential, without a comparison." }
+        set text "[string toupper [dict get $result conclusion] 0]."
+        if {![dict exists $result test]} { return $text }
         set unit [dict get $result potential_unit]
         dict with result test {
-            set text "Mean absolute difference [format %.3f $mean_abs_difference] $unit (p =\
-                [format %.3g $mean_abs_difference_p]); significant: [format %.0f $significant_area_A2] of\
-                [format %.0f [dict get $result tested_area_A2]] \u00c5\u00b2."
-            if {$inference ne "replicates"} { append text "\nA statement about these runs only: a group has one replicate." }
+            append text "\nMean absolute difference [format %.3f $mean_abs_difference] $unit"
+            if {$no_p_because eq ""} {
+                append text " (p = [with_digits $mean_abs_difference_p]); significant: [format %.0f $significant_area_A2]\
+                    of [format %.0f [dict get $result tested_area_A2]] \u00c5\u00b2"
+            }
+            append text "."
         }
         if {[dict exists $result fixed_patches]} {
             dict for {name patch} [dict get $result fixed_patches] { append text "\n[fixed_patch_words $name $patch $unit]" }
@@ -156,9 +159,6 @@ namespace eval ::espdiff::gui {
                 append text "\nOn $column: Q2 [with_digits $q2] (p = [format %.3g $q2_p]); significant: [format %.0f $area]\
                     \u00c5\u00b2."
             }
-        }
-        if {![dict get $result equilibrium holds]} {
-            append text "\nNOT AN EQUILIBRIUM ANSWER: [join [dict get $result equilibrium reasons] {; }]."
         }
         foreach warning [::espdiff::value_or $result warnings {}] { append text "\n\u2022 $warning" }
         return $text
