@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/formatted.h"
 #include "base/progress.h"
+#include "base/work.h"
 #include "cuda/potential/coulomb.h"
 #include "cuda/potential/pmepot_places.h"
 #include "cuda/potential/spread.h"
@@ -150,7 +151,14 @@ void add_direct_part(const std::vector<Vec3d>& positions, const std::vector<floa
          coulomb * q});
     net += q;
   }
-  map.charge_sums = std::make_shared<ChargeSums>(std::move(parts), cell.edges, beta);
+  const auto sums = std::make_shared<ChargeSums>(std::move(parts), cell.edges, beta);
+  constexpr double kUsualSamples = 5e4;  // vertices of a surface
+  require_work(kUsualSamples * sums->n_terms(),
+               option("ewaldfactor") + ": " + formatted(beta) +
+                   " makes each value of the potential a sum over all charges within " +
+                   formatted(kDirectReach / beta) + " A, " + formatted(sums->n_terms()) + " terms",
+               "give a larger one (0.25 is usual)");
+  map.charge_sums = sums;
   map.zero = coulomb * kPi * net / (beta * beta * dot(cell.edges[0], cross(cell.edges[1], cell.edges[2])));
 }
 

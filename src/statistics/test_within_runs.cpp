@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/not_a_number.h"
+#include "base/progress.h"
 #include "statistics/columns.h"
 #include "statistics/counter_random.h"
 #include "statistics/mesh_graph.h"
@@ -63,12 +64,14 @@ void add_samples(const Columns& columns, std::size_t replicate, std::size_t leng
   const std::size_t n = columns.n_frames(replicate), n_columns = columns.n_columns();
   const std::size_t at_once = std::max<std::size_t>(1, kColumnBytes / sizeof(float) / n);
   std::vector<float> values;
+  const CancelRequest cancel;
   for (std::size_t begin = 0; begin < n_columns; begin += at_once) {
+    cancel.check();
     const std::size_t end = std::min(n_columns, begin + at_once);
     columns.read(replicate, begin, end, values);
 #pragma omp parallel for schedule(dynamic, 16)
     for (std::size_t c = begin; c < end; ++c) {
-      if (tested[c] == 0) continue;
+      if (tested[c] == 0 || cancel.made()) continue;
       RunningSums sums;
       sums.set(values, c - begin, end - begin, n);
       for (std::size_t b = 0; b < n_samples; ++b)
@@ -100,13 +103,16 @@ void add_bootstrapped(PlaceTests& tests, double difference, std::vector<double>&
 void set_family_wise(SurfaceTest& test, const MeshGraph& graph) {
   const std::size_t n = graph.n_vertices(), n_samples = test.deviations.size() / n;
   std::vector<double> max_t(n_samples + 1), max_tfce(n_samples + 1);
+  const CancelRequest cancel;
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t b = 0; b < n_samples; ++b) {
+    if (cancel.made()) continue;
     std::vector<double> t(n);
     for (std::size_t v = 0; v < n; ++v) t[v] = static_cast<double>(test.deviations[b * n + v]) / test.vertices.error[v];
     max_t[b] = largest_magnitude(t);
     max_tfce[b] = largest_magnitude(enhance_clusters(t, graph));
   }
+  cancel.check();
   test.tfce = enhance_clusters(test.vertices.t, graph);
   max_t.back() = largest_magnitude(test.vertices.t);
   max_tfce.back() = largest_magnitude(test.tfce);
