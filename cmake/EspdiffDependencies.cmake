@@ -31,7 +31,7 @@ find_package(OpenMP REQUIRED COMPONENTS CXX)
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
-find_package(Boost 1.66 REQUIRED)  # headers only: distributions of Boost.Math
+find_package(Boost 1.70 REQUIRED CONFIG)  # headers only: distributions of Boost.Math
 
 # CUDA: for the second back end only.
 if(NOT ESPDIFF_CUDA STREQUAL "OFF")
@@ -101,6 +101,8 @@ espdiff_resolve(ESPDIFF_PAGES "${three_found}" "Pages for a browser" "three.js w
 if(NOT ESPDIFF_GEMMI STREQUAL "OFF")
   find_path(ESPDIFF_GEMMI_INCLUDE gemmi/cif.hpp)
   find_path(ESPDIFF_PEGTL_INCLUDE tao/pegtl.hpp)  # gemmi's CIF reader includes it
+  # From 0.6 on, part of gemmi is a library. Its CMake package is of no use here: Debian's asks for its program too.
+  find_library(ESPDIFF_GEMMI_LIBRARY gemmi_cpp)
 endif()
 if(ESPDIFF_GEMMI_INCLUDE AND ESPDIFF_PEGTL_INCLUDE)
   set(gemmi_found TRUE)

@@ -80,6 +80,7 @@ void Job::run() {
   Failure why{"", ""};
   const State state = boundary(
       [this] {
+        const CancelScope scope(progress_);
         body_(progress_);
         return State::kDone;
       },

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include "base/progress.h"
 #include "base/vector.h"
 
 #if defined(ESPDIFF_BACKEND_CUDA)
@@ -59,11 +60,24 @@ inline auto on_device() {
 
 #else
 
+/// So many indices follow each other without a look at whether the computation is cancelled; fewer indices are each
+/// looked at, since each may stand for much work.
+constexpr std::size_t kIndicesAtOnce = 64, kFewIndices = 4096;
+
 /// Calls body(i) for each i in [0, n) in parallel. Deterministic if no call writes what another reads or writes.
+/// @throws Cancelled once this thread's CancelRequest is made; what the bodies write is then unfinished
 template <typename Body>
 void for_each_index(std::size_t n, Body body) {
   if (n == 0) return;
-  thrust::for_each_n(thrust::device, thrust::counting_iterator<std::size_t>(0), n, body);
+  const CancelRequest cancel;
+  const std::size_t at_once = n < kFewIndices ? 1 : kIndicesAtOnce;
+  thrust::for_each_n(thrust::device, thrust::counting_iterator<std::size_t>(0), (n + at_once - 1) / at_once,
+                     [=](std::size_t block) {
+                       if (cancel.made()) return;
+                       const std::size_t end = block * at_once + at_once < n ? block * at_once + at_once : n;
+                       for (std::size_t i = block * at_once; i < end; ++i) body(i);
+                     });
+  cancel.check();
 }
 
 /// Execution policy for Thrust's algorithms.

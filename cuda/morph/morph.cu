@@ -7,7 +7,9 @@
 
 #include "base/error.h"
 #include "base/formatted.h"
+#include "base/memory.h"
 #include "base/progress.h"
+#include "base/work.h"
 #include "cuda/device/spatial_order.h"
 #include "cuda/device/unwrap.h"
 #include "cuda/morph/moving_surface.h"
@@ -129,6 +131,30 @@ MorphResult project_ends(const MovingSurface& surface, const SurfaceMesh& mesh, 
   return result;
 }
 
+/// Asks for memory and time before edges are split again and again, by the mean square of the edges as they are.
+void check_work(MovingSurface& surface, const MorphOptions& options, int n_steps) {
+  const MovingSurfaceView s = view_of(surface);
+  const std::size_t n = surface.n_vertices();
+  const double squares = sum_over<double>(n, [=] ESPDIFF_HD(std::size_t v) {
+    double sum = 0;
+    for (std::uint32_t p = s.topology.first[v]; p < s.topology.first[v + 1]; ++p) {
+      const Vec3f edge = s.x[v].xyz() - s.x[s.topology.neighbour[p]].xyz();
+      sum += static_cast<double>(dot(edge, edge));
+    }
+    return sum;
+  });
+  const double square = squares / (3.0 * static_cast<double>(s.topology.n_triangles));
+  // A split quarters the triangles, so that edges end between the limit and half of it.
+  const double n_split = static_cast<double>(n) * std::max(1.0, 2 * square / (options.max_edge_A * options.max_edge_A));
+  const std::string what = "a morph of " + formatted(static_cast<double>(n)) + " vertices in " +
+                           std::to_string(n_steps) + " steps, edges split to " + formatted(options.max_edge_A) +
+                           " A, makes about " + formatted(n_split) + " vertices";
+  constexpr double kBytesOfVertex = 400, kStepsOfVertex = 300;  // atoms near it
+  require_memory(kBytesOfVertex * n_split, what);
+  require_work(kStepsOfVertex * n_split * n_steps, what,
+               "give a larger " + option("max-edge") + " or " + option("max-step"));
+}
+
 /// Runs all steps. `mesh` is the initial surface on the source.
 MorphResult run_steps(MovingSurface surface, const SurfaceMesh& mesh, const std::vector<MovingAtom>& atoms,
                       const AtomCells& source_atoms, const AtomCells& target_atoms, const MorphOptions& options,
@@ -137,6 +163,7 @@ MorphResult run_steps(MovingSurface surface, const SurfaceMesh& mesh, const std:
   const float isovalue = static_cast<float>(options.isovalue);
   const float max_edge = static_cast<float>(options.max_edge_A), max_stretch = static_cast<float>(options.max_stretch);
   const int n_steps = steps_for(atoms, options);
+  check_work(surface, options, n_steps);
   std::size_t n_added = 0;
   MovingAtoms now = atoms_at(atoms, 0.0);
   return_to_level_set(surface, now, isovalue);

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/formatted.h"
 #include "base/progress.h"
+#include "base/work.h"
 #include "cuda/potential/map_origin.h"
 #include "engine/potential_stage.h"
 
@@ -61,6 +62,10 @@ std::shared_ptr<MapGrid> coulomb_potential(const std::vector<Vec3d>& positions, 
   check_charges(positions, charges);
   check(options);
   check(lattice);
+  const double n_points = static_cast<double>(lattice.n_points()), n_atoms = static_cast<double>(positions.size());
+  require_work(n_atoms * n_points,
+               "Coulomb's law of " + formatted(n_atoms) + " atoms at " + formatted(n_points) + " points",
+               "give a coarser grid, or take the potential pme");
   auto map = std::make_shared<MapGrid>();
   map->lattice = lattice;
   map->unit = PotentialUnit::kKtPerE;

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/formatted.h"
 #include "base/progress.h"
+#include "base/work.h"
 #include "cuda/potential/bulk_zero.h"
 #include "cuda/potential/coulomb.h"
 #include "cuda/potential/map_origin.h"
@@ -186,6 +187,13 @@ void add_direct_part(const std::vector<Vec3d>& positions, const std::vector<floa
   double net = 0;
   for (const float q : charges) net += static_cast<double>(q);
   map.zero = direct_mean(net, cell, options);
+  constexpr double kUsualSamples = 5e4;  // vertices of a surface
+  require_work(kUsualSamples * map.charge_sums->n_terms(),
+               option("ewaldfactor") + ": " + formatted(options.ewald_factor) +
+                   " makes each value of the potential a sum over all charges within " +
+                   formatted(kDirectReach / options.ewald_factor) + " A, " + formatted(map.charge_sums->n_terms()) +
+                   " terms",
+               "give a larger one (0.25 is usual)");
 }
 
 double scale_of(double volume, const PmeOptions& options) {

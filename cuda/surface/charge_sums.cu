@@ -17,6 +17,9 @@ bool in_order(const PointCharge& a, const PointCharge& b) {
 
 constexpr int kMostBins = 64;
 
+/// Bins in one direction; more are never summed over (PmeSolver refuses them).
+constexpr double kMostReach = 1e6;
+
 /// Bins of a third of the range: spheres of it then fill a third of the bins that are visited.
 int bins_along(double height_A, double range_A) {
   return std::clamp(static_cast<int>(3 * height_A / range_A), 1, kMostBins);
@@ -44,7 +47,7 @@ ChargeSums::ChargeSums(std::vector<PointCharge> parts, const std::array<Vec3d, 3
     const double height = volume / norm(cross(edges[(axis + 1) % 3], edges[(axis + 2) % 3]));
     shape_.edges[axis] = edges[axis];
     shape_.bins[axis] = bins_along(height, range);
-    shape_.reach[axis] = static_cast<int>(std::ceil(range * shape_.bins[axis] / height));
+    shape_.reach[axis] = static_cast<int>(std::min(std::ceil(range * shape_.bins[axis] / height), kMostReach));
   }
   const auto bin_of = [this](const PointCharge& c) {
     int at[3];
@@ -65,6 +68,15 @@ ChargeSums::ChargeSums(std::vector<PointCharge> parts, const std::array<Vec3d, 3
   shape_.n = parts.size();
   charges_ = to_device(parts);
   first_ = to_device(first);
+}
+
+double ChargeSums::n_terms() const {
+  double n_bins = 1, n_visited = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    n_bins *= shape_.bins[axis];
+    n_visited *= 2.0 * shape_.reach[axis] + 1;
+  }
+  return n_visited * (1 + static_cast<double>(shape_.n) / n_bins);
 }
 
 ChargeSumsView ChargeSums::view() const {

@@ -119,6 +119,9 @@ class ChargeSums {
 
   ChargeSumsView view() const;
 
+  /// How many charges a sample in a cell adds up, and bins that it looks into.
+  double n_terms() const;
+
  private:
   Buffer<PointCharge> charges_;
   Buffer<std::uint32_t> first_;

@@ -59,6 +59,7 @@ void run(const nb::object& listener, const std::function<void(const Progress&)>&
     const SleepingTeam asleep;
     std::thread thread([&] {
       set_default_rounding();
+      const CancelScope scope(progress);
       std::exception_ptr failure;
       try {
         work(progress);

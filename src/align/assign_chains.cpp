@@ -8,6 +8,7 @@
 
 #include "align/superpose.h"
 #include "base/error.h"
+#include "base/progress.h"
 
 namespace espdiff {
 namespace {
@@ -83,6 +84,7 @@ std::vector<std::ptrdiff_t> assign_chains(const ChainAssignment& chains) {
   double least = present;
   int n_tried = 0;
   for (const auto& row : chains.points) {
+    CancelRequest().check();
     for (const ChainPoints& points : row) {
       if (points.size() < 3 || ++n_tried > kMostTried) continue;
       RigidTransform motion;

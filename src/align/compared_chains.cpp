@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "align/residue_names.h"
+#include "base/progress.h"
 
 namespace espdiff {
 namespace {
@@ -20,13 +21,13 @@ struct NamedChain {
 /// Chains of amino acids or nucleotides, in the molecule's order.
 std::vector<NamedChain> named_chains(const Molecule& molecule) {
   std::vector<NamedChain> chains;
+  std::map<std::string, std::size_t> of_name;
   for (const Residue& residue : molecule.residues) {
     const char letter = residue_letter(residue.name);
     if (letter == '?') continue;
-    auto found = std::find_if(chains.begin(), chains.end(),
-                              [&](const NamedChain& chain) { return chain.name == residue.chain; });
-    if (found == chains.end()) found = chains.insert(chains.end(), {residue.chain, {}});
-    found->letters[{residue.number, residue.insertion_code}] = letter;
+    const auto [known, is_new] = of_name.try_emplace(residue.chain, chains.size());
+    if (is_new) chains.push_back({residue.chain, {}});
+    chains[known->second].letters[{residue.number, residue.insertion_code}] = letter;
   }
   return chains;
 }
@@ -34,6 +35,8 @@ std::vector<NamedChain> named_chains(const Molecule& molecule) {
 bool are_copies(const Letters& a, const Letters& b) {
   constexpr std::size_t kLeast = 5;
   constexpr double kShare = 0.9;
+  const std::size_t shorter = std::min(a.size(), b.size());
+  if (shorter < kLeast) return false;
   std::size_t n_common = 0, n_equal = 0;
   for (const auto& [number, letter] : a) {
     const auto found = b.find(number);
@@ -41,9 +44,7 @@ bool are_copies(const Letters& a, const Letters& b) {
     ++n_common;
     n_equal += found->second == letter ? 1 : 0;
   }
-  const std::size_t shorter = std::min(a.size(), b.size());
-  return shorter >= kLeast && n_common == n_equal &&
-         static_cast<double>(n_common) >= kShare * static_cast<double>(shorter);
+  return n_common == n_equal && static_cast<double>(n_common) >= kShare * static_cast<double>(shorter);
 }
 
 }  // namespace
@@ -73,6 +74,7 @@ std::vector<std::vector<std::string>> repeated_chains(const Molecule& molecule) 
   std::vector<bool> taken(chains.size(), false);
   std::vector<std::vector<std::string>> groups;
   for (std::size_t i = 0; i < chains.size(); ++i) {
+    CancelRequest().check();
     if (taken[i]) continue;
     std::vector<std::string> group{chains[i].name};
     for (std::size_t j = i + 1; j < chains.size(); ++j) {

@@ -15,6 +15,8 @@
 #include "align/assign_chains.h"
 #include "align/chain_links.h"
 #include "align/pair_by_place.h"
+#include "base/error.h"
+#include "base/progress.h"
 
 namespace espdiff {
 namespace {
@@ -123,7 +125,9 @@ void keep_leftovers(const Chain& chain, const std::vector<std::size_t>& paired, 
 /// @returns whether any residues were paired
 bool pair_chains(std::vector<Chain>& source, std::vector<Chain>& target, ScoreTable& scores, IndexPairs& pairs) {
   std::vector<Candidate> candidates;
+  const CancelRequest cancel;
   for (std::size_t i = 0; i < source.size(); ++i) {
+    cancel.check();
     for (std::size_t j = 0; j < target.size(); ++j) {
       if (const auto candidate = consider(source, i, target, j, scores)) candidates.push_back(*candidate);
     }
@@ -276,6 +280,16 @@ ChainPoints points_of_atoms(const ResidueView& source, const ResidueView& target
   return points;
 }
 
+/// Each chain is compared with each: ten thousand with as many are minutes, a hundred thousand hours and 240 GB.
+void check_chains(const ResidueView& source, std::size_t n_source, const ResidueView& target, std::size_t n_target) {
+  constexpr double kMostPairs = 1e8;
+  if (static_cast<double>(n_source) * static_cast<double>(n_target) <= kMostPairs) return;
+  throw InputError(source.molecule->name + " has " + std::to_string(n_source) + " chains and " + target.molecule->name +
+                   " " + std::to_string(n_target) +
+                   ", and each is compared with each (limit 1e8 pairs of chains); choose some by " + option("select") +
+                   ", or give the residues of a chain one chain name and rising numbers");
+}
+
 /// The chains of both molecules, which of them are equal, and which of the other molecule each pairs with.
 struct EqualChains {
   std::vector<Chain> source, target;
@@ -286,6 +300,7 @@ struct EqualChains {
     SequenceEncoder encoder;
     source = chains_of(source_view, encoder);
     target = chains_of(target_view, encoder);
+    check_chains(source_view, source.size(), target_view, target.size());
     assignment.points.resize(source.size(), std::vector<ChainPoints>(target.size()));
     assignment.target_of.assign(source.size(), -1);
     if (source.size() < 2 || target.size() < 2) return;
@@ -295,6 +310,7 @@ struct EqualChains {
       for (const std::size_t r : target[j].residues) chain_of_target[r] = j;
     }
     for (std::size_t i = 0; i < source.size(); ++i) {
+      CancelRequest().check();
       std::map<std::size_t, std::size_t> votes;
       for (const std::size_t r : source[i].residues) {
         if (partner.count(r) != 0) ++votes[chain_of_target[partner[r]]];
@@ -405,6 +421,7 @@ bool names_are_permuted(const Molecule& source, const Molecule& target) {
 ResiduePairing pair_residues(const ResidueView& source, const ResidueView& target, PairOthers others) {
   SequenceEncoder encoder;
   std::vector<Chain> source_chains = chains_of(source, encoder), target_chains = chains_of(target, encoder);
+  check_chains(source, source_chains.size(), target, target_chains.size());
   ScoreTable scores;
   ResiduePairing pairing;
   while (pair_chains(source_chains, target_chains, scores, pairing.pairs)) {

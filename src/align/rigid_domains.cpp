@@ -35,7 +35,7 @@ struct Range {
 };
 
 [[noreturn]] void refuse(const std::string& text, const std::string& why) {
-  throw InputError("domains: '" + text + "' " + why +
+  throw InputError(option("domains") + ": '" + text + "' " + why +
                    "; give as-needed, none, local, chains, auto, or residues such as A:1-29,68-117/A:30-67");
 }
 

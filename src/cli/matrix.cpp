@@ -65,6 +65,7 @@ struct States {
 /// Each structure is read once.
 States read_states(const MatrixArguments& a, const std::vector<VariantFiles>& files, const CompareOptions& options,
                    const Progress& progress) {
+  matrix_pairs(files.size(), a.run.shard);  // refuses what is too large before anything is read
   States all;
   std::vector<LoadedState> states;
   std::unique_ptr<StructureFile> structure;  // several models of one follow each other

@@ -23,6 +23,12 @@ std::string joined(const std::vector<std::string>& words, const char* between) {
   return text;
 }
 
+/// The message without "--NAME: " at its beginning, which CLI11 puts there.
+std::string without_name(const InputError& error, const std::string& name) {
+  const std::string message = spelled(error.message()), before = "--" + name + ": ";
+  return message.rfind(before, 0) == 0 ? message.substr(before.size()) : message;
+}
+
 }  // namespace
 
 CLI::Validator checked_by(const std::function<void(const std::string&)>& check) {
@@ -138,7 +144,7 @@ void add_settings(CLI::App& parser, GivenSettings& given, SettingsFor what) {
       try {
         setting.set(scratch, text);
       } catch (const InputError& error) {
-        return spelled(error.message()).substr(setting.name.size() + 4);  // without "--NAME: ": CLI11 says it
+        return without_name(error, setting.name);
       }
       return std::string();
     };
@@ -186,8 +192,7 @@ void add_potential_settings(CLI::App& parser, GivenPotentialSettings& given, boo
       try {
         setting.set(scratch, text);
       } catch (const InputError& error) {
-        const std::string message = spelled(error.message()), name_before = "--" + setting.option + ": ";
-        return message.rfind(name_before, 0) == 0 ? message.substr(name_before.size()) : message;
+        return without_name(error, setting.option);
       }
       return std::string();
     };

@@ -30,6 +30,7 @@ class TerminalProgress {
   std::string stage_;
   std::chrono::steady_clock::time_point last_draw_{};
   Progress progress_;
+  CancelScope scope_{progress_};
   Interruption interruption_;
 };
 

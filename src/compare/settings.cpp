@@ -262,6 +262,14 @@ constexpr std::pair<const char*, const char*> kUnits[] = {{"grid-spacing", "A"},
                                                           {"distance-threshold", "A"}, {"gvf-weight", "A2"},
                                                           {"temperature", "K"},        {"region-within", "A"}};
 
+/// Beyond these nobody compares surfaces, and a computation lasts for days or ends in a lack of memory.
+constexpr SettingLimits kLimits[] = {
+    {"grid-spacing", 0.001, 20},    {"radius-scale", 0.01, 20},       {"isovalue", 1e-6, 1e6},
+    {"temperature", 1, 1e5},        {"region-within", 0, 1000},       {"max-step", 0.001, 1000},
+    {"max-edge", 0.25, 1000},       {"distance-threshold", 0, 1000},  {"gvf-weight", 1e-6, 1e6},
+    {"gvf-tolerance", 1e-12, 1000}, {"gvf-max-sweeps", 0, 1e6},       {"sigma", 1e-6, 1000},
+    {"max-iterations", 0, 1e6},     {"regularize-sigma", 1e-6, 1000}, {"regularize-max-iterations", 0, 1e6}};
+
 std::vector<Setting> make_settings() {
   std::vector<Setting> all;
   all.push_back(choice(
@@ -306,6 +314,7 @@ std::vector<Setting> make_settings() {
     for (const auto& [name, unit] : kUnits)
       if (setting.name == name) setting.unit = unit;
   }
+  set_limits(all, kLimits, &Setting::name);
   return all;
 }
 
@@ -313,6 +322,12 @@ std::vector<Setting> make_settings() {
 
 void refuse_value(const std::string& name, const std::string& text, const std::string& accepted) {
   throw InputError(option(name) + ": '" + text + "' is not " + accepted);
+}
+
+void check_limits(const SettingLimits& limits, const std::string& text, const std::string& value) {
+  double number = 0;
+  if (!parse(value, number) || (number >= limits.least && number <= limits.most)) return;
+  refuse_value(limits.name, text, "a number from " + written(limits.least) + " to " + written(limits.most));
 }
 
 Setting of_surface(Setting row) {

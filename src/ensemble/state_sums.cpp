@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/not_a_number.h"
+#include "base/progress.h"
 #include "ensemble/ensemble_file.h"
 
 namespace espdiff {
@@ -100,6 +101,7 @@ StateSums sum_states(const EnsembleFile& file, const std::vector<std::size_t>& f
   sums.complete.assign(sums.pairs.size(), 0);
   StateBlock block(file, frames);
   for (std::size_t begin = 0; begin < file.n_vertices(); begin += kStateBlock) {
+    CancelRequest().check();
     const std::size_t end = std::min(file.n_vertices(), begin + kStateBlock);
     block.read(begin, end);
     std::vector<double> complete(weights.begin() + static_cast<std::ptrdiff_t>(begin),

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/not_a_number.h"
+#include "base/progress.h"
 #include "ensemble/ensemble_file.h"
 #include "ensemble/ensemble_result.h"
 
@@ -16,8 +17,10 @@ constexpr double kFar_A = 2;
 /// [vertex of the first] the nearest vertex of the other; -1 beyond kFar_A.
 std::vector<std::int64_t> nearest_vertices(const std::vector<Vec3d>& first, const std::vector<Vec3d>& other) {
   std::vector<std::int64_t> nearest(first.size(), -1);
+  const CancelRequest cancel;
 #pragma omp parallel for schedule(static)
   for (std::size_t v = 0; v < first.size(); ++v) {
+    if (cancel.made()) continue;
     double best = kFar_A * kFar_A;
     for (std::size_t w = 0; w < other.size(); ++w) {
       const Vec3d d = first[v] - other[w];
@@ -27,6 +30,7 @@ std::vector<std::int64_t> nearest_vertices(const std::vector<Vec3d>& first, cons
       nearest[v] = static_cast<std::int64_t>(w);
     }
   }
+  cancel.check();
   return nearest;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <gemmi/cif.hpp>    // for read_memory
 #include <gemmi/mmcif.hpp>  // for make_structure
+#include <gemmi/numb.hpp>   // for as_number
 #include <gemmi/pdb.hpp>    // for read_pdb_from_memory
 #include <limits>
 #include <set>
@@ -283,7 +284,9 @@ ParsedCif parse_mmcif(const std::string& path, const std::string& text, const st
   ParsedCif parsed;
   if (!assembly.empty()) parsed.n_operations = check_operations(path, document.blocks.front(), assembly);
   add_missing_columns(document.blocks.front());
-  parsed.structure = call_gemmi(path, "the mmCIF cannot be read: ", [&] { return gemmi::make_structure(document); });
+  // gemmi 0.6 takes the document for itself; 0.5 only looks at it.
+  parsed.structure =
+      call_gemmi(path, "the mmCIF cannot be read: ", [&] { return gemmi::make_structure(std::move(document)); });
   return parsed;
 }
 

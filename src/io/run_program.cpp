@@ -43,21 +43,21 @@ std::string content_of(const std::string& program, const OpenFile& file) {
   return text;
 }
 
-int start(const ProgramCall& call, const ChildFiles& files) {
-  int process = 0;
-  const int error = start_child(call.words, files, process);
+ChildProcess start(const ProgramCall& call, const ChildFiles& files) {
+  ChildProcess child;
+  const int error = start_child(call.words, files, child);
   if (error == ENOENT && call.folder.empty()) throw DeviceError("there is no program '" + call.words.front() + "'");
   if (error != 0) cannot_start(call.words.front(), error);
-  return process;
+  return child;
 }
 
-/// Waits, and kills the program's group if it may not go on.
-int wait_with_checks(const ProgramCall& call, int process, const ChildFiles& files) {
+/// Waits, and kills the program with its children if it may not go on.
+int wait_with_checks(const ProgramCall& call, const ChildProcess& child, const ChildFiles& files) {
   const auto begun = std::chrono::steady_clock::now();
   int status = 0;
   try {
     for (auto pause = std::chrono::milliseconds(1);; pause = std::min(2 * pause, std::chrono::milliseconds(20))) {
-      const ChildState state = child_state(process, status);
+      const ChildState state = child_state(child.process, status);
       if (state == ChildState::kEnded) return status;
       if (state == ChildState::kUnknown) throw DeviceError(call.words.front() + ": it cannot be told how it ended");
       if (call.while_running) call.while_running();
@@ -73,7 +73,7 @@ int wait_with_checks(const ProgramCall& call, int process, const ChildFiles& fil
       std::this_thread::sleep_for(pause);
     }
   } catch (...) {
-    kill_group(process);
+    kill_child(child);
     throw;
   }
 }

@@ -25,8 +25,8 @@ struct ProgramResult {
 /// name on PATH; empty if there is none.
 std::string find_program(const std::string& name);
 
-/// Runs a program and waits for it. It gets its own process group, default signals, and none of our files. Its
-/// group is killed if the time is over or `while_running` throws, so that no child of it stays.
+/// Runs a program and waits for it. It gets its own process group, default signals, and none of our files. It is
+/// killed with all its children, also those that have left its group, if the time is over or `while_running` throws.
 /// @throws DeviceError (not found, cannot be started, longer than the time limit, more than 64 MB printed)
 ProgramResult run_program(const ProgramCall& call);
 

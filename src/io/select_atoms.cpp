@@ -8,9 +8,10 @@
 
 #include "base/error.h"
 #include "base/water.h"
+#include "io/selected_numbers.h"
 #include "io/text_cursor.h"
 #ifdef ESPDIFF_HAVE_GEMMI
-#define USE_STD_SNPRINTF  // gemmi then needs no stb_sprintf.h, which gemmi-dev lacks
+#define USE_STD_SNPRINTF  // gemmi 0.5 then needs no stb_sprintf.h, which gemmi-dev lacks
 #include <gemmi/select.hpp>
 #endif
 
@@ -70,37 +71,43 @@ std::string describe_chains(const Molecule& molecule) {
 
 namespace {
 
-/// In gemmi 0.5 a number alone begins an open range; elsewhere (MMDB, later gemmi) it is one residue, as here.
-void end_at_single_number(const std::string& part, gemmi::Selection& selection) {
-  const auto& from = selection.from_seqid;
-  if (from.empty() || !selection.to_seqid.empty()) return;
-  const std::string number = std::to_string(from.seqnum);
-  const std::size_t behind = part.find(number) + number.size();
-  const std::string rest = part.substr(behind, part.find_first_of("/;", behind) - behind);
-  if (rest.find('-') == std::string::npos) selection.to_seqid = from;
-}
+/// A selection by gemmi, but for residues' numbers, which are ours.
+struct ParsedSelection {
+  gemmi::Selection rest;
+  std::vector<SelectedNumbers> numbers;
 
-gemmi::Selection parsed(const std::string& part, const std::string& option_name) {
-  gemmi::Selection selection;
+  bool matches(const gemmi::Chain& chain, const gemmi::Residue& as_gemmi, const Residue& residue) const {
+    return rest.matches(chain) && rest.matches(as_gemmi) &&
+           (numbers.empty() || std::any_of(numbers.begin(), numbers.end(),
+                                           [&](const SelectedNumbers& range) { return range.has(residue); }));
+  }
+};
+
+ParsedSelection parsed(const std::string& part, const std::string& option_name) {
+  SplitSelection split = split_numbers(part, option_name);
+  ParsedSelection selection{{}, std::move(split.numbers)};
   try {
-    selection = gemmi::Selection(part);
+    selection.rest = gemmi::Selection(split.rest);
   } catch (const std::exception&) {
     throw InputError(option(option_name) + ": " + in_quotes(part) +
                      " is not a selection such as //A, //A/10-20, (AP5,CL) or //A;polymer (gemmi's syntax: "
                      "/model/chains/residues/atoms)");
   }
-  if (selection.mdl != 0 || !selection.altlocs.all || !selection.atom_inequalities.empty())
+  const gemmi::Selection& rest = selection.rest;
+  if (rest.mdl != 0 || !rest.altlocs.all || !rest.atom_inequalities.empty())
     throw InputError(option(option_name) + ": " + in_quotes(part) +
                      " selects by model, alternate location, occupancy or B factor, which are not known here; select "
                      "by chain, residue, atom or element");
-  end_at_single_number(part, selection);
+  if (!rest.from_seqid.empty() || !rest.to_seqid.empty())
+    throw InputError(option(option_name) + ": " + in_quotes(part) +
+                     " has residue numbers behind names; give them before: 10-20(ALA)");
   return selection;
 }
 
 }  // namespace
 
 std::vector<bool> select_atoms(const Molecule& molecule, const std::string& text, const std::string& option_name) {
-  std::vector<gemmi::Selection> selections;
+  std::vector<ParsedSelection> selections;
   for (const std::string_view part : split_words(text)) selections.push_back(parsed(std::string(part), option_name));
   if (selections.empty()) throw InputError(option(option_name) + ": an empty selection; name atoms, such as //A");
   const std::vector<bool> polymer = polymer_residues(molecule);
@@ -116,7 +123,7 @@ std::vector<bool> select_atoms(const Molecule& molecule, const std::string& text
                            : is_water_name(residue.name) ? gemmi::EntityType::Water
                                                          : gemmi::EntityType::NonPolymer;
     for (std::size_t s = 0; s < selections.size(); ++s)
-      residue_matches[s].push_back(selections[s].matches(chain) && selections[s].matches(as_gemmi));
+      residue_matches[s].push_back(selections[s].matches(chain, as_gemmi, residue));
   }
   std::vector<bool> selected;
   for (const Atom& atom : molecule.atoms) {
@@ -125,7 +132,7 @@ std::vector<bool> select_atoms(const Molecule& molecule, const std::string& text
     as_gemmi.element = gemmi::Element(atom.element);
     bool is_selected = false;
     for (std::size_t s = 0; s < selections.size() && !is_selected; ++s)
-      is_selected = residue_matches[s][static_cast<std::size_t>(atom.residue)] && selections[s].matches(as_gemmi);
+      is_selected = residue_matches[s][static_cast<std::size_t>(atom.residue)] && selections[s].rest.matches(as_gemmi);
     selected.push_back(is_selected);
   }
   return selected;

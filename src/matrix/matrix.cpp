@@ -7,6 +7,8 @@
 #include <mutex>
 
 #include "base/error.h"
+#include "base/formatted.h"
+#include "base/memory.h"
 #include "base/not_a_number.h"
 #include "compare/input_settings.h"
 #include "compare/options.h"
@@ -97,6 +99,11 @@ Shard parse_shard(const std::string& text) {
 std::vector<MatrixPair> matrix_pairs(std::size_t n_variants, const Shard& shard) {
   const std::size_t n = n_variants < 2 ? 0 : n_variants * (n_variants - 1);
   const auto count = static_cast<std::size_t>(shard.count), index = static_cast<std::size_t>(shard.index);
+  constexpr double kBytesOfCell = 600;  // its values and reasons, and its place in the tables
+  const auto n_here = static_cast<double>(index * n / count - (index - 1) * n / count);
+  require_memory(kBytesOfCell * n_here, "a matrix of " + std::to_string(n_variants) + " variants, of whose " +
+                                            std::to_string(n) + " ordered pairs this run has " +
+                                            formatted("%.0f", n_here));
   std::vector<MatrixPair> pairs;
   for (std::size_t p = (index - 1) * n / count; p < index * n / count; ++p) {
     const std::size_t source = p / (n_variants - 1), rest = p % (n_variants - 1);

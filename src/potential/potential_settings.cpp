@@ -199,6 +199,19 @@ void add_coulomb_settings(std::vector<PotentialSetting>& all) {
       "The dielectric grows with the distance: dielectric times r in Angstrom (4 is ChimeraX's)"));
 }
 
+/// As those of compare/settings.cpp.
+constexpr SettingLimits kPotentialLimits[] = {{"ion-radius", 0, 20},
+                                              {"probe-radius", 0, 20},
+                                              {"gaussian-sigma", 0.05, 20},
+                                              {"pb-spacing", 0.001, 20},
+                                              {"pb-padding", 0.001, 1000},
+                                              {"pb-tolerance", 1e-14, 1},
+                                              {"ewaldfactor", 0.001, 10},
+                                              {"pme-pad", 0, 1e4},
+                                              {"ionic-strength", 0, 100},
+                                              {"solute-dielectric", 0.001, 1e6},
+                                              {"solvent-dielectric", 0.001, 1e6}};
+
 bool reads(const PotentialSetting& setting, PotentialMethod method) {
   return std::find(setting.of.begin(), setting.of.end(), method) != setting.of.end();
 }
@@ -217,6 +230,7 @@ const std::vector<PotentialSetting>& potential_settings() {
     add_pb_settings(made);
     add_pme_settings(made);
     add_coulomb_settings(made);
+    set_limits(made, kPotentialLimits, &PotentialSetting::option);
     return made;
   }();
   return all;

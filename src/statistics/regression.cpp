@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/not_a_number.h"
+#include "base/progress.h"
 #include "statistics/counter_random.h"
 #include "statistics/mesh_graph.h"
 #include "statistics/null_maxima.h"
@@ -191,13 +192,16 @@ SurfaceRegression regress_on_surface(const std::vector<std::vector<double>>& mea
     result.p.push_back(student_p(result.t[v], static_cast<double>(data.values().size()) - 2));
   }
   std::vector<double> max_t(orders.all.size()), max_tfce(orders.all.size()), q2(orders.all.size());
+  const CancelRequest cancel;
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t k = 0; k < orders.all.size(); ++k) {
+    if (cancel.made()) continue;
     const std::vector<double> t = data.t_of(data.correlations(orders.all[k]));
     max_t[k] = largest_magnitude(t);
     max_tfce[k] = largest_magnitude(enhance_clusters(t, graph));
     q2[k] = data.q2(orders.all[k]);
   }
+  cancel.check();
   result.p_max_t = shares_at_least(max_t, result.t, result.t);
   result.p_tfce = shares_at_least(max_tfce, result.tfce, result.t);
   result.q2 = q2.front();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/progress.h"
 #include "statistics/columns.h"
 
 namespace espdiff {
@@ -38,6 +39,7 @@ std::vector<ReplicateColumns> summarize_columns(const Columns& columns) {
     const std::size_t at_once =
         std::max<std::size_t>(1, kColumnBytes / sizeof(float) / std::max<std::size_t>(1, n_frames));
     for (std::size_t begin = 0; begin < n; begin += at_once) {
+      CancelRequest().check();
       const std::size_t end = std::min(n, begin + at_once), width = end - begin;
       columns.read(r, begin, end, values);
 #pragma omp parallel for schedule(dynamic, 16)

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/progress.h"
 #include "statistics/arrangements.h"
 #include "statistics/mesh_graph.h"
 #include "statistics/null_maxima.h"
@@ -112,13 +113,16 @@ SurfaceTest test_replicates(const Means& means, std::size_t n_first, const MeshG
   }
   test.tfce = enhance_clusters(test.vertices.t, graph);
   std::vector<double> max_t(all.orders.size()), max_tfce(all.orders.size()), differences(all.orders.size());
+  const CancelRequest cancel;
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t k = 0; k < all.orders.size(); ++k) {
+    if (cancel.made()) continue;
     const Maps maps = maps_of(means, all.orders[k], n_first);
     max_t[k] = largest_magnitude(maps.t);
     max_tfce[k] = largest_magnitude(enhance_clusters(maps.t, graph));
     differences[k] = mean_abs(maps.difference, graph);
   }
+  cancel.check();
   test.p_max_t = shares_at_least(max_t, test.vertices.t, test.vertices.t);
   test.p_tfce = shares_at_least(max_tfce, test.tfce, test.vertices.t);
   test.mean_abs_difference = differences.front();

@@ -4,6 +4,7 @@
 
 #include "base/formatted.h"
 #include "base/not_a_number.h"
+#include "base/progress.h"
 #include "statistics/columns.h"
 #include "statistics/mesh_graph.h"
 #include "statistics/null_maxima.h"
@@ -65,6 +66,7 @@ void add_block_means(const Columns& columns, std::size_t replicate, const RunBlo
   const std::size_t at_once = std::max<std::size_t>(1, kColumnBytes / sizeof(float) / n);
   std::vector<float> values;
   for (std::size_t begin = 0; begin < n_columns; begin += at_once) {
+    CancelRequest().check();
     const std::size_t end = std::min(n_columns, begin + at_once), width = end - begin;
     columns.read(replicate, begin, end, values);
 #pragma omp parallel for schedule(dynamic, 16)

@@ -6,8 +6,16 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+#include <thread>
 
 extern "C" char** environ;  // NOLINT: POSIX declares no header for it
 
@@ -30,21 +38,57 @@ struct SpawnSettings {
   SpawnSettings(const SpawnSettings&) = delete;
   SpawnSettings& operator=(const SpawnSettings&) = delete;
 
-  int start(const std::vector<std::string>& words, int& process) const {
+  int start(const std::vector<std::string>& words, int& process, char** environment = environ) const {
     std::vector<char*> arguments;
     arguments.reserve(words.size() + 1);
     for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);
     pid_t pid = 0;
-    const int error = ::posix_spawnp(&pid, arguments.front(), &files, &attributes, arguments.data(), environ);
+    const int error = ::posix_spawnp(&pid, arguments.front(), &files, &attributes, arguments.data(), environment);
     process = static_cast<int>(pid);
     return error;
   }
 };
 
+constexpr char kMarkName[] = "ESPDIFF_CHILD_OF=";
+
+/// Our environment with a mark behind those that it has from programs that started us.
+std::vector<std::string> marked_environment(const std::string& mark) {
+  std::string marks = kMarkName;
+  std::vector<std::string> all;
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const bool is_marks = std::strncmp(*entry, kMarkName, sizeof kMarkName - 1) == 0;
+    (is_marks ? marks : all.emplace_back()) = *entry;
+  }
+  all.push_back(marks + mark);
+  return all;
+}
+
+/// Ends the processes whose environment contains a mark. @returns whether there were any
+bool kill_marked(const std::string& mark) {
+  namespace fs = std::filesystem;
+  bool any = false;
+  std::error_code error;
+  for (fs::directory_iterator entry("/proc", error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+    std::ifstream file(entry->path() / "environ", std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    if (text.find(mark) == std::string::npos) continue;
+    any = ::kill(static_cast<pid_t>(std::stol(name)), SIGKILL) == 0 || any;
+  }
+  return any;
+}
+
 }  // namespace
 
-int start_child(const std::vector<std::string>& words, const ChildFiles& files, int& process) {
+int start_child(const std::vector<std::string>& words, const ChildFiles& files, ChildProcess& child) {
+  static std::atomic<int> n_started{0};
+  child.mark = "/" + std::to_string(::getpid()) + "." + std::to_string(++n_started) + "/";
+  std::vector<std::string> environment = marked_environment(child.mark);
+  std::vector<char*> entries;
+  for (std::string& entry : environment) entries.push_back(entry.data());
+  entries.push_back(nullptr);
   SpawnSettings settings;
   posix_spawn_file_actions_adddup2(&settings.files, files.input.descriptor(), STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&settings.files, files.output.descriptor(), STDOUT_FILENO);
@@ -59,7 +103,7 @@ int start_child(const std::vector<std::string>& words, const ChildFiles& files, 
   posix_spawnattr_setpgroup(&settings.attributes, 0);
   posix_spawnattr_setflags(&settings.attributes,
                            POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-  return settings.start(words, process);
+  return settings.start(words, child.process, entries.data());
 }
 
 int start_detached(const std::vector<std::string>& words, const std::string& log, int& process) {
@@ -83,10 +127,14 @@ ChildState child_state(int process, int& status) {
   return ChildState::kEnded;
 }
 
-void kill_group(int process) {
-  ::kill(-process, SIGKILL);
+void kill_child(const ChildProcess& child) {
+  ::kill(-child.process, SIGKILL);
   int status = 0;
-  while (::waitpid(process, &status, 0) < 0 && errno == EINTR) continue;
+  while (::waitpid(child.process, &status, 0) < 0 && errno == EINTR) continue;
+  // Again until none is left: one may have started another meanwhile, and a killed one takes a moment to end.
+  constexpr int kMostRounds = 200;
+  for (int round = 0; round < kMostRounds && kill_marked(child.mark); ++round)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
 }  // namespace espdiff

@@ -270,3 +270,14 @@ TEST_CASE("short chains pair by equal names, then by their arrangement, whatever
   CHECK(chain_of_a(peptides({{"A", 1}, {"B", 0}, {"C", 3}})) == "B");
   CHECK(chain_of_a(peptides({{"C", 3}, {"A", 1}, {"B", 0}})) == "B");
 }
+
+TEST_CASE("more chains than can be compared with each other are refused by their number") {
+  MadeMolecule many("many.pdb"), other("other.pdb");
+  for (int i = 0; i < 10001; ++i) {
+    many.residue(std::to_string(i), 1, "GLY", {"CA"});
+    other.residue(std::to_string(i), 2, "GLY", {"CA"});
+  }
+  CHECK(message_of([&] { pair_atoms(many.molecule, other.molecule); }) ==
+        "many.pdb has 10001 chains and other.pdb 10001, and each is compared with each (limit 1e8 pairs of chains); "
+        "choose some by select, or give the residues of a chain one chain name and rising numbers");
+}

@@ -7,9 +7,12 @@
 #include <string>
 
 #include "base/progress.h"
+#include "base/work.h"
+#include "support/test_data.h"
 
 using espdiff::Error;
 using espdiff::ErrorClass;
+using espdiff_test::message_of;
 
 TEST_SUITE_BEGIN("errors");
 
@@ -57,6 +60,41 @@ TEST_CASE("progress is reported until cancellation") {
   CHECK_THROWS_AS(progress.check_cancelled(), espdiff::Cancelled);
   CHECK(n == 1);
   CHECK_NOTHROW(espdiff::Progress().report("nobody listens", 1));
+}
+
+TEST_CASE("a request to cancel holds for its thread, in a scope, and for any Progress there") {
+  espdiff::Progress asked;
+  const espdiff::Progress other;
+  const espdiff::CancelRequest before;
+  {
+    const espdiff::CancelScope scope(asked);
+    CHECK_FALSE(espdiff::CancelRequest().made());
+    asked.request_cancel();
+    CHECK(espdiff::CancelRequest().made());
+    CHECK_THROWS_AS(espdiff::CancelRequest().check(), espdiff::Cancelled);
+    CHECK_THROWS_AS(other.check_cancelled(), espdiff::Cancelled);
+    {
+      const espdiff::CancelScope inner(other);
+      CHECK_FALSE(espdiff::CancelRequest().made());
+    }
+    CHECK(espdiff::CancelRequest().made());
+    CHECK_FALSE(before.made());
+  }
+  CHECK_FALSE(espdiff::CancelRequest().made());
+  CHECK_NOTHROW(other.report("stage", 0));
+}
+
+TEST_CASE("work of more than a day is refused with what it follows from") {
+  using espdiff::option;
+  CHECK_NOTHROW(espdiff::require_work(1.7e13, "a sum", "give less"));
+  CHECK(
+      message_of([] {
+        espdiff::require_work(3e14, "a sum over 1e+09 charges", "give a larger " + option("ewaldfactor", "0.25"));
+      }) ==
+      "a sum over 1e+09 charges: about 3e+14 steps, 417 hours of one core (limit 24 hours); give a larger ewaldfactor "
+      "0.25");
+  CHECK(message_of([] { espdiff::require_work(1e20, "a sum", "give less"); }) ==
+        "a sum: about 1e+20 steps, 15844 years of one core (limit 24 hours); give less");
 }
 
 TEST_SUITE_END();

@@ -52,6 +52,14 @@ TEST_CASE("a missing file") {
   in.check_refused(in.compare(), 2, "absent.pqr: ");
 }
 
+TEST_CASE("a text with another program's format characters is shown as it was given") {
+  WrongInputs in;
+  const Outcome outcome = in.compare("--domains %s%n");
+  CHECK(outcome.status == 2);
+  CHECK_MESSAGE(contains(outcome.err, "--domains: '%s%n' has an unreadable range of residues, '%s%n'; give"),
+                outcome.err);
+}
+
 TEST_CASE("a folder instead of a file") {
   WrongInputs in;
   in.target = std::filesystem::temp_directory_path().string();

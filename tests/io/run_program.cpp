@@ -57,9 +57,13 @@ TEST_CASE("run_program: ends the program and its children when it may not go on"
   const auto stop = [&] {
     if (++n > 5) throw Cancelled();
   };
-  // The child would write the file after a second, if it lived.
-  CHECK_THROWS_AS(run_program({{"sh", "-c", "(sleep 1; echo > left) & wait"}, {}, folder.file(""), 0, stop}),
-                  Cancelled);
+  // The child would write the file after a second, if it lived: of the group, of a session of its own, and there of one
+  // whose parent has ended.
+  for (const char* command : {"(sleep 1; echo > left) & wait", "setsid sh -c 'sleep 1; echo > left' & wait",
+                              "setsid sh -c '(sleep 1; echo > left) &'; sleep 2"}) {
+    n = 0;
+    CHECK_THROWS_AS(run_program({{"sh", "-c", command}, {}, folder.file(""), 0, stop}), Cancelled);
+  }
   CHECK(seconds() < 10);
   run_program({{"sleep", "1.3"}, {}, {}, 0, {}});
   CHECK(folder.n_files() == 0);

@@ -64,11 +64,51 @@ TEST_CASE("select_atoms: chains, numbers, insertion codes, names, elements, kind
   CHECK(n_selected("//Z") == 0);
 }
 
+TEST_CASE("select_atoms: lists of residues, and numbers below zero") {
+#ifndef ESPDIFF_HAVE_GEMMI
+  MESSAGE("SKIPPED: this build lacks gemmi");
+  return;
+#endif
+  Molecule molecule = made();
+  molecule.residues[1].number = -2;  // GLY
+  molecule.residues[2].number = -1;  // ATP
+  const auto count = [&](const std::string& selection) {
+    const auto selected = select_atoms(molecule, selection, "select");
+    return std::count(selected.begin(), selected.end(), true);
+  };
+  CHECK(count("//A/1,101") == 4);
+  CHECK(count("//A/1,-1,101") == 5);
+  CHECK(count("//A/-2") == 2);
+  CHECK(count("//A/-2--1") == 3);
+  CHECK(count("//A/-2-1/CA") == 2);
+  CHECK(count("//A/-2,50-200(GLY,HOH)") == 3);
+  CHECK(count("A/-1,1") == 4);
+  CHECK(count("-2--1") == 3);
+  CHECK(count("1,101") == 6);
+  CHECK(count("//A/*--1") == 3);
+  CHECK(count("//A/1-") == 4);
+  CHECK(count("//B/1.*") == 4);
+  CHECK(count("//B/1,1A") == 4);
+  CHECK(count("//A/-2--1;polymer") == 2);
+  CHECK(count("//A/*(GLY)") == 2);
+}
+
 TEST_CASE("select_atoms: what cannot be selected is refused in our words") {
 #ifdef ESPDIFF_HAVE_GEMMI
-  CHECK(message_of([] { n_selected("//A/["); }) ==
-        "select: '//A/[' is not a selection such as //A, //A/10-20, (AP5,CL) or //A;polymer (gemmi's syntax: "
+  CHECK(message_of([] { n_selected("//A//["); }) ==
+        "select: '//A//[' is not a selection such as //A, //A/10-20, (AP5,CL) or //A;polymer (gemmi's syntax: "
         "/model/chains/residues/atoms)");
+  const std::string remedy =
+      " is not a residue's number or a range; give such as 26, 10-20, -3--1 or 10.A, or several parted by commas "
+      "without blanks: 26,27,30-40";
+  CHECK(message_of([] { n_selected("//A/["); }) == "select: '[' in '//A/['" + remedy);
+  CHECK(message_of([] { n_selected("//A/26,x7"); }) == "select: 'x7' in '//A/26,x7'" + remedy);
+  CHECK(message_of([] { n_selected("//A/26, 27"); }) == "select: '' in '//A/26,'" + remedy);
+  CHECK(message_of([] { n_selected("20-10"); }) == "select: '20-10' in '20-10'" + remedy);
+  CHECK(message_of([] { n_selected("//A/99999999999/CA"); }) ==
+        "select: '99999999999' in '//A/99999999999/CA'" + remedy);
+  CHECK(message_of([] { n_selected("//A/(ALA)-20"); }) ==
+        "select: '//A/(ALA)-20' has residue numbers behind names; give them before: 10-20(ALA)");
   CHECK(message_of([] { n_selected("/1/A"); }).find("which are not known here") != std::string::npos);
   CHECK(message_of([] { n_selected("//A//*:B"); }).find("alternate location") != std::string::npos);
   CHECK(message_of([] { n_selected("  "); }) == "select: an empty selection; name atoms, such as //A");

@@ -297,6 +297,10 @@ TEST_CASE("wrong options and a cancellation") {
                          "limit; check that both structures show one molecule and no atom is far off, or give a larger "
                          "max-step",
                          espdiff::InputError);
+    // The edges are counted before they are split: 24 GB of vertices, and more than a day.
+    const std::string too_fine = message_of([&] { with(0.35, 1e-4, 20); });
+    CHECK(too_fine.find("edges split to 0.0001 A, makes about ") != std::string::npos);
+    CHECK(message_of([&] { with(0.001, 0.004, 20); }).find(" A, makes about ") != std::string::npos);
     Journey far = j;
     far.ways[0].end = far.ways[0].end + Vec3d{1e10, 0, 0};
     CHECK(message_of([&] { travel(*engine, far); }).find("an atom moves 1e+10 A from source to target") == 0);

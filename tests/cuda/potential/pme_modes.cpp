@@ -132,6 +132,9 @@ TEST_CASE("wrong input is refused with its name, the value, the limit and a reme
              {[](PmeOptions& o) { o.order = 3; }, "spline order 3 is not among 4 to 8"},
              {[](PmeOptions& o) { o.order = 9; }, "spline order 9"},
              {[](PmeOptions& o) { o.ewald_factor = 0; }, "Ewald factor 0 1/A is not a positive number"},
+             {[](PmeOptions& o) { o.ewald_factor = 1e-4, o.part = espdiff::PmePart::kFull; },
+              "ewaldfactor: 0.0001 makes each value of the potential a sum over all charges within 35000 A, "},
+             {[](PmeOptions& o) { o.ewald_factor = 1e-12, o.part = espdiff::PmePart::kFull; }, "years of one core"},
              {[](PmeOptions& o) { o.temperature_K = -1; }, "temperature -1 K"},
              {[](PmeOptions& o) { o.compatible = true; }, "PMEPot's is 4"},
              {[](PmeOptions& o) {
