@@ -190,9 +190,9 @@ Tcl_Obj* export_files(const Call& call) {
     return to_list(files);
   }
   std::vector<Tcl_Obj*> written;
-  for (const std::string& path : write_compare_with_inputs(
-           prefix, *source.molecule, *target.molecule, comparison->result, comparison->computation.options,
-           comparison->provenance, maps))
+  for (const std::string& path :
+       write_compare_with_inputs(prefix, *source.molecule, *target.molecule, comparison->result,
+                                 comparison->computation.options, comparison->provenance, maps))
     written.push_back(to_obj(path));
   return to_list(written);
 }

@@ -135,8 +135,7 @@ LoadedState EnsembleInputs::reference_of(const std::string& group, PotentialFact
                                : "its files";
   }
   for (const ChargeFile& charges : state.charge_files)
-    from += ", " + charges.use + " " +
-            (charges.sha256.empty() ? sha256_of_file(charges.path) : charges.sha256);
+    from += ", " + charges.use + " " + (charges.sha256.empty() ? sha256_of_file(charges.path) : charges.sha256);
   plan_.charges.emplace_back(group, from);
   facts = facts_of(state);
   facts.name = own ? "group " + group + " (" + file_name + ")" : file_name;
@@ -232,9 +231,9 @@ void EnsembleInputs::choose_template(const std::string& text, bool skip_errors, 
   const std::size_t n = plan_.n_frames();
   const bool of_group = text.rfind(kMedoidOf, 0) == 0;
   if (text == "medoid" || of_group || is_number(text)) {
-    const std::size_t number = is_number(text)
-                                   ? std::stoul(text)
-                                   : medoid(of_group ? text.substr(std::string(kMedoidOf).size()) : "", skip_errors, progress);
+    const std::size_t number =
+        is_number(text) ? std::stoul(text)
+                        : medoid(of_group ? text.substr(std::string(kMedoidOf).size()) : "", skip_errors, progress);
     if (number >= n)
       throw InputError(option("template", text) + ": there are " + std::to_string(n) +
                        " frames in all groups, numbered from 0");

@@ -30,7 +30,7 @@ class DcdReader {
         is_swapped_ = is_swapped;
         if (number(head.data(), mark) != kFirstRecord) continue;
         std::array<char, 4> word{};
-        return file_.read_at(mark, word.data(), word.size()) == 0 && std::memcmp(word.data(), "CORD", 4) == 0;
+        if (file_.read_at(mark, word.data(), word.size()) == 0 && std::memcmp(word.data(), "CORD", 4) == 0) return true;
       }
     }
     return false;
@@ -41,7 +41,8 @@ class DcdReader {
     std::array<unsigned char, 8> before{}, after{};
     read(before.data(), mark_);
     const std::uint64_t n = number(before.data(), mark_);
-    if (n > most) fail("has a record of " + std::to_string(n) + " bytes where at most " + std::to_string(most) + " are");
+    if (n > most)
+      fail("has a record of " + std::to_string(n) + " bytes where at most " + std::to_string(most) + " are");
     std::string content(static_cast<std::size_t>(n), '\0');
     read(content.data(), content.size());
     read(after.data(), mark_);

@@ -1,4 +1,5 @@
-// sibling_file.h: new files beside the one whose place they take when they are complete; and those that killed runs left.
+// sibling_file.h: new files beside the one whose place they take when they are complete; and those that killed runs
+// left.
 #pragma once
 
 #include <string>

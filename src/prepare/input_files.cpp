@@ -7,8 +7,8 @@ namespace espdiff {
 
 std::vector<std::string> input_files(const InputOptions& options) {
   std::vector<std::string> files = options.charges.ligands;
-  files.insert(files.end(), {options.both.topology, options.source.topology, options.target.topology,
-                             options.charges_from});
+  files.insert(files.end(),
+               {options.both.topology, options.source.topology, options.target.topology, options.charges_from});
   for (const PatchRequest& patch : options.patches) {
     if (const auto earlier = earlier_patch_name(patch.selection))
       files.insert(files.end(), {earlier->path, surface_beside(*earlier)});

@@ -83,9 +83,9 @@ void SeriesCsv::read_rows() {
     sum_ = sum_of(sum_, cells);
     if (there != sum_)
       throw FormatError(path(), table.lines[i],
-                        "this row, or the head above it, was changed or is damaged: its checksum is " + there + ", not " +
-                            sum_ + "; remove this row and all after it, or begin anew (" + switched_on("overwrite") +
-                            ")");
+                        "this row, or the head above it, was changed or is damaged: its checksum is " + there +
+                            ", not " + sum_ + "; remove this row and all after it, or begin anew (" +
+                            switched_on("overwrite") + ")");
     rows_.emplace_back(std::move(cells), parts_);
   }
   has_head_ = is_resumed_ = true;

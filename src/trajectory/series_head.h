@@ -25,8 +25,8 @@ struct SeriesDescription {
   StartFrom start = StartFrom::kPrevious;
 };
 
-/// Everything that rows depend on: version, frames, reference, potentials, settings that differ from their defaults, and
-/// SHA-256 of the files. TrajectoryRun::note_inputs() adds the rest when the reference has been read.
+/// Everything that rows depend on: version, frames, reference, potentials, settings that differ from their defaults,
+/// and SHA-256 of the files. TrajectoryRun::note_inputs() adds the rest when the reference has been read.
 /// @throws IoError (a file is missing or unreadable)
 SeriesHead series_head(const SeriesDescription& run, const CompareOptions& options);
 

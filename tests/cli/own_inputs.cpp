@@ -67,7 +67,8 @@ TEST_CASE("an output that is an input is refused by every verb") {
 TEST_CASE("each output of each verb, found by running it, is refused as a link to an input") {
   OwnInputs in;
   const ScratchFolder& folder = in.folder;
-  for (const char* name : {"r.json", "r.residues.csv", "link.pqr", "hard.pqr"}) std::filesystem::remove(folder.file(name));
+  for (const char* name : {"r.json", "r.residues.csv", "link.pqr", "hard.pqr"})
+    std::filesystem::remove(folder.file(name));
   folder.write("two.pqr", "MODEL 1\n" + row_of_atoms(6) + "ENDMDL\nMODEL 2\n" + row_of_atoms(6, 0.1) + "ENDMDL\n");
   folder.write("groups.csv", "label,group\na,x\nb,y\n");
   const std::string end = " --device cpu --threads 1 -q", coarse = " --grid-spacing 2" + end,
@@ -81,8 +82,7 @@ TEST_CASE("each output of each verb, found by running it, is refused as a link t
   check_linked_outputs(folder, "potential two.pqr --variance v.dx --standard-error e.dx --pad 5 --grid 4 -o c.dx" + end,
                        {"two.pqr"});
   check_linked_outputs(folder, "prepare a.pqr -o p.pqr -q", {"a.pqr"});
-  check_linked_outputs(folder,
-                       "trajectory a.pqr two.pqr --frames-of b.pqr -o o.csv --residues o.residues.csv" + none,
+  check_linked_outputs(folder, "trajectory a.pqr two.pqr --frames-of b.pqr -o o.csv --residues o.residues.csv" + none,
                        {"a.pqr", "two.pqr", "b.pqr"}, "--overwrite");
   check_linked_outputs(folder, "trajectory a.pqr two.pqr --source-frames b.pqr --frames 0 -o o.csv" + none,
                        {"a.pqr", "two.pqr", "b.pqr"}, "--overwrite");
@@ -98,8 +98,8 @@ TEST_CASE("each output of each verb, found by running it, is refused as a link t
 TEST_CASE("what is printed and does not arrive is an error; a reader that goes away is none") {
   OwnInputs in;
   const auto status_of = [&](const std::string& arguments, const std::string& where) {
-    const std::string command = "cd " + in.folder.file("") + " && bash -o pipefail -c '" ESPDIFF_BINARY " " + arguments +
-                                " 2>err " + where + "'";
+    const std::string command = "cd " + in.folder.file("") + " && bash -o pipefail -c '" ESPDIFF_BINARY " " +
+                                arguments + " 2>err " + where + "'";
     return WEXITSTATUS(std::system(command.c_str()));
   };
   const std::string surface = "surface a.pqr --grid-spacing 2 --device cpu -o s.vtp";

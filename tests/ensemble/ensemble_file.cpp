@@ -213,8 +213,9 @@ TEST_CASE("potentials that cannot be are refused, when they are written and when
   EnsembleFile file(path, true);
   std::vector<float> values(file.n_vertices(), 1);
   const std::string end = ", and potentials are within 1e+09; its map or charges cannot be right";
-  CHECK(message_of([&] { file.write(2, values, {1, 0.5, 0, 0, 1, 1e300, true, ""}); }) ==
-        path + ": frame 2 has a value of 1e+300" + end);
+  CHECK(message_of([&] {
+          file.write(2, values, {1, 0.5, 0, 0, 1, 1e300, true, ""});
+        }) == path + ": frame 2 has a value of 1e+300" + end);
   values[5] = -std::numeric_limits<float>::infinity();
   CHECK(message_of([&] { file.write(2, values, {}); }) == path + ": frame 2 has a value of -inf" + end);
   values[5] = std::numeric_limits<float>::quiet_NaN();
@@ -225,7 +226,8 @@ TEST_CASE("a file is not made through a link, and what killed runs left does not
   const ScratchFolder folder;
   const std::string path = folder.file("a.h5"), victim = folder.write("victim", "secret");
   for (int i = 0; i < 3; ++i)
-    std::filesystem::create_symlink("victim", folder.file("a.h5.tmp" + std::to_string(::getpid()) + "-" + std::to_string(i)));
+    std::filesystem::create_symlink("victim",
+                                    folder.file("a.h5.tmp" + std::to_string(::getpid()) + "-" + std::to_string(i)));
   EnsembleFile::create(path, planted_plan(3, 2, 5), planted_template(1));
   CHECK(read_file(victim) == "secret");
   CHECK(EnsembleFile(path, false).n_done() == 0);

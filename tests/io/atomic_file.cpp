@@ -105,8 +105,8 @@ TEST_CASE("a file that is replaced keeps its permissions") {
 TEST_CASE("what killed processes left beside a file is removed, and nothing else") {
   const ScratchFolder folder;
   const std::string path = folder.write("out.csv", "x"), dead = std::to_string(INT_MAX);
-  for (const std::string& left : {"out.csv.tmp" + dead + "-0", "out.csv.old" + dead + "-1", "out.h5.new-" + dead,
-                                  "out.h5.old" + dead + "-0"})
+  for (const std::string& left :
+       {"out.csv.tmp" + dead + "-0", "out.csv.old" + dead + "-1", "out.h5.new-" + dead, "out.h5.old" + dead + "-0"})
     folder.write(left, "x");
   folder.write("out.csv.tmp1-0", "x");  // of a process that lives, but has not locked it
   for (const char* other : {"out.csv.tmp", "out.csv.tmpx", "out.csv.old1-2", "out.h5.new-1", "another.csv.tmp1-1"})

@@ -10,7 +10,8 @@ using namespace espdiff_test;  // NOLINT: a test
 
 namespace {
 
-const std::vector<std::array<std::vector<float>, 3>> kThreeFrames(3, {std::vector<float>{1, 2, 3, 4}, {5, 6, 7, 8},
+const std::vector<std::array<std::vector<float>, 3>> kThreeFrames(3, {std::vector<float>{1, 2, 3, 4},
+                                                                      {5, 6, 7, 8},
                                                                       {9, 10, 11, 12}});
 
 std::vector<DcdForm> forms() {
@@ -26,7 +27,9 @@ TEST_CASE("a DCD of any layout: its whole frames are counted from its size, and 
   const ScratchFolder folder;
   for (const DcdForm& form : forms()) {
     const std::string whole = made_dcd(kThreeFrames, form);
-    const auto head_of = [&](std::size_t n) { return read_dcd_head(folder.write("a.dcd", whole.substr(0, n))).value(); };
+    const auto head_of = [&](std::size_t n) {
+      return read_dcd_head(folder.write("a.dcd", whole.substr(0, n))).value();
+    };
     const DcdHead head = head_of(whole.size());
     CHECK(head.n_atoms == 4);
     CHECK(head.n_promised == 3);
@@ -35,9 +38,9 @@ TEST_CASE("a DCD of any layout: its whole frames are counted from its size, and 
     const std::uint64_t n_last = head.n_frame;
     // The last frame lacks its last atoms, or most of it; then it is missing.
     for (const std::size_t lost : {std::size_t{1}, std::size_t{8}, static_cast<std::size_t>(n_last - 1)}) {
-      CHECK(head_of(whole.size() - lost).missing() ==
-            "is cut off in frame 2 (" + std::to_string(n_last - lost) + " of " + std::to_string(n_last) +
-                " bytes), and its head promises 3 frames");
+      CHECK(head_of(whole.size() - lost).missing() == "is cut off in frame 2 (" + std::to_string(n_last - lost) +
+                                                          " of " + std::to_string(n_last) +
+                                                          " bytes), and its head promises 3 frames");
     }
     CHECK(head_of(whole.size() - n_last).missing() ==
           "holds 2 of the 3 frames that its head promises: it is cut off, or its run ended early");
@@ -63,7 +66,7 @@ TEST_CASE("other files are left to their readers; a head that cannot be is refus
     const std::string path = folder.write("a.dcd", bytes);
     const std::string message = message_of([&] { read_dcd_head(path); });
     CHECK(message.rfind(path + ": the head of this DCD ", 0) == 0);
-    return message.substr(path.size() + 24);
+    return message.substr(path.size() + 23);
   };
   CHECK(refused(whole.substr(0, 60)) == "is cut off; copy or write the file again");
   std::string bytes = whole;

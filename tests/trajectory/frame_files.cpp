@@ -61,7 +61,9 @@ TEST_SUITE_BEGIN("trajectory");
 TEST_CASE("a DCD that lacks frames is taken only as far as its last frame is named by number") {
   const ScratchFolder folder;
   const std::string path = folder.write("a.dcd", dcd(4, 5)), whole = folder.write("b.dcd", dcd(2, 2));
-  const FrameFiles files({whole, path}, [](const std::string& name) { return reader_of(name.back() == 'd' && name[name.size() - 5] == 'a' ? 4 : 2)(name); });
+  const FrameFiles files({whole, path}, [](const std::string& name) {
+    return reader_of(name.back() == 'd' && name[name.size() - 5] == 'a' ? 4 : 2)(name);
+  });
   CHECK(files.n_frames() == 6);
   CHECK(files.incomplete() ==
         path + " holds 4 of the 5 frames that its head promises: it is cut off, or its run ended early");
