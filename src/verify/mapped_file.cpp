@@ -53,9 +53,16 @@ double area_of_corners(const std::vector<Vec3d>& p, const Triangle& t) {
 MappedFile::MappedFile(const std::string& path) {
   VtpContent content = read_vtp(path);
   const auto of_points = [&](const char* name) { return array(path, content.point_arrays, name, 1); };
-  const std::vector<double> sources = array(path, content.point_arrays, "source_position", 3);
-  for (std::size_t k = 0; k + 2 < sources.size(); k += 3)
-    source_positions.push_back({sources[k], sources[k + 1], sources[k + 2]});
+  const auto vectors_of = [&](const char* name) {
+    const std::vector<double> flat = array(path, content.point_arrays, name, 3);
+    std::vector<Vec3d> vectors;
+    for (std::size_t k = 0; k + 2 < flat.size(); k += 3) vectors.push_back({flat[k], flat[k + 1], flat[k + 2]});
+    return vectors;
+  };
+  source_positions = vectors_of("source_position");
+  normals = vectors_of("normal");
+  source_normals = vectors_of("source_normal");
+  residue_number = of_points("residue_number");
   displacement = of_points("displacement");
   path_length = of_points("path_length");
   slip = of_points("slip");
@@ -66,7 +73,14 @@ MappedFile::MappedFile(const std::string& path) {
   if (find_array(content.point_arrays, "potential_source") != nullptr) {
     potential_source = of_points("potential_source");
     potential_target = of_points("potential_target");
+    potential_difference = of_points("potential_difference");
+    sign_change = of_points("sign_change");
   }
+  for (const auto* arrays : {&content.point_arrays, &content.cell_arrays}) {
+    for (const VtpNumbers& entry : *arrays) array_names.push_back(entry.name);
+  }
+  for (const auto& entry : content.texts) array_names.push_back(entry.first);
+  texts = content.texts;
   for (const double flag : array(path, content.cell_arrays, "no_counterpart", 1)) is_matched.push_back(flag == 0);
   const std::vector<double> corrupt = array(path, content.cell_arrays, "corrupt", 1);
   for (std::size_t t = 0; t < corrupt.size(); ++t) is_valid.push_back(is_matched[t] && corrupt[t] == 0);

@@ -4,10 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "io/read_csv.h"
 #include "io/read_vtp.h"
 #include "verify/lines.h"
 
 namespace espdiff {
+
+class GaussianAtoms;
 
 /// OUT.vtp with the arrays that a comparison writes.
 struct MappedFile {
@@ -16,7 +19,12 @@ struct MappedFile {
   std::vector<double> displacement, path_length, slip;     ///< [vertex]; slip is NaN where it is unknown
   std::vector<double> residue;                             ///< [vertex] index, -1 for none
   std::vector<double> potential_source, potential_target;  ///< [vertex]; empty without potentials
+  std::vector<double> potential_difference, sign_change;   ///< [vertex]; empty without potentials
+  std::vector<double> residue_number;                      ///< [vertex]
+  std::vector<Vec3d> normals, source_normals;              ///< [vertex]
   std::vector<bool> is_matched, is_valid;                  ///< [triangle] matched; and not corrupt
+  std::vector<std::pair<std::string, std::string>> texts;  ///< of the whole file: name, text
+  std::vector<std::string> array_names;                    ///< all, also of arrays that are not known here
 
   /// @throws FormatError (damage), InputError (an array of a comparison is missing)
   explicit MappedFile(const std::string& path);
@@ -37,7 +45,16 @@ double weighted_quantile(std::vector<std::pair<double, double>> weighted, double
 void add_mapped_lines(const MappedFile& file, const ResultRecord& record, Lines& lines);
 
 /// The residue table against the vertices, and the correlation of its columns.
-/// @param path of OUT.residues.csv
-void add_residue_lines(const MappedFile& file, const std::string& path, Lines& lines);
+void add_residue_lines(const MappedFile& file, const ResultRecord& record, const CsvTable& table, Lines& lines);
+
+/// Counts, and arrays that follow from others.
+void add_array_lines(const MappedFile& file, Lines& lines);
+/// Units, label and version, which more than one file has.
+void add_text_lines(const MappedFile& file, const ResultRecord& record, Lines& lines);
+/// Normals against the gradients of the atoms' density.
+void add_normal_lines(const MappedFile& file, const GaussianAtoms& source, const GaussianAtoms& target, Lines& lines);
+/// Names and numbers of residues against those of the source.
+void add_residue_name_lines(const MappedFile& file, const CsvTable& table, const std::vector<Residue>& residues,
+                            Lines& lines);
 
 }  // namespace espdiff

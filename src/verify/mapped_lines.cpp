@@ -212,43 +212,95 @@ void add_mapped_lines(const MappedFile& file, const ResultRecord& record, Lines&
   add_metrics(file, file.with_potentials(file.is_matched), "metrics_all_triangles/", "area_A2", lines);
   if (record.size("metrics_without_slip") > 0)
     add_metrics(file, without_slip(file), "metrics_without_slip/", "area_A2", lines);
+  if (record.size("by_offset") > 0) {
+    const std::string offsets = record.text("options/offset");
+    lines.add("by_offset/0/offset_A", std::strtod(offsets.c_str(), nullptr), 0);
+    add_metrics(file, file.with_potentials(file.is_valid), "by_offset/0/", "area_A2", lines);
+  }
   add_outside_maps(file, lines);
 }
 
-void add_residue_lines(const MappedFile& file, const std::string& path, Lines& lines) {
-  const CsvTable table = read_csv(path);
+namespace {
+
+/// Sums over the vertices of each residue.
+struct ResidueSums {
+  std::vector<double> area, slip_area;
+  std::map<std::string, std::vector<double>> of;  ///< by the name of the column, times area
+};
+
+/// @returns false if a vertex has a residue that the table lacks
+bool sum_residues(const MappedFile& file, std::size_t n, ResidueSums& sums) {
   const std::vector<double> weight = file.weights(file.with_potentials(file.is_valid));
-  const std::size_t n = table.rows.size();
-  std::vector<double> area(n, 0.0), slip(n, 0.0), slip_area(n, 0.0), difference(n, 0.0), absolute(n, 0.0);
+  sums.area.assign(n, 0);
+  sums.slip_area.assign(n, 0);
+  for (const char* name : {"mean_displacement", "mean_path_length", "mean_slip", "slip_area_fraction"})
+    sums.of[name].assign(n, 0);
+  for (const char* name :
+       {"mean_abs_difference", "mean_signed_difference", "mean_source", "mean_target", "sign_change_area_fraction"})
+    sums.of[name].assign(n, 0);
   for (std::size_t v = 0; v < weight.size(); ++v) {
     if (!(file.residue[v] >= 0) || weight[v] <= 0) continue;
-    if (file.residue[v] >= static_cast<double>(n)) {
-      lines.add_deviation("OUT.residues.csv, residues that it lacks", 1, 0);
-      return;
-    }
+    if (file.residue[v] >= static_cast<double>(n)) return false;
     const auto r = static_cast<std::size_t>(file.residue[v]);
-    area[r] += weight[v];
+    sums.area[r] += weight[v];
+    sums.of["mean_displacement"][r] += weight[v] * file.displacement[v];
+    sums.of["mean_path_length"][r] += weight[v] * file.path_length[v];
     if (std::isfinite(file.slip[v])) {
-      slip[r] += weight[v] * file.slip[v];
-      slip_area[r] += weight[v];
+      sums.slip_area[r] += weight[v];
+      sums.of["mean_slip"][r] += weight[v] * file.slip[v];
+      sums.of["slip_area_fraction"][r] += file.slip[v] > kLargeSlip_A ? weight[v] : 0;
     }
     if (file.potential_source.empty()) continue;
-    difference[r] += weight[v] * (file.potential_target[v] - file.potential_source[v]);
-    absolute[r] += weight[v] * std::fabs(file.potential_target[v] - file.potential_source[v]);
+    const double a = file.potential_source[v], b = file.potential_target[v];
+    sums.of["mean_abs_difference"][r] += weight[v] * std::fabs(b - a);
+    sums.of["mean_signed_difference"][r] += weight[v] * (b - a);
+    sums.of["mean_source"][r] += weight[v] * a;
+    sums.of["mean_target"][r] += weight[v] * b;
+    sums.of["sign_change_area_fraction"][r] += a * b < 0 ? weight[v] : 0;
   }
-  const auto means = [&](std::vector<double> sums, const std::vector<double>& areas) {
-    for (std::size_t r = 0; r < n; ++r) sums[r] = areas[r] > 0 ? sums[r] / areas[r] : kNaN;
-    return sums;
-  };
-  const auto check = [&](const char* name, const std::vector<double>& expected) {
+  return true;
+}
+
+/// Units in the names of columns: "area [A^2]".
+void add_column_units(const ResultRecord& record, const CsvTable& table, Lines& lines) {
+  double wrong = 0;
+  for (const std::string& name : table.columns) {
+    const std::size_t at = name.find(" [");
+    if (at == std::string::npos) continue;
+    const std::string unit = name.substr(at + 2, name.size() - at - 3);
+    wrong += unit == "A" || unit == "A^2" || unit == record.text("potential_unit") ? 0 : 1;
+  }
+  lines.add_deviation("OUT.residues.csv, columns of other units than OUT.json has", wrong, 0);
+}
+
+}  // namespace
+
+void add_residue_lines(const MappedFile& file, const ResultRecord& record, const CsvTable& table, Lines& lines) {
+  for (const std::string& name : table.columns) lines.has("OUT.residues.csv/" + name.substr(0, name.find(" [")));
+  if (!file.potential_source.empty()) add_column_units(record, table, lines);
+  const std::size_t n = table.rows.size();
+  ResidueSums sums;
+  if (!sum_residues(file, n, sums)) {
+    lines.add_deviation("OUT.residues.csv, residues that it lacks", 1, 0);
+    return;
+  }
+  const bool has_potential = !file.potential_source.empty();
+  const auto check = [&](const std::string& name, const std::vector<double>& expected) {
     const int at = column(table, name);
-    if (at >= 0) lines.add_deviation(std::string("OUT.residues.csv, ") + name, deviation(table, at, expected), 1e-4);
+    if (at < 0) return;
+    lines.cover("OUT.residues.csv/" + name);
+    lines.add_deviation("OUT.residues.csv, " + name, deviation(table, at, expected), 1e-4);
   };
-  check("area", area);
-  check("mean_slip", means(slip, slip_area));
-  if (file.potential_source.empty()) return;
-  check("mean_signed_difference", means(difference, area));
-  check("mean_abs_difference", means(absolute, area));
+  check("area", sums.area);
+  for (auto& [name, values] : sums.of) {
+    const bool of_shape = name == "mean_displacement" || name == "mean_path_length";
+    const bool of_slip = name == "mean_slip" || name == "slip_area_fraction";
+    const std::vector<double>& area = of_slip ? sums.slip_area : sums.area;
+    const bool known = has_potential || of_shape || of_slip;
+    for (std::size_t r = 0; r < n; ++r) values[r] = known && area[r] > 0 ? values[r] / area[r] : kNaN;
+    check(name, values);
+  }
+  if (!has_potential) return;
   const int own = column(table, "own_difference"), own_area = column(table, "own_area"),
             mapped = column(table, "mean_signed_difference"), of_area = column(table, "area");
   if (own >= 0 && own_area >= 0 && mapped >= 0 && of_area >= 0)

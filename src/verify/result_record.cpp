@@ -111,6 +111,20 @@ std::size_t ResultRecord::size(const std::string& pointer) const {
   return found != nullptr && found->is_structured() ? found->size() : 0;
 }
 
+std::vector<std::string> ResultRecord::leaves() const {
+  std::vector<std::string> all;
+  const Json flat = json_->flatten();
+  for (const auto& entry : flat.items()) all.push_back(entry.key().substr(1));
+  return all;
+}
+
+std::string ResultRecord::place_of_input(const std::string& role) const {
+  const Json& inputs = json_->at("inputs");
+  std::size_t k = 0;
+  while (k < inputs.size() && !(inputs[k].is_object() && text_of(inputs[k], "role") == role)) ++k;
+  return "inputs/" + std::to_string(k);
+}
+
 std::optional<RecordedInput> ResultRecord::input(const std::string& role) const {
   for (const Json& entry : json_->at("inputs")) {
     if (!entry.is_object() || text_of(entry, "role") != role) continue;

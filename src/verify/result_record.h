@@ -39,6 +39,10 @@ class ResultRecord {
   std::vector<double> numbers(const std::string& pointer) const;
   /// The number of entries of an array or object; 0 if there is none.
   std::size_t size(const std::string& pointer) const;
+  /// Pointers of all that is neither an object nor an array, and of empty ones.
+  std::vector<std::string> leaves() const;
+  /// The place of an input in OUT.json, "inputs/0". @pre there is one
+  std::string place_of_input(const std::string& role) const;
   std::optional<RecordedInput> input(const std::string& role) const;
 
  private:
