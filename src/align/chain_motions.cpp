@@ -1,4 +1,4 @@
-// chain_motions.cpp: superposes each chain, and the others without it.
+// chain_motions.cpp: superposes each chain, and the largest group that moves as one.
 #include "align/chain_motions.h"
 
 #include <algorithm>
@@ -18,6 +18,8 @@ namespace {
 using AtomPairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
 constexpr std::size_t kLeastChain = 20, kMostNamedChains = 4;
+/// A chain keeps its place beside another whose motion fits it by this, or by little more than its own.
+constexpr double kTogether_A = 1, kTogetherShare = 1.5;
 
 /// [chain of the source] its paired atoms, where enough residues have some.
 std::map<std::string, AtomPairs> large_chains(const Molecule& source, const AtomPairing& pairing) {
@@ -38,43 +40,62 @@ std::map<std::string, AtomPairs> large_chains(const Molecule& source, const Atom
 /// The angle of a rotation, in degrees.
 double angle_of(const RigidTransform& transform) { return std::fabs(screw_of(transform).angle) * 180 / kPi; }
 
-ChainMotion motion_of_chain(const Molecule& source, const Molecule& target, const AtomPairs& chain,
-                            const AtomPairs& others) {
-  const RigidTransform theirs = superpose(source.positions, target.positions, others).transform;
-  const Superposition own = superpose(source.positions, target.positions, chain);
-  ChainMotion motion;
-  motion.own_rmsd_A = own.rmsd_A;
+/// A chain with its superposition by itself.
+struct FittedChain {
+  std::string name;
+  AtomPairs pairs;
+  Superposition own;
+};
+
+/// The RMSD of a chain's atoms under a motion, and the shift of their centre.
+std::pair<double, double> misfit(const Molecule& source, const Molecule& target, const AtomPairs& pairs,
+                                 const RigidTransform& motion) {
   Vec3d shift{};
   double squares = 0;
-  for (const auto& [s, t] : chain) {
-    const Vec3d off = target.positions[t] - theirs.apply(source.positions[s]);
+  for (const auto& [s, t] : pairs) {
+    const Vec3d off = target.positions[t] - motion.apply(source.positions[s]);
     shift += off;
     squares += dot(off, off);
   }
-  const double n = static_cast<double>(chain.size());
-  motion.shift_A = norm((1 / n) * shift);
-  motion.rmsd_A = std::sqrt(squares / n);
-  motion.rotation_degrees = angle_of(compose(own.transform, inverse(theirs)));
-  return motion;
+  const double n = static_cast<double>(pairs.size());
+  return {std::sqrt(squares / n), norm((1 / n) * shift)};
+}
+
+/// The atoms of the largest group of chains that one chain's motion fits, the first of several.
+AtomPairs group_that_stays(const Molecule& source, const Molecule& target, const std::vector<FittedChain>& chains) {
+  AtomPairs largest;
+  for (const FittedChain& seed : chains) {
+    AtomPairs group;
+    for (const FittedChain& chain : chains) {
+      const double most = std::max(kTogether_A, kTogetherShare * chain.own.rmsd_A);
+      if (misfit(source, target, chain.pairs, seed.own.transform).first > most) continue;
+      group.insert(group.end(), chain.pairs.begin(), chain.pairs.end());
+    }
+    if (group.size() > largest.size()) largest = std::move(group);
+  }
+  return largest;
 }
 
 }  // namespace
 
 std::vector<ChainMotion> chain_motions(const Molecule& source, const Molecule& target, const AtomPairing& pairing) {
-  const std::map<std::string, AtomPairs> chains = large_chains(source, pairing);
+  std::vector<FittedChain> chains;
+  for (auto& [name, pairs] : large_chains(source, pairing)) {
+    try {
+      const Superposition own = superpose(source.positions, target.positions, pairs);
+      chains.push_back({name, pairs, own});
+    } catch (const GeometryError&) {
+      continue;  // on a line
+    }
+  }
   std::vector<ChainMotion> motions;
   if (chains.size() < 2) return motions;
-  for (const auto& [name, chain] : chains) {
-    AtomPairs others;
-    for (const auto& [other, of_other] : chains) {
-      if (other != name) others.insert(others.end(), of_other.begin(), of_other.end());
-    }
-    try {
-      motions.push_back(motion_of_chain(source, target, chain, others));
-      motions.back().chain = name;
-    } catch (const GeometryError&) {
-      continue;
-    }
+  const RigidTransform rest =
+      superpose(source.positions, target.positions, group_that_stays(source, target, chains)).transform;
+  for (const FittedChain& chain : chains) {
+    const auto [rmsd_A, shift_A] = misfit(source, target, chain.pairs, rest);
+    motions.push_back(
+        {chain.name, angle_of(compose(chain.own.transform, inverse(rest))), shift_A, rmsd_A, chain.own.rmsd_A});
   }
   return motions;
 }
@@ -85,7 +106,7 @@ std::string in_words(std::vector<ChainMotion> motions) {
   std::string text;
   for (std::size_t k = 0; k < std::min(kMostNamedChains, motions.size()); ++k)
     text += (k == 0 ? "" : ", ") + (motions[k].chain.empty() ? "(no name)" : motions[k].chain) +
-            formatted(" by %.3g degrees and %.3g A", motions[k].rotation_degrees, motions[k].shift_A);
+            formatted(" by %.1f degrees and %.1f A", motions[k].rotation_degrees, motions[k].shift_A);
   if (motions.size() > kMostNamedChains)
     text += ", " + std::to_string(motions.size() - kMostNamedChains) + " others by less";
   return text;

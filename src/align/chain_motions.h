@@ -9,12 +9,13 @@
 
 namespace espdiff {
 
-/// Of each chain of the source with at least 20 paired residues, by name: its motion against that of the other such
-/// chains together, both by superposition of their paired atoms. Empty with fewer than two such chains. Chains on a
-/// line are left out. Time O(n) for each chain.
+/// Of each chain of the source with at least 20 paired residues, by name: its motion against the chains that keep their
+/// arrangement, by superposition of the paired atoms. Those are the largest group of chains that the motion of one of
+/// them fits by 1 A, or by 1.5 times their own RMSD. Empty with fewer than two chains; chains on a line are left out.
+/// Time O(n m) for n atoms in m chains.
 std::vector<ChainMotion> chain_motions(const Molecule& source, const Molecule& target, const AtomPairing& pairing);
 
-/// "C by 20 degrees and 2.4 A, A by 0.5 degrees and 0.2 A": at most four chains, farthest first.
+/// "C by 20.0 degrees and 2.4 A, A by 0.5 degrees and 0.2 A": at most four chains, farthest first.
 std::string in_words(std::vector<ChainMotion> motions);
 
 }  // namespace espdiff

@@ -6,8 +6,12 @@
 #include <map>
 #include <set>
 #include <string_view>
+#include <tuple>
 
+#include "align/chain_motions.h"
 #include "align/pair_residues.h"
+#include "align/superpose.h"
+#include "base/error.h"
 #include "base/residue_label.h"
 #include "compare/short_numbers.h"
 #include "compare/surroundings.h"
@@ -20,6 +24,7 @@ constexpr double kLeastVolume_A3 = 1.2;
 constexpr double kMostInverted = 0.05;
 /// Unrelated shapes of one size superpose with an RMSD of about 0.6 of this root.
 constexpr double kMostRelativeRmsd = 0.45;
+constexpr std::size_t kLeastChain = 20;
 /// A chain that fits by itself and lies farther than these from its place is noted, and is arranged differently.
 constexpr double kNotedChainShift_A = 2, kLeastChainShift_A = 6, kMostChainFit_A = 4, kShiftToFit = 3;
 constexpr std::size_t kLeastLigandAtoms = 5;
@@ -27,6 +32,8 @@ constexpr std::size_t kLeastLigandAtoms = 5;
 constexpr double kNotedLigand_A = 2;
 constexpr double kManyHydrogens = 0.3, kFewHydrogens = 0.05;
 constexpr double kNotedRadii_A = 0.05, kMostRadii_A = 0.15;
+
+using AtomPairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
 /// The atom of this name; -1 if the residue has none.
 std::ptrdiff_t find_atom(const ResidueView& view, std::size_t residue, std::string_view name) {
@@ -109,31 +116,67 @@ void check_rmsd(const Molecule& source, const Molecule& target, const CompareRes
                       true});
 }
 
-/// Chains that fit by themselves, but not where the others put them.
-void check_arrangement(const CompareResult& result, std::vector<Warning>& warnings) {
-  const ChainMotion* worst = nullptr;
-  const ChainMotion* noted = nullptr;
+/// The chain that turned or shifted most against those that keep their arrangement.
+void note_chain_motion(const CompareResult& result, std::vector<Warning>& warnings) {
+  const ChainMotion* farthest = nullptr;
   for (const ChainMotion& motion : result.chain_motions) {
     if (motion.own_rmsd_A > kMostChainFit_A || motion.rmsd_A < kShiftToFit * motion.own_rmsd_A) continue;
-    const ChainMotion*& farthest = motion.rmsd_A < kLeastChainShift_A ? noted : worst;
     if (motion.rmsd_A < kNotedChainShift_A) continue;
     if (farthest == nullptr || motion.rmsd_A > farthest->rmsd_A) farthest = &motion;
   }
-  const bool has_domains = !result.domains.empty();
-  if (worst != nullptr) {
-    warnings.push_back({"the chains are arranged differently: chain " + worst->chain + " fits by " +
-                            short_number(worst->own_rmsd_A) + " A alone, and lies " + short_number(worst->rmsd_A) +
-                            " A from where the others put it (turned by " + short_number(worst->rotation_degrees) +
-                            " degrees, shifted by " + short_number(worst->shift_A) + " A)" +
-                            (has_domains ? Message("; surfaces between chains have no counterpart")
-                                         : "; give " + option("domains", "chains") + ", or compare one chain"),
-                        !has_domains});
-  } else if (noted != nullptr) {
-    warnings.push_back({"chain " + noted->chain + " is turned by " + short_number(noted->rotation_degrees) +
-                            " degrees and shifted by " + short_number(noted->shift_A) +
-                            " A against the other chains: what differs at its border is that motion, too",
-                        false});
+  if (farthest == nullptr) return;
+  warnings.push_back({"a chain turned and shifted against the others: " + in_words({*farthest}) +
+                          "; what differs at its border is that motion, too",
+                      false});
+}
+
+/// Chains that fit by themselves, but not where the others put them.
+void check_arrangement(const Molecule& source, const Molecule& target, const CompareResult& result,
+                       std::vector<Warning>& warnings) {
+  std::map<std::string, std::pair<AtomPairs, std::set<std::int32_t>>> chains;
+  for (const auto& pair : result.pairing.pairs) {
+    const std::int32_t residue = source.atoms[pair.first].residue;
+    auto& [pairs, residues] = chains[source.residues[static_cast<std::size_t>(residue)].chain];
+    pairs.push_back(pair);
+    residues.insert(residue);
   }
+  for (auto entry = chains.begin(); entry != chains.end();) {
+    entry = entry->second.second.size() < kLeastChain ? chains.erase(entry) : std::next(entry);
+  }
+  if (chains.size() < 2) return;
+  std::tuple<double, std::string, double> worst{0, "", 0};
+  for (const auto& [name, chain] : chains) {
+    AtomPairs others;
+    for (const auto& [other, of_other] : chains) {
+      if (other != name) others.insert(others.end(), of_other.first.begin(), of_other.first.end());
+    }
+    try {
+      const RigidTransform motion = superpose(source.positions, target.positions, others).transform;
+      const Superposition own = superpose(source.positions, target.positions, chain.first);
+      double squares = 0;
+      for (const auto& [s, t] : chain.first) {
+        const Vec3d d = motion.apply(source.positions[s]) - target.positions[t];
+        squares += dot(d, d);
+      }
+      const double shift = std::sqrt(squares / static_cast<double>(chain.first.size()));
+      if (own.rmsd_A > kMostChainFit_A || shift < kLeastChainShift_A || shift < kShiftToFit * own.rmsd_A) continue;
+      worst = std::max(worst, {shift, name, own.rmsd_A});
+    } catch (const GeometryError&) {
+      continue;
+    }
+  }
+  const auto& [shift, name, own] = worst;
+  if (shift == 0) {
+    note_chain_motion(result, warnings);
+    return;
+  }
+  const bool has_domains = !result.domains.empty();
+  warnings.push_back({"the chains are arranged differently: chain " + name + " fits by " + short_number(own) +
+                          " A alone, and lies " + short_number(shift) + " A from where the others put it (" +
+                          in_words(result.chain_motions) + ")" +
+                          (has_domains ? Message("; surfaces between chains have no counterpart")
+                                       : "; give " + option("domains", "chains") + ", or compare one chain"),
+                      !has_domains});
 }
 
 /// Additives of crystals and buffers: where they lie says nothing about the molecule.
@@ -147,7 +190,7 @@ bool is_additive(const std::string& name) {
 /// Paired ligands that lie otherwise in their sites.
 void check_poses(const PairedMolecules& pair, const AtomPairing& pairing, std::vector<Warning>& warnings) {
   const Molecule &source = *pair.source.molecule, &target = *pair.target.molecule;
-  std::map<std::int32_t, std::vector<std::pair<std::size_t, std::size_t>>> ligands;
+  std::map<std::int32_t, AtomPairs> ligands;
   for (const auto& [s, t] : pairing.pairs) {
     const std::int32_t residue = source.atoms[s].residue;
     if (pair.source.kinds[static_cast<std::size_t>(residue)] == ResidueKind::kOther && source.atoms[s].element != "H")
@@ -245,7 +288,7 @@ std::vector<Warning> input_warnings(const Molecule& source, const Molecule& targ
   check_register(pair, result, warnings);
   check_side_chains(pair, warnings);
   check_rmsd(source, target, result, warnings);
-  check_arrangement(result, warnings);
+  check_arrangement(source, target, result, warnings);
   check_ligands(pair.source, result, warnings);
   check_poses(pair, result.pairing, warnings);
   check_radii(source, target, result.pairing, warnings);

@@ -83,14 +83,17 @@ TEST_CASE("a ring has each residue once") {
   CHECK(strand.chains() == "1 2 3;");
 }
 
-TEST_CASE("the motion of a chain against the other is a rotation and a shift") {
+TEST_CASE("a chain's motion against the two that stay is a rotation and a shift") {
   Molecule source;
   AtomPairing pairing;
-  for (const std::string chain : {"A", "B"}) {
+  for (const std::string chain : {"A", "B", "C"}) {
     for (int k = 0; k < 25; ++k) {
       source.residues.push_back({"GLY", chain, k, ' '});
       source.atoms.push_back({"CA", "C", static_cast<std::int32_t>(source.residues.size() - 1), false});
-      source.positions.push_back({chain == "A" ? 0.0 : 30.0, 3.0 * std::cos(k), 3.0 * std::sin(k) + 0.7 * k});
+      source.positions.push_back({chain == "A"   ? 0.0
+                                  : chain == "B" ? 30.0
+                                                 : 60.0,
+                                  3.0 * std::cos(k), 3.0 * std::sin(k) + 0.7 * k});
     }
   }
   Molecule target = source;
@@ -103,12 +106,14 @@ TEST_CASE("the motion of a chain against the other is a rotation and a shift") {
   for (std::size_t i = 25; i < 50; ++i)
     target.positions[i] = centre + screw.apply(source.positions[i] - centre, 1) + Vec3d{0, 0, 1.5};
   const std::vector<ChainMotion> motions = chain_motions(source, target, pairing);
-  REQUIRE(motions.size() == 2);
+  REQUIRE(motions.size() == 3);
+  CHECK(motions[0].rmsd_A < 1e-9);
+  CHECK(motions[2].rotation_degrees < 1e-6);
   CHECK(motions[1].chain == "B");
   CHECK(motions[1].rotation_degrees == doctest::Approx(20));
   CHECK(motions[1].shift_A == doctest::Approx(1.5));
   CHECK(motions[1].own_rmsd_A < 1e-9);
-  CHECK(in_words({motions[1]}) == "B by 20 degrees and 1.5 A");
+  CHECK(in_words({motions[1]}) == "B by 20.0 degrees and 1.5 A");
   for (Residue& residue : source.residues) residue.chain = "A";
   CHECK(chain_motions(source, target, pairing).empty());
 }

@@ -263,7 +263,7 @@ std::vector<PlacedError> pairing_errors(const Molecule& a, const Molecule& b, st
   Molecule turned = dimer;
   const auto in_second = [&](std::size_t r) { return dimer.residues[r].chain == "second"; };
   turn(turned, in_second, centre_of(dimer, in_second), {1, 2, 3}, 20);
-  add("chain of a dimer turned by 20 degrees", "turned by 20 degrees", {dimer, turned});
+  add("chain of a dimer turned by 20 degrees", "by 20.0 degrees", {dimer, turned});
   return errors;
 }
 
