@@ -98,7 +98,7 @@ TEST_CASE("what was not checked is null as a whole, and has no line") {
 TEST_CASE("the residues' metrics are those of the table, the path length among them") {
   const CompareResult result = full_result();
   const std::vector<std::string> quantities = residue_quantities();
-  CHECK(quantities == std::vector<std::string>{"area_A2", "mean_abs_difference", "mean_signed_difference",
+  CHECK(quantities == std::vector<std::string>{"share", "area_A2", "mean_abs_difference", "mean_signed_difference",
                                                "mean_source", "mean_target", "sign_change_area_fraction",
                                                "mean_displacement_A", "mean_path_length_A", "own_difference",
                                                "own_area_A2", "mean_slip_A", "slip_area_fraction"});
@@ -106,6 +106,11 @@ TEST_CASE("the residues' metrics are those of the table, the path length among t
   CHECK(residue_unit(result, "mean_path_length_A") == "A");
   CHECK(residue_unit(result, "mean_source") == "kT/e");
   CHECK(residue_unit(result, "sign_change_area_fraction").empty());
+  const std::vector<double> areas = residue_values(result, "area_A2");
+  const std::vector<double> differences = residue_values(result, "mean_abs_difference");
+  const std::vector<double> shares = residue_values(result, "share");
+  CHECK(shares[0] + shares[1] == doctest::Approx(1));
+  CHECK(shares[0] * areas[1] * differences[1] == doctest::Approx(shares[1] * areas[0] * differences[0]));
 }
 
 TEST_CASE("units and formats follow from the kind of a metric") {
