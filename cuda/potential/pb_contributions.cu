@@ -20,9 +20,8 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// The transposes on one grid, for several readings.
-class TransposedProblem {
- public:
+/// The transposes on one grid, for several readings. All is public: nvcc takes no device lambdas in private members.
+struct TransposedProblem {
   TransposedProblem(const MapOrigin& origin, const Lattice& on_lattice, const CubicLattice& lattice)
       : origin_(origin),
         constants_(pb_constants(origin.pb)),
@@ -61,7 +60,6 @@ class TransposedProblem {
     return sums;
   }
 
- private:
   bool is_border(std::size_t point) const {
     const std::size_t at[3] = {point % grid_size_.row(), point % grid_size_.plane() / grid_size_.row(),
                                point / grid_size_.plane()};
