@@ -54,7 +54,8 @@ class MapReferences {
  public:
   static constexpr std::size_t kCheckPoints = 400;
 
-  /// Solves the Poisson-Boltzmann equation on a lattice of 1.5 A to 1e-2, at the default salt and dielectrics.
+  /// Solves the Poisson-Boltzmann equation on a lattice of 1.5 A to 1e-2, at the default salt and dielectrics, with the
+  /// atoms' spheres for the boundary.
   /// @param to_common the molecule's own frame -> the surface's
   /// @param surface   of the molecule
   /// @throws MemoryError, DeviceError, Cancelled; a molecule that the equation refuses has no such reference
