@@ -268,9 +268,9 @@ std::vector<Warning> input_warnings(const Molecule& source, const Molecule& targ
   check_chains("target", target_view, warnings);
   check_geometry("source", source_view, warnings);
   check_geometry("target", target_view, warnings);
-  check_charges("source", source_view, warnings);
-  check_charges("target", target_view, warnings);
-  check_paired_charges(source_view, target_view, result, warnings);
+  const bool source_is_known = check_charges("source", source_view, warnings),
+             target_is_known = check_charges("target", target_view, warnings);
+  if (source_is_known && target_is_known) check_paired_charges(source_view, target_view, result, warnings);
   check_chirality(source_view, target_view, result.pairing, warnings);
   check_register(source_view, target_view, result, warnings);
   check_rmsd(source, target, result, warnings);
