@@ -36,6 +36,7 @@ struct Kind {
 /// What the checks say of a pair.
 struct Outcome {
   bool refuses = false, warns = false;
+  bool unrelated = false;  ///< nothing pairs, which no check of these sees
   std::vector<std::string> texts;
   double ms = 0;
 };
@@ -48,7 +49,7 @@ Outcome check(const MoleculePair& pair) {
   try {
     align(pair.first, pair.second, options, result);
   } catch (const Error& error) {
-    return {true, true, {std::string("refused: ") + error.what()}, 0};
+    return {true, true, true, {std::string("refused: ") + error.what()}, 0};
   }
   const auto begun = std::chrono::steady_clock::now();
   const ResidueView source(pair.first), target(pair.second);
@@ -314,6 +315,7 @@ struct Tally {
 
   Outcome add(const MoleculePair& pair) {
     Outcome outcome = check(pair);
+    if (outcome.unrelated) return outcome;
     ++n;
     refused += outcome.refuses ? 1 : 0;
     warned += outcome.warns && !outcome.refuses ? 1 : 0;

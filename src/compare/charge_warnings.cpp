@@ -303,17 +303,18 @@ std::vector<PairedCharges> charges_of_pairs(const Molecule& source, const Molecu
 
 }  // namespace
 
-void check_charges(const char* role, const ResidueView& view, std::vector<Warning>& warnings) {
-  if (!has_any_charge(*view.molecule)) return;
+bool check_charges(const char* role, const ResidueView& view, std::vector<Warning>& warnings) {
+  if (!has_any_charge(*view.molecule)) return true;
   check_ions(role, view, warnings);
   const ChargedPolymer polymer(view);
-  if (!polymer.has_charged_backbone()) return;
+  if (!polymer.has_charged_backbone()) return true;
   const Message systematic = wrong_unit_or_place(role, polymer);
   if (systematic.empty()) {
     check_net_charges(role, view, polymer, warnings);
-  } else {
-    warnings.push_back({systematic, true});
+    return true;
   }
+  warnings.push_back({systematic, true});
+  return false;
 }
 
 void check_paired_charges(const ResidueView& source, const ResidueView& target, const CompareResult& result,

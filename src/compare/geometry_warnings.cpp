@@ -21,7 +21,6 @@ constexpr double kLongestBond_A = 2.5, kShortestBond_A = 0.8;
 constexpr double kSamePlace_A = 1.1;
 /// The bonds of a backbone keep within 0.02 A of their lengths (Engh & Huber, Acta Cryst. A 47, 392 (1991)).
 constexpr double kMostScale = 0.04, kMostDeviation_A = 0.25, kMostDeviating = 0.2;
-constexpr double kTraceStep_A = 3.8;
 /// Shares of the residues from which a fault is that of the whole file.
 constexpr double kMostSpoiled = 0.1, kMostOverlapping = 0.05, kMostBare = 0.5;
 constexpr std::size_t kLeastSpoiled = 3, kLeastBare = 10, kLeastMeasured = 3, kLeastWholeNumbers = 20;
@@ -57,7 +56,7 @@ bool has_whole_coordinates(const Molecule& molecule) {
                      [&](const Vec3d& p) { return is_whole(p.x) && is_whole(p.y) && is_whole(p.z); });
 }
 
-/// Backbone bonds as multiples of their usual length; of molecules of C-alpha atoms only, the steps of the trace.
+/// Backbone bonds as multiples of their usual length.
 class BackboneBonds {
  public:
   explicit BackboneBonds(const ResidueView& view) : view_(view) {
@@ -70,10 +69,6 @@ class BackboneBonds {
         add(r, "P", "O5'", 1.6);
       }
     }
-    if (ratios_.size() >= kLeastMeasured) return;
-    ratios_.clear();
-    deviations_A_.clear();
-    add_trace();
   }
 
   bool are_known() const { return ratios_.size() >= kLeastMeasured; }
@@ -104,13 +99,6 @@ class BackboneBonds {
   }
   void add(std::size_t residue, const char* a, const char* b, double usual_A) {
     add(find(residue, a), find(residue, b), usual_A);
-  }
-  void add_trace() {
-    for (std::size_t r = 0; r + 1 < view_.kinds.size(); ++r) {
-      const Residue &own = view_.molecule->residues[r], &next = view_.molecule->residues[r + 1];
-      if (view_.kinds[r] != ResidueKind::kAminoAcid || view_.kinds[r + 1] != ResidueKind::kAminoAcid) continue;
-      if (own.chain == next.chain && next.number - own.number == 1) add(find(r, "CA"), find(r + 1, "CA"), kTraceStep_A);
-    }
   }
 
   const ResidueView& view_;
@@ -273,19 +261,19 @@ void check_places(const std::string& role, const ResidueView& view, std::size_t 
   warnings.push_back({text, refuses});
 }
 
-/// Amino acids of which only the backbone, with C-beta or without, or less is there.
+/// Amino acids of which only the backbone, with C-beta or without, or less is there; glycine and alanine do not tell.
 void check_side_chains(const std::string& role, const ResidueView& view, std::vector<Warning>& warnings) {
   std::size_t n = 0, n_bare = 0;
   for (std::size_t r = 0; r < view.kinds.size(); ++r) {
     const char letter = residue_letter(view.molecule->residues[r].name);
-    if (view.kinds[r] != ResidueKind::kAminoAcid || letter == '?') continue;
+    if (view.kinds[r] != ResidueKind::kAminoAcid || letter == '?' || letter == 'G' || letter == 'A') continue;
     ++n;
     const auto heavy = std::count_if(view.atoms[r].begin(), view.atoms[r].end(), [&](std::size_t i) {
       const Atom& atom = view.molecule->atoms[i];
       return !is_light(atom) && normalized_atom_name(atom.name) != "OXT";
     });
-    const std::ptrdiff_t least = letter == 'G' ? 4 : letter == 'A' ? 5 : 6;  // all others have more than C-beta
-    n_bare += heavy < least ? 1 : 0;
+    constexpr std::ptrdiff_t kBackboneAndBeta = 5;  // all others have more
+    n_bare += heavy <= kBackboneAndBeta ? 1 : 0;
   }
   if (n < kLeastBare || static_cast<double>(n_bare) <= kMostBare * static_cast<double>(n)) return;
   warnings.push_back({std::to_string(n_bare) + " of " + std::to_string(n) + " residues of the " + role +

@@ -281,9 +281,9 @@ std::vector<Warning> input_warnings(const Molecule& source, const Molecule& targ
   check_chains(pair, warnings);
   check_geometry("source", pair.source, warnings);
   check_geometry("target", pair.target, warnings);
-  check_charges("source", pair.source, warnings);
-  check_charges("target", pair.target, warnings);
-  check_paired_charges(pair.source, pair.target, result, warnings);
+  const bool source_is_known = check_charges("source", pair.source, warnings),
+             target_is_known = check_charges("target", pair.target, warnings);
+  if (source_is_known && target_is_known) check_paired_charges(pair.source, pair.target, result, warnings);
   check_chirality(pair, warnings);
   check_register(pair, result, warnings);
   check_side_chains(pair, warnings);

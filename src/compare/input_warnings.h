@@ -33,7 +33,8 @@ void check_side_chains(const PairedMolecules& pair, std::vector<Warning>& warnin
 /// The charges of one molecule (charge_warnings.cpp): backbones whose charges have another unit, sign or place, and
 /// residues and ions whose net charge is not whole or not one that their name can have. Refuses what is systematic.
 /// Nothing for molecules without charges. Source of the net charges: residue_charges.h.
-void check_charges(const char* role, const ResidueView& view, std::vector<Warning>& warnings);
+/// @returns whether the charges of single residues can be told: false where all are wrong
+bool check_charges(const char* role, const ResidueView& view, std::vector<Warning>& warnings);
 
 /// The charges of paired residues of one name: of two force fields, or different by 1 e although their hydrogens are
 /// the same (those that differ are in CompareResult::protonation).

@@ -173,6 +173,20 @@ void replace_selenomethionine(Molecule& molecule, Preparation& preparation) {
   }
 }
 
+/// Deoxynucleotides under the names of RNA, as in files of before 2007, get those of DNA: PDB2PQR would add O2'.
+void name_deoxynucleotides(Molecule& molecule, Preparation& preparation) {
+  const auto atoms = atoms_of_residues(molecule);
+  for (std::size_t r = 0; r < atoms.size(); ++r) {
+    Residue& residue = molecule.residues[r];
+    if (residue.name != "A" && residue.name != "C" && residue.name != "G" && residue.name != "T") continue;
+    const auto is_oxygen = [&](std::size_t i) { return normalized_atom_name(molecule.atoms[i].name) == "O2'"; };
+    if (std::any_of(atoms[r].begin(), atoms[r].end(), is_oxygen)) continue;
+    const std::string old = residue_in_words(residue);
+    residue.name.insert(0, "D");
+    preparation.renamed.push_back(old + " as " + residue.name);
+  }
+}
+
 /// The PDB file that PDB2PQR reads.
 std::string pdb_text(Molecule molecule, const Renumbering& renumbering, const std::vector<std::string>& states) {
   molecule.residues = renumbering.residues();
@@ -484,6 +498,7 @@ Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options
     if (!is_water_name(molecule.residues[r].name)) kept_states.push_back(states[r]);
   }
   replace_selenomethionine(before, done);
+  name_deoxynucleotides(before, done);
   std::vector<Mol2File> ligands;
   for (const std::string& path : options.ligands) ligands.push_back(read_mol2(path));
   const std::vector<std::int32_t> ligand_of = ligands_of_residues(before, ligands);

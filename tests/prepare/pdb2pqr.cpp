@@ -362,3 +362,58 @@ TEST_CASE("load_state: the target takes the source's protonation states") {
   CHECK(differences.empty());
   CHECK(target.preparation->net_charge > 10);
 }
+
+TEST_CASE("prepare_molecule: a name without charges is found before the program runs") {
+  const std::string text = lysozyme(1, 20);
+  if (text.empty()) return;
+  const ScratchFolder folder;
+  const std::string program = folder.write("program", "#!/bin/sh\ntouch '" + folder.file("ran") + "'\nexit 1\n");
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  setenv("ESPDIFF_PDB2PQR", program.c_str(), 1);
+  const std::string ion = "HETATM 9001 ZN    ZN A 302      70.000  60.000  60.000  1.00  0.00          ZN\n";
+  CHECK(message_of([&] { prepare(read(folder, text + ion)); }).find("in.pdb: 1 atom gets no charge") == 0);
+  const std::string dna = "ATOM   9001  P    DA B   1      70.000  60.000  60.000  1.00  0.00           P\n";
+  ChargeOptions parse = without_cache();
+  parse.force_field = "parse";
+  CHECK(message_of([&] { prepare_molecule(read(folder, text + dna), parse, {}, Progress()); }) ==
+        "in.pdb: 1 atom gets no charge from PDB2PQR's force field parse: DA 1 of chain B (first atom P); take a force "
+        "field that has nucleotides (force-field amber), or drop it (leave-out (DA))");
+  unsetenv("ESPDIFF_PDB2PQR");
+  CHECK_FALSE(std::filesystem::exists(folder.file("ran")));
+}
+
+TEST_CASE("force_field_for: AMBER where there are nucleotides, one force field for both states") {
+  Molecule protein, dna;
+  protein.name = "protein.pdb";
+  dna.name = "dna.pdb";
+  protein.residues = {{"ALA", "A", 1, ' '}};
+  dna.residues = {{"DA", "B", 1, ' '}};
+  CHECK(force_field_for(protein, nullptr, "auto") == "parse");
+  CHECK(force_field_for(dna, nullptr, "auto") == "amber");
+  CHECK(force_field_for(protein, &dna, "auto") == "amber");
+  CHECK(force_field_for(dna, &protein, "charmm") == "charmm");
+  CHECK(message_of([&] { force_field_for(dna, &protein, "auto"); }) ==
+        "dna.pdb: has nucleotides, which get charges of AMBER, and the source has none and charges of PARSE; take one "
+        "force field for both (force-field amber)");
+}
+
+TEST_CASE("load_state: what is left out is kept aside with its charge, and PROPKA sees it") {
+  const std::string text = lysozyme(1, 40);
+  if (text.empty() || !has_pdb2pqr()) return;
+  const ScratchFolder folder;
+  const std::string groups =
+      "HETATM 9000 ZN    ZN A 301      40.000   5.000  10.000  1.00  0.00          ZN\n"
+      "HETATM 9001  O   HOH A 302      70.000  60.000  60.000  1.00  0.00           O\n";
+  folder.write("in.pdb", text + groups);
+  InputOptions options;
+  options.charges.use_cache = false;
+  options.leave_out = "(ZN)";
+  const LoadedState state = load_state(StructureFile(folder.file("in.pdb")), {}, options, Progress());
+  REQUIRE(state.molecule.left_out.size() == 1);
+  CHECK(state.molecule.left_out[0].residue.name == "ZN");
+  CHECK(state.molecule.left_out[0].charge == 2);
+  REQUIRE(state.preparation);
+  CHECK(state.preparation->notes ==
+        std::vector<std::string>{"PROPKA saw 1 group beside the chains that the molecule leaves out"});
+  for (const Residue& residue : state.molecule.residues) CHECK(residue.name != "ZN");
+}
