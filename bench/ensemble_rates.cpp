@@ -162,7 +162,7 @@ void print_nulls(const EnsembleFile& file, const Columns& columns, const std::ve
       }
     }
   }
-  runs.print("a run against another one of the same state, by bootstrap");
+  runs.print("a run against another one of the same state, by blocks");
 }
 
 }  // namespace

@@ -87,6 +87,17 @@ if(ESPDIFF_HDF5_INCLUDE AND ESPDIFF_HDF5_LIBRARY)
 endif()
 espdiff_resolve(ESPDIFF_HDF5 "${hdf5_found}" "Ensembles" "HDF5 was not found (Debian: libhdf5-dev)")
 
+# three.js is text that every page contains. Newer versions have no script that runs without a server.
+if(NOT ESPDIFF_PAGES STREQUAL "OFF")
+  set(three_folders /usr/share/javascript/three ${CMAKE_PREFIX_PATH})
+  find_file(ESPDIFF_THREE three.min.js PATHS ${three_folders} PATH_SUFFIXES build)
+  find_file(ESPDIFF_THREE_CONTROLS TrackballControls.js PATHS ${three_folders} PATH_SUFFIXES examples/js/controls)
+endif()
+if(ESPDIFF_THREE AND ESPDIFF_THREE_CONTROLS)
+  set(three_found TRUE)
+endif()
+espdiff_resolve(ESPDIFF_PAGES "${three_found}" "Pages for a browser" "three.js was not found (Debian: libjs-three)")
+
 if(NOT ESPDIFF_GEMMI STREQUAL "OFF")
   find_path(ESPDIFF_GEMMI_INCLUDE gemmi/cif.hpp)
   find_path(ESPDIFF_PEGTL_INCLUDE tao/pegtl.hpp)  # gemmi's CIF reader includes it

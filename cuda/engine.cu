@@ -23,6 +23,7 @@
 #include "cuda/device/unwrap.h"
 #include "cuda/morph/morph.h"
 #include "cuda/potential/bulk_zero.h"
+#include "cuda/potential/contributions.h"
 #include "cuda/potential/coulomb.h"
 #include "cuda/potential/pme.h"
 #include "cuda/potential/poisson_boltzmann.h"
@@ -312,6 +313,14 @@ class BackEndEngine : public Engine {
     return run([&] {
       return ESPDIFF_BACKEND::poisson_boltzmann(positions, radii, charges, lattice, options, to_map,
                                                 start ? &unwrap<MapGrid>(start) : nullptr, progress, report);
+    });
+  }
+
+  std::vector<std::vector<double>> contributions(const GridPtr& map, const MeshPtr& mesh,
+                                                 const std::vector<std::vector<double>>& weights,
+                                                 const Progress& progress) override {
+    return run([&] {
+      return ESPDIFF_BACKEND::contributions(unwrap<MapGrid>(map), unwrap<SurfaceMesh>(mesh), weights, pme_, progress);
     });
   }
 

@@ -40,19 +40,22 @@ namespace eval ::espdiff {
 
     proc field_coloring {field} { string toupper $field 0 0 }
 
-    # VMD needs two different ends.
+    # Symmetric about 0, so that the middle of VMD's colour scale is 0, also for what is never negative.
     proc color_range {carried} {
-        set low [dict get $carried min]
-        set high [dict get $carried max]
-        expr {$high > $low ? [list $low $high] : [list $low [expr {$low + 1}]]}
+        set high [expr {max(abs([dict get $carried min]), abs([dict get $carried max]))}]
+        if {$high == 0} { set high 1.0 }
+        list [expr {-$high}] $high
     }
 
-    # The bar shows the user's own colour scale, by which VMD colours the atoms.
+    # The bar shows the user's own colour scale, by which VMD colours the atoms; its upper half where nothing is
+    # negative.
     proc legend_of_atoms {handle carried} {
         set title [lindex [shown_metric [dict get $carried quantity] ""] 0]
         lassign [color_range $carried] low high
-        return [dict create handle $handle color residues title "$title of residues" low $low high $high \
+        set plan [dict create handle $handle color residues title "$title of residues" low $low high $high \
             unit [dict get $carried unit]]
+        if {[dict get $carried min] >= 0} { set plan [dict merge $plan {low 0 first 545}] }
+        return $plan
     }
 
     # The user may have deleted representations or molecules, or the legend.

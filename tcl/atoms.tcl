@@ -10,7 +10,7 @@ namespace eval ::espdiff {
         if {[dict get $options file] ne ""} { return [core::residue_pdb $handle $quantity [dict get $options file]] }
         require_vmd "espdiff atoms" "outside of it -file FILE writes a PDB file with the values as B factors"
         set mol [atoms_molecule $handle [dict get $options mol]]
-        set values [residue_values $handle $quantity]
+        set values [residue_values $handle $quantity $mol]
         set carried [dict merge [dict create quantity $quantity unit [dict get $values unit] mol $mol \
             field [dict get $options field]] [set_atoms $mol [dict get $values of] $options]]
         if {[dict get $options show]} { show_atom_colors $handle $carried }
@@ -33,14 +33,31 @@ namespace eval ::espdiff {
         return "$chain|$number|[string trim $insertion]"
     }
 
-    # Values by residue_key, only existing ones; and the unit.
-    proc residue_values {handle quantity} {
+    # The key of a row of `core::residues` in the source, or of its partner in the target; empty for no partner.
+    proc key_on {side residue} {
+        set prefix [expr {$side eq "target" ? "target_" : ""}]
+        if {$side eq "target" && [dict get $residue target_name] eq ""} { return "" }
+        residue_key [dict get $residue ${prefix}chain] "" [dict get $residue ${prefix}number] \
+            [dict get $residue ${prefix}insertion]
+    }
+
+    # Whose residues a molecule has: target, source, or both of them; those of the source for a molecule that was not
+    # compared.
+    proc sides_of {handle mol} {
+        set sides {}
+        foreach side {target source} { if {[molecule_of $handle $side] eq $mol} { lappend sides $side } }
+        expr {$sides eq "" ? "source" : $sides}
+    }
+
+    # Values by the residue_key that the residues have in a molecule, only existing ones; and the unit.
+    proc residue_values {handle quantity mol} {
         set values [core::residue_quantity $handle $quantity]
         set of [dict create]
-        foreach residue [core::residues $handle] value [dict get $values values] {
-            if {$value eq ""} continue
-            dict set of [residue_key [dict get $residue chain] "" [dict get $residue number] \
-                [dict get $residue insertion]] $value
+        foreach side [sides_of $handle $mol] {
+            foreach residue [core::residues $handle] value [dict get $values values] {
+                set key [key_on $side $residue]
+                if {$value ne "" && $key ne ""} { dict set of $key $value }
+            }
         }
         return [dict create unit [dict get $values unit] of $of]
     }

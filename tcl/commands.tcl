@@ -46,7 +46,7 @@ namespace eval ::espdiff {
 
     command residues [dict create arguments {handle} options {} settings none run ::espdiff::residues \
         summary {The comparison by residue of the source, over the mapped surface.} \
-        returns "a list of dictionaries: index chain number insertion name target_name (of its partner, or empty) [metric_names residues]" \
+        returns "a list of dictionaries: index chain number insertion name, target_chain target_number target_insertion target_name (of its partner, or empty) [metric_names residues]" \
         example {foreach residue [espdiff residues comparison1] { puts [dict get $residue mean_abs_difference] }}]
 
     command table [dict create arguments {handle} options {} settings none run ::espdiff::table_of \
@@ -74,19 +74,20 @@ namespace eval ::espdiff {
 
     command atoms [dict create arguments {handle} settings none run ::espdiff::atoms options [concat \
         [list [list -quantity choice auto "Value for the atoms of a residue; auto is mean_abs_difference, or without\
-            potentials mean_displacement_A" [concat auto [metric_names residues]]]] {
+            potentials mean_displacement_A; share: its part of the sum of |difference| times area over all residues"\
+            [concat auto share [metric_names residues]]]] {
             {-mol text source "Molecule of VMD that gets the values: source, target, or an id"}
             {-field choice user "VMD's field: user to user4 hold one frame, the others all frames" {user
                 user2 user3 user4 beta occupancy}}
             {-frame text now "Frame of a user field: a number, now, or all"}
             {-missing number 0 "Value of atoms whose residue has no valid surface"}
             {-file file {} "Instead of VMD: a PDB file of the source with the values as B factors"}
-            {-show boolean 0 "Also colour the molecule's representations by the field, over the range of its values,\
-                with a legend; `espdiff uncolor` restores their colours"}
+            {-show boolean 0 "Also colour the molecule's representations by the field, with a legend; 0 is in the middle\
+                of VMD's colour scale; `espdiff uncolor` restores their colours"}
         }] \
         summary {Writes a quantity of the residues to their atoms, for colouring any representation
-            (`Coloring Method` User or Beta), or to the B factors of a file for other programs. Residues are identified
-            by chain, number and insertion code.} \
+            (`Coloring Method` User or Beta), or to the B factors of a file for other programs. In the target's molecule
+            a residue's value is on its partner.} \
         returns {a dictionary: quantity, unit, mol, field, atoms (number with a value), min, max; or the file} \
         example {espdiff atoms comparison1 -quantity mean_abs_difference -show 1}]
 
@@ -103,8 +104,8 @@ namespace eval ::espdiff {
             {-face boolean 0 "Rotate the view so that they are in front"}
         } \
         summary {Highlights residues in VMD by a separate representation, which replaces the previous highlight; an
-            empty list removes it. Residues are given by their `index` in `espdiff residues`, and identified by chain,
-            number and insertion code, also in the target's molecule.} \
+            empty list removes it. Residues are given by their `index` in `espdiff residues`. In the source's molecule
+            they are found by their chain, number and insertion code, in the target's by those of their partners.} \
         returns {the molecules in which residues were found} \
         example {espdiff highlight comparison1 {88 113}}]
 
@@ -113,8 +114,8 @@ namespace eval ::espdiff {
                 potentials. difference: target - source; sign: where it changed; slip: distance of each point from where its own atoms went; potential is for surfaces; path_length: length of each point's path,\
                 at least its displacement"
                 {auto difference sign source target potential slip displacement path_length none}}
-            {-range range auto "Values at the ends of the colour scale; auto is symmetric about 0 and covers 98 % of\
-                the surface's points on each side"}
+            {-range range auto "Values at the ends of the colour scale; auto is symmetric about 0 and covers 90 % of\
+                the surface's points, as in the viewer and in pictures"}
             {-colors choice red-blue "Colours of signed values, from negative to positive; colour-blind\
                 readers can tell the ends of each apart. cool-warm: blue to red, paler; purple-orange: where red and\
                 blue stand for something else" {red-blue cool-warm purple-orange}}
@@ -126,14 +127,16 @@ namespace eval ::espdiff {
                 {uncertain mark hide}}
             {-surface choice mapped "mapped: on the target; source: on the source" {mapped source}}
             {-legend boolean 1 "A colour bar with title and unit at the window's bottom"}
+            {-keep boolean 0 "Keep the drawings of other handles; otherwise this one replaces them. Legends name their\
+                comparison while there are several"}
             {-patch count 0 "Of an ensemble: the only patch that is not faded; 0 for all that is significant"}
             {-view choice single "linked: three surfaces side by side that the mouse rotates together, the source and\
                 the target coloured by their potentials, the third on the target by -color; until `undraw` other\
                 molecules are hidden and the projection is orthographic" {single linked}}
-            {-potential-range range auto "For both potentials with -view linked; auto covers 98 % of the points of\
-                each on each side"}
+            {-potential-range range auto "For both potentials with -view linked; auto covers 90 % of the points of\
+                each"}
         } \
-        summary {Draws the surface in VMD and replaces an older drawing of the same handle. Of an ensemble: the template with
+        summary {Draws the surface in VMD in the place of the drawings that are there. Of an ensemble: the template with
             the difference of the groups (-color also source, target: means of the groups, and t), faded where it is
             not significant. Parts meet in smooth lines;
             parts without a counterpart are grey and hatched. View, top molecule and colour settings do not change. A
@@ -152,6 +155,16 @@ namespace eval ::espdiff {
             PREFIX.vtp). For a handle, the viewer's inputs are written to a temporary folder, which is deleted when it
             ends. The viewer continues when VMD exits.} \
         returns {its process id} example {espdiff view comparison1 -layout linked}]
+
+    command figure [dict create arguments {handle file} settings none run ::espdiff::figure options {
+            {-width count 1800 "Pixels, 400 to 6000; the height follows from the proportions of VMD's window"}
+            {-molecule choice none "Draw the target too: none, cartoon, sticks or lines" {none cartoon sticks lines}}
+            {-title text {} "Title above the picture"}
+        } \
+        summary {Draws a comparison for print, as VMD shows it: VMD's camera, and the colours, range, fading and legend of the
+            handle's drawing. It is drawn by espdiff's own renderer, which looks both maps up at every pixel, in a
+            parallel projection. (VMD's ray tracers draw the legend's letters in another size.)} \
+        returns {the file} example {espdiff figure comparison1 figure1.png -width 2400}]
 
     command undraw [dict create arguments {{?handle ...?}} options {} settings none run ::espdiff::undraw \
         summary {Removes drawings with their legends; without a handle, all of them.} \
@@ -232,7 +245,8 @@ namespace eval ::espdiff {
             {-on-error choice stop "A frame that cannot be mapped stops the run, or has no values" {stop skip}}
             {-shard text 1/1 "Map part I of N of the frames, I/N, into OUT.shard-I-of-N.h5; `espdiff merge`\
                 merges the parts"}
-            {-from file {} "Compute the statistics of this complete OUT.h5 again, with {} as groups"}
+            {-from file {} "Compute the statistics of this complete OUT.h5 again, with {} as groups; or with its replicates in\
+                other groups, by NAME or GROUP/NAME, with @FRAMES for some of their frames"}
             {-alpha positive 0.05 "Significance level; intervals have the confidence 1 - alpha"}
             {-control choice tfce "The family-wise p that patches are made of" {tfce max-t}}
             {-equilibration text none "Frames to cut off at the start of each replicate: none, a number, or auto"}
@@ -245,7 +259,6 @@ namespace eval ::espdiff {
             {-states boolean 0 "Also compare every frame with every other one, and find the principal components of\
                 the potential"}
             {-arrangements count 10000 "Exchanges of labels at most; all of them where there are fewer"}
-            {-bootstrap count 999 "Samples, where a group has one replicate"}
             {-seed count 20221 "Of random numbers; results name it"}
         } $computing] \
         summary {Compares two groups of simulations: where is the difference more than noise? One surface, the template,

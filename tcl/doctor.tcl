@@ -33,6 +33,12 @@ namespace eval ::espdiff {
             lappend items [list $what missing "this build has no $part; install its development package, and build\
                 again"]
         }
+        set pdb2pqr [dict get $build pdb2pqr]
+        lappend items [expr {$pdb2pqr ne "" ? [list PDB2PQR ok $pdb2pqr] : [list PDB2PQR missing "structures without\
+            charges cannot get a potential; [dict get $build pdb2pqr_remedy]"]}]
+        set gnuplot [lindex [auto_execok gnuplot] 0]
+        lappend items [expr {$gnuplot ne "" ? [list gnuplot ok $gnuplot] : [list gnuplot missing "plots and maps cannot be\
+            saved as pictures; install it (Debian: gnuplot-nox)"]}]
         return $items
     }
 

@@ -4,6 +4,7 @@ namespace eval ::espdiff {
     # By handle: molecules (ids of the graphics molecules, the legend last), and the options that it was drawn with.
     variable drawings [dict create]
     variable drawn_options [dict create]
+    variable drawn_plans [dict create]  ;# by handle: the plan of a drawing that has a legend
 
     # How far the colours have faded in bands of uncertainty, from half the limit to the limit. VMD has one colour scale
     # at a time, so that each band is a graphics molecule.
@@ -11,13 +12,13 @@ namespace eval ::espdiff {
     # Opacity of these bands and of what is beyond the limit, with -uncertain transparent. With GLSL VMD blends triangles
     # of opacity 0.5 or less in list order, without writing depths, and draws the others as if opaque.
     variable opacities {0.5 0.4 0.3 0.2}
-    variable neutral_grey {0.60 0.60 0.60}
+    variable neutral_grey {0.45 0.45 0.45}  ;# darker than the middle of any scale, which means 0
 
     # Three colours for the lower end, the middle and the upper end of VMD's colour scale. VMD's lights darken surfaces:
     # these are stronger than the same names in pictures of the command line; the other names are as there.
     variable scales {
-        red-blue   {{0.78 0.08 0.10} {0.88 0.88 0.88} {0.10 0.22 0.78}}
-        sequential {{0.88 0.88 0.88} {0.98 0.62 0.20} {0.45 0.05 0.05}}
+        red-blue   {{0.78 0.08 0.10} {0.96 0.96 0.96} {0.10 0.22 0.78}}
+        sequential {{0.96 0.96 0.96} {0.98 0.62 0.20} {0.45 0.05 0.05}}
     }
     variable lengths {slip displacement path_length}  ;# quantities that start at 0
     variable scale_method RWB  ;# VMD's colour scale whose colours are replaced temporarily
@@ -28,6 +29,7 @@ namespace eval ::espdiff {
     variable said_rendermode 0  ;# whether the user was told that transparency needs GLSL
 
     proc draw {options handle} {
+        variable drawn_plans
         require_vmd "espdiff draw" \
             "outside of it `espdiff export` writes the surface, and the command line's `espdiff render` draws it"
         require_core_handle $handle
@@ -51,12 +53,42 @@ namespace eval ::espdiff {
             } message error]
             delete_molecules [expr {$code ? $molecules : $older}]
         }
-        if {!$code} { show_alone $molecules }
+        if {!$code} {
+            if {![dict get $options keep]} { forget_other_drawings $handle }
+            show_alone $molecules
+        }
         place_legends  ;# after keep_view, which has VMD reset the views
         if {$code} { return -options $error $message }
         remember_drawing $handle $molecules $options
+        if {[dict get $plan legend]} { dict set drawn_plans $handle $plan }
+        name_legends
         add_frame_note $handle [expr {[dict get $options surface] eq "mapped" ? "target" : "source"}]
         return $molecules
+    }
+
+    proc forget_other_drawings {handle} {
+        variable drawings
+        foreach other [dict keys $drawings] { if {$other ne $handle} { forget_drawing $other } }
+    }
+
+    # Legends name their comparison while several are drawn.
+    proc name_legends {} {
+        variable drawings
+        variable drawn_plans
+        set several [expr {[dict size $drawn_plans] > 1}]
+        dict for {handle plan} $drawn_plans {
+            set old [lindex [drawing_of $handle] end]
+            if {[dict exists $plan name] == $several || $old ni [molinfo list]} continue
+            set plan [expr {$several ? [dict set plan name [comparison_name $handle]] : [dict remove $plan name]}]
+            dict set drawn_plans $handle $plan
+            keep_view {
+                with_color_scale [dict get $plan colors] { build_list [set mol [draw_legend $plan]] }
+                if {![molinfo $old get displayed]} { mol off $mol }
+                dict set drawings $handle [lreplace [drawing_of $handle] end end $mol]
+                delete_molecules [list $old]
+            }
+        }
+        place_legends
     }
 
     # Without another molecule, VMD has made the legend the top molecule, and the view is of nothing.
@@ -148,10 +180,7 @@ namespace eval ::espdiff {
         set unit [dict get $found unit]
         if {$range ne "auto"} { return [dict create low [lindex $range 0] high [lindex $range 1] unit $unit] }
         if {$color eq "sign"} { return [dict create low -1 high 1 unit $unit] }
-        if {[dict get $found p98] eq ""} { return [dict create low -1 high 1 unit $unit] }
-        set high [expr {max(abs([dict get $found p02]), abs([dict get $found p98]))}]
-        if {$high == 0} { set high 1.0 }
-        set high [format %.2g $high]
+        set high [dict get $found limit]
         return [dict create low [expr {$color in $lengths ? 0 : -$high}] high $high unit $unit]
     }
 
@@ -191,8 +220,7 @@ namespace eval ::espdiff {
         variable neutral_grey
         foreach part [dict get $plan parts] {
             lassign $part what faded opacity band
-            set name "espdiff $handle [dict get $plan color]"
-            if {$what ne ""} { append name ": $what" }
+            set name [graphics_name $handle [expr {$what eq "" ? [dict get $plan color] : $what}]]
             lappend molecules [set mol [new_graphics $name [dict get $plan beside]]]
             graphics $mol material [material_of $opacity]
             set core [dict merge [dict get $plan core] $band]
@@ -227,6 +255,12 @@ namespace eval ::espdiff {
             lappend mixed $entries
         }
         return $mixed
+    }
+
+    # "espdiff 1: difference", short for VMD's list of molecules.
+    proc graphics_name {handle what} {
+        regsub {^comparison(\d+)$} $handle {\1} number
+        return "espdiff $number: $what"
     }
 
     # A graphics molecule with the view of `beside`, otherwise of the top molecule.
@@ -288,8 +322,10 @@ namespace eval ::espdiff {
 
     proc remember_drawing {handle molecules options} {
         variable drawings
+        variable drawn_plans
         variable drawn_options
         dict set drawings $handle $molecules
+        dict unset drawn_plans $handle
         dict set drawn_options $handle $options
         watch_drawings
     }
@@ -301,12 +337,15 @@ namespace eval ::espdiff {
 
     proc forget_drawing {handle} {
         variable drawings
+        variable drawn_plans
         if {![dict exists $drawings $handle]} return
         set scene [leave_linked_view $handle]
         if {[in_vmd]} { keep_view { delete_molecules [drawing_of $handle] }; restore_scene $scene; place_legends }
         dict unset drawings $handle
+        dict unset drawn_plans $handle
         forget_frame_note $handle
         watch_drawings
+        if {[in_vmd]} { name_legends }
     }
 
     proc undraw {options args} {

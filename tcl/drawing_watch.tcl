@@ -64,7 +64,7 @@ namespace eval ::espdiff {
         if {$mol eq "" || ![dict exists $jobs $handle ${side}_frame] || [molinfo $mol get numframes] < 2} return
         set frame [dict get $jobs $handle ${side}_frame]
         keep_view {
-            set note [new_legend $handle "espdiff $handle note" 0]
+            set note [new_legend $handle [graphics_name $handle note] 0]
             graphics $note color [legend_text_color]
             draw_text $note "Surface: frame $frame of [molinfo $mol get name]; its atoms show another frame" 0 0.82 0.8
             build_list $note

@@ -6,8 +6,8 @@ namespace eval ::espdiff {
         set frames {}
         if {[dict get $options from] eq ""} {
             lassign [make_replicates $groups [dict get $options frames]] replicates frames
-        } elseif {$groups ne ""} {
-            fail "espdiff ensemble: -from reads mapped frames from a file; give {} as groups"
+        } else {
+            set replicates [members_of_file $groups]
         }
         set handle [core::ensemble $replicates [ensemble_options $options $groups]]
         set source [first_molecule $frames]
@@ -56,7 +56,7 @@ namespace eval ::espdiff {
     proc ensemble_options {options groups} {
         set core [core_options $options]
         foreach key {resume overwrite on-error shard check-template states alpha control equilibration most-missing
-            arrangements bootstrap seed frames template} {
+            arrangements seed frames template} {
             dict set core [string map {- _} $key] [dict get $options $key]
         }
         dict set core output [file normalize [dict get $options output]]
@@ -113,6 +113,19 @@ namespace eval ::espdiff {
             }
         }
         return [list [name_apart $replicates] $places]
+    }
+
+    # Of the file that -from names, in other groups; the core finds them.
+    proc members_of_file {groups} {
+        if {![string is list $groups] || [llength $groups] % 2} {
+            fail "groups: '$groups' is not a list of a name and a list of replicates of -from, once or twice, such as\
+                {one {wild/1 wild/2} two {wild/3 wild/4}}"
+        }
+        set replicates {}
+        foreach {group members} $groups {
+            foreach member $members { lappend replicates [dict create group $group name $member file [list $member]] }
+        }
+        return $replicates
     }
 
     proc parse_replicate {text role} {

@@ -6,15 +6,18 @@ namespace eval ::espdiff {
     proc highlight {options handle residues} {
         require_vmd "espdiff highlight" "outside of it `espdiff residues` has the numbers"
         require_core_handle $handle
-        set keys [residue_keys $handle $residues]
+        set rows [residue_rows $handle $residues]
         set atoms [dict create]
         foreach mol [highlighted_molecules $handle [dict get $options mol]] {
-            dict set atoms $mol [atoms_of_residues $mol $keys]
+            dict set atoms $mol [atoms_of_residues $mol [residue_keys $handle $rows $mol]]
         }
         set found {}
         dict for {mol indices} $atoms { if {[llength $indices] > 0} { lappend found $mol } }
         if {[llength $residues] > 0 && [llength $found] == 0} {
-            fail "espdiff highlight: no molecule has a residue of that chain and number ([join [dict keys $keys] {, }])"
+            set names {}
+            foreach row $rows { lappend names "[dict get $row chain]:[dict get $row name][dict get $row number]" }
+            fail "espdiff highlight: no molecule has [join $names {, }] or its partner any more; its chains or numbers\
+                have changed since the comparison, or the molecule given by [spelled mol] was not compared"
         }
         foreach mol $found { lappend visible [molinfo $mol get displayed] }
         if {$found ne "" && 1 ni $visible} {
@@ -58,7 +61,7 @@ namespace eval ::espdiff {
 
     # Highlights residues of one molecule by their names in a trajectory's table, such as "A:LYS 12". `owner` stands in
     # the place of a handle.
-    proc highlight_named {owner mol names} {
+    proc highlight_named {owner mol names {face 0}} {
         variable highlights
         set keys [dict create]
         foreach name $names {
@@ -70,6 +73,7 @@ namespace eval ::espdiff {
         forget_highlight $owner
         if {[llength $indices] == 0} return
         dict lappend highlights $owner [list $mol [add_highlight $mol $indices [highlight_style]]]
+        if {$face} { face_atoms $mol $indices }
     }
 
     # The usual look: the defaults of the command.
@@ -81,9 +85,9 @@ namespace eval ::espdiff {
         return $style
     }
 
-    # Identifiers of residues by `index`, as in atoms.tcl.
-    proc residue_keys {handle residues} {
-        set keys [dict create]
+    # The rows of `core::residues` by `index`.
+    proc residue_rows {handle residues} {
+        set rows {}
         set known [dict create]
         foreach residue [core::residues $handle] { dict set known [dict get $residue index] $residue }
         foreach index $residues {
@@ -91,9 +95,19 @@ namespace eval ::espdiff {
                 fail "espdiff highlight: '$index' is not the `index` of a residue of $handle, as `espdiff\
                     residues` has it"
             }
-            set residue [dict get $known $index]
-            dict set keys [residue_key [dict get $residue chain] "" [dict get $residue number] \
-                [dict get $residue insertion]] 1
+            lappend rows [dict get $known $index]
+        }
+        return $rows
+    }
+
+    # Their identifiers in a molecule, as in atoms.tcl: in the target those of the partners.
+    proc residue_keys {handle rows mol} {
+        set keys [dict create]
+        foreach side [sides_of $handle $mol] {
+            foreach row $rows {
+                set key [key_on $side $row]
+                if {$key ne ""} { dict set keys $key 1 }
+            }
         }
         return $keys
     }

@@ -182,5 +182,6 @@ namespace eval ::espdiff {
         foreach handle $args {
             if {[is_trajectory $handle]} { trajectory_delete $handle } else { forget_job $handle }
         }
+        if {[info commands ::espdiff::gui::notice_deleted_results] ne ""} { gui::notice_deleted_results }
     }
 }

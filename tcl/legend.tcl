@@ -22,13 +22,13 @@ namespace eval ::espdiff {
     proc draw_legend {plan {middle 0} {room 1}} {
         variable legend_layout
         variable letter_width
-        set mol [new_legend [dict get $plan handle] "espdiff [dict get $plan handle] legend" $middle]
+        set mol [new_legend [dict get $plan handle] [graphics_name [dict get $plan handle] legend] $middle]
         set layout $legend_layout
         dict with layout {
             set room [expr {$room * [lindex [legend_screen] 2]}]
             set half_width [expr {min($half_width, 0.82 * $room)}]
             set positions [tick_positions $plan $half_width]
-            draw_bar $mol $half_width $bottom $top
+            draw_bar $mol $half_width $bottom $top [value_or $plan first 33]
             graphics $mol color [legend_text_color]
             draw_ticks $mol $positions $bottom
             # Texts last: VMD's PostScript renderer frees a text again with each shape after it.
@@ -48,7 +48,7 @@ namespace eval ::espdiff {
 
     # Draws the name of a panel at the window's top.
     proc draw_panel_title {handle middle text size} {
-        set mol [new_legend $handle "espdiff $handle title" $middle]
+        set mol [new_legend $handle [graphics_name $handle title] $middle]
         graphics $mol color [legend_text_color]
         draw_text $mol $text 0 0.9 $size
         build_list $mol
@@ -144,15 +144,12 @@ namespace eval ::espdiff {
     proc legend_screen {} {
         lassign [display get size] width height
         set aspect [expr {$height > 0 ? double($width) / $height : 1.0}]
-        set eye [lindex [display get eyepos] 2]
-        set z [expr {$eye - 1.05 * [display get nearclip]}]
-        if {[display get projection] eq "Orthographic"} { return [list [expr {[display get height] / 4.0}] $z $aspect] }
-        set unit [expr {0.5 * [display get height] * ($eye - $z) / ($eye - [display get distance])}]
-        return [list $unit $z $aspect]
+        set z [expr {[lindex [display get eyepos] 2] - 1.05 * [display get nearclip]}]
+        return [list [half_window $z] $z $aspect]
     }
 
-    # Draws the whole colour scale, ids 33 to 1056, in segments between which VMD interpolates colours.
-    proc draw_bar {mol half_width bottom top} {
+    # Draws the colour scale, ids 33 to 1056, or from a later one, in segments between which VMD interpolates colours.
+    proc draw_bar {mol half_width bottom top first} {
         set n 64
         for {set i 0} {$i < $n} {incr i} {
             set corners {}
@@ -160,7 +157,7 @@ namespace eval ::espdiff {
             foreach step [list $i [expr {$i + 1}]] {
                 set x [expr {$half_width * (2.0 * $step / $n - 1)}]
                 lappend corners [list $x $bottom 0] [list $x $top 0]
-                lappend ids [expr {33 + (1023 * $step) / $n}]
+                lappend ids [expr {$first + ((1056 - $first) * $step) / $n}]
             }
             lassign $corners a b c d
             lassign $ids left right
@@ -212,10 +209,30 @@ namespace eval ::espdiff {
     proc legend_title {plan} {
         variable legend_titles
         set title [value_or $plan title [value_or $legend_titles [dict get $plan color] ""]]
+        if {[dict exists $plan name]} { set title "[dict get $plan name]: [string tolower $title 0 0]" }
         set unit [dict get $plan unit]
         if {$unit eq ""} { return $title }
         if {$unit eq "unknown"} { set unit "unit unknown" }
         return "$title ($unit)"
+    }
+
+    # "wild -> mutant #97", where #97 is a frame, from what a comparison was made of.
+    proc comparison_name {handle} {
+        if {[dict get [core::status $handle] kind] ne "comparison"} { return $handle }
+        return "[side_name $handle source] -> [side_name $handle target]"
+    }
+
+    # The molecule of one side of a comparison by its file, with the frame if it is not the first.
+    proc side_name {handle side} {
+        foreach input [dict get [core::result $handle] inputs] {
+            if {[dict get $input role] ne $side} continue
+            set name [dict get $input path]
+            # Format of VMD's molecules: mol 0 "ubq.psf" frame 5 sel "not water"
+            set frame 0
+            regexp {^mol \d+ "(.*)" frame (\d+)} $name -> name frame
+            return "[file rootname [file tail $name]][expr {$frame == 0 ? "" : " #$frame"}]"
+        }
+        return $side
     }
 
     # White on a dark background, black on a bright one.

@@ -22,6 +22,7 @@ namespace eval ::espdiff {
         set plans [panel_plans $options $handle]
         end_linked_view
         forget_drawing $handle
+        if {![dict get $options keep]} { forget_other_drawings $handle }
         set saved [saved_scene]
         set made [dict create]
         set code [catch { keep_view { draw_panels $handle $plans made } } message error]

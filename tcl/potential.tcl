@@ -107,7 +107,29 @@ namespace eval ::espdiff {
         if {[catch { vmd_charges $mol all now $role } charges]} { return [list name $name charges 0 solvent 0] }
         lassign [molinfo $mol get {a b c}] a b c
         set has_cell [expr {min($a, $b, $c) > 1}]
-        return [list name $name charges 1 solvent [expr {$has_cell && [vmd_has_water $mol $charges]}]]
+        set solvent [expr {$has_cell && [vmd_has_water $mol $charges]}]
+        return [concat [list name $name charges 1 solvent $solvent] [expr {$solvent ? [vmd_salt $mol $charges] : {}}]]
+    }
+
+    # What stands in the water: {waters N ions N ion_squares X}; ions as core's salt_ions() finds them.
+    proc vmd_salt {mol charges} {
+        set water [atomselect $mol water]
+        set rest [atomselect $mol "not water"]
+        finally {
+            set waters [llength [lsort -unique [$water get residue]]]
+            foreach residue [$rest get residue] index [$rest get index] { dict lappend atoms $residue $index }
+        } {
+            $water delete
+            $rest delete
+        }
+        lassign {0 0.0} ions squares
+        foreach {residue list} [expr {[info exists atoms] ? $atoms : {}}] {
+            set charge [expr {abs([lindex $charges [lindex $list 0]])}]
+            if {[llength $list] > 1 || $charge <= 0.5 || $charge >= 1.2} { continue }
+            incr ions
+            set squares [expr {$squares + $charge * $charge}]
+        }
+        return [list waters $waters ions $ions ion_squares $squares]
     }
 
     # Endpoints, each with the potential that is usual for all of them together where the user named none: `map pb` and
@@ -173,8 +195,13 @@ namespace eval ::espdiff {
         set frames [vmd_frames $mol [dict get $options frames] -frames]
         potential_check $options [llength $frames]
         set each [expr {[dict get $options averaging] eq "each"}]
-        core::check_outputs [concat [named_files [list mol $mol]] [list [dict get $options xscfile]]] \
-            [list [dict get $options dxfile]]
+        set outputs {}
+        foreach frame $frames { if {$each} { lappend outputs [potential_file [format .%04d $frame] $options] } }
+        if {!$each} { lappend outputs [potential_file "" $options] }
+        foreach average {variance error} {
+            if {[dict get $options $average]} { lappend outputs [potential_file .$average $options] }
+        }
+        core::check_outputs [concat [named_files [list mol $mol]] [list [dict get $options xscfile]]] $outputs
         set handle [core::potential [dict merge [potential_core_options $options] [list each $each]]]
         finally {
             set begun [clock milliseconds]
@@ -257,13 +284,19 @@ namespace eval ::espdiff {
         core::check $handle
     }
 
+    # The name of a map's file; empty where none is asked for.
+    proc potential_file {suffix options} {
+        set path [dict get $options dxfile]
+        if {$path eq ""} { return "" }
+        return [file rootname $path]$suffix[file extension $path]
+    }
+
     # Stores a map of the handle as requested, and records it in the caller's dict: mol, volumes, files. `suffix`
     # distinguishes its file. A new molecule is made for the first map, after the computation has succeeded.
     proc potential_result {maps_name handle which suffix options} {
         upvar 1 $maps_name maps
-        set path [dict get $options dxfile]
-        if {$path ne ""} {
-            set file [file rootname $path]$suffix[file extension $path]
+        set file [potential_file $suffix $options]
+        if {$file ne ""} {
             dict lappend maps files [core::potential_write $handle $which $file]
         }
         if {[dict get $options loadmol] eq "none"} return

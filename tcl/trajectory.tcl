@@ -59,10 +59,9 @@ namespace eval ::espdiff {
         usual_run_maps run
         check_frame_maps run
         if {$run(against) eq "same"} { source_map run }
-        set csv [dict get $options csv]
-        core::check_outputs [named_files [list file $run(file) mol $run(mol) map $run(map)] $run(reference) \
-            $run(reference_map)] [list $csv $csv.state [dict get $options residues]]
-        set handle [core::trajectory [trajectory_plan run $options] [core_options $options]]
+        set plan [trajectory_plan run $options]
+        dict set plan inputs [named_files [list mol $run(mol) map $run(map)] $run(reference) $run(reference_map)]
+        set handle [core::trajectory $plan [core_options $options]]
         if {[catch {
             set warning [core::trajectory_warning $handle]
             if {$warning ne ""} { say $warning }

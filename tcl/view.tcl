@@ -21,7 +21,7 @@ namespace eval ::espdiff {
         if {![string is list [dict get $options arguments]]} { fail "-arguments: not a list" }
         set prefix [dict get $options output]
         set log [temporary_file .log]
-        set folder [temporary_folder]
+        set folder [core::private_folder [file join [temporary_place] espdiff-[pid]-view-]]
         if {[catch {
             if {[string match *.vtp $input]} {
                 set surface [existing_file $input "espdiff view"]
@@ -57,14 +57,6 @@ namespace eval ::espdiff {
         return $process
     }
 
-    proc temporary_folder {} {
-        set path [temporary_file .view]
-        file delete $path
-        file mkdir $path
-        file attributes $path -permissions 0700
-        return $path
-    }
-
     proc export_for_viewer {folder handle} {
         require_core_handle $handle
         set status [core::status $handle]
@@ -76,7 +68,7 @@ namespace eval ::espdiff {
     }
 
     # Whether it has ended; if it failed, an error with the viewer's message.
-    proc viewer_has_ended {process log} {
+    proc viewer_has_ended {process log {name "the viewer"}} {
         set state [core::program_state $process]
         if {$state eq "running"} { return 0 }
         if {$state in {0 ""}} {
@@ -92,7 +84,7 @@ namespace eval ::espdiff {
             }
         }
         file delete $log
-        fail "the viewer: $words" DEVICE
+        fail "$name: $words" DEVICE
     }
 
     # Polls until it has ended.

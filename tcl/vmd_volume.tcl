@@ -69,13 +69,18 @@ namespace eval ::espdiff {
         return espdiff-[pid]-[incr n_volumes]
     }
 
+    # The folder of temporary files.
+    proc temporary_place {} {
+        foreach name {TMPDIR TEMP TMP} {
+            if {[info exists ::env($name)] && [file isdirectory $::env($name)]} { return $::env($name) }
+        }
+        return /tmp
+    }
+
     # A new file readable only by this user.
     proc temporary_file {extension} {
         variable n_volumes
-        set folder /tmp
-        foreach name {TMPDIR TEMP TMP} {
-            if {[info exists ::env($name)] && [file isdirectory $::env($name)]} { set folder $::env($name); break }
-        }
+        set folder [temporary_place]
         for {set i 0} {$i < 100} {incr i} {
             set path [file join $folder espdiff-[pid]-[format %08x [expr {int(rand() * 0x7fffffff)}]]$extension]
             if {![catch { open_file $path {WRONLY CREAT EXCL} 0600 } channel]} {

@@ -47,6 +47,8 @@ Tcl_Obj* build(const Call&) {
                   {"vtk", to_obj(vtk)},
                   {"gemmi", to_obj(gemmi)},
                   {"hdf5", to_obj(hdf5)},
+                  {"pdb2pqr", to_obj(find_pdb2pqr())},
+                  {"pdb2pqr_remedy", to_obj(kPdb2pqrRemedy)},
                   {"compiler", to_obj("g++ " __VERSION__)},
                   {"tcl", to_obj(TCL_PATCH_LEVEL)}});
 }
@@ -200,7 +202,11 @@ Tcl_Obj* facts_of_file(const Call& call) {
   const PotentialFacts facts = potential_facts(everything, file.unit_cell(model));
   // Structures without charges get some.
   const bool charges = facts.has_charges || !find_pdb2pqr().empty();
-  return to_dict({{"charges", to_obj(charges)}, {"solvent", to_obj(facts.has_solvent)}});
+  return to_dict({{"charges", to_obj(charges)},
+                  {"solvent", to_obj(facts.has_solvent)},
+                  {"waters", to_obj(static_cast<int>(facts.n_waters))},
+                  {"ions", to_obj(static_cast<int>(facts.n_ions))},
+                  {"ion_squares", to_obj(facts.ion_squares)}});
 }
 
 /// The rule for molecules whose user named no potential: a list of {name B charges B solvent} each; returns
@@ -210,10 +216,15 @@ Tcl_Obj* usual_potential(const Call& call) {
   for (Tcl_Obj* const molecule : to_vector(call.arguments[0], "molecules")) {
     DictReader reader(molecule, "molecule");
     PotentialFacts facts{reader.text("name"), reader.boolean("charges", false), reader.boolean("solvent", false)};
+    facts.n_waters = static_cast<std::size_t>(reader.integer("waters", 0));
+    facts.n_ions = static_cast<std::size_t>(reader.integer("ions", 0));
+    facts.ion_squares = reader.number("ion_squares", 0);
     molecules.push_back(facts);
   }
   const PotentialChoice choice = choose_potential("auto", "auto", molecules);
-  return to_list({choice.method ? to_string(*choice.method) : std::string("none"), choice.because});
+  std::string kind = choice.method ? to_string(*choice.method) : std::string("none");
+  for (const auto& [key, value] : with_salt(choice, {})) kind += " " + key + " " + value;
+  return to_list({kind, choice.because});
 }
 
 Tcl_Obj* abi(const Call&) {

@@ -10,6 +10,7 @@
 #include "engine/select_engine.h"
 #include "io/atomic_file.h"
 #include "io/check_outputs.h"
+#include "prepare/input_files.h"
 #include "io/read_structure.h"
 #include "io/select_atoms.h"
 #include "io/structure_file.h"
@@ -18,6 +19,7 @@
 #include "prepare/region.h"
 #include "prepare/surface_radii.h"
 #include "report/state_report.h"
+#include "system/this_process.h"
 #include "tcl_values.h"
 
 namespace espdiff::vmdplugin {
@@ -99,7 +101,9 @@ Tcl_Obj* prepare_command(const Call& call) {
   object->molecule = parse_endpoint(call.arguments[0], "molecule");
   object->computation = parse_computation(call.arguments[1], nullptr);
   object->path = call.text(2);
-  check_outputs({object->molecule.structure_path}, {object->path});
+  std::vector<std::string> inputs = input_files(object->computation.options.input);
+  inputs.push_back(object->molecule.structure_path);
+  check_outputs(inputs, {object->path});
   AtomicFile probe(object->path);
   object->job = Worker::instance().submit([keep = std::weak_ptr<PreparationObject>(object)](const Progress& progress) {
     if (const auto alive = keep.lock()) run_preparation(*alive, progress);
@@ -172,6 +176,7 @@ Tcl_Obj* check(const Call& call) {
 
 Tcl_Obj* remove(const Call& call) {
   call.handles.remove(call.text(0));
+  return_free_memory();
   return nullptr;
 }
 

@@ -63,7 +63,6 @@ EnsembleOptions parse_statistics(DictReader& reader) {
   };
   SurfaceTestOptions& test = statistics.test;
   test.most_arrangements = counted("arrangements", "arrangements", test.most_arrangements, 20, 1000000);
-  test.n_bootstrap = counted("bootstrap", "bootstrap", test.n_bootstrap, 99, 100000);
   test.seed = counted("seed", "seed", test.seed, 0, std::numeric_limits<int>::max());
   return statistics;
 }

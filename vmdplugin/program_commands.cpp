@@ -1,9 +1,10 @@
-// program_commands.cpp: start_program and program_state run another program. Tcl's exec is not used: it forks, which
+// program_commands.cpp: start_program and program_state run another program, in a private_folder. Tcl's exec is not used: it forks, which
 // fails if VMD with a trajectory has reserved too much address space.
 #include "base/error.h"
 #include "base/system_message.h"
 #include "commands.h"
 #include "system/child_process.h"
+#include "system/permissions.h"
 #include "tcl_values.h"
 
 namespace espdiff::vmdplugin {
@@ -27,10 +28,20 @@ Tcl_Obj* program_state(const Call& call) {
   return state == ChildState::kUnknown ? Tcl_NewObj() : to_obj(status);
 }
 
+/// A new folder of this user alone: its path is START and six letters.
+Tcl_Obj* private_folder(const Call& call) {
+  const std::string path = make_private_folder(call.text(0));
+  if (path.empty())
+    throw IoError(call.text(0), "a temporary folder cannot be made; name one that can be written to in TMPDIR");
+  return to_obj(path);
+}
+
 }  // namespace
 
 std::vector<Command> program_commands() {
-  return {{"start_program", 2, 2, "words log", start_program}, {"program_state", 1, 1, "process", program_state}};
+  return {{"start_program", 2, 2, "words log", start_program},
+          {"program_state", 1, 1, "process", program_state},
+          {"private_folder", 1, 1, "start", private_folder}};
 }
 
 }  // namespace espdiff::vmdplugin

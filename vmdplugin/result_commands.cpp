@@ -10,6 +10,7 @@
 #include "io/check_outputs.h"
 #include "matrix/write_matrix.h"
 #include "option_spelling.h"
+#include "plot/automatic_range.h"
 #include "report/metrics.h"
 #include "report/preparation_json.h"
 #include "report/residue_values.h"
@@ -92,8 +93,8 @@ Tcl_Obj* result_json(const Call& call) {
   return to_obj(json_result(call).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
-std::string name_of_partner(const Molecule& target, std::int32_t residue) {
-  return residue < 0 ? "" : target.residues[static_cast<std::size_t>(residue)].name;
+std::string insertion_of(const Residue& residue) {
+  return std::string(residue.insertion_code == ' ' ? 0 : 1, residue.insertion_code);
 }
 
 Tcl_Obj* residues(const Call& call) {
@@ -103,13 +104,16 @@ Tcl_Obj* residues(const Call& call) {
   std::vector<Tcl_Obj*> rows;
   for (const ResidueRow& row : comparison->result.residues) {
     const Residue& residue = source.residues.at(row.residue);
-    const std::string insertion(residue.insertion_code == ' ' ? 0 : 1, residue.insertion_code);
+    const Residue* const other = partner[row.residue] < 0 ? nullptr : &target.residues.at(partner[row.residue]);
     Tcl_Obj* const dict = to_dict({{"index", to_obj(row.residue)},
                                    {"chain", to_obj(residue.chain)},
                                    {"number", to_obj(static_cast<int>(residue.number))},
-                                   {"insertion", to_obj(insertion)},
+                                   {"insertion", to_obj(insertion_of(residue))},
                                    {"name", to_obj(residue.name)},
-                                   {"target_name", to_obj(name_of_partner(target, partner[row.residue]))}});
+                                   {"target_chain", to_obj(other ? other->chain : "")},
+                                   {"target_number", other ? to_obj(static_cast<int>(other->number)) : to_obj("")},
+                                   {"target_insertion", to_obj(other ? insertion_of(*other) : "")},
+                                   {"target_name", to_obj(other ? other->name : "")}});
     for (const Metric& metric : metrics()) {
       if (metric.has_residues())
         Tcl_DictObjPut(nullptr, dict, to_obj(metric.name), to_obj(value_of(metric, comparison->result, row)));
@@ -144,6 +148,7 @@ Tcl_Obj* range(const Call& call) {
                   {"max", to_obj(range.max)},
                   {"p02", to_obj(range.p02)},
                   {"p98", to_obj(range.p98)},
+                  {"limit", to_obj(automatic_limit(quantity.values))},
                   {"unit", to_obj(quantity.unit)},
                   {"n", to_obj(range.n)},
                   {"n_nan", to_obj(range.n_nan)}});
@@ -167,21 +172,27 @@ Tcl_Obj* export_files(const Call& call) {
   }
   const auto comparison = call.handles.finished_comparison(handle);
   const Endpoint &source = comparison->source, &target = comparison->target;
-  check_outputs(input_paths(*comparison), {prefix + ".json", prefix + ".vtp", prefix + ".residues.csv"});
-  if (!to_bool(call.arguments[2], "inputs")) {
-    write_compare(prefix, *source.molecule, *target.molecule, comparison->result, comparison->computation.options,
-                  comparison->provenance, comparison->kept);
-    std::vector<std::string> written{prefix + ".json", prefix + ".vtp", prefix + ".residues.csv"};
-    for (const KeptFile& kept : comparison->kept) written.push_back(prefix + kept.ending);
-    return to_list(written);
-  }
   const auto from_memory = [](const Endpoint& endpoint) {
     return endpoint.map && endpoint.map_path.empty() ? &*endpoint.map : nullptr;
   };
+  const bool with_inputs = to_bool(call.arguments[2], "inputs");
+  const KeptInputs maps{from_memory(source), from_memory(target)};
+  std::vector<std::string> files = {prefix + ".json", prefix + ".vtp", prefix + ".residues.csv"};
+  if (!with_inputs) {
+    for (const KeptFile& kept : comparison->kept) files.push_back(prefix + kept.ending);
+  } else {
+    for (const std::string& ending : kept_input_endings(maps)) files.push_back(prefix + ending);
+  }
+  check_outputs(input_paths(*comparison), files);
+  if (!with_inputs) {
+    write_compare(prefix, *source.molecule, *target.molecule, comparison->result, comparison->computation.options,
+                  comparison->provenance, comparison->kept);
+    return to_list(files);
+  }
   std::vector<Tcl_Obj*> written;
   for (const std::string& path : write_compare_with_inputs(
            prefix, *source.molecule, *target.molecule, comparison->result, comparison->computation.options,
-           comparison->provenance, {from_memory(source), from_memory(target)}))
+           comparison->provenance, maps))
     written.push_back(to_obj(path));
   return to_list(written);
 }

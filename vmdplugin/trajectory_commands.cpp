@@ -6,10 +6,12 @@
 #include "commands.h"
 #include "compare/input_settings.h"
 #include "engine/engine.h"
+#include "io/check_outputs.h"
 #include "io/read_csv.h"
 #include "io/write_csv.h"
 #include "potential/potential.h"
 #include "potential/potential_settings.h"
+#include "prepare/input_files.h"
 #include "prepare/load_state.h"
 #include "prepare/region.h"
 #include "prepare/surface_radii.h"
@@ -75,8 +77,8 @@ Reference parse_reference(const std::string& text) {
 
 /// PLAN: csv FILE ?resume B? ?overwrite B? frames LIST reference TEXT ?row_reference TEXT? ?against one|previous|same?
 /// ?source_file PATH? (whose frames are the sources) ?map TEXT? ?reference_map TEXT? ?one_map B? ?start S? ?on_error E?
-/// ?region B? (the reference has one) ?residues FILE? ?residue_quantity Q? and file PATH or molecule {NAME TEXT ...},
-/// lines of the head.
+/// ?region B? (the reference has one) ?residues FILE? ?residue_quantity Q? inputs FILES (which no output may replace)
+/// and file PATH or molecule {NAME TEXT ...}, lines of the head.
 Tcl_Obj* trajectory(const Call& call) {
   auto object = std::make_shared<TrajectoryObject>();
   DictReader options(call.arguments[1], "options");
@@ -99,7 +101,12 @@ Tcl_Obj* trajectory(const Call& call) {
   object->against = plan.against;
   const std::string source_file = reader.text("source_file", ""), residues = reader.text("residues", ""),
                     quantity = reader.text("residue_quantity", "");
+  std::vector<std::string> inputs = input_files(plan.options.input);
+  for (Tcl_Obj* const path : to_vector(reader.require("inputs"), "inputs")) inputs.push_back(to_string(path));
   reader.finish();
+  inputs.insert(inputs.end(), run.files.begin(), run.files.end());
+  inputs.push_back(source_file);
+  check_outputs(inputs, {csv, csv + ".state", residues});
   if (!source_file.empty()) run.reference_files = {source_file};
   const SeriesHead head = series_head(run, plan.options);
   std::optional<ResidueCsv> table;
@@ -193,6 +200,7 @@ void run_step(TrajectoryObject& object, const Progress& progress) {
   if (has_one_source) {
     load_side(object, object.source, std::nullopt, progress);
     set_parts(object);
+    run.note_inputs(object.source.inputs);
   }
   const auto read = [&] {
     const TrajectoryStep& step = run.next();

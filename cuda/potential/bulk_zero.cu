@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/formatted.h"
+#include "cuda/potential/map_origin.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
@@ -67,6 +68,17 @@ Buffer<std::uint32_t> far_points(const Lattice& lattice, const std::vector<Vec3d
 
 }  // namespace
 
+Buffer<float> bulk_weights(const Lattice& lattice, const std::vector<Vec3d>& solute, double distance_A) {
+  const Buffer<std::uint32_t> far = far_points(lattice, solute, distance_A);
+  const std::uint32_t* const counts = raw(far);
+  const double n = sum_over<double>(far.size(), [=] ESPDIFF_HD(std::size_t i) { return counts[i] != 0 ? 1.0 : 0.0; });
+  Buffer<float> weights(far.size());
+  float* const out = raw(weights);
+  for_each_index(far.size(),
+                 [=] ESPDIFF_HD(std::size_t i) { out[i] = counts[i] != 0 ? static_cast<float>(1.0 / n) : 0.0F; });
+  return weights;
+}
+
 std::shared_ptr<MapGrid> zero_in_bulk(const MapGrid& map, const std::vector<Vec3d>& solute, double distance_A,
                                       BulkZero* report) {
   if (!map.periodic) throw InputError("a zero in the bulk was asked for of a map that is not periodic");
@@ -88,7 +100,15 @@ std::shared_ptr<MapGrid> zero_in_bulk(const MapGrid& map, const std::vector<Vec3
   found.mean_there = total.n > 0 ? total.sum / total.n : 0;
   if (report != nullptr) *report = found;
   auto result = std::make_shared<MapGrid>(map);
-  if (total.n > 0) result->zero = found.mean_there;
+  if (total.n > 0) {
+    result->zero = found.mean_there;
+    if (map.origin != nullptr) {
+      auto origin = std::make_shared<MapOrigin>(*map.origin);
+      origin->solute = solute;
+      origin->bulk_distance_A = distance_A;
+      result->origin = std::move(origin);
+    }
+  }
   return result;
 }
 

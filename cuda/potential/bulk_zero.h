@@ -12,4 +12,7 @@ namespace espdiff::ESPDIFF_BACKEND {
 std::shared_ptr<MapGrid> zero_in_bulk(const MapGrid& map, const std::vector<Vec3d>& solute, double distance_A,
                                       BulkZero* report);
 
+/// [point] the weights of the mean over the bulk. @param solute in the lattice's frame
+Buffer<float> bulk_weights(const Lattice& lattice, const std::vector<Vec3d>& solute, double distance_A);
+
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -9,6 +9,7 @@
 #include "base/formatted.h"
 #include "base/progress.h"
 #include "base/work.h"
+#include "cuda/potential/map_origin.h"
 #include "engine/potential_stage.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
@@ -103,6 +104,12 @@ std::shared_ptr<MapGrid> isolated_charges(const std::vector<Vec3d>& positions, c
   set_index_transform(map->lattice, to_map, "the charges' frame", map->to_index);
   map->charge_sums = std::make_shared<ChargeSums>(
       positions, charges, coulomb_in_kt(options.temperature_K) / options.dielectric, options.distance_dependent);
+  auto origin = std::make_shared<MapOrigin>();
+  origin->method = PotentialMethod::kCoulomb;
+  origin->positions = positions;
+  origin->charges = charges;
+  origin->coulomb = options;
+  map->origin = std::move(origin);
   return map;
 }
 

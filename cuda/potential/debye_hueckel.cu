@@ -44,6 +44,16 @@ struct Face {
   int n[2];                                ///< points
   int coarse[2];                           ///< points of the coarse lattice
   float first_coordinate[3], along[2][3];  ///< Angstrom, a step along each axis
+
+  /// Of the coarse lattice. The last points may lie beyond the face, where the sum is valid too.
+  ESPDIFF_INLINE Vec3f coarse_point(std::size_t index, int stride) const {
+    const int u = static_cast<int>(index % static_cast<std::size_t>(coarse[0])),
+              v = static_cast<int>(index / static_cast<std::size_t>(coarse[0]));
+    const float a = static_cast<float>(u * stride), b = static_cast<float>(v * stride);
+    Vec3f p;
+    for (int axis = 0; axis < 3; ++axis) p[axis] = first_coordinate[axis] + a * along[0][axis] + b * along[1][axis];
+    return p;
+  }
 };
 
 struct BorderSums {
@@ -53,14 +63,19 @@ struct BorderSums {
   float* values;
 
   ESPDIFF_INLINE void at(std::size_t index) const {
-    // The last points may lie beyond the face, where the sum is valid too.
-    const int u = static_cast<int>(index % static_cast<std::size_t>(face.coarse[0])),
-              v = static_cast<int>(index / static_cast<std::size_t>(face.coarse[0]));
-    const float a = static_cast<float>(u * stride), b = static_cast<float>(v * stride);
-    float p[3];
-    for (int axis = 0; axis < 3; ++axis)
-      p[axis] = face.first_coordinate[axis] + a * face.along[0][axis] + b * face.along[1][axis];
-    values[index] = border_sum(charges, p[0], p[1], p[2]);
+    const Vec3f p = face.coarse_point(index, stride);
+    values[index] = border_sum(charges, p.x, p.y, p.z);
+  }
+};
+
+/// The border's points as charges, summed at the atoms.
+struct AtomSums {
+  BorderCharges charges;
+  const Vec3f* atoms;
+  float* values;
+
+  ESPDIFF_INLINE void at(std::size_t index) const {
+    values[index] = border_sum(charges, atoms[index].x, atoms[index].y, atoms[index].z);
   }
 };
 
@@ -68,7 +83,22 @@ struct BorderSums {
 ESPDIFF_MULTIVERSION void sum_points(const BorderSums& sums, std::size_t first, std::size_t last) {
   for (std::size_t i = first; i < last; ++i) sums.at(i);
 }
+ESPDIFF_MULTIVERSION void sum_points(const AtomSums& sums, std::size_t first, std::size_t last) {
+  for (std::size_t i = first; i < last; ++i) sums.at(i);
+}
 #endif
+
+/// sums.at() of the indices below n.
+template <typename Sums>
+void run_sums(const Sums& sums, std::size_t n) {
+#if defined(__CUDACC__)
+  for_each_index(n, [=] ESPDIFF_HD(std::size_t i) { sums.at(i); });
+#else
+  constexpr std::size_t kRun = 16;
+  for_each_index((n + kRun - 1) / kRun,
+                 [=](std::size_t run) { sum_points(sums, run * kRun, std::min(n, (run + 1) * kRun)); });
+#endif
+}
 
 /// Weights of cubic Lagrange interpolation on four points in a row; t runs from 0 to 1 between the middle two.
 ESPDIFF_INLINE void cubic_weights(float t, float (&w)[4]) {
@@ -95,13 +125,7 @@ void set_face(const Face& face, const BorderCharges& charges, int stride, Buffer
   const std::size_t n_coarse = static_cast<std::size_t>(face.coarse[0]) * static_cast<std::size_t>(face.coarse[1]);
   Buffer<float> coarse(n_coarse);
   const BorderSums sums{face, charges, stride, raw(coarse)};
-#if defined(__CUDACC__)
-  for_each_index(n_coarse, [=] ESPDIFF_HD(std::size_t i) { sums.at(i); });
-#else
-  constexpr std::size_t kRun = 16;
-  for_each_index((n_coarse + kRun - 1) / kRun,
-                 [=](std::size_t run) { sum_points(sums, run * kRun, std::min(n_coarse, (run + 1) * kRun)); });
-#endif
+  run_sums(sums, n_coarse);
   const float* const from = raw(coarse);
   float* const to = raw(phi);
   for_each_index(
@@ -136,31 +160,120 @@ Face face_of(const CubicLattice& lattice, int axis, bool upper, int stride) {
   return face;
 }
 
+int stride_of(const CubicLattice& lattice) {
+  return std::max(1, static_cast<int>(std::lround(kBorderSpacing_A / static_cast<double>(lattice.spacing))));
+}
+
+/// Point charges on the device, padded to whole lanes.
+struct ChargeArrays {
+  Buffer<float> x, y, z, strength;
+
+  ChargeArrays(const std::vector<Vec3f>& places, std::vector<float> strengths) {
+    std::vector<float> of_axis[3];
+    const std::size_t padded = (strengths.size() + kLanes - 1) / kLanes * kLanes;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const Vec3f& p : places) of_axis[axis].push_back(p[axis]);
+      of_axis[axis].resize(padded, 0.0F);
+    }
+    strengths.resize(padded, 0.0F);
+    x = to_device(of_axis[0]);
+    y = to_device(of_axis[1]);
+    z = to_device(of_axis[2]);
+    strength = to_device(strengths);
+  }
+  BorderCharges view(const DebyeHueckel& law) const {
+    return {raw(x), raw(y), raw(z), raw(strength), strength.size(), static_cast<float>(law.kappa)};
+  }
+};
+
+/// scale exp(kappa a) / (1 + kappa a): the strength of a unit charge.
+double unit_strength(const PbAtom& atom, const DebyeHueckel& law) {
+  const double a = law.kappa * static_cast<double>(atom.radius);
+  return law.scale * std::exp(a) / (1 + a);
+}
+
+/// The transpose of set_face()'s interpolation: adds the face's points with their gradients, which are used up.
+void gather_face(const Face& face, int stride, Buffer<float>& gradient, std::vector<Vec3f>& places,
+                 std::vector<float>& strengths) {
+  Buffer<float> coarse(static_cast<std::size_t>(face.coarse[0]) * static_cast<std::size_t>(face.coarse[1]));
+  float* const of_point = raw(gradient);
+  float* const out = raw(coarse);
+  for_each_index(coarse.size(), [=] ESPDIFF_HD(std::size_t index) {
+    const int at[2] = {static_cast<int>(index % static_cast<std::size_t>(face.coarse[0])),
+                       static_cast<int>(index / static_cast<std::size_t>(face.coarse[0]))};
+    int low[2], high[2];  // of the face's points that are interpolated from this one, and some more
+    for (int axis = 0; axis < 2; ++axis) {
+      low[axis] = at[axis] > 4 ? (at[axis] - 4) * stride : 0;
+      high[axis] = (at[axis] + 4) * stride < face.n[axis] - 1 ? (at[axis] + 4) * stride : face.n[axis] - 1;
+    }
+    double sum = 0;
+    for (int b = low[1]; b <= high[1]; ++b) {
+      const CubicPlace v = cubic_place(b, stride, face.coarse[1]);
+      if (at[1] < v.first || at[1] > v.first + 3) continue;
+      double row = 0;
+      for (int a = low[0]; a <= high[0]; ++a) {
+        const CubicPlace u = cubic_place(a, stride, face.coarse[0]);
+        if (at[0] < u.first || at[0] > u.first + 3) continue;
+        row += static_cast<double>(u.weight[at[0] - u.first]) *
+               static_cast<double>(of_point[face.first + static_cast<std::size_t>(a) * face.step[0] +
+                                            static_cast<std::size_t>(b) * face.step[1]]);
+      }
+      sum += static_cast<double>(v.weight[at[1] - v.first]) * row;
+    }
+    out[index] = static_cast<float>(sum);
+  });
+  const std::vector<float> values = to_host(coarse);
+  strengths.insert(strengths.end(), values.begin(), values.end());
+  for (std::size_t index = 0; index < values.size(); ++index) places.push_back(face.coarse_point(index, stride));
+  for_each_index(static_cast<std::size_t>(face.n[0]) * static_cast<std::size_t>(face.n[1]),
+                 [=] ESPDIFF_HD(std::size_t index) {
+                   const std::size_t a = index % static_cast<std::size_t>(face.n[0]),
+                                     b = index / static_cast<std::size_t>(face.n[0]);
+                   of_point[face.first + a * face.step[0] + b * face.step[1]] = 0;
+                 });
+}
+
 }  // namespace
 
 void set_debye_hueckel_border(const std::vector<PbAtom>& atoms, const CubicLattice& lattice, const DebyeHueckel& law,
                               Buffer<float>& phi) {
-  std::vector<float> x, y, z, strength;
+  std::vector<Vec3f> places;
+  std::vector<float> strengths;
   for (const PbAtom& atom : atoms) {
     if (atom.charge == 0) continue;
-    const double a = law.kappa * static_cast<double>(atom.radius);
-    x.push_back(static_cast<float>(atom.position.x));
-    y.push_back(static_cast<float>(atom.position.y));
-    z.push_back(static_cast<float>(atom.position.z));
-    strength.push_back(static_cast<float>(law.scale * static_cast<double>(atom.charge) * std::exp(a) / (1 + a)));
+    places.push_back(static_cast<Vec3f>(atom.position));
+    strengths.push_back(static_cast<float>(static_cast<double>(atom.charge) * unit_strength(atom, law)));
   }
-  while (strength.size() % kLanes != 0) {
-    for (std::vector<float>* values : {&x, &y, &z}) values->push_back(0);
-    strength.push_back(0);
-  }
-  const Buffer<float> on_x = to_device(x), on_y = to_device(y), on_z = to_device(z), on_strength = to_device(strength);
-  const BorderCharges charges{raw(on_x),        raw(on_y),       raw(on_z),
-                              raw(on_strength), strength.size(), static_cast<float>(law.kappa)};
-  const int stride =
-      std::max(1, static_cast<int>(std::lround(kBorderSpacing_A / static_cast<double>(lattice.spacing))));
+  const ChargeArrays charges(places, std::move(strengths));
+  const int stride = stride_of(lattice);
   for (int axis = 0; axis < 3; ++axis) {
-    for (const bool upper : {false, true}) set_face(face_of(lattice, axis, upper, stride), charges, stride, phi);
+    for (const bool upper : {false, true})
+      set_face(face_of(lattice, axis, upper, stride), charges.view(law), stride, phi);
   }
+}
+
+std::vector<double> debye_hueckel_transposed(const std::vector<PbAtom>& atoms, const CubicLattice& lattice,
+                                             const DebyeHueckel& law, Buffer<float>& gradient) {
+  std::vector<Vec3f> places;
+  std::vector<float> strengths;
+  const int stride = stride_of(lattice);
+  // A point of two faces has the value of the last one that was set.
+  for (int axis = 2; axis >= 0; --axis) {
+    for (const bool upper : {true, false})
+      gather_face(face_of(lattice, axis, upper, stride), stride, gradient, places, strengths);
+  }
+  const ChargeArrays border(places, std::move(strengths));
+  std::vector<Vec3f> positions;
+  for (const PbAtom& atom : atoms) positions.push_back(static_cast<Vec3f>(atom.position));
+  const Buffer<Vec3f> sent = to_device(positions);
+  Buffer<float> sums(atoms.size());
+  const AtomSums at_atoms{border.view(law), raw(sent), raw(sums)};
+  run_sums(at_atoms, atoms.size());
+  const std::vector<float> found = to_host(sums);
+  std::vector<double> result;
+  for (std::size_t i = 0; i < atoms.size(); ++i)
+    result.push_back(unit_strength(atoms[i], law) * static_cast<double>(found[i]));
+  return result;
 }
 
 }  // namespace espdiff::ESPDIFF_BACKEND

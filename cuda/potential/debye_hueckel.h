@@ -22,4 +22,9 @@ struct DebyeHueckel {
 void set_debye_hueckel_border(const std::vector<PbAtom>& atoms, const CubicLattice& lattice, const DebyeHueckel& law,
                               Buffer<float>& phi);
 
+/// The transpose: [atom] what a unit charge at each atom adds to sum_p gradient(p) phi(p) over the border's points.
+/// @param gradient [point] its border is used up
+std::vector<double> debye_hueckel_transposed(const std::vector<PbAtom>& atoms, const CubicLattice& lattice,
+                                             const DebyeHueckel& law, Buffer<float>& gradient);
+
 }  // namespace espdiff::ESPDIFF_BACKEND

@@ -9,7 +9,9 @@
 #include "base/formatted.h"
 #include "base/progress.h"
 #include "base/work.h"
+#include "cuda/potential/bulk_zero.h"
 #include "cuda/potential/coulomb.h"
+#include "cuda/potential/map_origin.h"
 #include "cuda/potential/pmepot_places.h"
 #include "cuda/potential/spread.h"
 
@@ -84,25 +86,38 @@ std::array<Vec3d, 3> reciprocal_edges(const PmeCell& cell) {
   return {inverse * cross(e[1], e[2]), inverse * cross(e[2], e[0]), inverse * cross(e[0], e[1])};
 }
 
-/// Charges in grid coordinates, wrapped into the cell, without atoms of charge 0.
-std::vector<GridCharge> place_charges(const std::vector<Vec3d>& positions, const std::vector<float>& charges,
-                                      const PmeCell& cell, const PmeOptions& options) {
+/// [atom] grid coordinates, wrapped into the cell.
+std::vector<Vec3d> grid_coordinates(const std::vector<Vec3d>& positions, const PmeCell& cell,
+                                    const PmeOptions& options) {
   const std::array<int, 3>& size = options.size;
   const std::array<Vec3d, 3> reciprocal = reciprocal_edges(cell);
   const Vec3d origin = lattice_over(cell, size).origin;
   const PmepotPlaces pmepot_places(cell, size);
+  std::vector<Vec3d> places;
+  places.reserve(positions.size());
+  for (const Vec3d& p : positions) {
+    const std::array<double, 3> u = options.compatible ? pmepot_places.coordinates(p) : std::array<double, 3>{};
+    Vec3d place;
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::size_t a = static_cast<std::size_t>(axis);
+      const double part = dot(p - origin, reciprocal[a]);
+      place[axis] = options.compatible ? u[a] : wrapped(static_cast<double>(size[a]) * part, size[a]);
+    }
+    places.push_back(place);
+  }
+  return places;
+}
+
+/// Without those of charge 0. @param places in grid coordinates
+template <typename T>
+std::vector<GridCharge> place_charges(const std::vector<Vec3d>& places, const std::vector<T>& charges) {
   std::vector<GridCharge> placed;
-  placed.reserve(positions.size());
-  for (std::size_t i = 0; i < positions.size(); ++i) {
+  placed.reserve(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
     if (charges[i] == 0) continue;
     GridCharge c{};
-    c.charge = charges[i];
-    const std::array<double, 3> u =
-        options.compatible ? pmepot_places.coordinates(positions[i]) : std::array<double, 3>{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double part = dot(positions[i] - origin, reciprocal[axis]);
-      c.u[axis] = options.compatible ? u[axis] : wrapped(static_cast<double>(size[axis]) * part, size[axis]);
-    }
+    c.charge = static_cast<float>(charges[i]);
+    for (int axis = 0; axis < 3; ++axis) c.u[axis] = places[i][axis];
     placed.push_back(c);
   }
   return placed;
@@ -134,32 +149,51 @@ Buffer<T> spline_factors(int size, const PmeOptions& options) {
   return to_device(factors);
 }
 
-/// The direct part of the sum, and the constant that keeps the mean over the cell at zero: the mean of the direct part
-/// of a net charge Q, C pi Q / (beta^2 V).
+/// [atom] positions in parts of the cell's edges, from the lattice's first point.
+std::vector<Vec3d> cell_parts(const std::vector<Vec3d>& positions, const PmeCell& cell, const PmeOptions& options) {
+  const std::array<Vec3d, 3> reciprocal = reciprocal_edges(cell);
+  const Vec3d origin = lattice_over(cell, options.size).origin;
+  std::vector<Vec3d> parts;
+  for (const Vec3d& p : positions) {
+    const Vec3d d = p - origin;
+    parts.push_back({dot(d, reciprocal[0]), dot(d, reciprocal[1]), dot(d, reciprocal[2])});
+  }
+  return parts;
+}
+
+/// The mean of the direct part of a net charge Q, C pi Q / (beta^2 V): taken off, it keeps the mean over the cell at 0.
+double direct_mean(double net, const PmeCell& cell, const PmeOptions& options) {
+  const double beta = options.ewald_factor;
+  return coulomb_in_kt(options.temperature_K) * kPi * net /
+         (beta * beta * dot(cell.edges[0], cross(cell.edges[1], cell.edges[2])));
+}
+
+/// The direct part of the sum over charges. @param parts of the cell's edges
+template <typename T>
+ChargeSums direct_sums(const std::vector<Vec3d>& parts, const std::vector<T>& charges, const PmeCell& cell,
+                       const PmeOptions& options) {
+  const double coulomb = coulomb_in_kt(options.temperature_K);
+  std::vector<PointCharge> points;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (charges[i] != 0) points.push_back({parts[i], coulomb * static_cast<double>(charges[i])});
+  }
+  return ChargeSums(std::move(points), cell.edges, options.ewald_factor);
+}
+
 void add_direct_part(const std::vector<Vec3d>& positions, const std::vector<float>& charges, const PmeCell& cell,
                      const PmeOptions& options, MapGrid& map) {
-  const double coulomb = coulomb_in_kt(options.temperature_K), beta = options.ewald_factor;
-  const std::array<Vec3d, 3> reciprocal = reciprocal_edges(cell);
-  std::vector<PointCharge> parts;
+  map.charge_sums =
+      std::make_shared<ChargeSums>(direct_sums(cell_parts(positions, cell, options), charges, cell, options));
   double net = 0;
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    if (charges[i] == 0) continue;
-    const Vec3d from_origin = positions[i] - map.lattice.origin;
-    const double q = static_cast<double>(charges[i]);
-    parts.push_back(
-        {{dot(from_origin, reciprocal[0]), dot(from_origin, reciprocal[1]), dot(from_origin, reciprocal[2])},
-         coulomb * q});
-    net += q;
-  }
-  const auto sums = std::make_shared<ChargeSums>(std::move(parts), cell.edges, beta);
+  for (const float q : charges) net += static_cast<double>(q);
+  map.zero = direct_mean(net, cell, options);
   constexpr double kUsualSamples = 5e4;  // vertices of a surface
-  require_work(kUsualSamples * sums->n_terms(),
-               option("ewaldfactor") + ": " + formatted(beta) +
+  require_work(kUsualSamples * map.charge_sums->n_terms(),
+               option("ewaldfactor") + ": " + formatted(options.ewald_factor) +
                    " makes each value of the potential a sum over all charges within " +
-                   formatted(kDirectReach / beta) + " A, " + formatted(sums->n_terms()) + " terms",
+                   formatted(kDirectReach / options.ewald_factor) + " A, " + formatted(map.charge_sums->n_terms()) +
+                   " terms",
                "give a larger one (0.25 is usual)");
-  map.charge_sums = sums;
-  map.zero = coulomb * kPi * net / (beta * beta * dot(cell.edges[0], cross(cell.edges[1], cell.edges[2])));
 }
 
 double scale_of(double volume, const PmeOptions& options) {
@@ -183,6 +217,71 @@ void copy_values(FourierGrid<T>& grid, const std::array<int, 3>& size, Buffer<fl
                  [=] ESPDIFF_HD(std::size_t i) { to[i] = static_cast<float>(from[i / slab * stride + i % slab]); });
 }
 
+/// Spreads charges over the grid.
+template <typename T>
+void spread_on(FourierGrid<T>& grid, std::vector<GridCharge> placed, const PmeOptions& options) {
+  const SortedCharges<T> sorted = sort_charges<T>(std::move(placed), options.size, options.order);
+#if defined(ESPDIFF_BACKEND_CUDA)
+  spread_by_points(sorted, grid.values(), grid.slab_stride());
+#else
+  spread_by_slabs(sorted, grid.values(), grid.slab_stride());
+#endif
+}
+
+/// The weights of a reading on the grid: the transpose of the map's splines, or of its linear interpolation.
+template <typename T>
+void spread_reading(FourierGrid<T>& grid, const MapGrid& map, const WeightedPlaces& reading,
+                    const PmeOptions& options) {
+  if (map.spline_order != 0) {
+    std::vector<Vec3d> places = reading.place;
+    for (Vec3d& p : places) {
+      for (int axis = 0; axis < 3; ++axis) p[axis] = wrapped(p[axis], options.size[static_cast<std::size_t>(axis)]);
+    }
+    spread_on(grid, place_charges(places, reading.weight), options);
+    return;
+  }
+  const SparseValues sparse = spread_linearly(map, reading);
+  const std::size_t slab = static_cast<std::size_t>(options.size[0]) * static_cast<std::size_t>(options.size[1]),
+                    stride = grid.slab_stride();
+  const Buffer<std::size_t> points = to_device(sparse.point);
+  const Buffer<float> added = to_device(sparse.value);
+  const std::size_t* const point = raw(points);
+  const float* const value = raw(added);
+  T* const values = grid.values();
+  for_each_index(stride * static_cast<std::size_t>(options.size[2]),
+                 [=] ESPDIFF_HD(std::size_t i) { values[i] = T(0); });
+  for_each_index(points.size(), [=] ESPDIFF_HD(std::size_t n) {
+    values[point[n] / slab * stride + point[n] % slab] = static_cast<T>(value[n]);
+  });
+}
+
+/// Subtracts from the grid what moving the zero to the bulk took off the reading.
+/// @param all the sum of the reading's weights
+template <typename T>
+void subtract_bulk(FourierGrid<T>& grid, const MapGrid& map, double all) {
+  const MapOrigin& origin = *map.origin;
+  MapGrid bulk;
+  bulk.lattice = map.lattice;
+  bulk.periodic = true;
+  bulk.spline_order = map.spline_order;
+  bulk.values = bulk_weights(map.lattice, origin.solute, origin.bulk_distance_A);
+  bulk.values = lattice_values(bulk);  // splines at grid points are symmetric: this is their transpose too
+  const std::size_t slab =
+                        static_cast<std::size_t>(map.lattice.size[0]) * static_cast<std::size_t>(map.lattice.size[1]),
+                    stride = grid.slab_stride();
+  const float* const subtracted = raw(bulk.values);
+  T* const values = grid.values();
+  for_each_index(bulk.values.size(), [=] ESPDIFF_HD(std::size_t i) {
+    values[i / slab * stride + i % slab] -= static_cast<T>(all * static_cast<double>(subtracted[i]));
+  });
+}
+
+double sum_of(const std::vector<double>& weights) {
+  double sum = 0;
+  for (const double w : weights) sum += w;
+  return sum;
+}
+
 }  // namespace
 
 template <typename T>
@@ -196,19 +295,7 @@ FourierGrid<T>& PmeSolver::Kept<T>::of_size(std::array<int, 3> wanted) {
 }
 
 template <typename T>
-void PmeSolver::solve(Kept<T>& kept, const std::vector<Vec3d>& positions, const std::vector<float>& charges,
-                      const PmeCell& cell, const PmeOptions& options, MapGrid& map, const Progress& progress) {
-  const double volume = checked_volume(cell), scale = scale_of(volume, options);
-  const SortedCharges<T> sorted =
-      sort_charges<T>(place_charges(positions, charges, cell, options), options.size, options.order);
-  FourierGrid<T>& grid = kept.of_size(options.size);
-  progress.report("potential", 0.1);
-#if defined(ESPDIFF_BACKEND_CUDA)
-  spread_by_points(sorted, grid.values(), grid.slab_stride());
-#else
-  spread_by_slabs(sorted, grid.values(), grid.slab_stride());
-#endif
-  progress.report("potential", 0.5);
+void PmeSolver::convolve(FourierGrid<T>& grid, const PmeCell& cell, const PmeOptions& options, MapGrid& map) {
   Influence<T> influence{};
   Buffer<T> factors[3];
   const std::array<Vec3d, 3> reciprocal = reciprocal_edges(cell);
@@ -219,9 +306,19 @@ void PmeSolver::solve(Kept<T>& kept, const std::vector<Vec3d>& positions, const 
     influence.spline[axis] = raw(factors[axis]);
   }
   influence.exponent = static_cast<T>(-kPi * kPi / (options.ewald_factor * options.ewald_factor));
-  influence.scale = static_cast<T>(scale);
+  influence.scale = static_cast<T>(scale_of(checked_volume(cell), options));
   grid.convolve(influence);
   copy_values(grid, options.size, map.values);
+}
+
+template <typename T>
+void PmeSolver::solve(Kept<T>& kept, std::vector<GridCharge> placed, const PmeCell& cell, const PmeOptions& options,
+                      MapGrid& map, const Progress& progress) {
+  FourierGrid<T>& grid = kept.of_size(options.size);
+  progress.report("potential", 0.1);
+  spread_on(grid, std::move(placed), options);
+  progress.report("potential", 0.5);
+  convolve(grid, cell, options, map);
   progress.report("potential", 1.0);
 }
 
@@ -231,12 +328,21 @@ std::shared_ptr<MapGrid> PmeSolver::potential(const std::vector<Vec3d>& position
   check_charges(positions, charges);
   check_options(options);
   check_memory(options);
+  scale_of(checked_volume(cell), options);  // before any work
   auto map = std::make_shared<MapGrid>();
+  std::vector<GridCharge> placed = place_charges(grid_coordinates(positions, cell, options), charges);
   if (options.precision == Precision::kDouble) {
-    solve(double_, positions, charges, cell, options, *map, progress);
+    solve(double_, std::move(placed), cell, options, *map, progress);
   } else {
-    solve(single_, positions, charges, cell, options, *map, progress);
+    solve(single_, std::move(placed), cell, options, *map, progress);
   }
+  auto origin = std::make_shared<MapOrigin>();
+  origin->method = PotentialMethod::kPme;
+  origin->positions = positions;
+  origin->charges = charges;
+  origin->cell = cell;
+  origin->pme = options;
+  map->origin = std::move(origin);
   map->lattice = lattice_over(cell, options.size);
   map->unit = PotentialUnit::kKtPerE;
   map->periodic = true;
@@ -244,6 +350,52 @@ std::shared_ptr<MapGrid> PmeSolver::potential(const std::vector<Vec3d>& position
   if (options.part == PmePart::kFull) add_direct_part(positions, charges, cell, options, *map);
   set_index_transform(map->lattice, to_map, "the potential", map->to_index);
   return map;
+}
+
+template <typename T>
+void PmeSolver::solve_transposed(Kept<T>& kept, const MapGrid& map, const WeightedPlaces& reading, MapGrid& solution) {
+  const MapOrigin& origin = *map.origin;
+  FourierGrid<T>& grid = kept.of_size(origin.pme.size);
+  spread_reading(grid, map, reading, origin.pme);
+  if (origin.bulk_distance_A >= 0) subtract_bulk(grid, map, sum_of(reading.weight));
+  convolve(grid, origin.cell, origin.pme, solution);
+}
+
+std::vector<double> PmeSolver::contributions(const MapGrid& map, const WeightedPlaces& reading) {
+  const MapOrigin& origin = *map.origin;
+  const PmeOptions& options = origin.pme;
+  MapGrid solution;
+  solution.lattice = map.lattice;
+  solution.periodic = true;
+  solution.spline_order = options.order;
+  if (options.precision == Precision::kDouble) {
+    solve_transposed(double_, map, reading, solution);
+  } else {
+    solve_transposed(single_, map, reading, solution);
+  }
+  const std::vector<float> smooth = values_at(solution, grid_coordinates(origin.positions, origin.cell, options));
+  std::vector<double> result(smooth.begin(), smooth.end());
+  if (options.part == PmePart::kFull) {
+    std::vector<Vec3d> parts = reading.place;
+    for (Vec3d& p : parts) {
+      for (int axis = 0; axis < 3; ++axis) p[axis] /= options.size[static_cast<std::size_t>(axis)];
+    }
+    const ChargeSums sums = direct_sums(parts, reading.weight, origin.cell, options);
+    const ChargeSumsView view = sums.view();
+    const Buffer<Vec3d> at_atoms = to_device(cell_parts(origin.positions, origin.cell, options));
+    Buffer<double> direct(result.size());
+    const Vec3d* const at = raw(at_atoms);
+    double* const out = raw(direct);
+    for_each_index(result.size(), [=] ESPDIFF_HD(std::size_t i) {
+      const double part[3] = {at[i].x, at[i].y, at[i].z};
+      out[i] = view.direct(part);
+    });
+    const std::vector<double> found = to_host(direct);
+    const double mean = origin.bulk_distance_A < 0 ? direct_mean(sum_of(reading.weight), origin.cell, options) : 0.0;
+    for (std::size_t i = 0; i < result.size(); ++i) result[i] += found[i] - mean;
+  }
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] *= static_cast<double>(origin.charges[i]);
+  return result;
 }
 
 }  // namespace espdiff::ESPDIFF_BACKEND

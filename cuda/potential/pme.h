@@ -6,6 +6,7 @@
 
 #include "base/progress.h"
 #include "cuda/potential/fourier.h"
+#include "cuda/potential/spread.h"
 #include "cuda/surface/sample.h"
 #include "engine/potential_stage.h"
 
@@ -17,6 +18,8 @@ class PmeSolver {
   std::shared_ptr<MapGrid> potential(const std::vector<Vec3d>& positions, const std::vector<float>& charges,
                                      const PmeCell& cell, const PmeOptions& options, const RigidTransform& to_map,
                                      const Progress& progress);
+  /// [atom] what each charge of a map made here adds to a reading: the same sums, with the weights as charges.
+  std::vector<double> contributions(const MapGrid& map, const WeightedPlaces& reading);
 
  private:
   template <typename T>
@@ -27,8 +30,12 @@ class PmeSolver {
     FourierGrid<T>& of_size(std::array<int, 3> wanted);
   };
   template <typename T>
-  void solve(Kept<T>& kept, const std::vector<Vec3d>& positions, const std::vector<float>& charges, const PmeCell& cell,
-             const PmeOptions& options, MapGrid& map, const Progress& progress);
+  void solve(Kept<T>& kept, std::vector<GridCharge> placed, const PmeCell& cell, const PmeOptions& options,
+             MapGrid& map, const Progress& progress);
+  template <typename T>
+  void convolve(FourierGrid<T>& grid, const PmeCell& cell, const PmeOptions& options, MapGrid& map);
+  template <typename T>
+  void solve_transposed(Kept<T>& kept, const MapGrid& map, const WeightedPlaces& reading, MapGrid& solution);
 
   Kept<float> single_;
   Kept<double> double_;

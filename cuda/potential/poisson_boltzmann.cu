@@ -5,61 +5,21 @@
 #include <cmath>
 #include <string>
 
-#include "base/error.h"
-#include "base/formatted.h"
 #include "cuda/potential/conjugate_gradients.h"
-#include "cuda/potential/coulomb.h"
 #include "cuda/potential/debye_hueckel.h"
-#include "cuda/potential/dielectric_map.h"
+#include "cuda/potential/map_origin.h"
 #include "cuda/potential/newton.h"
 #include "cuda/potential/pb_checks.h"
+#include "cuda/potential/pb_problem.h"
 #include "cuda/potential/spread.h"
 
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
-/// Ions of one kind per cubic Angstrom at 1 mol/l: Avogadro's number, 6.02214076e23 (CODATA 2018), times 1e-27.
-constexpr double kIonsPerA3 = 6.02214076e-4;
-
-/// The equation's constants; see docs/potentials.md.
-struct Constants {
-  double coulomb;      ///< C, kT A / e^2
-  double kappa_bar_2;  ///< eps_solvent kappa^2 = 8 pi C c, 1/A^2
-  double kappa;        ///< 1/A
-};
-
-Constants constants_of(const PoissonBoltzmannOptions& o) {
-  Constants c{};
-  c.coulomb = coulomb_in_kt(o.temperature_K);
-  c.kappa_bar_2 = 8 * kPi * c.coulomb * kIonsPerA3 * o.ionic_strength;
-  c.kappa = std::sqrt(c.kappa_bar_2 / o.solvent_dielectric);
-  return c;
-}
-
-/// Atoms sorted by position, so that their order in the input changes no bit.
-std::vector<PbAtom> sorted_atoms(const std::vector<Vec3d>& positions, const std::vector<float>& radii,
-                                 const std::vector<float>& charges) {
-  std::vector<PbAtom> atoms;
-  for (std::size_t i = 0; i < positions.size(); ++i) atoms.push_back({positions[i], radii[i], charges[i]});
-  std::sort(atoms.begin(), atoms.end(), [](const PbAtom& a, const PbAtom& b) {
-    for (int axis = 2; axis >= 0; --axis) {
-      if (a.position[axis] != b.position[axis]) return a.position[axis] < b.position[axis];
-    }
-    return a.radius != b.radius ? a.radius < b.radius : a.charge < b.charge;
-  });
-  return atoms;
-}
-
-std::vector<PbAtom> with_radius(const std::vector<PbAtom>& atoms) {
-  std::vector<PbAtom> kept;
-  std::copy_if(atoms.begin(), atoms.end(), std::back_inserter(kept), [](const PbAtom& a) { return a.radius > 0; });
-  return kept;
-}
-
 /// b = 4 pi C q / h, the charges spread by cubic B-splines.
 Buffer<float> right_hand_side(const std::vector<PbAtom>& atoms, const CubicLattice& lattice, double coulomb) {
   std::vector<GridCharge> placed;
-  const double h = static_cast<double>(lattice.spacing), scale = 4 * kPi * coulomb / h;
+  const double h = static_cast<double>(lattice.spacing), scale = charge_scale(lattice, coulomb);
   for (const PbAtom& atom : atoms) {
     if (atom.charge == 0) continue;
     GridCharge c{};
@@ -112,43 +72,19 @@ void start_from(const MapGrid& start, const Lattice& lattice, Buffer<float>& phi
   for_each_index(phi.size(), [=] ESPDIFF_HD(std::size_t p) { to[p] = is_finite(from[p]) ? from[p] : 0.0F; });
 }
 
-/// The same centre and number of points, twice the spacing.
-Lattice twice_as_wide(Lattice lattice) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    lattice.origin += (-0.5 * (lattice.size[axis] - 1)) * lattice.step[axis];
-    lattice.step[axis] = 2.0 * lattice.step[axis];
-  }
-  return lattice;
-}
-
 /// Inputs of a solution, on any grid.
 struct Problem {
   const std::vector<PbAtom>& atoms;
   const PoissonBoltzmannOptions& options;
-  Constants constants;
+  PbConstants constants;
   const Progress& progress;
 };
-
-void throw_not_converged(const PoissonBoltzmannOptions& o, const SolverReport& solved, int steps) {
-  if (o.nonlinear) {
-    throw ConvergenceError(
-        formatted("the nonlinear Poisson-Boltzmann equation did not converge: the relative residual is %.3g after %d "
-                  "Newton steps and %d cycles, %.3g is asked for; use the linearized equation, or a smaller spacing",
-                  solved.relative_residual, steps, solved.cycles, o.tolerance));
-  }
-  throw ConvergenceError(
-      formatted("the Poisson-Boltzmann equation did not converge: the relative residual is %.3g after %d cycles, "
-                "%.3g is asked for; allow more cycles, or a larger tolerance",
-                solved.relative_residual, solved.cycles, o.tolerance));
-}
 
 /// Solves for phi, whose border is set, and fills the report.
 void solve(const Problem& problem, const CubicLattice& lattice, Buffer<float>& phi, PoissonBoltzmannReport& report) {
   const PoissonBoltzmannOptions& options = problem.options;
-  const double h = static_cast<double>(lattice.spacing);
   GridOperator on_grid;
-  fill_operator(with_radius(problem.atoms), lattice, options, static_cast<float>(h * h * problem.constants.kappa_bar_2),
-                on_grid);
+  fill_pb_operator(problem.atoms, lattice, problem.constants, options, on_grid);
   problem.progress.report("potential", 0.2);
   const Buffer<float> b = right_hand_side(problem.atoms, lattice, problem.constants.coulomb);
   SolverWork work(lattice.n_points());
@@ -175,20 +111,18 @@ void solve(const Problem& problem, const CubicLattice& lattice, Buffer<float>& p
   report.relative_residual = solved.relative_residual;
   report.start_residual = solved.start_residual;
   report.cycles = solved.cycles;
-  if (!solved.converged) throw_not_converged(options, solved, report.newton_steps);
+  require_converged(options, solved, report.newton_steps);
 }
 
 void set_border(const Problem& problem, const Lattice& on_lattice, const CubicLattice& lattice, Buffer<float>& phi) {
-  const DebyeHueckel law{problem.constants.coulomb / problem.options.solvent_dielectric, problem.constants.kappa};
+  const DebyeHueckel law = border_law(problem.constants, problem.options);
   if (problem.options.far_boundary == FarBoundary::kDebyeHueckel) {
     set_debye_hueckel_border(problem.atoms, lattice, law, phi);
     return;
   }
   MapGrid around;
   around.lattice = twice_as_wide(on_lattice);
-  CubicLattice wide = lattice;
-  wide.origin = static_cast<Vec3f>(around.lattice.origin);
-  wide.spacing *= 2;
+  const CubicLattice wide = twice_as_wide(lattice, around.lattice);
   around.values.assign(lattice.n_points(), 0.0F);
   set_debye_hueckel_border(problem.atoms, wide, law, around.values);
   PoissonBoltzmannReport ignored;
@@ -207,7 +141,7 @@ std::shared_ptr<MapGrid> poisson_boltzmann(const std::vector<Vec3d>& positions, 
   check_pb_options(options);
   const CubicLattice lattice = checked_pb_lattice(on_lattice, positions, options);
   const std::vector<PbAtom> atoms = sorted_atoms(positions, radii, charges);
-  const Problem problem{atoms, options, constants_of(options), progress};
+  const Problem problem{atoms, options, pb_constants(options), progress};
   auto map = std::make_shared<MapGrid>();
   map->lattice = on_lattice;
   map->unit = PotentialUnit::kKtPerE;
@@ -225,6 +159,13 @@ std::shared_ptr<MapGrid> poisson_boltzmann(const std::vector<Vec3d>& positions, 
     told.n_charges += atom.charge != 0 ? 1 : 0;
   }
   solve(problem, lattice, map->values, told);
+  auto origin = std::make_shared<MapOrigin>();
+  origin->method = PotentialMethod::kPoissonBoltzmann;
+  origin->positions = positions;
+  origin->radii = radii;
+  origin->charges = charges;
+  origin->pb = options;
+  map->origin = std::move(origin);
   if (report != nullptr) *report = told;
   progress.report("potential", 1.0);
   return map;

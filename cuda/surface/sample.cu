@@ -1,6 +1,7 @@
 // sample.cu: potential maps on the device, sampled at a mesh's vertices or on another lattice.
 #include "cuda/surface/sample.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -203,6 +204,66 @@ std::shared_ptr<MapGrid> resample(const MapGrid& map, const Lattice& lattice) {
     out[i] = potential_at(view, c);
   });
   return result;
+}
+
+WeightedPlaces weighted_places(const MapGrid& map, const SurfaceMesh& mesh, const std::vector<double>& weights) {
+  if (weights.size() != mesh.n_vertices()) throw InputError("a reading needs one weight for each vertex");
+  const MapView view = view_of(map);
+  const std::vector<Vec4f> positions = to_host(mesh.positions);
+  WeightedPlaces places;
+  for (std::size_t v = 0; v < weights.size(); ++v) {
+    if (weights[v] == 0) continue;
+    const Vec3d p = static_cast<Vec3d>(positions[v].xyz());
+    places.place.push_back({view.coordinate(0, p), view.coordinate(1, p), view.coordinate(2, p)});
+    places.weight.push_back(weights[v]);
+  }
+  return places;
+}
+
+SparseValues spread_linearly(const MapGrid& map, const WeightedPlaces& places) {
+  const MapView view = view_of(map);
+  std::vector<std::pair<std::size_t, double>> parts;
+  for (std::size_t v = 0; v < places.place.size(); ++v) {
+    Neighbours at[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!find_neighbours(view, axis, places.place[v][axis], at[axis]))
+        throw InputError("a reading has weight outside the potential map");
+    }
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      double weight = places.weight[v];
+      long index = 0;
+      for (int axis = 2; axis >= 0; --axis) {
+        const bool up = (corner >> static_cast<unsigned>(axis) & 1U) != 0;
+        weight *= up ? at[axis].part : 1 - at[axis].part;
+        index = index * view.size[axis] + (up ? at[axis].high : at[axis].low);
+      }
+      parts.emplace_back(static_cast<std::size_t>(index), weight);
+    }
+  }
+  // Stable: the order of a point's parts is that of the vertices.
+  std::stable_sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  SparseValues values;
+  for (std::size_t i = 0; i < parts.size();) {
+    const std::size_t point = parts[i].first;
+    double sum = 0;
+    for (; i < parts.size() && parts[i].first == point; ++i) sum += parts[i].second;
+    values.point.push_back(point);
+    values.value.push_back(static_cast<float>(sum));
+  }
+  return values;
+}
+
+std::vector<float> values_at(const MapGrid& map, const std::vector<Vec3d>& places) {
+  const MapView view = view_of(map);
+  const Buffer<Vec3d> sent = to_device(places);
+  Buffer<float> values(places.size());
+  const Vec3d* const at = raw(sent);
+  float* const out = raw(values);
+  for_each_index(places.size(), [=] ESPDIFF_HD(std::size_t i) {
+    const double c[3] = {at[i].x, at[i].y, at[i].z};
+    out[i] = sample_at(view, c);
+  });
+  return to_host(values);
 }
 
 namespace {

@@ -10,6 +10,8 @@
 
 namespace espdiff::ESPDIFF_BACKEND {
 
+struct MapOrigin;
+
 /// A potential map with the transform into it from the common frame.
 struct MapGrid : DeviceGrid {
   Lattice lattice;  ///< the map's own frame
@@ -23,7 +25,8 @@ struct MapGrid : DeviceGrid {
   /// Point charges whose potential is added to what the values say: the direct part of Ewald's sum where the map is
   /// periodic; else isolated charges, whose map has no points (size 0) and is nothing but their sum.
   std::shared_ptr<const ChargeSums> charge_sums;
-  double zero = 0;  ///< subtracted from every sample, in the map's unit
+  double zero = 0;                          ///< subtracted from every sample, in the map's unit
+  std::shared_ptr<const MapOrigin> origin;  ///< of a map that was computed here; null for others
 };
 
 /// The transform from the common frame to lattice indices, row-major 3 x 4.
@@ -38,6 +41,24 @@ std::shared_ptr<MapGrid> make_map(const Grid& map, const RigidTransform& to_map)
 std::shared_ptr<Scalars> sample(const MapGrid& map, const SurfaceMesh& mesh);
 /// Samples at the points of a lattice in the common frame.
 std::shared_ptr<MapGrid> resample(const MapGrid& map, const Lattice& lattice);
+/// Places in lattice coordinates with weights: what a reading of a map consists of.
+struct WeightedPlaces {
+  std::vector<Vec3d> place;
+  std::vector<double> weight;
+};
+/// The mesh's vertices whose weight is not zero. @param weights [vertex]
+WeightedPlaces weighted_places(const MapGrid& map, const SurfaceMesh& mesh, const std::vector<double>& weights);
+/// Values at some points of a lattice, ascending, each point once.
+struct SparseValues {
+  std::vector<std::size_t> point;
+  std::vector<float> value;
+};
+/// The transpose of linear interpolation: sum_v weight_v sample(v) = sum_p value_p map(p), without charge sums and
+/// zero.
+/// @throws InputError for a place outside the map
+SparseValues spread_linearly(const MapGrid& map, const WeightedPlaces& places);
+/// [place] what the values alone say at places in lattice coordinates.
+std::vector<float> values_at(const MapGrid& map, const std::vector<Vec3d>& places);
 /// What the values alone say at the map's own points, without charge sums and zero.
 Buffer<float> lattice_values(const MapGrid& map);
 /// The map's samples at its own points.

@@ -157,7 +157,7 @@ class Ensemble(EngineResult):
 def _order(*, charges=None, maps=None, map_unit="", frames="all", template="medoid", output="", resume=False,
            overwrite=False, skip_errors=False, shard=None, from_file=None, check_template=False, states=False,
            regress=None, alpha=0.05, control="tfce",
-           equilibration="none", most_missing=0.2, arrangements=10000, bootstrap=999, seed=20221, plugins=""):
+           equilibration="none", most_missing=0.2, arrangements=10000, seed=20221, plugins=""):
     """The order of a study, checked; its defaults are the command line's."""
     if control not in ("tfce", "max-t"):
         raise _core.InputError(f"control: {control!r} is not tfce or max-t")
@@ -172,7 +172,7 @@ def _order(*, charges=None, maps=None, map_unit="", frames="all", template="medo
         "control": control, "equilibration": str(equilibration),
         "most_missing": _checked("most_missing", most_missing, 0, 0.9),
         "arrangements": _checked("arrangements", arrangements, 20, 1000000),
-        "bootstrap": _checked("bootstrap", bootstrap, 99, 100000), "seed": _checked("seed", seed, 0, 2**63 - 1),
+        "seed": _checked("seed", seed, 0, 2**63 - 1),
         "plugins": plugins}
 
 
@@ -191,10 +191,11 @@ def ensemble(groups=None, *, output=None, potential="auto", device="auto", threa
     number of a frame, or a file. patches: {name: selection} chosen beforehand, in fixed_patches of the result.
     check_template, states: see the command.
     regress: "FILE.csv:COLUMN", a value of each replicate, regressed on the surface; to_dict()["regression"] has the answer.
-    alpha, control, equilibration, most_missing, arrangements, bootstrap, seed: of the statistics.
+    alpha, control, equilibration, most_missing, arrangements, seed: of the statistics.
     output: prefix of OUT.h5 and the results, the bytes of the command line's; with `resume` a run that broke off goes
     on. Without it nothing stays but the result. shard: "2/8" maps a part, for espdiff.merge(); it needs `output`.
-    from_file: a complete OUT.h5, of which the statistics alone are computed again; then without groups.
+    from_file: a complete OUT.h5, of which the statistics alone are computed again: without groups, or with
+    its replicates in other ones, {"one": ["wild/1", "wild/2@0:49"], ...}.
     Other options are those of compare().
 
     Returns an Ensemble, None for a shard. What the design cannot show is a warning.

@@ -2,6 +2,7 @@
 
 import os
 import tempfile
+import warnings
 
 from . import _core
 from ._inputs import refuse_the_same_atoms, state_of
@@ -198,14 +199,18 @@ def frames(topology, *files, plugins=""):
     """The frames of trajectories as a sequence of States, read by VMD's molfile plugins as on the command line.
 
     topology: a structure, or a topology that VMD reads (PSF, prmtop, GRO, ...). files: trajectories of its atoms (DCD, XTC,
-    TRR, NetCDF, ...), or structures with models. plugins: their folder, unless VMD is found ($VMDDIR, PATH).
+    TRR, NetCDF, ...), or structures with models. plugins: their folder, unless VMD is found ($VMDDIR, PATH). A DCD that
+    lacks frames is told by a warning.
 
         frames = espdiff.frames("adk.psf", "adk_dims.dcd")
         r = espdiff.compare(frames[0], frames[-1])
     """
     if not files:
         raise _core.InputError("files: name one trajectory or more")
-    return _core.Frames(os.fspath(topology), [os.fspath(path) for path in files], os.fspath(plugins))
+    found = _core.Frames(os.fspath(topology), [os.fspath(path) for path in files], os.fspath(plugins))
+    if found.incomplete:
+        warnings.warn(found.incomplete, stacklevel=2)
+    return found
 
 
 def help_options():

@@ -91,6 +91,11 @@ class Comparison(EngineResult):
         return self.to_dict()["fixed_patches"]
 
     @property
+    def causes(self):
+        """Which charges make the difference: a dict for each reading that `causes=` named, as in OUT.json."""
+        return self.to_dict()["causes"]
+
+    @property
     def residues(self):
         """The residue table: a pandas.DataFrame where pandas is installed, else a dict of columns."""
         if self._residues is None:

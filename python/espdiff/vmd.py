@@ -202,9 +202,10 @@ class Comparison(_Surface):
     @property
     def residues(self):
         """A dict for each residue of the source; NaN where there is no value."""
-        texts = ("chain", "insertion", "name", "target_name")
+        texts = ("chain", "insertion", "name", "target_chain", "target_insertion", "target_name")
         rows = [split_dict(row) for row in split_list(_call("espdiff", "residues", self.handle))]
-        return [{key: value if key in texts else int(value) if key in ("index", "number") else _number(value)
+        return [{key: value if key in texts else int(value) if value and key in ("index", "number", "target_number")
+                 else _number(value)
                  for key, value in row.items()} for row in rows]
 
     def table(self):
@@ -294,7 +295,7 @@ class Trajectory:
         """{name: one value for each row}: numbers, NaN where there is none; texts where a column has some."""
         with open(self.result["csv"], newline="", encoding="utf-8") as lines:
             rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
-        return {name: _column([row[name] for row in rows]) for name in (rows[0] if rows else ())}
+        return {name: _column([row[name] for row in rows]) for name in (rows[0] if rows else ()) if name != "checksum"}
 
     def __repr__(self):
         return "<espdiff.vmd trajectory of %d rows in %s>" % (self.result["rows"], self.result["csv"])

@@ -6,9 +6,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -20,13 +18,13 @@
 #include "held.h"
 #include "io/coordinate_file.h"
 #include "io/frame_reader.h"
+#include "io/read_input.h"
 #include "state.h"
 
 namespace espdiff::python {
 namespace {
 
 namespace nb = nanobind;
-namespace fs = std::filesystem;
 
 using Positions = nb::ndarray<const float, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 
@@ -46,8 +44,7 @@ auto in_python(const std::string& path, const Function& function) {
 class PythonFrames : public CoordinateFile {
  public:
   PythonFrames(std::string path, std::size_t n_atoms) : path_(std::move(path)), n_atoms_(n_atoms) {
-    std::error_code ignored;
-    if (!fs::is_regular_file(path_, ignored)) throw IoError(path_, "there is no such file");
+    require_regular_file(path_);
     const std::size_t n_there = in_python(path_, [&](const nb::module_& python) {
       frames_.object = python.attr("Frames")(path_, n_atoms_);
       n_frames_ = nb::cast<int>(frames_.object.attr("n_frames"));
@@ -78,10 +75,6 @@ class PythonFrames : public CoordinateFile {
         frame_.cell = UnitCell{{cell[0], cell[1], cell[2]}, {cell[3], cell[4], cell[5]}};
       return 0;
     });
-    for (const Vec3f& p : frame_.positions) {
-      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-        throw FormatError(path_, 0, "frame " + std::to_string(number) + " has a coordinate that is not finite");
-    }
     held_ = number;
     return frame_;
   }
@@ -95,8 +88,7 @@ class PythonFrames : public CoordinateFile {
 };
 
 Molecule read_atoms(const std::string& path) {
-  std::error_code ignored;
-  if (!fs::is_regular_file(path, ignored)) throw IoError(path, "there is no such file");
+  require_regular_file(path);
   return in_python(
       path, [&](const nb::module_& python) { return nb::cast<const State&>(python.attr("atoms")(path)).molecule; });
 }

@@ -78,7 +78,6 @@ EnsembleOptions statistics_of(const nb::dict& order) {
   statistics.control = text_in(order, "control") == "tfce" ? ErrorControl::kTfce : ErrorControl::kMaxT;
   statistics.equilibration = parse_equilibration(text_in(order, "equilibration"));
   statistics.test.most_arrangements = nb::cast<std::uint64_t>(order["arrangements"]);
-  statistics.test.n_bootstrap = nb::cast<std::size_t>(order["bootstrap"]);
   statistics.test.seed = nb::cast<std::uint64_t>(order["seed"]);
   return statistics;
 }

@@ -33,6 +33,8 @@ class PyFrames {
 
   int size() const { return frames_->n_frames(); }
 
+  const std::string& incomplete() const { return frames_->incomplete(); }
+
   StatePtr frame(int number) {
     const int n = size();
     if (number < -n || number >= n)
@@ -65,6 +67,7 @@ void add_frames(nb::module_& module) {
       .def(nb::init<const std::string&, std::vector<std::string>, const std::string&>(), nb::arg("topology"),
            nb::arg("files"), nb::arg("plugins"))
       .def("__len__", &PyFrames::size)
+      .def_prop_ro("incomplete", &PyFrames::incomplete, "What is missing of a DCD; empty where the files are whole.")
       .def("__getitem__", &PyFrames::frame, nb::arg("frame"), "A frame with all its atoms, as a State.");
 }
 

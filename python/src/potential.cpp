@@ -31,8 +31,8 @@ std::shared_ptr<PyMap> make_py_map(const StatePtr& state, const Settings& settin
     const LoadedState loaded = load(*state, StateRole::kOnly, computation, nullptr, told);
     const PotentialChoice choice = choose_potential(method, "auto", {facts_of(loaded)});
     if (!choice.method) throw InputError(state->molecule.name + " has no charges, of which a potential could be made");
-    const PotentialOptions options =
-        make_potential_options(*choice.method, computation.potential.given, computation.options.temperature_K, true);
+    const PotentialOptions options = make_potential_options(
+        *choice.method, with_salt(choice, computation.potential.given), computation.options.temperature_K, true);
     const std::unique_ptr<Engine> engine = computation.make_engine();
     PotentialSeries series(*engine, options);
     const bool in_cell = *choice.method == PotentialMethod::kPme && choice.own_cell;

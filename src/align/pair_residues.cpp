@@ -13,6 +13,7 @@
 
 #include "align/align_sequences.h"
 #include "align/assign_chains.h"
+#include "align/chain_links.h"
 #include "align/pair_by_place.h"
 #include "base/error.h"
 #include "base/progress.h"
@@ -234,6 +235,8 @@ void pair_others(const ResidueView& source, const ResidueView& target, IndexPair
 
 /// About this many points stand for a chain.
 constexpr std::size_t kChainPoints = 30;
+/// Chains below kMinLeftover residues are assigned to each other where there are at most this many chains.
+constexpr std::size_t kMostShort = 100;
 /// Equal chains reach this share of the lower self score, and have this share of each other's length.
 constexpr double kEqualScore = 0.9, kEqualLength = 0.8;
 /// Names pair files in different orders if they pair this many times the residues that the alignment does.
@@ -242,7 +245,7 @@ constexpr double kMoreByNames = 1.1;
 bool are_equal(const Chain& a, const Chain& b, ScoreTable& scores) {
   const auto shorter = static_cast<double>(std::min(a.residues.size(), b.residues.size())),
              longer = static_cast<double>(std::max(a.residues.size(), b.residues.size()));
-  if (a.kind != b.kind || shorter < kMinLeftover || shorter < kEqualLength * longer) return false;
+  if (a.kind != b.kind || shorter < kEqualLength * longer) return false;
   const int lower_self = std::min(self_score(a.sequence), self_score(b.sequence));
   return scores.score(a.sequence, b.sequence) >= kEqualScore * lower_self;
 }
@@ -260,6 +263,21 @@ IndexPairs aligned_residues(const Chain& a, const Chain& b) {
   for (const auto& [p, q] : align_sequences(a.sequence, b.sequence, a.numbers, b.numbers))
     pairs.emplace_back(a.residues[p], b.residues[q]);
   return pairs;
+}
+
+/// Atoms of one name in a short chain's paired residues: its C-alpha atoms may be too few, or lie on a line.
+ChainPoints points_of_atoms(const ResidueView& source, const ResidueView& target, const IndexPairs& residues) {
+  ChainPoints points;
+  for (const auto& [a, b] : residues) {
+    std::map<std::string, std::size_t> of_target;
+    for (const std::size_t i : target.atoms[b]) of_target.emplace(target.molecule->atoms[i].name, i);
+    for (const std::size_t i : source.atoms[a]) {
+      const auto same = of_target.find(source.molecule->atoms[i].name);
+      if (same == of_target.end() || points.size() >= kChainPoints) continue;
+      points.emplace_back(source.molecule->positions[i], target.molecule->positions[same->second]);
+    }
+  }
+  return points;
 }
 
 /// Each chain is compared with each: ten thousand with as many are minutes, a hundred thousand hours and 240 GB.
@@ -286,6 +304,7 @@ struct EqualChains {
     assignment.points.resize(source.size(), std::vector<ChainPoints>(target.size()));
     assignment.target_of.assign(source.size(), -1);
     if (source.size() < 2 || target.size() < 2) return;
+    const bool all = source.size() <= kMostShort && target.size() <= kMostShort;
     std::map<std::size_t, std::size_t> chain_of_target, partner(pairs.begin(), pairs.end());
     for (std::size_t j = 0; j < target.size(); ++j) {
       for (const std::size_t r : target[j].residues) chain_of_target[r] = j;
@@ -298,6 +317,7 @@ struct EqualChains {
       }
       std::size_t most = 0;
       for (std::size_t j = 0; j < target.size(); ++j) {
+        if (!all && source[i].residues.size() < kMinLeftover) continue;
         if (!are_equal(source[i], target[j], scores)) continue;
         assignment.points[i][j] = points(source_view, source[i], target_view, target[j]);
         if (votes[j] <= most) continue;
@@ -318,6 +338,7 @@ struct EqualChains {
                             const Chain& b) {
     ChainPoints all;
     const IndexPairs pairs = aligned_residues(a, b);
+    if (pairs.size() < kMinLeftover) return points_of_atoms(source_view, target_view, pairs);
     const std::size_t stride = std::max<std::size_t>(1, pairs.size() / kChainPoints);
     for (std::size_t k = 0; k < pairs.size(); k += stride) {
       if (source_view.atoms[pairs[k].first].empty() || target_view.atoms[pairs[k].second].empty()) continue;
@@ -351,8 +372,6 @@ void pair_by_arrangement(const ResidueView& source, const ResidueView& target, S
   pairing.pairs = std::move(pairs);
 }
 
-bool is_polymer(ResidueKind kind) { return kind == ResidueKind::kAminoAcid || kind == ResidueKind::kNucleotide; }
-
 /// Residues of the polymer with the same chain, number, insertion code and name, where only one has them on each side.
 IndexPairs pair_by_names(const ResidueView& source, const ResidueView& target) {
   using Key = std::tuple<std::string, std::int32_t, char>;
@@ -380,6 +399,21 @@ std::size_t n_same_names(const ResidueView& source, const ResidueView& target, c
   return static_cast<std::size_t>(std::count_if(pairs.begin(), pairs.end(), [&](const auto& pair) {
     return same_residue_name(source.molecule->residues[pair.first].name, target.molecule->residues[pair.second].name);
   }));
+}
+
+/// Whether both molecules have chains of the same names, and list them in different orders.
+bool names_are_permuted(const Molecule& source, const Molecule& target) {
+  std::vector<std::string> a, b;
+  for (std::size_t r = 0; r < source.residues.size(); ++r) {
+    const std::string &of_source = source.residues[r].chain, &of_target = target.residues[r].chain;
+    if (!a.empty() && a.back() == of_source && b.back() == of_target) continue;
+    a.push_back(of_source);
+    b.push_back(of_target);
+  }
+  if (a == b) return false;
+  std::sort(a.begin(), a.end());
+  std::sort(b.begin(), b.end());
+  return a == b;
 }
 
 }  // namespace
@@ -412,6 +446,7 @@ ResiduePairing pair_residues(const ResidueView& source, const ResidueView& targe
 }
 
 bool order_holds(const ResidueView& source, const ResidueView& target) {
+  if (names_are_permuted(*source.molecule, *target.molecule)) return false;
   IndexPairs polymer, others;
   for (std::size_t r = 0; r < source.kinds.size(); ++r) {
     if (source.atoms[r].empty()) continue;

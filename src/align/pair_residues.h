@@ -46,8 +46,9 @@ enum class PairOthers { kByPlace, kByNumber };
 ResiduePairing pair_residues(const ResidueView& source, const ResidueView& target,
                              PairOthers others = PairOthers::kByPlace);
 
-/// Whether molecules that list the same residues in the same order also pair in this order: no other assignment of
-/// equal chains fits clearly better, and ligands, ions and waters are in their places.
+/// Whether molecules that list the same residues in the same order also pair in this order: they do not list chains of
+/// the same names in different orders, no other assignment of equal chains fits clearly better, and ligands, ions and
+/// waters are in their places.
 bool order_holds(const ResidueView& source, const ResidueView& target);
 
 }  // namespace espdiff

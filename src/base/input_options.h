@@ -17,7 +17,8 @@ struct SideInput {
 
 /// How charges are made for structures that have none (by PDB2PQR).
 struct ChargeOptions {
-  std::string force_field = "parse";  ///< lower case
+  /// Lower case. auto: PARSE, or AMBER for both states where there are nucleotides, which PARSE has only some of.
+  std::string force_field = "auto";
   double ph = 7;
   std::vector<std::string> ligands;  ///< MOL2 files
   bool same_protonation = false;     ///< residues of the target take the states of the source's they pair with

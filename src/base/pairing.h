@@ -33,6 +33,15 @@ struct ComparedChains {
   std::size_t n_residues = 0;  ///< pairs of residues
 };
 
+/// How a chain of the source moved against all others: its own superposition after undoing theirs.
+struct ChainMotion {
+  std::string chain;            ///< of the source
+  double rotation_degrees = 0;  ///< 0 to 180
+  double shift_A = 0;           ///< of the centre of its paired atoms
+  double rmsd_A = 0;            ///< of its atoms where the others put them
+  double own_rmsd_A = 0;        ///< after its own superposition
+};
+
 /// Two paired residues of one kind in different protonation states, or a chain's end in one molecule only.
 struct ProtonationDifference {
   std::size_t source = 0, target = 0;      ///< residues

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,11 @@ struct Atom {
   std::string element;       ///< "C", "Na"; empty if neither file nor name determines it
   std::int32_t residue = 0;  ///< index into Molecule::residues
   bool hetero = false;       ///< from a HETATM record
+  /// How well a structure file knows the place, as it says: B factor (Angstrom^2; of a predicted model its confidence),
+  /// NaN where no file says one, as of atoms that a preparation added; occupancy; whether there are other places.
+  float b_factor = std::numeric_limits<float>::quiet_NaN();
+  float occupancy = 1;
+  bool has_alternates = false;
 };
 
 /// A residue: atoms that share chain, number, insertion code and name, in file order.
@@ -26,6 +32,14 @@ struct Residue {
   std::string chain;  ///< empty when the file has none
   std::int32_t number = 0;
   char insertion_code = ' ';
+};
+
+/// A residue of a molecule's file that is no part of the molecule, because an option left it out.
+struct LeftOutResidue {
+  Residue residue;
+  std::vector<Atom> atoms;  ///< those that were left out
+  std::vector<Vec3d> positions;
+  double charge = 0;  ///< elementary charges; NaN where it is not known
 };
 
 /// Origin of a molecule's radii or charges; results report it. kVmd: from VMD, which guesses radii from names, or from
@@ -42,6 +56,7 @@ struct Molecule {
   std::vector<float> charges;    ///< [atom], elementary charges; empty when the file has none
   ValueOrigin radii_origin = ValueOrigin::kNone;
   std::string name;  ///< for messages: the path, or VMD's molecule name
+  std::vector<LeftOutResidue> left_out{};
 
   std::size_t size() const { return positions.size(); }
 };

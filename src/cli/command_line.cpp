@@ -1,19 +1,25 @@
 // command_line.cpp: parses the command line, runs the command, and turns errors into one line and an exit status.
 #include "cli/command_line.h"
 
+#include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <iostream>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
 #include "base/printable.h"
+#include "base/system_message.h"
 #include "base/translate.h"
 #include "base/version.h"
+#include "cli/help.h"
 #include "cli/spelling.h"
 #include "cli/terminal_progress.h"
 #include "cli/verbs.h"
+#include "cli/words.h"
 #include "system/standard_streams.h"
 
 namespace {
@@ -22,19 +28,6 @@ std::string joined(int argc, char** argv) {
   std::string line = "espdiff";
   for (int i = 1; i < argc; ++i) line += std::string(" ") + argv[i];
   return line;
-}
-
-/// What is wrong with the words of the command, in ours; the library's begin with the option's name and a colon.
-std::string in_our_words(const CLI::ParseError& error) {
-  const std::string text = error.what(), name = text.substr(0, text.find(": "));
-  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ArgumentMismatch)) {
-    const bool too_many = text.find("At Most") != std::string::npos;
-    return name + (too_many ? ": is given more than once; give it once" : ": a value is missing behind it");
-  }
-  // All that is left over, the first word last.
-  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError))
-    return "'" + text.substr(text.rfind(' ') + 1) + "': there is no such option, and no place for another argument";
-  return text;
 }
 
 /// Runs the chosen command; errors become one line on standard error.
@@ -58,14 +51,31 @@ int run_verb(const espdiff::cli::Verb& verb, const std::string& command_line) {
   }
 }
 
+/// What was printed must have arrived: on a full disk, files may be complete and their summary lost.
+int with_output_written(int status) {
+  errno = 0;
+  const bool is_written = static_cast<bool>(std::cout.flush());
+  if (std::fflush(stdout) == 0 && is_written && std::ferror(stdout) == 0) return status;
+  if (espdiff::is_output_unread()) return status;  // as after `| head`
+  const std::string reason = errno != 0 ? ": " + espdiff::system_message(errno) : std::string();
+  std::fprintf(stderr, "espdiff: the standard output cannot be written%s; files that were asked for are complete\n",
+               reason.c_str());
+  return status == 0 ? 1 : status;
+}
+
 int run(int argc, char** argv) {
   CLI::App app(
       "espdiff shows where and by how much the electrostatic surface potential differs between two states of a "
       "molecule, and how "
       "far the answer can be trusted.");
   app.name("espdiff");
-  app.set_version_flag("--version", std::string("espdiff ") + espdiff::kVersion);
+  app.set_help_flag("-h,--help", "Print the most used options");
+  app.set_help_all_flag("--help-all", "Print all options");
+  app.set_version_flag("--version,-v", std::string("espdiff ") + espdiff::kVersion, "Print the version");
   app.require_subcommand(0, 1);
+  espdiff::cli::set_help(app, {"",
+                               {"espdiff wild.pdb mutant.pdb", "espdiff render wild_mutant.vtp -o difference.png",
+                                "espdiff help compare"}});
   std::vector<espdiff::cli::Verb> verbs = {
       espdiff::cli::add_compare(app),   espdiff::cli::add_trajectory(app), espdiff::cli::add_matrix(app),
 
@@ -74,22 +84,22 @@ int run(int argc, char** argv) {
 #endif
       espdiff::cli::add_merge(app),     espdiff::cli::add_plot(app),       espdiff::cli::add_surface(app),
       espdiff::cli::add_potential(app), espdiff::cli::add_prepare(app),    espdiff::cli::add_render(app),
-      espdiff::cli::add_view(app),      espdiff::cli::add_verify(app),     espdiff::cli::add_doctor(app)};
+      espdiff::cli::add_report(app),    espdiff::cli::add_view(app),       espdiff::cli::add_verify(app),
+      espdiff::cli::add_doctor(app),    espdiff::cli::add_completion(app), espdiff::cli::add_man(app)};
   try {
-    app.parse(argc, argv);
+    std::vector<std::string> words = espdiff::cli::understood({argv + std::min(argc, 1), argv + argc}, app);
+    std::reverse(words.begin(), words.end());  // as CLI11 takes a vector
+    app.parse(std::move(words));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    std::fprintf(stderr, "espdiff: %s\nTry 'espdiff --help' or 'espdiff VERB --help'.\n",
-                 espdiff::printable(in_our_words(error)).c_str());
+    std::fprintf(stderr, "espdiff: %s; see %s\n", espdiff::printable(espdiff::cli::in_our_words(error, app)).c_str(),
+                 espdiff::cli::help_command(app).c_str());
     return 2;
   }
   for (const auto& verb : verbs) {
     if (verb.parser->parsed()) return run_verb(verb, joined(argc, argv));
   }
-  std::fputs(
-      "espdiff: a subcommand is missing: compare, trajectory, matrix, merge, plot, surface, potential, prepare, "
-      "render, view or doctor\nTry 'espdiff --help'.\n",
-      stderr);
+  std::fputs("espdiff: nothing to do: give two structures to compare, or a command; see espdiff --help\n", stderr);
   return 2;
 }
 
@@ -100,7 +110,7 @@ namespace espdiff::cli {
 int run_command_line(int argc, char** argv) {
   if (!open_closed_streams()) return 1;
   try {
-    return run(argc, argv);
+    return with_output_written(run(argc, argv));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "espdiff: internal error: %s; please report it with the command\n", error.what());
   } catch (...) {

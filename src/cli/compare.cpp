@@ -1,7 +1,9 @@
 // compare.cpp: `espdiff compare SOURCE TARGET -o OUT`.
 #include <iostream>
 
+#include "cli/help.h"
 #include "cli/map_options.h"
+#include "cli/output_prefix.h"
 #include "cli/spelling.h"
 #include "cli/verbs.h"
 #include "compare/compare.h"
@@ -11,6 +13,7 @@
 #include "io/atomic_file.h"
 #include "io/check_outputs.h"
 #include "io/structure_file.h"
+#include "prepare/input_files.h"
 #include "prepare/load_state.h"
 #include "prepare/preparation.h"
 #include "prepare/region.h"
@@ -37,7 +40,10 @@ struct CompareArguments {
 void add_input_options(CLI::App& p, CompareArguments& a) {
   p.add_option("SOURCE", a.source, "Structure of the first state: PQR, PDB or mmCIF")->required();
   p.add_option("TARGET", a.target, "Structure of the second state")->required();
-  p.add_option("-o,--output", a.output, "Prefix of the results OUT.json, OUT.vtp and OUT.residues.csv")->required();
+  p.add_option("-o,--output", a.output,
+               "Prefix of the results OUT.json, OUT.vtp and OUT.residues.csv, or a folder for them; default: the names "
+               "of both structures")
+      ->type_name("OUT");
   add_map_options(p, a.maps);
   p.add_option(
        "--residue-pdb", a.residue_pdb,
@@ -107,30 +113,38 @@ std::string add_maps(const CompareArguments& a, Side& source, Side& target, doub
   return plan.because();
 }
 
-std::vector<std::string> all_inputs(const CompareArguments& a) {
-  std::vector<std::string> inputs = input_files(a.settings);
+/// @param kept endings of structures that are written as well
+void check_files(const CompareArguments& a, const CompareOptions& options, const std::vector<std::string>& kept) {
+  std::vector<std::string> inputs = input_files(options.input),
+                           outputs = {a.output + ".json", a.output + ".vtp", a.output + ".residues.csv", a.residue_pdb};
   inputs.insert(inputs.end(), {a.source, a.target, a.maps.source_map, a.maps.target_map});
-  return inputs;
+  if (!options.causes.empty()) outputs.push_back(a.output + kCausesEnding);
+  for (const std::string& ending : kept) outputs.push_back(a.output + ending);
+  check_outputs(inputs, outputs);
 }
 
 /// The structures that are written beside the results. An output that would replace an input is found before the work.
-std::vector<KeptFile> kept_structures(const CompareArguments& a, const Side& source, const Side& target) {
+std::vector<KeptFile> kept_structures(const CompareArguments& a, const CompareOptions& options, const Side& source,
+                                      const Side& target) {
   std::vector<KeptFile> kept;
+  std::vector<std::string> endings;
   for (const Side* side : {&source, &target}) {
     for (KeptFile& file : kept_structure(side->role, side->state)) {
-      check_outputs(all_inputs(a), {a.output + file.ending});
+      endings.push_back(file.ending);
       kept.push_back(std::move(file));
     }
   }
+  check_files(a, options, endings);
   return kept;
 }
 
 int compare_verb(const CompareArguments& a, const Context& context) {
   check_map_options(a.maps);
   const CompareOptions options = make_options(a.settings);
-  check_outputs(all_inputs(a), {a.output + ".json", a.output + ".vtp", a.output + ".residues.csv", a.residue_pdb});
+  check_files(a, options, {});
   // An unwritable output is found before the work.
   for (const char* suffix : {".json", ".vtp", ".residues.csv"}) AtomicFile probe(a.output + suffix);
+  if (!options.causes.empty()) AtomicFile probe(a.output + kCausesEnding);
   if (!a.residue_pdb.empty()) AtomicFile probe(a.residue_pdb);
   if (a.residue_pdb.empty() && !a.residue_quantity.empty())
     throw InputError("--residue-quantity needs --residue-pdb FILE");
@@ -142,7 +156,7 @@ int compare_verb(const CompareArguments& a, const Context& context) {
   Side target = read_side(a, "target", options.input, &source.state.molecule, provenance, *context.progress);
   check_left_out(options.input, {&source.state, &target.state});
   const std::string because = add_maps(a, source, target, options.temperature_K, provenance.inputs);
-  const std::vector<KeptFile> kept = kept_structures(a, source, target);
+  const std::vector<KeptFile> kept = kept_structures(a, options, source, target);
   const std::string radii_note =
       set_surface_radii({&source.state.molecule, &target.state.molecule}, options.input.radii);
   CompareInput source_input = source.input();
@@ -165,7 +179,10 @@ int compare_verb(const CompareArguments& a, const Context& context) {
   }
   write_compare(a.output, source_molecule, target_molecule, result, options, provenance, kept, pdb.get());
   context.progress->report("write", 1.0);
-  if (!a.quiet) print_table(std::cout, source_molecule, target_molecule, result, spelled_option);
+  if (a.quiet)
+    print_verdict_line(std::cout, result);
+  else
+    print_table(std::cout, source_molecule, target_molecule, result, spelled_option);
   return 0;
 }
 
@@ -179,17 +196,23 @@ Verb add_compare(CLI::App& app) {
       "Maps each point of the source's surface to the corresponding point of the target's, compares the potentials "
       "there, and\n"
       "certifies the mapping. Without maps the potentials are computed (--potential).\n\n"
-      "Example:\n"
-      "  espdiff compare wild.pqr mutant.pqr --source-map wild.dx --target-map mutant.dx -o result\n\n"
       "Writes result.json (numbers, certificate, provenance), result.vtp (mapped surface, for ParaView) and "
-      "result.residues.csv.\n"
+      "result.residues.csv,\nwith --causes result.causes.csv.\n"
       "Exit status: 0 done, 1 could not compute, 2 wrong usage or input.");
   add_input_options(*parser, *arguments);
   add_structure_options(*parser, arguments->structure);
   add_settings(*parser, arguments->settings, SettingsFor::kPair);
   add_device_options(*parser, arguments->device);
-  parser->add_flag("-q,--quiet", arguments->quiet, "Print no table");
-  return {parser, [arguments](const Context& context) { return compare_verb(*arguments, context); }};
+  parser->add_flag("-q,--quiet", arguments->quiet, "Print the verdict and the main number only");
+  set_help(*parser,
+           {"--output --select --leave-out --ligand --ph --same-protonation --region --region-within --of --potential "
+            "--source-map --target-map --offset --domains --threads --quiet",
+            {"espdiff compare 1t24.pdb 1t2e.pdb --select '//A;polymer' --region-within 5 --of '(NAD,OXQ)' -o ldh",
+             "espdiff compare wild.pqr mutant.pqr --source-map wild.dx --target-map mutant.dx -o result"}});
+  return {parser, [arguments](const Context& context) {
+            arguments->output = output_prefix(arguments->output, arguments->source, arguments->target);
+            return compare_verb(*arguments, context);
+          }};
 }
 
 }  // namespace espdiff::cli

@@ -7,6 +7,7 @@
 
 #include "base/formatted.h"
 #include "base/version.h"
+#include "cli/help.h"
 #include "cli/spelling.h"
 #include "cli/verbs.h"
 #include "engine/select_engine.h"
@@ -97,6 +98,7 @@ int doctor_verb() {
 Verb add_doctor(CLI::App& app) {
   CLI::App* parser =
       app.add_subcommand("doctor", "List the parts of this build and machine, and how to get missing ones");
+  set_help(*parser, {});
   return {parser, [](const Context&) { return doctor_verb(); }};
 }
 

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/formatted.h"
 #include "base/printable.h"
+#include "cli/help.h"
 #include "cli/map_options.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
@@ -54,6 +55,8 @@ void name_inputs(const EnsembleArguments& a, EnsembleStudy& study) {
   if (study.from.empty() && a.groups.empty() && a.list.empty())
     throw InputError("no group was given; name one or two by --group, or a --list of them");
   EnsembleRequest& inputs = study.inputs;
+  if (!study.from.empty() && !a.list.empty())
+    throw InputError("--list names files, and --from has mapped frames; name its replicates by --group");
   inputs.replicates = a.list.empty() ? replicates_of_groups(a.groups) : replicates_of_list(a.list, inputs.charges);
   for (const std::string& text : a.charges) {
     const std::size_t sign = text.find('=');
@@ -63,8 +66,7 @@ void name_inputs(const EnsembleArguments& a, EnsembleStudy& study) {
     const std::size_t sign = text.find('=');
     inputs.maps.of_group[text.substr(0, sign)] = sign == std::string::npos ? "" : text.substr(sign + 1);
   }
-  study.read_files = input_files(a.settings);
-  study.read_files.push_back(a.list);
+  study.read_files = {a.list};
 }
 
 int ensemble_verb(const EnsembleArguments& a, const Context& context) {
@@ -149,7 +151,9 @@ void add_run_options(CLI::App& p, EnsembleArguments& a) {
 
 void add_statistics_options(CLI::App& p, EnsembleArguments& a) {
   const char* const group = "Statistics";
-  p.add_option("--from", a.study.from, "Compute the statistics of this complete OUT.h5 again; maps nothing")
+  p.add_option("--from", a.study.from,
+               "Compute the statistics of this complete OUT.h5 again; maps nothing. Groups are then of its replicates: "
+               "--group NAME MEMBER..., each NAME, GROUP/NAME, or with some of its frames, w1@0:49 (see --frames)")
       ->group(group);
   p.add_option("--alpha", a.study.statistics.alpha, "Significance level; intervals have the confidence 1 - alpha")
       ->check(CLI::Range(1e-6, 0.5))
@@ -188,10 +192,6 @@ void add_statistics_options(CLI::App& p, EnsembleArguments& a) {
       ->check(CLI::Range(20, 1000000))
       ->capture_default_str()
       ->group(group);
-  p.add_option("--bootstrap", a.study.statistics.test.n_bootstrap, "Samples, where a group has one replicate")
-      ->check(CLI::Range(99, 100000))
-      ->capture_default_str()
-      ->group(group);
   p.add_option("--seed", a.study.statistics.test.seed, "Of random numbers; results name it")
       ->capture_default_str()
       ->group(group);
@@ -208,14 +208,7 @@ Verb add_ensemble(CLI::App& app) {
       "(potential of\n"
       "each frame in each vertex; HDF5), OUT.vtp (means, difference, intervals, p), OUT.residues.csv, OUT.patches.csv, "
       "OUT.json.\n"
-      "docs/ensembles.md explains them. Unlike in other commands, --max-step is 0.7 unless it is given.\n\n"
-      "Examples:\n"
-      "  espdiff ensemble --group wild w1.pdb w2.pdb w3.pdb w4.pdb --group mutant m1.pdb m2.pdb m3.pdb m4.pdb \\\n"
-      "    --charges wild=wild.pqr --charges mutant=mutant.pqr -o mutant\n"
-      "  espdiff ensemble --group wild wild.psf w1.dcd w2.dcd --group mutant mutant.psf m1.dcd m2.dcd -o mutant\n"
-      "  espdiff ensemble --list runs.csv -o mutant --resume\n"
-      "  espdiff ensemble --list runs.csv --shard 2/8 -o part     # one of eight; then:\n"
-      "  espdiff merge part.shard-*-of-8.h5 -o all && espdiff ensemble --from all.h5 -o all");
+      "docs/ensembles.md explains them. Unlike in other commands, --max-step is 0.7 unless it is given.");
   add_input_options(*parser, *a);
   parser->add_option("-o,--output", a->study.run.output, "Prefix of the results")->required();
   add_run_options(*parser, *a);
@@ -223,6 +216,13 @@ Verb add_ensemble(CLI::App& app) {
   add_settings(*parser, a->settings, SettingsFor::kVariants);
   add_device_options(*parser, a->device);
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
+  set_help(*parser,
+           {"--output --group --list --charges --from --resume --overwrite --shard --frames --template "
+            "--check-template --select --patch --threads --quiet",
+            {"espdiff ensemble --group wild wild.psf w1.dcd w2.dcd --group mutant mutant.psf m1.dcd m2.dcd -o mutant",
+             "espdiff ensemble --list runs.csv -o mutant --resume",
+             "espdiff ensemble --list runs.csv --shard 2/8 -o part     # one of eight; then:",
+             "espdiff merge part.shard-*-of-8.h5 -o all && espdiff ensemble --from all.h5 -o all"}});
   return {parser, [a](const Context& context) { return ensemble_verb(*a, context); }};
 }
 

@@ -15,11 +15,12 @@ constexpr const char* kGroup = "Potentials";
 }  // namespace
 
 void add_computed_map_options(CLI::App& p, PotentialRequest& a) {
-  p.add_option("--potential", a.potential,
-               "The potential that is computed where no maps are given. pb: in salt water, by the Poisson-Boltzmann "
-               "equation. pme: particle-mesh Ewald, in a periodic cell with the water of the file. coulomb: isolated "
-               "charges. auto: pme with explicit water in a periodic cell, pb for other charges. none: compare shapes "
-               "alone")
+  p.add_option(
+       "--potential", a.potential,
+       "The potential that is computed where no maps are given. pb: in salt water, by the Poisson-Boltzmann "
+       "equation. pme: particle-mesh Ewald, in a periodic cell with the water of the file. coulomb: isolated "
+       "charges. auto: pb, with the salt of the ions counted where the file has explicit water (ensembles: pme there, "
+       "since they average). none: compare shapes alone")
       ->check(CLI::IsMember({"auto", "pb", "pme", "coulomb", "none"}))
       ->capture_default_str()
       ->group(kGroup);

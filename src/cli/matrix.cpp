@@ -1,9 +1,11 @@
 // matrix.cpp: `espdiff matrix VARIANT... -o OUT`.
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 
 #include "base/error.h"
 #include "base/formatted.h"
+#include "cli/help.h"
 #include "cli/map_options.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
@@ -13,10 +15,10 @@
 #include "ensemble/ensemble_study.h"
 #include "ensemble/template_matrix.h"
 #endif
-#include "io/check_outputs.h"
 #include "io/structure_file.h"
 #include "matrix/matrix_run.h"
 #include "matrix/write_matrix.h"
+#include "prepare/input_files.h"
 #include "prepare/load_state.h"
 #include "prepare/surface_radii.h"
 #include "report/state_report.h"
@@ -160,10 +162,12 @@ int matrix_verb(MatrixArguments& a, const Context& context) {
   a.run.shard = parse_shard(a.shard);
   a.run.skip_errors = a.on_error == "skip";
   const std::vector<VariantFiles> files = chosen_variants(a);
-  std::vector<std::string> inputs = input_files(a.settings);
-  inputs.insert(inputs.end(), {a.list, a.groups});
-  for (const VariantFiles& file : files) inputs.insert(inputs.end(), {file.structure, file.map});
-  check_outputs(inputs, output_paths(a.run));
+  a.run.read_files = input_files(options.input);
+  a.run.read_files.insert(a.run.read_files.end(), {a.list, a.groups});
+  if (std::filesystem::exists(a.template_text)) a.run.read_files.push_back(a.template_text);
+  for (const VariantFiles& file : files) a.run.read_files.insert(a.run.read_files.end(), {file.structure, file.map});
+  a.run.through_template = !a.template_text.empty();
+  check_matrix_files(a.run, {});
   const std::unique_ptr<Engine> engine = make_engine(a.device);
   const States states = read_states(a, files, options, *context.progress);
   a.run.potential = states.plan.computes() ? states.plan.in_words() : "maps";
@@ -211,12 +215,7 @@ Verb add_matrix(CLI::App& app) {
   parser->footer(
       "Writes OUT.csv (a row for each ordered pair) and OUT.json (matrices, groups, clusters); `espdiff plot` draws "
       "them.\nA list is a table of comma-separated values whose first row names its columns: structure, and optionally "
-      "model, map,\nunit (of the map), label, group. Paths are relative to the list.\n\nExamples:\n"
-      "  espdiff matrix m*.pqr -o ubiquitin\n"
-      "  espdiff matrix --list variants.csv -o variants --resume\n"
-      "  espdiff matrix m*.pqr --template medoid -o ubiquitin\n"
-      "  espdiff matrix m*.pqr --shard 2/8 -o part      # one of eight processes; then: espdiff merge part.*.state -o "
-      "all");
+      "model, map,\nunit (of the map), label, group. Paths are relative to the list.");
   parser->add_option("VARIANT", a->files, "Structures: PQR, PDB or mmCIF; each model of a file is a variant");
   parser->add_option("-o,--output", a->run.output, "Prefix of the results")->required();
   parser->add_option("--list", a->list, "Table of the variants, instead of files")->group("Molecules");
@@ -232,6 +231,13 @@ Verb add_matrix(CLI::App& app) {
   add_settings(*parser, a->settings, SettingsFor::kVariants);
   add_device_options(*parser, a->device);
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
+  set_help(
+      *parser,
+      {"--output --list --resume --overwrite --template --shard --cluster-by --select --potential --region --patch "
+       "--offset --threads --quiet",
+       {"espdiff matrix m*.pqr -o ubiquitin",
+        "espdiff matrix --list variants.csv --template medoid -o variants --resume",
+        "espdiff matrix m*.pqr --shard 2/8 -o part      # one of eight; then: espdiff merge part.*.state -o all"}});
   return {parser, [a](const Context& context) { return matrix_verb(*a, context); }};
 }
 

@@ -1,6 +1,7 @@
 // merge.cpp: `espdiff merge PART.state... -o OUT`.
 #include <iostream>
 
+#include "cli/help.h"
 #include "cli/verbs.h"
 #ifdef ESPDIFF_HAVE_HDF5
 #include "ensemble/ensemble_file.h"
@@ -61,14 +62,14 @@ Verb add_merge(CLI::App& app) {
   CLI::App* parser = app.add_subcommand("merge", "Merge the parts of a matrix or an ensemble");
   parser->footer(
       "The parts are the state files of `espdiff matrix --shard I/N` (with --template the HDF5 files too), or the HDF5 "
-      "files of `espdiff ensemble --shard I/N`. The results are those of one process, byte by byte.\n\n"
-      "Example:\n  espdiff merge part.shard-*-of-8.state -o all");
+      "files of `espdiff ensemble --shard I/N`. The results are those of one process, byte by byte.");
   parser->add_option("STATE", a->states, "State files, or HDF5 files, of all parts")->required();
   parser->add_option("-o,--output", a->run.output, "Prefix of the results: OUT.csv and OUT.json, or OUT.h5")
       ->required();
   parser->add_option("--cluster-by", a->run.cluster_by, "Metric for clustering, as in `espdiff matrix`");
   parser->add_flag("--overwrite", a->run.overwrite, "Replace results that exist");
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
+  set_help(*parser, {"", {"espdiff merge part.shard-*-of-8.state -o all"}});
   return {parser, [a](const Context& context) { return merge_verb(*a, context); }};
 }
 

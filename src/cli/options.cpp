@@ -3,17 +3,16 @@
 #include "engine/engine.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "base/error.h"
 #include "cli/spelling.h"
-#include "compare/input_settings.h"
 #include "compare/options.h"
 #include "engine/select_engine.h"
 #include "io/read_grid.h"
 #include "io/text_cursor.h"
 #include "io/write_csv.h"
-#include "prepare/read_earlier_patch.h"
 
 namespace espdiff::cli {
 namespace {
@@ -94,6 +93,12 @@ void add_plugins_option(CLI::App& parser, std::string& folder, const std::string
 
 namespace {
 
+/// "Do not reuse the cache" of "Reuse the cache".
+std::string negated(std::string help) {
+  help[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(help[0])));
+  return "Do not " + help;
+}
+
 /// Refuses an old name with the new one. Help does not list it.
 void refuse_earlier_names(CLI::App& parser) {
   for (const RenamedSetting& renamed : renamed_settings()) {
@@ -118,18 +123,6 @@ bool has_setting(const Setting& setting, SettingsFor what) {
 
 }  // namespace
 
-std::vector<std::string> input_files(const GivenSettings& given) {
-  std::vector<std::string> files;
-  for (const auto& [name, text] : given) {
-    if (find_setting(name).is_file) files.push_back(text);
-    if (!find_setting(name).is_named) continue;
-    for (const PatchRequest& patch : parse_patches(text)) {
-      if (const auto earlier = earlier_patch_name(patch.selection)) files.push_back(earlier->path);
-    }
-  }
-  return files;
-}
-
 void add_settings(CLI::App& parser, GivenSettings& given, SettingsFor what) {
   if (what != SettingsFor::kSurface && what != SettingsFor::kPreparation) refuse_earlier_names(parser);
   const CompareOptions defaults;
@@ -141,7 +134,7 @@ void add_settings(CLI::App& parser, GivenSettings& given, SettingsFor what) {
       parser
           .add_flag_callback((on ? "--no-" : "--") + name,
                              [&given, name, on] { given.emplace_back(name, on ? "0" : "1"); },
-                             (on ? "Not: " : "") + setting.help)
+                             on ? negated(setting.help) : setting.help)
           ->group(setting.group);
       continue;
     }

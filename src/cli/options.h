@@ -44,8 +44,6 @@ enum class SettingsFor {
 };
 /// Adds settings as options `--name`; a boolean one as a flag, `--no-name` if it is on by default.
 void add_settings(CLI::App& parser, GivenSettings& given, SettingsFor what);
-/// Files that settings name, such as topologies, for check_outputs().
-std::vector<std::string> input_files(const GivenSettings& given);
 
 /// Adds every option of computed potentials, for make_potential_options().
 /// @param of_maps by the names of `espdiff potential`: `--grid` as PMEPot has it, not `--pme-grid`

@@ -4,11 +4,14 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "base/formatted.h"
+#include "cli/help.h"
 #include "cli/verbs.h"
 #include "io/check_outputs.h"
 #include "io/read_csv.h"
 #include "io/text_cursor.h"
 #include "matrix/read_matrix.h"
+#include "plot/cause_plot.h"
 #include "plot/heat_map.h"
 #include "plot/line_plot.h"
 #include "report/metrics.h"
@@ -174,6 +177,47 @@ LinePlot along_table(const PlotArguments& a, const CsvTable& table) {
   return plot;
 }
 
+/// Whether it is the OUT.causes.csv of a comparison.
+bool is_cause_table(const CsvTable& table) { return table.find("reading") == 0 && table.find("poorly_known") > 0; }
+
+/// A panel for each reading, with its largest contributions.
+std::vector<CausePanel> cause_panels(const CsvTable& table) {
+  constexpr std::size_t kMostBars = 12;
+  std::size_t difference = 0;
+  std::string unit;
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    const std::string& name = table.columns[c];
+    const std::string start = "difference [";
+    if (name.compare(0, start.size(), start) != 0) continue;
+    difference = c;
+    unit = name.substr(start.size(), name.size() - start.size() - 1);
+  }
+  if (difference == 0) throw FormatError(table.path, 0, "there is no column 'difference [UNIT]'");
+  const std::size_t chain = table.require("chain"), number = table.require("residue_number"),
+                    name = table.require("residue_name"), kind = table.require("kind"),
+                    uncertain = table.require("poorly_known");
+  std::vector<CausePanel> panels;
+  std::vector<double> sums;
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    const std::vector<std::string>& cells = table.rows[row];
+    if (panels.empty() || panels.back().title != cells[0]) {
+      panels.push_back({cells[0], unit, {}});
+      sums.push_back(0);
+    }
+    const double value = table.number(row, difference);
+    sums.back() += value;
+    if (panels.back().bars.size() == kMostBars) continue;
+    std::string words = cells[kind];
+    std::replace(words.begin(), words.end(), '_', ' ');
+    const std::string residue = cells[name] + (cells[number].empty() ? "" : " " + cells[number]) +
+                                (cells[chain].empty() ? "" : " " + cells[chain]);
+    panels.back().bars.push_back({residue + ", " + words, value, cells[uncertain] == "1"});
+  }
+  for (std::size_t i = 0; i < panels.size(); ++i)
+    panels[i].title += ": " + formatted("%+.3g", sums[i]) + " " + unit + "; pale: place poorly known";
+  return panels;
+}
+
 int plot_verb(const PlotArguments& a, const Context&) {
   const PictureFormat format = picture_format(a.output);
   check_outputs({a.input}, {a.output});
@@ -190,6 +234,13 @@ int plot_verb(const PlotArguments& a, const Context&) {
     FrameMap map = residue_map(table);
     std::tie(map.low, map.high) = chosen_range(a);
     write_picture(a.output, frame_map_script(map, format));
+    return 0;
+  }
+  if (!is_json && is_cause_table(table)) {
+    if (a.normalize || !a.metrics.empty() || !a.x.empty() || !a.range.empty())
+      throw InputError("--normalize, --metric, --x and --range are of other tables, and " + a.input +
+                       " is one of causes");
+    write_picture(a.output, cause_plot_script(cause_panels(table), format));
     return 0;
   }
   if (!a.range.empty() || a.order != "given")
@@ -210,12 +261,10 @@ Verb add_plot(CLI::App& app) {
   parser->footer(
       "OUT.json of a matrix becomes a heat map, with --source a plot of one variant against all others; a CSV file, "
       "such as "
-      "a\ntrajectory's, becomes lines along its frames, and its table of residues a map, a row a residue. Drawn by "
-      "gnuplot; text stays text in an SVG.\n\nExamples:\n"
-      "  espdiff plot ubiquitin.json --order dendrogram -o map.svg\n"
-      "  espdiff plot ubiquitin.json --source m00 --metric mean_abs_difference --metric rmsd_A --normalize -o m00.png\n"
-      "  espdiff plot adk.csv --metric mean_displacement_A --metric rmsd_A -o adk.svg\n"
-      "  espdiff plot adk.residues.csv -o residues.png");
+      "a
+trajectory's, becomes lines along its frames, and its table of residues a map, a row a residue. A "
+      "comparison's OUT.causes.csv becomes bars.
+Drawn by gnuplot; text stays text in an SVG.");
   parser->add_option("FILE", a->input, "OUT.json of a matrix, or a CSV file")->required();
   parser->add_option("-o,--output", a->output, "Picture to write (.png or .svg)")->required();
   parser->add_option("--metric", a->metrics,
@@ -236,6 +285,11 @@ Verb add_plot(CLI::App& app) {
       ->group("Lines");
   parser->add_option("--x", a->x, "Column of a CSV file that is the x axis (frame)")->group("Lines");
   parser->add_flag("--no-marks", a->no_marks, "Do not mark results that are not trustworthy");
+  set_help(*parser, {"",
+                     {"espdiff plot ubiquitin.json --order dendrogram -o map.svg",
+                      "espdiff plot ubiquitin.json --source m00 --metric mean_abs_difference --normalize -o m00.png",
+                      "espdiff plot adk.csv --metric mean_displacement_A --metric rmsd_A -o adk.svg",
+                      "espdiff plot adk.residues.csv -o residues.png", "espdiff plot ldh.causes.csv -o causes.svg"}});
   return {parser, [a](const Context& context) { return plot_verb(*a, context); }};
 }
 

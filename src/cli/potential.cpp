@@ -7,6 +7,8 @@
 
 #include "align/pair_atoms.h"
 #include "base/formatted.h"
+#include "base/water.h"
+#include "cli/help.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
 #include "compare/options.h"
@@ -19,6 +21,7 @@
 #include "potential/potential.h"
 #include "potential/potential_plan.h"
 #include "potential/potential_series.h"
+#include "prepare/input_files.h"
 #include "prepare/load_state.h"
 #include "report/preparation_json.h"
 #include "trajectory/frame_range.h"
@@ -35,7 +38,7 @@ struct PotentialArguments {
   std::size_t frames_per_block = 1;
   bool quiet = false;
   GivenSettings settings;
-  StructureOptions structure{1, true, true};  ///< Poisson-Boltzmann leaves water out
+  StructureOptions structure{1, true, true};
   DeviceArguments device;
 };
 
@@ -122,7 +125,7 @@ class Outputs {
     for (const std::string* path : {&a.variance, &a.standard_error}) {
       if (!path->empty()) paths.push_back(*path);
     }
-    std::vector<std::string> inputs = input_files(a.settings);
+    std::vector<std::string> inputs = input_files(make_options(a.settings).input);
     inputs.insert(inputs.end(), {a.molecule, a.xsc_file});
     check_outputs(inputs, paths);
     for (const std::string& path : paths) open(path);
@@ -152,7 +155,12 @@ class Outputs {
   std::vector<std::unique_ptr<AtomicFile>> files_;
 };
 
-void print_summary(const Molecule& molecule, const Grid& map, std::size_t n_frames, double ms) {
+std::size_t count_waters(const Molecule& molecule) {
+  return static_cast<std::size_t>(std::count_if(molecule.residues.begin(), molecule.residues.end(),
+                                                [](const Residue& residue) { return is_water_name(residue.name); }));
+}
+
+void print_summary(const Molecule& molecule, const Grid& map, std::size_t n_frames, bool in_continuum, double ms) {
   double charge = 0, least = 0, most = 0;
   for (const float q : molecule.charges) charge += static_cast<double>(q);
   for (const float v : map.values) {
@@ -163,6 +171,11 @@ void print_summary(const Molecule& molecule, const Grid& map, std::size_t n_fram
   std::cout << formatted("potential      %d x %d x %d points, %.3f to %.3f kT/e\n", size[0], size[1], size[2], least,
                          most);
   std::cout << formatted("charge         %.4f e in %zu atoms\n", charge, molecule.size());
+  // In a dielectric continuum explicit water is solute, which few mean.
+  const std::size_t n_waters = count_waters(molecule);
+  if (in_continuum && n_waters > 0)
+    std::cout << formatted("water          %zu molecules are part of the solute (--no-water leaves them out)\n",
+                           n_waters);
   std::cout << formatted("frames         %zu\n", n_frames);
   std::cout << formatted("time           %.0f ms\n", ms);
 }
@@ -171,9 +184,7 @@ void print_summary(const Molecule& molecule, const Grid& map, std::size_t n_fram
 class Frames {
  public:
   Frames(const PotentialArguments& a, const StructureFile& file, const Progress& progress)
-      : a_(a), options_(make_options(a.settings).input), file_(file), progress_(progress) {
-    if (a.method == "pb") structure_.include_water = false;
-  }
+      : a_(a), options_(make_options(a.settings).input), file_(file), progress_(progress) {}
 
   /// The first one is loaded as by `compare`, further ones like it.
   Molecule read(int frame) {
@@ -211,24 +222,23 @@ int potential_verb(const PotentialArguments& a, const Context& context) {
                      std::to_string(frames.size()));
   const std::unique_ptr<Engine> engine = make_engine(a.device);
   PotentialSeries series(*engine, options);
-  std::unique_ptr<Outputs> outputs;
+  Outputs outputs(a, frames);
   Frames states(a, file, *context.progress);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const Molecule molecule = states.read(frames[i]);
     require_charges(molecule);
-    if (!outputs) outputs = std::make_unique<Outputs>(a, frames);
     // A crystal's cell is no cell of a molecule without its water.
     const auto cell = states.preparation() ? std::nullopt : file.unit_cell(frames[i] + 1);
-    outputs->write_frame(i, series.step(molecule, cell, *context.progress));
+    outputs.write_frame(i, series.step(molecule, cell, *context.progress));
     context.progress->report("frames", static_cast<double>(i + 1) / static_cast<double>(frames.size()));
   }
   context.progress->report("write", 0.0);
-  outputs->finish(a, series.average());
+  outputs.finish(a, series.average());
   context.progress->report("write", 1.0);
   const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   if (a.quiet) return 0;
   if (states.preparation()) print_preparation(std::cout, *states.preparation());
-  print_summary(states.first(), series.average().mean(), frames.size(), ms);
+  print_summary(states.first(), series.average().mean(), frames.size(), a.method == "pb", ms);
   return 0;
 }
 
@@ -238,11 +248,7 @@ Verb add_potential(CLI::App& app) {
   auto a = std::make_shared<PotentialArguments>();
   CLI::App* parser =
       app.add_subcommand("potential", "Compute the electrostatic potential around a molecule, or its mean over frames");
-  parser->footer(
-      "Options shared with PMEPot have its names and meanings.\n\nExamples:\n"
-      "  espdiff potential protein.pqr -o protein.dx\n"
-      "  espdiff potential entry.pdb --select '//A;polymer' --method pb -o entry.dx\n"
-      "  espdiff potential frames.pqr --align ca --variance variance.dx -o mean.dx");
+  parser->footer("Options shared with PMEPot have its names and meanings.");
   parser
       ->add_option("MOLECULE", a->molecule,
                    "Structure: PQR, or PDB and mmCIF, which PDB2PQR gives charges; several models are frames")
@@ -259,6 +265,11 @@ Verb add_potential(CLI::App& app) {
       ->group("Molecules");
   add_device_options(*parser, a->device);
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
+  set_help(
+      *parser,
+      {"--output --method --select --ph --ligand --ionic-strength --pb-spacing --align --variance --threads --quiet",
+       {"espdiff potential entry.pdb --select '//A;polymer' --method pb -o entry.dx",
+        "espdiff potential frames.pqr --align ca --variance variance.dx -o mean.dx"}});
   return {parser, [a](const Context& context) { return potential_verb(*a, context); }};
 }
 

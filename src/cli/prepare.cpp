@@ -5,6 +5,7 @@
 #include "align/compared_chains.h"
 #include "base/formatted.h"
 #include "base/version.h"
+#include "cli/help.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
 #include "compare/options.h"
@@ -13,6 +14,7 @@
 #include "io/read_structure.h"
 #include "io/structure_file.h"
 #include "io/write_pqr.h"
+#include "prepare/input_files.h"
 #include "prepare/load_state.h"
 #include "report/preparation_json.h"
 
@@ -65,7 +67,7 @@ void print_summary(const PrepareArguments& a, const LoadedState& state) {
 int prepare_verb(PrepareArguments& a, const Context& context) {
   const CompareOptions options = make_options(a.settings);
   if (a.json.empty()) a.json = json_beside(a.output);
-  std::vector<std::string> inputs = input_files(a.settings);
+  std::vector<std::string> inputs = input_files(options.input);
   inputs.push_back(a.input);
   check_outputs(inputs, {a.output, a.json});
   AtomicFile pqr(a.output), json(a.json);
@@ -90,9 +92,6 @@ Verb add_prepare(CLI::App& app) {
   parser->footer(
       "Runs PDB2PQR (Debian: pdb2pqr) with PROPKA. The verbs that compare do the same for structures without "
       "charges.\n\n"
-      "Examples:\n"
-      "  espdiff prepare 1ake.pdb --select '//A;polymer' -o 1ake_a.pqr\n"
-      "  espdiff prepare complex.pdb --ligand drug.mol2 --ph 6.5 -o complex.pqr\n\n"
       "Writes OUT.pqr, and OUT.json with what was added, repaired and protonated.");
   parser->add_option("IN", a->input, "Structure: PDB, mmCIF or PQR")->required();
   parser->add_option("-o,--output", a->output, "PQR file to write")->required();
@@ -104,6 +103,9 @@ Verb add_prepare(CLI::App& app) {
   add_structure_options(*parser, a->structure);
   add_settings(*parser, a->settings, SettingsFor::kPreparation);
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
+  set_help(*parser, {"",
+                     {"espdiff prepare 1ake.pdb --select '//A;polymer' -o 1ake_a.pqr",
+                      "espdiff prepare complex.pdb --ligand drug.mol2 --ph 6.5 -o complex.pqr"}});
   return {parser, [a](const Context& context) { return prepare_verb(*a, context); }};
 }
 

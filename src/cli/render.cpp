@@ -1,4 +1,6 @@
 // render.cpp: `espdiff render OUT.vtp -o OUT.png`.
+#include "cli/help.h"
+#include "cli/output_prefix.h"
 #include "cli/verbs.h"
 #include "io/atomic_file.h"
 #if defined(ESPDIFF_HAVE_VTK)
@@ -36,14 +38,17 @@ int render_verb(RenderArguments& a, const Context& context) {
 Verb add_render(CLI::App& app) {
   auto a = std::make_shared<RenderArguments>();
   CLI::App* parser = app.add_subcommand("render", "Draw a comparison to a PNG");
-  parser->footer(
-      "Needs an X display; without one: xvfb-run -a espdiff render ...\n\nExamples:\n  espdiff render result.vtp -o "
-      "result.png --title 'mutant - wild type'\n  espdiff render result.vtp -o linked.png --layout linked --molecule "
-      "cartoon");
-  parser->add_option("SURFACE", a->input, "OUT.vtp of compare; OUT.json must be beside it")->required();
+  parser->footer("Needs an X display; without one: xvfb-run -a espdiff render ...");
+  parser->add_option("SURFACE", a->input, "A result of compare: its prefix OUT, OUT.vtp or OUT.json")->required();
   parser->add_option("-o,--output", a->output, "Picture to write (.png)")->required();
   add_scene_options(*parser, a->scene);
-  return {parser, [a](const Context& context) { return render_verb(*a, context); }};
+  set_help(*parser, {"",
+                     {"espdiff render result.vtp -o result.png --title 'mutant - wild type'",
+                      "espdiff render result.vtp -o linked.png --layout linked --molecule cartoon"}});
+  return {parser, [a](const Context& context) {
+            a->input = surface_of_result(a->input);
+            return render_verb(*a, context);
+          }};
 }
 
 #else

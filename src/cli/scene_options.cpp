@@ -51,7 +51,7 @@ void add_colour_options(CLI::App& p, SceneArguments& a) {
   add<Text>(p, a, "--range",
             "End of the colour scale, for signed values both ends, or LOW:HIGH; 0: by --percentile [0]", set_range)
       ->type_name("NUMBER");
-  add<Number>(p, a, "--percentile", "Percentage of the values that an automatic scale covers, 50 to 100 [98]",
+  add<Number>(p, a, "--percentile", "Percentage of the values that an automatic scale covers, 50 to 100 [90]",
               [](Scene& s, Number v) { s.range.percentile = v; });
   add<Text>(p, a, "--colours,--colors", "Colour map of signed values [red-blue]", [](Scene& s, const Text& t) {
     s.colours = t;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/formatted.h"
+#include "cli/help.h"
 #include "cli/map_options.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
@@ -17,6 +18,7 @@
 #include "io/check_outputs.h"
 #include "io/structure_file.h"
 #include "io/write_grid.h"
+#include "prepare/input_files.h"
 #include "prepare/load_state.h"
 #include "prepare/surface_radii.h"
 #include "report/preparation_json.h"
@@ -66,6 +68,9 @@ void print_summary(const SurfaceResult& result) {
                            static_cast<double>(most), to_string(result.unit).c_str(), result.is_vacuum ? kInVacuum : "",
                            result.potential_label.empty() ? "" : (", " + result.potential_label).c_str());
   }
+  if (result.outside_map > 0)
+    std::cout << formatted("outside map    %.1f %% of the vertices have no potential, since the map ends before them\n",
+                           100 * result.outside_map);
   for (const auto& [stage, ms] : result.time_ms) {
     if (stage == "total") std::cout << formatted("time           %.0f ms\n", ms);
   }
@@ -73,7 +78,7 @@ void print_summary(const SurfaceResult& result) {
 
 int surface_verb(const SurfaceArguments& a, const Context& context) {
   const CompareOptions options = make_options(a.settings);
-  std::vector<std::string> inputs = input_files(a.settings);
+  std::vector<std::string> inputs = input_files(options.input);
   inputs.insert(inputs.end(), {a.molecule, a.map});
   check_outputs(inputs, {a.output, a.density});
   // Outputs that cannot be written are better found before the work than after it.
@@ -117,9 +122,6 @@ Verb add_surface(CLI::App& app) {
   CLI::App* parser =
       app.add_subcommand("surface", "Write a molecule's surface, with its potential if one is given or asked for");
   parser->footer(
-      "Examples:\n"
-      "  espdiff surface protein.pqr --map protein.dx --regularize -o surface.vtp\n"
-      "  espdiff surface entry.pdb --select '//A;polymer' --potential pb -o surface.vtp\n\n"
       "A structure without charges is prepared by PDB2PQR where a potential is asked for, as by `espdiff compare`.");
   parser->add_option("MOLECULE", a->molecule, "Structure: PQR, PDB or mmCIF")->required();
   parser->add_option("-o,--output", a->output, "Surface to write (.vtp)")->required();
@@ -138,6 +140,9 @@ Verb add_surface(CLI::App& app) {
   add_structure_options(*parser, a->structure);
   add_settings(*parser, a->settings, SettingsFor::kSurface);
   add_device_options(*parser, a->device);
+  set_help(*parser, {"--output --map --potential --select --ph --ligand --grid-spacing --regularize --threads",
+                     {"espdiff surface protein.pqr --map protein.dx --regularize -o surface.vtp",
+                      "espdiff surface entry.pdb --select '//A;polymer' --potential pb -o surface.vtp"}});
   return {parser, [a](const Context& context) { return surface_verb(*a, context); }};
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/formatted.h"
 #include "base/printable.h"
+#include "cli/help.h"
 #include "cli/trajectory_sides.h"
 #include "cli/verbs.h"
 #include "compare/input_settings.h"
@@ -16,6 +17,7 @@
 #include "engine/engine.h"
 #include "io/check_outputs.h"
 #include "io/molfile_plugins.h"
+#include "prepare/input_files.h"
 #include "report/residue_values.h"
 #include "trajectory/frame_range.h"
 #include "trajectory/series_head.h"
@@ -96,6 +98,7 @@ SeriesHead head_of(const TrajectoryArguments& a, const TrajectoryPlan& plan, con
   run.files = a.targets;
   run.structure = a.structure;
   run.frames = plan.frames;
+  run.frames_of = a.frames_of;
   run.reference = plan.reference;
   run.reference_files = a.source_frames;
   run.start = plan.start;
@@ -116,19 +119,19 @@ int trajectory_verb(const TrajectoryArguments& a, const Context& context) {
     throw InputError(std::string(a.source_frames.empty() ? "--frames-of" : "--source-frames") +
                      " and --reference previous exclude each other" +
                      (a.source_frames.empty() ? "; give the frames' own structure as SOURCE" : ""));
-  std::vector<std::string> inputs = input_files(a.settings);
+  TrajectoryPlan plan;
+  plan.options = make_options(a.settings);
+  std::vector<std::string> inputs = input_files(plan.options.input);
   inputs.insert(inputs.end(), a.targets.begin(), a.targets.end());
   inputs.insert(inputs.end(), a.source_frames.begin(), a.source_frames.end());
   inputs.insert(inputs.end(), {a.source, a.frames_of, a.maps.source_map, a.maps.target_map});
   check_outputs(inputs, {a.output, a.output + ".state", a.residues});
   const auto begun = std::chrono::steady_clock::now();
-  TrajectoryPlan plan;
-  plan.options = make_options(a.settings);
   context.progress->report("read", 0.0);
   TrajectorySides sides(a, plan.options, *context.progress);
   plan.against = reference_of(a);
   plan.reference = reference_words(a);
-  plan.frames = parse_frames(a.frames, {sides.n_frames()});
+  plan.frames = parse_frames(a.frames, sides.frames());
   plan.start = parse_start(a.start, plan.options);
   plan.skip_errors = a.on_error == "skip";
   plan.parts = part_names(plan.options.input);
@@ -168,11 +171,7 @@ Verb add_trajectory(CLI::App& app) {
       "(PDB, mmCIF) take those of a PQR source, whose atoms must be theirs, one to one. The source's surface and\n"
       "potential are computed once. An interrupted run can be resumed; OUT.csv.state holds its last mapping "
       "meanwhile.\n"
-      "The columns are explained in docs/tcl.md, Trajectories.\n\n"
-      "Examples:\n"
-      "  espdiff trajectory closed.pqr frames.pdb -o motion.csv\n"
-      "  espdiff trajectory closed.pqr frames.pdb --potential pb --frames 0:10:end -o motion.csv --resume\n"
-      "  espdiff trajectory adk.psf adk.dcd --frames 0:10:end -o motion.csv");
+      "The columns are explained in docs/tcl.md, Trajectories.");
   parser
       ->add_option("SOURCE", a->source, "Structure that each frame is compared with: PQR, PDB or mmCIF; or a topology")
       ->required();
@@ -184,6 +183,10 @@ Verb add_trajectory(CLI::App& app) {
   add_settings(*parser, a->settings, SettingsFor::kPair);
   add_device_options(*parser, a->device);
   parser->add_flag("-q,--quiet", a->quiet, "Print nothing");
+  set_help(*parser, {"--output --frames --resume --overwrite --select --potential --region --patch --offset --align "
+                     "--domains --plugins --threads --quiet",
+                     {"espdiff trajectory closed.pqr frames.pdb -o motion.csv",
+                      "espdiff trajectory adk.psf adk.dcd --potential pb --frames 0:10:end -o motion.csv --resume"}});
   return {parser, [a](const Context& context) { return trajectory_verb(*a, context); }};
 }
 

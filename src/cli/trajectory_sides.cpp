@@ -107,12 +107,17 @@ void TrajectorySides::open_targets(const Progress& progress) {
   if (reference_ != Reference::kSame || a_.frames != "all" || first_.n_frames() == second_->n_frames()) return;
   throw InputError("the trajectories have " + std::to_string(first_.n_frames()) + " and " +
                    std::to_string(second_->n_frames()) +
-                   " frames; choose those of both: " + option("frames", "0:" + std::to_string(n_frames() - 1)));
+                   " frames; choose those of both: " + option("frames", "0:" + std::to_string(frames().n_frames - 1)));
 }
 
-int TrajectorySides::n_frames() const {
-  const int n = targets().n_frames();
-  return reference_ == Reference::kSame ? std::min(n, first_.n_frames()) : n;
+FrameSet TrajectorySides::frames() const {
+  FrameSet set;
+  set.n_frames = targets().n_frames();
+  set.incomplete = targets().incomplete();
+  if (reference_ != Reference::kSame) return set;
+  set.n_frames = std::min(set.n_frames, first_.n_frames());
+  if (set.incomplete.empty()) set.incomplete = first_.incomplete();
+  return set;
 }
 
 StepInput TrajectorySides::step(const TrajectoryStep& step) {

@@ -11,6 +11,7 @@
 #include "cli/options.h"
 #include "prepare/load_state.h"
 #include "trajectory/frame_files.h"
+#include "trajectory/frame_range.h"
 #include "trajectory/trajectory.h"
 
 namespace espdiff::cli {
@@ -48,6 +49,7 @@ class MovingState {
   /// The files that the state is from.
   const std::vector<InputFile>& inputs() const { return inputs_; }
   int n_frames() const { return frames_->n_frames(); }
+  const std::string& incomplete() const { return frames_->incomplete(); }
   /// @throws as load_frame_state()
   LoadedState read(int number, StateRole role, const PotentialPlan& potential);
 
@@ -73,7 +75,7 @@ class TrajectorySides {
   TrajectorySides(const TrajectoryArguments& a, const CompareOptions& options, const Progress& progress);
 
   /// Frames that have a source.
-  int n_frames() const;
+  FrameSet frames() const;
   /// What all rows depend on.
   const std::vector<InputFile>& inputs() const { return inputs_; }
   /// The computed potential in words; empty for none.

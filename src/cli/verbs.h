@@ -38,8 +38,11 @@ Verb add_plot(CLI::App& app);
 Verb add_potential(CLI::App& app);
 Verb add_prepare(CLI::App& app);
 Verb add_render(CLI::App& app);
+Verb add_report(CLI::App& app);
 Verb add_view(CLI::App& app);
 Verb add_verify(CLI::App& app);
 Verb add_doctor(CLI::App& app);
+Verb add_completion(CLI::App& app);
+Verb add_man(CLI::App& app);
 
 }  // namespace espdiff::cli

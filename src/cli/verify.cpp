@@ -1,6 +1,7 @@
 // verify.cpp: `espdiff verify OUT`.
 #include "base/error.h"
 #include "base/formatted.h"
+#include "cli/help.h"
 #include "cli/verbs.h"
 #if defined(ESPDIFF_HAVE_VTK)
 #include <iostream>
@@ -37,10 +38,9 @@ int verify_verb(const std::string& prefix) {
 Verb add_verify(CLI::App& app) {
   auto prefix = std::make_shared<std::string>();
   CLI::App* parser = app.add_subcommand("verify", "Recompute a result from its files by other code");
-  parser->footer(
-      "Exit status 1 if a number differs.\n\nExample:\n  espdiff compare a.pqr b.pqr -o result && espdiff verify "
-      "result");
+  parser->footer("Exit status 1 if a number differs.");
   parser->add_option("OUT", *prefix, "Prefix of OUT.json and OUT.vtp; the inputs must be where they were")->required();
+  set_help(*parser, {"", {"espdiff compare a.pqr b.pqr -o result && espdiff verify result"}});
   return {parser, [prefix](const Context&) { return verify_verb(*prefix); }};
 }
 

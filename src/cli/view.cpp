@@ -1,5 +1,7 @@
 // view.cpp: `espdiff view OUT.vtp`: the window.
 #include "base/error.h"
+#include "cli/help.h"
+#include "cli/output_prefix.h"
 #include "cli/verbs.h"
 #include "io/atomic_file.h"
 #if defined(ESPDIFF_HAVE_VTK)
@@ -37,7 +39,8 @@ std::string footer() {
   for (const ViewerKey& key : viewer_keys()) {
     text += "  " + key.keys + std::string(key.keys.size() < 14 ? 14 - key.keys.size() : 1, ' ') + key.help + "\n";
   }
-  return text + "\nExample:\n  espdiff view result.vtp --layout linked";
+  text.pop_back();
+  return text;
 }
 
 }  // namespace
@@ -46,11 +49,15 @@ Verb add_view(CLI::App& app) {
   auto a = std::make_shared<ViewArguments>();
   CLI::App* parser = app.add_subcommand("view", "Show a comparison in a window");
   parser->footer(footer());
-  parser->add_option("SURFACE", a->input, "OUT.vtp of compare; OUT.json must be beside it")->required();
+  parser->add_option("SURFACE", a->input, "A result of compare: its prefix OUT, OUT.vtp or OUT.json")->required();
   parser->add_option("-o,--output", a->prefix,
                      "Pictures and scenes are saved as PREFIX.png and PREFIX.json [OUT-view]");
   add_scene_options(*parser, a->scene);
-  return {parser, [a](const Context& context) { return view_verb(*a, context); }};
+  set_help(*parser, {"", {"espdiff view result.vtp --layout linked"}});
+  return {parser, [a](const Context& context) {
+            a->input = surface_of_result(a->input);
+            return view_verb(*a, context);
+          }};
 }
 
 #else

@@ -114,7 +114,8 @@ SurfaceResult make_surface(Engine& engine, const CompareInput& input, const Comp
       result.is_vacuum = is_vacuum(made.recipe);
     }
     result.potential = engine.download(engine.sample(made.map, surface.mesh));
-    count_outside(input, result.potential);
+    result.outside_map =
+        static_cast<double>(count_outside(input, result.potential)) / static_cast<double>(result.potential.size());
   }
   clock.lap("attributes");
   clock.finish();

@@ -2,9 +2,12 @@
 #include "compare/certificate.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "base/formatted.h"
+#include "base/residue_label.h"
+#include "compare/own_potentials.h"
 #include "compare/short_numbers.h"
 #include "compare/slip.h"
 #include "engine/engine.h"
@@ -18,8 +21,8 @@ struct Limits {
   static constexpr double kFlippedArea = 0.0;
   static constexpr double kMeanDistance_A = 0.05;
   static constexpr double kRoundTrip_A = 0.1;
-  static constexpr double kMaxUnmatchedSource = 0.05;
-  static constexpr double kMaxUnmatchedTarget = 0.1;  ///< new surface on the target is no fault of the mapping
+  /// Of either surface: what only one state has is new in one direction and lost in the other.
+  static constexpr double kMaxUnmatched = 0.1;
   static constexpr std::size_t kSelfIntersectingPairs = 0;
   static constexpr double kMaxOutsideMaps = 0.05;
   static constexpr double kResidueCorrelation = 0.9;
@@ -36,6 +39,18 @@ std::string intersecting_pairs(std::size_t n) {
 bool disagrees(const std::optional<ResidueCheck>& check) {
   return check && check->correlation < Limits::kResidueCorrelation &&
          check->rms_error > Limits::kResidueNoise * check->rms_potential;
+}
+
+/// "; most by ASN 248 of chain B (6.5 kT/e)"
+std::string most_disagreeing_residues(const CompareResult& result, const Molecule& source) {
+  constexpr std::size_t kMostNamed = 3;
+  std::string names;
+  const std::vector<const ResidueRow*> rows = most_disagreeing(result.residues);
+  for (std::size_t k = 0; k < std::min(kMostNamed, rows.size()); ++k)
+    names += (k == 0 ? "; most by " : ", ") + residue_label(source.residues[rows[k]->residue]) + " (" +
+             short_number(std::fabs(rows[k]->mean_signed_difference - rows[k]->own_difference)) + " " +
+             to_string(result.unit) + ")";
+  return names;
 }
 
 /// By the source's area, since removed triangles have no place on the target.
@@ -114,12 +129,15 @@ std::vector<Message> fit_reasons(const Certificate& c) {
   refuse(c.target_to_mapped.mean_within_limit > Limits::kMeanDistance_A,
          "the target lies " + angstrom(c.target_to_mapped.mean_within_limit) +
              " from the mapped surface on average (limit " + angstrom(Limits::kMeanDistance_A) + ")");
-  refuse(c.unmatched_source > Limits::kMaxUnmatchedSource, percent(c.unmatched_source) +
-                                                               " of the source's area is unmatched (limit " +
-                                                               percent(Limits::kMaxUnmatchedSource) + ")");
-  refuse(c.unmatched_target > Limits::kMaxUnmatchedTarget, percent(c.unmatched_target) +
-                                                               " of the target's area is unmatched (limit " +
-                                                               percent(Limits::kMaxUnmatchedTarget) + ")");
+  refuse(c.unmatched_source > Limits::kMaxUnmatched,
+         percent(c.unmatched_source) + " of the source's area is unmatched (limit " + percent(Limits::kMaxUnmatched) +
+             ")" +
+             (c.unmatched_target > Limits::kMaxUnmatched
+                  ? ""
+                  : "; exchange source and target: what closes on the way cannot be followed, what opens can"));
+  refuse(c.unmatched_target > Limits::kMaxUnmatched, percent(c.unmatched_target) +
+                                                         " of the target's area is unmatched (limit " +
+                                                         percent(Limits::kMaxUnmatched) + ")");
   return reasons;
 }
 
@@ -139,10 +157,12 @@ void judge(CompareResult& result, const Molecule& source) {
          "the round-trip error is " + angstrom(c.round_trip ? c.round_trip->mean_A : 0) + " on average (limit " +
              angstrom(Limits::kRoundTrip_A) + ")");
   refuse_all(slip_reasons(result, source));
-  refuse(disagrees(c.residues), "the differences by residue correlate by " +
-                                    formatted("%.2f", c.residues ? c.residues->correlation : 0) +
-                                    " with those of each residue's potentials on its own surfaces (limit " +
-                                    formatted("%.2f", Limits::kResidueCorrelation) + ")");
+  refuse(disagrees(c.residues),
+         "the differences by residue correlate by " +
+             number_beside(c.residues ? c.residues->correlation : 0, Limits::kResidueCorrelation, 2) +
+             " with those of each residue's potentials on its own surfaces (limit " +
+             formatted("%.2f", Limits::kResidueCorrelation) + ")" +
+             (disagrees(c.residues) ? most_disagreeing_residues(result, source) : ""));
   refuse(c.outside_maps > Limits::kMaxOutsideMaps, percent(c.outside_maps) +
                                                        " of the mapped area lies outside a map (limit " +
                                                        percent(Limits::kMaxOutsideMaps) + ")");

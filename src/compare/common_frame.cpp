@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "align/chain_motions.h"
 #include "align/pair_atoms.h"
 #include "align/rigid_domains.h"
 #include "align/superpose.h"
@@ -45,6 +46,7 @@ CommonFrame superposed(const Molecule& source, const Molecule& target, AlignAtom
 CommonFrame align(const Molecule& source, const Molecule& target, const CompareOptions& options,
                   CompareResult& result) {
   CommonFrame frame = superposed(source, target, options.align, result);
+  result.chain_motions = chain_motions(source, target, result.pairing);
   result.domains_used = options.domains == kLocalAsNeeded ? kNoDomains : options.domains;
   if (result.domains_used == kNoDomains) return frame;
   const auto pairs =

@@ -24,6 +24,7 @@
 #include "compare/local_motions.h"
 #include "compare/map_by_deform.h"
 #include "compare/map_by_morph.h"
+#include "compare/map_check.h"
 #include "compare/map_recipe.h"
 #include "compare/map_warnings.h"
 #include "compare/mapped_step.h"
@@ -32,11 +33,13 @@
 #include "compare/options.h"
 #include "compare/own_potentials.h"
 #include "compare/paired_residues.h"
+#include "compare/readings.h"
 #include "compare/residue_rows.h"
 #include "compare/result.h"
 #include "compare/round_trip.h"
 #include "compare/sample_outside.h"
 #include "compare/series.h"
+#include "compare/short_numbers.h"
 #include "compare/side_maps.h"
 #include "compare/slip.h"
 #include "engine/certificate_stage.h"
@@ -55,9 +58,11 @@ struct Series::Steps {
   Surface surface{};
   MeshPtr regularized{};
   DeformReport regularize_report{};
-  PotentialUnit unit = PotentialUnit::kUnknown;  ///< of the source's map
-  MadeMap source_map{};                          ///< made by the first step
-  std::optional<LastStep> last{};                ///< empty if the next step starts from the source
+  PotentialUnit unit = PotentialUnit::kUnknown;              ///< of the source's map
+  MadeMap source_map{};                                      ///< made by the first step
+  std::shared_ptr<const Molecule> target_charges{};          ///< of the step's computed map
+  std::shared_ptr<const MapReferences> source_references{};  ///< for the source's given map
+  std::optional<LastStep> last{};                            ///< empty if the next step starts from the source
   std::optional<SeriesState> restored{};
 
   void prepare(const RigidTransform& to_common, const Progress& progress, StageClock& clock) {
@@ -153,11 +158,13 @@ struct Series::Steps {
       unit = wanted;
     }
     if (source.make_map) result.source_recipe = std::make_shared<const MapRecipe>(source_map.recipe);
+    refuse_nonlinear(options, source_map.recipe);
     // An iteration may start from the source's potential, whatever steps were made before: the bits of a step do not
     // depend on them.
     const GridPtr before = source.make_map ? source_map.map : nullptr;
     MadeMap made = device_map(engine, target, inverse(frame.from_target), before, wanted, temperature_K, progress);
     if (target.make_map) result.target_recipe = std::make_shared<const MapRecipe>(std::move(made.recipe));
+    target_charges = std::move(made.charges);
     return made.map;
   }
 
@@ -179,16 +186,26 @@ struct Series::Steps {
     result.certificate.converged = options.method == Method::kMorph || result.deform_report.converged;
   }
 
-  /// [residue] the target's potentials on its own surface, at the first of the offsets.
-  std::vector<OwnPotential> own_of_target(const GridPtr& map, const Surface& target_surface,
-                                          const std::vector<std::int32_t>& source_of) const {
-    OutsideSamples samples = sample_outside(engine, map, target_surface.mesh, target_surface.atoms,
+  /// [residue] a molecule's potentials on its own surface, at the first of the offsets.
+  std::vector<OwnPotential> own_on(const Surface& side, const GridPtr& map,
+                                   const std::vector<std::int32_t>& partner_of) const {
+    OutsideSamples samples = sample_outside(engine, map, side.mesh, side.atoms,
                                             static_cast<float>(options.surface.isovalue), options.offsets_A.front());
     for (std::size_t v = 0; v < samples.values.size(); ++v) {
       if (samples.inside[v] != 0) samples.values[v] = std::numeric_limits<float>::quiet_NaN();
     }
-    return own_potentials(engine.download_shape(target_surface.mesh),
-                          engine.vertex_residues(target_surface.mesh, target_surface.atoms), samples.values, source_of);
+    return own_potentials(engine.download_shape(side.mesh), engine.vertex_residues(side.mesh, side.atoms),
+                          samples.values, partner_of);
+  }
+
+  /// How much the residues' potentials differ between two meshes of one surface, the source's: what the grids alone
+  /// make of no difference at all.
+  double noise_of_residues(const std::vector<OwnPotential>& own, const std::vector<std::int32_t>& target_of,
+                           std::vector<ResidueRow> rows) const {
+    std::vector<std::int32_t> itself(target_of.size());
+    for (std::size_t r = 0; r < itself.size(); ++r) itself[r] = target_of[r] < 0 ? -1 : static_cast<std::int32_t>(r);
+    set_own_differences(rows, own, own_on(surface, source_map.map, target_of), itself);
+    return rms_own_difference(rows);
   }
 
   /// Each residue's difference from its potentials on its own surfaces, and how the mapped differences agree.
@@ -205,9 +222,23 @@ struct Series::Steps {
     const std::vector<OwnPotential> own =
         own_potentials(engine.download_shape(mapping.source), s.residue, s.potential_source, target_of);
     const std::vector<std::int32_t> source_of = source_residues(target_of, target.molecule->residues.size());
-    set_own_differences(result.residues, own, own_of_target(target_map, target_surface, source_of), target_of);
+    set_own_differences(result.residues, own, own_on(target_surface, target_map, source_of), target_of);
     const ResidueCheck check = check_residues(result.residues, own);
-    if (check.n_residues >= kLeastComparedResidues)
+    bool applies = check.n_residues >= kLeastComparedResidues;
+    constexpr double kSureCorrelation = 0.9;
+    if (applies && !(check.correlation >= kSureCorrelation)) {
+      const double differences = rms_own_difference(result.residues),
+                   noise = noise_of_residues(own, target_of, result.residues);
+      constexpr double kNoiseFactor = 2;
+      applies = differences > kNoiseFactor * noise;
+      if (!applies)
+        result.warnings.push_back({"the residues' potentials differ by " + short_number(differences) + " " +
+                                       to_string(unit) + " (rms) between the states, and by " + short_number(noise) +
+                                       " between two meshes of the source's surface: their correlation is one of noise "
+                                       "with noise and was not judged",
+                                   false});
+    }
+    if (applies)
       result.certificate.residues = check;
     else
       result.certificate.not_checked.emplace_back("residues");
@@ -238,6 +269,12 @@ struct Series::Steps {
     judge(result, *source.molecule);
     for (const MeasuredPart& part : parts) finish_part(part, result, *source.molecule);
     clock.lap("metrics");
+    if (options.causes.empty()) return;
+    const PotentialSide of_source{source, source_map.map, surface.atoms},
+        of_target{target, target_map, target_surface.atoms};
+    find_causes(engine, {of_source, *source_map.charges}, {of_target, *target_charges}, options, parts, target_of, step,
+                progress);
+    clock.lap("causes");
   }
 
   /// Which chains and which protonation states were compared.
@@ -247,15 +284,43 @@ struct Series::Steps {
     result.chains = compared_chains(a, b, target_of);
     result.source_copies = repeated_chains(a);
     result.target_copies = repeated_chains(b);
+    for (Warning& warning : composition_warnings(a, b, source.parts.region, result))
+      result.warnings.push_back(std::move(warning));
     if (a.charges.empty() || b.charges.empty()) return;
     result.protonation = protonation_differences(a, b, target_of);
     if (!result.protonation.empty()) result.warnings.push_back({protonation_warning(result.protonation, a), false});
   }
 
-  void check_given_maps(const CompareInput& target, CompareResult& result) const {
-    bool checked = true;
-    for (Warning& warning : map_warnings(source, target, checked)) result.warnings.push_back(std::move(warning));
-    if (!checked) result.certificate.not_checked.emplace_back("maps_fit_molecules");
+  /// Given maps against the molecules, and the two potentials against each other.
+  void check_potentials(const CompareInput& target, const Surface& target_surface, const CommonFrame& frame,
+                        CompareResult& result, const Progress& progress) {
+    const auto references = [&](const CompareInput& side, const Surface& of_side, const RigidTransform& to_common) {
+      return std::make_shared<const MapReferences>(engine, *side.molecule, to_common, of_side,
+                                                   static_cast<float>(options.surface.isovalue), options.temperature_K,
+                                                   progress);
+    };
+    std::vector<Warning> warnings;
+    std::shared_ptr<const MapReferences> of_target;
+    const auto check = [&](const char* role, const CompareInput& side, const MapReferences& of_side,
+                           std::shared_ptr<const MapCheck>& outcome) {
+      for (Warning& warning : map_warnings(role, *side.map, of_side, options.temperature_K, outcome))
+        warnings.push_back(std::move(warning));
+      if (!outcome) result.certificate.not_checked.emplace_back(std::string("map_of_") + role);
+    };
+    if (source.map != nullptr) {
+      if (!source_references) source_references = references(source, surface, frame.from_source);
+      check("source", source, *source_references, result.source_map_check);
+    }
+    if (target.map != nullptr) {
+      of_target = references(target, target_surface, frame.from_target);
+      check("target", target, *of_target, result.target_map_check);
+    }
+    pair_warnings(source, target, source_references.get(), of_target.get(), result, warnings);
+    for (Warning& warning : kind_warnings(result)) warnings.push_back(std::move(warning));
+    for (Warning& warning : warnings) {
+      warning.refuses = warning.refuses && !options.trust_maps;
+      result.warnings.push_back(std::move(warning));
+    }
   }
 
   /// Maps the source onto the target once, and certifies the mapping.
@@ -286,7 +351,7 @@ struct Series::Steps {
 
   /// Whether a mapping that slips is tried again. Inputs that cannot be right, such as mirror images, are refused
   /// whatever the mapping, and their local motions are wild and slow to follow.
-  /// @param result with the warnings about the molecules, not those about maps, which play no part
+  /// @param result with the warnings about the molecules; those about maps, which play no part, come later
   bool may_map_again(const CompareResult& result) const {
     return options.domains == kLocalAsNeeded && options.method == Method::kMorph &&
            std::none_of(result.warnings.begin(), result.warnings.end(), [](const Warning& w) { return w.refuses; });
@@ -319,11 +384,11 @@ struct Series::Steps {
     std::vector<std::pair<std::string, double>> time_ms;
     StageClock clock(time_ms);
     check_maps(source, target);  // before any work
+    check_causes(options, source, target);
     progress.report("align", 0.0);
     const CommonFrame frame = align(*source.molecule, *target.molecule, options, result);
     result.warnings = input_warnings(*source.molecule, *target.molecule, result);
     const bool again = may_map_again(result);
-    check_given_maps(target, result);
     clock.lap("align");
     const GridPtr target_map = make_maps(target, frame, result, progress);
     if (target_map != nullptr) clock.lap("potential");
@@ -334,6 +399,8 @@ struct Series::Steps {
     result.source_surface = surface.summary;
     result.target_surface = target_surface.summary;
     result.regularize_report = regularize_report;
+    check_potentials(target, target_surface, frame, result, progress);
+    clock.lap("check of maps");
 
     std::vector<Vec3d> target_atoms =
         counterparts(*source.molecule, *target.molecule, result.pairing, frame.from_target);

@@ -6,34 +6,27 @@
 #include <map>
 #include <set>
 #include <string_view>
-#include <tuple>
 
 #include "align/pair_residues.h"
-#include "align/superpose.h"
-#include "base/error.h"
 #include "base/residue_label.h"
-#include "compare/paired_residues.h"
 #include "compare/short_numbers.h"
+#include "compare/surroundings.h"
 
 namespace espdiff {
 namespace {
 
-/// C-alpha atoms of neighbouring residues are 3.8 A apart (2.9 A if cis), P atoms at most 7.5 A.
-constexpr double kStepAminoAcid_A = 3.9, kStepNucleotide_A = 7.5, kSlack_A = 2.5;
 /// Twice the volume of the tetrahedron at C-alpha is 2.5 A^3 in size; half of it tells the hand.
 constexpr double kLeastVolume_A3 = 1.2;
 constexpr double kMostInverted = 0.05;
 /// Unrelated shapes of one size superpose with an RMSD of about 0.6 of this root.
 constexpr double kMostRelativeRmsd = 0.45;
-constexpr std::size_t kLeastChain = 20;
-constexpr double kMostChainFit_A = 4, kLeastChainShift_A = 6, kShiftToFit = 3;
+/// A chain that fits by itself and lies farther than these from its place is noted, and is arranged differently.
+constexpr double kNotedChainShift_A = 2, kLeastChainShift_A = 6, kMostChainFit_A = 4, kShiftToFit = 3;
 constexpr std::size_t kLeastLigandAtoms = 5;
+/// A ligand is noted whose atoms lie farther than this from where its surroundings put them.
+constexpr double kNotedLigand_A = 2;
 constexpr double kManyHydrogens = 0.3, kFewHydrogens = 0.05;
 constexpr double kNotedRadii_A = 0.05, kMostRadii_A = 0.15;
-
-using AtomPairs = std::vector<std::pair<std::size_t, std::size_t>>;
-
-bool is_polymer(ResidueKind kind) { return kind == ResidueKind::kAminoAcid || kind == ResidueKind::kNucleotide; }
 
 /// The atom of this name; -1 if the residue has none.
 std::ptrdiff_t find_atom(const ResidueView& view, std::size_t residue, std::string_view name) {
@@ -41,42 +34,6 @@ std::ptrdiff_t find_atom(const ResidueView& view, std::size_t residue, std::stri
     if (view.molecule->atoms[i].name == name) return static_cast<std::ptrdiff_t>(i);
   }
   return -1;
-}
-
-std::ptrdiff_t trace_atom(const ResidueView& view, std::size_t residue) {
-  return find_atom(view, residue, view.kinds[residue] == ResidueKind::kAminoAcid ? "CA" : "P");
-}
-
-/// Neighbours of a chain that no chain can span.
-void check_chains(const char* role, const ResidueView& view, std::vector<Warning>& warnings) {
-  std::map<std::pair<std::string, ResidueKind>, std::size_t> previous;
-  std::string examples;
-  std::size_t n = 0;
-  double longest = 0;
-  const Molecule& molecule = *view.molecule;
-  for (std::size_t r = 0; r < view.kinds.size(); ++r) {
-    if (!is_polymer(view.kinds[r]) || trace_atom(view, r) < 0) continue;
-    const auto [entry, is_first] = previous.try_emplace({molecule.residues[r].chain, view.kinds[r]}, r);
-    const std::size_t before = std::exchange(entry->second, r);
-    const std::int64_t steps =
-        std::int64_t{molecule.residues[r].number} - std::int64_t{molecule.residues[before].number};
-    if (is_first || steps < 0) continue;  // a number that falls begins another chain
-    const double step_A = view.kinds[r] == ResidueKind::kAminoAcid ? kStepAminoAcid_A : kStepNucleotide_A;
-    const double most = step_A * static_cast<double>(std::max<std::int64_t>(steps, 1)) + kSlack_A;
-    const double distance = norm(molecule.positions[static_cast<std::size_t>(trace_atom(view, r))] -
-                                 molecule.positions[static_cast<std::size_t>(trace_atom(view, before))]);
-    if (distance <= most) continue;
-    if (++n <= 2)
-      examples += (examples.empty() ? "" : ", ") + residue_label(molecule.residues[before]) + " and " +
-                  residue_label(molecule.residues[r]) + " (" + short_number(distance) + " A)";
-    longest = std::max(longest, distance);
-  }
-  if (n == 0) return;
-  warnings.push_back({std::string("the ") + role + " is broken in " + std::to_string(n) +
-                          (n == 1 ? " place" : " places") +
-                          ", where neighbours lie farther apart than a chain reaches: " + examples +
-                          "; if it crosses the border of a periodic cell, make it whole first",
-                      true});
 }
 
 /// Signed volume at the centre of a residue; 0 if an atom is missing.
@@ -93,9 +50,9 @@ double hand(const ResidueView& view, std::size_t residue) {
   return dot(p[1] - p[0], cross(p[2] - p[0], p[3] - p[0]));
 }
 
-void check_chirality(const ResidueView& source, const ResidueView& target, const AtomPairing& pairing,
-                     std::vector<Warning>& warnings) {
-  const std::vector<std::int32_t> partner = paired_residues(*source.molecule, *target.molecule, pairing);
+void check_chirality(const PairedMolecules& pair, std::vector<Warning>& warnings) {
+  const ResidueView &source = pair.source, &target = pair.target;
+  const std::vector<std::int32_t>& partner = pair.target_of;
   std::size_t n = 0, n_inverted = 0;
   std::string examples;
   for (std::size_t r = 0; r < partner.size(); ++r) {
@@ -153,48 +110,30 @@ void check_rmsd(const Molecule& source, const Molecule& target, const CompareRes
 }
 
 /// Chains that fit by themselves, but not where the others put them.
-void check_arrangement(const Molecule& source, const Molecule& target, const CompareResult& result,
-                       std::vector<Warning>& warnings) {
-  std::map<std::string, std::pair<AtomPairs, std::set<std::int32_t>>> chains;
-  for (const auto& pair : result.pairing.pairs) {
-    const std::int32_t residue = source.atoms[pair.first].residue;
-    auto& [pairs, residues] = chains[source.residues[static_cast<std::size_t>(residue)].chain];
-    pairs.push_back(pair);
-    residues.insert(residue);
+void check_arrangement(const CompareResult& result, std::vector<Warning>& warnings) {
+  const ChainMotion* worst = nullptr;
+  const ChainMotion* noted = nullptr;
+  for (const ChainMotion& motion : result.chain_motions) {
+    if (motion.own_rmsd_A > kMostChainFit_A || motion.rmsd_A < kShiftToFit * motion.own_rmsd_A) continue;
+    const ChainMotion*& farthest = motion.rmsd_A < kLeastChainShift_A ? noted : worst;
+    if (motion.rmsd_A < kNotedChainShift_A) continue;
+    if (farthest == nullptr || motion.rmsd_A > farthest->rmsd_A) farthest = &motion;
   }
-  for (auto entry = chains.begin(); entry != chains.end();) {
-    entry = entry->second.second.size() < kLeastChain ? chains.erase(entry) : std::next(entry);
-  }
-  if (chains.size() < 2) return;
-  std::tuple<double, std::string, double> worst{0, "", 0};
-  for (const auto& [name, chain] : chains) {
-    AtomPairs others;
-    for (const auto& [other, of_other] : chains) {
-      if (other != name) others.insert(others.end(), of_other.first.begin(), of_other.first.end());
-    }
-    try {
-      const RigidTransform motion = superpose(source.positions, target.positions, others).transform;
-      const Superposition own = superpose(source.positions, target.positions, chain.first);
-      double squares = 0;
-      for (const auto& [s, t] : chain.first) {
-        const Vec3d d = motion.apply(source.positions[s]) - target.positions[t];
-        squares += dot(d, d);
-      }
-      const double shift = std::sqrt(squares / static_cast<double>(chain.first.size()));
-      if (own.rmsd_A > kMostChainFit_A || shift < kLeastChainShift_A || shift < kShiftToFit * own.rmsd_A) continue;
-      worst = std::max(worst, {shift, name, own.rmsd_A});
-    } catch (const GeometryError&) {
-      continue;
-    }
-  }
-  const auto& [shift, name, own] = worst;
-  if (shift == 0) return;
   const bool has_domains = !result.domains.empty();
-  warnings.push_back({"the chains are arranged differently: chain " + name + " fits by " + short_number(own) +
-                          " A alone, and lies " + short_number(shift) + " A from where the others put it" +
-                          (has_domains ? Message("; surfaces between chains have no counterpart")
-                                       : "; give " + option("domains", "chains") + ", or compare one chain"),
-                      !has_domains});
+  if (worst != nullptr) {
+    warnings.push_back({"the chains are arranged differently: chain " + worst->chain + " fits by " +
+                            short_number(worst->own_rmsd_A) + " A alone, and lies " + short_number(worst->rmsd_A) +
+                            " A from where the others put it (turned by " + short_number(worst->rotation_degrees) +
+                            " degrees, shifted by " + short_number(worst->shift_A) + " A)" +
+                            (has_domains ? Message("; surfaces between chains have no counterpart")
+                                         : "; give " + option("domains", "chains") + ", or compare one chain"),
+                        !has_domains});
+  } else if (noted != nullptr) {
+    warnings.push_back({"chain " + noted->chain + " is turned by " + short_number(noted->rotation_degrees) +
+                            " degrees and shifted by " + short_number(noted->shift_A) +
+                            " A against the other chains: what differs at its border is that motion, too",
+                        false});
+  }
 }
 
 /// Additives of crystals and buffers: where they lie says nothing about the molecule.
@@ -203,6 +142,38 @@ bool is_additive(const std::string& name) {
                                            "DMS", "FMT", "IPA", "EOH", "MES", "TRS", "EPE", "BME", "CIT", "NO3", "NH4",
                                            "IMD", "MRD", "P6G", "TLA", "HED", "BCT", "CO3", "NAG", "AZI", "SCN"};
   return names.count(name) != 0;
+}
+
+/// Paired ligands that lie otherwise in their sites.
+void check_poses(const PairedMolecules& pair, const AtomPairing& pairing, std::vector<Warning>& warnings) {
+  const Molecule &source = *pair.source.molecule, &target = *pair.target.molecule;
+  std::map<std::int32_t, std::vector<std::pair<std::size_t, std::size_t>>> ligands;
+  for (const auto& [s, t] : pairing.pairs) {
+    const std::int32_t residue = source.atoms[s].residue;
+    if (pair.source.kinds[static_cast<std::size_t>(residue)] == ResidueKind::kOther && source.atoms[s].element != "H")
+      ligands[residue].emplace_back(s, t);
+  }
+  for (const auto& [residue, atoms] : ligands) {
+    const Residue& ligand = source.residues[static_cast<std::size_t>(residue)];
+    if (atoms.size() < kLeastLigandAtoms || is_additive(ligand.name)) continue;
+    Vec3d centre{}, shift{};
+    for (const auto& [s, t] : atoms) centre += source.positions[s];
+    const double n = static_cast<double>(atoms.size());
+    const auto motion = pair.surroundings.motion_around((1 / n) * centre);
+    if (!motion) continue;
+    double squares = 0;
+    for (const auto& [s, t] : atoms) {
+      const Vec3d off = target.positions[t] - motion->apply(source.positions[s]);
+      shift += off;
+      squares += dot(off, off);
+    }
+    const double rmsd_A = std::sqrt(squares / n);
+    if (rmsd_A > kNotedLigand_A)
+      warnings.push_back({"the ligand " + residue_label(ligand) + " lies otherwise in its site: its atoms by " +
+                              short_number(rmsd_A) + " A, its centre by " + short_number(norm((1 / n) * shift)) +
+                              " A from where the residues around it went",
+                          false});
+  }
 }
 
 void check_ligands(const ResidueView& source, const CompareResult& result, std::vector<Warning>& warnings) {
@@ -263,14 +234,20 @@ void check_radii(const Molecule& source, const Molecule& target, const AtomPairi
 
 std::vector<Warning> input_warnings(const Molecule& source, const Molecule& target, const CompareResult& result) {
   std::vector<Warning> warnings;
-  const ResidueView source_view(source), target_view(target);
-  check_chains("source", source_view, warnings);
-  check_chains("target", target_view, warnings);
-  check_chirality(source_view, target_view, result.pairing, warnings);
-  check_register(source_view, target_view, result, warnings);
+  const PairedMolecules pair(source, target, result.pairing);
+  check_chains(pair, warnings);
+  check_geometry("source", pair.source, warnings);
+  check_geometry("target", pair.target, warnings);
+  check_charges("source", pair.source, warnings);
+  check_charges("target", pair.target, warnings);
+  check_paired_charges(pair.source, pair.target, result, warnings);
+  check_chirality(pair, warnings);
+  check_register(pair, result, warnings);
+  check_side_chains(pair, warnings);
   check_rmsd(source, target, result, warnings);
-  check_arrangement(source, target, result, warnings);
-  check_ligands(source_view, result, warnings);
+  check_arrangement(result, warnings);
+  check_ligands(pair.source, result, warnings);
+  check_poses(pair, result.pairing, warnings);
   check_radii(source, target, result.pairing, warnings);
   return warnings;
 }

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "align/chain_links.h"
 #include "align/superpose.h"
 #include "base/vector.h"
 
@@ -24,7 +25,7 @@ constexpr std::size_t kWindow = 8;
 constexpr double kResidueReach_A = 12;
 /// Added to the covariance: without neighbours, as for an ion, nothing says that a residue rotates.
 constexpr double kResidueDamping_A2 = 50;
-/// A chain is broken where the centres of successive residues lie farther apart. Nucleotides have up to 8 A.
+/// A chain is broken where the centres of linked residues lie farther apart. Nucleotides have up to 8 A.
 constexpr double kLongestLink_A = 12;
 constexpr double kTurn = 2 * kPi;
 
@@ -67,13 +68,13 @@ RigidTransform best_motion(const Moments& sum) {
 struct ResidueNeighbourhoods {
   using Cell = std::array<int, 3>;
 
-  const Molecule& source;
+  const ChainLinks& links;
   std::vector<Moments> own;                          ///< [residue]
   std::vector<Eigen::Vector3d> start{}, end{};       ///< [residue] centres of the paired atoms
   std::map<Cell, std::vector<std::size_t>> cells{};  ///< of residues with paired atoms, by the start
 
-  ResidueNeighbourhoods(const Molecule& molecule, std::vector<Moments> moments)
-      : source(molecule), own(std::move(moments)) {
+  ResidueNeighbourhoods(const ChainLinks& chains, std::vector<Moments> moments)
+      : links(chains), own(std::move(moments)) {
     for (std::size_t r = 0; r < own.size(); ++r) {
       const double n = std::max(own[r].n, 1.0);
       start.emplace_back(own[r].start / n);
@@ -88,49 +89,44 @@ struct ResidueNeighbourhoods {
             static_cast<int>(std::floor(p.z() / kResidueReach_A))};
   }
 
-  /// Whether the chain goes on from the residue before.
-  bool goes_on_to(std::size_t r) const {
-    return r > 0 && own[r - 1].n > 0 && own[r].n > 0 && source.residues[r - 1].chain == source.residues[r].chain &&
-           (start[r] - start[r - 1]).norm() < kLongestLink_A;
+  /// Whether the chain goes on between two residues, one of which may be absent.
+  bool goes_on(std::int32_t from, std::int32_t to) const {
+    if (from < 0 || to < 0) return false;
+    const auto a = static_cast<std::size_t>(from), b = static_cast<std::size_t>(to);
+    return own[a].n > 0 && own[b].n > 0 && (start[b] - start[a]).norm() < kLongestLink_A;
   }
 
-  /// The first and the last residue of the window along the chain.
-  std::pair<std::size_t, std::size_t> window_of(std::size_t r) const {
-    std::size_t first = r, last = r;
-    while (first > 0 && r - first < kWindow && goes_on_to(first)) --first;
-    while (last + 1 < own.size() && last - r < kWindow && goes_on_to(last + 1)) ++last;
-    return {first, last};
-  }
-
-  /// The residues around this one, ascending.
-  std::vector<std::size_t> around(std::size_t r) const {
-    const auto [first, last] = window_of(r);
-    std::vector<std::size_t> found;
-    for (std::size_t k = first; k <= last; ++k) found.push_back(k);
+  /// The residues around this one, each with its places along the chain from it; beyond the window kWindow + 1.
+  std::map<std::size_t, std::size_t> around(std::size_t r) const {
+    std::map<std::size_t, std::size_t> found{{r, 0}};
+    for (const auto* way : {&links.next, &links.previous}) {
+      auto at = static_cast<std::int32_t>(r);
+      for (std::size_t places = 1; places <= kWindow; ++places) {
+        const std::int32_t further = (*way)[static_cast<std::size_t>(at)];
+        if (!goes_on(at, further)) break;
+        at = further;
+        found.try_emplace(static_cast<std::size_t>(at), places);
+      }
+    }
     const Cell c = cell_of(start[r]);
     for (int x = c[0] - 1; x <= c[0] + 1; ++x) {
       for (int y = c[1] - 1; y <= c[1] + 1; ++y) {
         for (int z = c[2] - 1; z <= c[2] + 1; ++z) {
           const auto cell = cells.find({x, y, z});
-          if (cell != cells.end()) found.insert(found.end(), cell->second.begin(), cell->second.end());
+          if (cell == cells.end()) continue;
+          for (const std::size_t k : cell->second) found.try_emplace(k, kWindow + 1);
         }
       }
     }
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
     return found;
   }
 
   RigidTransform motion_of(std::size_t r) const {
-    const auto [first, last] = window_of(r);
     Moments sum;
-    for (const std::size_t k : around(r)) {
+    for (const auto& [k, places] : around(r)) {
       const double far = std::max((start[k] - start[r]).squaredNorm(), (end[k] - end[r]).squaredNorm());
-      double weight = weight_at(far / (kResidueReach_A * kResidueReach_A));
-      if (k >= first && k <= last) {
-        const double places = static_cast<double>(k > r ? k - r : r - k) / static_cast<double>(kWindow + 1);
-        weight += weight_at(places * places);
-      }
+      const double along = static_cast<double>(places) / static_cast<double>(kWindow + 1);
+      const double weight = weight_at(far / (kResidueReach_A * kResidueReach_A)) + weight_at(along * along);
       if (weight > 0) sum.add(own[k], weight);
     }
     return best_motion(sum);
@@ -158,18 +154,28 @@ DomainMotions local_motions(const Molecule& source, const Molecule& target, cons
     own.end += end;
     own.product += start * end.transpose();
   }
-  const ResidueNeighbourhoods neighbourhoods(source, std::move(moments));
+  const ChainLinks links = chain_links(ResidueView(source));
+  const ResidueNeighbourhoods neighbourhoods(links, std::move(moments));
+  std::vector<std::pair<RigidTransform, Screw>> motions(source.residues.size());
+  for (const std::vector<std::size_t>& chain : links.chains) {
+    Vec3d rotation{};
+    for (const std::size_t r : chain) {
+      if (!(neighbourhoods.own[r].n > 0)) continue;
+      const auto at = static_cast<std::int32_t>(r);
+      const RigidTransform motion = neighbourhoods.motion_of(r);
+      const bool goes_on = neighbourhoods.goes_on(links.previous[r], at);
+      const Screw screw = going_on(screw_of(motion), goes_on ? rotation : Vec3d{});
+      rotation = screw.angle * screw.axis;
+      motions[r] = {motion, screw};
+    }
+  }
   DomainMotions result;
   result.of_residue.assign(source.residues.size(), -1);
-  Vec3d rotation{};
-  for (std::size_t r = 0; r < source.residues.size(); ++r) {
+  for (std::size_t r = 0; r < motions.size(); ++r) {
     if (!(neighbourhoods.own[r].n > 0)) continue;
-    const RigidTransform motion = neighbourhoods.motion_of(r);
-    const Screw screw = going_on(screw_of(motion), neighbourhoods.goes_on_to(r) ? rotation : Vec3d{});
-    rotation = screw.angle * screw.axis;
     result.of_residue[r] = static_cast<std::int32_t>(result.motions.size());
-    result.motions.push_back(motion);
-    result.screws.push_back(screw);
+    result.motions.push_back(motions[r].first);
+    result.screws.push_back(motions[r].second);
   }
   return result;
 }

@@ -14,7 +14,8 @@ namespace espdiff {
 ///
 /// Rotations go on along a chain: of the two ways around to the same end, a residue takes the one closer to that of the
 /// residue before it. A rotation may therefore exceed 180 degrees.
-/// Serial and in the order of the residues; the cost is linear in their number.
+/// Chains follow bonds and residue numbers (chain_links()), not the order of the file. Serial; the cost is linear in
+/// the number of residues.
 DomainMotions local_motions(const Molecule& source, const Molecule& target, const AtomPairing& pairing,
                             const RigidTransform& from_source, const RigidTransform& from_target);
 

@@ -86,9 +86,6 @@ std::vector<std::string> potential_notes(const MapRecipe* source, const MapRecip
     if (source->zero != target->zero)
       notes.push_back("zero is the " + to_string(source->zero) + " of the source's potential and the " +
                       to_string(target->zero) + " of the target's: the mean signed difference means little");
-    if (potential_label(*source) != potential_label(*target))
-      notes.push_back("two kinds of potential are compared: " + potential_label(*source) + " and " +
-                      potential_label(*target));
   }
   if ((source != nullptr && is_vacuum(*source)) || (target != nullptr && is_vacuum(*target)))
     notes.push_back("a potential in vacuum is tens of times that in salt water: compare it with its like only");

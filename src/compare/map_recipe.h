@@ -1,6 +1,7 @@
 // map_recipe.h: what a computed potential is made of and how it came out: what a result tells of it.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,8 @@
 #include "engine/potential_stage.h"
 
 namespace espdiff {
+
+struct Molecule;
 
 /// Where the zero of a potential lies: nowhere else than far away for isolated molecules; in a periodic cell its mean,
 /// or the mean over its bulk solvent.
@@ -42,6 +45,7 @@ struct MapRecipe {
 struct MadeMap {
   GridPtr map;
   MapRecipe recipe;
+  std::shared_ptr<const Molecule> charges{};  ///< in the map's order; null where the map was given
 };
 
 /// "pme", "coulomb" or "pb".

@@ -1,112 +1,210 @@
-// map_warnings.cpp: samples maps at the atoms.
+// map_warnings.cpp: limits of the maps' regression, and the words for what exceeds them.
 #include "compare/map_warnings.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <string>
 
+#include "base/error.h"
 #include "base/formatted.h"
-#include "base/not_a_number.h"
 #include "compare/input.h"
+#include "compare/map_check.h"
+#include "compare/map_recipe.h"
+#include "compare/short_numbers.h"
 
 namespace espdiff {
 namespace {
 
-constexpr std::size_t kLeastAtoms = 20;
-/// Chosen between what a right map reaches, near 1, and one shifted by 3 A, near 0. The range of real maps has not been
-/// measured.
-constexpr double kLeastCorrelation = 0.3;
 /// An exchanged map fits the other molecule better by at least this.
-constexpr double kBetterByExchange = 0.05;
+constexpr double kBetterByExchange = 0.02;
+/// How far the lattice takes a slope in vacuum from 1.
+constexpr double kVacuumFactor = 1.25;
+/// A slope this near to 1 needs no comment.
+constexpr double kUsualFactor = 1.4;
+constexpr double kLargestDielectric = 90;
+/// Slopes of the two maps that differ by more: two kinds of salt or dielectric.
+constexpr double kSameSettings = 1.3;
 
-/// Trilinear samples of a map whose axes may be skewed.
-class MapSampler {
- public:
-  explicit MapSampler(const Grid& map) : map_(map) {
-    const auto& step = map.lattice.step;
-    const double volume = dot(step[0], cross(step[1], step[2]));
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      reciprocal_[axis] = (1 / volume) * cross(step[(axis + 1) % 3], step[(axis + 2) % 3]);
+constexpr PotentialUnit kNamedUnits[] = {PotentialUnit::kKtPerE,    PotentialUnit::kMillivolt,
+                                         PotentialUnit::kVolt,      PotentialUnit::kKcalPerMolE,
+                                         PotentialUnit::kKjPerMolE, PotentialUnit::kHartreePerE};
+
+/// Whether two positive numbers differ by at most a factor.
+bool within_factor(double a, double b, double factor) { return a > 0 && b > 0 && a < factor * b && b < factor * a; }
+
+double tolerance_of(const MapCheck& check) {
+  return check.kind == ReferenceKind::kSolvent ? kSolventFactor : kVacuumFactor;
+}
+
+/// Coulomb's law in a dielectric is as good as in vacuum; with a distance-dependent one the slope has one too.
+bool is_dielectric(const MapCheck& check) {
+  const bool coulomb = check.kind == ReferenceKind::kVacuum || check.kind == ReferenceKind::kDistanceDependent;
+  return coulomb && check.best().slope < kVacuumFactor && check.best().slope > 1 / kLargestDielectric;
+}
+
+/// The units that a map's values may be in: all that its slope allows, "mV" or "kT/e or kcal/(mol e)"; empty for none.
+/// @param factor by which the slope is too large
+std::string fitting_units(PotentialUnit declared, const MapCheck& check, double factor, double temperature_K) {
+  std::string units;
+  const double to_kt =
+      declared == PotentialUnit::kUnknown ? 1 : conversion_factor(declared, PotentialUnit::kKtPerE, temperature_K);
+  for (const PotentialUnit unit : kNamedUnits) {
+    const double expected = to_kt * conversion_factor(PotentialUnit::kKtPerE, unit, temperature_K);
+    if (unit == declared || !within_factor(check.best().slope, expected, factor)) continue;
+    units += (units.empty() ? "" : " or ") + to_string(unit);
   }
+  return units;
+}
 
-  /// NaN outside.
-  double operator()(const Vec3d& p) const {
-    std::array<std::size_t, 3> low, high;
-    std::array<double, 3> share;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double n = map_.lattice.size[axis];
-      double place = dot(reciprocal_[axis], p - map_.lattice.origin);
-      if (map_.periodic) place -= n * std::floor(place / n);
-      if (!(place >= 0) || place > (map_.periodic ? n : n - 1)) return kNaN;
-      const double whole = std::min(std::floor(place), map_.periodic ? n - 1 : std::max(n - 2, 0.0));
-      share[axis] = place - whole;
-      low[axis] = static_cast<std::size_t>(whole);
-      high[axis] = (low[axis] + 1) % static_cast<std::size_t>(n);
-    }
-    double sum = 0;
-    for (unsigned corner = 0; corner < 8; ++corner) {
-      double weight = 1;
-      std::array<std::size_t, 3> at;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const bool upper = ((corner >> axis) & 1U) != 0;
-        at[axis] = upper ? high[axis] : low[axis];
-        weight *= upper ? share[axis] : 1 - share[axis];
-      }
-      const auto nx = static_cast<std::size_t>(map_.lattice.size[0]),
-                 ny = static_cast<std::size_t>(map_.lattice.size[1]);
-      if (weight != 0) sum += weight * static_cast<double>(map_.values[at[0] + nx * (at[1] + ny * at[2])]);
-    }
-    return sum;
+std::string the_map(const char* role) { return std::string("the map of the ") + role; }
+
+/// "0.13 times the potential of the source's charges in salt water"
+std::string as_multiple(const char* role, const MapCheck& check) {
+  return short_number(check.best().slope) + " times the potential of the " + role + "'s charges in " +
+         to_string(check.kind);
+}
+
+Warning refuse(const Message& text) { return {text + "; " + option("trust-maps", "1") + " takes it as it is", true}; }
+
+/// What the slope says of a map that belongs to its molecule.
+void judge_slope(const char* role, const Grid& map, const MapCheck& check, double temperature_K,
+                 std::vector<Warning>& warnings) {
+  const std::string unit_option = std::string(role) + "-map-unit";
+  const double slope = check.best().slope, factor = tolerance_of(check);
+  if (map.unit == PotentialUnit::kUnknown) {
+    const std::string units = fitting_units(map.unit, check, factor, temperature_K);
+    if (units.empty() && !is_dielectric(check))
+      warnings.push_back(refuse(the_map(role) + " has no unit, and none fits: it is " + as_multiple(role, check) +
+                                " in kT/e; give the map of these charges, and its unit by " + option(unit_option)));
+    else
+      warnings.push_back({the_map(role) + " has no unit; it is " + as_multiple(role, check) + " in kT/e" +
+                              (units.empty() ? std::string() : ", which fits " + units) + ": name it by " +
+                              option(unit_option),
+                          false});
+    return;
   }
+  const std::string units = fitting_units(map.unit, check, kVacuumFactor, temperature_K);
+  if (within_factor(slope, 1, factor) || (is_dielectric(check) && units.empty())) {
+    if (!within_factor(slope, 1, kUsualFactor) && !is_dielectric(check))
+      warnings.push_back({the_map(role) + " is " + as_multiple(role, check) + " at 0.15 mol/l" +
+                              (units.empty() ? ": other salt or dielectrics than usual"
+                                             : ": its unit is " + units + " instead of " + to_string(map.unit) +
+                                                   ", or salt and dielectrics are not the usual ones; make sure of it"),
+                          false});
+    return;
+  }
+  const std::string other = fitting_units(map.unit, check, std::min(factor, 1.6), temperature_K);
+  warnings.push_back(
+      refuse(the_map(role) + " is " + as_multiple(role, check) + ": " +
+             (other.empty() ? Message("no unit makes it " + to_string(map.unit) + "; give the map of these charges")
+                            : "its values are in " + other + ", not in " + to_string(map.unit) + "; give " +
+                                  option(unit_option, other))));
+}
 
- private:
-  const Grid& map_;
-  std::array<Vec3d, 3> reciprocal_;
-};
+bool same_map(const Grid& a, const Grid& b) {
+  const Lattice &p = a.lattice, &q = b.lattice;
+  const auto near = [](const Vec3d& u, const Vec3d& v) { return norm(u - v) < 1e-6; };
+  return p.size == q.size && near(p.origin, q.origin) && near(p.step[0], q.step[0]) && near(p.step[1], q.step[1]) &&
+         near(p.step[2], q.step[2]) && a.values == b.values;
+}
+
+bool same_state(const Molecule& a, const Molecule& b) {
+  constexpr double kSamePlace_A = 0.01;
+  const auto same = [](const Vec3d& u, const Vec3d& v) { return norm(u - v) < kSamePlace_A; };
+  return std::equal(a.positions.begin(), a.positions.end(), b.positions.begin(), b.positions.end(), same) &&
+         a.charges == b.charges;
+}
 
 }  // namespace
 
-double map_correlation(const Grid& map, const Molecule& molecule) {
-  const MapSampler sample(map);
-  double n = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
-  for (std::size_t i = 0; i < molecule.charges.size(); ++i) {
-    const double q = static_cast<double>(molecule.charges[i]), value = sample(molecule.positions[i]);
-    if (!std::isfinite(value)) continue;
-    ++n;
-    x += q;
-    y += value;
-    xx += q * q;
-    yy += value * value;
-    xy += q * value;
+std::vector<Warning> map_warnings(const char* role, const Grid& map, const MapReferences& references,
+                                  double temperature_K, std::shared_ptr<const MapCheck>& result) {
+  result.reset();
+  const std::optional<MapCheck> check = references.check(map);
+  if (!check) return {};
+  result = std::make_shared<const MapCheck>(*check);
+  std::vector<Warning> warnings;
+  const double correlation = check->best().correlation;
+  if (correlation <= -kLeastMapCorrelation) {
+    warnings.push_back(refuse(the_map(role) + " (" + map.name + ") has its sign turned: near the surface it is " +
+                              as_multiple(role, *check) + "; turn it, or the charges"));
+  } else if (!(correlation >= kLeastMapCorrelation)) {
+    warnings.push_back(refuse(the_map(role) + " (" + map.name + ") does not belong to it: near the surface it " +
+                              "correlates by " + number_beside(correlation, kLeastMapCorrelation, 2) +
+                              " with the potential of the " + role + "'s charges (limit " +
+                              formatted("%.2f", kLeastMapCorrelation) +
+                              "); give the potential that was computed for these coordinates (an average with "
+                              "explicit water cannot be checked)"));
+  } else {
+    judge_slope(role, map, *check, temperature_K, warnings);
   }
-  const double square = (xx - x * x / n) * (yy - y * y / n);
-  return n >= kLeastAtoms && square > 0 ? (xy - x * y / n) / std::sqrt(square) : kNaN;
+  return warnings;
 }
 
-std::vector<Warning> map_warnings(const CompareInput& source, const CompareInput& target, bool& checked) {
-  std::vector<Warning> warnings;
-  checked = true;
-  if (source.map == nullptr && target.map == nullptr) return warnings;
-  const double of_source = source.map != nullptr ? map_correlation(*source.map, *source.molecule) : kNaN,
-               of_target = target.map != nullptr ? map_correlation(*target.map, *target.molecule) : kNaN;
-  checked = (source.map == nullptr || std::isfinite(of_source)) && (target.map == nullptr || std::isfinite(of_target));
-  if (source.map != nullptr && target.map != nullptr) {
-    const double a = map_correlation(*source.map, *target.molecule), b = map_correlation(*target.map, *source.molecule);
-    if (a > of_source + kBetterByExchange && b > of_target + kBetterByExchange) {
-      warnings.push_back({"the maps are exchanged: the source's fits the target's charges (correlation " +
-                              formatted("%.2f", a) + " against " + formatted("%.2f", of_source) +
-                              "), the target's the source's (" + formatted("%.2f", b) + " against " +
-                              formatted("%.2f", of_target) + ")",
-                          true});
-      return warnings;
-    }
+void pair_warnings(const CompareInput& source, const CompareInput& target, const MapReferences* of_source,
+                   const MapReferences* of_target, const CompareResult& result, std::vector<Warning>& warnings) {
+  if (source.map == nullptr || target.map == nullptr) return;
+  if (same_map(*source.map, *target.map) && !same_state(*source.molecule, *target.molecule)) {
+    warnings.push_back(refuse("one map is given for two different states (" + source.map->name + ", " +
+                              target.map->name + "): each state has a potential of its own"));
+    return;
   }
-  for (const auto& [role, correlation] : {std::pair("source", of_source), std::pair("target", of_target)}) {
-    if (!(correlation < kLeastCorrelation)) continue;
-    warnings.push_back({std::string("the map of the ") + role + " does not belong to it: its values at the atoms " +
-                            "correlate with the charges by " + formatted("%.2f", correlation) + " (limit " +
-                            formatted("%.2f", kLeastCorrelation) +
-                            "); give the map that was computed for these coordinates",
-                        true});
+  if (!result.source_map_check || !result.target_map_check || of_source == nullptr || of_target == nullptr) return;
+  const double a = result.source_map_check->best().correlation, b = result.target_map_check->best().correlation;
+  if (std::min(a, b) >= kLeastMapCorrelation + kBetterByExchange) return;
+  const std::optional<MapCheck> at_source = of_source->check(*target.map), at_target = of_target->check(*source.map);
+  if (!at_source || !at_target) return;
+  const double c = at_target->best().correlation, d = at_source->best().correlation;
+  if (!(c > a + kBetterByExchange && d > b + kBetterByExchange)) return;
+  warnings = {refuse("the maps are exchanged: the source's fits the target's charges (correlation " +
+                     formatted("%.2f", c) + " against " + formatted("%.2f", a) + "), the target's the source's (" +
+                     formatted("%.2f", d) + " against " + formatted("%.2f", b) + ")")};
+}
+
+namespace {
+
+/// One side's potential in words, and whether it is one in vacuum.
+struct Kind {
+  std::string words;
+  bool known = false, vacuum = false, given = false;
+};
+
+Kind kind_of(const std::shared_ptr<const MapRecipe>& recipe, const std::shared_ptr<const MapCheck>& check) {
+  if (recipe) return {potential_label(*recipe), true, is_vacuum(*recipe), false};
+  if (check) return {in_words(*check), true, check->is_vacuum(), true};
+  return {};
+}
+
+bool is_water_of_a_frame(const std::shared_ptr<const MapRecipe>& recipe) {
+  return recipe && recipe->method == PotentialMethod::kPme && recipe->has_water;
+}
+
+}  // namespace
+
+std::vector<Warning> kind_warnings(const CompareResult& result) {
+  std::vector<Warning> warnings;
+  if (is_water_of_a_frame(result.source_recipe) || is_water_of_a_frame(result.target_recipe))
+    warnings.push_back(
+        {"the potential of single frames with explicit water is mostly that of the few molecules of "
+         "water that touch the surface at that moment (up to hundreds of kT/e): take " +
+             option("potential", "pb") +
+             " of the solute, or average maps over frames first (espdiff potential) and compare those",
+         false});
+  const Kind a = kind_of(result.source_recipe, result.source_map_check),
+             b = kind_of(result.target_recipe, result.target_map_check);
+  if (!a.known || !b.known) return warnings;
+  const Message both = "two kinds of potential are compared: the source's is " + a.words + ", the target's " + b.words;
+  if (a.vacuum != b.vacuum) {
+    warnings.push_back(refuse(both + ": one in vacuum is tens of times one in salt water; compute both alike"));
+  } else if (a.words != b.words) {
+    warnings.push_back({both + "; their difference is not of the states alone", false});
+  } else if (a.given && b.given) {
+    const double s = result.source_map_check->best().slope, t = result.target_map_check->best().slope;
+    if (s > 0 && t > 0 && !within_factor(s, t, kSameSettings))
+      warnings.push_back({"the two maps are of two sizes: the source's is " + short_number(s) +
+                              " times the potential of its charges, the target's " + short_number(t) +
+                              " times; compute both with the same salt, dielectrics and temperature",
+                          false});
   }
   return warnings;
 }

@@ -1,6 +1,7 @@
-// map_warnings.h: whether the given maps belong to their molecules.
+// map_warnings.h: what is wrong with the potentials of two states, given or computed, before they are compared.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "compare/result.h"
@@ -8,16 +9,24 @@
 namespace espdiff {
 
 struct CompareInput;
+class MapReferences;
 
-/// Correlation of a map's values at the atoms with the atoms' charges. A potential peaks at its own charges: 0.9 and
-/// more for the molecule that it was computed for, near 0 for a map shifted by 3 A. NaN without charges, or where fewer
-/// than 20 atoms lie in the map.
-/// @param map in the coordinates of the molecule
-double map_correlation(const Grid& map, const Molecule& molecule);
+/// Checks a given map against the potentials of its molecule's charges: its correlation with the best of them, and the
+/// slope, which tells the unit. A map of another molecule or place, of another unit, turned in sign, or of another
+/// quantity refuses; one without a unit, or as large as another unit's, is a warning.
+/// @param role  "source" or "target"
+/// @param check receives the regression; null where the map cannot be checked, such as without charges
+std::vector<Warning> map_warnings(const char* role, const Grid& map, const MapReferences& references,
+                                  double temperature_K, std::shared_ptr<const MapCheck>& check);
 
-/// Compares each given map with its molecule, and with the other molecule: exchanged maps fit the other one better. In
-/// time linear in the number of atoms. Computed maps belong to their molecules.
-/// @param checked receives whether a map could be checked
-std::vector<Warning> map_warnings(const CompareInput& source, const CompareInput& target, bool& checked);
+/// The pair's maps: one map given for two different states refuses; exchanged ones replace what was said of each.
+/// @param warnings of map_warnings(), receives more
+/// @param of_source, of_target null where the side's map was computed
+void pair_warnings(const CompareInput& source, const CompareInput& target, const MapReferences* of_source,
+                   const MapReferences* of_target, const CompareResult& result, std::vector<Warning>& warnings);
+
+/// What the two potentials of a result do not have in common, and single frames with explicit water. Vacuum against
+/// solvent refuses.
+std::vector<Warning> kind_warnings(const CompareResult& result);
 
 }  // namespace espdiff

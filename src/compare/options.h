@@ -56,8 +56,10 @@ struct CompareOptions {
   /// How far outside the surfaces the potentials are read, each along its own surface's normal, Angstrom. The first one
   /// is what vertices and residues have; metrics are computed for all.
   std::vector<double> offsets_A{0};
-  bool round_trip = false;     ///< also map back, which doubles the time, and measure the round-trip error
-  double temperature_K = 300;  ///< for converting between kT/e and other units
+  std::vector<std::string> causes;  ///< readings whose causes are wanted; see causes/reading.h
+  bool round_trip = false;          ///< also map back, which doubles the time, and measure the round-trip error
+  bool trust_maps = false;          ///< given maps are taken as they are: what speaks against them does not refuse
+  double temperature_K = 300;       ///< for converting between kT/e and other units
 };
 
 /// The thesis' original iteration, for comparing with its results.

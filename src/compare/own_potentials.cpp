@@ -28,6 +28,13 @@ std::vector<bool> border_residues(const Mesh& surface, const std::vector<std::in
   return borders;
 }
 
+bool has_both_differences(const ResidueRow& row) {
+  return row.area_A2 >= kLeastOwnArea_A2 && std::isfinite(row.own_difference);
+}
+
+/// What slipped is judged by the slip and named there.
+bool has_slipped(const ResidueRow& row) { return row.mean_slip_A > kLargeSlip_A; }
+
 }  // namespace
 
 std::vector<OwnPotential> own_potentials(const Mesh& surface, const std::vector<std::int32_t>& residue,
@@ -62,11 +69,25 @@ void set_own_differences(std::vector<ResidueRow>& rows, const std::vector<OwnPot
   }
 }
 
+double rms_own_difference(const std::vector<ResidueRow>& rows) {
+  double area = 0, squares = 0;
+  for (const ResidueRow& row : rows) {
+    if (!std::isfinite(row.own_difference)) continue;
+    area += row.own_area_A2;
+    squares += row.own_area_A2 * row.own_difference * row.own_difference;
+  }
+  return area > 0 ? std::sqrt(squares / area) : kNaN;
+}
+
 ResidueCheck check_residues(const std::vector<ResidueRow>& rows, const std::vector<OwnPotential>& source) {
   double area = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0, errors = 0, potentials = 0;
   ResidueCheck check{kNaN, kNaN, kNaN, 0};
   for (const ResidueRow& row : rows) {
-    if (!(row.area_A2 >= kLeastOwnArea_A2) || !std::isfinite(row.own_difference)) continue;
+    if (!has_both_differences(row)) continue;
+    if (has_slipped(row)) {
+      ++check.n_slipped;
+      continue;
+    }
     const double w = row.own_area_A2, a = row.own_difference, b = row.mean_signed_difference;
     area += w;
     x += w * a;
@@ -84,6 +105,20 @@ ResidueCheck check_residues(const std::vector<ResidueRow>& rows, const std::vect
   const double square = (xx - x * x / area) * (yy - y * y / area);
   if (square > 0) check.correlation = (xy - x * y / area) / std::sqrt(square);
   return check;
+}
+
+std::vector<const ResidueRow*> most_disagreeing(const std::vector<ResidueRow>& rows) {
+  std::vector<const ResidueRow*> sorted;
+  for (const ResidueRow& row : rows) {
+    if (has_both_differences(row) && !has_slipped(row)) sorted.push_back(&row);
+  }
+  const auto weighted_error = [](const ResidueRow* row) {
+    const double error = row->mean_signed_difference - row->own_difference;
+    return row->own_area_A2 * error * error;
+  };
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [&](const ResidueRow* a, const ResidueRow* b) { return weighted_error(a) > weighted_error(b); });
+  return sorted;
 }
 
 }  // namespace espdiff

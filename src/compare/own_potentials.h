@@ -31,13 +31,20 @@ std::vector<OwnPotential> own_potentials(const Mesh& surface, const std::vector<
 void set_own_differences(std::vector<ResidueRow>& rows, const std::vector<OwnPotential>& source,
                          const std::vector<OwnPotential>& target, const std::vector<std::int32_t>& target_of);
 
+/// Root mean square of the rows' own_difference, weighted by own_area_A2; NaN without any.
+double rms_own_difference(const std::vector<ResidueRow>& rows);
+
 /// Fewer have no correlation.
 constexpr std::size_t kLeastComparedResidues = 5;
 
 /// Pearson's correlation of the rows' mean_signed_difference with own_difference over the residues with at least 5 A^2
-/// of compared surface, and the size of their disagreement; NaN with fewer than kLeastComparedResidues. The weights are
-/// own_area_A2: the variance of a mean falls with its area, so that these are the inverse variances of the differences.
+/// of compared surface that have not slipped by more than kLargeSlip_A on average, and the size of their disagreement;
+/// NaN with fewer than kLeastComparedResidues. The weights are own_area_A2: the variance of a mean falls with its area,
+/// so that these are the inverse variances of the differences.
 /// @param source from own_potentials()
 ResidueCheck check_residues(const std::vector<ResidueRow>& rows, const std::vector<OwnPotential>& source);
+
+/// The residues of that correlation, by their share of the disagreement, largest first.
+std::vector<const ResidueRow*> most_disagreeing(const std::vector<ResidueRow>& rows);
 
 }  // namespace espdiff

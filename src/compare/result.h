@@ -21,6 +21,8 @@
 
 namespace espdiff {
 
+struct Causes;
+struct MapCheck;
 struct MapRecipe;
 
 /// Per-residue averages over the mapped surface, source residues. Area-weighted; NaN if a residue has no valid area.
@@ -56,6 +58,7 @@ struct ResidueCheck {
   double rms_error = 0;      ///< of the mapped differences, in the unit of the potential
   double rms_potential = 0;  ///< of the source's own potentials
   std::size_t n_residues = 0;
+  std::size_t n_slipped = 0;  ///< left out: they slipped, see slip_reasons()
 };
 
 /// Round-trip error: how far from its start a vertex ends after mapping to the target and back by a second mapping,
@@ -162,6 +165,8 @@ struct CompareResult {
   double rmsd_A = 0;
   AtomPairing pairing;
   std::vector<ComparedChains> chains;  ///< which were compared with which
+  /// Of chains with at least 20 paired residues, by name; empty unless there are two.
+  std::vector<ChainMotion> chain_motions;
   /// Chains that repeat one sequence, by name.
   std::vector<std::vector<std::string>> source_copies, target_copies;
   /// Between charged molecules: residues whose protonation makes a difference by itself.
@@ -179,8 +184,9 @@ struct CompareResult {
   PotentialUnit unit = PotentialUnit::kUnknown;
   std::vector<OffsetMetrics> by_offset;                           ///< [offset of the options]; empty without potentials
   std::shared_ptr<const MapRecipe> source_recipe, target_recipe;  ///< of potentials that were computed, otherwise null
-  Metrics metrics;                                                ///< over valid triangles
-  Metrics metrics_all;                                            ///< over all triangles with samples
+  std::shared_ptr<const MapCheck> source_map_check, target_map_check;  ///< of given maps; null where not checked
+  Metrics metrics;                                                     ///< over valid triangles
+  Metrics metrics_all;                                                 ///< over all triangles with samples
   Metrics metrics_without_slip;  ///< over valid triangles of a slip within kMediumSlip_A
   std::size_t n_outside_source_map = 0, n_outside_target_map = 0;  ///< vertices
   SurfaceSummary source_surface, target_surface;
@@ -199,7 +205,8 @@ struct CompareResult {
   /// is that of its atoms after the whole superposition. The round trip, slip and the correlation by residue are not
   /// checked for it alone.
   std::shared_ptr<CompareResult> region{};
-  std::vector<PatchResult> patches{};  ///< the same of each patch, in the order of the request
+  std::shared_ptr<const Causes> causes{};  ///< which charges make the readings that were asked for; null without any
+  std::vector<PatchResult> patches{};      ///< the same of each patch, in the order of the request
 };
 
 }  // namespace espdiff

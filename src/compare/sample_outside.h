@@ -16,6 +16,9 @@ struct OutsideSamples {
   std::vector<std::uint8_t> inside;  ///< nonzero where the point lies inside the surface: in a crevice, or another part
 };
 
+/// A mesh with each vertex moved by a distance along the outward normal of the atoms' level set.
+MeshPtr moved_outside(Engine& engine, const MeshPtr& mesh, const AtomsPtr& atoms, float isovalue, double offset_A);
+
 /// Samples a map at each vertex moved by a distance along the outward normal of the atoms' level set.
 /// @param mesh     common frame, on or near the level set of `atoms`
 /// @param offset_A 0 samples the vertices where they are, none of them inside

@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "compare/input_settings.h"
 #include "compare/options.h"
+#include "compare/readings.h"
 
 namespace espdiff {
 namespace {
@@ -298,6 +299,10 @@ std::vector<Setting> make_settings() {
   all.push_back(of_surface(number(
       "temperature", "Potentials", kPositive, [](auto& o) -> auto& { return o.temperature_K; },
       "Temperature of kT in potentials and units, K")));
+  all.push_back(boolean(
+      "trust-maps", "Potentials", [](auto& o) -> auto& { return o.trust_maps; },
+      "Take given maps as they are: maps that do not fit the molecules' charges, or two kinds of potential, give "
+      "warnings and are not refused"));
   add_surface_settings(all);
   add_mapping_settings(all);
   const std::size_t first = all.size();
@@ -387,6 +392,7 @@ CompareOptions make_options(const std::vector<std::pair<std::string, std::string
   for (const auto& [name, text] : given) find_setting(name).set(options, text);
   refuse_of_other_method(given, options.method);
   check_input_options(options.input);
+  check_readings(options);
   return options;
 }
 

@@ -26,6 +26,7 @@ struct SurfaceResult {
   std::vector<float> potential;       ///< [vertex], empty without a map
   PotentialUnit unit = PotentialUnit::kUnknown;
   std::string potential_label;  ///< of a computed potential: "Poisson-Boltzmann, 0.15 mol/l"; empty otherwise
+  double outside_map = 0;       ///< fraction of the vertices outside the map, whose potential is NaN
   bool is_vacuum = false;       ///< a computed potential that sees neither water nor a dielectric
   SurfaceSummary summary;
   std::vector<ComponentSummary> components;  ///< all, cavities included

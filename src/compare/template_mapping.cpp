@@ -14,7 +14,9 @@
 #include "compare/input.h"
 #include "compare/input_warnings.h"
 #include "compare/map_by_morph.h"
+#include "compare/map_check.h"
 #include "compare/map_recipe.h"
+#include "compare/map_warnings.h"
 #include "compare/mapping.h"
 #include "compare/options.h"
 #include "compare/paired_residues.h"
@@ -83,6 +85,19 @@ struct TemplateMapping::Parts {
     if (map == nullptr && source.make_map)
       map = device_map(engine, source, inverse(to_common), nullptr, unit, options.temperature_K, progress).map;
     return device_map(engine, frame, to_map, frame.make_map ? map : nullptr, unit, options.temperature_K, progress).map;
+  }
+
+  /// A frame's given map against its charges.
+  void check_map(const CompareInput& frame, const Surface& target, const CommonFrame& common, CompareResult& result,
+                 const Progress& progress) {
+    if (frame.map == nullptr) return;
+    const MapReferences references(engine, *frame.molecule, common.from_target, target, isovalue(),
+                                   options.temperature_K, progress);
+    for (Warning& warning :
+         map_warnings("frame", *frame.map, references, options.temperature_K, result.target_map_check)) {
+      warning.refuses = warning.refuses && !options.trust_maps;
+      result.warnings.push_back(std::move(warning));
+    }
   }
 
   std::vector<MovingAtom> paths_to(const CompareInput& frame, const CommonFrame& common, const AtomPairing& pairing,
@@ -174,6 +189,7 @@ TemplateFrame TemplateMapping::map(const CompareInput& frame, bool check_slip, c
   clock.lap("potential");
   const Surface target =
       build_surface(p.engine, *frame.molecule, common.from_target, p.options.surface, progress, clock);
+  p.check_map(frame, target, common, result, progress);
   const std::vector<MovingAtom> paths = p.paths_to(frame, common, result.pairing, progress);
   Mapping mapping = p.morph(paths, target, progress);
   clock.lap("morph");

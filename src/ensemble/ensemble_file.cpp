@@ -2,23 +2,27 @@
 #include "ensemble/ensemble_file.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <numeric>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "base/system_message.h"
 #include "ensemble/hdf5_layout.h"
 #include "ensemble/hdf5_reader.h"
+#include "io/sibling_file.h"
 #include "system/open_file.h"
-#include "system/this_process.h"
 
 namespace espdiff {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kNotRead = "cannot be read back as it was written; is the disk full, or damaged?";
 
 /// Never 0, which means that a frame was not written.
 std::uint64_t checksum(std::size_t frame, const std::vector<float>& values, const std::vector<double>& numbers,
@@ -27,6 +31,19 @@ std::uint64_t checksum(std::size_t frame, const std::vector<float>& values, cons
   sum = add_to_checksum(sum, numbers.data(), numbers.size() * sizeof(double));
   sum = add_to_checksum(sum, note.data(), note.size());
   return sum == 0 ? 1 : sum;
+}
+
+/// Far beyond what charges in a molecule give, in any unit. Not finite: no counterpart.
+template <typename Number>
+void check_potentials(const std::string& path, std::size_t frame, const std::vector<Number>& values) {
+  constexpr double kMost = 1e9;
+  for (const Number number : values) {
+    const auto value = static_cast<double>(number);
+    if (std::isnan(value) || std::fabs(value) <= kMost) continue;
+    throw FormatError(path, 0,
+                      "frame " + std::to_string(frame) + formatted(" has a value of %g", value) +
+                          formatted(", and potentials are within %g; its map or charges cannot be right", kMost));
+  }
 }
 
 void write_at(OpenFile& file, const std::string& path, std::uint64_t offset, const void* bytes, std::size_t n) {
@@ -45,19 +62,6 @@ void extend(OpenFile& file, const std::string& path) {
   if (intended <= fs::file_size(path)) return;
   const int error = file.truncate(intended);
   if (error != 0) throw IoError(path, std::string("lost its end, and cannot be extended: ") + system_message(error));
-}
-
-/// Removes what killed processes left while they made this file.
-void remove_unfinished(const std::string& path) {
-  const fs::path file(path);
-  const std::string start = file.filename().string() + ".new-";
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(file.has_parent_path() ? file.parent_path() : ".", ignored)) {
-    const std::string name = entry.path().filename().string();
-    if (name.rfind(start, 0) != 0) continue;
-    const long process = std::strtol(name.c_str() + start.size(), nullptr, 10);
-    if (process > 0 && !is_process(static_cast<int>(process))) fs::remove(entry, ignored);
-  }
 }
 
 IoError busy(const std::string& path) {
@@ -96,6 +100,7 @@ struct EnsembleFile::Contents {
   EnsembleLayout layout;
   std::vector<char> done;
   std::size_t n_damaged = 0;
+  std::vector<std::size_t> chosen;  ///< [frame] its place in the file; see choose()
 
   void open(bool for_writing) {
     file = OpenFile(path, for_writing ? FileAccess::kReadWrite : FileAccess::kRead);
@@ -126,9 +131,12 @@ struct EnsembleFile::Contents {
         throw FormatError(path, 0, "a vertex has a residue that the description of the run lacks; it is damaged");
     }
     check_frames();
+    chosen.resize(layout.n_frames);
+    std::iota(chosen.begin(), chosen.end(), std::size_t{0});
   }
 
   void check_frames() {
+    n_damaged = 0;
     done.assign(layout.n_frames, 0);
     std::vector<std::uint64_t> sums(layout.n_frames);
     read_file_at(file, path, layout.checksums, sums.data(), sums.size() * sizeof(std::uint64_t));
@@ -136,8 +144,12 @@ struct EnsembleFile::Contents {
     for (std::size_t f = 0; f < layout.n_frames; ++f) {
       if (sums[f] == 0) continue;
       read_file_at(file, path, layout.values[f], values.data(), values.size() * sizeof(float));
-      done[f] = sums[f] == checksum(f, values, numbers(f), note(f)) ? 1 : 0;
+      const std::vector<double> row = numbers(f);
+      done[f] = sums[f] == checksum(f, values, row, note(f)) ? 1 : 0;
       if (done[f] == 0) ++n_damaged;
+      if (done[f] == 0) continue;
+      check_potentials(path, f, values);
+      check_potentials(path, f, row);
     }
   }
 
@@ -155,6 +167,8 @@ struct EnsembleFile::Contents {
 
   void write(std::size_t frame, const std::vector<float>& values, const std::vector<double>& row,
              const std::string& text) {
+    check_potentials(path, frame, values);
+    check_potentials(path, frame, row);
     const std::uint64_t none = 0, sum = checksum(frame, values, row, text);
     const std::uint64_t place = layout.checksums + frame * sizeof sum;
     write_at(file, path, place, &none, sizeof none);
@@ -166,27 +180,38 @@ struct EnsembleFile::Contents {
   }
 };
 
-void EnsembleFile::create(const std::string& path, const EnsemblePlan& plan, const TemplateSurface& surface) {
-  remove_unfinished(path);
-  const std::string temporary = path + ".new-" + std::to_string(process_number());
+void EnsembleFile::create(const std::string& path, const EnsemblePlan& plan, const TemplateSurface& surface,
+                          const std::function<void(EnsembleFile&)>& fill) {
+  const std::string target = followed_links(path);
+  std::string temporary;
+  EnsembleFile made;
+  Contents& contents = *made.contents_;
+  contents.path = path;
+  contents.file = make_sibling(target, temporary);
+  if (!contents.file) throw IoError(path, "cannot be written: " + system_message(contents.file.error()));
   try {
-    make_hdf5_file(temporary, plan_text(plan), surface, plan.potential_unit, plan.n_frames());
+    const std::string own = contents.file.own_path();
+    make_hdf5_file(contents.file, fs::exists(own) ? own : temporary, path, plan_text(plan), surface,
+                   plan.potential_unit, plan.n_frames());
+    contents.read();
+    if (fill) {
+      fill(made);
+      contents.check_frames();
+      if (contents.n_damaged > 0) throw IoError(path, kNotRead);
+    }
+    made.finish();
+    put_in_place(temporary, target);
   } catch (const FormatError&) {
     std::remove(temporary.c_str());
-    throw IoError(path, "cannot be written; is the disk full?");
-  } catch (...) {
-    std::remove(temporary.c_str());
-    throw;
-  }
-  try {
-    put_in_place(temporary, path);
+    throw IoError(path, kNotRead);
   } catch (...) {
     std::remove(temporary.c_str());
     throw;
   }
 }
 
-EnsembleFile::EnsembleFile(const std::string& path, bool for_writing) : contents_(new Contents) {
+EnsembleFile::EnsembleFile() : contents_(new Contents) {}
+EnsembleFile::EnsembleFile(const std::string& path, bool for_writing) : EnsembleFile() {
   contents_->path = path;
   contents_->open(for_writing);
   contents_->read();
@@ -198,10 +223,17 @@ const std::string& EnsembleFile::path() const { return contents_->path; }
 const EnsemblePlan& EnsembleFile::plan() const { return contents_->plan; }
 const TemplateSurface& EnsembleFile::surface() const { return contents_->surface; }
 std::size_t EnsembleFile::n_vertices() const { return contents_->layout.n_vertices; }
-bool EnsembleFile::has(std::size_t frame) const { return contents_->done.at(frame) != 0; }
+bool EnsembleFile::has(std::size_t frame) const { return contents_->done.at(contents_->chosen.at(frame)) != 0; }
 std::size_t EnsembleFile::n_damaged() const { return contents_->n_damaged; }
 std::size_t EnsembleFile::n_done() const {
-  return static_cast<std::size_t>(std::count(contents_->done.begin(), contents_->done.end(), 1));
+  const auto& chosen = contents_->chosen;
+  return static_cast<std::size_t>(
+      std::count_if(chosen.begin(), chosen.end(), [this](std::size_t f) { return contents_->done[f] == 1; }));
+}
+
+void EnsembleFile::finish() {
+  const int error = contents_->file.close();
+  if (error != 0) throw IoError(path(), "cannot be written: " + system_message(error));
 }
 
 void EnsembleFile::write(std::size_t frame, const std::vector<float>& values, const EnsembleFrame& n) {
@@ -212,14 +244,21 @@ void EnsembleFile::write(std::size_t frame, const std::vector<float>& values, co
 }
 
 EnsembleFrame EnsembleFile::numbers(std::size_t frame) const {
-  const std::vector<double> row = contents_->numbers(frame);
-  const std::string note = contents_->note(frame);
+  const std::size_t place = contents_->chosen.at(frame);
+  const std::vector<double> row = contents_->numbers(place);
+  const std::string note = contents_->note(place);
   return {row[0], row[1], row[2], row[3], row[4], row[5], row[6] != 0, note.substr(0, note.find('\0'))};
 }
 
 void EnsembleFile::read_values(std::size_t frame, std::size_t begin, std::size_t end, float* values) const {
-  read_file_at(contents_->file, contents_->path, contents_->layout.values[frame] + begin * sizeof(float), values,
+  read_file_at(contents_->file, contents_->path,
+               contents_->layout.values[contents_->chosen[frame]] + begin * sizeof(float), values,
                (end - begin) * sizeof(float));
+}
+
+void EnsembleFile::choose(EnsemblePlan plan, std::vector<std::size_t> frames) {
+  contents_->plan = std::move(plan);
+  contents_->chosen = std::move(frames);
 }
 
 void EnsembleFile::copy(std::size_t frame, const EnsembleFile& from) {

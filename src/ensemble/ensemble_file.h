@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -29,10 +30,11 @@ struct EnsembleFrame {
 /// computed again. One process at a time writes a file (flock).
 class EnsembleFile {
  public:
-  /// Makes a file, under a temporary name until it is complete. Replaces an older one that no run
-  /// writes.
-  /// @throws IoError (cannot be written, or another run is writing it)
-  static void create(const std::string& path, const EnsemblePlan& plan, const TemplateSurface& surface);
+  /// Makes a file beside its place and reads it back; then it gets its name. Replaces an older one that no run writes.
+  /// @param fill writes frames before that; none: frames are written later, in place
+  /// @throws IoError (cannot be written, or another run is writing it), and as `fill`
+  static void create(const std::string& path, const EnsemblePlan& plan, const TemplateSurface& surface,
+                     const std::function<void(EnsembleFile&)>& fill = {});
   /// Opens a file and checks every frame. A file that was cut off is extended again.
   /// @throws IoError (missing, unreadable, another process writes it), FormatError (not an ensemble file; damaged
   /// beyond the frames)
@@ -50,16 +52,23 @@ class EnsembleFile {
   std::size_t n_done() const;
   /// Frames that were begun or damaged: they have a checksum, which is wrong.
   std::size_t n_damaged() const;
-  /// @param values [vertex]. @throws IoError (disk full)
+  /// @param values [vertex]. @throws IoError (disk full), FormatError (a potential beyond 10^9)
   void write(std::size_t frame, const std::vector<float>& values, const EnsembleFrame& numbers);
   /// @throws IoError
   EnsembleFrame numbers(std::size_t frame) const;
   /// Values of the vertices from `begin` to `end`. @throws IoError
   void read_values(std::size_t frame, std::size_t begin, std::size_t end, float* values) const;
+  /// Closes the file. @throws IoError (what was written has not arrived)
+  void finish();
+  /// From now on the file's frames are these, in this order, under another plan; it cannot be written any more.
+  /// @param frames [frame of the plan] of the file, each at most once
+  void choose(EnsemblePlan plan, std::vector<std::size_t> frames);
   /// Copies a whole frame of another file of the same plan, bit for bit.
   void copy(std::size_t frame, const EnsembleFile& from);
 
  private:
+  EnsembleFile();
+
   struct Contents;
   std::unique_ptr<Contents> contents_;
 };

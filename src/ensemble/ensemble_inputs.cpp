@@ -41,7 +41,6 @@ EnsembleInputs::EnsembleInputs(const EnsembleRequest& request, const CompareOpti
   count_frames();
   check_replicates(plan_.replicates);
   find_maps();
-  read_references();
 }
 
 EnsembleInputs::~EnsembleInputs() = default;
@@ -85,10 +84,13 @@ void EnsembleInputs::count_frames() {
       chosen_.emplace_back(asked.n_frames);
       std::iota(chosen_.back().begin(), chosen_.back().end(), 0);
     } else {
-      const int n = FrameFiles(asked.files, opener_of(asked.topology)).n_frames();
+      const FrameFiles files(asked.files, opener_of(asked.topology));
+      FrameSet set;
+      set.n_frames = files.n_frames();
+      set.incomplete = files.incomplete();
       for (const std::string& path : asked.files) replicate.sha256.push_back(sha256_of_file(path));
       if (!asked.topology.empty()) replicate.topology_sha256 = sha256_of_file(asked.topology);
-      chosen_.push_back(parse_frames(request_.frames, {n}));
+      chosen_.push_back(parse_frames(request_.frames, set));
     }
     replicate.n_frames = chosen_.back().size();
   }
@@ -132,13 +134,16 @@ LoadedState EnsembleInputs::reference_of(const std::string& group, PotentialFact
            : state.preparation ? "PDB2PQR of the first frame"
                                : "its files";
   }
+  for (const ChargeFile& charges : state.charge_files)
+    from += ", " + charges.use + " " +
+            (charges.sha256.empty() ? sha256_of_file(charges.path) : charges.sha256);
   plan_.charges.emplace_back(group, from);
   facts = facts_of(state);
   facts.name = own ? "group " + group + " (" + file_name + ")" : file_name;
   return state;
 }
 
-void EnsembleInputs::read_references() {
+void EnsembleInputs::load_references() {
   const std::vector<std::string> names = plan_.groups();
   for (const auto& [group, file] : request_.charges) {
     if (file.empty() || std::find(names.begin(), names.end(), group) == names.end())
@@ -149,7 +154,9 @@ void EnsembleInputs::read_references() {
   std::vector<PotentialFacts> facts(names.size());
   for (std::size_t g = 0; g < names.size(); ++g) references_.emplace(names[g], reference_of(names[g], facts[g]));
   if (maps_.given()) return;
-  potential_ = PotentialPlan(request_.potential, facts, options_.temperature_K);
+  PotentialRequest asked = request_.potential;
+  asked.averaged = true;
+  potential_ = PotentialPlan(asked, facts, options_.temperature_K);
   if (!potential_.computes())
     throw InputError("an ensemble needs a potential" +
                      (potential_.because().empty() ? std::string() : ", and " + potential_.because()) +
@@ -165,6 +172,7 @@ std::vector<std::string> EnsembleInputs::files() const {
     all.push_back(r.topology);
   }
   for (const auto& [group, file] : request_.charges) all.push_back(file);
+  for (const std::vector<std::string>& maps : maps_.files()) all.insert(all.end(), maps.begin(), maps.end());
   if (fs::exists(request_.template_text)) all.push_back(request_.template_text);
   return all;
 }
@@ -196,15 +204,23 @@ LoadedState EnsembleInputs::load(std::size_t number) {
 MapMaker EnsembleInputs::maker_of(const LoadedState& state) const { return potential_.map_of(state).maker(); }
 
 /// @param group empty for all
-std::size_t EnsembleInputs::medoid(const std::string& group, const Progress& progress) {
+std::size_t EnsembleInputs::medoid(const std::string& group, bool skip_errors, const Progress& progress) {
   std::size_t first = 0, n = 0;
   for (const EnsembleReplicate& r : plan_.replicates) {
     if (n == 0 && !group.empty() && r.group != group) first += r.n_frames;
     if (group.empty() || r.group == group) n += r.n_frames;
   }
   if (n == 0) throw InputError(option("template", kMedoidOf + group) + ": there is no group of this name");
-  return first + find_medoid(
-                     n, [&](std::size_t f) { return load(first + f).molecule; }, progress);
+  const auto read = [&](std::size_t f) {
+    try {
+      return load(first + f).molecule;
+    } catch (const Error& error) {
+      if (!skip_errors || error.error_class() == ErrorClass::kCancelled || error.error_class() == ErrorClass::kIo)
+        throw Error(error.error_class(), plan_.name_of(first + f) + ": " + error.message());
+      return Molecule();
+    }
+  };
+  return first + find_medoid(n, read, progress);
 }
 
 RigidTransform EnsembleInputs::onto(const Molecule& earlier) const {
@@ -212,13 +228,13 @@ RigidTransform EnsembleInputs::onto(const Molecule& earlier) const {
   return superpose(present.positions, earlier.positions, pair_atoms(present, earlier).pairs).transform;
 }
 
-void EnsembleInputs::choose_template(const std::string& text, const Progress& progress) {
+void EnsembleInputs::choose_template(const std::string& text, bool skip_errors, const Progress& progress) {
   const std::size_t n = plan_.n_frames();
   const bool of_group = text.rfind(kMedoidOf, 0) == 0;
   if (text == "medoid" || of_group || is_number(text)) {
     const std::size_t number = is_number(text)
                                    ? std::stoul(text)
-                                   : medoid(of_group ? text.substr(std::string(kMedoidOf).size()) : "", progress);
+                                   : medoid(of_group ? text.substr(std::string(kMedoidOf).size()) : "", skip_errors, progress);
     if (number >= n)
       throw InputError(option("template", text) + ": there are " + std::to_string(n) +
                        " frames in all groups, numbered from 0");

@@ -33,19 +33,24 @@ struct EnsembleRequest {
 /// The frames of an ensemble. One file is in memory at a time, whatever the number of replicates.
 class EnsembleInputs {
  public:
-  /// Reads every file once, to count its frames, and the first frame of each group with its charges.
-  /// @throws InputError as check_replicates(); for a group without charges; as TrajectoryOpener
+  /// Reads every file once, to count its frames.
+  /// @throws InputError as check_replicates(), GivenMaps, TrajectoryOpener
   EnsembleInputs(const EnsembleRequest& request, const CompareOptions& options, const Progress& progress);
   ~EnsembleInputs();
 
-  /// Of the groups and files, and then of the template. Device and residues are the run's.
+  /// Loads the first frame of each group with its charges, which PDB2PQR may make. Once, before all that follows.
+  /// @throws InputError (a group without charges), as load_for()
+  void load_references();
+
+  /// Of the groups and files, then of the references, and then of the template. Device and residues are the run's.
   const EnsemblePlan& plan() const { return plan_; }
   /// Every file that is read.
   std::vector<std::string> files() const;
   /// Reads the template; searches for the medoid.
   /// @param text as EnsembleRequest::template_text
+  /// @param skip_errors frames that cannot be read are not the medoid
   /// @throws InputError (no such frame or group), as find_medoid()
-  void choose_template(const std::string& text, const Progress& progress);
+  void choose_template(const std::string& text, bool skip_errors, const Progress& progress);
   /// The superposition of the present template onto an earlier one. @throws as superpose()
   RigidTransform onto(const Molecule& earlier) const;
   CompareInput source() const;
@@ -57,10 +62,9 @@ class EnsembleInputs {
   OpenStructure opener_of(const std::string& topology);
   void count_frames();
   void find_maps();
-  void read_references();
   LoadedState reference_of(const std::string& group, PotentialFacts& facts);
   LoadedState load(std::size_t frame);
-  std::size_t medoid(const std::string& group, const Progress& progress);
+  std::size_t medoid(const std::string& group, bool skip_errors, const Progress& progress);
   MapMaker maker_of(const LoadedState& state) const;
 
   const EnsembleRequest& request_;

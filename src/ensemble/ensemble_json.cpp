@@ -1,5 +1,6 @@
 // ensemble_json.cpp: OUT.json of an ensemble.
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "base/version.h"
@@ -22,7 +23,6 @@ Json options_json(const EnsembleOptions& options) {
   json["most_missing"] = options.most_missing;
   json["control"] = options.control == ErrorControl::kTfce ? "tfce" : "max-t";
   json["most_arrangements"] = options.test.most_arrangements;
-  json["n_bootstrap"] = options.test.n_bootstrap;
   json["seed"] = options.test.seed;
   json["tfce"] = {{"extent_power", 0.5}, {"height_power", 2}, {"extent", "area"}};
   return json;
@@ -47,29 +47,39 @@ Json replicates_json(const EnsembleResult& result) {
   return all;
 }
 
+/// null without a number.
+Json smallest(const std::vector<double>& p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const double value : p) {
+    if (value < least) least = value;
+  }
+  return json_number(least);
+}
+
 Json test_json(const EnsembleResult& result) {
   const SurfaceTest& test = result.test;
   Json json;
   const bool replicates = test.inference == Inference::kReplicates;
   json["inference"] = replicates ? "replicates" : "within runs";
-  json["method"] =
-      replicates ? "Welch's t of replicates; exchange of their labels" : "circular block bootstrap within runs";
+  json["method"] = replicates ? "Welch's t of replicates; exchange of their labels"
+                              : "Welch's t of blocks of frames; exchange of the blocks between the runs";
   json["n_arrangements"] = test.n_arrangements;
   json["exact"] = test.exact;
-  json["smallest_p"] = test.smallest_p;
-  if (!test.block_lengths.empty()) json["block_lengths"] = test.block_lengths;
+  json["smallest_p"] = test.n_arrangements > 0 ? Json(test.smallest_p) : Json();
+  if (!replicates)
+    json["blocks"] = {{"n", test.blocks.n},
+                      {"length", test.blocks.length},
+                      {"gap", test.blocks.gap},
+                      {"inefficiency", test.blocks.inefficiency},
+                      {"least_frames", test.blocks.least_frames}};
+  json["no_p_because"] = result.has_p() ? Json() : Json(result.why_no_p());
   json["mean_abs_difference"] = json_number(test.mean_abs_difference);
   json["mean_abs_difference_p"] = json_number(test.mean_abs_difference_p);
   json["mean_abs_difference_exchanged"] = json_number(test.mean_abs_difference_exchanged);
   json["significant_area_A2"] = result.significant_area_A2;
   json["significant_area_fraction"] = result.significant_area_A2 / result.tested_area_A2;
-  double smallest_max_t = 1, smallest_tfce = 1;
-  for (std::size_t v = 0; v < test.p_max_t.size(); ++v) {
-    if (test.p_max_t[v] < smallest_max_t) smallest_max_t = test.p_max_t[v];
-    if (test.p_tfce[v] < smallest_tfce) smallest_tfce = test.p_tfce[v];
-  }
-  json["smallest_p_max_t"] = smallest_max_t;
-  json["smallest_p_tfce"] = smallest_tfce;
+  json["smallest_p_max_t"] = smallest(test.p_max_t);
+  json["smallest_p_tfce"] = smallest(test.p_tfce);
   return json;
 }
 
@@ -128,6 +138,7 @@ Json patches_json(const EnsembleFile& file, const EnsembleResult& result) {
 Json ensemble_json(const EnsembleFile& file, const EnsembleResult& result) {
   Json json;
   json["version"] = kVersion;
+  json["conclusion"] = result.conclusion;
   json["plan"] = Json::parse(plan_text(file.plan()));
   json["options"] = options_json(result.options);
   json["potential_unit"] = file.plan().potential_unit;

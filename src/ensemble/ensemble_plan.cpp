@@ -198,8 +198,8 @@ std::string design_warning(const EnsemblePlan& plan) {
   if (groups.size() < 2) return "";
   const std::size_t a = plan.replicates_of(groups[0]).size(), b = plan.replicates_of(groups[1]).size();
   if (std::min(a, b) < 2)
-    return "a group has one replicate: p-values and intervals will be of these runs only (block bootstrap within "
-           "them), not of the states; four replicates or more of each state allow more";
+    return "a group has one replicate: p-values and intervals will be of these runs only (blocks of frames are "
+           "exchanged between them), not of the states; four replicates or more of each state allow more";
   const double p = smallest_p(a, b);
   if (p < 0.05) return "";
   return formatted(

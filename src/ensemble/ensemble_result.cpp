@@ -382,6 +382,7 @@ EnsembleResult analyse_ensemble(const EnsembleFile& file, const EnsembleOptions&
   a.regress();
   a.judge_equilibrium();
   a.warn();
+  a.result.conclusion = conclusion_of(a.result, file.plan().potential_unit);
   return std::move(a.result);
 }
 

@@ -110,7 +110,14 @@ struct EnsembleResult {
   /// Why the replicates are not samples of states in equilibrium; empty where nothing speaks against it.
   std::vector<std::string> not_equilibrium;
   std::vector<std::string> warnings;
+  std::string conclusion;  ///< see conclusion_of()
 
+  /// Whether a family-wise p at the options' alpha can be reached; otherwise why not.
+  bool has_p() const { return why_no_p().empty(); }
+  std::string why_no_p() const;
+  /// What is exchanged between the groups, replicates or blocks of frames: all, and those of the first group.
+  std::size_t n_exchanged() const;
+  std::size_t n_exchanged_first() const;
   /// [vertex] the family-wise p that the options ask for.
   const std::vector<double>& family_wise() const {
     return options.control == ErrorControl::kTfce ? test.p_tfce : test.p_max_t;
@@ -125,6 +132,10 @@ std::vector<float> where_tested(const std::vector<double>& values, const std::ve
 /// state at all (1 - (1/15) / (1/6), the variances of Brownian motion about its trend and about its mean). The limit
 /// between these two is a choice: it was one third until four of eight short Trp-cage runs exceeded that.
 constexpr double kDriftLevel = 0.01, kDriftShare = 0.5;
+
+/// The answer in one sentence: whether the states differ, or why that cannot be concluded. Names of cause and remedy
+/// are in it, so that it stands alone. @param unit of the potential
+std::string conclusion_of(const EnsembleResult& result, const std::string& unit);
 
 /// Computes the statistics of a complete file. The same bits at any number of threads.
 /// @throws InputError (frames are missing; values of a replicate that do not change; no vertex is left to test)

@@ -12,8 +12,10 @@
 #include "base/not_a_number.h"
 #include "base/residue_label.h"
 #include "compare/options.h"
+#include "compare/readings.h"
 #include "compare/template_mapping.h"
 #include "ensemble/ensemble_file.h"
+#include "io/check_outputs.h"
 #include "matrix/matrix_run.h"
 #include "statistics/mesh_graph.h"
 
@@ -94,14 +96,12 @@ void add_times(std::vector<std::pair<std::string, double>>& sums,
 
 }  // namespace
 
-std::string ensemble_path(const std::string& prefix, const Shard& shard) {
-  if (shard.count == 1) return prefix + ".h5";
-  return prefix + ".shard-" + std::to_string(shard.index) + "-of-" + std::to_string(shard.count) + ".h5";
-}
+std::string ensemble_path(const std::string& prefix, const Shard& shard) { return part_path(prefix, shard, ".h5"); }
 
 EnsembleReport run_ensemble(Engine& engine, EnsemblePlan plan, const CompareInput& source,
                             const CompareOptions& options, const EnsembleRun& run,
                             const std::function<CompareInput(std::size_t)>& read, const Progress& progress) {
+  refuse_causes(options, "an ensemble");
   for (const Residue& residue : source.molecule->residues) plan.residues.push_back(residue_label(residue));
   TemplateMapping mapping(engine, source, options, progress);
   const MeshGraph graph = make_mesh_graph(mapping.surface().positions, mapping.surface().triangles);
@@ -147,6 +147,7 @@ EnsembleReport run_ensemble(Engine& engine, EnsemblePlan plan, const CompareInpu
       ++report.n_skipped;
     }
   }
+  file.finish();
   report.seconds = seconds();
   return report;
 }
@@ -154,6 +155,7 @@ EnsembleReport run_ensemble(Engine& engine, EnsemblePlan plan, const CompareInpu
 EnsembleReport merge_ensemble(const std::vector<std::string>& paths, const EnsembleRun& run) {
   EnsembleReport report;
   report.path = ensemble_path(run.output, {});
+  check_outputs(paths, {report.path});
   if (fs::exists(report.path) && !run.overwrite)
     throw InputError("the ensemble file " + report.path + " exists; " + switched_on("overwrite") + " replaces it");
   std::vector<EnsembleFile> parts;
@@ -173,9 +175,9 @@ EnsembleReport merge_ensemble(const std::vector<std::string>& paths, const Ensem
       throw InputError("none of the files has frame " + std::to_string(f) + " (" + plan.name_of(f) +
                        "); resume the shard that lacks it, or name its file too");
   }
-  EnsembleFile::create(report.path, plan, parts.front().surface());
-  EnsembleFile merged(report.path, true);
-  for (std::size_t f = 0; f < holder.size(); ++f) merged.copy(f, *holder[f]);
+  EnsembleFile::create(report.path, plan, parts.front().surface(), [&](EnsembleFile& merged) {
+    for (std::size_t f = 0; f < holder.size(); ++f) merged.copy(f, *holder[f]);
+  });
   report.n_frames = report.n_resumed = holder.size();
   return report;
 }

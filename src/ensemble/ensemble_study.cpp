@@ -8,15 +8,34 @@
 #include "compare/settings.h"
 #include "engine/engine.h"
 #include "ensemble/ensemble_file.h"
+#include "ensemble/relabel.h"
 #include "ensemble/template_patches.h"
 #include "ensemble/write_ensemble.h"
 #include "io/check_outputs.h"
+#include "prepare/input_files.h"
 
 namespace espdiff {
 namespace {
 
 /// The file of FILE.csv:COLUMN.
 std::string file_of_column(const std::string& text) { return text.substr(0, text.rfind(':')); }
+
+std::vector<std::string> inputs_of(const EnsembleStudy& study, std::vector<std::string> files) {
+  files.insert(files.end(), study.read_files.begin(), study.read_files.end());
+  const std::vector<std::string> of_settings = input_files(study.options.input);
+  files.insert(files.end(), of_settings.begin(), of_settings.end());
+  files.push_back(file_of_column(study.regress));
+  return files;
+}
+
+/// Results of one group are fewer.
+std::vector<std::string> outputs_of(const EnsembleStudy& study) {
+  return ensemble_outputs(study.run.output, {true, !study.regress.empty(), study.states});
+}
+
+std::string output_of_check(const EnsembleStudy& study, const std::string& group) {
+  return study.run.output + ".template-" + group;
+}
 
 /// A study while it runs.
 class Study {
@@ -27,13 +46,13 @@ class Study {
       throw InputError(option("region") +
                        ": an ensemble tells residues and patches of the whole surface; leave it out");
     if (!study.regress.empty()) regression_ = read_regression_column(study.regress, inputs_.plan());
-    std::vector<std::string> outputs = ensemble_outputs(study.run.output, true, regression_.has_value());
+    std::vector<std::string> outputs = outputs_of(study);
     outputs.push_back(ensemble_path(study.run.output, study.run.shard));
-    std::vector<std::string> read = study.read_files;
-    read.push_back(file_of_column(study.regress));
-    const std::vector<std::string> files = inputs_.files();
-    read.insert(read.end(), files.begin(), files.end());
-    check_outputs(read, outputs);
+    for (const std::string& group : inputs_.plan().groups()) {
+      if (study.check_template) outputs.push_back(ensemble_path(output_of_check(study, group), {}));
+    }
+    check_outputs(inputs_of(study, inputs_.files()), outputs);
+    inputs_.load_references();
     if (study.check_template && (inputs_.plan().groups().size() < 2 || study.run.shard.count > 1))
       throw InputError(option("check-template") + " compares the answers of two groups, in one process; leave it out");
   }
@@ -44,7 +63,7 @@ class Study {
     answer.device = engine.description();
     EnsembleOptions statistics = study_.statistics;
     statistics.regression = regression_;
-    inputs_.choose_template(study_.inputs.template_text, progress_);
+    inputs_.choose_template(study_.inputs.template_text, study_.run.skip_errors, progress_);
     // A wrong selection is refused before the work. Patches are of the first template.
     statistics.fixed_patches = fixed_patches(study_.options, *inputs_.source().molecule);
     map(engine, study_.run, answer);
@@ -68,8 +87,8 @@ class Study {
     const Molecule first = *inputs_.source().molecule;
     for (const std::string& group : inputs_.plan().groups()) {
       EnsembleRun part = study_.run;
-      part.output += ".template-" + group;
-      inputs_.choose_template("medoid:" + group, progress_);
+      part.output = output_of_check(study_, group);
+      inputs_.choose_template("medoid:" + group, part.skip_errors, progress_);
       map(engine, part, answer);
       const EnsembleFile other(answer.reports.back().path, false);
       const EnsembleResult result = analyse_ensemble(other, study_.statistics);
@@ -85,11 +104,9 @@ class Study {
 };
 
 void open_earlier(const EnsembleStudy& study, const Progress& progress, EnsembleAnswer& answer) {
-  if (!study.inputs.replicates.empty())
-    throw InputError(option("from") + " reads mapped frames from a file; leave out the groups");
-  check_outputs({study.from, file_of_column(study.regress)},
-                ensemble_outputs(study.run.output, true, !study.regress.empty()));
+  check_outputs(inputs_of(study, {study.from}), outputs_of(study));
   answer.file = std::make_unique<EnsembleFile>(study.from, false);
+  if (!study.inputs.replicates.empty()) relabel(*answer.file, study.inputs.replicates);
   EnsembleOptions statistics = study.statistics;
   statistics.fixed_patches = fixed_patches(study.options, residues_of_template(answer.file->plan()));
   if (!study.regress.empty()) statistics.regression = read_regression_column(study.regress, answer.file->plan());
@@ -128,10 +145,6 @@ EnsembleAnswer run_study(const EnsembleStudy& study, const std::function<std::un
   EnsembleResult& result = *answer.result;
   if (study.states) result.states = compare_states(*answer.file, result);
   answer.written = write_ensemble(study.run.output, *answer.file, result);
-  if (result.states) {
-    const std::vector<std::string> tables = write_states(study.run.output, *answer.file, *result.states);
-    answer.written.insert(answer.written.end(), tables.begin(), tables.end());
-  }
   return answer;
 }
 

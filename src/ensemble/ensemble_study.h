@@ -27,7 +27,8 @@ struct EnsembleStudy {
   std::string regress;                  ///< FILE.csv:COLUMN; see read_regression_column()
   bool check_template = false;          ///< also through the medoid of each group
   bool states = false;                  ///< also each frame with each other one
-  std::string from;                     ///< a complete file: its statistics, without mapping; then without `inputs`
+  std::string from;                     ///< a complete file: its statistics, without mapping; replicates of
+                                        ///< `inputs` are then its members, see relabel()
   std::vector<std::string> read_files;  ///< further files that no output may replace, such as a list
 };
 

@@ -21,6 +21,19 @@ std::string value(double number) { return std::isfinite(number) ? formatted("%.3
 /// "43 %", "-" without a value.
 std::string percent(double share) { return std::isfinite(share) ? formatted("%.0f %%", 100 * share) : "-"; }
 
+/// A text in lines of at most 100 bytes, the further ones below the text.
+std::string broken(std::string text) {
+  constexpr std::size_t kWidth = 100;
+  std::size_t start = 0;
+  while (text.size() - start > kWidth) {
+    const std::size_t blank = text.rfind(' ', start + kWidth);
+    if (blank == std::string::npos || blank <= start + 13) break;
+    text.replace(blank, 1, "\n             ");
+    start = blank + 1;
+  }
+  return text;
+}
+
 void print_replicates(std::ostream& out, const EnsembleResult& result) {
   out << formatted("%-10s %-20s %7s %6s %7s %6s %9s %9s %12s\n", "group", "replicate", "frames", "g", "eff.", "trend",
                    "mean", "RMSD (A)", "not trusted");
@@ -30,15 +43,22 @@ void print_replicates(std::ostream& out, const EnsembleResult& result) {
                      r.mean_potential, r.mean_rmsd_A, r.n_not_trustworthy);
 }
 
+/// What a p is a statement about, where that is not the states.
+const char* of_runs(const EnsembleResult& result) {
+  const bool of_states = result.test.inference == Inference::kReplicates && result.not_equilibrium.empty();
+  return of_states ? "" : " (of these runs, not of the states)";
+}
+
 void print_noise(std::ostream& out, const EnsembleResult& result, const std::string& unit) {
   out << "\nmean absolute difference over the tested surface (" << unit << ")\n";
   if (result.compares) {
     const SurfaceTest& test = result.test;
     const std::string groups = result.groups[1].name + " - " + result.groups[0].name;
     const char* const null =
-        test.inference == Inference::kReplicates ? "with exchanged labels, median" : "of resampled runs, median";
-    out << formatted("  %-44.44s %8s   p = %.3g\n", groups.c_str(), value(test.mean_abs_difference).c_str(),
-                     test.mean_abs_difference_p);
+        test.inference == Inference::kReplicates ? "with exchanged labels, median" : "with exchanged blocks, median";
+    out << formatted(
+        "  %-44.44s %8s%s\n", groups.c_str(), value(test.mean_abs_difference).c_str(),
+        result.has_p() ? formatted("   p%s = %.3g", of_runs(result), test.mean_abs_difference_p).c_str() : "");
     out << formatted("  %-44s %8s\n", null, value(test.mean_abs_difference_exchanged).c_str());
     out << formatted("  %-44s %8s\n", "one replicate of each group, mean of pairs", value(result.noise.across).c_str());
   }
@@ -81,10 +101,15 @@ std::string main_residues(const std::vector<std::pair<std::string, double>>& res
 
 void print_patches(std::ostream& out, const EnsembleResult& result, const std::string& unit) {
   const double confidence = 100 * (1 - result.options.alpha);
+  if (!result.has_p()) {
+    out << "\nsignificant: not tested, since " << result.why_no_p() << '\n';
+    return;
+  }
   out << formatted(
-      "\nsignificant: %.1f A2 of %.1f A2 tested (%.1f %%), family-wise p <= %.3g by %s; smallest possible p %.3g\n",
+      "\nsignificant: %.1f A2 of %.1f A2 tested (%.1f %%), family-wise p%s <= %.3g by %s; smallest possible p %.3g\n",
       result.significant_area_A2, result.tested_area_A2, 100 * result.significant_area_A2 / result.tested_area_A2,
-      result.options.alpha, result.options.control == ErrorControl::kTfce ? "TFCE" : "max-t", result.test.smallest_p);
+      of_runs(result), result.options.alpha, result.options.control == ErrorControl::kTfce ? "TFCE" : "max-t",
+      result.test.smallest_p);
   if (result.patches.empty()) return;
   out << formatted("%-6s %9s %12s %20s %8s  %s\n", "patch", "area (A2)", ("diff. (" + unit + ")").c_str(),
                    formatted("%.0f %% interval", confidence).c_str(), "p", "residues");
@@ -175,6 +200,7 @@ void print_states(std::ostream& out, const EnsembleFile& file, const EnsembleRes
 
 void print_ensemble(std::ostream& out, const EnsembleFile& file, const EnsembleResult& result) {
   const std::string& unit = file.plan().potential_unit;
+  out << broken("conclusion   " + result.conclusion) << "\n\n";
   out << formatted("template     %s, %zu vertices, %.1f A2\n", file.plan().template_name.c_str(), file.n_vertices(),
                    result.area_A2);
   out << formatted("potential    %.70s\n", file.plan().potential.c_str());
@@ -182,25 +208,24 @@ void print_ensemble(std::ostream& out, const EnsembleFile& file, const EnsembleR
     out << formatted("inference    of the states: Welch's t of replicates' means; labels exchanged in %s%zu ways\n",
                      result.test.exact ? "all " : "", result.test.n_arrangements);
   if (result.compares && result.test.inference == Inference::kWithinRuns)
-    out << formatted("inference    of these runs only, not of the states: block bootstrap, %zu samples\n",
-                     result.test.n_arrangements);
+    out << "inference    of these runs only, not of the states"
+        << (result.test.no_p.empty()
+                ? formatted(": %zu blocks of %zu frames exchanged in %s%zu ways", result.test.block_means.size(),
+                            result.test.blocks.length, result.test.exact ? "all " : "", result.test.n_arrangements)
+                : "")
+        << '\n';
   out << '\n';
   print_replicates(out, result);
   print_noise(out, result, unit);
   if (result.compares) {
     print_patches(out, result, unit);
-    print_residues(out, result);
+    if (result.has_p()) print_residues(out, result);
     print_template_checks(out, result);
   }
   print_fixed_patches(out, result, unit);
   print_regression(out, result, unit);
   print_states(out, file, result);
   for (const std::string& warning : result.warnings) out << "\nwarning: " << warning << '\n';
-  if (result.not_equilibrium.empty()) return;
-  out << "\nNOT AN EQUILIBRIUM ANSWER: "
-      << (result.compares ? "what is significant above says that these runs differ, not that the\nstates do.\n"
-                          : "the means above are of these runs, not of the state.\n");
-  for (const std::string& reason : result.not_equilibrium) out << "  " << reason << '\n';
 }
 
 }  // namespace espdiff

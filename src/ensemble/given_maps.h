@@ -36,6 +36,8 @@ class GivenMaps {
   /// Whether there are any.
   bool given() const { return !files_.empty(); }
   PotentialUnit unit() const { return unit_; }
+  /// [replicate][chosen frame]
+  const std::vector<std::vector<std::string>>& files() const { return files_; }
   /// Of each replicate, what identifies its maps in the plan: "maps of wild, w1", "100 files, 123456 bytes".
   const std::vector<std::pair<std::string, std::string>>& identity() const { return identity_; }
   /// @throws as read_grid_file(); InputError (another unit, of which one is unknown)
@@ -47,7 +49,7 @@ class GivenMaps {
   MapRequest request_;
   double temperature_K_ = 0;
   PotentialUnit unit_ = PotentialUnit::kUnknown;
-  std::vector<std::vector<std::string>> files_;  // [replicate][chosen frame]
+  std::vector<std::vector<std::string>> files_;
   std::vector<std::pair<std::string, std::string>> identity_;
 };
 

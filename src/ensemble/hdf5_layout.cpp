@@ -14,27 +14,40 @@
 #include "base/version.h"
 #include "compare/template_mapping.h"
 #include "ensemble/hdf5_reader.h"
+#include "system/open_file.h"
 
 namespace espdiff {
 namespace {
 
+/// Two: of plan and template, and of every byte but the frames'.
+constexpr const char* kHeadChecksum = "/espdiff/head_checksum";
 constexpr const char* kRemedy = "; begin anew with another output, or with ";
+
+IoError not_written(const std::string& path) { return {path, "cannot be written; is the disk full?"}; }
 
 /// An HDF5 identifier, closed at the end.
 class Handle {
  public:
-  Handle(hid_t id, herr_t (*close)(hid_t), const std::string& path, const char* what) : id_(id), close_(close) {
+  Handle(hid_t id, herr_t (*close)(hid_t), const std::string& path, const char* what)
+      : id_(id), close_(close), path_(path) {
     if (id < 0)
       throw FormatError(path, 0, std::string(what) + " is missing or damaged" + kRemedy + switched_on("overwrite"));
   }
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
-  ~Handle() { close_(id_); }
+  ~Handle() {
+    if (id_ >= 0) close_(id_);
+  }
   operator hid_t() const { return id_; }
+  /// What HDF5 kept back is written now. @throws IoError
+  void close() {
+    if (close_(std::exchange(id_, H5I_INVALID_HID)) < 0) throw not_written(path_);
+  }
 
  private:
   hid_t id_;
   herr_t (*close_)(hid_t);
+  const std::string& path_;
 };
 
 /// HDF5 prints errors unless told not to, and ours name what matters. At the process' end it closes once more what it
@@ -57,6 +70,12 @@ std::uint64_t head_checksum(const std::string& plan, const std::vector<Vec3d>& p
   return add_to_checksum(sum, residue.data(), residue.size() * sizeof(std::int32_t));
 }
 
+/// A dataset as it should be in the file.
+struct Written {
+  std::string name;
+  std::uint64_t checksum;
+};
+
 /// Writes one file.
 class Maker {
  public:
@@ -65,7 +84,8 @@ class Maker {
   void group(const std::string& name) const {
     const Handle options(H5Pcreate(H5P_GROUP_CREATE), H5Pclose, path_, "a property");
     H5Pset_obj_track_times(options, 0);
-    const Handle made(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, options, H5P_DEFAULT), H5Gclose, path_, "a group");
+    Handle made(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, options, H5P_DEFAULT), H5Gclose, path_, "a group");
+    made.close();
   }
 
   /// @param values null reserves the space only; chunk 0: contiguous
@@ -78,10 +98,14 @@ class Maker {
     if (chunk > 0) H5Pset_chunk(options, 1, &chunk);
     const Handle space(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose, path_,
                        "a size");
-    const Handle made(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, options, H5P_DEFAULT), H5Dclose, path_,
-                      name.c_str());
-    if (values != nullptr && H5Dwrite(made, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
-      throw IoError(path_, "cannot be written; is the disk full?");
+    Handle made(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, options, H5P_DEFAULT), H5Dclose, path_,
+                name.c_str());
+    if (values != nullptr && H5Dwrite(made, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0) throw not_written(path_);
+    made.close();
+    if (values == nullptr) return;
+    std::uint64_t n_items = 1;
+    for (const hsize_t n : size) n_items *= n;
+    if (n_items > 0) written_.push_back({name, add_to_checksum(kChecksumStart, values, n_items * H5Tget_size(type))});
   }
 
   template <typename T>
@@ -92,18 +116,22 @@ class Maker {
   void attribute(const std::string& object, const char* name, hid_t type, hsize_t n, const void* value) const {
     const Handle at(H5Oopen(file_, object.c_str(), H5P_DEFAULT), H5Oclose, path_, object.c_str());
     const Handle space(n == 0 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &n, nullptr), H5Sclose, path_, "a size");
-    const Handle made(H5Acreate2(at, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, path_, name);
-    H5Awrite(made, type, value);
+    Handle made(H5Acreate2(at, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, path_, name);
+    if (H5Awrite(made, type, value) < 0) throw not_written(path_);
+    made.close();
   }
   void text_attribute(const std::string& object, const char* name, const std::string& text) const {
     const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, path_, "a type");
     H5Tset_size(type, text.size());
     attribute(object, name, type, 0, text.data());
   }
+  /// The datasets with values so far.
+  const std::vector<Written>& written() const { return written_; }
 
  private:
   hid_t file_;
   std::string path_;
+  mutable std::vector<Written> written_;
 };
 
 /// The four kinds of cells of VTK's PolyData, of which only polygons are there.
@@ -198,15 +226,20 @@ const std::vector<std::string>& frame_columns() {
   return columns;
 }
 
-void make_hdf5_file(const std::string& path, const std::string& plan, const TemplateSurface& surface,
-                    const std::string& unit, std::size_t n_frames) {
-  be_silent();
+namespace {
+
+/// @returns the datasets to find again
+std::vector<Written> make_by_hdf5(const std::string& place, const std::string& path, const std::string& plan,
+                                  const TemplateSurface& surface, const std::string& unit, std::size_t n_frames) {
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path, "a property");
   // The index of the chunks goes before the chunks, so that a file that lost its end can still be opened.
   H5Pset_meta_block_size(access, (hsize_t{1} << 20) + 128 * n_frames);
-  const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+#if H5_VERSION_GE(1, 10, 7)
+  H5Pset_file_locking(access, false, true);  // the file is locked by who made it
+#endif
+  const hid_t id = H5Fcreate(place.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
   if (id < 0) throw IoError(path, "cannot be written");
-  const Handle file(id, H5Fclose, path, "the file");
+  Handle file(id, H5Fclose, path, "the file");
   const Maker make(file, path);
   make.group("/espdiff");
   make.text_attribute("/espdiff", "written_by", std::string("espdiff ") + kVersion);
@@ -218,19 +251,54 @@ void make_hdf5_file(const std::string& path, const std::string& plan, const Temp
   make.dataset("/espdiff/frame_checksums", H5T_STD_U64LE, {n_frames}, nullptr);
   make.dataset("/espdiff/frame_numbers", H5T_IEEE_F64LE, {n_frames, frame_columns().size()}, nullptr);
   make.dataset("/espdiff/frame_notes", H5T_STD_U8LE, {n_frames, kNoteBytes}, nullptr);
-  const std::vector<std::uint64_t> sum = {
-      head_checksum(plan, surface.positions, surface.normals, surface.triangles, surface.residue)};
-  make.dataset("/espdiff/head_checksum", H5T_STD_U64LE, sum);
+  const std::vector<std::uint64_t> sums = {
+      head_checksum(plan, surface.positions, surface.normals, surface.triangles, surface.residue), 0};
+  make.dataset(kHeadChecksum, H5T_STD_U64LE, sums);
   std::string names;
   for (const std::string& column : frame_columns()) names += (names.empty() ? "" : " ") + column;
   make.text_attribute("/espdiff/frame_numbers", "columns", names);
   const hsize_t n = surface.positions.size();
   make.dataset("/VTKHDF/PointData/potential", H5T_IEEE_F32LE, {n * n_frames}, nullptr, n);
   make.text_attribute("/VTKHDF/PointData/potential", "unit", unit);
-  if (H5Fflush(file, H5F_SCOPE_GLOBAL) < 0) throw IoError(path, "cannot be written; is the disk full?");
+  if (H5Fflush(file, H5F_SCOPE_GLOBAL) < 0) throw not_written(path);
+  file.close();
+  return make.written();
 }
 
-EnsembleContents open_hdf5_file(const OpenFile& file, const std::string& path) {
+/// What was written must be read: HDF5 does not tell of every write that fails.
+void read_back(const Hdf5Reader& reader, const std::string& path, const std::vector<Written>& written) {
+  for (const Written& set : written) {
+    const std::vector<char> bytes = reader.bytes_of(set.name);
+    if (add_to_checksum(kChecksumStart, bytes.data(), bytes.size()) != set.checksum) throw not_written(path);
+  }
+}
+
+/// Of all that is written once: every byte but those of the frames, and of this checksum.
+std::uint64_t structure_checksum(const OpenFile& file, const std::string& path, const EnsembleLayout& layout,
+                                 const Hdf5Dataset& own_place) {
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> left_out = {
+      {layout.numbers, layout.n_frames * frame_columns().size() * sizeof(double)},
+      {layout.notes, layout.n_frames * kNoteBytes},
+      {layout.checksums, layout.n_frames * sizeof(std::uint64_t)},
+      {own_place.address, own_place.n * sizeof(std::uint64_t)}};
+  for (const std::uint64_t values : layout.values) left_out.emplace_back(values, layout.n_vertices * sizeof(float));
+  left_out.emplace_back(file.size(), 0);
+  std::sort(left_out.begin(), left_out.end());
+  std::uint64_t sum = kChecksumStart, at = 0;
+  std::vector<char> bytes(std::size_t{1} << 16);
+  for (const auto& [begin, n] : left_out) {
+    while (at < begin) {
+      const std::size_t part = std::min<std::uint64_t>(bytes.size(), begin - at);
+      read_file_at(file, path, at, bytes.data(), part);
+      sum = add_to_checksum(sum, bytes.data(), part);
+      at += part;
+    }
+    at = std::max(at, begin + n);
+  }
+  return sum;
+}
+
+EnsembleContents read_contents(const OpenFile& file, const std::string& path) {
   const Hdf5Reader reader(file, path);
   if (!reader.has("espdiff")) throw FormatError(path, 0, "an HDF5 file, but not one of `espdiff ensemble`");
   EnsembleContents contents;
@@ -240,8 +308,8 @@ EnsembleContents open_hdf5_file(const OpenFile& file, const std::string& path) {
   contents.normals = reader.read<Vec3f>("/espdiff/normals", 'f', 3);
   contents.residue = reader.read<std::int32_t>("/espdiff/residue", 'i');
   contents.triangles = read_triangles(reader);
-  const auto sum = reader.read<std::uint64_t>("/espdiff/head_checksum", 'u');
-  if (sum.size() != 1 || !holds_together(contents) ||
+  const auto sum = reader.read<std::uint64_t>(kHeadChecksum, 'u');
+  if (sum.empty() || sum.size() > 2 || !holds_together(contents) ||
       sum[0] !=
           head_checksum(contents.plan, contents.positions, contents.normals, contents.triangles, contents.residue))
     throw FormatError(path, 0,
@@ -259,6 +327,32 @@ EnsembleContents open_hdf5_file(const OpenFile& file, const std::string& path) {
   layout.numbers =
       place_of(reader, path, "/espdiff/frame_numbers", layout.n_frames * frame_columns().size(), sizeof(double));
   layout.notes = place_of(reader, path, "/espdiff/frame_notes", layout.n_frames * kNoteBytes, 1);
+  return contents;
+}
+
+}  // namespace
+
+void make_hdf5_file(OpenFile& file, const std::string& place, const std::string& path, const std::string& plan,
+                    const TemplateSurface& surface, const std::string& unit, std::size_t n_frames) {
+  be_silent();
+  const std::vector<Written> written = make_by_hdf5(place, path, plan, surface, unit, n_frames);
+  const Hdf5Reader reader(file, path);
+  read_back(reader, path, written);
+  const EnsembleContents contents = read_contents(file, path);
+  const Hdf5Dataset sums = reader.find(kHeadChecksum);
+  const std::uint64_t sum = structure_checksum(file, path, contents.layout, sums);
+  if (file.write_at(sums.address + sizeof sum, &sum, sizeof sum) != 0) throw not_written(path);
+}
+
+EnsembleContents open_hdf5_file(const OpenFile& file, const std::string& path) {
+  EnsembleContents contents = read_contents(file, path);
+  const Hdf5Reader reader(file, path);
+  const auto sums = reader.read<std::uint64_t>(kHeadChecksum, 'u');
+  // Files of earlier versions have the first one only.
+  if (sums.size() == 2 && sums[1] != structure_checksum(file, path, contents.layout, reader.find(kHeadChecksum)))
+    throw FormatError(path, 0,
+                      std::string("something besides the frames was changed in this file, or is damaged") + kRemedy +
+                          switched_on("overwrite"));
   return contents;
 }
 

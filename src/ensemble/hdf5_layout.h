@@ -31,10 +31,11 @@ struct EnsembleLayout {
   std::uint64_t checksums = 0;        ///< [frame] 64 bits; 0: not written
 };
 
-/// Writes the file's metadata, plan and template, and reserves the rest.
+/// Writes the file's metadata, plan and template, reserves the rest, and reads back what it wrote.
+/// @param file  new and open, to read and write  @param place leads to it  @param path for messages
 /// @throws IoError
-void make_hdf5_file(const std::string& path, const std::string& plan, const TemplateSurface& surface,
-                    const std::string& unit, std::size_t n_frames);
+void make_hdf5_file(OpenFile& file, const std::string& place, const std::string& path, const std::string& plan,
+                    const TemplateSurface& surface, const std::string& unit, std::size_t n_frames);
 
 /// What a file is made of.
 struct EnsembleContents {
@@ -45,8 +46,8 @@ struct EnsembleContents {
   std::vector<Triangle> triangles;
   std::vector<std::int32_t> residue;
 };
-/// @param descriptor of the file, open for reading
-/// @throws FormatError (not an ensemble file; damaged)
+/// @param file open for reading
+/// @throws FormatError (not an ensemble file; damaged anywhere but in the frames)
 EnsembleContents open_hdf5_file(const OpenFile& file, const std::string& path);
 
 /// The size that a file should have, by its first bytes; 0 if it is no HDF5 file that we wrote.

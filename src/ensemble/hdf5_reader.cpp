@@ -212,6 +212,13 @@ Hdf5Dataset Hdf5Reader::find(const std::string& name) const {
   return set;
 }
 
+std::vector<char> Hdf5Reader::bytes_of(const std::string& name) const {
+  const Hdf5Dataset set = find(name);
+  std::vector<char> bytes(checked_size(set, set.kind, set.item_bytes, 1) * set.item_bytes);
+  read_bytes(set.address, bytes.data(), bytes.size());
+  return bytes;
+}
+
 std::size_t Hdf5Reader::checked_size(const Hdf5Dataset& set, char kind, std::size_t item_bytes,
                                      std::size_t per_item) const {
   if (set.kind != kind || set.item_bytes != item_bytes || !set.chunks.empty() || set.n % per_item != 0)

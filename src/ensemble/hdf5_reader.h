@@ -49,6 +49,8 @@ class Hdf5Reader {
     read_bytes(set.address, values.data(), values.size() * sizeof(T));
     return values;
   }
+  /// All elements of a contiguous dataset of any kind.
+  std::vector<char> bytes_of(const std::string& name) const;
 
  private:
   struct Message;

@@ -24,15 +24,21 @@ std::vector<Vec3d> as_in_first(const Molecule& first, const Molecule& frame) {
 
 std::size_t find_medoid(std::size_t n_frames, const std::function<Molecule(std::size_t)>& read,
                         const Progress& progress) {
-  const std::size_t n = std::min(n_frames, kMostMedoidFrames);
-  std::vector<std::size_t> numbers;
-  for (std::size_t i = 0; i < n; ++i) numbers.push_back(i * n_frames / n);
-  const Molecule first = read(numbers.front());
+  const std::size_t n_chosen = std::min(n_frames, kMostMedoidFrames);
+  Molecule first;
   std::vector<std::vector<Vec3d>> frames;
-  for (std::size_t i = 0; i < n; ++i) {
-    progress.report("template: frame " + std::to_string(i + 1) + " of " + std::to_string(n), 0.0);
-    frames.push_back(as_in_first(first, read(numbers[i])));
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < n_chosen; ++i) {
+    progress.report("template: frame " + std::to_string(i + 1) + " of " + std::to_string(n_chosen), 0.0);
+    const std::size_t number = i * n_frames / n_chosen;
+    const Molecule frame = read(number);
+    if (frame.size() == 0) continue;
+    if (first.size() == 0) first = frame;
+    frames.push_back(as_in_first(first, frame));
+    numbers.push_back(number);
   }
+  const std::size_t n = numbers.size();
+  if (n == 0) throw InputError("no frame can be read; give a structure as " + option("template"));
   std::vector<std::pair<std::size_t, std::size_t>> common;
   for (std::size_t a = 0; a < first.size(); ++a) {
     const bool everywhere =

@@ -9,7 +9,6 @@
 #include "base/not_a_number.h"
 #include "ensemble/ensemble_file.h"
 #include "ensemble/ensemble_result.h"
-#include "io/atomic_file.h"
 #include "io/write_csv.h"
 
 namespace espdiff {
@@ -110,12 +109,10 @@ StateTable compare_states(const EnsembleFile& file, const EnsembleResult& result
   return table;
 }
 
-std::vector<std::string> write_states(const std::string& prefix, const EnsembleFile& file, const StateTable& states) {
-  AtomicFile pairs(prefix + ".states.csv"), components(prefix + ".components.csv");
-  write_csv_row(pairs.stream(), {"group", "replicate", "frame", "other_group", "other_replicate", "other_frame",
-                                 "mean_abs_difference", "rms_difference", "hodgkin_index"});
-  const std::size_t n = states.size();
-  for (std::size_t i = 0; i < n; ++i) {
+void write_state_pairs(std::ostream& out, const EnsembleFile& file, const StateTable& states) {
+  write_csv_row(out, {"group", "replicate", "frame", "other_group", "other_replicate", "other_frame",
+                      "mean_abs_difference", "rms_difference", "hodgkin_index"});
+  for (std::size_t i = 0; i < states.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       std::vector<std::string> row = named(file, states.frames[j]);
       const std::vector<std::string> other = named(file, states.frames[i]);
@@ -123,19 +120,20 @@ std::vector<std::string> write_states(const std::string& prefix, const EnsembleF
       const Metrics m = states.sums.metrics(j, i);
       for (const double value : {m.mean_abs_difference, m.rms_difference, m.hodgkin_index})
         row.push_back(csv_number(value));
-      write_csv_row(pairs.stream(), row);
+      write_csv_row(out, row);
     }
   }
+}
+
+void write_components(std::ostream& out, const EnsembleFile& file, const StateTable& states) {
   std::vector<std::string> names = {"group", "replicate", "frame"};
   for (std::size_t k = 0; k < states.components.size(); ++k) names.push_back("component_" + std::to_string(k + 1));
-  write_csv_row(components.stream(), names);
-  for (std::size_t i = 0; i < n; ++i) {
+  write_csv_row(out, names);
+  for (std::size_t i = 0; i < states.size(); ++i) {
     std::vector<std::string> row = named(file, states.frames[i]);
     for (const auto& component : states.components) row.push_back(csv_number(component.scores[i]));
-    write_csv_row(components.stream(), row);
+    write_csv_row(out, row);
   }
-  commit_all({&pairs, &components});
-  return {pairs.path(), components.path()};
 }
 
 }  // namespace espdiff

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -39,9 +40,9 @@ struct StateTable {
 /// @throws InputError (more than kMostStates frames; no vertex that every frame has)
 StateTable compare_states(const EnsembleFile& file, const EnsembleResult& result);
 
-/// Writes OUT.states.csv (a row for each pair of frames) and OUT.components.csv (a row for each frame).
-/// @returns their names
-std::vector<std::string> write_states(const std::string& output_prefix, const EnsembleFile& file,
-                                      const StateTable& states);
+/// OUT.states.csv: a row for each pair of frames.
+void write_state_pairs(std::ostream& out, const EnsembleFile& file, const StateTable& states);
+/// OUT.components.csv: a row for each frame.
+void write_components(std::ostream& out, const EnsembleFile& file, const StateTable& states);
 
 }  // namespace espdiff

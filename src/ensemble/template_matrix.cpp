@@ -144,10 +144,10 @@ MatrixReport run_template_matrix(Engine& engine, const std::vector<Variant>& var
                                  const TemplateRequest& request, const MatrixRun& run, const Progress& progress) {
   check_request(variants, options, run);
   const std::string path = ensemble_path(run.output, run.shard), state = state_path(run.output, run.shard);
-  std::vector<std::string> inputs = input_paths(variants), outputs = output_paths(run);
-  if (fs::exists(request.text)) inputs.push_back(request.text);
-  outputs.push_back(path);
-  check_outputs(inputs, outputs);
+  MatrixRun files = run;
+  files.through_template = true;
+  if (fs::exists(request.text)) files.read_files.push_back(request.text);
+  check_matrix_files(files, variants);
   check_existing(run, fs::exists(path), part_names(options.input));
   const MatrixPlan plan = make_plan(engine, variants, options, run.potential);
   const Template chosen = choose_template(variants, request, progress);

@@ -169,30 +169,38 @@ void write_regression(std::ostream& out, const EnsembleFile& file, const Ensembl
 
 }  // namespace
 
-std::vector<std::string> ensemble_outputs(const std::string& prefix, bool compares, bool regresses) {
+std::vector<std::string> ensemble_outputs(const std::string& prefix, const EnsembleOutputs& parts) {
   std::vector<std::string> paths = {prefix + ".json", prefix + ".vtp", prefix + ".residues.csv"};
-  if (compares) paths.insert(paths.end(), {prefix + ".patches.csv", prefix + ".patch_series.csv"});
-  if (regresses) paths.push_back(prefix + ".regression.csv");
+  if (parts.compares) paths.insert(paths.end(), {prefix + ".patches.csv", prefix + ".patch_series.csv"});
+  if (parts.has_states) paths.insert(paths.end(), {prefix + ".states.csv", prefix + ".components.csv"});
+  if (parts.regresses) paths.push_back(prefix + ".regression.csv");
   return paths;
 }
 
 std::vector<std::string> write_ensemble(const std::string& prefix, const EnsembleFile& file,
                                         const EnsembleResult& result) {
-  const std::vector<std::string> paths = ensemble_outputs(prefix, result.compares, result.regression.has_value());
+  const std::vector<std::string> paths =
+      ensemble_outputs(prefix, {result.compares, result.regression.has_value(), result.states.has_value()});
   std::vector<std::unique_ptr<AtomicFile>> files;
   std::vector<AtomicFile*> all;
   for (const std::string& path : paths) {
     files.push_back(std::make_unique<AtomicFile>(path));
     all.push_back(files.back().get());
   }
-  files[0]->stream() << ensemble_json(file, result).dump(2) << '\n';
-  write_surface(files[1]->stream(), file, result);
-  write_residues(files[2]->stream(), result);
+  std::size_t written = 0;
+  const auto next = [&]() -> std::ostream& { return files[written++]->stream(); };
+  next() << ensemble_json(file, result).dump(2) << '\n';
+  write_surface(next(), file, result);
+  write_residues(next(), result);
   if (result.compares) {
-    write_patches(files[3]->stream(), file, result);
-    write_series(files[4]->stream(), file, result);
+    write_patches(next(), file, result);
+    write_series(next(), file, result);
   }
-  if (result.regression) write_regression(files.back()->stream(), file, *result.regression);
+  if (result.states) {
+    write_state_pairs(next(), file, *result.states);
+    write_components(next(), file, *result.states);
+  }
+  if (result.regression) write_regression(next(), file, *result.regression);
   commit_all(all);
   return paths;
 }

@@ -1,7 +1,6 @@
 // atomic_file.cpp: write aside, check, rename.
 #include "io/atomic_file.h"
 
-#include <atomic>
 #include <cerrno>
 #include <filesystem>
 #include <locale>
@@ -9,18 +8,13 @@
 
 #include "base/error.h"
 #include "base/system_message.h"
+#include "io/sibling_file.h"
 #include "system/permissions.h"
-#include "system/this_process.h"
 
 namespace espdiff {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string folder_of(const std::string& path) {
-  const std::string folder = fs::path(path).parent_path().string();
-  return folder.empty() ? "." : folder;
-}
 
 /// Says for the errors that users meet what they can do about them.
 std::string with_remedy(int error_number) {
@@ -62,40 +56,13 @@ void check_target(const std::string& path, const std::string& target) {
   }
 }
 
-/// A name beside `target` that no other process or thread uses.
-std::string sibling(const std::string& target, const char* suffix) {
-  static std::atomic<unsigned> counter{0};
-  return target + "." + suffix + std::to_string(process_number()) + "-" + std::to_string(counter++);
-}
-
-/// Creates the temporary file, with the permissions that any new file gets.
-std::string create_sibling(const std::string& path, const std::string& target) {
-  for (;;) {
-    const std::string name = sibling(target, "tmp");
-    const OpenFile file(name, FileAccess::kCreateNew);
-    if (file) return name;
-    if (file.error() != EEXIST) throw IoError(path, "cannot write: " + with_remedy(file.error()));
-  }
-}
-
 }  // namespace
-
-std::string followed_links(const std::string& path) {
-  fs::path current = path;
-  std::error_code error;
-  for (int depth = 0; depth < 40 && fs::is_symlink(fs::symlink_status(current, error)); ++depth) {
-    const fs::path next = fs::read_symlink(current, error);
-    if (error) break;
-    current = next.is_absolute() ? next : current.parent_path() / next;
-  }
-  return current.string();
-}
 
 AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), target_(followed_links(path_)) {
   check_target(path_, target_);
   stream_.imbue(std::locale::classic());
   open_unnamed();
-  if (!unnamed_) open_named();
+  if (!file_) open_named();
 }
 
 AtomicFile::~AtomicFile() {
@@ -104,18 +71,23 @@ AtomicFile::~AtomicFile() {
   if (!temporary_.empty()) fs::remove(temporary_, ignored);
 }
 
-/// Leaves `unnamed_` closed where the file system or a system without /proc cannot do it.
+/// Leaves `file_` closed where the file system or a system without /proc cannot do it.
 void AtomicFile::open_unnamed() {
-  unnamed_ = OpenFile(folder_of(target_), FileAccess::kUnnamed);
-  if (!unnamed_) return;
-  stream_.open(unnamed_.own_path(), std::ios::binary);
+  file_ = OpenFile(folder_of(target_), FileAccess::kUnnamed);
+  if (!file_) return;
+  file_.lock();
+  stream_.open(file_.own_path(), std::ios::binary);
   if (stream_) return;
   stream_.clear();
-  unnamed_.close();
+  file_.close();
 }
 
 void AtomicFile::open_named() {
-  temporary_ = create_sibling(path_, target_);
+  file_ = make_sibling(target_, temporary_);
+  if (!file_) {
+    temporary_.clear();
+    throw IoError(path_, "cannot write: " + with_remedy(file_.error()));
+  }
   errno = 0;
   stream_.open(temporary_, std::ios::binary | std::ios::trunc);
   if (stream_) return;
@@ -130,21 +102,16 @@ void AtomicFile::keep_mode() const {
   std::error_code error;
   const fs::file_status older = fs::status(target_, error);
   if (!fs::exists(older)) return;
-  fs::permissions(unnamed_ ? unnamed_.own_path() : temporary_, older.permissions() & fs::perms::all, error);
+  fs::permissions(temporary_.empty() ? file_.own_path() : temporary_, older.permissions() & fs::perms::all, error);
 }
 
 /// A file without a name gets a temporary one, which a rename can turn into the target's.
 void AtomicFile::name_temporary() {
-  if (!unnamed_) return;
-  for (;;) {
-    const std::string name = sibling(target_, "tmp");
-    const int error = unnamed_.link_as(name);
-    if (error == EEXIST) continue;
-    if (error != 0) throw IoError(path_, "not written: " + with_remedy(error));
-    temporary_ = name;
-    unnamed_.close();
-    return;
-  }
+  if (!temporary_.empty()) return;
+  const int error = name_sibling(file_, target_, temporary_);
+  if (error == 0) return;
+  temporary_.clear();
+  throw IoError(path_, "not written: " + with_remedy(error));
 }
 
 /// Brings everything to the file system; a write that failed earlier shows here at the latest.
@@ -168,7 +135,7 @@ void AtomicFile::rename_to_target() {
   name_temporary();
   if (fs::exists(target_, error)) {
     // A second link keeps the older file; where the file system has no links, it steps aside.
-    const std::string aside = sibling(target_, "old");
+    const std::string aside = sibling_name(target_, "old");
     fs::create_hard_link(target_, aside, error);
     if (error) fs::rename(target_, aside, error);
     if (!error) previous_ = aside;
@@ -179,6 +146,7 @@ void AtomicFile::rename_to_target() {
     throw IoError(path_, "not written: " + with_remedy(error.value()));
   }
   temporary_.clear();
+  file_.close();  // and with it the lock
   renamed_ = true;
 }
 
@@ -213,21 +181,6 @@ void commit_all(const std::vector<AtomicFile*>& files) {
     throw;
   }
   for (AtomicFile* file : files) file->forget_previous();
-}
-
-void remove_leftovers(const std::string& path) {
-  const fs::path target = followed_links(path);
-  const std::string start = target.filename().string() + ".tmp";
-  std::error_code error;
-  std::vector<fs::path> leftovers;
-  for (fs::directory_iterator at(folder_of(target.string()), error), end; !error && at != end; at.increment(error)) {
-    const std::string name = at->path().filename().string();
-    // sibling() adds a process and a number: digits, a dash, digits.
-    const bool is_ours = name.size() > start.size() && name.compare(0, start.size(), start) == 0 &&
-                         name.find_first_not_of("0123456789-", start.size()) == std::string::npos;
-    if (is_ours) leftovers.push_back(at->path());
-  }
-  for (const fs::path& leftover : leftovers) fs::remove(leftover, error);
 }
 
 }  // namespace espdiff

@@ -51,19 +51,12 @@ class AtomicFile {
   std::string path_;       // as given, for messages
   std::string target_;     // with symbolic links followed
   std::string temporary_;  // empty once renamed or removed, and while the file has no name
-  OpenFile unnamed_;       // open while the file has no name
+  OpenFile file_;          // locked until it has its name; has none before the end where that can be
   std::string previous_;   // an older file of this name, aside until all are committed; empty without one
   std::ofstream stream_;
   bool renamed_ = false;
 };
 
 void commit_all(const std::vector<AtomicFile*>& files);
-
-/// Removes the temporary files beside `path` that killed processes left. Only for who knows that no process is writing
-/// this file now.
-void remove_leftovers(const std::string& path);
-
-/// The file that `path` means once symbolic links are followed; it need not exist.
-std::string followed_links(const std::string& path);
 
 }  // namespace espdiff

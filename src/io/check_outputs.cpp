@@ -2,20 +2,16 @@
 #include "io/check_outputs.h"
 
 #include <filesystem>
+#include <map>
 
 #include "base/error.h"
-#include "io/atomic_file.h"
+#include "io/sibling_file.h"
+#include "system/permissions.h"
 
 namespace espdiff {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Devices such as /dev/null are written by none of our writers, and read by many.
-bool is_file(const std::string& path) {
-  std::error_code error;
-  return fs::is_regular_file(path, error);
-}
 
 /// The folder's real path and the name in it; of a link that points nowhere, that of what it would be.
 fs::path place_of(const std::string& path) {
@@ -25,33 +21,34 @@ fs::path place_of(const std::string& path) {
   return (error ? target.parent_path() : folder) / target.filename();
 }
 
+/// Equal for all names of one file. Devices such as /dev/null are written by none of our writers, and read by many.
+std::string identity_of(const std::string& path) {
+  const std::string identity = file_identity(path);
+  return identity.empty() ? place_of(path).string() : "file " + identity;
+}
+
 std::string both_names(const std::string& a, const std::string& b) {
   return a == b ? "'" + a + "'" : "'" + a + "' and '" + b + "', which are one file";
 }
 
 }  // namespace
 
-bool is_same_file(const std::string& a, const std::string& b) {
-  std::error_code error;
-  const bool has_a = is_file(a), has_b = is_file(b);
-  if (has_a && has_b) return fs::equivalent(a, b, error);
-  return has_a == has_b && place_of(a) == place_of(b);
-}
-
 void check_outputs(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs) {
-  for (std::size_t i = 0; i < outputs.size(); ++i) {
-    if (outputs[i].empty()) continue;
-    for (const std::string& input : inputs) {
-      if (!input.empty() && is_same_file(input, outputs[i]))
-        throw InputError("an output would replace an input: " + both_names(outputs[i], input) +
-                         "; choose another name for the output");
-    }
-    for (std::size_t j = 0; j < i; ++j) {
-      if (!outputs[j].empty() && is_same_file(outputs[j], outputs[i]))
-        throw InputError("two outputs would have one name: " + both_names(outputs[j], outputs[i]) +
-                         "; choose another for one of them");
-    }
+  std::map<std::string, const std::string*> read, written;
+  for (const std::string& input : inputs) {
+    if (!input.empty()) read.emplace(identity_of(input), &input);
   }
+  for (const std::string& output : outputs) {
+    if (output.empty()) continue;
+    const std::string identity = identity_of(output);
+    if (const auto input = read.find(identity); input != read.end())
+      throw InputError("an output would replace an input: " + both_names(output, *input->second) +
+                       "; choose another name for the output");
+    if (const auto [other, is_new] = written.emplace(identity, &output); !is_new)
+      throw InputError("two outputs would have one name: " + both_names(*other->second, output) +
+                       "; choose another for one of them");
+  }
+  remove_leftovers(outputs);
 }
 
 }  // namespace espdiff

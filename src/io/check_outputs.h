@@ -6,12 +6,10 @@
 
 namespace espdiff {
 
-/// Whether two names mean one file: the same device and inode where both exist (links of either kind), the same path
-/// with links followed where they do not.
-bool is_same_file(const std::string& a, const std::string& b);
-
-/// Checks the files of one run; empty names are passed over.
-/// @throws InputError that names both, when an output is an input, or two outputs are one file
+/// Checks the files of one run, before it computes: one output may neither be an input nor another output, by whatever
+/// name (links of either kind, ways through folders). Empty names are passed over. Then removes what killed runs left
+/// beside the outputs (remove_leftovers()).
+/// @throws InputError that names both
 void check_outputs(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
 
 }  // namespace espdiff

@@ -12,7 +12,7 @@ namespace espdiff {
 
 /// One frame of a trajectory.
 struct CoordinateFrame {
-  std::vector<Vec3f> positions;  ///< [atom] Angstrom
+  std::vector<Vec3f> positions;  ///< [atom] Angstrom; StructureFile refuses those that cannot be
   std::optional<UnitCell> cell;  ///< none where the file has none, or edges of 1 A and less
 };
 
@@ -23,7 +23,7 @@ class CoordinateFile {
   virtual const std::string& path() const = 0;
   virtual int n_frames() const = 0;
   /// A frame, which stays until another one is asked for.
-  /// @param number from 0. @throws FormatError (the frame is damaged; a coordinate is not finite)
+  /// @param number from 0. @throws FormatError (the frame is damaged)
   virtual const CoordinateFrame& frame(int number) = 0;
 };
 

@@ -116,7 +116,8 @@ void MoleculeBuilder::append(const AtomEntry& entry, const std::string& element,
   if (molecule_.atoms.size() % kLook == kLook - 1) require_memory(kBytesOfAtom * kLook, path_);
   const std::int32_t residue = find_residue(entry);
   residue_atoms_[static_cast<std::size_t>(residue)].push_back(molecule_.atoms.size());
-  molecule_.atoms.push_back({entry.name, element, residue, entry.hetero});
+  molecule_.atoms.push_back(
+      {entry.name, element, residue, entry.hetero, entry.b_factor, entry.occupancy, entry.has_alternates});
   molecule_.positions.push_back(entry.position);
   molecule_.radii.push_back(radius);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -25,6 +26,9 @@ struct AtomEntry {
   char insertion_code = ' ';
   bool hetero = false;
   Vec3d position{};
+  float b_factor = std::numeric_limits<float>::quiet_NaN();  ///< and the two below: see Atom
+  float occupancy = 1;
+  bool has_alternates = false;
   long line = 0;  ///< for messages; 0 when the format has no lines
 };
 

@@ -4,21 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <utility>
 
 #include "base/error.h"
 #include "io/molecule_builder.h"
 #include "io/molfile_abi.h"
+#include "io/read_input.h"
 #include "system/standard_streams.h"
 
 namespace espdiff {
 namespace {
-
-void require_file(const std::string& path) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) throw IoError(path, "there is no such file");
-}
 
 std::string by_reader(const std::string& path, const MolfileReader& reader) {
   return path + ": VMD's reader for " + reader.type + " files";
@@ -59,7 +54,7 @@ AtomEntry entry_of(const molfile::AtomRecord& atom, int flags) {
 MolfileFrames::MolfileFrames(std::string path, const MolfileReader& reader, std::size_t n_atoms,
                              const Progress& progress)
     : path_(std::move(path)), reader_(reader), n_atoms_(n_atoms) {
-  require_file(path_);
+  require_regular_file(path_);
   if (reader_.functions->read_next_timestep == nullptr)
     throw InputError(by_reader(path_, reader_) + " reads no coordinates; give a trajectory or a structure");
   open();
@@ -106,10 +101,6 @@ bool MolfileFrames::next() {
   }
   ++at_;
   if (status != molfile::kSuccess) return false;
-  for (const Vec3f& p : frame_.positions) {
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-      throw FormatError(path_, 0, "frame " + std::to_string(at_ - 1) + " has a coordinate that is not finite");
-  }
   frame_.cell.reset();
   if (step.a > 1 && step.b > 1 && step.c > 1)
     frame_.cell = UnitCell{{step.a, step.b, step.c}, {step.alpha, step.beta, step.gamma}};
@@ -132,7 +123,7 @@ const CoordinateFrame& MolfileFrames::frame(int number) {
 }
 
 Molecule read_molfile_atoms(const std::string& path, const MolfileReader& reader) {
-  require_file(path);
+  require_regular_file(path);
   if (reader.functions->read_structure == nullptr)
     throw InputError(by_reader(path, reader) + " knows no atoms' names; give the structure or topology first");
   int n_atoms = 0;

@@ -10,6 +10,7 @@
 #include "base/memory.h"
 #include "io/read_input.h"
 #include "io/text_cursor.h"
+#include "io/write_csv.h"
 
 namespace espdiff {
 namespace {
@@ -42,7 +43,7 @@ class CsvReader {
   std::vector<std::string> row() {
     std::vector<std::string> fields;
     for (;;) {
-      fields.push_back(field());
+      fields.push_back(without_mark(field()));
       if (at_ >= text_.size()) return fields;
       const char c = text_[at_++];
       if (c == separator_) continue;
@@ -56,6 +57,12 @@ class CsvReader {
   const std::vector<std::string>& comments() const { return comments_; }
 
  private:
+  /// Of a text that write_csv_row() kept from being a formula.
+  static std::string without_mark(std::string text) {
+    const bool is_marked = text.size() > 1 && text[0] == '\'' && kFormulaStarts.find(text[1]) != std::string_view::npos;
+    return is_marked ? text.substr(1) : text;
+  }
+
   std::string field() {
     std::size_t start = at_;
     while (start < text_.size() && (text_[start] == ' ' || (text_[start] == '\t' && separator_ != '\t'))) ++start;

@@ -24,7 +24,8 @@ struct CsvTable {
 
 /// Reads a file. Lines that begin with `#` before a row and empty lines are left out; fields are parted by commas, or
 /// by tabs where the row of names has one; blanks around unquoted fields do not count; a field in quotes may hold
-/// commas, line ends and doubled quotes. A byte-order mark is skipped.
+/// commas, line ends and doubled quotes; an apostrophe that write_csv_row() put in front is taken away. A byte-order mark
+/// is skipped.
 /// @throws IoError (missing, unreadable), FormatError (no columns, a name twice, rows of another length, a quote that
 ///         does not end)
 CsvTable read_csv(const std::string& path);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/printable.h"
 #include "io/grid_checks.h"
 #include "io/text_cursor.h"
 
@@ -22,6 +23,7 @@ class DxReader {
     while (!read_header_line()) continue;
     read_values();
     read_trailer();
+    if (!says_.empty()) grid_.name += " (which calls itself '" + says_ + "')";
     return std::move(grid_);
   }
 
@@ -192,8 +194,15 @@ class DxReader {
     }
   }
 
+  /// The unit of a potential; or another quantity that a title names, in the words of APBS and others, for messages.
   void note_unit(std::string_view line) {
     if (grid_.unit == PotentialUnit::kUnknown) grid_.unit = find_potential_unit(line);
+    constexpr std::size_t kLongest = 60;
+    const std::string lower = lower_case(line);
+    for (const char* other : {"density", "charge distribution", "accessibility", "dielectric", "kappa", "laplacian"}) {
+      if (says_.empty() && lower.find(other) != std::string::npos)
+        says_ = printable(std::string(trimmed(line.substr(0, kLongest))));
+    }
   }
 
   Vec3d read_vector(const char* what) {
@@ -216,6 +225,7 @@ class DxReader {
   const std::string& path_;
   TextCursor cursor_;
   Grid grid_;
+  std::string says_;
   std::size_t n_deltas_ = 0;
   long array_line_ = 0;
 };

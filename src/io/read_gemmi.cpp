@@ -126,6 +126,10 @@ AtomEntry make_entry(const ChosenAtom& chosen) {
   entry.insertion_code = chosen.residue->seqid.has_icode() ? chosen.residue->seqid.icode : ' ';
   entry.hetero = chosen.residue->het_flag == 'H';
   entry.position = {chosen.atom->pos.x, chosen.atom->pos.y, chosen.atom->pos.z};
+  // A whole column of zeros says nothing; see knows_places().
+  entry.b_factor = chosen.atom->b_iso;
+  entry.occupancy = chosen.atom->occ;
+  entry.has_alternates = chosen.atom->altloc != '\0';
   return entry;
 }
 

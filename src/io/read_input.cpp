@@ -14,8 +14,10 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/system_message.h"
+#include "io/entry_code.h"
 #include "io/file_kind.h"
 #include "io/sha256.h"
+#include "system/interruption.h"
 #include "system/open_file.h"
 
 namespace espdiff {
@@ -25,7 +27,7 @@ namespace {
 #define ESPDIFF_READ_CHUNK (std::size_t{1} << 18)
 #endif
 constexpr std::size_t kChunk = ESPDIFF_READ_CHUNK;
-constexpr int kWaitForWriterMs = 10000;
+constexpr int kWaitForWriterMs = 10000, kWaitMs = 100;
 
 namespace fs = std::filesystem;
 
@@ -37,7 +39,10 @@ namespace fs = std::filesystem;
 fs::file_type type_of_file(const std::string& path) {
   std::error_code error;
   const fs::file_type type = fs::status(path, error).type();
-  if (error) cannot_read(path, error.value(), "check the path");
+  if (error) {
+    if (const std::string advice = entry_advice(path); !advice.empty()) throw IoError(path, advice);
+    cannot_read(path, error.value(), "check the path");
+  }
   if (type == fs::file_type::directory) throw IoError(path, "is a directory; give a file in it");
   return type;
 }
@@ -53,11 +58,8 @@ class InputStream {
     // Opening a pipe would wait for a writer, without end.
     file_ = OpenFile(path, FileAccess::kReadPipe);
     if (!file_) cannot_read(path, file_.error(), "check its permissions");
-    if (type == fs::file_type::fifo) {
-      wait_for_writer();
-    } else {
-      n_bytes_ = static_cast<std::size_t>(file_.size());
-    }
+    is_pipe_ = type == fs::file_type::fifo;
+    if (!is_pipe_) n_bytes_ = static_cast<std::size_t>(file_.size());
   }
 
   /// 0 where it is not known before.
@@ -65,32 +67,36 @@ class InputStream {
 
   /// Fills the buffer as far as there is something left to read; returns the number of bytes.
   std::size_t read(char* buffer, std::size_t size) {
-    const std::size_t n_first = has_first_ && size > 0 ? 1 : 0;
-    if (n_first > 0) *buffer = first_;
-    has_first_ = has_first_ && n_first == 0;
     std::size_t n_read = 0;
-    const int error = file_.read(buffer + n_first, size - n_first, n_read);
+    const int error = is_pipe_ ? read_pipe(buffer, size, n_read) : file_.read(buffer, size, n_read);
     if (error != 0) throw IoError(path_, std::string("reading failed: ") + system_message(error));
-    return n_first + n_read;
+    return n_read;
   }
 
  private:
-  void wait_for_writer() {
-    // No data within this time: there is no writer, or it has not begun. A read tells which.
-    if (!file_.wait_until_readable(kWaitForWriterMs)) {
-      std::size_t n_read = 0;
-      if (file_.read(&first_, 1, n_read) == 0 && n_read == 0)
+  /// In short waits, since a signal between two of them would not end one.
+  int read_pipe(char* buffer, std::size_t size, std::size_t& n_read) {
+    for (int waited_ms = 0; n_read < size;) {
+      const bool is_readable = file_.wait_until_readable(kWaitMs);
+      if (Interruption::is_asked()) throw Cancelled();
+      waited_ms += kWaitMs;
+      if (!is_readable && (has_writer_ || waited_ms < kWaitForWriterMs)) continue;
+      std::size_t n = 0;
+      const int error = file_.read_what_is_there(buffer + n_read, size - n_read, n);
+      if (error == 0 && n == 0 && !is_readable)
         throw IoError(path_, "is a pipe that nobody writes into; start what writes, or give a file");
-      has_first_ = n_read == 1;
+      has_writer_ = true;
+      if (error == OpenFile::kNothingYet) continue;
+      n_read += n;
+      if (error != 0 || n == 0) return error;
     }
-    file_.let_reading_wait();
+    return 0;
   }
 
   std::string path_;
   OpenFile file_;
   std::size_t n_bytes_ = 0;
-  char first_ = 0;  // read while waiting
-  bool has_first_ = false;
+  bool is_pipe_ = false, has_writer_ = false;
 };
 
 bool starts_as_gzip(std::string_view bytes) { return bytes.substr(0, 2) == "\x1f\x8b"; }

@@ -2,11 +2,13 @@
 #include "io/read_structure.h"
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 #include <string_view>
 #include <utility>
 
 #include "base/error.h"
+#include "base/formatted.h"
 #include "io/atom_records.h"
 #include "io/coordinate_file.h"
 #include "io/file_kind.h"
@@ -96,7 +98,21 @@ struct StructureFile::Frames {
     if (model < 1 || model > file->n_frames())
       throw InputError(file->path() + ": there is no frame " + std::to_string(model - 1) + "; it has " +
                        std::to_string(file->n_frames()) + ", from 0");
-    return file->frame(model - 1);
+    const CoordinateFrame& read = file->frame(model - 1);
+    for (std::size_t i = 0; i < read.positions.size(); ++i) check_position(read.positions[i], i, model - 1);
+    return read;
+  }
+
+  /// A frame that was damaged is an error of its own; the others are good. Not finite is not below the limit.
+  void check_position(const Vec3f& p, std::size_t atom, int number) const {
+    constexpr float kFarthest_A = 1e6F;
+    const auto is_possible = [](float x) { return std::fabs(x) <= kFarthest_A; };
+    if (is_possible(p.x) && is_possible(p.y) && is_possible(p.z)) return;
+    throw FormatError(file->path(), 0,
+                      "frame " + std::to_string(number) + ": atom " + std::to_string(atom) +
+                          formatted(" is at (%g, %g, %g) A", static_cast<double>(p.x), static_cast<double>(p.y),
+                                    static_cast<double>(p.z)) +
+                          ", and coordinates are numbers within 10^6 A; write the frame again, or leave it out");
   }
 };
 

@@ -5,12 +5,21 @@
 #include <cmath>
 #include <sstream>
 
+#include "io/text_cursor.h"
+
 namespace espdiff {
 namespace {
 
+bool is_label_like_formula(const std::string& field) {
+  double ignored = 0;
+  return !field.empty() && kFormulaStarts.find(field[0]) != std::string_view::npos && !parse_number(field, ignored) &&
+         field != "-inf";
+}
+
 std::string quoted(const std::string& field) {
-  if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
-  std::string result = "\"";
+  const bool is_formula = is_label_like_formula(field);
+  if (!is_formula && field.find_first_of(",\"\r\n") == std::string::npos) return field;
+  std::string result = is_formula ? "\"'" : "\"";
   for (const char c : field) {
     if (c == '"') result += '"';
     result += c;

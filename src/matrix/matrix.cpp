@@ -46,6 +46,9 @@ MatrixCell cell_of(const MatrixPair& pair, const CompareResult& result) {
   for (const std::string& part : parts)
     cell.parts_trustworthy.push_back(part_of(result, part)->certificate.trustworthy ? 1 : 0);
   for (const Message& reason : result.certificate.reasons) cell.reasons.push_back(reason.plain());
+  for (const Warning& warning : result.warnings) {
+    if (!warning.refuses) cell.warnings.push_back(warning.text.plain());  // those that refuse are reasons
+  }
   return cell;
 }
 

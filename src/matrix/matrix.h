@@ -28,6 +28,7 @@ struct MatrixCell {
   bool converged = false, trustworthy = false;
   std::vector<std::uint8_t> parts_trustworthy{};  ///< [part] 1 or 0
   std::vector<std::string> reasons;               ///< why it is not trustworthy
+  std::vector<std::string> warnings;              ///< what else the comparison says of its inputs
   std::string error;                              ///< why there are no values
 };
 

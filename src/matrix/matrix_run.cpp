@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "compare/input_settings.h"
 #include "compare/options.h"
+#include "compare/readings.h"
 #include "io/atomic_file.h"
 #include "io/check_outputs.h"
 #include "matrix/matrix_state.h"
@@ -44,15 +45,26 @@ std::string in_words(double seconds) {
   return std::to_string(minutes / 60) + " h " + std::to_string(minutes % 60) + " min";
 }
 
+std::string part_path(const std::string& output_prefix, const Shard& shard, const std::string& ending) {
+  if (shard.count == 1) return output_prefix + ending;
+  return output_prefix + ".shard-" + std::to_string(shard.index) + "-of-" + std::to_string(shard.count) + ending;
+}
+
 std::string state_path(const std::string& output_prefix, const Shard& shard) {
-  if (shard.count == 1) return output_prefix + ".state";
-  return output_prefix + ".shard-" + std::to_string(shard.index) + "-of-" + std::to_string(shard.count) + ".state";
+  return part_path(output_prefix, shard, ".state");
 }
 
 std::vector<std::string> output_paths(const MatrixRun& run) {
   std::vector<std::string> paths = {state_path(run.output, run.shard)};
+  if (run.through_template) paths.push_back(part_path(run.output, run.shard, ".h5"));
   if (run.shard.count == 1) paths.insert(paths.end(), {run.output + ".csv", run.output + ".json"});
   return paths;
+}
+
+void check_matrix_files(const MatrixRun& run, const std::vector<Variant>& variants) {
+  std::vector<std::string> inputs = input_paths(variants);
+  inputs.insert(inputs.end(), run.read_files.begin(), run.read_files.end());
+  check_outputs(inputs, output_paths(run));
 }
 
 void check_results(const MatrixRun& run, bool may_replace, const std::vector<std::string>& parts) {
@@ -125,11 +137,12 @@ std::vector<MatrixCell> compute_and_keep(Engine& engine, const std::vector<Varia
 
 MatrixReport run_matrix(Engine& engine, const std::vector<Variant>& variants, const CompareOptions& options,
                         const MatrixRun& run, const Progress& progress) {
-  check_outputs(input_paths(variants), output_paths(run));
+  check_matrix_files(run, variants);
   check_existing(run, fs::exists(state_path(run.output, run.shard)), part_names(options.input));
   if (options.offsets_A.size() > 1)
     throw InputError(option("offset") +
                      ": a list of distances was given, and a matrix has one value of a metric for a pair; give one");
+  refuse_causes(options, "a matrix");
   const MatrixPlan plan = make_plan(engine, variants, options, run.potential);
   MatrixReport report;
   const std::vector<MatrixCell> cells = compute_and_keep(engine, variants, options, run, plan,

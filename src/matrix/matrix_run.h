@@ -17,6 +17,9 @@ struct MatrixRun {
   bool skip_errors = false;  ///< see compute_pairs()
   std::string potential;     ///< description, for the results
   std::string cluster_by;    ///< a metric; empty: usual_metric()
+  /// Further files that no output may replace, such as a list.
+  std::vector<std::string> read_files{};
+  bool through_template = false;  ///< keeps OUT.h5 as well
 };
 
 /// The parts of a run through a template; see run_template_matrix().
@@ -38,6 +41,12 @@ struct MatrixReport {
 
 /// All that a run writes: results, or a shard's state file.
 std::vector<std::string> output_paths(const MatrixRun& run);
+
+/// check_outputs() of a run. @param variants as far as they are known
+void check_matrix_files(const MatrixRun& run, const std::vector<Variant>& variants);
+
+/// OUT.ENDING, or OUT.shard-2-of-8.ENDING.
+std::string part_path(const std::string& output_prefix, const Shard& shard, const std::string& ending);
 
 /// OUT.state, or OUT.shard-2-of-8.state.
 std::string state_path(const std::string& output_prefix, const Shard& shard);

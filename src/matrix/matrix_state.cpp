@@ -40,6 +40,7 @@ std::string cell_json(const MatrixCell& cell, const std::vector<std::string>& pa
   Json json = {{"source", cell.source},       {"target", cell.target},           {"values", std::move(values)},
                {"converged", cell.converged}, {"trustworthy", cell.trustworthy}, {"reasons", cell.reasons},
                {"error", cell.error}};
+  if (!cell.warnings.empty()) json["warnings"] = cell.warnings;
   for (std::size_t k = 0; k < parts.size(); ++k) json[trustworthy_column(parts[k])] = cell.parts_trustworthy.at(k) != 0;
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -62,6 +63,7 @@ MatrixCell parse_cell(const std::string& text, const MatrixPlan& plan) {
     cell.parts_trustworthy.push_back(json.at(trustworthy_column(part)).get<bool>() ? 1 : 0);
   json.at("reasons").get_to(cell.reasons);
   json.at("error").get_to(cell.error);
+  if (json.contains("warnings")) json.at("warnings").get_to(cell.warnings);
   return cell;
 }
 
@@ -149,7 +151,6 @@ MatrixState::MatrixState(std::string path, std::string sum)
   if (!file_) throw IoError(path_, std::string("the state file cannot be written: ") + system_message(file_.error()));
   if (file_.lock() == LockResult::kBusy)
     throw IoError(path_, "another process is writing this state file; wait for it, or name another output");
-  remove_leftovers(path_);
 }
 
 MatrixState MatrixState::begin(const std::string& path, const MatrixPlan& plan) {

@@ -15,7 +15,7 @@ bool same_value(double a, double b) { return a == b || (std::isnan(a) && std::is
 bool same_cell(const MatrixCell& a, const MatrixCell& b) {
   return std::equal(a.values.begin(), a.values.end(), b.values.begin(), b.values.end(), same_value) &&
          a.converged == b.converged && a.trustworthy == b.trustworthy && a.parts_trustworthy == b.parts_trustworthy &&
-         a.reasons == b.reasons && a.error == b.error;
+         a.reasons == b.reasons && a.warnings == b.warnings && a.error == b.error;
 }
 
 double mean_of_known(double a, double b) {

@@ -131,7 +131,7 @@ void write_table(std::ostream& out, const Matrix& matrix) {
   for (const Metric& metric : matrix.metrics()) names.emplace_back(metric.name);
   names.insert(names.end(), {"converged", "trustworthy"});
   for (const std::string& part : matrix.plan.parts()) names.push_back(trustworthy_column(part));
-  names.insert(names.end(), {"reasons", "error"});
+  names.insert(names.end(), {"reasons", "warnings", "error"});
   write_csv_row(out, names);
   for (const MatrixCell& cell : matrix.cells) {
     const MatrixPlan::Item &source = matrix.plan.variants[cell.source], &target = matrix.plan.variants[cell.target];
@@ -142,7 +142,7 @@ void write_table(std::ostream& out, const Matrix& matrix) {
     const auto known = [&](bool value) { return has_values ? std::to_string(static_cast<int>(value)) : std::string(); };
     fields.insert(fields.end(), {known(cell.converged), known(cell.trustworthy)});
     for (const std::uint8_t part : cell.parts_trustworthy) fields.push_back(known(part != 0));
-    fields.insert(fields.end(), {joined(cell.reasons), cell.error});
+    fields.insert(fields.end(), {joined(cell.reasons), joined(cell.warnings), cell.error});
     write_csv_row(out, fields);
   }
 }

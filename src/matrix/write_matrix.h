@@ -15,7 +15,7 @@ namespace espdiff {
 ///
 /// OUT.csv: a row for each ordered pair: source, target, their groups, the unit of potentials, every metric
 /// (Matrix::metrics(); empty for missing values), converged, trustworthy and, of a region and of patches,
-/// PART_trustworthy (1 or 0), reasons, error.
+/// PART_trustworthy (1 or 0), reasons, warnings, error.
 /// OUT.json: matrix_json().
 /// @param metric the metric for clustering
 /// @returns the files' names

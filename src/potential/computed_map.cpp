@@ -194,6 +194,7 @@ MapMaker ComputedMap::maker() const {
                        ? charges->coulomb(engine, to_map)
                        : charges->poisson_boltzmann(engine, to_map, before, progress);
     made.recipe.made = true;
+    made.charges = std::shared_ptr<const Molecule>(charges, &charges->molecule);
     return made;
   };
 }

@@ -2,6 +2,7 @@
 #include "potential/potential_plan.h"
 
 #include "base/error.h"
+#include "io/select_atoms.h"
 #include "io/structure_file.h"
 #include "prepare/pdb2pqr.h"
 
@@ -29,12 +30,12 @@ PotentialFacts facts_of(const LoadedState& state) {
 
 PotentialPlan::PotentialPlan(const PotentialRequest& asked, const std::vector<PotentialFacts>& facts,
                              double temperature_K) {
-  const PotentialChoice choice = choose_potential(asked.potential, asked.cell, facts);
+  const PotentialChoice choice = choose_potential(asked.potential, asked.cell, facts, asked.averaged);
   because_ = choice.because;
   if (!choice.method && !because_.empty() && find_pdb2pqr().empty())
     because_ += std::string(", and PDB2PQR, which assigns some, is not there; ") + kPdb2pqrRemedy;
   own_cell_ = choice.method == PotentialMethod::kPme && choice.own_cell;
-  const bool usual_cell = choose_potential(asked.potential, "auto", facts).own_cell;
+  const bool usual_cell = choose_potential(asked.potential, "auto", facts, asked.averaged).own_cell;
   if (choice.method == PotentialMethod::kPme && choice.own_cell != usual_cell)
     unusual_cell_ = choice.own_cell ? " cell own" : " cell box";
   if (!choice.method) {
@@ -43,7 +44,8 @@ PotentialPlan::PotentialPlan(const PotentialRequest& asked, const std::vector<Po
                        (because_.empty() ? "" : ": " + because_));
     return;
   }
-  options_ = make_potential_options(*choice.method, asked.given, temperature_K);
+  options_ = make_potential_options(*choice.method, with_salt(choice, asked.given), temperature_K);
+  replaces_water_ = choice.ionic_strength.has_value();
   options_->because = because_;
 }
 
@@ -53,7 +55,16 @@ std::string PotentialPlan::in_words() const {
 }
 
 ComputedMap PotentialPlan::map_of(const LoadedState& state) const {
-  if (!own_cell_) return {state.molecule, {std::nullopt, state.molecule.positions, false}, *options_};
+  if (!own_cell_) {
+    Molecule solute = state.molecule;
+    if (replaces_water_) {
+      std::vector<bool> keep = salt_ions(solute);
+      keep.flip();
+      solute = keep_atoms(solute, keep);
+    }
+    std::vector<Vec3d> positions = solute.positions;
+    return {std::move(solute), {std::nullopt, std::move(positions), false}, *options_};
+  }
   if (!state.cell)
     throw InputError(state.molecule.name +
                      ": there is no cell (a CRYST1 record with edges above 1 A) before the atoms; add one, or take " +

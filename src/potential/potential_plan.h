@@ -18,6 +18,7 @@ struct PotentialRequest {
   std::string potential = "auto";  ///< auto, none, pme, coulomb or pb
   std::string cell = "auto";       ///< of pme: own, box or auto
   GivenPotentialSettings given;
+  bool averaged = false;  ///< the potentials of many frames are averaged; see choose_potential()
 };
 
 /// Loads a state that is to be compared: with charges where a potential is asked for or, for auto, where charges
@@ -51,7 +52,8 @@ class PotentialPlan {
  private:
   std::optional<PotentialOptions> options_;
   bool own_cell_ = false;
-  std::string unusual_cell_;  ///< in words, where the user chose another cell than `auto` takes
+  bool replaces_water_ = false;  ///< a continuum stands for explicit water and the ions in it
+  std::string unusual_cell_;     ///< in words, where the user chose another cell than `auto` takes
   std::string because_;
 };
 

@@ -6,7 +6,9 @@
 
 #include "align/pair_residues.h"
 #include "align/protonation.h"
+#include "align/residue_charges.h"
 #include "base/error.h"
+#include "base/not_a_number.h"
 #include "io/read_structure.h"
 #include "io/read_topology.h"
 #include "io/select_atoms.h"
@@ -22,14 +24,60 @@ bool is_charged(const Molecule& molecule) {
 }
 
 /// Drops the atoms of a selection, which may be none.
-void leave_out(Molecule& molecule, const std::string& selection, std::size_t& n_dropped) {
+/// @returns [atom] whether it was kept
+std::vector<bool> leave_out(Molecule& molecule, const std::string& selection) {
   std::vector<bool> keep = select_atoms(molecule, selection, "leave-out");
   keep.flip();
   const auto n_kept = static_cast<std::size_t>(std::count(keep.begin(), keep.end(), true));
   if (n_kept == 0)
     throw InputError(molecule.name + ": " + option("leave-out", selection) + " drops all atoms; name fewer of them");
-  n_dropped = molecule.size() - n_kept;
-  if (n_dropped > 0) molecule = keep_atoms(molecule, keep);
+  if (n_kept < molecule.size()) molecule = keep_atoms(molecule, keep);
+  return keep;
+}
+
+/// Groups beside the chains that a selection does not take count as left out where they are this near to what it takes.
+constexpr double kNearGroup_A = 8;
+
+bool is_near(const Molecule& whole, const std::vector<std::size_t>& atoms, const Molecule& molecule) {
+  return std::any_of(atoms.begin(), atoms.end(), [&](std::size_t i) {
+    return std::any_of(molecule.positions.begin(), molecule.positions.end(),
+                       [&](const Vec3d& p) { return norm(whole.positions[i] - p) <= kNearGroup_A; });
+  });
+}
+
+/// What `whole` has besides the molecule: the residues of `not_dropped` that are false, and groups near the molecule
+/// that no selection took. Water, and chains that no selection took, are not meant.
+/// @param not_dropped [atom of whole] from leave_out()  @param selected [atom that was not dropped]; empty for all
+std::vector<LeftOutResidue> left_out_residues(const Molecule& whole, const std::vector<bool>& not_dropped,
+                                              const std::vector<bool>& selected, const Molecule& molecule) {
+  const ResidueView view(whole);
+  std::vector<bool> kept = not_dropped;
+  for (std::size_t i = 0, k = 0; i < whole.size(); ++i) {
+    if (not_dropped[i] && !selected.empty()) kept[i] = selected[k];
+    k += not_dropped[i] ? 1 : 0;
+  }
+  std::vector<LeftOutResidue> residues;
+  for (std::size_t r = 0; r < view.kinds.size(); ++r) {
+    if (view.kinds[r] == ResidueKind::kWater) continue;
+    std::vector<std::size_t> gone;
+    bool was_dropped = false;
+    for (const std::size_t i : view.atoms[r]) {
+      if (!kept[i]) gone.push_back(i);
+      was_dropped = was_dropped || !not_dropped[i];
+    }
+    if (gone.empty()) continue;
+    if (!was_dropped && (view.kinds[r] != ResidueKind::kOther || !is_near(whole, gone, molecule))) continue;
+    LeftOutResidue left{whole.residues[r], {}, {}, whole.charges.empty() ? kNaN : 0};
+    for (const std::size_t i : gone) {
+      left.atoms.push_back(whole.atoms[i]);
+      left.positions.push_back(whole.positions[i]);
+      if (!whole.charges.empty()) left.charge += static_cast<double>(whole.charges[i]);
+    }
+    const std::optional<int> known = charge_of_group(left.residue.name);
+    if (whole.charges.empty() && known && gone.size() == view.atoms[r].size()) left.charge = *known;
+    residues.push_back(std::move(left));
+  }
+  return residues;
 }
 
 /// The states to give to the target's residues: those of the source's residues they pair with, else their own.
@@ -75,11 +123,13 @@ std::optional<Preparation> charge_molecule(Molecule& molecule, const InputOption
   }
   if (!request.may_prepare) return std::nullopt;
   progress.report("prepare " + molecule.name, 0.0);
-  Prepared prepared = prepare_molecule(molecule, options.charges, {}, progress);
+  ChargeOptions charges = options.charges;
+  charges.force_field = force_field_for(molecule, request.source, charges.force_field);
+  Prepared prepared = prepare_molecule(molecule, charges, {}, progress);
   if (options.charges.same_protonation && request.source != nullptr) {
     const double seconds = prepared.preparation.seconds;
     const std::vector<std::string> states = forced_states(*request.source, molecule, prepared.molecule);
-    prepared = prepare_molecule(molecule, options.charges, states, progress);
+    prepared = prepare_molecule(molecule, charges, states, progress);
     prepared.preparation.seconds += seconds;
   }
   molecule = std::move(prepared.molecule);
@@ -116,13 +166,17 @@ LoadedState load_state(const StructureFile& file, const StateRequest& request, c
   }
   state.cell = file.unit_cell(structure.model);
   state.whole = state.molecule;
+  std::vector<bool> not_dropped(state.whole.size(), true), selected;
   if (!options.leave_out.empty()) {
-    leave_out(state.molecule, options.leave_out, state.n_left_out);
-    std::size_t ignored = 0;
-    if (state.everything.size() > 0) leave_out(state.everything, options.leave_out, ignored);
+    not_dropped = leave_out(state.molecule, options.leave_out);
+    state.n_left_out = state.whole.size() - state.molecule.size();
+    if (state.everything.size() > 0) leave_out(state.everything, options.leave_out);
   }
-  if (!select.empty())
-    state.molecule = keep_atoms(state.molecule, select_some_atoms(state.molecule, select, select_option));
+  if (!select.empty()) {
+    selected = select_some_atoms(state.molecule, select, select_option);
+    state.molecule = keep_atoms(state.molecule, selected);
+  }
+  state.molecule.left_out = left_out_residues(state.whole, not_dropped, selected, state.molecule);
   if (request.wants_charges) {
     try {
       state.preparation = charge_molecule(state.molecule, options, request, state.charge_files, progress);

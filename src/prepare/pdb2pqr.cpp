@@ -84,10 +84,11 @@ class Renumbering {
   }
 
   const std::vector<Residue>& residues() const { return residues_; }
-  /// The original of a residue in the output; null where there is none.
-  const Residue* original(const Residue& residue) const {
+  const std::vector<Residue>& originals() const { return original_; }
+  /// The number of the original of a residue in the output; -1 where there is none.
+  std::ptrdiff_t original(const Residue& residue) const {
     const auto found = index_.find({residue.chain, residue.number});
-    return found == index_.end() ? nullptr : &original_[found->second];
+    return found == index_.end() ? -1 : static_cast<std::ptrdiff_t>(found->second);
   }
 
  private:
@@ -108,6 +109,49 @@ Molecule without_water(const Molecule& molecule, bool without_hydrogens) {
     keep.push_back(!drop && !is_water_name(molecule.residues[r].name));
   }
   return keep_atoms(molecule, keep);
+}
+
+bool has_kind(const Molecule& molecule, ResidueKind kind) {
+  const std::vector<ResidueKind> kinds = residue_kinds(molecule, atoms_of_residues(molecule));
+  return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
+}
+
+/// The molecule followed by the groups beside its chains that were left out of it, without those of a residue that it
+/// has a part of, and without hydrogens, which PROPKA does not look at.
+Molecule with_left_out_groups(const Molecule& molecule) {
+  const auto key = [](const Residue& residue) {
+    return std::tuple(residue.chain, residue.number, residue.insertion_code);
+  };
+  std::set<std::tuple<std::string, std::int32_t, char>> own;
+  for (const Residue& residue : molecule.residues) own.insert(key(residue));
+  Molecule groups, whole = molecule;
+  for (const LeftOutResidue& left : molecule.left_out) {
+    if (own.count(key(left.residue)) > 0) continue;
+    groups.residues.push_back(left.residue);
+    for (std::size_t i = 0; i < left.atoms.size(); ++i) {
+      if (left.atoms[i].element == "H" || left.atoms[i].element == "D") continue;
+      groups.atoms.push_back(left.atoms[i]);
+      groups.atoms.back().residue = static_cast<std::int32_t>(groups.residues.size() - 1);
+      groups.atoms.back().hetero = true;
+      groups.positions.push_back(left.positions[i]);
+    }
+  }
+  const std::vector<ResidueKind> kinds = residue_kinds(groups, atoms_of_residues(groups));
+  std::vector<std::int32_t> place(kinds.size(), -1);
+  for (std::size_t r = 0; r < kinds.size(); ++r) {
+    if (kinds[r] != ResidueKind::kOther) continue;
+    place[r] = static_cast<std::int32_t>(whole.residues.size());
+    whole.residues.push_back(groups.residues[r]);
+  }
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    Atom atom = groups.atoms[i];
+    atom.residue = place[static_cast<std::size_t>(atom.residue)];
+    if (atom.residue < 0) continue;
+    whole.atoms.push_back(atom);
+    whole.positions.push_back(groups.positions[i]);
+    whole.radii.push_back(0);
+  }
+  return whole;
 }
 
 /// Selenomethionine becomes methionine.
@@ -160,8 +204,8 @@ std::string upper_case(std::string text) {
 }
 
 /// The program's arguments but the files.
-std::vector<std::string> arguments(const ChargeOptions& options, bool with_propka) {
-  std::vector<std::string> words{"--ff=" + upper_case(options.force_field), "--keep-chain"};
+std::vector<std::string> arguments(const ChargeOptions& options, const std::string& force_field, bool with_propka) {
+  std::vector<std::string> words{"--ff=" + upper_case(force_field), "--keep-chain"};
   if (!with_propka) return words;
   words.insert(words.end(), {"--titration-state-method=propka", "--with-ph=" + formatted(options.ph)});
   return words;
@@ -237,15 +281,21 @@ std::string run_pdb2pqr(const std::string& program, const std::string& name, con
   return "REMARK " + version_in(log) + "\n" + read_input(folder.file("output.pqr")).content;
 }
 
-/// The atoms of an output under their original chains, numbers and names.
+/// The atoms of an output under their original chains, numbers and names, without those of groups that were left out.
+/// @param before the molecule without these groups
 Molecule read_output(const std::string& output, const Molecule& before, const Renumbering& renumbering) {
   const TemporaryFolder folder;
   Molecule molecule = read_structure(folder.write("output.pqr", output), {1, true, true, {}});
   molecule.name = before.name;
-  for (Residue& residue : molecule.residues) {
-    if (const Residue* const original = renumbering.original(residue)) residue = *original;
+  std::vector<bool> is_own(molecule.residues.size(), true), keep;
+  for (std::size_t r = 0; r < molecule.residues.size(); ++r) {
+    const std::ptrdiff_t original = renumbering.original(molecule.residues[r]);
+    if (original < 0) continue;
+    is_own[r] = static_cast<std::size_t>(original) < before.residues.size();
+    molecule.residues[r] = renumbering.originals()[static_cast<std::size_t>(original)];
   }
-  return molecule;
+  for (const Atom& atom : molecule.atoms) keep.push_back(is_own[static_cast<std::size_t>(atom.residue)]);
+  return std::find(keep.begin(), keep.end(), false) == keep.end() ? molecule : keep_atoms(molecule, keep);
 }
 
 /// Paths of the files that describe a residue.
@@ -292,13 +342,18 @@ namespace {
 /// One run of PDB2PQR, or its output from the cache.
 class Run {
  public:
-  Run(std::string program, const ChargeOptions& options, bool with_propka, const Progress& progress)
-      : program_(std::move(program)), options_(options), words_(arguments(options, with_propka)), progress_(progress) {}
+  Run(std::string program, const ChargeOptions& options, const std::string& force_field, bool with_propka,
+      const Progress& progress)
+      : program_(std::move(program)),
+        options_(options),
+        words_(arguments(options, force_field, with_propka)),
+        progress_(progress) {}
 
   /// @param ligand content of a MOL2 file; may be empty
   Molecule operator()(const Molecule& molecule, const std::vector<std::string>& states, const std::string& ligand) {
-    const Renumbering renumbering(molecule);
-    const std::string pdb = pdb_text(molecule, renumbering, states);
+    const Molecule whole = with_left_out_groups(molecule);
+    const Renumbering renumbering(whole);
+    const std::string pdb = pdb_text(whole, renumbering, states);
     std::string key = "1 " + identity_of(program_);
     for (const std::string& word : words_) key += " " + word;
     key = sha256_of(key + "\n" + sha256_of(ligand) + "\n" + pdb);
@@ -375,7 +430,37 @@ Molecule run_with_ligands(Run& run, const Molecule& molecule, const std::vector<
   return result;
 }
 
+/// Gives heavy atoms what their file says of how well their places are known; those that were added have nothing.
+void take_knowledge(const Molecule& before, Molecule& after) {
+  using Name = std::tuple<std::string, std::int32_t, char, std::string>;
+  const auto name_of = [](const Molecule& m, const Atom& atom) {
+    const Residue& r = m.residues[static_cast<std::size_t>(atom.residue)];
+    return Name(r.chain, r.number, r.insertion_code, atom.name);
+  };
+  std::map<Name, const Atom*> known;
+  for (const Atom& atom : before.atoms) known.emplace(name_of(before, atom), &atom);
+  for (Atom& atom : after.atoms) {
+    const auto found = known.find(name_of(after, atom));
+    if (found == known.end()) continue;
+    atom.b_factor = found->second->b_factor;
+    atom.occupancy = found->second->occupancy;
+    atom.has_alternates = found->second->has_alternates;
+  }
+}
+
 }  // namespace
+
+std::string force_field_for(const Molecule& molecule, const Molecule* source, const std::string& asked) {
+  if (asked != "auto") return asked;
+  const bool has_own = has_kind(molecule, ResidueKind::kNucleotide),
+             has_source = source != nullptr && has_kind(*source, ResidueKind::kNucleotide);
+  if (has_own && source != nullptr && !has_source && has_kind(*source, ResidueKind::kAminoAcid))
+    throw InputError(molecule.name +
+                     ": has nucleotides, which get charges of AMBER, and the source has none and charges of PARSE; "
+                     "take one force field for both (" +
+                     option("force-field", "amber") + ")");
+  return has_own || has_source ? "amber" : "parse";
+}
 
 Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options,
                           const std::vector<std::string>& states, const Progress& progress) {
@@ -384,11 +469,16 @@ Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options
   if (program.empty())
     throw DeviceError(molecule.name + ": has no charges, and PDB2PQR, which assigns them, is not there; " +
                       kPdb2pqrRemedy);
-  const bool with_propka = states.empty();
   Prepared prepared;
   Preparation& done = prepared.preparation;
-  Molecule before = without_water(molecule, !with_propka);
+  done.force_field = force_field_for(molecule, nullptr, options.force_field);
+  if (has_kind(molecule, ResidueKind::kNucleotide) && done.force_field == "amber")
+    done.notes.emplace_back("force field AMBER, since PARSE has no DNA");
+  Molecule before = without_water(molecule, !states.empty());
   require_residues(before);
+  const bool titrates = has_kind(before, ResidueKind::kAminoAcid), with_propka = states.empty() && titrates;
+  done.propka = titrates;
+  if (!titrates) done.notes.emplace_back("no PROPKA, since there are no amino acids, which are all that it titrates");
   std::vector<std::string> kept_states;
   for (std::size_t r = 0; r < states.size(); ++r) {
     if (!is_water_name(molecule.residues[r].name)) kept_states.push_back(states[r]);
@@ -396,16 +486,23 @@ Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options
   replace_selenomethionine(before, done);
   std::vector<Mol2File> ligands;
   for (const std::string& path : options.ligands) ligands.push_back(read_mol2(path));
-  Run run(program, options, with_propka, progress);
-  const Molecule given = add_ligand_hydrogens(before, ligands, ligands_of_residues(before, ligands));
+  const std::vector<std::int32_t> ligand_of = ligands_of_residues(before, ligands);
+  require_known_names(before, ligand_of, done.force_field);
+  Run run(program, options, done.force_field, with_propka, progress);
+  const Molecule given = add_ligand_hydrogens(before, ligands, ligand_of);
   prepared.molecule = run_with_ligands(run, given, kept_states, ligands);
   prepared.molecule.name = molecule.name;
+  take_knowledge(before, prepared.molecule);
+  prepared.molecule.left_out = molecule.left_out;
+  const std::size_t n_seen = with_left_out_groups(before).residues.size() - before.residues.size();
+  if (with_propka && n_seen > 0)
+    done.notes.push_back("PROPKA saw " + std::to_string(n_seen) + (n_seen == 1 ? " group" : " groups") +
+                         " beside the chains that the molecule leaves out");
   done.program = run.version();
-  done.force_field = options.force_field;
   done.ph = options.ph;
-  done.ligands = used_files(ligands, ligands_of_residues(before, ligands));
+  done.ligands = used_files(ligands, ligand_of);
   done.from_cache = run.all_from_cache();
-  compare_with_input(before, prepared.molecule, options, done);
+  compare_with_input(before, prepared.molecule, done);
   done.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   return prepared;
 }

@@ -17,6 +17,13 @@ std::string find_pdb2pqr();
 /// What to do where there is none: "install it (Debian: pdb2pqr; PyPI: pdb2pqr)".
 extern const char* const kPdb2pqrRemedy;
 
+/// The force field for `auto`: AMBER where the molecule, or the source that it is compared with, has nucleotides, of
+/// which PARSE has RNA only; PARSE otherwise.
+/// @param source null where there is none
+/// @param asked of ChargeOptions; returned as it is unless it is auto
+/// @throws InputError (auto, and only the target has nucleotides, so that the source has charges of PARSE)
+std::string force_field_for(const Molecule& molecule, const Molecule* source, const std::string& asked);
+
 /// A molecule with charges, and what was done to it.
 struct Prepared {
   Molecule molecule;
@@ -27,7 +34,9 @@ struct Prepared {
 /// the pH of the options (Dolinsky et al., Nucleic Acids Res. 35, W522 (2007); Olsson et al., J. Chem. Theory Comput.
 /// 7, 525 (2011)). It gets the molecule as a PDB file of one conformation without water. Chains and residue numbers
 /// that its columns or PROPKA's keys cannot hold (long names, insertion codes, more than four digits) are renumbered
-/// for it and restored afterwards. Selenomethionine is charged as methionine.
+/// for it and restored afterwards. Selenomethionine is charged as methionine. Groups that the molecule leaves out
+/// (Molecule::left_out) are in the file, so that PROPKA sees them, and get no charges; PROPKA is not run without amino
+/// acids. Names that the force field lacks are refused before the program runs.
 /// @param states [residue] the protonation state to give a residue, as protonation_states() names it; empty strings
 ///               and an empty list leave the choice to PROPKA, which is not run if any state is given
 /// @throws DeviceError (no PDB2PQR, it failed), InputError (nothing it could charge, atoms without charge, a MOL2 file

@@ -9,7 +9,6 @@
 #include "align/protonation.h"
 #include "align/residue_names.h"
 #include "base/error.h"
-#include "base/input_options.h"
 
 namespace espdiff {
 namespace {
@@ -76,16 +75,29 @@ struct Uncharged {
   }
 };
 
-[[noreturn]] void refuse(const Molecule& before, const ChargeOptions& options, const Uncharged& uncharged) {
+/// PARSE has RNA, TYL06 is AMBER's with other radii; the others have no nucleotides or no DNA.
+bool has_nucleotides(const std::string& force_field) {
+  return force_field == "amber" || force_field == "tyl06" || force_field == "charmm";
+}
+
+[[noreturn]] void refuse(const Molecule& before, const std::string& force_field, const Uncharged& uncharged) {
   std::string names;
-  for (const std::string& name : uncharged.names) names += (names.empty() ? "" : ",") + name;
+  bool all_nucleotides = !has_nucleotides(force_field);
+  for (const std::string& name : uncharged.names) {
+    names += (names.empty() ? "" : ",") + name;
+    const char letter = residue_letter(name);
+    all_nucleotides = all_nucleotides && letter >= 'a' && letter <= 'z';
+  }
+  const Message remedy = all_nucleotides
+                             ? "take a force field that has nucleotides (" + option("force-field", "amber") + ")"
+                             : "give a MOL2 file of it with hydrogens (" + option("ligand", "FILE") +
+                                   "), charges for all atoms (" + option("topology", "FILE") + ", " +
+                                   option("charges-from", "FILE") + " or a PQR)";
   throw UnchargedError(
       before.name,
       std::to_string(uncharged.n_atoms) + (uncharged.n_atoms == 1 ? " atom gets no charge" : " atoms get no charges") +
-          " from PDB2PQR's force field " + options.force_field + ": " + joined(uncharged.residues) + " (first atom " +
-          uncharged.first_atom + "); give a MOL2 file of it with hydrogens (" + option("ligand", "FILE") +
-          "), charges for all atoms (" + option("topology", "FILE") + ", " + option("charges-from", "FILE") +
-          " or a PQR), or drop it (" + option("leave-out", "(" + names + ")") + ")",
+          " from PDB2PQR's force field " + force_field + ": " + joined(uncharged.residues) + " (first atom " +
+          uncharged.first_atom + "); " + remedy + ", or drop it (" + option("leave-out", "(" + names + ")") + ")",
       uncharged.first);
 }
 
@@ -128,8 +140,33 @@ std::vector<std::string> chain_gaps(const Molecule& molecule) {
   return gaps;
 }
 
-void compare_with_input(const Molecule& before, const Molecule& after, const ChargeOptions& options,
-                        Preparation& preparation) {
+void require_known_names(const Molecule& before, const std::vector<std::int32_t>& ligand_of,
+                         const std::string& force_field) {
+  // CHARMM's list has more than chains; what it lacks is found afterwards.
+  if (force_field == "charmm") return;
+  static const std::set<std::string> caps{"ACE", "NME", "NHE", "NH2", "N-M"},
+      ions_of_tyl06{"CL-", "CS+", "K+", "LI+", "MG2", "NA+", "RB+", "Cl-", "Cs+", "Li+", "Na+", "Rb+"};
+  const auto atoms = atoms_of_residues(before);
+  const std::vector<ResidueKind> kinds = residue_kinds(before, atoms);
+  Uncharged uncharged;
+  for (std::size_t r = 0; r < kinds.size(); ++r) {
+    const std::string& name = before.residues[r].name;
+    const bool is_known =
+        kinds[r] == ResidueKind::kOther
+            ? ligand_of[r] >= 0 || caps.count(name) > 0 || (force_field == "tyl06" && ions_of_tyl06.count(name) > 0)
+            : kinds[r] != ResidueKind::kNucleotide || has_nucleotides(force_field) ||
+                  (force_field == "parse" && name.front() != 'D' && name.front() != 'T');
+    if (is_known || atoms[r].empty()) continue;
+    std::vector<std::string> names;
+    for (const std::size_t i : atoms[r]) {
+      if (!is_hydrogen(before.atoms[i])) names.push_back(before.atoms[i].name);
+    }
+    if (!names.empty()) uncharged.add(before.residues[r], names);
+  }
+  if (uncharged.n_atoms > 0) refuse(before, force_field, uncharged);
+}
+
+void compare_with_input(const Molecule& before, const Molecule& after, Preparation& preparation) {
   const auto of_before = atoms_by_residue(before), of_after = atoms_by_residue(after);
   Uncharged uncharged;
   static const ResidueAtoms none;
@@ -149,7 +186,7 @@ void compare_with_input(const Molecule& before, const Molecule& after, const Cha
     if (!extra.empty()) preparation.added.push_back(joined(extra) + " of " + residue_in_words(residue));
     preparation.n_hydrogens_added += got.n_hydrogens > given.n_hydrogens ? got.n_hydrogens - given.n_hydrogens : 0;
   }
-  if (uncharged.n_atoms > 0) refuse(before, options, uncharged);
+  if (uncharged.n_atoms > 0) refuse(before, preparation.force_field, uncharged);
   preparation.n_atoms_before = before.size();
   preparation.n_atoms = after.size();
   preparation.net_charge = 0;

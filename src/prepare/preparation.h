@@ -1,6 +1,7 @@
 // preparation.h: what a preparation by PDB2PQR did to a structure.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,8 +10,6 @@
 #include "base/types.h"
 
 namespace espdiff {
-
-struct ChargeOptions;
 
 /// A residue that gets no charge. It is named, so that who knows the file can add the line.
 struct UnchargedError : InputError {
@@ -25,8 +24,9 @@ struct UnchargedError : InputError {
 /// What PDB2PQR added, repaired and protonated.
 struct Preparation {
   std::string program;      ///< "PDB2PQR v3.5.2"
-  std::string force_field;  ///< lower case
+  std::string force_field;  ///< lower case; never auto
   double ph = 7;
+  bool propka = true;                ///< whether PROPKA chose protonation states; false where nothing titrates
   std::vector<std::string> ligands;  ///< MOL2 files of residues that were there
   bool from_cache = false;
   double seconds = 0;
@@ -36,14 +36,22 @@ struct Preparation {
   std::vector<std::string> removed;      ///< heavy atoms in the same words, such as OXT within a chain
   std::vector<std::string> renamed;      ///< "MSE 5 of chain A as MET"
   std::vector<std::string> protonation;  ///< states other than the usual one: "HIS 31 of chain A: HIP (protonated)"
+  std::vector<std::string> notes;        ///< what was chosen, and why: "force field AMBER, since ..."
   std::vector<std::string> gaps;         ///< "between GLY 10 and ALA 15 of chain A"
 };
 
 /// Lists what differs between the molecule given to PDB2PQR and its answer.
 /// @param before as given to the program
+/// @param preparation with the force field
 /// @throws UnchargedError naming atoms of `before` without a charge, with three ways on
-void compare_with_input(const Molecule& before, const Molecule& after, const ChargeOptions& options,
-                        Preparation& preparation);
+void compare_with_input(const Molecule& before, const Molecule& after, Preparation& preparation);
+
+/// Whether PDB2PQR has charges for all names, as far as names tell: run before the program.
+/// @param ligand_of [residue] nonnegative where a MOL2 file has its charges
+/// @param force_field of ChargeOptions, not auto
+/// @throws UnchargedError as compare_with_input()
+void require_known_names(const Molecule& before, const std::vector<std::int32_t>& ligand_of,
+                         const std::string& force_field);
 
 /// Breaks of a chain: C and N of residues that follow each other lie more than 2.5 A apart.
 std::vector<std::string> chain_gaps(const Molecule& molecule);

@@ -83,8 +83,12 @@ std::optional<EarlierPatchName> earlier_patch_name(const std::string& selection)
   return EarlierPatchName{selection.substr(0, colon), number};
 }
 
+std::string surface_beside(const EarlierPatchName& name) {
+  return name.path.substr(0, name.path.size() - std::string(kEnding).size()) + ".vtp";
+}
+
 std::shared_ptr<const EarlierPatch> read_earlier_patch(const EarlierPatchName& name) {
-  const std::string vtp_path = name.path.substr(0, name.path.size() - std::string(kEnding).size()) + ".vtp";
+  const std::string vtp_path = surface_beside(name);
   const FileContent file = read_input(name.path);
   require_memory_for_json(file.content, name.path);
   const Record record = record_of(file.content, name.path);

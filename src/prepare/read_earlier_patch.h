@@ -21,6 +21,9 @@ struct EarlierPatchName {
 /// Whether a patch's selection names a patch of an earlier result: empty unless it ends with ".json:" and digits.
 std::optional<EarlierPatchName> earlier_patch_name(const std::string& selection);
 
+/// OUT.vtp beside OUT.json.
+std::string surface_beside(const EarlierPatchName& name);
+
 /// Reads OUT.json, and OUT.vtp beside it.
 /// @throws FormatError (not the files of an ensemble; not of one run), InputError (no such patch), as read_input(),
 ///         read_vtp()

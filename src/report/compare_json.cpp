@@ -9,6 +9,7 @@
 #include "compare/options.h"
 #include "compare/result.h"
 #include "compare/settings.h"
+#include "report/causes_report.h"
 #include "report/json_number.h"
 #include "report/metrics.h"
 #include "report/placement.h"
@@ -201,6 +202,13 @@ Json chains(const CompareResult& result) {
   json["compared"] = Json::array();
   for (const ComparedChains& pair : result.chains)
     json["compared"].push_back({{"source", pair.source}, {"target", pair.target}, {"n_residues", pair.n_residues}});
+  json["motions"] = Json::array();
+  for (const ChainMotion& motion : result.chain_motions)
+    json["motions"].push_back({{"source", motion.chain},
+                               {"rotation_degrees", json_number(motion.rotation_degrees)},
+                               {"shift_A", json_number(motion.shift_A)},
+                               {"rmsd_A", json_number(motion.rmsd_A)},
+                               {"own_rmsd_A", json_number(motion.own_rmsd_A)}});
   json["copies"] = {{"source", result.source_copies}, {"target", result.target_copies}};
   return json;
 }
@@ -235,6 +243,7 @@ void add_results(Json& json, const Molecule& source, const CompareResult& result
   json["n_paired_atoms"] = result.pairing.pairs.size();
   json["potential_unit"] = result.has_potential ? Json(potential_unit_text(result)) : Json(nullptr);
   json["potential"] = potential_json(result);
+  json["given_maps"] = given_maps_json(result);
   add_metrics(json, result);
   json["by_offset"] = offsets(result);
   json["metrics_without_slip"] = metrics_without_slip(result);
@@ -247,6 +256,7 @@ void add_results(Json& json, const Molecule& source, const CompareResult& result
     Json& entry = json["fixed_patches"][patch.name] = part_json(*patch.result);
     if (patch.placement != nullptr) entry["placement"] = placement_json(*patch.placement);
   }
+  json["causes"] = result.causes == nullptr ? Json::array() : causes_json(*result.causes, potential_unit_text(result));
   json["protonation_differences"] = Json::array();
   for (const ProtonationDifference& difference : result.protonation)
     json["protonation_differences"].push_back(in_words(difference, source));

@@ -1,12 +1,18 @@
 // compare_table.cpp: a comparison's result as a table for a terminal.
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <sstream>
 
+#include "align/chain_motions.h"
 #include "align/compared_chains.h"
 #include "align/rigid_domains.h"
 #include "base/formatted.h"
+#include "causes/causes.h"
+#include "compare/map_check.h"
 #include "compare/result.h"
+#include "compare/short_numbers.h"
+#include "report/causes_report.h"
 #include "report/metrics.h"
 #include "report/placement.h"
 #include "report/potential_json.h"
@@ -75,6 +81,7 @@ std::string with_unit(const Metric& metric, double value) {
 void print_chains(std::ostream& out, const CompareResult& result) {
   const bool one = result.chains.size() == 1 && result.chains[0].source == result.chains[0].target;
   if (!one && !result.chains.empty()) line(out, "Chains", in_words(result.chains));
+  if (!result.chain_motions.empty()) line(out, "Against the others", in_words(result.chain_motions));
   for (const auto& [label, copies] : {std::pair("Copies in the source", &result.source_copies),
                                       std::pair("Copies in the target", &result.target_copies)}) {
     for (const auto& group : *copies) {
@@ -149,9 +156,9 @@ void print_lines(std::ostream& out, const CompareResult& result, MetricSection s
 
 /// Which potential it is that differs, and what to know of it.
 void print_kind_of_potential(std::ostream& out, const CompareResult& result) {
-  const std::string label = potential_label(result);
-  if (label.empty()) return;
   const auto &source = result.source_recipe, &target = result.target_recipe;
+  if (!source && !target) return;
+  const std::string label = potential_label(result);
   const std::string because = source ? source->because : target->because;
   out << "\nComputed potential\n";
   line(out, "Kind", label + (because.empty() ? "" : " (" + because + ")"));
@@ -169,9 +176,24 @@ void print_kind_of_potential(std::ostream& out, const CompareResult& result) {
     line(out, "Note", note);
 }
 
+/// How given maps compare with the potentials of the molecules' charges.
+void print_given_maps(std::ostream& out, const CompareResult& result) {
+  if (!result.source_map_check && !result.target_map_check) return;
+  out << "\nGiven maps, against the potentials of the charges\n";
+  for (const auto& [side, check] :
+       {std::pair("Of the source", &result.source_map_check), std::pair("Of the target", &result.target_map_check)}) {
+    if (!*check) continue;
+    const ReferenceFit& fit = (*check)->best();
+    line(out, side,
+         std::string("as in ") + to_string((*check)->kind) + ": slope " + formatted("%.3g", fit.slope) +
+             ", correlation " + number_beside(fit.correlation, 1, 3) + " at " + counted((*check)->n_points, "point"));
+  }
+}
+
 void print_metrics(std::ostream& out, const CompareResult& result) {
   if (result.has_potential) {
     print_kind_of_potential(out, result);
+    print_given_maps(out, result);
     const bool vacuum = potential_unit_text(result) != to_string(result.unit);
     heading(out, std::string("Potential") + (vacuum ? kInVacuum : "") + " (target - source)",
             {"valid area", "all area", "without slip"});
@@ -290,6 +312,14 @@ void print_part(std::ostream& out, const std::string& title, const CompareResult
   for (const Message& reason : part.certificate.reasons) item(out, reason.spelled(spelling), 4);
 }
 
+void print_causes(std::ostream& out, const CompareResult& result) {
+  if (result.causes == nullptr) return;
+  for (const CausesOfReading& reading : result.causes->readings) {
+    out << "\nCauses of the difference, " << reading.name << '\n';
+    for (const std::string& text : causes_lines(*result.causes, reading, potential_unit_text(result))) item(out, text);
+  }
+}
+
 void print_warnings(std::ostream& out, const CompareResult& result, const OptionSpelling& spelling) {
   if (result.warnings.empty()) return;
   out << "\nWarnings\n";
@@ -322,8 +352,17 @@ void print_table(std::ostream& out, const Molecule& source, const Molecule& targ
     print_part(out, "Patch " + patch.name, *patch.result, spelling);
     if (patch.placement != nullptr) item(out, in_words(*patch.placement));
   }
+  print_causes(out, result);
   print_warnings(out, result, spelling);
   print_verdict(out, result, spelling);
+}
+
+void print_verdict_line(std::ostream& out, const CompareResult& result) {
+  const Metric& metric = *find_metric_or_null(result.has_potential ? "mean_abs_difference" : "mean_displacement_A");
+  std::string label = metric.label;
+  label[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(label[0])));
+  out << (result.certificate.trustworthy ? "TRUSTWORTHY: " : "NOT TRUSTWORTHY: ") << label << ' '
+      << formatted(metric, value_of(metric, result)) << ' ' << unit_of(metric, to_string(result.unit)) << '\n';
 }
 
 }  // namespace espdiff

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "compare/map_check.h"
 #include "compare/result.h"
 #include "report/json_number.h"
 
@@ -90,16 +91,50 @@ Json recipe_json(const MapRecipe& r) {
   return json;
 }
 
+namespace {
+
+/// One side's potential in words; empty where it is a map that was not checked.
+std::string side_label(const std::shared_ptr<const MapRecipe>& recipe, const std::shared_ptr<const MapCheck>& check) {
+  return recipe ? potential_label(*recipe) : check ? in_words(*check) : std::string();
+}
+
+bool has_vacuum(const CompareResult& result) {
+  const auto is_one = [](const auto& recipe, const auto& check) {
+    return (recipe && is_vacuum(*recipe)) || (check && check->is_vacuum());
+  };
+  return is_one(result.source_recipe, result.source_map_check) || is_one(result.target_recipe, result.target_map_check);
+}
+
+Json check_json(const std::shared_ptr<const MapCheck>& check) {
+  if (!check) return nullptr;
+  Json json{{"kind", to_string(check->kind)},
+            {"slope", json_number(check->best().slope)},
+            {"correlation", json_number(check->best().correlation)},
+            {"n_points", check->n_points},
+            {"fits", Json::object()}};
+  for (std::size_t k = 0; k < kReferenceKinds; ++k)
+    json["fits"][to_string(static_cast<ReferenceKind>(k))] = {{"slope", json_number(check->fits[k].slope)},
+                                                              {"correlation", json_number(check->fits[k].correlation)}};
+  return json;
+}
+
+}  // namespace
+
 std::string potential_label(const CompareResult& result) {
-  const auto &a = result.source_recipe, &b = result.target_recipe;
-  if (!a && !b) return {};
-  const std::string source = a ? potential_label(*a) : "a given map", target = b ? potential_label(*b) : "a given map";
-  return source == target ? source : source + " and " + target;
+  const std::string source = side_label(result.source_recipe, result.source_map_check),
+                    target = side_label(result.target_recipe, result.target_map_check);
+  if (!result.source_recipe && !result.target_recipe && !has_vacuum(result)) return {};
+  const std::string unknown = "a given map";
+  return source == target ? source
+                          : (source.empty() ? unknown : source) + " and " + (target.empty() ? unknown : target);
 }
 
 std::string potential_unit_text(const CompareResult& result) {
-  const auto &a = result.source_recipe, &b = result.target_recipe;
-  return to_string(result.unit) + ((a && is_vacuum(*a)) || (b && is_vacuum(*b)) ? kInVacuum : "");
+  return to_string(result.unit) + (has_vacuum(result) ? kInVacuum : "");
+}
+
+Json given_maps_json(const CompareResult& result) {
+  return {{"source", check_json(result.source_map_check)}, {"target", check_json(result.target_map_check)}};
 }
 
 Json potential_json(const CompareResult& result) {
@@ -107,7 +142,7 @@ Json potential_json(const CompareResult& result) {
   if (!a && !b) return nullptr;
   Json json;
   json["label"] = potential_label(result);
-  json["vacuum"] = (a && is_vacuum(*a)) || (b && is_vacuum(*b));
+  json["vacuum"] = has_vacuum(result);
   json["because"] = a ? a->because : b->because;
   json["zero"] = {{"source", a ? Json(to_string(a->zero)) : Json(nullptr)},
                   {"target", b ? Json(to_string(b->zero)) : Json(nullptr)}};

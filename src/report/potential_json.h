@@ -17,11 +17,16 @@ nlohmann::ordered_json recipe_json(const MapRecipe& recipe);
 /// or there are none.
 nlohmann::ordered_json potential_json(const CompareResult& result);
 
-/// The unit of a result's potentials as files, tables and legends name it: "kT/e", of computed ones without a solvent
+/// How the given maps compare with the potentials of the molecules' charges (MapCheck), by side; null for a side whose
+/// map was computed or not checked.
+nlohmann::ordered_json given_maps_json(const CompareResult& result);
+
+/// The unit of a result's potentials as files, tables and legends name it: "kT/e", of those without a solvent
 /// "kT/e in vacuum".
 std::string potential_unit_text(const CompareResult& result);
 
-/// "Poisson-Boltzmann, 0.15 mol/l"; of two kinds both; empty where both maps were given or there are none.
+/// "Poisson-Boltzmann, 0.15 mol/l"; of two kinds both; empty where there are none, or both were given and
+/// neither is one in vacuum.
 std::string potential_label(const CompareResult& result);
 
 }  // namespace espdiff

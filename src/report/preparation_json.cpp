@@ -37,6 +37,7 @@ nlohmann::ordered_json preparation_json(const Preparation& p) {
   json["removed"] = p.removed;
   json["renamed"] = p.renamed;
   json["protonation"] = p.protonation;
+  json["notes"] = p.notes;
   json["gaps"] = p.gaps;
   json["from_cache"] = p.from_cache;
   json["seconds"] = p.seconds;
@@ -45,8 +46,8 @@ nlohmann::ordered_json preparation_json(const Preparation& p) {
 
 void print_preparation(std::ostream& out, const Preparation& p) {
   labelled_line(out, "prepared by",
-                p.program + ", force field " + p.force_field + ", pH " + formatted("%g", p.ph) + " (PROPKA)" +
-                    (p.from_cache ? ", from the cache" : ""));
+                p.program + ", force field " + p.force_field + ", pH " + formatted("%g", p.ph) +
+                    (p.propka ? " (PROPKA)" : "") + (p.from_cache ? ", from the cache" : ""));
   labelled_line(out, "atoms",
                 std::to_string(p.n_atoms) + " (" + std::to_string(p.n_atoms_before) + " before, " +
                     std::to_string(p.n_hydrogens_added) + " hydrogens added)");
@@ -54,6 +55,7 @@ void print_preparation(std::ostream& out, const Preparation& p) {
   list(out, "removed", p.removed);
   list(out, "renamed", p.renamed);
   list(out, "protonation", p.protonation);
+  list(out, "note", p.notes);
   list(out, "missing", p.gaps);
   labelled_line(out, "net charge", formatted("%.4f", p.net_charge) + " e");
 }

@@ -1,6 +1,9 @@
 // residue_values.cpp: columns of the residue table by name.
 #include "report/residue_values.h"
 
+#include <cmath>
+#include <limits>
+
 #include "base/error.h"
 #include "base/version.h"
 #include "compare/result.h"
@@ -11,6 +14,21 @@
 
 namespace espdiff {
 namespace {
+
+constexpr const char* kShare = "share";
+
+/// NaN where a residue has no surface that is counted.
+std::vector<double> residue_shares(const CompareResult& result) {
+  std::vector<double> shares = residue_values(result, "mean_abs_difference");
+  const std::vector<double> areas = residue_values(result, "area_A2");
+  double sum = 0;
+  for (std::size_t r = 0; r < shares.size(); ++r) {
+    shares[r] *= areas[r];
+    if (std::isfinite(shares[r])) sum += shares[r];
+  }
+  for (double& share : shares) share = sum > 0 ? share / sum : std::numeric_limits<double>::quiet_NaN();
+  return shares;
+}
 
 const Metric& find_quantity(const std::string& name) {
   const Metric* const metric = find_metric_or_null(name);
@@ -23,20 +41,23 @@ const Metric& find_quantity(const std::string& name) {
 }  // namespace
 
 std::vector<std::string> residue_quantities() {
-  std::vector<std::string> names;
+  std::vector<std::string> names{kShare};
   for (const Metric& metric : metrics()) {
     if (metric.has_residues()) names.emplace_back(metric.name);
   }
   return names;
 }
 
-void require_residue_quantity(const std::string& name) { find_quantity(name); }
+void require_residue_quantity(const std::string& name) {
+  if (name != kShare) find_quantity(name);
+}
 
 std::string usual_residue_quantity(const CompareResult& result) {
   return result.has_potential ? "mean_abs_difference" : "mean_displacement_A";
 }
 
 std::vector<double> residue_values(const CompareResult& result, const std::string& quantity) {
+  if (quantity == kShare) return residue_shares(result);
   const Metric& metric = find_quantity(quantity);
   if (metric.section == MetricSection::kPotential && !result.has_potential)
     throw InputError(quantity + " needs potentials, and shapes alone were compared; take mean_displacement_A");
@@ -46,6 +67,7 @@ std::vector<double> residue_values(const CompareResult& result, const std::strin
 }
 
 std::string residue_unit(const CompareResult& result, const std::string& quantity) {
+  if (quantity == kShare) return "";
   return unit_of(find_quantity(quantity), potential_unit_text(result));
 }
 

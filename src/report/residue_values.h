@@ -11,7 +11,8 @@ namespace espdiff {
 class AtomicFile;
 struct CompareResult;
 
-/// The quantities of a residue: the names of the metrics that it has.
+/// The quantities of a residue: `share`, its part of the sum of |difference| times area over all residues (0 to 1), and
+/// the names of the metrics that it has.
 std::vector<std::string> residue_quantities();
 
 /// @throws InputError with those there are

@@ -22,6 +22,7 @@
 #include "io/write_pqr.h"
 #include "io/write_vtp.h"
 #include "potential/computed_map.h"
+#include "report/causes_report.h"
 #include "report/metrics.h"
 #include "report/potential_json.h"
 #include "report/provenance.h"
@@ -160,6 +161,8 @@ void add_results(FileSet& files, const std::string& output_prefix, const Molecul
                                      << '\n';
   write_surface_file(files.add(output_prefix + ".vtp"), source, result, provenance);
   write_residue_file(files.add(output_prefix + ".residues.csv"), source, result);
+  if (result.causes != nullptr)
+    write_causes(files.add(output_prefix + kCausesEnding), *result.causes, potential_unit_text(result));
 }
 
 /// Adds a file whose content is the input of this role from now on.
@@ -192,6 +195,13 @@ void write_compare(const std::string& output_prefix, const Molecule& source, con
   }
   add_results(files, output_prefix, source, target, result, options, provenance);
   files.commit(beside);
+}
+
+std::vector<std::string> kept_input_endings(const KeptInputs& kept) {
+  std::vector<std::string> endings = {".source.pqr", ".target.pqr"};
+  if (kept.source_map != nullptr) endings.emplace_back(".source_map.vti");
+  if (kept.target_map != nullptr) endings.emplace_back(".target_map.vti");
+  return endings;
 }
 
 std::vector<std::string> write_compare_with_inputs(const std::string& output_prefix, const Molecule& source,

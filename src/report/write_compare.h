@@ -17,6 +17,9 @@ struct CompareOptions;
 struct CompareResult;
 struct Provenance;
 
+/// Of the file that a comparison with causes writes besides.
+constexpr const char* kCausesEnding = ".causes.csv";
+
 /// A file written beside the results that is the input of a role from then on; the original input stays listed under
 /// ROLE_file.
 struct KeptFile {
@@ -48,6 +51,9 @@ struct KeptInputs {
   const Grid* source_map = nullptr;
   const Grid* target_map = nullptr;
 };
+/// What write_compare_with_inputs() writes besides the results: ".source.pqr", ...
+std::vector<std::string> kept_input_endings(const KeptInputs& kept);
+
 /// As write_compare(), with OUT.source.pqr and OUT.target.pqr and, for maps from memory, OUT.source_map.vti and
 /// OUT.target_map.vti, which OUT.json then names as its inputs, by names that lie beside it: the comparison can be
 /// repeated from these files, and drawn with maps and molecules.
@@ -71,5 +77,8 @@ nlohmann::ordered_json options_json(const std::vector<std::pair<std::string, std
 /// @param spelling of the options that reasons name
 void print_table(std::ostream& out, const Molecule& source, const Molecule& target, const CompareResult& result,
                  const OptionSpelling& spelling);
+
+/// Prints the verdict and the main number in one line: "TRUSTWORTHY: mean absolute difference 0.397 kT/e".
+void print_verdict_line(std::ostream& out, const CompareResult& result);
 
 }  // namespace espdiff

@@ -1,7 +1,7 @@
 // null_maxima.h: p-values from the largest values under the null, for the tests over a surface.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <vector>
 
 #include "statistics/surface_test.h"
@@ -21,8 +21,7 @@ std::vector<double> shares_at_least(std::vector<double> maxima, const std::vecto
                                     const std::vector<double>& tested);
 /// Adds a place with its interval.
 void add_place(PlaceTests& tests, const WelchTest& test, double confidence);
-/// test_places() of a bootstrap.
-PlaceTests test_places_by_bootstrap(const SurfaceTest& surface, const MeshGraph& graph,
-                                    const std::vector<std::vector<std::uint32_t>>& members, double confidence);
+/// Sets a place's difference; its interval keeps its width.
+void move_to(PlaceTests& tests, std::size_t place, double difference);
 
 }  // namespace espdiff

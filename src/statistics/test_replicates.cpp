@@ -92,6 +92,13 @@ void add_place(PlaceTests& tests, const WelchTest& test, double confidence) {
   tests.high.push_back(test.difference + half);
 }
 
+void move_to(PlaceTests& tests, std::size_t place, double difference) {
+  const double by = difference - tests.difference[place];
+  tests.difference[place] = difference;
+  tests.low[place] += by;
+  tests.high[place] += by;
+}
+
 SurfaceTest test_replicates(const Means& means, std::size_t n_first, const MeshGraph& graph,
                             const SurfaceTestOptions& options) {
   SurfaceTest test;

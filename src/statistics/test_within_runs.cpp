@@ -1,138 +1,121 @@
-// test_within_runs.cpp: circular block bootstrap of runs, for groups of one replicate.
+// test_within_runs.cpp: exchange of blocks of frames between runs, for groups of one replicate.
 #include <algorithm>
 #include <cmath>
 
+#include "base/formatted.h"
 #include "base/not_a_number.h"
 #include "base/progress.h"
 #include "statistics/columns.h"
-#include "statistics/counter_random.h"
 #include "statistics/mesh_graph.h"
 #include "statistics/null_maxima.h"
 #include "statistics/replicate_columns.h"
 #include "statistics/surface_test.h"
-#include "statistics/tfce.h"
 
 namespace espdiff {
 namespace {
 
-std::size_t block_length(const ReplicateColumns& replicate, const std::vector<char>& tested) {
-  std::vector<double> g;
-  for (std::size_t v = 0; v < tested.size(); ++v) {
-    if (tested[v] != 0 && std::isfinite(replicate.columns[v].inefficiency))
-      g.push_back(replicate.columns[v].inefficiency);
-  }
-  if (g.empty()) return 1;
-  const auto decile = g.begin() + static_cast<std::ptrdiff_t>(g.size() * 9 / 10);
-  std::nth_element(g.begin(), decile, g.end());
-  const double n = static_cast<double>(replicate.n_frames);
-  const double length = std::ceil(std::max(2 * *decile, std::cbrt(n)));
-  return static_cast<std::size_t>(std::min(length, std::max(1.0, n / 2)));
-}
+/// Blocks of the shortest run at least, for 4 against 4 reach 0.029, and at most, for 7 against 7 have 3,432
+/// arrangements, which are all gone through. Longer runs get longer blocks instead of more: the longer, the less
+/// does it matter whether the inefficiency was estimated right.
+constexpr std::size_t kLeastBlocks = 4, kMostBlocks = 7;
+/// Of a run that is longer than the shortest one, whose blocks are as long as there.
+constexpr std::size_t kMostBlocksOfLonger = 70;
 
-/// Sums of a series up to each frame, twice around.
-struct RunningSums {
-  std::vector<double> sum;
-  std::vector<std::uint32_t> count;
-
-  void set(const std::vector<float>& values, std::size_t column, std::size_t width, std::size_t n) {
-    sum.assign(2 * n + 1, 0);
-    count.assign(2 * n + 1, 0);
-    for (std::size_t i = 0; i < 2 * n; ++i) {
-      const double value = static_cast<double>(values[(i % n) * width + column]);
-      sum[i + 1] = sum[i] + (std::isfinite(value) ? value : 0);
-      count[i + 1] = count[i] + (std::isfinite(value) ? 1U : 0U);
+/// Ninth decile over the tested vertices; that of the run whose frames tell least. 1 without a value.
+double largest_inefficiency(const std::vector<ReplicateColumns>& replicates, const std::vector<char>& tested) {
+  double largest = 1;
+  for (const ReplicateColumns& replicate : replicates) {
+    std::vector<double> g;
+    for (std::size_t v = 0; v < tested.size(); ++v) {
+      if (tested[v] != 0 && std::isfinite(replicate.columns[v].inefficiency))
+        g.push_back(replicate.columns[v].inefficiency);
     }
+    if (g.empty()) continue;
+    const auto decile = g.begin() + static_cast<std::ptrdiff_t>(g.size() * 9 / 10);
+    std::nth_element(g.begin(), decile, g.end());
+    largest = std::max(largest, *decile);
   }
-};
-
-/// The mean of one resample: blocks from random starts, the last one cut to the run's length.
-double resampled_mean(const RunningSums& sums, std::size_t n, std::size_t length, std::uint64_t seed,
-                      std::uint64_t stream) {
-  double sum = 0;
-  std::uint64_t count = 0;
-  for (std::size_t done = 0, block = 0; done < n; done += length, ++block) {
-    const std::size_t start = random_below(n, seed, stream, block), end = start + std::min(length, n - done);
-    sum += sums.sum[end] - sums.sum[start];
-    count += sums.count[end] - sums.count[start];
-  }
-  return count > 0 ? sum / static_cast<double>(count) : kNaN;
+  return largest;
 }
 
-/// Adds a replicate's resampled means, with its share in the difference, to the samples.
-void add_samples(const Columns& columns, std::size_t replicate, std::size_t length, double share, std::size_t n_samples,
-                 std::uint64_t seed, const std::vector<char>& tested, std::vector<float>& samples) {
-  const std::size_t n = columns.n_frames(replicate), n_columns = columns.n_columns();
+/// Blocks of one length for all runs, so that they can be exchanged.
+RunBlocks choose_blocks(const std::vector<ReplicateColumns>& replicates, const std::vector<char>& tested) {
+  RunBlocks blocks;
+  blocks.inefficiency = largest_inefficiency(replicates, tested);
+  blocks.gap = static_cast<std::size_t>(std::ceil(blocks.inefficiency));
+  const auto least_length = static_cast<std::size_t>(std::ceil(2 * blocks.inefficiency));
+  blocks.least_frames = kLeastBlocks * (least_length + blocks.gap) - blocks.gap;
+  std::size_t shortest = replicates.front().n_frames;
+  for (const ReplicateColumns& r : replicates) shortest = std::min(shortest, r.n_frames);
+  const std::size_t n = std::min(kMostBlocks, (shortest + blocks.gap) / (least_length + blocks.gap));
+  blocks.length = n == 0 ? least_length : (shortest + blocks.gap) / n - blocks.gap;
+  for (const ReplicateColumns& r : replicates)
+    blocks.n.push_back(r.n_frames == shortest
+                           ? n
+                           : std::min(kMostBlocksOfLonger, (r.n_frames + blocks.gap) / (blocks.length + blocks.gap)));
+  return blocks;
+}
+
+/// Adds the means of a replicate's blocks, [block][column], which are spread evenly over the run; NaN where a block
+/// has no value, and where nothing is tested.
+void add_block_means(const Columns& columns, std::size_t replicate, const RunBlocks& blocks,
+                     const std::vector<char>& tested, std::vector<std::vector<double>>& means) {
+  const std::size_t n = columns.n_frames(replicate), n_columns = columns.n_columns(), n_blocks = blocks.n[replicate];
+  const std::size_t first = means.size();
+  means.resize(first + n_blocks, std::vector<double>(n_columns, kNaN));
   const std::size_t at_once = std::max<std::size_t>(1, kColumnBytes / sizeof(float) / n);
   std::vector<float> values;
-  const CancelRequest cancel;
   for (std::size_t begin = 0; begin < n_columns; begin += at_once) {
-    cancel.check();
-    const std::size_t end = std::min(n_columns, begin + at_once);
+    CancelRequest().check();
+    const std::size_t end = std::min(n_columns, begin + at_once), width = end - begin;
     columns.read(replicate, begin, end, values);
 #pragma omp parallel for schedule(dynamic, 16)
     for (std::size_t c = begin; c < end; ++c) {
-      if (tested[c] == 0 || cancel.made()) continue;
-      RunningSums sums;
-      sums.set(values, c - begin, end - begin, n);
-      for (std::size_t b = 0; b < n_samples; ++b)
-        samples[b * n_columns + c] += static_cast<float>(share * resampled_mean(sums, n, length, seed + replicate, b));
+      for (std::size_t b = 0; b < n_blocks && tested[c] != 0; ++b) {
+        const std::size_t start = b * (n - blocks.length) / (n_blocks - 1);
+        double sum = 0, count = 0;
+        for (std::size_t f = start; f < start + blocks.length; ++f) {
+          const auto value = static_cast<double>(values[f * width + c - begin]);
+          if (!std::isfinite(value)) continue;
+          sum += value;
+          ++count;
+        }
+        means[first + b][c] = sum / count;
+      }
     }
   }
 }
 
-/// Sets one place from its difference and the samples' deviations from it.
-void add_bootstrapped(PlaceTests& tests, double difference, std::vector<double>& deviations, double confidence) {
-  double squares = 0;
-  for (const double d : deviations) squares += d * d;
-  const double n = static_cast<double>(deviations.size());
-  const double error = squares > 0 ? std::sqrt(squares / n) : kNaN;
-  for (double& d : deviations) d = std::fabs(d);
-  std::sort(deviations.begin(), deviations.end());
-  const auto place = static_cast<std::size_t>(std::ceil(confidence * n)) - 1;
-  const double half = std::isfinite(error) ? deviations[std::min(place, deviations.size() - 1)] : kNaN;
-  tests.difference.push_back(difference);
-  tests.error.push_back(error);
-  tests.degrees.push_back(kNaN);
-  tests.t.push_back(difference / error);
-  tests.p.push_back(std::isfinite(error) ? (1 + n * share_at_least(deviations, difference)) / (1 + n) : kNaN);
-  tests.low.push_back(difference - half);
-  tests.high.push_back(difference + half);
-}
-
-/// The largest values of each sample over the surface; the observed ones are among them.
-void set_family_wise(SurfaceTest& test, const MeshGraph& graph) {
-  const std::size_t n = graph.n_vertices(), n_samples = test.deviations.size() / n;
-  std::vector<double> max_t(n_samples + 1), max_tfce(n_samples + 1);
-  const CancelRequest cancel;
-#pragma omp parallel for schedule(dynamic)
-  for (std::size_t b = 0; b < n_samples; ++b) {
-    if (cancel.made()) continue;
-    std::vector<double> t(n);
-    for (std::size_t v = 0; v < n; ++v) t[v] = static_cast<double>(test.deviations[b * n + v]) / test.vertices.error[v];
-    max_t[b] = largest_magnitude(t);
-    max_tfce[b] = largest_magnitude(enhance_clusters(t, graph));
+/// Differences of the groups' means over all frames, each replicate with the same share; NaN where not tested.
+std::vector<double> differences_of(const std::vector<ReplicateColumns>& replicates, std::size_t n_first,
+                                   const std::vector<char>& tested) {
+  std::vector<double> difference(tested.size(), 0);
+  for (std::size_t v = 0; v < tested.size(); ++v) {
+    for (std::size_t r = 0; r < replicates.size(); ++r) {
+      const double share =
+          r < n_first ? -1.0 / static_cast<double>(n_first) : 1.0 / static_cast<double>(replicates.size() - n_first);
+      difference[v] += share * replicates[r].columns[v].mean;
+    }
+    if (tested[v] == 0) difference[v] = kNaN;
   }
-  cancel.check();
-  test.tfce = enhance_clusters(test.vertices.t, graph);
-  max_t.back() = largest_magnitude(test.vertices.t);
-  max_tfce.back() = largest_magnitude(test.tfce);
-  test.p_max_t = shares_at_least(max_t, test.vertices.t, test.vertices.t);
-  test.p_tfce = shares_at_least(max_tfce, test.tfce, test.vertices.t);
+  return difference;
 }
 
-void set_mean_abs(SurfaceTest& test, const MeshGraph& graph) {
-  const std::size_t n = graph.n_vertices(), n_samples = test.deviations.size() / n;
-  test.mean_abs_difference = mean_abs(test.vertices.difference, graph);
-  std::vector<double> under_null;
-  for (std::size_t b = 0; b < n_samples; ++b)
-    under_null.push_back(
-        mean_abs(std::vector<double>(test.deviations.begin() + static_cast<std::ptrdiff_t>(b * n),
-                                     test.deviations.begin() + static_cast<std::ptrdiff_t>((b + 1) * n)),
-                 graph));
-  std::sort(under_null.begin(), under_null.end());
-  const double count = static_cast<double>(n_samples);
-  test.mean_abs_difference_p = (1 + count * share_at_least(under_null, test.mean_abs_difference)) / (1 + count);
-  test.mean_abs_difference_exchanged = under_null[n_samples / 2];
+/// What can be told without blocks: the difference.
+SurfaceTest without_p(std::size_t n, const RunBlocks& blocks) {
+  SurfaceTest test;
+  const std::vector<double> none(n, kNaN);
+  test.vertices = {none, none, none, none, none, none, none};
+  test.p_max_t = test.p_tfce = none;
+  test.tfce.assign(n, 0);
+  test.n_arrangements = 0;
+  test.mean_abs_difference_p = test.mean_abs_difference_exchanged = kNaN;
+  const std::size_t fewest = *std::min_element(blocks.n.begin(), blocks.n.end());
+  test.no_p = formatted(
+      "%.1f frames hold as much information as one (ninth decile over the surface), so that a run has %zu block%s that "
+      "can be exchanged; %zu are needed, which takes %zu frames of each run, or two replicates and more of each state",
+      blocks.inefficiency, fewest, fewest == 1 ? "" : "s", kLeastBlocks, blocks.least_frames);
+  return test;
 }
 
 }  // namespace
@@ -140,55 +123,24 @@ void set_mean_abs(SurfaceTest& test, const MeshGraph& graph) {
 SurfaceTest test_within_runs(const Columns& columns, const std::vector<ReplicateColumns>& replicates,
                              std::size_t n_first, const std::vector<char>& tested, const MeshGraph& graph,
                              const SurfaceTestOptions& options) {
-  SurfaceTest test;
+  const RunBlocks blocks = choose_blocks(replicates, tested);
+  const bool enough = *std::min_element(blocks.n.begin(), blocks.n.end()) >= kLeastBlocks;
+  std::vector<std::vector<double>> means;
+  std::size_t n_first_blocks = 0;
+  for (std::size_t r = 0; r < replicates.size() && enough; ++r) {
+    if (r == n_first) n_first_blocks = means.size();
+    add_block_means(columns, r, blocks, tested, means);
+  }
+  SurfaceTest test =
+      enough ? test_replicates(means, n_first_blocks, graph, options) : without_p(graph.n_vertices(), blocks);
   test.inference = Inference::kWithinRuns;
-  test.exact = false;
-  const std::size_t n = graph.n_vertices(), n_samples = options.n_bootstrap;
-  test.n_arrangements = n_samples;
-  test.smallest_p = 1 / static_cast<double>(n_samples + 1);
-  test.deviations.assign(n_samples * n, 0);
-  std::vector<double> difference(n, 0);
-  for (std::size_t r = 0; r < replicates.size(); ++r) {
-    const double share =
-        r < n_first ? -1.0 / static_cast<double>(n_first) : 1.0 / static_cast<double>(replicates.size() - n_first);
-    test.block_lengths.push_back(block_length(replicates[r], tested));
-    add_samples(columns, r, test.block_lengths.back(), share, n_samples, options.seed, tested, test.deviations);
-    for (std::size_t v = 0; v < n; ++v) difference[v] += share * replicates[r].columns[v].mean;
-  }
-  std::vector<double> deviations(n_samples);
-  for (std::size_t v = 0; v < n; ++v) {
-    if (tested[v] == 0) difference[v] = kNaN;
-    for (std::size_t b = 0; b < n_samples; ++b) {
-      float& sample = test.deviations[b * n + v];
-      sample = static_cast<float>(static_cast<double>(sample) - difference[v]);
-      deviations[b] = static_cast<double>(sample);
-    }
-    add_bootstrapped(test.vertices, difference[v], deviations, options.confidence);
-  }
-  set_family_wise(test, graph);
-  set_mean_abs(test, graph);
+  test.blocks = blocks;
+  test.block_means = std::move(means);
+  test.n_first_blocks = n_first_blocks;
+  const std::vector<double> difference = differences_of(replicates, n_first, tested);
+  for (std::size_t v = 0; v < difference.size(); ++v) move_to(test.vertices, v, difference[v]);
+  test.mean_abs_difference = mean_abs(difference, graph);
   return test;
-}
-
-PlaceTests test_places_by_bootstrap(const SurfaceTest& surface, const MeshGraph& graph,
-                                    const std::vector<std::vector<std::uint32_t>>& members, double confidence) {
-  PlaceTests tests;
-  const std::size_t n = graph.n_vertices(), n_samples = surface.deviations.size() / n;
-  for (const auto& vertices : members) {
-    double area = 0, difference = 0;
-    std::vector<double> deviations(n_samples, 0);
-    for (const std::uint32_t v : vertices) {
-      if (!std::isfinite(surface.vertices.t[v])) continue;
-      area += graph.area[v];
-      difference += graph.area[v] * surface.vertices.difference[v];
-      for (std::size_t b = 0; b < n_samples; ++b)
-        deviations[b] += graph.area[v] * static_cast<double>(surface.deviations[b * n + v]);
-    }
-    for (double& d : deviations) d /= area;
-    if (area == 0) std::fill(deviations.begin(), deviations.end(), 0.0);
-    add_bootstrapped(tests, area > 0 ? difference / area : kNaN, deviations, confidence);
-  }
-  return tests;
 }
 
 }  // namespace espdiff

@@ -12,6 +12,8 @@ class Interruption {
   /// @param handler may only do what a signal handler may, such as set a flag
   explicit Interruption(void (*handler)(int signal));
   ~Interruption();
+  /// Whether such a signal has come to the one that lives: for what waits and has no other way to know.
+  static bool is_asked();
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;
 };

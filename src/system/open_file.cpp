@@ -21,7 +21,7 @@ int flags_of(FileAccess access) {
     case FileAccess::kReadWrite: return O_RDWR;
     case FileAccess::kAppend: return O_WRONLY | O_APPEND;
     case FileAccess::kAppendOrCreate: return O_RDWR | O_CREAT | O_APPEND;
-    case FileAccess::kCreateNew: return O_WRONLY | O_CREAT | O_EXCL;
+    case FileAccess::kCreateNew: return O_RDWR | O_CREAT | O_EXCL;
 #if defined(O_TMPFILE)
     case FileAccess::kUnnamed: return O_TMPFILE | O_RDWR;
 #else
@@ -76,9 +76,9 @@ OpenFile& OpenFile::operator=(OpenFile&& other) noexcept {
 
 OpenFile::~OpenFile() { close(); }
 
-void OpenFile::close() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-  descriptor_ = -1;
+int OpenFile::close() {
+  if (descriptor_ < 0) return 0;
+  return ::close(std::exchange(descriptor_, -1)) == 0 ? 0 : errno;
 }
 
 LockResult OpenFile::lock() {
@@ -133,10 +133,15 @@ int OpenFile::truncate(std::uint64_t n_bytes) {
 
 bool OpenFile::wait_until_readable(int milliseconds) const {
   pollfd file{descriptor_, POLLIN, 0};
-  return poll(&file, 1, milliseconds) != 0;
+  return poll(&file, 1, milliseconds) > 0;
 }
 
-void OpenFile::let_reading_wait() { fcntl(descriptor_, F_SETFL, fcntl(descriptor_, F_GETFL) & ~O_NONBLOCK); }
+int OpenFile::read_what_is_there(char* buffer, std::size_t size, std::size_t& n_read) {
+  const ssize_t n = ::read(descriptor_, buffer, size);
+  n_read = n < 0 ? 0 : static_cast<std::size_t>(n);
+  if (n >= 0) return 0;
+  return errno == EAGAIN || errno == EINTR ? kNothingYet : errno;
+}
 
 std::string OpenFile::own_path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
 

@@ -9,11 +9,11 @@ namespace espdiff {
 
 enum class FileAccess {
   kRead,
-  kReadPipe,  ///< does not wait for who writes into it
+  kReadPipe,  ///< waits neither for who writes into it nor for what is written
   kReadWrite,
   kAppend,          ///< each write at the end of an existing file
   kAppendOrCreate,  ///< to be read as well
-  kCreateNew,       ///< fails if the name is taken
+  kCreateNew,       ///< fails if the name is taken, by a link too
   kUnnamed,         ///< a new file in a folder, which has no name; not everywhere
   kFolder           ///< the folder itself, and no link to one
 };
@@ -25,6 +25,7 @@ class OpenFile {
  public:
   /// Returned where the file ends before what is asked for.
   static constexpr int kEndsTooEarly = -1;
+  static constexpr int kNothingYet = -2;
 
   OpenFile() = default;
   /// New files get the permissions that the user's files get. Programs that are started do not get the file.
@@ -39,7 +40,8 @@ class OpenFile {
   /// Why it was not opened.
   int error() const { return error_; }
   int descriptor() const { return descriptor_; }
-  void close();
+  /// A write that failed late may show here.
+  int close();
 
   /// For this process alone, until the file is closed; does not wait.
   LockResult lock();
@@ -56,10 +58,11 @@ class OpenFile {
   void rewind();
   int truncate(std::uint64_t n_bytes);
 
-  /// Of a pipe: waits for something to read, or for the end. @returns false if there was neither within the time
+  /// Of a pipe: waits for something to read, or for the end. @returns false if there was neither within the time, or a
+  /// signal came
   bool wait_until_readable(int milliseconds) const;
-  /// Of a pipe: from now on, reading waits.
-  void let_reading_wait();
+  /// Of a pipe: reads what is there. @returns kNothingYet where somebody has it open and has written nothing
+  int read_what_is_there(char* buffer, std::size_t size, std::size_t& n_read);
 
   /// A path that names the open file for this process, whether it has a name or not; it may lead nowhere.
   std::string own_path() const;

@@ -2,6 +2,7 @@
 #include "system/standard_streams.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -17,6 +18,11 @@ bool open_closed_streams() {
 }
 
 bool is_error_stream_terminal() { return isatty(STDERR_FILENO) != 0; }
+
+bool is_output_unread() {
+  pollfd output{STDOUT_FILENO, POLLOUT, 0};
+  return poll(&output, 1, 0) > 0 && (output.revents & POLLERR) != 0;
+}
 
 QuietOutput::QuietOutput() {
   std::fflush(stdout);

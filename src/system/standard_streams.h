@@ -9,6 +9,9 @@ bool open_closed_streams();
 
 bool is_error_stream_terminal();
 
+/// Whether standard output is a pipe that nobody reads any more.
+bool is_output_unread();
+
 /// While it lives, what the process prints on standard output is lost: VMD's plugins tell there what they read.
 /// Only one at a time, and none while another thread prints.
 class QuietOutput {

@@ -56,4 +56,10 @@ std::uint64_t allocated_bytes() {
   return 0;
 }
 
+void return_free_memory() {
+#if defined(__GLIBC__)
+  ::malloc_trim(0);
+#endif
+}
+
 }  // namespace espdiff

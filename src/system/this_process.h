@@ -25,5 +25,7 @@ std::uint64_t memory_page_size();
 /// Bytes that anyone in this process allocated and did not give back; exact, but for small blocks that the allocator
 /// keeps for each thread. 0 where the C library does not tell.
 std::uint64_t allocated_bytes();
+/// Gives free memory that the allocator keeps back to the system, where the C library can.
+void return_free_memory();
 
 }  // namespace espdiff

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "io/dcd_head.h"
 #include "io/structure_file.h"
 
 namespace espdiff {
@@ -14,9 +15,22 @@ FrameFiles::FrameFiles(std::vector<std::string> paths, OpenStructure open)
   first_.push_back(0);
   for (std::size_t i = 0; i < paths_.size(); ++i) {
     load(i);
+    compare_with_head(paths_[i], file_->n_models());
     first_.push_back(first_.back() + file_->n_models());
     sha256_.push_back(file_->sha256());
   }
+}
+
+/// Readers take a DCD that was cut off for a whole one.
+void FrameFiles::compare_with_head(const std::string& path, int n_read) {
+  const std::optional<DcdHead> head = read_dcd_head(path);
+  if (!head) return;
+  if (head->n_whole != n_read)
+    throw FormatError(path, 0,
+                      "has " + std::to_string(head->n_whole) + " whole frames by its size, and its reader finds " +
+                          std::to_string(n_read) + "; copy or write the file again");
+  const std::string missing = head->missing();
+  if (incomplete_.empty() && !missing.empty()) incomplete_ = path + " " + missing;
 }
 
 std::size_t FrameFiles::file_of(int frame) const {

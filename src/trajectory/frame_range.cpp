@@ -74,14 +74,21 @@ class FrameParser {
     return step;
   }
 
+  int last() const {
+    const std::string number = std::to_string(frames_.n_frames - 1);
+    if (!frames_.incomplete.empty())
+      refuse(frames_.incomplete + "; to take the whole frames, name the last one by its number, as in 0:" + number);
+    return frames_.n_frames - 1;
+  }
+
   int frame(const std::string& word) const {
     if (word == "first") return 0;
-    if (word == "last" || word == "end") return frames_.n_frames - 1;
+    if (word == "last" || word == "end") return last();
     if (word == "now" && frames_.now) return *frames_.now;
     if (word == "now") refuse("`now` is the frame that a molecule in VMD shows; a file has none, give a number");
     long long number = 0;
     if (!parse_integer(word, number)) refuse("'" + word + "' is no frame; " + kAccepted);
-    const long long from_start = number < 0 ? number + frames_.n_frames : number;
+    const long long from_start = number < 0 ? number + last() + 1 : number;
     if (from_start < 0 || from_start >= frames_.n_frames)
       refuse("frame " + word + " is not among the frames 0 to " + std::to_string(frames_.n_frames - 1) + of());
     return static_cast<int>(from_start);

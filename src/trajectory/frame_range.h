@@ -15,6 +15,7 @@ struct FrameSet {
   std::optional<int> now = std::nullopt;  ///< the frame that VMD shows; none for files
   Message what = option("frames");        ///< for messages: the option, or what it is
   std::string of = "";                    ///< for messages: a file, a molecule
+  std::string incomplete = "";            ///< what is missing of it; its last frame is then named by number only
 };
 
 /// Frame numbers from 0, each once, in rising order. The grammar is that of VMD's PMEPot (`-frames`) and of

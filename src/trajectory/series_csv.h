@@ -1,6 +1,7 @@
 // series_csv.h: the CSV file of a trajectory: one row for each frame, written when it is computed; can be resumed.
 #pragma once
 
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,7 +18,12 @@ using SeriesHead = std::vector<std::pair<std::string, std::string>>;
 /// returns, whatever happens to the process then.
 class SeriesCsv {
  public:
-  /// @param head what this run's rows depend on. To be resumed, a file must say the same wherever it names the same.
+  /// The last column of the file: a checksum of the row and of all above it, so that rows of two runs are not mixed and
+  /// changed ones are found.
+  static constexpr const char* kChecksumColumn = "checksum";
+
+  /// @param head what this run's rows depend on. To be resumed, a file must say the same, no more and no less; what it
+  ///             says besides must be noted (note()).
   /// @throws IoError (the file exists, cannot be written, or another run is writing it), FormatError (another file, a
   ///         damaged line), InputError (made with something else; says what)
   /// @param parts region and patches, whose columns the rows have
@@ -30,20 +36,27 @@ class SeriesCsv {
   std::string fingerprint() const;
 
   /// Adds a line to the head after the file was opened. A resumed file must have the same line.
-  /// @throws InputError (the file has another text)
+  /// @throws InputError (the file has another text, or none)
   void note(const std::string& name, const std::string& text);
+  /// Called when everything has been noted. @throws InputError (a resumed file says something that this run has not)
+  void require_all_noted() const;
   /// @throws IoError
   void add(const SeriesRow& row);
 
  private:
   void read_rows();
+  void begin_checksums();
+  [[noreturn]] void refuse_new(const std::string& name, const std::string& now) const;
   void check_same(const std::string& name, const std::string& in_file, const std::string& now) const;
 
   AppendedFile file_;
   SeriesHead head_;
   std::vector<std::string> parts_;
   std::vector<SeriesRow> rows_;
-  bool has_head_ = false;  ///< the file begins with this run's head
+  std::set<std::string> unconfirmed_;  ///< lines of a resumed file's head that this run has not noted
+  std::string sum_;                    ///< checksum of the last row
+  bool has_head_ = false;              ///< the file begins with this run's head
+  bool is_resumed_ = false;            ///< which an earlier run wrote
 };
 
 }  // namespace espdiff

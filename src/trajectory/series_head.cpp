@@ -51,6 +51,7 @@ SeriesHead series_head(const SeriesDescription& run, const CompareOptions& optio
                                    (run.structure.include_water ? ", water" : ", no water"));
   }
   head.emplace_back("frames", frames_in_words(run.frames));
+  if (!run.frames_of.empty()) head.emplace_back("frames-of", described(run.frames_of));
   head.emplace_back("reference", run.reference);
   head.emplace_back("map", run.map.empty() ? "none" : run.map);
   head.emplace_back("reference-map", run.reference_map);
@@ -58,7 +59,8 @@ SeriesHead series_head(const SeriesDescription& run, const CompareOptions& optio
   head.emplace_back("settings", settings_in_words(options));
   std::vector<std::string> patch_files;
   for (const PatchRequest& patch : options.input.patches) {
-    if (const auto earlier = earlier_patch_name(patch.selection)) patch_files.push_back(earlier->path);
+    if (const auto earlier = earlier_patch_name(patch.selection))
+      patch_files.insert(patch_files.end(), {earlier->path, surface_beside(*earlier)});
   }
   if (!patch_files.empty()) head.emplace_back("patch_sha256", joined(patch_files, sha256_of_file));
   if (!run.files.empty()) head.emplace_back("file_sha256", joined(run.files, sha256_of_file));

@@ -17,6 +17,7 @@ struct SeriesDescription {
   StructureOptions structure;      ///< how they are read
   SeriesHead molecule;             ///< instead of files: a molecule of VMD
   std::vector<int> frames;
+  std::string frames_of;                     ///< file of the frames' own atoms; empty: those of the reference
   std::string reference;                     ///< `file PATH`, `frame N`, `previous`, ...
   std::vector<std::string> reference_files;  ///< whose frames are the sources
   std::string map = "none";                  ///< of each frame
@@ -24,8 +25,8 @@ struct SeriesDescription {
   StartFrom start = StartFrom::kPrevious;
 };
 
-/// Version, frames, reference, potentials, settings that differ from their defaults, and SHA-256 of the files.
-/// TrajectoryRun::note_inputs() adds the rest when the reference has been read.
+/// Everything that rows depend on: version, frames, reference, potentials, settings that differ from their defaults, and
+/// SHA-256 of the files. TrajectoryRun::note_inputs() adds the rest when the reference has been read.
 /// @throws IoError (a file is missing or unreadable)
 SeriesHead series_head(const SeriesDescription& run, const CompareOptions& options);
 

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "compare/input.h"
+#include "compare/readings.h"
 #include "compare/result.h"
-#include "io/atomic_file.h"
 #include "io/text_cursor.h"
 #include "trajectory/series_file.h"
 
@@ -75,10 +75,10 @@ TrajectoryRun::TrajectoryRun(TrajectoryPlan plan, SeriesCsv file, std::optional<
   if (plan_.options.offsets_A.size() > 1)
     throw InputError(option("offset") +
                      ": a list of distances was given, and a trajectory has one row for a frame; give one");
+  refuse_causes(plan_.options, "a trajectory");
   check_earlier_rows();
   resume_residues();
   position_ = n_resumed_ = file_.rows().size();
-  remove_leftovers(state_path());  // temporary files of a killed run; the lock excludes others
   if (position_ == 0 || is_done()) {
     remove_state();
   } else {
@@ -148,7 +148,17 @@ void TrajectoryRun::restore_mapping() {
 }
 
 void TrajectoryRun::note_inputs(const std::vector<InputFile>& inputs) {
-  for (const InputFile& input : inputs) file_.note(input.role + "_sha256", input.sha256);
+  std::vector<std::pair<std::string, std::string>> by_role;  // a role may have several files, such as ligands
+  for (const InputFile& input : inputs) {
+    const std::string name = input.role + "_sha256";
+    const auto same = std::find_if(by_role.begin(), by_role.end(), [&](const auto& one) { return one.first == name; });
+    if (same != by_role.end()) {
+      same->second += "; " + input.sha256;
+    } else {
+      by_role.emplace_back(name, input.sha256);
+    }
+  }
+  for (const auto& [name, sha256] : by_role) file_.note(name, sha256);
 }
 
 Error TrajectoryRun::cancelled() const {
@@ -171,6 +181,7 @@ const SeriesRow* TrajectoryRun::step(Engine& engine, const std::function<StepInp
     });
     if (unread) return skip(*unread);
     note_inputs(input.inputs);
+    file_.require_all_noted();
     std::optional<SeriesRow> row;
     const auto failed = error_of([&] { row = compare(engine, input, inner); });
     return failed ? skip(*failed) : end_step(*row);

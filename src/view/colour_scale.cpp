@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 #include "base/error.h"
 #include "base/formatted.h"
@@ -32,13 +31,6 @@ constexpr std::array<ArrayDescription, 9> kArrays = {{
 }};
 
 const ArrayDescription& describe(RenderArray array) { return kArrays[static_cast<std::size_t>(array)]; }
-
-/// The magnitude that `percentile` per cent of the values do not exceed.
-double percentile_of(std::vector<float> magnitudes, double percentile) {
-  const auto rank = static_cast<std::size_t>(percentile / 100 * static_cast<double>(magnitudes.size() - 1));
-  std::nth_element(magnitudes.begin(), magnitudes.begin() + static_cast<std::ptrdiff_t>(rank), magnitudes.end());
-  return magnitudes[rank];
-}
 
 void check(const ScaleRange& range) {
   if (!std::isfinite(range.limit) || range.limit < 0) {
@@ -84,16 +76,6 @@ std::string legend_title(RenderArray array, const std::string& unit) {
   return shown.empty() ? title : title + " (" + shown + ")";
 }
 
-double round_up_nicely(double value) {
-  if (!(value > 0)) return 1;
-  const double power = std::pow(10.0, std::floor(std::log10(value)));
-  // The tolerance keeps 0.3, which is 3.0000000000000004e-1 after the division, from being rounded up to 0.4.
-  for (const double factor : {1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0}) {
-    if (value <= factor * power * (1 + 1e-9)) return factor * power;
-  }
-  return 10 * power;
-}
-
 ColourScale::ColourScale(RenderArray array, const std::vector<float>& values, double limit)
     : ColourScale(array, values, [limit] {
         ScaleRange range;
@@ -106,18 +88,14 @@ ColourScale::ColourScale(RenderArray array, const std::vector<float>& values, co
     : array_(array), map_(map) {
   check(range);
   if (!has_bar()) return;
-  std::vector<float> magnitudes;
-  magnitudes.reserve(values.size());
-  for (const float value : values) {
-    if (std::isfinite(value)) magnitudes.push_back(std::abs(value));
-  }
-  if (magnitudes.empty()) {
+  const auto is_missing = [](float value) { return !std::isfinite(value); };
+  if (std::all_of(values.begin(), values.end(), is_missing)) {
     throw InputError(std::string("no vertex has a value in '") + array_name(array) +
                      "'; do the maps cover the molecules? Colour by displacement to see the shapes");
   }
-  has_missing_ = magnitudes.size() < values.size();
+  has_missing_ = std::any_of(values.begin(), values.end(), is_missing);
   if (two_classes()) return;
-  set_ends(std::move(magnitudes), range);
+  set_ends(values, range);
   for (const float value : values) {
     const double shown = is_sequential() ? std::abs(value) : value;
     exceeds_low_ = exceeds_low_ || shown < low_;
@@ -125,13 +103,13 @@ ColourScale::ColourScale(RenderArray array, const std::vector<float>& values, co
   }
 }
 
-void ColourScale::set_ends(std::vector<float> magnitudes, const ScaleRange& range) {
+void ColourScale::set_ends(const std::vector<float>& values, const ScaleRange& range) {
   if (range.given_ends) {
     low_ = range.low;
     high_ = range.high;
     return;
   }
-  high_ = range.limit > 0 ? range.limit : round_up_nicely(percentile_of(std::move(magnitudes), range.percentile));
+  high_ = range.limit > 0 ? range.limit : automatic_limit(values, range.percentile);
   low_ = is_sequential() ? 0 : -high_;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "plot/automatic_range.h"
 #include "plot/colour_map.h"
 
 namespace espdiff {
@@ -31,10 +32,9 @@ std::string legend_title(RenderArray array, const std::string& unit);
 
 /// How the ends of a scale are chosen.
 struct ScaleRange {
-  double limit = 0;         ///< > 0: the upper end; for signed values both ends. 0: by the percentile
-  double percentile = 98;   ///< of |value|, 50 to 100, rounded up to a round number, so that a few vertices in a
-                            ///< crevice do not bleach all others
-  bool given_ends = false;  ///< the scale goes from `low` to `high`
+  double limit = 0;  ///< > 0: the upper end; for signed values both ends. 0: automatic_limit() at the percentile
+  double percentile = kAutomaticPercentile;  ///< 50 to 100
+  bool given_ends = false;                   ///< the scale goes from `low` to `high`
   double low = 0, high = 0;
 };
 
@@ -66,17 +66,13 @@ class ColourScale {
  private:
   double hue() const;
   bool is_sequential() const { return array_ == RenderArray::kMagnitude || is_length(array_); }
-  void set_ends(std::vector<float> magnitudes, const ScaleRange& range);
+  void set_ends(const std::vector<float>& values, const ScaleRange& range);
 
   RenderArray array_;
   DivergingMap map_;
   double low_ = 0, high_ = 1;
   bool exceeds_low_ = false, exceeds_high_ = false, has_missing_ = false;
 };
-
-/// The smallest of 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10 times a power of ten that is not below `value`; 1 for a value of
-/// 0.
-double round_up_nicely(double value);
 
 /// Opacity by slip (by displacement where a file has no slip): the farther, the less certain the correspondence.
 struct OpacityScale {

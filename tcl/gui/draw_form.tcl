@@ -4,8 +4,9 @@ namespace eval ::espdiff::gui {
     variable form
     array set form {
         draw,color difference draw,surface target draw,range auto draw,low -5 draw,high 5
-        draw,uncertain fade draw,limit 2.0 draw,off_target uncertain draw,legend 1 draw,colors red-blue draw,view single draw,mol ""
+        draw,uncertain fade draw,limit 2.0 draw,off_target uncertain draw,legend 1 draw,colors red-blue draw,view single draw,mol "" draw,keep 0
     }
+    variable recolouring ""  ;# the `after` script that recolours a drawing
     variable drawn_on {target mapped source source}  ;# the window's word, espdiff's word
 
     proc build_draw {path} {
@@ -24,7 +25,7 @@ namespace eval ::espdiff::gui {
         form_row $path 0 "on the" $path.surface "Surface to colour: mapped onto the target, or on the source" 2
         build_range $path.range
         form_row $path 1 Range $path.range "Values at the ends of the colour scale. Automatic: symmetric about 0, holds\
-            98 % of the surface's points on each side"
+            90 % of the surface's points. The slider recolours the drawing at once"
         grid configure $path.range -columnspan 3
         ttk::frame $path.look
         ttk::label $path.look.uncertain -text "Uncertain parts"
@@ -52,12 +53,16 @@ namespace eval ::espdiff::gui {
             -values {uncertain mark hide}
         form_row $path 3 "Corrupt parts" $path.corrupt "Parts that are off the target's surface: as uncertain as can be,\
             marked in yellow, or not drawn"
-        ttk::checkbutton $path.linked -text "Source, target and this side by side" \
+        ttk::frame $path.views
+        ttk::checkbutton $path.views.keep -text "Keep the others" -variable ${variable}(draw,keep)
+        tip $path.views.keep "Do not remove the drawings of other results"
+        ttk::checkbutton $path.views.linked -text "Side by side" \
             -variable ::espdiff::gui::form(draw,view) -onvalue linked -offvalue single
-        tip $path.linked "Linked views: the mouse turns all three; both potentials on the left, what is chosen here on\
+        tip $path.views.linked "Linked views of source, target and this: the mouse turns all three; both potentials on the left, what is chosen here on\
             the right. Undraw puts VMD's view back"
-        grid $path.linked -row 3 -column 2 -columnspan 2 -sticky w -padx {16 0}
-        set widget(draw,linked) $path.linked
+        pack $path.views.linked $path.views.keep -side left -padx {0 10}
+        grid $path.views -row 3 -column 2 -columnspan 2 -sticky w -padx {16 0}
+        set widget(draw,linked) $path.views.linked
         build_draw_buttons $path.buttons
         grid $path.buttons -row 4 -column 0 -columnspan 4 -sticky ew -pady {4 0}
         grid configure $path.label_surface -padx {16 6}
@@ -74,12 +79,36 @@ namespace eval ::espdiff::gui {
         ttk::label $path.to -text to
         ttk::entry $path.high -textvariable ::espdiff::gui::form(draw,high) -width 7
         ttk::label $path.unit
+        ttk::scale $path.slider -from -1 -to 1 -length 60 -command ::espdiff::gui::slide_range
         pack $path.auto $path.given $path.low $path.to $path.high $path.unit -side left -padx {0 6}
+        pack $path.slider -side left -fill x -expand 1
+        tip $path.slider "From a tenth to ten times the automatic range; the drawing is recoloured at once"
         foreach entry {low high} {
             $path.$entry configure -validate key -validatecommand {set ::espdiff::gui::form(draw,range) given; expr 1}
             bind $path.$entry <Return> {::espdiff::gui::press draw; break}
         }
         set ::espdiff::gui::widget(draw,unit) $path.unit
+    }
+
+    # The slider's place is the logarithm of the range, in automatic ranges.
+    proc slide_range {place} {
+        variable form
+        variable shown
+        variable recolouring
+        if {$shown eq "" || $form(draw,color) in {sign none}} return
+        lassign [dict values [::espdiff::drawn_range $shown $form(draw,color) auto]] low high
+        set factor [expr {10.0 ** $place}]
+        foreach {end value} [list low $low high $high] {
+            set form(draw,$end) [format %.3g [expr {$factor * $value}]]
+        }
+        set form(draw,range) given
+        after cancel $recolouring
+        set recolouring [after 40 {::espdiff::gui::guard ::espdiff::gui::recolour}]
+    }
+
+    proc recolour {} {
+        variable shown
+        if {$shown in [espdiff handles] && [::espdiff::drawing_of $shown] ne ""} draw
     }
 
     proc build_draw_buttons {path} {
@@ -93,7 +122,7 @@ namespace eval ::espdiff::gui {
             -postcommand {::espdiff::gui::guard ::espdiff::gui::update_draw}
         tip $path.draw "Draw the surface in VMD's window, and replace this result's older drawing"
         tip $path.undraw "Remove this result's drawing"
-        tip $path.picture "Save VMD's window as a Targa file; File > Render in VMD's menu has other formats"
+        tip $path.picture "A figure for print in VMD's view (PNG), or VMD's window as it is (Targa)"
         tip $path.map "Add what is chosen under Colour by as a volumetric map to this molecule, for Color Volume and\
             Isosurface representations"
         tip $path.mol "Molecule that gets the map"
@@ -147,6 +176,7 @@ namespace eval ::espdiff::gui {
         if {$form(draw,surface) ne "target"} { lappend options -surface [dict get $drawn_on $form(draw,surface)] }
         if {!$form(draw,legend)} { lappend options -legend 0 }
         if {$form(draw,view) ne "single"} { lappend options -view $form(draw,view) }
+        if {$form(draw,keep)} { lappend options -keep 1 }
         return $options
     }
 
@@ -168,13 +198,20 @@ namespace eval ::espdiff::gui {
     proc save_picture {} {
         variable window
         variable shown
-        set path [tk_getSaveFile -parent $window -title "VMD's window as a picture" -initialfile $shown.tga \
-            -defaultextension .tga -filetypes {{"Targa pictures" .tga}}]
+        set path [tk_getSaveFile -parent $window -title "A figure for print, or VMD's window as it is" \
+            -initialfile $shown.png -defaultextension .png \
+            -filetypes {{"Figure for print, in VMD's view" .png} {"VMD's window as it is" .tga}}]
         if {$path ne ""} { save_picture_as $path }
     }
 
     # VMD reports nothing if it cannot write.
     proc save_picture_as {path} {
+        variable shown
+        if {[string tolower [file extension $path]] eq ".png"} {
+            espdiff figure $shown $path
+            show_message "Written: $path"
+            return
+        }
         file delete $path
         display update
         render snapshot $path

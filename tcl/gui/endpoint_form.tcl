@@ -102,9 +102,10 @@ namespace eval ::espdiff::gui {
             not"
         # In the place of the unit: what the automatic choice is, and why. The row is never empty, so that nothing below
         # moves.
-        tip [ttk::label $path.choice -foreground gray40 -anchor w -width 10] ""
+        tip [wrapping_label $path.choice -foreground gray40] ""
         grid $path.choice -row 7 -column 0 -columnspan 3 -sticky ew -pady 2
-        grid rowconfigure $path 7 -minsize [expr {[winfo reqheight $path.unit] + 4}]
+        grid rowconfigure $path 7 -minsize [expr {4 + max([winfo reqheight $path.unit],
+            2 * [font metrics TkDefaultFont -linespace] + 4)}]
         foreach name {map browse_map unit choice} { set widget($side,$name) $path.$name }
     }
 
@@ -176,10 +177,10 @@ namespace eval ::espdiff::gui {
         variable widget
         set names [molecule_names]
         $widget($side,mol) configure -values $names
-        # A molecule keeps its number when it is renamed; a deleted one is not replaced silently.
+        # A molecule keeps its number when it is renamed; a deleted one gives its place to another one.
         set chosen [lsearch -inline $names "[number_of $form($side,mol)]: *"]
         if {$chosen ne $form($side,mol) || $chosen eq ""} {
-            if {$chosen eq "" && $form($side,mol) eq ""} { set chosen [default_molecule $side $names] }
+            if {$chosen eq ""} { set chosen [default_molecule $side $names] }
             set form($side,mol) $chosen
             choose_molecule $side
         }

@@ -8,7 +8,7 @@ namespace eval ::espdiff::gui {
     variable ensemble_patch ""    ;# number of the chosen patch; empty for all
 
     proc build_ensemble_bar {path} {
-        build_tab_bar ensemble $path compute Run ::espdiff::gui::run_ensemble ::espdiff::gui::cancel_ensemble \
+        build_tab_bar ensemble $path compute Compare ::espdiff::gui::run_ensemble ::espdiff::gui::cancel_ensemble \
             "Map the template onto every frame, and compare the groups (Return)" \
             "Stop the run; its frames stay in NAME.h5, and it can be resumed (Escape)"
     }
@@ -16,7 +16,7 @@ namespace eval ::espdiff::gui {
     proc build_ensemble_result {path} {
         variable widget
         ttk::frame $path.top
-        ttk::label $path.top.answer -anchor w -wraplength 420 -justify left
+        wrapping_label $path.top.answer
         button $path.top.draw "Draw all" ::espdiff::gui::draw_ensemble
         button $path.top.table Table... ::espdiff::gui::ensemble_table
         tip $path.top.draw "Draw the template: the difference of the groups, faded where it is not significant"
@@ -104,7 +104,7 @@ namespace eval ::espdiff::gui {
             espdiff delete $handle
             set cancelled [expr {[lindex [dict get $options -errorcode] 1] eq "CANCELLED"}]
             if {$cancelled && [file exists [string trim $form(ensemble,output)].h5]} {
-                set message "Stopped. With \u201cresume\u201d, Run computes the frames that are missing."
+                set message "Stopped. With \u201cresume\u201d, Compare computes the frames that are missing."
             }
             tell_in ensemble $message [expr {$cancelled ? "note" : "error"}]
             return
@@ -138,13 +138,16 @@ namespace eval ::espdiff::gui {
 
     # The answer in two or three lines.
     proc ensemble_answer {result} {
-        if {![dict exists $result test]} { return "One group: its mean potential, without a comparison." }
+        set text "[string toupper [dict get $result conclusion] 0]."
+        if {![dict exists $result test]} { return $text }
         set unit [dict get $result potential_unit]
         dict with result test {
-            set text "Mean absolute difference [format %.3f $mean_abs_difference] $unit (p =\
-                [format %.3g $mean_abs_difference_p]); significant: [format %.0f $significant_area_A2] of\
-                [format %.0f [dict get $result tested_area_A2]] \u00c5\u00b2."
-            if {$inference ne "replicates"} { append text "\nA statement about these runs only: a group has one replicate." }
+            append text "\nMean absolute difference [format %.3f $mean_abs_difference] $unit"
+            if {$no_p_because eq ""} {
+                append text " (p = [with_digits $mean_abs_difference_p]); significant: [format %.0f $significant_area_A2]\
+                    of [format %.0f [dict get $result tested_area_A2]] \u00c5\u00b2"
+            }
+            append text "."
         }
         if {[dict exists $result fixed_patches]} {
             dict for {name patch} [dict get $result fixed_patches] { append text "\n[fixed_patch_words $name $patch $unit]" }
@@ -157,9 +160,7 @@ namespace eval ::espdiff::gui {
                     \u00c5\u00b2."
             }
         }
-        if {![dict get $result equilibrium holds]} {
-            append text "\nNOT AN EQUILIBRIUM ANSWER: [join [dict get $result equilibrium reasons] {; }]."
-        }
+        foreach warning [::espdiff::value_or $result warnings {}] { append text "\n\u2022 $warning" }
         return $text
     }
 

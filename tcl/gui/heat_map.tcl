@@ -20,7 +20,7 @@ namespace eval ::espdiff::gui {
         set order [matrix_order]
         set labels [matrix_labels]
         set n [llength $order]
-        set height [expr {max(80, [winfo height $map] - 12)}]
+        set height [expr {max(80, [winfo height $map] - 16 - [font metrics TkSmallCaptionFont -linespace])}]
         set left [label_width $labels]
         set room [expr {[winfo width $map] - $left - 96}]  ;# without labels and scale
         set cell [expr {max(3, min(44, $height / $n, $room / $n))}]
@@ -51,6 +51,8 @@ namespace eval ::espdiff::gui {
         }
         $map create rectangle $left $top [expr {$left + $n * $cell}] [expr {$top + $n * $cell}] -outline black
         frame_groups $map $order
+        $map create text [expr {$left + $n * $cell / 2}] [expr {$top + $n * $cell + 4}] -anchor n -font TkSmallCaptionFont \
+            -text "Target, in the order of the rows (sources). Dot: not trustworthy; line: no value"
         draw_scale $map [expr {$left + $n * $cell + 18}] $top [expr {$n * $cell}] $name $metric $low $high
         mark_cell
     }
@@ -212,7 +214,7 @@ namespace eval ::espdiff::gui {
         }
     }
 
-    # Compares the pair again, with its surface, shows it in the tab Pair, and draws it.
+    # Compares the pair again, with its surface, and draws it.
     proc open_chosen_pair {} {
         variable chosen_cell
         variable heat
@@ -223,12 +225,14 @@ namespace eval ::espdiff::gui {
         lassign $matrix_pairs endpoints settings
         set source [lindex $endpoints [lindex [dict get $heat order] $row]]
         set target [lindex $endpoints [lindex [dict get $heat order] $column]]
-        show_tab pair
         # The surface is drawn on the target: VMD shows the target's frame.
         if {[dict exists $target mol] && [dict get $target mol] in [molinfo list]} {
             molinfo [dict get $target mol] set frame [dict get $target frame]
         }
         set draw_when_done [start_compare $source $target $settings]
+        set ::espdiff::gui::asking_tab matrix
+        tell_in matrix "Comparing [lindex [matrix_labels] [lindex [dict get $heat order] $row]] with\
+            [lindex [matrix_labels] [lindex [dict get $heat order] $column]]..."
     }
 
     proc plot_row {} {

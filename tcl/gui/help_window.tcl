@@ -29,14 +29,14 @@ Colour atoms writes the numbers to VMD's field User and shows them; Restore colo
 
 6. Trajectory compares frames with one frame, or each with the previous one, and draws a point for each finished
 frame. Hollow points are not trustworthy. A click on a point, or the arrow keys, show its frame in VMD; Compare and draw
-(space bar) compares it again with its surface. Stop keeps the rows; with "resume", Run computes the rest.
+(space bar) compares it again with its surface. Stop keeps the rows; with "resume", Compare computes the rest.
 
 7. Matrix compares each of many states with every other one. A click on a cell compares and draws its pair.
 
 8. Ensembles compares two groups of simulations. Each molecule with its frames is a replicate; four or more in each
 group can show a difference of the states. The difference is drawn where it is more than noise, the rest is faded. A
 click on a patch turns it to the front and plots its mean in every frame; a click in the plot shows that frame. Stop
-keeps the frames; with "resume", Run computes the rest.
+keeps the frames; with "resume", Compare computes the rest.
 
 Script shows the Tcl commands that repeat your actions in a new VMD; `espdiff help` in VMD's console explains them. Your entries are
 remembered for the next session, except molecules and files.

@@ -43,8 +43,8 @@ namespace eval ::espdiff::gui {
         grid $path.list $path.scroll $path.buttons -sticky news
         grid configure $path.buttons -padx {6 0}
         grid columnconfigure $path 0 -weight 1
-        bind $path.list <<TreeviewSelect>> {::espdiff::gui::guard ::espdiff::gui::select_variant}
-        bind $path.list <Delete> {::espdiff::gui::guard ::espdiff::gui::remove_variants}
+        bind $path.list <<TreeviewSelect>> {::espdiff::gui::guard_in matrix ::espdiff::gui::select_variant}
+        bind $path.list <Delete> {::espdiff::gui::guard_in matrix ::espdiff::gui::remove_variants}
         set widget(matrix,list) $path.list
         set widget(matrix,files) $path.buttons.files
         set widget(matrix,remove) $path.buttons.remove
@@ -55,7 +55,7 @@ namespace eval ::espdiff::gui {
         variable widget
         ttk::frame $path
         ttk::combobox $path.mol -textvariable ::espdiff::gui::form(matrix,mol) -state readonly -width 14 \
-            -postcommand {::espdiff::gui::guard ::espdiff::gui::update_matrix}
+            -postcommand {::espdiff::gui::guard_in matrix ::espdiff::gui::update_matrix}
         ttk::entry $path.frames -textvariable ::espdiff::gui::form(matrix,frames) -width 9
         ttk::entry $path.sel -textvariable ::espdiff::gui::form(matrix,sel) -width 14
         button $path.add "Add molecule" ::espdiff::gui::add_molecule
@@ -84,7 +84,7 @@ namespace eval ::espdiff::gui {
             ttk::entry $path.$name -textvariable ::espdiff::gui::form(matrix,$name) -width 16
             tip $path.$name $help
             pack $path.${name}_label $path.$name -side left -padx {0 6}
-            bind $path.$name <KeyRelease> [list ::espdiff::gui::guard ::espdiff::gui::rename_variants $name]
+            bind $path.$name <KeyRelease> [list ::espdiff::gui::guard_in matrix ::espdiff::gui::rename_variants $name]
             set widget(matrix,$name) $path.$name
         }
         grid $path -row 2 -column 0 -columnspan 3 -sticky ew -pady {6 0}

@@ -11,7 +11,7 @@ namespace eval ::espdiff::gui {
     array set form {matrix,metric "" matrix,ordered 0}
 
     proc build_matrix_bar {path} {
-        build_tab_bar matrix $path compute Compute ::espdiff::gui::compute_matrix ::espdiff::gui::cancel_matrix \
+        build_tab_bar matrix $path compute Compare ::espdiff::gui::compute_matrix ::espdiff::gui::cancel_matrix \
             "Compare each variant with each other one, in both directions (Return)" \
             "Stop the computation; finished pairs are kept, and the run can be resumed (Escape)"
     }
@@ -21,10 +21,10 @@ namespace eval ::espdiff::gui {
         ttk::frame $path.top
         ttk::label $path.top.label -text Metric
         ttk::combobox $path.top.metric -textvariable ::espdiff::gui::form(matrix,metric) -state readonly -width 22
-        bind $path.top.metric <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::draw_heat_map}
+        bind $path.top.metric <<ComboboxSelected>> {::espdiff::gui::guard_in matrix ::espdiff::gui::draw_heat_map}
         ttk::checkbutton $path.top.ordered -text "similar variants together" \
             -variable ::espdiff::gui::form(matrix,ordered) \
-            -command {::espdiff::gui::guard ::espdiff::gui::draw_heat_map}
+            -command {::espdiff::gui::guard_in matrix ::espdiff::gui::draw_heat_map}
         button $path.top.plot "Plot row" ::espdiff::gui::plot_row
         button $path.top.table Table... ::espdiff::gui::matrix_table
         tip $path.top.ordered "Order by clustering instead of the list"
@@ -38,13 +38,13 @@ namespace eval ::espdiff::gui {
         pack $path.top -fill x
         pack $path.pair -side bottom -fill x
         pack $path.map -fill both -expand 1 -pady 4
-        bind $path.map <Configure> {::espdiff::gui::guard ::espdiff::gui::draw_heat_map}
-        bind $path.map <Motion> {::espdiff::gui::guard ::espdiff::gui::point_at %x %y}
-        bind $path.map <ButtonPress-1> {::espdiff::gui::guard ::espdiff::gui::open_pair_at %x %y}
+        bind $path.map <Configure> {::espdiff::gui::guard_in matrix ::espdiff::gui::draw_heat_map}
+        bind $path.map <Motion> {::espdiff::gui::guard_in matrix ::espdiff::gui::point_at %x %y}
+        bind $path.map <ButtonPress-1> {::espdiff::gui::guard_in matrix ::espdiff::gui::open_pair_at %x %y}
         foreach {key row column} {Left 0 -1 Right 0 1 Up -1 0 Down 1 0} {
-            bind $path.map <$key> [list ::espdiff::gui::guard ::espdiff::gui::move_cell $row $column]
+            bind $path.map <$key> [list ::espdiff::gui::guard_in matrix ::espdiff::gui::move_cell $row $column]
         }
-        bind $path.map <space> {::espdiff::gui::guard ::espdiff::gui::open_chosen_pair; break}
+        bind $path.map <space> {::espdiff::gui::guard_in matrix ::espdiff::gui::open_chosen_pair; break}
         set widget(matrix,map) $path.map
         set widget(matrix,pair) $path.pair
         foreach name {metric ordered plot table} { set widget(matrix,$name) $path.top.$name }

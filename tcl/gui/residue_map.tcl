@@ -255,11 +255,23 @@ namespace eval ::espdiff::gui {
         if {[in_vmd]} { ::espdiff::forget_highlight trajectory }
     }
 
+    # The molecule whose residues the table names: the source of each row; empty where that is a file.
+    proc named_molecule {} {
+        variable trajectory_run
+        set reference [expr {$trajectory_run eq "" ? "" : [dict get $trajectory_run options -reference]}]
+        if {[lindex $reference 0] eq "file"} { return "" }
+        if {[lindex $reference 0] ne "mol"} { return [trajectory_molecule] }
+        set mol [lindex $reference 1]
+        expr {[in_vmd] && $mol in [molinfo list] ? $mol : ""}
+    }
+
     proc highlight_trajectory_residue {} {
+        variable form
         variable residue_table
         variable chosen_residue
-        set mol [trajectory_molecule]
+        set mol [named_molecule]
         if {$mol eq "" || $chosen_residue eq ""} return
-        ::espdiff::highlight_named trajectory $mol [list [lindex [dict get $residue_table residues] $chosen_residue]]
+        ::espdiff::highlight_named trajectory $mol [list [lindex [dict get $residue_table residues] $chosen_residue]] \
+            $form(residues,face)
     }
 }

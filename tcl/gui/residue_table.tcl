@@ -28,9 +28,9 @@ namespace eval ::espdiff::gui {
         ttk::frame $path.top
         ttk::label $path.title -anchor w -width 28 -font [bold_font]
         ttk::combobox $path.top.sort -state readonly -width 12
-        bind $path.top.sort <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::sort_as_chosen}
+        bind $path.top.sort <<ComboboxSelected>> {::espdiff::gui::guard_in residues ::espdiff::gui::sort_as_chosen}
         ttk::checkbutton $path.top.falling -text "largest first" -variable ::espdiff::gui::form(residues,falling) \
-            -command {::espdiff::gui::guard ::espdiff::gui::fill_residues}
+            -command {::espdiff::gui::guard_in residues ::espdiff::gui::fill_residues}
         ttk::label $path.top.by -text "Sorted by"
         tip $path.top.sort "Same as a click on a heading"
         ttk::label $path.top.from -text "Area from"
@@ -48,7 +48,7 @@ namespace eval ::espdiff::gui {
         ttk::treeview $path.list.table -columns $columns -show headings -height 18 -selectmode extended -style Espdiff.Treeview \
             -yscrollcommand [list $path.list.scroll set]
         foreach {key heading of_potentials decimals factor} $residue_columns {
-            $path.list.table heading $key -command [list ::espdiff::gui::guard ::espdiff::gui::sort_by $key]
+            $path.list.table heading $key -command [list ::espdiff::gui::guard_in residues ::espdiff::gui::sort_by $key]
             $path.list.table column $key -width [expr {$key eq "residue" ? 86 : 76}] \
                 -anchor [expr {$key eq "residue" ? "w" : "e"}]
         }
@@ -63,7 +63,8 @@ namespace eval ::espdiff::gui {
         ttk::label $path.message -anchor nw -wraplength 620 -justify left
         pack $path.message -in $path.space -fill both -expand 1
         raise $path.message
-        bind $path.space <Configure> [list $path.message configure -wraplength %w]
+        bind $path.space <Configure> [list apply {{label width} { $label configure -wraplength [expr {max(100, $width - 6)}] }} \
+            $path.message %w]
         pack $path.title -fill x -padx 8 -pady {8 0}
         pack $path.top -fill x -padx 8 -pady 4
         pack $path.space -side bottom -fill x -padx 8 -pady {0 8}
@@ -107,7 +108,7 @@ namespace eval ::espdiff::gui {
             set chosen [chosen_residues]
             remove_highlight
             set residues_of $shown
-            set residue_rows [expr {$shown eq "" ? {} : [with_shares [espdiff residues $shown]]}]
+            set residue_rows [expr {$shown eq "" ? {} : [with_shares $shown]}]
             set_part_rows
             $widget(residues,table) selection set {}
             tell_in residues [residue_hint]
@@ -120,18 +121,14 @@ namespace eval ::espdiff::gui {
     }
 
     # Rows with their share of the sum of |difference| times area; empty without potentials.
-    proc with_shares {rows} {
-        set sum 0.0
-        foreach row $rows {
-            if {[dict get $row mean_abs_difference] eq ""} continue
-            set sum [expr {$sum + [dict get $row area_A2] * [dict get $row mean_abs_difference]}]
+    proc with_shares {handle} {
+        set rows [espdiff residues $handle]
+        set shares {}
+        if {[espdiff result $handle potential_unit] ne ""} {
+            set shares [dict get [::espdiff::core::residue_quantity $handle share] values]
         }
         set result {}
-        foreach row $rows {
-            set value [dict get $row mean_abs_difference]
-            if {$value ne "" && $sum > 0} { set value [expr {[dict get $row area_A2] * $value / $sum}] }
-            lappend result [dict set row share $value]
-        }
+        foreach row $rows share $shares { lappend result [dict set row share $share] }
         return $result
     }
 
@@ -245,12 +242,18 @@ namespace eval ::espdiff::gui {
         return [concat $rows $without]
     }
 
-    # "A:TRP90", and "A:TRP90\u2192SER" where it is mutated.
+    # "A:TRP90", "A:TRP90\u2192SER" where it is mutated, "A:TRP90\u2192TRP91" where its partner has another number.
     proc residue_name {row} {
         set name "[dict get $row name][dict get $row number][dict get $row insertion]"
         if {[dict get $row chain] ni {"" X " "}} { set name "[dict get $row chain]:$name" }
         set other [dict get $row target_name]
-        if {$other ni [list "" [dict get $row name]]} { append name "\u2192$other" }
+        if {$other eq ""} { return $name }
+        set number "[dict get $row target_number][dict get $row target_insertion]"
+        if {$number ne "[dict get $row number][dict get $row insertion]"} {
+            append name "\u2192$other$number"
+        } elseif {$other ne [dict get $row name]} {
+            append name "\u2192$other"
+        }
         return $name
     }
 
@@ -391,8 +394,7 @@ namespace eval ::espdiff::gui {
         variable form
         variable shown
         set quantity $form(residues,sort)
-        if {$quantity eq "share"} { set quantity mean_abs_difference }
-        if {$quantity in {residue area_A2}} { error "sort by the column that should colour the atoms" }
+        if {$quantity eq "residue"} { error "sort by the column that should colour the atoms" }
         set molecules {}
         foreach {side mol} [displayed_sides $shown] {
             set words [list -quantity $quantity -mol $side -show 1]
@@ -450,6 +452,6 @@ namespace eval ::espdiff::gui {
 
     proc side_titles {} {
         variable shown
-        return "[side_name $shown source] -> [side_name $shown target]"
+        return [::espdiff::comparison_name $shown]
     }
 }

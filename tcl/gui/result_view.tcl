@@ -34,8 +34,7 @@ namespace eval ::espdiff::gui {
         grid configure $path.top.delete -padx 0
         grid columnconfigure $path.top 0 -weight 1
         # What the result came from: the form above may have changed since.
-        ttk::label $path.origin -foreground gray40 -justify left -anchor w -wraplength 500
-        bind $path.origin <Configure> {%W configure -wraplength [expr {max(100, %w - 4)}]}
+        wrapping_label $path.origin -foreground gray40
         set widget(result,origin) $path.origin
         build_verdict $path.verdict
         ttk::frame $path.numbers
@@ -52,8 +51,7 @@ namespace eval ::espdiff::gui {
         variable widget
         frame $path -padx 8 -pady 4
         ttk::label $path.title -font [bold_font] -anchor w
-        ttk::label $path.reasons -justify left -anchor w -wraplength 500
-        bind $path.reasons <Configure> {%W configure -wraplength [expr {max(100, %w - 4)}]}
+        wrapping_label $path.reasons
         pack $path.title $path.reasons -fill x
         set widget(verdict) $path
         set widget(verdict_title) $path.title
@@ -92,21 +90,9 @@ namespace eval ::espdiff::gui {
         foreach handle [lsort -dictionary -decreasing [espdiff handles]] {
             set status [espdiff status $handle]
             if {[dict get $status kind] ne "comparison" || [dict get $status state] ne "done"} continue
-            lappend names "$handle: [side_name $handle source] \u2192 [side_name $handle target]"
+            lappend names "$handle: [string map {-> \u2192} [::espdiff::comparison_name $handle]]"
         }
         return $names
-    }
-
-    proc side_name {handle side} {
-        foreach input [espdiff result $handle inputs] {
-            if {[dict get $input role] ne $side} continue
-            set name [dict get $input path]
-            # Format of VMD's molecules: mol 0 "ubq.psf" frame 5 sel "not water"
-            set frame 0
-            regexp {^mol \d+ "(.*)" frame (\d+)} $name -> name frame
-            return "[file rootname [file tail $name]][expr {$frame == 0 ? "" : " #$frame"}]"
-        }
-        return $side
     }
 
     # Atoms and potentials of both sides, one line each.
@@ -247,6 +233,13 @@ namespace eval ::espdiff::gui {
         set names {}
         foreach path $files { lappend names [file tail $path] }
         show_message "Written to [file dirname [file normalize $prefix]]: [join $names {, }]"
+    }
+
+    # Results that a script deleted are not shown any more.
+    proc notice_deleted_results {} {
+        variable shown
+        variable window
+        if {[winfo exists $window] && $shown ne "" && $shown ni [espdiff handles]} { guard ::espdiff::gui::show_results }
     }
 
     proc delete_result {} {

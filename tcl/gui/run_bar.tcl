@@ -3,6 +3,7 @@
 namespace eval ::espdiff::gui {
     variable running ""   ;# handle of this window's running computation
     variable run_begun 0  ;# clock milliseconds
+    variable asking_tab ""  ;# the tab, other than Pair, that asked for the running comparison
     variable watch_id ""  ;# the `after` script that notices its deletion
 
     # Stages in order: name, text, start and end on the bar. The surfaces' stages come twice; the bar does not go back.
@@ -33,7 +34,7 @@ namespace eval ::espdiff::gui {
         tip $path.cancel "Cancel the computation (Escape)"
         tip $path.swap "Exchange source and target: the other direction is another mapping"
         tip $path.script "The Tcl commands that repeat this"
-        text $path.message -height 1 -width 20 -wrap word -relief flat -borderwidth 0 -highlightthickness 0 \
+        text $path.message -height 2 -width 20 -wrap word -relief flat -borderwidth 0 -highlightthickness 0 \
             -font TkDefaultFont -background [ttk::style lookup TFrame -background] -takefocus 0 -cursor xterm
         $path.message tag configure error -foreground #b00020
         $path.message configure -state disabled
@@ -54,7 +55,7 @@ namespace eval ::espdiff::gui {
         variable widget
         variable error_shown
         unset -nocomplain error_shown(pair)
-        if {$kind eq "error"} { tell_console $text; set error_shown(pair) 1 }
+        if {$kind eq "error"} { tell_console $text; set error_shown(pair) [incr ::espdiff::gui::n_errors] }
         if {![info exists widget(message)] || ![winfo exists $widget(message)]} return
         $widget(message) configure -state normal
         $widget(message) delete 1.0 end
@@ -67,12 +68,13 @@ namespace eval ::espdiff::gui {
         if {[info commands ::vmdcon] ne ""} { vmdcon -err "espdiff) $text" } else { puts stderr "espdiff: $text" }
     }
 
-    # As many lines as the text needs at this width, up to a limit; the wheel shows the rest.
+    # Two lines, so that the window does not move with each message; more for a longer one, up to a limit; the wheel
+    # shows the rest.
     proc fit_message {} {
         variable widget
         if {![info exists widget(message)]} return
         set lines [$widget(message) count -update -displaylines 1.0 end]
-        if {[string is integer -strict $lines]} { $widget(message) configure -height [expr {max(1, min(6, $lines))}] }
+        if {[string is integer -strict $lines]} { $widget(message) configure -height [expr {max(2, min(6, $lines))}] }
     }
 
     proc compare {} {
@@ -161,12 +163,22 @@ namespace eval ::espdiff::gui {
                 show_message "Cancelled."
             } else {
                 show_message $message error
+                tell_asking_tab $message error
             }
             return
         }
-        show_message "$handle is done in [format %.1f [expr {[espdiff result $handle time_ms total] / 1000.0}]] s."
+        set text "$handle is done in [format %.1f [expr {[espdiff result $handle time_ms total] / 1000.0}]] s."
+        show_message $text
         show_results $handle
         draw_if_wanted $handle
+        tell_asking_tab $text
+    }
+
+    # The tab Trajectory or Matrix that asked for a pair learns how it ended; it stays open.
+    proc tell_asking_tab {text {kind note}} {
+        variable asking_tab
+        if {$asking_tab ne ""} { tell_in $asking_tab "$text The tab Pair has it." $kind }
+        set asking_tab ""
     }
 
     # Draws a pair opened from a matrix at once.

@@ -9,6 +9,8 @@ namespace eval ::espdiff::gui {
         ttk::scrollbar $path.bar -orient vertical -command [list $path.view yview] -takefocus 0
         grid $path.view -row 0 -column 0 -sticky news
         grid columnconfigure $path 0 -weight 1
+        # The bar's place is kept while it is hidden: the page's width, and so its height, do not depend on the bar.
+        grid columnconfigure $path 1 -minsize [winfo reqwidth $path.bar]
         grid rowconfigure $path 0 -weight 1
         ttk::frame $path.view.page
         $path.view create window 0 0 -anchor nw -window $path.view.page -tags page

@@ -65,6 +65,11 @@ namespace eval ::espdiff::gui {
                 lappend lines "mol addfile $words \$mol$mol"
             }
         }
+        # Frames that were deleted or added by hand are in no file.
+        set n [molinfo $mol get numframes]
+        lappend lines "if {\[molinfo \$mol$mol get numframes\] != $n} { error \"molecule $mol had $n frames when it was\
+            compared, and its files have \[molinfo \$mol$mol get numframes\]; save its frames as a file\
+            (File > Save Coordinates), load that instead, and compare again\" }"
         return $lines
     }
 
@@ -131,15 +136,23 @@ namespace eval ::espdiff::gui {
         return $lines
     }
 
+    # The name of a result's repetition: beside the result, not over it.
+    proc beside {path} { return "[file rootname $path]-repeated[file extension $path]" }
+
     # The run whose rows are shown, from its first frame.
     proc trajectory_lines {} {
         variable trajectory_run
         if {$trajectory_run eq ""} { return {} }
-        set options [concat [dict get $trajectory_run options] [dict get $trajectory_run output] {-overwrite 1} \
+        set csv [dict get $trajectory_run output -csv]
+        set output [dict create {*}[dict get $trajectory_run output] -csv [beside $csv]]
+        if {[dict exists $output -residues]} { dict set output -residues [beside [dict get $output -residues]] }
+        set options [concat [dict get $trajectory_run options] $output {-overwrite 1} \
             [dict get $trajectory_run settings]]
         set lines [list "puts \[espdiff trajectory[option_lines $options]\]"]
         if {[dict exists $trajectory_run plot]} {
-            lappend lines "espdiff plot [list [dict get $trajectory_run output -csv]] [dict get $trajectory_run plot]"
+            set plot [dict create {*}[dict get $trajectory_run plot]]
+            dict set plot -file [beside [dict get $plot -file]]
+            lappend lines "espdiff plot [list [beside $csv]] $plot"
         }
         return $lines
     }
@@ -153,7 +166,7 @@ namespace eval ::espdiff::gui {
             set through [expr {$template eq "" ? {} : [list -template $template]}]
             return [list "$text\]" \
                 "puts \[espdiff table \[espdiff matrix \$variants[option_lines \
-                    [concat [list -output $output -overwrite 1] $through $settings]]\]\]"]
+                    [concat [list -output [beside $output] -overwrite 1] $through $settings]]\]\]"]
         }
     }
 
@@ -169,7 +182,8 @@ namespace eval ::espdiff::gui {
                 append text "\]"
             }
             set lines [list "$text\]" "set ensemble \[espdiff ensemble \$groups[option_lines \
-                [concat $options {-overwrite 1} $settings]]\]" {puts [espdiff table $ensemble]}]
+                [concat [dict merge $options [list -output [beside [dict get $options -output]]]] {-overwrite 1}\
+                $settings]]\]" {puts [espdiff table $ensemble]}]
         }
         if {[dict exists $done ensemble draw]} {
             lappend lines "espdiff draw \$ensemble [lrange [dict get $done ensemble draw] 1 end]"

@@ -27,8 +27,8 @@ namespace eval ::espdiff::gui {
     proc build_frames_of_molecule {path} {
         variable widget
         ttk::combobox $path.mol -textvariable ::espdiff::gui::form(trajectory,mol) -state readonly -width 16 \
-            -postcommand {::espdiff::gui::guard ::espdiff::gui::update_trajectory}
-        bind $path.mol <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::choose_trajectory}
+            -postcommand {::espdiff::gui::guard_in trajectory ::espdiff::gui::update_trajectory}
+        bind $path.mol <<ComboboxSelected>> {::espdiff::gui::guard_in trajectory ::espdiff::gui::choose_trajectory}
         form_row $path 0 Molecule $path.mol "A molecule that is loaded in VMD, with its frames"
         ttk::entry $path.sel -textvariable ::espdiff::gui::form(trajectory,sel) -width 16
         form_row $path 0 Atoms $path.sel "VMD selection of the atoms that make the surface, such as: protein; chosen\
@@ -63,11 +63,11 @@ namespace eval ::espdiff::gui {
             -width 13 -values $references
         ttk::spinbox $path.against.frame -textvariable ::espdiff::gui::form(trajectory,reference) -width 6 -from 0 \
             -to 999999 -increment 1
-        bind $path.against.what <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::update_trajectory}
+        bind $path.against.what <<ComboboxSelected>> {::espdiff::gui::guard_in trajectory ::espdiff::gui::update_trajectory}
         set tip "The other trajectory, whose frame of the same number each frame is compared with"
         if {[in_vmd]} {
             ttk::combobox $path.against.other -textvariable ::espdiff::gui::form(trajectory,other) -state readonly \
-                -width 8 -postcommand {::espdiff::gui::guard ::espdiff::gui::update_trajectory}
+                -width 8 -postcommand {::espdiff::gui::guard_in trajectory ::espdiff::gui::update_trajectory}
             append tip ": a molecule with its frames"
         } else {
             ttk::entry $path.against.other -textvariable ::espdiff::gui::form(trajectory,other) -width 8
@@ -91,7 +91,7 @@ namespace eval ::espdiff::gui {
         variable widget
         variable units
         ttk::combobox $path.map -textvariable ::espdiff::gui::form(trajectory,map) -width 16 \
-            -postcommand {::espdiff::gui::guard ::espdiff::gui::update_trajectory}
+            -postcommand {::espdiff::gui::guard_in trajectory ::espdiff::gui::update_trajectory}
         form_row $path 2 Potential $path.map "Of each frame: computed from the charges; a map\
             file for each frame, such as map%03d.dx, where %03d stands for the frame's number; a data set or a file\
             for all frames; or none to compare the shapes alone"

@@ -152,7 +152,7 @@ namespace eval ::espdiff::gui {
         return [list file [format [lindex $map 1] $frame]]
     }
 
-    # Compares the chosen frame again, shows it in the tab Pair, and draws it.
+    # Compares the chosen frame again, and draws it.
     proc compare_frame {} {
         variable chosen_point
         variable trajectory_run
@@ -160,7 +160,8 @@ namespace eval ::espdiff::gui {
         if {$chosen_point eq ""} return
         lassign [endpoints_of_row $chosen_point] source target
         choose_point $chosen_point  ;# the surface is drawn on the target: VMD shows its frame
-        show_tab pair
         set draw_when_done [start_compare $source $target [dict get $trajectory_run settings]]
+        set ::espdiff::gui::asking_tab trajectory
+        tell_in trajectory "Comparing frame [dict get [lindex $::espdiff::gui::trajectory_rows $chosen_point] frame]..."
     }
 }

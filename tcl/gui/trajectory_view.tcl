@@ -8,7 +8,7 @@ namespace eval ::espdiff::gui {
     array set form {trajectory,metric "" trajectory,smooth 1}
 
     proc build_trajectory_bar {path} {
-        build_tab_bar trajectory $path run Run ::espdiff::gui::run_trajectory ::espdiff::gui::cancel_trajectory \
+        build_tab_bar trajectory $path run Compare ::espdiff::gui::run_trajectory ::espdiff::gui::cancel_trajectory \
             "Compare each frame with the reference (Return)" \
             "Stop the run; its rows stay in the file, and it can be resumed (Escape)"
     }
@@ -18,7 +18,7 @@ namespace eval ::espdiff::gui {
         ttk::frame $path.top
         ttk::label $path.top.label -text Metric
         ttk::combobox $path.top.metric -textvariable ::espdiff::gui::form(trajectory,metric) -state readonly -width 22
-        bind $path.top.metric <<ComboboxSelected>> {::espdiff::gui::guard ::espdiff::gui::draw_trajectory}
+        bind $path.top.metric <<ComboboxSelected>> {::espdiff::gui::guard_in trajectory ::espdiff::gui::draw_trajectory}
         button $path.top.open "Open CSV..." ::espdiff::gui::browse_rows
         button $path.top.save "Save plot..." ::espdiff::gui::save_plot
         tip $path.top.open "Rows of an earlier run"
@@ -33,7 +33,7 @@ namespace eval ::espdiff::gui {
         canvas $path.plot -width 420 -height 240 -background white -highlightthickness 1 -takefocus 1 \
             -highlightbackground gray80 -highlightcolor #3060c0
         ttk::frame $path.point
-        ttk::label $path.point.text -anchor w -width 52 -wraplength 470 -justify left
+        wrapping_label $path.point.text
         button $path.point.compare "Compare and draw" ::espdiff::gui::compare_frame
         tip $path.point.compare "Compares the frame of the chosen point anew, with its surface, and draws it\
             (space bar)"
@@ -42,15 +42,15 @@ namespace eval ::espdiff::gui {
         pack $path.top -fill x
         pack $path.point -side bottom -fill x
         pack $path.plot -fill both -expand 1 -pady 4
-        bind $path.plot <Configure> {::espdiff::gui::guard ::espdiff::gui::draw_trajectory}
-        bind $path.plot <Motion> {::espdiff::gui::guard ::espdiff::gui::tell_point_at %x %y}
-        bind $path.plot <Leave> {::espdiff::gui::guard ::espdiff::gui::tell_chosen_point}
-        bind $path.plot <ButtonPress-1> {::espdiff::gui::guard ::espdiff::gui::choose_point_at %x %y}
+        bind $path.plot <Configure> {::espdiff::gui::guard_in trajectory ::espdiff::gui::draw_trajectory}
+        bind $path.plot <Motion> {::espdiff::gui::guard_in trajectory ::espdiff::gui::tell_point_at %x %y}
+        bind $path.plot <Leave> {::espdiff::gui::guard_in trajectory ::espdiff::gui::tell_chosen_point}
+        bind $path.plot <ButtonPress-1> {::espdiff::gui::guard_in trajectory ::espdiff::gui::choose_point_at %x %y}
         foreach {key step} {Left -1 Right 1 Home -1000000 End 1000000} {
-            bind $path.plot <$key> [list ::espdiff::gui::guard ::espdiff::gui::move_point $step]
+            bind $path.plot <$key> [list ::espdiff::gui::guard_in trajectory ::espdiff::gui::move_point $step]
         }
         foreach {key step} {Up -1 Down 1} {
-            bind $path.plot <$key> [list ::espdiff::gui::guard ::espdiff::gui::move_residue $step]
+            bind $path.plot <$key> [list ::espdiff::gui::guard_in trajectory ::espdiff::gui::move_residue $step]
         }
         bind $path.plot <space> {::espdiff::gui::press trajectory,compare; break}
         set widget(trajectory,plot) $path.plot

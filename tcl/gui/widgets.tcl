@@ -5,8 +5,9 @@ namespace eval ::espdiff::gui {
     variable tip_id ""  ;# the `after` script that shows a tip
     array set tips {}
 
-    variable error_shown  ;# tabs whose message line shows an error
+    variable error_shown  ;# by tab whose message line shows an error: the error's number
     array set error_shown {}
+    variable n_errors 0
 
     # Evaluates a command and shows its error in the window instead of a traceback dialog.
     proc guard {args} { guarded pair $args }
@@ -17,10 +18,11 @@ namespace eval ::espdiff::gui {
     # An older error disappears when the user does something else that succeeds. Mere updates of the window leave it.
     proc guarded {tab command} {
         variable error_shown
-        set stood [info exists error_shown($tab)]
+        set stood [expr {[info exists error_shown($tab)] ? $error_shown($tab) : 0}]
         if {[catch_labelled { uplevel #0 $command } message options]} {
             if {$tab eq "pair"} { show_message $message error } else { tell_in $tab $message error }
-        } elseif {$stood && ![regexp {^::espdiff::gui::(update|tell|draw|take|finish|list)_} [lindex $command 0]]} {
+        } elseif {$stood && [info exists error_shown($tab)] && $error_shown($tab) == $stood
+            && ![regexp {^::espdiff::gui::(update|tell|draw|take|finish|list)_} [lindex $command 0]]} {
             clear_error $tab
         }
     }
@@ -32,10 +34,23 @@ namespace eval ::espdiff::gui {
         if {$tab eq "pair"} { show_message "" } else { tell_in $tab "" }
     }
 
-    # A button with a guarded command. An underlined letter is also its Alt key.
+    # A label whose text wraps at the width that it is given. It asks for no width of its own (one letter), so that no
+    # width follows from how the text wraps: otherwise its page could widen and narrow for ever, and Tk's idle tasks
+    # would never end.
+    proc wrapping_label {path args} {
+        ttk::label $path -anchor w -justify left -width 1 -wraplength 100 {*}$args
+        bind $path <Configure> {%W configure -wraplength [expr {max(100, %w - 4)}]}
+        return $path
+    }
+
+    # The tab that a widget is in.
+    proc tab_of {path} { expr {[regexp {\.tabs\.(\w+)} $path -> tab] ? $tab : "pair"} }
+
+    # A button with a guarded command, whose error appears in its own tab. An underlined letter is also its Alt key.
     proc button {path text command {underline -1}} {
         variable window
-        ttk::button $path -text $text -command [concat ::espdiff::gui::guard $command] -underline $underline -width 0
+        ttk::button $path -text $text -command [concat ::espdiff::gui::guard_in [tab_of $path] $command] \
+            -underline $underline -width 0
         if {$underline >= 0} {
             bind $window <Alt-[string tolower [string index $text $underline]]> "focus $path; $path invoke; break"
         }
@@ -199,7 +214,7 @@ namespace eval ::espdiff::gui {
         button $path.cancel Stop $cancel_command
         ttk::progressbar $path.bar -maximum 1.0 -length 60
         button $path.script Script... ::espdiff::gui::show_script
-        ttk::label $path.message -anchor w -wraplength 600 -justify left
+        wrapping_label $path.message
         tip $path.$start $start_tip
         tip $path.cancel $cancel_tip
         tip $path.script "The Tcl commands that repeat this"
@@ -215,7 +230,7 @@ namespace eval ::espdiff::gui {
         variable widget
         variable error_shown
         unset -nocomplain error_shown($tab)
-        if {$kind eq "error"} { tell_console $text; set error_shown($tab) 1 }
+        if {$kind eq "error"} { tell_console $text; set error_shown($tab) [incr ::espdiff::gui::n_errors] }
         if {![info exists widget($tab,message)] || ![winfo exists $widget($tab,message)]} return
         $widget($tab,message) configure -text $text -foreground [expr {$kind eq "error" ? "#b00020" : "black"}]
     }

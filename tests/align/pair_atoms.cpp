@@ -245,6 +245,32 @@ TEST_CASE("the choice of atoms survives writing and reading") {
         "unknown choice of atoms to align 'CA'; use all, backbone, ca or none");
 }
 
+// hostile/second/chain_order: 9.2 kT/e, trustworthy, since the peptides paired by their order in the file.
+TEST_CASE("short chains pair by equal names, then by their arrangement, whatever their order in the file") {
+  const auto peptides = [](const std::vector<std::pair<std::string, int>>& name_and_place) {
+    MadeMolecule made;
+    for (const auto& [name, place] : name_and_place) {
+      const std::size_t first = made.molecule.size();
+      made.peptide(name, 1, "AAAA");
+      for (std::size_t i = first; i < made.molecule.size(); ++i) {
+        const double t = static_cast<double>(i - first);
+        made.molecule.positions[i] = {t, 8.0 * place * place, 0.1 * (i % 2 == 0 ? 1 : 0) + 5.0 * place};
+      }
+    }
+    return made.molecule;
+  };
+  const Molecule abc = peptides({{"A", 0}, {"B", 1}, {"C", 3}});
+  const auto chain_of_a = [&](const Molecule& target) {
+    const AtomPairing pairing = pair_atoms(abc, target);
+    CHECK(pairing.pairs.size() == abc.size());
+    const Atom& partner = target.atoms[pairing.pairs.front().second];
+    return target.residues[static_cast<std::size_t>(partner.residue)].chain;
+  };
+  CHECK(chain_of_a(peptides({{"B", 1}, {"A", 0}, {"C", 3}})) == "A");
+  CHECK(chain_of_a(peptides({{"A", 1}, {"B", 0}, {"C", 3}})) == "B");
+  CHECK(chain_of_a(peptides({{"C", 3}, {"A", 1}, {"B", 0}})) == "B");
+}
+
 TEST_CASE("more chains than can be compared with each other are refused by their number") {
   MadeMolecule many("many.pdb"), other("other.pdb");
   for (int i = 0; i < 10001; ++i) {

@@ -3,15 +3,15 @@
 
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "cli/linked_outputs.h"
 #include "cli/run_espdiff.h"
+#include "io/made_dcd.h"
 #include "io/molfile_plugins.h"
 
 using namespace espdiff_test;  // NOLINT: a test
@@ -294,12 +294,6 @@ TEST_CASE("a list names groups, replicates of several files, and charges") {
 
 namespace {
 
-void add_record(std::string& bytes, const std::string& record) {
-  const auto size = static_cast<std::int32_t>(record.size());
-  const std::string length(reinterpret_cast<const char*>(&size), sizeof size);
-  bytes += length + record + length;
-}
-
 /// The coordinates of models() as a DCD file, in CHARMM's layout without cells.
 std::string dcd(const std::string& pqr) {
   std::vector<std::array<std::vector<float>, 3>> frames;
@@ -315,21 +309,7 @@ std::string dcd(const std::string& pqr) {
       axis.push_back(std::stof(word));
     }
   }
-  std::array<std::int32_t, 20> control{};
-  control[0] = static_cast<std::int32_t>(frames.size());
-  control[1] = control[2] = 1;
-  control[19] = 24;
-  std::string bytes, title(84, ' ');
-  add_record(bytes, "CORD" + std::string(reinterpret_cast<const char*>(control.data()), sizeof control));
-  const std::int32_t n_titles = 1, n_atoms = kAtoms;
-  std::memcpy(title.data(), &n_titles, sizeof n_titles);
-  add_record(bytes, title);
-  add_record(bytes, std::string(reinterpret_cast<const char*>(&n_atoms), sizeof n_atoms));
-  for (const auto& frame : frames) {
-    for (const auto& axis : frame)
-      add_record(bytes, std::string(reinterpret_cast<const char*>(axis.data()), axis.size() * sizeof(float)));
-  }
-  return bytes;
+  return made_dcd(frames);
 }
 
 }  // namespace
@@ -377,6 +357,115 @@ TEST_CASE("trajectories with the atoms of a structure: the answer of the same fr
         "atoms first in the group, then the trajectories\n");
   in.folder.write("short.pqr", "ATOM 1 CA ALA A 1 0 0 0 0.2 2.2\n");
   CHECK(contains(in.ensemble("--group wild short.pqr w1.dcd -o bad").err, "w1.dcd"));
+}
+
+TEST_CASE("a DCD that was cut, and a frame that cannot be, in ensemble and trajectory") {
+  if (espdiff::find_molfile_folder().empty()) {
+    MESSAGE("SKIPPED: VMD's molfile plugins were not found; set $VMDDIR");
+    return;
+  }
+  const Runs in;
+  const std::string whole = dcd(models(1, false, true)), lost = dcd(models(1, false, true)).substr(0, whole.size() - 300);
+  const auto trajectory = [&](const std::string& more) {
+    return in.run("trajectory w1.pqr w.dcd --potential none --grid-spacing 1.5 -q --overwrite -o t.csv " + more);
+  };
+  const std::string group = "--group wild w1.pqr w.dcd m.dcd -q --overwrite -o e --template w1.pqr ";
+  in.folder.write("m.dcd", whole);
+  in.folder.write("w.dcd", lost);
+  const std::string cut = "w.dcd is cut off in frame 3 (";
+  CHECK_MESSAGE(contains(trajectory("").err, "--frames 'all': " + cut), trajectory("").err);
+  CHECK(contains(in.ensemble(group).err, "--frames 'all': " + cut));
+  CHECK(trajectory("--frames 0:2").status == 0);
+  CHECK(in.ensemble(group + "--frames 0:2").status == 0);
+  // The third frame's first x is not a number.
+  std::string broken = whole;
+  broken.replace(broken.size() - 2 * (whole.size() - 196) / 4 + 4, 4, std::string("\0\0\xc0\x7f", 4));
+  in.folder.write("w.dcd", broken);
+  CHECK(contains(trajectory("").err, "frame 2: w.dcd: frame 2: atom 0 is at (nan, "));
+  const Outcome skipped = trajectory("--on-error skip");
+  CHECK_MESSAGE(skipped.status == 0, skipped.err);
+  CHECK(contains(read_file(in.folder.file("t.csv")), "\n2,file w1.pqr,"));
+  CHECK(in.ensemble(group).status == 2);
+  const Outcome ensemble = in.ensemble(group + "--on-error skip --template medoid");
+  CHECK_MESSAGE(ensemble.status == 0, ensemble.err);
+}
+
+TEST_CASE("no output of an ensemble, of its shards' merge or of a matrix through a template is an input, through links too") {
+  const Runs in;
+  std::filesystem::create_directory(in.folder.file("maps"));
+  std::string list = "group,replicate,structure,maps\n", activities = "group,replicate,value\n";
+  for (int r = 1; r <= 4; ++r) {
+    for (const char group : {'w', 'm'}) {
+      const std::string name = group + std::to_string(r);
+      list += std::string(1, group) + "," + name + "," + name + ".pqr,maps/%d.dx\n";
+      activities += std::string(1, group) + "," + name + "," + std::to_string(r) + "\n";
+    }
+  }
+  in.folder.write("activities.csv", activities);
+  const std::string end = " --grid-spacing 1.5 --device cpu --threads 1 -q ";
+  check_linked_outputs(in.folder,
+                       "ensemble " + in.groups + " --potential coulomb --template w1.pqr --frames 0:2:3 --states "
+                       "--check-template --regress activities.csv:value --charges mutant=m2.pqr -o out" + end,
+                       {"w1.pqr", "m4.pqr", "activities.csv", "m2.pqr"}, "--overwrite");
+  check_linked_outputs(in.folder, "matrix w1.pqr m1.pqr --potential coulomb --template m2.pqr -o out" + end,
+                       {"w1.pqr", "m1.pqr", "m2.pqr"}, "--overwrite");
+  const std::string small = "--group wild w1.pqr w2.pqr --frames 0:1 ";
+  for (const char* shard : {"1/2", "2/2"}) REQUIRE(in.ensemble(small + "-q -o part --shard " + shard).status == 0);
+  check_linked_outputs(in.folder, "merge part.shard-1-of-2.h5 part.shard-2-of-2.h5 -q -o all",
+                       {"part.shard-1-of-2.h5", "part.shard-2-of-2.h5"}, "--overwrite");
+  // Statistics of a file: the file itself, and what is read besides.
+  REQUIRE(in.run("merge part.shard-1-of-2.h5 part.shard-2-of-2.h5 -q -o all").status == 0);
+  check_linked_outputs(in.folder, "ensemble --from all.h5 --states -q -o again --device cpu", {"all.h5"});
+}
+
+TEST_CASE("maps that a list or a pattern names are not replaced") {
+  const Runs in;
+  const std::string map = constant_dx(9, 6.0, 1.0, "kT/e", 8.0);
+  std::string list = "group,structure,maps\n";
+  for (int r = 1; r <= 4; ++r) list += "wild,w" + std::to_string(r) + ".pqr,m" + std::to_string(r) + "%d.vtp\n";
+  for (int r = 1; r <= 4; ++r) {
+    for (int f = 0; f < kFrames; ++f) in.folder.write("m" + std::to_string(r) + std::to_string(f) + ".vtp", map);
+  }
+  in.folder.write("list.csv", list);
+  for (const char* how : {"--list list.csv", "--group wild w1.pqr w2.pqr --maps 'wild=m{replicate}%d.vtp'"}) {
+    if (how[2] == 'g') {
+      for (const char* name : {"mw10", "mw11", "mw12", "mw13", "mw20", "mw21", "mw22", "mw23"})
+        in.folder.write(std::string(name) + ".vtp", map);
+    }
+    const std::string output = how[2] == 'g' ? "mw21" : "m20";
+    const std::size_t n_before = in.folder.n_files();
+    CHECK(in.run(std::string("ensemble ") + how + " -q -o " + output).err ==
+          "espdiff: an output would replace an input: '" + output + ".vtp'; choose another name for the output\n");
+    CHECK(read_file(in.folder.file(output + ".vtp")) == map);
+    CHECK(in.folder.n_files() == n_before);
+  }
+}
+
+TEST_CASE("a write that fails once, anywhere, leaves no file, or the right one; a merge leaves what was there") {
+  if (std::system("strace -V >/dev/null 2>&1") != 0) {
+    MESSAGE("SKIPPED: strace, which lets a write fail, is not installed");
+    return;
+  }
+  const Runs in;
+  const std::string group = "--group wild w1.pqr w2.pqr --frames 0:1 -q -o ";
+  REQUIRE(in.ensemble(group + "whole").status == 0);
+  for (const char* shard : {"1/2", "2/2"}) REQUIRE(in.ensemble(group + "part --shard " + shard).status == 0);
+  const std::string whole = read_file(in.folder.file("whole.h5"));
+  REQUIRE(in.run("merge part.shard-1-of-2.h5 part.shard-2-of-2.h5 -q -o merged").status == 0);
+  CHECK(read_file(in.folder.file("merged.h5")) == whole);
+  int n_failed = 0;
+  for (int n = 1; n <= 400; n = n < 24 ? n + 1 : n * 3 / 2) {
+    CAPTURE(n);
+    const std::string fault =
+        "strace -f -qq -o /dev/null -e inject=pwrite64:error=ENOSPC:when=" + std::to_string(n) + " ";
+    const Outcome outcome = in.run("merge part.shard-1-of-2.h5 part.shard-2-of-2.h5 -q --overwrite -o merged", fault);
+    n_failed += outcome.status != 0 ? 1 : 0;
+    CHECK(read_file(in.folder.file("merged.h5")) == whole);
+    CHECK(n_lines(outcome.err) == (outcome.status != 0 ? 1 : 0));
+    CHECK(in.folder.n_files() == 8 + 1 + 3 + 1 + 2);  // structures; whole's, merged and the parts
+    if (outcome.status == 0) break;
+  }
+  CHECK(n_failed > 20);
 }
 
 TEST_CASE("a value of each replicate is regressed on the surface and predicted from the others") {

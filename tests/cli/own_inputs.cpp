@@ -1,6 +1,9 @@
 // own_inputs.cpp: no verb replaces what it reads, and no two outputs have one name; all is as before, and exit is 2.
+#include <sys/stat.h>
+
 #include <map>
 
+#include "cli/linked_outputs.h"
 #include "cli/run_espdiff.h"
 
 using namespace espdiff_test;  // NOLINT: a test
@@ -59,6 +62,71 @@ TEST_CASE("an output that is an input is refused by every verb") {
   in.before[in.folder.file("p.svg")] = read_file(in.folder.file("p.svg"));
   in.check_refused("plot p.svg --metric rmsd_A -o p.svg", replaces + "'p.svg'");
   in.check_refused("render a.dx -o a.dx", "");
+}
+
+TEST_CASE("each output of each verb, found by running it, is refused as a link to an input") {
+  OwnInputs in;
+  const ScratchFolder& folder = in.folder;
+  for (const char* name : {"r.json", "r.residues.csv", "link.pqr", "hard.pqr"}) std::filesystem::remove(folder.file(name));
+  folder.write("two.pqr", "MODEL 1\n" + row_of_atoms(6) + "ENDMDL\nMODEL 2\n" + row_of_atoms(6, 0.1) + "ENDMDL\n");
+  folder.write("groups.csv", "label,group\na,x\nb,y\n");
+  const std::string end = " --device cpu --threads 1 -q", coarse = " --grid-spacing 2" + end,
+                    none = " --potential none" + coarse;
+  check_linked_outputs(folder, "compare a.pqr b.pqr --charges-from two.pqr -o r --residue-pdb r.pdb" + none,
+                       {"a.pqr", "b.pqr", "two.pqr"});
+  check_linked_outputs(folder, "compare a.pqr b.pqr --source-map a.dx --target-map a.dx -o r" + coarse,
+                       {"a.dx", "a.pqr", "b.pqr"});
+  check_linked_outputs(folder, "surface a.pqr --map a.dx -o s.vtp --density d.dx" + coarse, {"a.pqr", "a.dx"});
+  check_linked_outputs(folder, "potential two.pqr --averaging each --pad 5 --grid 4 -o c.dx" + end, {"two.pqr"});
+  check_linked_outputs(folder, "potential two.pqr --variance v.dx --standard-error e.dx --pad 5 --grid 4 -o c.dx" + end,
+                       {"two.pqr"});
+  check_linked_outputs(folder, "prepare a.pqr -o p.pqr -q", {"a.pqr"});
+  check_linked_outputs(folder,
+                       "trajectory a.pqr two.pqr --frames-of b.pqr -o o.csv --residues o.residues.csv" + none,
+                       {"a.pqr", "two.pqr", "b.pqr"}, "--overwrite");
+  check_linked_outputs(folder, "trajectory a.pqr two.pqr --source-frames b.pqr --frames 0 -o o.csv" + none,
+                       {"a.pqr", "two.pqr", "b.pqr"}, "--overwrite");
+  check_linked_outputs(folder, "matrix --list list.csv --groups groups.csv -o m" + none,
+                       {"a.pqr", "b.pqr", "list.csv", "groups.csv"}, "--overwrite");
+  const std::string shard = "matrix a.pqr b.pqr two.pqr -o m" + none;
+  for (const char* part : {" --shard 1/2", " --shard 2/2"})
+    REQUIRE(run_espdiff(shard + part, "cd " + folder.file("") + " &&").status == 0);
+  check_linked_outputs(folder, "merge m.shard-1-of-2.state m.shard-2-of-2.state -q -o all",
+                       {"m.shard-1-of-2.state", "m.shard-2-of-2.state"}, "--overwrite");
+}
+
+TEST_CASE("what is printed and does not arrive is an error; a reader that goes away is none") {
+  OwnInputs in;
+  const auto status_of = [&](const std::string& arguments, const std::string& where) {
+    const std::string command = "cd " + in.folder.file("") + " && bash -o pipefail -c '" ESPDIFF_BINARY " " + arguments +
+                                " 2>err " + where + "'";
+    return WEXITSTATUS(std::system(command.c_str()));
+  };
+  const std::string surface = "surface a.pqr --grid-spacing 2 --device cpu -o s.vtp";
+  if (std::filesystem::exists("/dev/full")) {
+    for (const std::string& arguments : {surface, std::string("--help"), std::string("doctor")}) {
+      CHECK(status_of(arguments, ">/dev/full") == 1);
+      CHECK(read_file(in.folder.file("err")) ==
+            "espdiff: the standard output cannot be written: No space left on device; files that were asked for are "
+            "complete\n");
+    }
+    CHECK(std::filesystem::file_size(in.folder.file("s.vtp")) > 1000);
+    CHECK(status_of(surface + " -q", ">/dev/full") == 0);
+  }
+  CHECK(status_of(surface, "| true") == 0);
+  CHECK(read_file(in.folder.file("err")).empty());
+}
+
+TEST_CASE("a signal at a pipe that nobody writes into, or slowly, ends the run as cancelled") {
+  OwnInputs in;
+  REQUIRE(::mkfifo(in.folder.file("pipe.pqr").c_str(), 0600) == 0);
+  const std::string run = "surface pipe.pqr -o s.vtp --device cpu", where = "cd " + in.folder.file("") + " && ";
+  for (const std::string& writer : {std::string(), std::string("(sleep 3 >pipe.pqr) & ")}) {
+    CAPTURE(writer);
+    const Outcome outcome = run_espdiff(run, where + writer + "timeout -s TERM 1.5 ");
+    CHECK_MESSAGE(contains(outcome.err, "espdiff: cancelled; nothing was written\n"), outcome.err);
+    CHECK(n_lines(outcome.err) == 1);
+  }
 }
 
 TEST_CASE("an output that is a file named by a setting is refused by every verb that has the setting") {

@@ -18,12 +18,17 @@ TEST_CASE("help and version exit 0 and say what there is") {
     CHECK(outcome.status == 0);
     CHECK(contains(outcome.out, "Usage: espdiff " + std::string(verb)));
   }
-  const Outcome compare = run_espdiff("compare --help");
+  const Outcome compare = run_espdiff("compare --help-all");
   for (const char* option :
        {"--source-map", "--target-map", "--potential", "--method", "--field", "--align", "--grid-spacing",
         "--radius-scale", "--isovalue", "--device", "--threads", "--sigma", "--mu", "--rho", "--max-iterations"}) {
     CHECK_MESSAGE(contains(compare.out, option), option);
   }
+  const Outcome brief = run_espdiff("compare --help");
+  CHECK(n_lines(brief.out) <= 36);
+  CHECK(contains(brief.out, "All options: espdiff compare --help-all\n"));
+  CHECK(run_espdiff("help compare").out == brief.out);
+  CHECK(run_espdiff("compare -h").out == brief.out);
 }
 
 TEST_CASE("wrong usage exits 2 with one line that says what and where to look") {
@@ -31,23 +36,58 @@ TEST_CASE("wrong usage exits 2 with one line that says what and where to look") 
     const char* arguments;
     const char* expected;
   };
-  for (const Case& c : {Case{"", "subcommand"},
+  for (const Case& c : {Case{"", "nothing to do"},
                         {"frobnicate", "frobnicate"},
                         {"compare", "SOURCE"},
-                        {"compare a.pqr b.pqr", "--output"},
+                        {"trajectory a.pqr b.pqr", "--output is missing: espdiff trajectory SOURCE FRAMES ..."},
                         {"compare a b -o x --device tpu", "--device"},
                         {"compare a b -o x --threads -1", "--threads"},
                         {"compare a b -o x --grid-spacing 0", "--grid-spacing"},
                         {"compare a b -o x --no-such-option", "'--no-such-option': there is no such option"},
                         {"compare a b -o x --no-such-option value", "'--no-such-option': there is no such option"},
-                        {"compare a b c -o x", "'c': there is no such option, and no place for another argument"},
+                        {"compare a b c -o x", "'c' is one argument too many: espdiff compare SOURCE TARGET"},
                         {"compare a b -o x -o y", "--output: is given more than once; give it once"},
                         {"compare a b -o x --potential", "--potential: a value is missing behind it"}}) {
     const Outcome outcome = run_espdiff(c.arguments);
     CHECK_MESSAGE(outcome.status == 2, c.arguments);
     CHECK_MESSAGE(contains(outcome.err, c.expected), outcome.err);
-    CHECK_MESSAGE(n_lines(outcome.err) <= 2, outcome.err);
+    CHECK_MESSAGE(n_lines(outcome.err) == 1, outcome.err);
+    CHECK_MESSAGE(contains(outcome.err, " --help\n"), outcome.err);
   }
+}
+
+TEST_CASE("a shell accepts the completion, which offers commands, options and choices") {
+  const ScratchFolder folder;
+  const auto offered = [&](const std::string& words) {
+    std::string quoted;
+    for (const char c : words) quoted += c == ' ' ? std::string("' '") : std::string(1, c);
+    const std::string script = "source <(" ESPDIFF_BINARY " completion bash); COMP_WORDS=('" + quoted +
+                               "'); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _espdiff; echo ${COMPREPLY[@]}";
+    folder.write("ask.sh", script);
+    const int status = std::system(("bash " + folder.file("ask.sh") + " >" + folder.file("answer")).c_str());
+    CHECK(status == 0);
+    return read_file(folder.file("answer"));
+  };
+  CHECK(offered("espdiff com") == "compare completion\n");
+  CHECK(offered("espdiff compare --source-m") == "--source-map --source-map-unit --source-model\n");
+  CHECK(offered("espdiff compare a.pdb b.pdb --potential p") == "pb pme\n");
+  CHECK(offered("espdiff ensemble --check") == "--check-template\n");
+  if (std::system("command -v zsh >/dev/null") != 0) {
+    MESSAGE("SKIPPED: zsh is not installed");
+    return;
+  }
+  folder.write("_espdiff", run_espdiff("completion zsh").out);
+  CHECK(std::system(("zsh -n " + folder.file("_espdiff")).c_str()) == 0);
+}
+
+TEST_CASE("a manual page names every option of its command") {
+  const std::string page = run_espdiff("man compare").out;
+  for (const char* part :
+       {".TH ESPDIFF\\-COMPARE 1", ".SH SYNOPSIS", "\\-\\-grid\\-spacing NUMBER", ".SH REGULARIZATION"})
+    CHECK_MESSAGE(contains(page, part), part);
+  const Outcome outcome = run_espdiff("man rendr");
+  CHECK(outcome.status == 2);
+  CHECK(outcome.err == "espdiff: there is no command 'rendr'; espdiff --help lists them\n");
 }
 
 TEST_CASE("doctor names the back ends and the readers") {

@@ -132,6 +132,23 @@ TEST_CASE("a break of the chain starts anew, an ion does not turn, an unpaired r
   CHECK(motions.of_residue[31] == -1);
 }
 
+TEST_CASE("residues in another order of the file have the same motions") {
+  const Molecule source = straight_chain(40);
+  const Molecule target = twisted(source, [](std::size_t r) { return 0.08 * static_cast<double>(r); });
+  const auto shuffled = [](const Molecule& m) {
+    Builder b;
+    for (int k = 0; k < 40; ++k) {
+      const std::size_t r = static_cast<std::size_t>(k * 7 % 40);
+      for (std::size_t i = 4 * r; i < 4 * r + 4; ++i)
+        b.add("GLY", static_cast<int>(r) + 1, m.atoms[i].name, m.positions[i], 1.7F, "A");
+    }
+    return b.molecule;
+  };
+  const DomainMotions motions = local_motions(source, target, one_to_one(source), {}, {}),
+                      again = local_motions(shuffled(source), shuffled(target), one_to_one(source), {}, {});
+  for (std::size_t k = 0; k < 40; ++k) CHECK(norm(rotation_of(again, k) - rotation_of(motions, k * 7 % 40)) < 1e-9);
+}
+
 TEST_CASE("local motions keep twice as much of a nucleocapsid's surface on its residue") {
   const auto path = real_input("pairs/1aaf.pdb");
   if (!path) return;

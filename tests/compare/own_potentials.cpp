@@ -105,6 +105,26 @@ TEST_CASE("the correlation weighs residues by their area, and leaves out what ha
   CHECK(check_residues(more, source).n_residues == 30);
 }
 
+TEST_CASE("a slipped residue is left out of the correlation, and the residues that spoil it are named first") {
+  std::vector<ResidueRow> rows;
+  for (std::size_t r = 0; r < 8; ++r)
+    rows.push_back(row_of(r, 40, static_cast<double>(r), static_cast<double>(r) + (r == 5 ? 2 : 0)));
+  rows[5].own_area_A2 = 10;
+  rows.push_back(row_of(8, 40, 5, -5));
+  rows.back().mean_slip_A = 3.1;
+  const std::vector<OwnPotential> source(9, {2, 50});
+  const ResidueCheck check = check_residues(rows, source);
+  CHECK(check.correlation > 0.95);
+  CHECK(check.n_residues == 8);
+  CHECK(check.n_slipped == 1);
+  const std::vector<const ResidueRow*> worst = most_disagreeing(rows);
+  REQUIRE(worst.size() == 8);
+  CHECK(worst[0]->residue == 5);
+  rows.back().mean_slip_A = 2.9;
+  CHECK(check_residues(rows, source).correlation < 0.6);
+  CHECK(most_disagreeing(rows)[0]->residue == 8);
+}
+
 TEST_CASE("fewer than five residues have no correlation") {
   std::vector<ResidueRow> rows;
   for (std::size_t r = 0; r < kLeastComparedResidues - 1; ++r)

@@ -2,9 +2,11 @@
 #include "ensemble/ensemble_file.h"
 
 #include <doctest/doctest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 
@@ -173,6 +175,73 @@ TEST_CASE("other files and damage beyond the frames are refused") {
         path +
             ": the template or the description of the run in this file is damaged; begin anew with another output, or "
             "with overwrite");
+}
+
+TEST_CASE("every byte besides the frames is under a checksum; files of versions before are read without it") {
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5");
+  EnsembleFile::create(path, planted_plan(3, 2, 5), planted_template(1));
+  std::size_t n_vertices = 0;
+  {
+    EnsembleFile file(path, true);
+    n_vertices = file.n_vertices();
+    fill(file, 0, 20);
+  }
+  const std::string whole = read_file(path), first_words = ": something besides the frames was changed in this file";
+  const auto refusal = [&](const std::string& bytes) {
+    folder.write("a.h5", bytes);
+    return message_of([&] { EnsembleFile(path, false); });
+  };
+  // The unit, the type of the data set, the steps' times: nothing that we read.
+  for (const std::string& text : {std::string("PolyData"), std::string("kT/e"), std::string("rmsd_A unmatched")}) {
+    const std::size_t at = whole.find(text);
+    REQUIRE(at != std::string::npos);
+    CHECK(refusal(damaged(whole, at)).rfind(path + first_words, 0) == 0);
+  }
+  const double time = 13;
+  const std::size_t at = whole.find(std::string(reinterpret_cast<const char*>(&time), sizeof time));
+  REQUIRE(at != std::string::npos);
+  CHECK(refusal(damaged(whole, at)).rfind(path + first_words, 0) == 0);
+  CHECK(refusal(whole) == "(nothing thrown)");
+  CHECK(refusal(damaged(whole, place_of(whole, 3, n_vertices))) == "(nothing thrown)");  // of one frame
+}
+
+TEST_CASE("potentials that cannot be are refused, when they are written and when they are read") {
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5");
+  EnsembleFile::create(path, planted_plan(3, 2, 5), planted_template(1));
+  EnsembleFile file(path, true);
+  std::vector<float> values(file.n_vertices(), 1);
+  const std::string end = ", and potentials are within 1e+09; its map or charges cannot be right";
+  CHECK(message_of([&] { file.write(2, values, {1, 0.5, 0, 0, 1, 1e300, true, ""}); }) ==
+        path + ": frame 2 has a value of 1e+300" + end);
+  values[5] = -std::numeric_limits<float>::infinity();
+  CHECK(message_of([&] { file.write(2, values, {}); }) == path + ": frame 2 has a value of -inf" + end);
+  values[5] = std::numeric_limits<float>::quiet_NaN();
+  CHECK_NOTHROW(file.write(2, values, {}));
+}
+
+TEST_CASE("a file is not made through a link, and what killed runs left does not stay") {
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5"), victim = folder.write("victim", "secret");
+  for (int i = 0; i < 3; ++i)
+    std::filesystem::create_symlink("victim", folder.file("a.h5.tmp" + std::to_string(::getpid()) + "-" + std::to_string(i)));
+  EnsembleFile::create(path, planted_plan(3, 2, 5), planted_template(1));
+  CHECK(read_file(victim) == "secret");
+  CHECK(EnsembleFile(path, false).n_done() == 0);
+}
+
+TEST_CASE("a merge that fails leaves the earlier file as it was") {
+  const ScratchFolder folder;
+  const std::string path = folder.write("a.h5", "an earlier result");
+  CHECK(message_of([&] {
+          EnsembleFile::create(path, planted_plan(3, 2, 5), planted_template(1), [](EnsembleFile& file) {
+            fill(file, 0, 4);
+            throw InputError("in the midst");
+          });
+        }) == "in the midst");
+  CHECK(read_file(path) == "an earlier result");
+  CHECK(folder.n_files() == 1);
 }
 
 TEST_CASE("sizes, addresses and counts that lie, wherever in the file's structure, are refused or do no harm") {

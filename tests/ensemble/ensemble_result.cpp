@@ -12,6 +12,8 @@
 #include <nlohmann/json.hpp>
 
 #include "ensemble/planted_file.h"
+#include "ensemble/relabel.h"
+#include "ensemble/replicate_request.h"
 #include "ensemble/write_ensemble.h"
 
 using namespace espdiff;
@@ -137,6 +139,73 @@ TEST_CASE("a single run of few effective samples is no sample of a state") {
   const EnsembleResult result = analyse_ensemble(EnsembleFile(path, false), {});
   REQUIRE(result.not_equilibrium.size() == 2);
   CHECK(result.not_equilibrium[0].find("wild has one replicate, of ") == 0);
+}
+
+TEST_CASE("the conclusion comes first, and p only where something can be concluded") {
+  const ScratchFolder folder;
+  const auto answer = [&](const char* name, const EnsemblePlan& plan, double effect) {
+    plant_file(folder.file(name), plan, effect, 14);
+    const EnsembleFile file(folder.file(name), false);
+    const EnsembleResult result = analyse_ensemble(file, {});
+    std::ostringstream table;
+    print_ensemble(table, file, result);
+    CHECK(ensemble_json(file, result).at("conclusion") == result.conclusion);
+    CHECK(table.str().find("conclusion   ") == 0);
+    return std::pair(result, table.str());
+  };
+  const auto [few, few_table] = answer("few.h5", planted_plan(3, 3, 100), -1);
+  CHECK(few.conclusion ==
+        "NO CONCLUSION: 3 against 3 replicates have 20 arrangements, so that no family-wise p can be below 0.1");
+  CHECK(few_table.find(" p = ") == std::string::npos);
+  CHECK(few_table.find("significant: not tested, since 3 against 3 replicates") != std::string::npos);
+  const auto [short_runs, short_table] = answer("short.h5", planted_plan(1, 1, 12), -1);
+  CHECK(short_runs.conclusion.find("NOT AN EQUILIBRIUM ANSWER, nothing is concluded about the states: wild has one") ==
+        0);
+  CHECK(short_table.find(" p = ") == std::string::npos);
+  CHECK(short_table.find("significant: not tested, since ") != std::string::npos);
+  const auto [runs, runs_table] = answer("runs.h5", planted_plan(1, 1, 400), -2);
+  CHECK(runs.conclusion.find("these two runs differ on ") == 0);
+  CHECK(runs.conclusion.find("nothing is concluded about the states") != std::string::npos);
+  CHECK(runs_table.find("p (of these runs, not of the states) = ") != std::string::npos);
+  const auto [states, states_table] = answer("states.h5", planted_plan(4, 4, 100), -1);
+  CHECK(states.conclusion.find("the states, as these simulations sample them, differ on ") == 0);
+  CHECK(states_table.find("   p = ") != std::string::npos);
+}
+
+TEST_CASE("replicates of a file, or some of their frames, are compared in other groups") {
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.h5");
+  plant_file(path, planted_plan(2, 2, 100), -2, 15);
+  EnsembleFile file(path, false);
+  relabel(file, replicates_of_groups({{"one", "wild/1", "mutant/2@0:49"}, {"two", "wild/2", "mutant/1@50:99"}}));
+  CHECK(file.plan().groups() == std::vector<std::string>{"one", "two"});
+  CHECK(file.plan().n_frames() == 300);
+  CHECK(file.n_done() == 300);
+  const EnsembleFile whole(path, false);
+  std::vector<float> a(file.n_vertices()), b(file.n_vertices());
+  file.read_values(299, 0, a.size(), a.data());
+  whole.read_values(299, 0, b.size(), b.data());  // mutant/1 is the third of the file
+  CHECK(a == b);
+  file.read_values(100, 0, a.size(), a.data());
+  whole.read_values(300, 0, b.size(), b.data());
+  CHECK(a == b);
+  const EnsembleResult result = analyse_ensemble(file, {});
+  CHECK(result.groups[0].n_replicates == 2);
+  const auto refused = [&](const std::vector<std::vector<std::string>>& groups, const std::string& text) {
+    EnsembleFile other(path, false);
+    try {
+      relabel(other, replicates_of_groups(groups));
+      FAIL(text);
+    } catch (const InputError& error) {
+      CHECK(std::string(error.what()).find(text) != std::string::npos);
+    }
+  };
+  refused({{"one", "wild/3"}}, "has no replicate 'wild/3'; it has wild/1, wild/2, mutant/1, mutant/2");
+  refused({{"one", "1"}}, "has more than one replicate '1'");
+  refused({{"one", "wild/1@0:9"}, {"two", "wild/1@9:20"}},
+          "wild, replicate 1, frame 9 is in wild/1@0:9 and in wild/1@9:20; a frame counts once");
+  refused({{"one", "wild/1@3"}}, "wild/1@3 is one frame; a replicate needs two or more");
+  refused({{"one", "wild/1@0:100"}}, "100");
 }
 
 TEST_CASE("without an effect nothing is found") {
@@ -266,8 +335,9 @@ TEST_CASE("frames against frames, and the component that was planted") {
   }
   CHECK(inside / area_inside == doctest::Approx(2).epsilon(0.1));
   CHECK(std::fabs(outside / area_outside) < 0.1);
-  CHECK(write_states(folder.file("out"), file, states).size() == 2);
-  CHECK(read_file(folder.file("out.components.csv")).rfind("group,replicate,frame,component_1", 0) == 0);
+  std::ostringstream components;
+  write_components(components, file, states);
+  CHECK(components.str().rfind("group,replicate,frame,component_1", 0) == 0);
 }
 
 TEST_CASE("values that do not change, and missing frames, are refused") {

@@ -6,10 +6,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <climits>
 #include <csignal>
 
 #include "../support/test_data.h"
 #include "base/error.h"
+#include "io/sibling_file.h"
 
 using namespace espdiff;
 using espdiff_test::message_of;
@@ -100,15 +102,42 @@ TEST_CASE("a file that is replaced keeps its permissions") {
   CHECK((status.st_mode & 0777) == 0600);
 }
 
-TEST_CASE("what a killed process left beside a file is removed, and nothing else") {
+TEST_CASE("what killed processes left beside a file is removed, and nothing else") {
   const ScratchFolder folder;
-  const std::string path = folder.write("out.csv", "x");
-  folder.write("out.csv.tmp123-0", "x");
-  for (const char* other : {"out.csv.tmp", "out.csv.tmpx", "out.csv.old1-2", "another.csv.tmp1-1"})
+  const std::string path = folder.write("out.csv", "x"), dead = std::to_string(INT_MAX);
+  for (const std::string& left : {"out.csv.tmp" + dead + "-0", "out.csv.old" + dead + "-1", "out.h5.new-" + dead,
+                                  "out.h5.old" + dead + "-0"})
+    folder.write(left, "x");
+  folder.write("out.csv.tmp1-0", "x");  // of a process that lives, but has not locked it
+  for (const char* other : {"out.csv.tmp", "out.csv.tmpx", "out.csv.old1-2", "out.h5.new-1", "another.csv.tmp1-1"})
     folder.write(other, "");
-  remove_leftovers(path);
-  CHECK_FALSE(std::filesystem::exists(folder.file("out.csv.tmp123-0")));
-  CHECK(folder.n_files() == 5);
+  std::filesystem::create_symlink("another.csv.tmp1-1", folder.file("out.csv.tmp7-7"));
+  AtomicFile other_run(path);
+  remove_leftovers({path, folder.file("out.h5"), ""});
+  CHECK(folder.n_files() == 8);  // an older result has come back as out.h5
+  CHECK(read_file(folder.file("out.h5")) == "x");
+  CHECK_FALSE(std::filesystem::exists(folder.file("out.csv.tmp1-0")));
+  other_run.stream() << "y";
+  other_run.commit();
+  CHECK(read_file(path) == "y");
+}
+
+TEST_CASE("a temporary file with a name is kept from those who remove leftovers, and not made through a link") {
+  const ScratchFolder folder;
+  const std::string path = folder.file("out.csv"), victim = folder.write("victim", "x");
+  std::string name;
+  const OpenFile file = make_sibling(path, name);
+  REQUIRE(file);
+  remove_leftovers({path});
+  CHECK(std::filesystem::exists(name));
+  // The next name is taken by a link.
+  const std::size_t dash = name.rfind('-');
+  const std::string next = name.substr(0, dash + 1) + std::to_string(std::stoul(name.substr(dash + 1)) + 1);
+  std::filesystem::create_symlink("victim", next);
+  std::string other;
+  CHECK(make_sibling(path, other));
+  CHECK(other != next);
+  CHECK(read_file(victim) == "x");
 }
 
 TEST_CASE("a symbolic link is followed, not replaced") {

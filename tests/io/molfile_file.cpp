@@ -2,6 +2,7 @@
 #include "io/molfile_file.h"
 
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 
 #include <cstring>
 #include <fstream>
@@ -87,9 +88,14 @@ TEST_CASE("trajectories that cannot be read are refused by name, with the remedy
   CHECK(refused("") ==
         b + ": VMD's reader for dcd files cannot open it; is it complete, and of the kind that its name says?");
   CHECK(refused("2 30\n") == b + ": there are no frames");
-  CHECK(refused("2 30\n0 0 0 nan 0 0\n") == b + ": frame 0 has a coordinate that is not finite");
+  CHECK(refused("2 30\n0 0 0 nan 0 0\n") ==
+        b + ": frame 0: atom 1 is at (nan, 0, 0) A, and coordinates are numbers within 10^6 A; write the frame again, "
+            "or leave it out");
   CHECK(message_of([&] { made.opener.open(made.folder.file("absent.dcd")); }) ==
-        made.folder.file("absent.dcd") + ": there is no such file");
+        made.folder.file("absent.dcd") + ": cannot be read: No such file or directory; check the path");
+  REQUIRE(::mkfifo(made.folder.file("pipe.dcd").c_str(), 0600) == 0);
+  CHECK(message_of([&] { made.opener.open(made.folder.file("pipe.dcd")); }) ==
+        made.folder.file("pipe.dcd") + ": is a pipe or a device; save its content as a file and give that");
   CHECK(message_of([&] { made.opener.open(made.folder.write("c.xtc", "2")); }) ==
         made.folder.file("c.xtc") + ": no plugin of VMD in " + made_plugins() +
             " reads files with this ending; give them the usual one (dcd, xtc, trr, nc, ...)");

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "io/read_csv.h"
+
 using namespace espdiff;
 
 TEST_CASE("numbers are short, and no value is an empty field") {
@@ -14,6 +16,15 @@ TEST_CASE("numbers are short, and no value is an empty field") {
   CHECK(csv_number(1.0 / 3) == "0.333333");
   CHECK(csv_number(1.0 / 3, 3) == "0.333");
   CHECK(csv_number(std::nan("")).empty());
+}
+
+TEST_CASE("a label that a spreadsheet would compute is text there, and the same label when it is read") {
+  const std::vector<std::string> labels = {"=1+1", "+x", "-x", "@sum(1)", "-5", "+1e3", "-inf", "a=b", "'quoted'", ""};
+  std::ostringstream out;
+  write_csv_row(out, {"a", "b", "c", "d", "e", "f", "g", "h", "i", "j"});
+  write_csv_row(out, labels);
+  CHECK(out.str().find("\n\"'=1+1\",\"'+x\",\"'-x\",\"'@sum(1)\",-5,+1e3,-inf,a=b,'quoted',\n") != std::string::npos);
+  CHECK(parse_csv(out.str(), "a.csv").rows.front() == labels);
 }
 
 TEST_CASE("fields that would break the row are quoted") {

@@ -244,7 +244,19 @@ TEST_CASE("which potential is taken where none is named") {
   const Facts bare{"a.pdb", false, false}, charged{"a.pqr", true, false}, solvated{"b.pqr", true, true};
   CHECK(kind({charged, charged}) == "pb: charges without explicit water in a periodic cell");
   CHECK(kind({charged, solvated}) == "pb: charges without explicit water in a periodic cell");
-  CHECK(kind({solvated, solvated}) == "pme own: explicit water in a periodic cell");
+  const Facts salty{"c.pqr", true, true, 5530, 20, 20};
+  CHECK(kind({solvated, solvated}) ==
+        "pb: a continuum in place of the explicit water of single frames; salt of the 0 ions counted in it");
+  CHECK(kind({salty, salty}) ==
+        "pb: a continuum in place of the explicit water of single frames; salt of the 20 ions counted in it");
+  const espdiff::PotentialChoice salt = espdiff::choose_potential("auto", "auto", {salty, solvated});
+  CHECK(salt.ionic_strength.value() == doctest::Approx(0.05));
+  CHECK(espdiff::with_salt(salt, {}).front().second == "0.05");
+  CHECK(espdiff::with_salt(salt, {{"ionic-strength", "0.2"}}).size() == 1);
+  const espdiff::PotentialChoice averaged = espdiff::choose_potential("auto", "auto", {salty, salty}, true);
+  CHECK(to_string(*averaged.method) == "pme");
+  CHECK(averaged.own_cell);
+  CHECK(!averaged.ionic_strength);
   CHECK(kind({charged, bare}) == "none: a.pdb has no charges");
   CHECK(!espdiff::choose_potential("none", "auto", {charged, charged}).method);
   CHECK(message_of([&] { espdiff::choose_potential("pbe", "auto", {charged}); }) ==

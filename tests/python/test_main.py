@@ -120,7 +120,7 @@ def test_what_mdanalysis_refuses(run, adk, data, tmp_path):
     done = run("trajectory", adk.filename, tmp_path / "part.dcd", *OPTIONS, "-o", "rows.csv", check=False)
     assert done.returncode == 2 and "and the structure has 3341; give the structure or topology" in done.stderr
     done = run("trajectory", adk.filename, tmp_path / "absent.dcd", *OPTIONS, "-o", "rows.csv", check=False)
-    assert done.returncode == 2 and "there is no such file" in done.stderr
+    assert done.returncode == 2 and "No such file or directory" in done.stderr
     assert not (tmp_path / "rows.csv").exists()
 
 

@@ -18,6 +18,8 @@ using espdiff::SeriesRow;
 
 namespace {
 
+constexpr const char* kNothing = "(nothing thrown)";
+
 SeriesRow failed(int frame) { return {frame, "0", "no, \"surface\"\nat all"}; }
 
 std::string write_rows(const std::string& path, int n) {
@@ -95,6 +97,59 @@ TEST_CASE("what is known late belongs to the head, and must be the same when res
   file.note("source_sha256", "abc");
   CHECK(message_of([&] { file.note("source_sha256", "def"); }) ==
         path + ": was made with source_sha256 'abc', not with 'def'; overwrite begins anew");
+}
+
+TEST_CASE("a resumed file depends on the same things, no more and no less") {
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.csv"), end = "; overwrite begins anew";
+  SeriesHead with_frames_of = kSeriesHead;
+  with_frames_of.emplace_back("frames-of", "pep9.pqr, 1680 bytes");
+  const auto refusal = [&](const SeriesHead& head) {
+    return message_of([&] { SeriesCsv(path, head, ExistingFile::kResume).require_all_noted(); });
+  };
+  write_rows(path, 2);
+  CHECK(refusal(kSeriesHead) == kNothing);
+  CHECK(refusal(with_frames_of) ==
+        path + ": was made without frames-of, and this run has 'pep9.pqr, 1680 bytes'" + end);
+  {
+    SeriesCsv file(path, kSeriesHead, ExistingFile::kResume);
+    CHECK(message_of([&] { file.note("target_sha256", "abc"); }) ==
+          path + ": was made without target_sha256, and this run has 'abc'" + end);
+  }
+  {
+    SeriesCsv file(path, with_frames_of, ExistingFile::kReplace);
+    file.add(failed(0));
+    file.note("target_sha256", "abc");  // known after an error of the first frame
+  }
+  CHECK(refusal(with_frames_of) == kNothing);
+  CHECK(refusal(kSeriesHead) ==
+        path + ": was made with frames-of 'pep9.pqr, 1680 bytes', which this run has not" + end);
+}
+
+TEST_CASE("rows that were changed, exchanged or put under another head are found by their checksums") {
+  const ScratchFolder folder;
+  const std::string path = folder.file("a.csv"), whole = write_rows(path, 3);
+  CHECK(whole.find(",error,checksum\n") != std::string::npos);
+  const auto refusal = [&](const std::string& text) {
+    folder.write("a.csv", text);
+    return message_of([&] { SeriesCsv(path, kSeriesHead, ExistingFile::kResume); });
+  };
+  CHECK(refusal(whole) == kNothing);
+  std::vector<std::size_t> ends = {whole.find("checksum\n") + 9};
+  for (int i = 0; i < 3; ++i) ends.push_back(whole.find('\n', ends.back()) + 1);
+  const std::string head = whole.substr(0, ends[0]), first = whole.substr(ends[0], ends[1] - ends[0]),
+                    second = whole.substr(ends[1], ends[2] - ends[1]), third = whole.substr(ends[2]);
+  const std::string words = ": this row, or the head above it, was changed or is damaged: its checksum is ";
+  CHECK(refusal(head + "1" + first.substr(1) + second).rfind(path + ":5" + words, 0) == 0);
+  CHECK(refusal(head + first + third).rfind(path + ":6" + words, 0) == 0);
+  CHECK(refusal(head + second + first).rfind(path + ":5" + words, 0) == 0);
+  CHECK(refusal(head + first + second + third) == kNothing);
+  // Rows of a run with another setting.
+  SeriesHead other = kSeriesHead;
+  other[1].second = "0:2";
+  SeriesCsv(folder.file("b.csv"), other, ExistingFile::kReplace).add(failed(0));
+  const std::string mixed = read_file(folder.file("b.csv"));
+  CHECK(refusal(head + mixed.substr(mixed.find("checksum\n") + 9)).rfind(path + ":5" + words, 0) == 0);
 }
 
 TEST_CASE("files of something else are refused and left as they are") {

@@ -24,9 +24,9 @@ TEST_CASE("round_up_nicely gives the next round number") {
   CHECK(round_up_nicely(0) == 1);
 }
 
-TEST_CASE("the automatic range excludes the two per cent of extreme values, on both sides of zero") {
-  std::vector<float> values(99, -1.9F);
-  values.push_back(400);
+TEST_CASE("the automatic range excludes the tenth of extreme values, on both sides of zero") {
+  std::vector<float> values(90, -1.9F);
+  values.insert(values.end(), 9, 400.0F);
   const ColourScale scale(RenderArray::kDifference, values, 0);
   CHECK(scale.high() == doctest::Approx(2));
   CHECK(scale.low() == doctest::Approx(-2));

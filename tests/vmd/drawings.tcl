@@ -29,9 +29,36 @@ load_tim
 set comparison [espdiff compare [list mol $source map 0] [list mol $target map 0] -grid-spacing 2]
 set reverse [espdiff compare [list mol $target map 0] [list mol $source map 0] -grid-spacing 2]
 
-test "legends of two drawings stand above each other" {
+# The texts of the legends, by handle.
+proc legend_texts {} {
+    set texts {}
+    foreach mol [our_molecules] {
+        if {![string match "*legend*" [molinfo $mol get name]]} continue
+        foreach item [graphics $mol list] {
+            set words [graphics $mol info $item]
+            if {[lindex $words 0] eq "text"} { lappend texts [lindex $words 2] }
+        }
+    }
+    return $texts
+}
+
+test "a drawing takes the place of the one before, unless that is kept" {
     espdiff draw $comparison
     espdiff draw $reverse
+    check_equal drawings [dict keys $::espdiff::drawings] $reverse
+    check_equal "one legend" [llength [lsearch -all [legend_texts] "*target - source*"]] 1
+    check_equal "without a name" [lsearch [legend_texts] "*->*"] -1
+    check_refused {espdiff draw $comparison -color path} {ESPDIFF INPUT} "path_length"
+    check_equal "an error leaves it" [dict keys $::espdiff::drawings] $reverse
+    espdiff undraw
+}
+
+test "legends of two drawings stand above each other, and name them" {
+    espdiff draw $comparison
+    espdiff draw $reverse -keep 1
+    foreach name {"scTIM_chainA -> dTIM_chainA: potential*" "dTIM_chainA -> scTIM_chainA: potential*"} {
+        check "a legend of $name" {[lsearch [legend_texts] $name] >= 0}
+    }
     set heights {}
     foreach mol [our_molecules] {
         if {[string match "*legend*" [molinfo $mol get name]]} {
@@ -41,11 +68,13 @@ test "legends of two drawings stand above each other" {
     check_equal "two legends" [llength $heights] 2
     check "apart" {abs([lindex $heights 0] - [lindex $heights 1]) > 0.05}
     espdiff undraw $reverse
+    check_equal "one is left, without a name" [lsearch [legend_texts] "*->*"] -1
 }
 
 test "the molecules of a drawing can be told apart, and are hidden and shown together" {
     set drawn [espdiff draw $comparison]
     set names [lmap mol $drawn { lindex [molinfo $mol get name] 0 }]
+    check "short: $names" {[regexp {^espdiff \d+: difference$} [lindex $names 0]]}
     check_equal "different names" [llength [lsort -unique $names]] [llength $drawn]
     mol off [lindex $drawn 0]
     check_equal hidden [displayed $drawn] 0

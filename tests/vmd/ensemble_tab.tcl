@@ -32,14 +32,14 @@ test "fits a screen of 1280 x 800" {
 test "the run, stopped and gone on with" {
     form ensemble,potential "Coulomb, vacuum" ensemble,output $scratch/tab
     press ensemble,compute
-    wait_until {[regexp {^frame ([3-9]|1\d) of 40} [message_line]]}
+    wait_until {[regexp {^frame ([3-9]|1\d) of 40} [[widget ensemble,message] cget -text]]}
     press ensemble,cancel
     wait_until {$::espdiff::gui::ensemble_running eq ""}
-    check "said" {[string match "Stopped. With*resume*" [message_line]]}
+    check "said" {[string match "Stopped. With*resume*" [[widget ensemble,message] cget -text]]}
     form ensemble,resume 1
     press ensemble,compute
     wait_until {$::espdiff::gui::ensemble_running eq ""}
-    check "done" {[string match "40 frames in *Written: tab.json*" [message_line]]}
+    check "done" {[string match "40 frames in *Written: tab.json*" [[widget ensemble,message] cget -text]]}
     set h $::espdiff::gui::ensemble_shown
     check "resumed" {[espdiff result $h resumed] >= 2}
     check "answer" {[string match "Mean absolute difference*" [[widget ensemble,answer] cget -text]]}
@@ -103,11 +103,11 @@ test "a molecule that is deleted during the run ends it with a message" {
     form ensemble,output $scratch/gone ensemble,resume 0
     array set ::espdiff::gui::setting {grid-spacing 0.8}
     press ensemble,compute
-    wait_until {[regexp {^frame ([2-9]|1\d) of 40} [message_line]]}
+    wait_until {[regexp {^frame ([2-9]|1\d) of 40} [[widget ensemble,message] cget -text]]}
     mol delete [lindex $mols 7]
     mol delete [lindex $mols 0]
     wait_until {$::espdiff::gui::ensemble_running eq ""}
-    check "said" {[string match "*was deleted during the run*" [message_line]]}
+    check "said" {[string match "*was deleted during the run*" [[widget ensemble,message] cget -text]]}
 }
 
 test "closing the window during a run" {

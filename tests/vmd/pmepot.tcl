@@ -6,7 +6,8 @@ test "the example runs, its numbers are sound, and its picture is coloured" {
     set env(UBQ_PICTURE) [file join $scratch ubiquitin.tga]
     source [file join $env(ESPDIFF_TESTS) .. .. docs examples pmepot_ubiquitin.tcl]
     set comparison [lindex [espdiff handles] 0]
-    check_equal "unit" [espdiff result $comparison potential_unit] kT/e
+    check_equal "unit" [espdiff result $comparison potential_unit] "kT/e in vacuum"
+    check_equal "the verdict" [espdiff result $comparison certificate trustworthy] 1
     check_equal "the mapping" [espdiff result $comparison certificate converged] 1
     # 11 carboxylates without their charge: the potential rises nearly everywhere.
     check "the potential rises" {[espdiff result $comparison mean_signed_difference] > 1}

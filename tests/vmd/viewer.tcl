@@ -27,6 +27,39 @@ test "molecules and maps from memory, written and compared again by the command 
     check_close rms_difference $again [espdiff result $h rms_difference] 1e-6
 }
 
+# The horizontal place of the coloured pixels' mean, from 0 to 1, and their number.
+proc picture_of {path} {
+    exec convert $path -resize 300x -depth 8 $path.ppm
+    set channel [open $path.ppm rb]
+    set bytes [read $channel]
+    close $channel
+    regexp {^P6\s+(\d+)\s+(\d+)\s+255\s} $bytes head width height
+    binary scan [string range $bytes [string length $head] end] cu* values
+    set sum 0.0
+    set n 0
+    set i 0
+    foreach {r g b} $values {
+        if {max($r, $g, $b) - min($r, $g, $b) > 60 && $i < 0.75 * $width * $height} { set sum [expr {$sum + $i % $width}]; incr n }
+        incr i
+    }
+    return [list [expr {$n ? $sum / $n / $width : 0}] $n]
+}
+
+test "a figure for print in VMD's view: the surface is where VMD shows it" {
+    espdiff draw $h -range {-2 2}
+    check_equal file [espdiff figure $h $scratch/middle.png -width 900] $scratch/middle.png
+    lassign [picture_of $scratch/middle.png] middle n
+    check "coloured" {$n > 1000}
+    foreach mol [molinfo list] { if {![molinfo $mol get fixed]} { molinfo $mol set global_matrix [list \
+        [transoffset {0.6 0 0}]] } }
+    espdiff figure $h $scratch/right.png -width 900
+    lassign [picture_of $scratch/right.png] right n
+    note "    from $middle to $right of the width"
+    check "it moved to the right" {$right > $middle + 0.1}
+    check_refused {espdiff figure $h $scratch/a.gif} {ESPDIFF INPUT} "a.gif" ".png"
+    espdiff undraw
+}
+
 test "drawn from these files: both maps at every pixel, and the molecule" {
     set said [exec $env(ESPDIFF) render tim.vtp -o tim.png --molecule cartoon --layout linked --width 900 --height 500 2>@1]
     check_equal "no note about maps" [regexp -inline {[^\n]*vertices' values[^\n]*} $said] {}
@@ -38,7 +71,7 @@ test "the button in the window starts the viewer" {
     espdiff gui
     update
     ::espdiff::gui::show_results $h
-    set before [glob -nocomplain /tmp/espdiff-[pid]-*.view]
+    set before [glob -nocomplain /tmp/espdiff-[pid]-view-*]
     $::espdiff::gui::widget(result,view) invoke
     update
     check "told" {[string match "The viewer is starting*" [$::espdiff::gui::widget(message) get 1.0 end]]}

@@ -145,7 +145,7 @@ test "that frame compared and drawn" {
     set before [molinfo num]
     press trajectory,compare
     wait_until {$::espdiff::gui::running eq ""}
-    check_equal tab [::espdiff::gui::open_tab] pair
+    check_equal "the tab stays" [::espdiff::gui::open_tab] trajectory
     check_equal "the row's number" [espdiff result $::espdiff::gui::shown mean_abs_difference] \
         [dict get [lindex $::espdiff::gui::trajectory_rows 1] mean_abs_difference]
     check_equal "the target's frame" [molinfo $adk get frame] 30

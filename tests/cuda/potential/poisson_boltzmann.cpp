@@ -223,4 +223,31 @@ TEST_CASE("focusing gives the potential of a larger grid") {
   }
 }
 
+TEST_CASE("what each of two charges in a sphere adds to the potential at a point is its term of Kirkwood's series") {
+  constexpr double kSphere = 3, kOff = 1.2, kSpacing = 0.25;
+  const Vec3d centre{0.11, -0.07, 0.05}, ways[2] = {{0.48, 0.6, 0.64}, {0, -0.8, 0.6}};
+  const Molecule m = molecule_of({centre, centre + kOff * ways[0], centre + kOff * ways[1]},
+                                 {static_cast<float>(kSphere), 0.0F, 0.0F}, {0.0F, 1.0F, -0.6F});
+  PoissonBoltzmannOptions options;
+  options.far_boundary = espdiff::FarBoundary::kFocus;
+  const Kirkwood exact(kSphere, kSphere + options.ion_radius_A, kOff, options);
+  for (const auto& engine : fast_back_ends()) {
+    const auto map = pb_on_device(*engine, m, pb_lattice(m, kSpacing, 10), options);
+    const auto mesh = comparison_surface(*engine, molecule_of({centre}, {static_cast<float>(kSphere)}, {0.0F}));
+    std::vector<Vec3f> points = engine->download_positions(mesh);
+    for (Vec3f& p : points) p = static_cast<Vec3f>(centre + 1.5 * (static_cast<Vec3d>(p) - centre));
+    for (const std::size_t v : {std::size_t{0}, points.size() / 2, points.size() - 1}) {
+      std::vector<double> weights(points.size(), 0.0);
+      weights[v] = 1;
+      const auto found = engine->contributions(map, engine->with_positions(mesh, points), {weights}, {}).front();
+      const Vec3d d = static_cast<Vec3d>(points[v]) - centre;
+      CHECK(found[0] == 0);
+      for (std::size_t i = 0; i < 2; ++i) {
+        const double wanted = static_cast<double>(m.charges[i + 1]) * exact.at(norm(d), dot(d, ways[i]) / norm(d));
+        CHECK(found[i + 1] == doctest::Approx(wanted).epsilon(0.005));
+      }
+    }
+  }
+}
+
 TEST_SUITE_END();

@@ -1,0 +1,344 @@
+// report.js: the page of a comparison: surface, residues, numbers. Reads the record and the arrays in the page.
+'use strict';
+(async function () {
+  const byId = (id) => document.getElementById(id);
+  const record = JSON.parse(byId('record').textContent);
+  const add = (parent, tag, text, className) => {
+    const element = parent.appendChild(document.createElement(tag));
+    if (text !== undefined) element.textContent = text;
+    if (className) element.className = className;
+    return element;
+  };
+  const shown = (value) => (value === null || !isFinite(value) ? '-' : Number(value.toPrecision(4)).toString());
+
+  showTexts();
+  const arrays = await unpack();
+  const n = record.n_vertices;
+  const target = decode(record.positions.target), source = decode(record.positions.source);
+  const triangles = decodeTriangles(), residueOf = new Int32Array(arrays, record.residue.offset, n);
+  const values = record.quantities.map(decode), slip = values[record.quantities.findIndex((q) => q.name === 'slip')];
+  byId('waiting').remove();
+
+  // ---- texts ----------------------------------------------------------------------------------------------------
+
+  function showTexts() {
+    document.title = record.title + ' - espdiff';
+    byId('title').textContent = record.title;
+    byId('states').textContent = 'Source: ' + record.source + '. Target: ' + record.target + '. Differences are target - source.';
+    const verdict = byId('verdict');
+    verdict.classList.toggle('refused', !record.verdict.trustworthy);
+    add(verdict, 'strong', record.verdict.text);
+    for (const list of [record.verdict.reasons, record.warnings]) {
+      if (!list.length) continue;
+      if (list === record.warnings) add(verdict, 'p', 'Warnings');
+      const items = add(verdict, 'ul');
+      for (const text of list) add(items, 'li', text);
+    }
+    for (const section of record.numbers) {
+      const box = add(byId('numbers'), 'div');
+      add(box, 'h2', section.title);
+      const table = add(box, 'table');
+      for (const row of section.rows) {
+        const line = add(table, 'tr');
+        const label = add(line, 'td', row.label);
+        add(label, 'div', row.help, 'help');
+        add(line, 'td', row.value);
+      }
+    }
+    const box = byId('provenance');
+    add(box, 'h2', 'How it was made');
+    const table = add(box, 'table');
+    for (const [name, text] of record.provenance) {
+      const line = add(table, 'tr');
+      add(line, 'td', name);
+      add(line, 'td', text);
+    }
+  }
+
+  // ---- arrays ---------------------------------------------------------------------------------------------------
+
+  async function unpack() {
+    const text = atob(byId('arrays').textContent.trim());
+    const bytes = new Uint8Array(text.length);
+    for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
+    if (!record.deflated) return bytes.buffer;
+    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate'));
+    return new Response(stream).arrayBuffer();
+  }
+
+  // 16-bit steps between minimum and maximum; the last step stands for no value.
+  function decode(column) {
+    const steps = new Uint16Array(arrays, column.offset, column.n);
+    const out = new Float32Array(column.n), width = (column.max - column.min) / 65534;
+    for (let i = 0; i < column.n; ++i) out[i] = steps[i] === 65535 ? NaN : column.min + steps[i] * width;
+    return out;
+  }
+
+  // Each corner as its difference from the one before.
+  function decodeTriangles() {
+    const steps = new Int32Array(arrays, record.triangles.offset, 3 * record.triangles.n);
+    const out = new Uint32Array(steps.length);
+    for (let i = 0, corner = 0; i < steps.length; ++i) out[i] = corner += steps[i];
+    return out;
+  }
+
+  // ---- colours --------------------------------------------------------------------------------------------------
+
+  function colourOf(quantity, value, range, scale) {
+    if (isNaN(value)) return record.no_value;
+    const t = quantity.signed ? 0.5 + 0.5 * value / range : value / range;
+    return scale[Math.max(0, Math.min(scale.length - 1, Math.round(t * (scale.length - 1))))];
+  }
+
+  // The scale by name; magnitudes have one of their own.
+  function scaleOf(quantity) { return record.scales[quantity.signed ? byId('colours').value : 'magnitude']; }
+
+  function paint(mesh, index, range) {
+    const quantity = record.quantities[index], scale = scaleOf(quantity), colours = mesh.colours, column = values[index];
+    for (let v = 0; v < n; ++v) {
+      const rgb = colourOf(quantity, column[v], range, scale);
+      const s = slip && column !== slip && byId('fade').checked ? Math.max(0, Math.min(1, (slip[v] - 1) / 2)) * 0.75 : 0;
+      for (let k = 0; k < 3; ++k) colours[3 * v + k] = ((1 - s) * rgb[k] + s * 190) / 255;
+    }
+    mesh.geometry.attributes.color.needsUpdate = true;
+  }
+
+  // ---- scene ----------------------------------------------------------------------------------------------------
+
+  const holder = byId('canvas');
+  const renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true });
+  renderer.setPixelRatio(window.devicePixelRatio || 1);
+  holder.appendChild(renderer.domElement);
+  const camera = new THREE.PerspectiveCamera(30, 1, 1, 10000);
+  const controls = new THREE.TrackballControls(camera, renderer.domElement);
+  controls.staticMoving = true;
+  controls.rotateSpeed = 3;
+  const centre = new THREE.Vector3(), corner = new THREE.Vector3();
+  const bounds = new THREE.Box3().setFromArray(target);
+  bounds.getCenter(centre);
+  const radius = bounds.getSize(corner).length() / 2;
+
+  // A surface between source (0) and target (1), with its unmatched part and the outline of the picked residue.
+  function makeMesh(morph) {
+    const mesh = { geometry: new THREE.BufferGeometry(), colours: new Float32Array(3 * n), scene: new THREE.Scene() };
+    mesh.geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(3 * n), 3));
+    mesh.geometry.setAttribute('color', new THREE.BufferAttribute(mesh.colours, 3));
+    mesh.geometry.setIndex(new THREE.BufferAttribute(triangles, 1));
+    mesh.geometry.computeVertexNormals();
+    const matched = new THREE.BufferGeometry(), rest = new THREE.BufferGeometry();
+    for (const part of [matched, rest]) part.attributes = mesh.geometry.attributes;
+    matched.setIndex(new THREE.BufferAttribute(triangles.subarray(0, 3 * record.triangles.n_counted), 1));
+    rest.setIndex(new THREE.BufferAttribute(triangles.slice(3 * record.triangles.n_counted), 1));
+    const side = THREE.DoubleSide, vertexColors = THREE.VertexColors || true;
+    mesh.surface = new THREE.Mesh(matched, new THREE.MeshLambertMaterial({ vertexColors, side }));
+    mesh.scene.add(mesh.surface);
+    mesh.scene.add(new THREE.Mesh(rest, new THREE.MeshLambertMaterial({ color: 0x9a9a9a, side, transparent: true, opacity: 0.5 })));
+    mesh.outline = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: 0x000000 }));
+    mesh.scene.add(mesh.outline);
+    mesh.scene.add(new THREE.HemisphereLight(0xffffff, 0xd0d0d0, 0.75));
+    mesh.light = new THREE.DirectionalLight(0xffffff, 0.35);
+    mesh.scene.add(mesh.light);
+    mesh.scene.add(mesh.light.target);
+    place(mesh, morph);
+    return mesh;
+  }
+
+  function place(mesh, morph) {
+    const at = mesh.geometry.attributes.position;
+    for (let i = 0; i < 3 * n; ++i) at.array[i] = source[i] + morph * (target[i] - source[i]);
+    at.needsUpdate = true;
+    mesh.geometry.computeVertexNormals();
+    mesh.surface.geometry.computeBoundingSphere();
+    outline(mesh);
+  }
+
+  let picked = -1;
+  function outline(mesh) {
+    const lines = [], at = mesh.geometry.attributes.position.array;
+    const push = (a, b) => lines.push(at[3 * a], at[3 * a + 1], at[3 * a + 2], at[3 * b], at[3 * b + 1], at[3 * b + 2]);
+    for (let t = 0; picked >= 0 && t < triangles.length; t += 3) {
+      const corners = [triangles[t], triangles[t + 1], triangles[t + 2]], own = corners.filter((v) => residueOf[v] === picked);
+      if (own.length === 2) push(own[0], own[1]);
+    }
+    mesh.outline.geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(lines), 3));
+    mesh.outline.geometry.computeBoundingSphere();
+  }
+
+  const single = makeMesh(1);
+  let linked = null;  // source, target and difference
+  function panels() {
+    if (!byId('linked').checked) return [{ mesh: single, index: Number(byId('quantity').value), label: '' }];
+    const find = (name) => record.quantities.findIndex((q) => q.name === name);
+    if (!linked) linked = [makeMesh(0), makeMesh(1), makeMesh(1)];
+    return [['potential_source', 'source'], ['potential_target', 'target'], ['potential_difference', 'difference']].map(
+      ([name, label], i) => ({ mesh: linked[i], index: find(name), label }));
+  }
+
+  // Both states have one scale, so that they can be compared by eye.
+  const ranges = record.quantities.map((q) => q.range);
+  const states = record.quantities.map((q, i) => i).filter((i) => /^potential_(source|target)$/.test(record.quantities[i].name));
+  for (const i of states) ranges[i] = Math.max(...states.map((k) => record.quantities[k].range));
+  function repaint() {
+    const list = panels();
+    for (const old of holder.querySelectorAll('.label')) old.remove();
+    list.forEach((panel, i) => {
+      paint(panel.mesh, panel.index, ranges[panel.index]);
+      if (!panel.label) return;
+      const label = add(holder, 'div', panel.label + ', \u00b1' + shown(ranges[panel.index]) + ' ' + record.quantities[panel.index].unit, 'label');
+      label.style.left = (100 * i / list.length + 1) + '%';
+    });
+    const index = list[list.length - 1].index, quantity = record.quantities[index], range = ranges[index], scale = scaleOf(quantity);
+    byId('range').value = shown(range);
+    byId('unit').textContent = quantity.unit;
+    byId('low').textContent = shown(quantity.signed ? -range : 0);
+    byId('high').textContent = shown(range) + ' ' + quantity.unit;
+    const context = byId('scale').getContext('2d');
+    for (let x = 0; x < 256; ++x) {
+      context.fillStyle = 'rgb(' + scale[Math.floor(x * scale.length / 256)].join(',') + ')';
+      context.fillRect(x, 0, 1, 12);
+    }
+    draw();
+  }
+
+  function draw() {
+    const width = holder.clientWidth, height = holder.clientHeight, list = panels();
+    renderer.setSize(width, height, false);
+    renderer.domElement.style.width = width + 'px';
+    renderer.domElement.style.height = height + 'px';
+    camera.aspect = width / list.length / height;
+    camera.fov = 2 * Math.atan(Math.tan(15 * Math.PI / 180) / Math.min(1, camera.aspect)) * 180 / Math.PI;
+    camera.updateProjectionMatrix();
+    renderer.setScissorTest(true);
+    list.forEach((panel, i) => {
+      const x = Math.round(i * width / list.length), w = Math.round((i + 1) * width / list.length) - x;
+      renderer.setViewport(x, 0, w, height);
+      renderer.setScissor(x, 0, w, height);
+      panel.mesh.light.position.copy(camera.position);
+      panel.mesh.light.target.position.copy(controls.target);
+      renderer.render(panel.mesh.scene, camera);
+    });
+  }
+
+  function wholeView() {
+    controls.target.copy(centre);
+    camera.up.set(0, 1, 0);
+    camera.position.copy(centre).add(new THREE.Vector3(0, 0, radius / Math.tan(15 * Math.PI / 180) * 0.85));
+    controls.update();
+    draw();
+  }
+
+  // ---- residues -------------------------------------------------------------------------------------------------
+
+  const rows = record.residues.rows.map((cells, index) => ({ cells, index }));
+  let column = Math.max(0, record.residues.columns.findIndex((c) => c.main)), descending = true;
+
+  function fillTable() {
+    const head = byId('residues').tHead, body = byId('residues').tBodies[0], word = byId('filter').value.toLowerCase();
+    head.textContent = body.textContent = '';
+    const line = add(head, 'tr');
+    add(line, 'th', 'Residue').onclick = () => sortBy(-1);
+    const others = record.residues.columns.map((c, i) => i).filter((i) => i === column || record.residues.columns[i].main);
+    for (const i of others) {
+      const c = record.residues.columns[i];
+      add(line, 'th', c.label + (c.unit ? ' [' + c.unit + ']' : '') + (i === column ? (descending ? ' \u25be' : ' \u25b4') : '')).onclick = () => sortBy(i);
+    }
+    const size = (value) => (value === null ? -Infinity : Math.abs(value));
+    const order = rows.filter((r) => record.residues.names[r.index].toLowerCase().includes(word));
+    order.sort((a, b) => (column < 0 ? a.index - b.index : (size(b.cells[column]) - size(a.cells[column])) * (descending ? 1 : -1)) || a.index - b.index);
+    for (const row of order) {
+      const line = add(body, 'tr', undefined, row.index === picked ? 'picked' : '');
+      add(line, 'td', record.residues.names[row.index]);
+      for (const i of others) add(line, 'td', shown(row.cells[i]));
+      line.onclick = () => pick(row.index, true);
+    }
+  }
+
+  function sortBy(i) {
+    descending = i === column ? !descending : true;
+    column = i;
+    if (i >= 0) byId('column').value = i;
+    fillTable();
+  }
+
+  function pick(residue, fly) {
+    picked = residue;
+    for (const panel of panels()) outline(panel.mesh);
+    fillTable();
+    const texts = record.residues.columns.map((c, i) => c.main ? c.label + ' ' + shown(record.residues.rows[residue][i]) + ' ' + c.unit : '').filter((t) => t);
+    byId('picked').textContent = record.residues.names[residue] + ': ' + texts.join(', ');
+    const line = byId('residues').querySelector('.picked');
+    if (line && !fly) line.scrollIntoView({ block: 'center' });
+    if (fly) lookAt(residue);
+    draw();
+  }
+
+  // Turns the residue's surface to the front, at the present distance.
+  function lookAt(residue) {
+    const sum = new THREE.Vector3(), at = single.geometry.attributes.position.array;
+    let count = 0;
+    for (let v = 0; v < n; ++v) {
+      if (residueOf[v] !== residue) continue;
+      sum.add(corner.set(at[3 * v], at[3 * v + 1], at[3 * v + 2]));
+      ++count;
+    }
+    if (!count) return;
+    const distance = camera.position.distanceTo(controls.target);
+    controls.target.copy(centre);
+    camera.position.copy(sum.divideScalar(count).sub(centre).normalize().multiplyScalar(distance).add(centre));
+    controls.update();
+  }
+
+  function residueAt(event) {
+    const box = renderer.domElement.getBoundingClientRect(), list = panels(), width = box.width / list.length;
+    const x = event.clientX - box.left, i = Math.min(list.length - 1, Math.floor(x / width));
+    const ray = new THREE.Raycaster();
+    ray.setFromCamera({ x: 2 * (x - i * width) / width - 1, y: 1 - 2 * (event.clientY - box.top) / box.height }, camera);
+    const hit = ray.intersectObject(list[i].mesh.surface)[0];
+    return hit ? residueOf[hit.face.a] : -1;
+  }
+
+  // ---- what the user does ---------------------------------------------------------------------------------------
+
+  record.quantities.forEach((q, i) => { add(byId('quantity'), 'option', q.label).value = i; });
+  for (const name of record.diverging) add(byId('colours'), 'option', name).value = name;
+  record.residues.columns.forEach((c, i) => { add(byId('column'), 'option', c.label).value = i; });
+  byId('quantity').onchange = byId('colours').onchange = byId('fade').onchange = repaint;
+  byId('linked').disabled = !['potential_source', 'potential_target', 'potential_difference'].every((name) => record.quantities.some((q) => q.name === name));
+  byId('linked').onchange = () => { repaint(); if (picked >= 0) pick(picked, false); };
+  byId('range').onchange = () => {
+    const value = Number(byId('range').value), list = panels();
+    if (value > 0) ranges[list[list.length - 1].index] = value;
+    repaint();
+  };
+  byId('morph').oninput = () => { place(single, Number(byId('morph').value)); draw(); };
+  byId('column').onchange = () => { column = -2; sortBy(Number(byId('column').value)); };
+  byId('filter').oninput = fillTable;
+  byId('home').onclick = wholeView;
+  byId('theme').onclick = () => {
+    const dark = getComputedStyle(document.body).backgroundColor === 'rgb(255, 255, 255)';
+    document.documentElement.dataset.theme = dark ? 'dark' : 'light';
+  };
+  byId('save').onclick = () => {
+    draw();
+    const link = document.createElement('a');
+    link.href = renderer.domElement.toDataURL('image/png');
+    link.download = record.title.replace(/[^A-Za-z0-9_.-]+/g, '_') + '.png';
+    link.click();
+  };
+  let down = null;
+  renderer.domElement.addEventListener('mousedown', (event) => { down = [event.clientX, event.clientY]; });
+  renderer.domElement.addEventListener('click', (event) => {
+    if (down && Math.hypot(event.clientX - down[0], event.clientY - down[1]) > 3) return;
+    const residue = residueAt(event);
+    if (residue >= 0 && residue < rows.length) pick(residue, false);
+  });
+  controls.addEventListener('change', draw);
+  window.addEventListener('resize', () => { controls.handleResize(); draw(); });
+  (function turn() { requestAnimationFrame(turn); controls.update(); })();
+  controls.handleResize();
+  byId('column').value = column;
+  fillTable();
+  wholeView();
+  repaint();
+  document.documentElement.dataset.ready = 'yes';
+})();

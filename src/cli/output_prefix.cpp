@@ -1,0 +1,54 @@
+// output_prefix.cpp: where the results of a pair go, and how they are found again.
+#include "cli/output_prefix.h"
+
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/system_message.h"
+
+namespace espdiff::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A file's name without its folder and its endings: "1ake" of data/1ake.pdb.gz.
+std::string stem(const std::string& path) {
+  fs::path name = fs::path(path).filename();
+  if (name.extension() == ".gz") name = name.stem();
+  return name.stem().string();
+}
+
+/// @throws IoError
+void make_folder(const std::string& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw IoError(folder, "the folder of the results cannot be made: " + system_message(error.value()));
+}
+
+}  // namespace
+
+std::string result_prefix(const std::string& given) {
+  for (const std::string ending : {".json", ".vtp", ".residues.csv"}) {
+    if (given.size() > ending.size() && given.compare(given.size() - ending.size(), ending.size(), ending) == 0)
+      return given.substr(0, given.size() - ending.size());
+  }
+  return given;
+}
+
+std::string output_prefix(const std::string& given, const std::string& source, const std::string& target) {
+  std::error_code ignored;
+  const bool is_folder = given.empty() || given.back() == '/' || fs::is_directory(given, ignored);
+  if (is_folder) {
+    if (!given.empty()) make_folder(given);
+    return (fs::path(given) / (stem(source) + '_' + stem(target))).string();
+  }
+  return result_prefix(given);
+}
+
+std::string surface_of_result(const std::string& given) {
+  std::error_code ignored;
+  const std::string surface = result_prefix(given) + ".vtp";
+  return fs::exists(surface, ignored) ? surface : given;
+}
+
+}  // namespace espdiff::cli

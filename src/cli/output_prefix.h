@@ -1,0 +1,20 @@
+// output_prefix.h: where the results of a pair go, and how they are found again.
+#pragma once
+
+#include <string>
+
+namespace espdiff::cli {
+
+/// The prefix of OUT.json, OUT.vtp and OUT.residues.csv.
+/// @param given  as typed: a prefix, one of the files that will be written (`x.json` is x), a folder (an existing one,
+///               or a name with a slash at its end), which is made if it is missing; or empty for the working folder
+/// @param source, target  the structures, whose names without folder and ending make SOURCE_TARGET in a folder
+std::string output_prefix(const std::string& given, const std::string& source, const std::string& target);
+
+/// The prefix of a result that is named by it or by one of its files: OUT of OUT, OUT.json, OUT.vtp.
+std::string result_prefix(const std::string& given);
+
+/// The surface of a result that is named by its prefix or by one of its files: OUT, OUT.json, OUT.vtp.
+std::string surface_of_result(const std::string& given);
+
+}  // namespace espdiff::cli

@@ -1,0 +1,174 @@
+// readings.cpp: the weights of readings on the mapped surface, and what each residue adds to them.
+#include "compare/readings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/surface_parts.h"
+#include "causes/causes.h"
+#include "causes/reading.h"
+#include "compare/map_recipe.h"
+#include "compare/options.h"
+#include "compare/sample_outside.h"
+#include "engine/engine.h"
+
+namespace espdiff {
+namespace {
+
+/// Whether a residue is the one that a reading names.
+bool is_residue(const ReadingRequest& request, const Residue& residue) {
+  return residue.number == request.number && residue.insertion_code == request.insertion_code &&
+         (request.chain.empty() || residue.chain == request.chain);
+}
+
+/// [triangle] nonzero outside of the reading's place; empty where that is everything.
+std::vector<float> outside_of_reading(const ReadingRequest& request, const CompareResult& result,
+                                      const std::vector<MeasuredPart>& parts) {
+  const CompareResult* wanted = result.region.get();
+  for (const PatchResult& patch : result.patches) {
+    if (request.of == ReadingOf::kPatch && patch.name == request.patch) wanted = patch.result.get();
+  }
+  for (const MeasuredPart& part : parts) {
+    if (part.result.get() == wanted) return part.place.outside;
+  }
+  throw InputError(option("causes") + ": there is no such region or patch");
+}
+
+/// [vertex] the share of the reading's area, with the metrics' area and exclusions; for the whole times the sign of the
+/// difference.
+std::vector<double> weights_of(const ReadingRequest& request, const std::string& name, const CompareResult& result,
+                               const std::vector<MeasuredPart>& parts, const Molecule& source) {
+  const MappedSurface& s = result.surface;
+  std::vector<float> outside;
+  if (request.of == ReadingOf::kRegion || request.of == ReadingOf::kPatch)
+    outside = outside_of_reading(request, result, parts);
+  std::vector<double> weights(s.positions.size(), 0.0);
+  for (std::size_t t = 0; t < s.triangles.size(); ++t) {
+    const Triangle& v = s.triangles[t];
+    bool counts = s.corrupt[t] == 0 && (s.unmatched.empty() || s.unmatched[t] == 0);
+    counts = counts && (outside.empty() || outside[t] == 0);
+    for (const std::uint32_t c : v)
+      counts = counts && std::isfinite(s.potential_source[c]) && std::isfinite(s.potential_target[c]);
+    if (!counts) continue;
+    const double area = 0.5 * norm(cross(s.positions[v[1]] - s.positions[v[0]], s.positions[v[2]] - s.positions[v[0]]));
+    for (const std::uint32_t c : v) weights[c] += area / 3;
+  }
+  if (request.of == ReadingOf::kResidue) {
+    for (std::size_t v = 0; v < weights.size(); ++v) {
+      if (s.residue[v] < 0 || !is_residue(request, source.residues[static_cast<std::size_t>(s.residue[v])]))
+        weights[v] = 0;
+    }
+  }
+  double all = 0;
+  for (const double w : weights) all += w;
+  if (!(all > 0))
+    throw InputError(option("causes", name) +
+                     ": no surface of it has a counterpart on the target, so that there is no difference to explain; "
+                     "take a part of the surface that is matched");
+  for (std::size_t v = 0; v < weights.size(); ++v) {
+    weights[v] /= all;
+    if (request.of == ReadingOf::kWhole && s.potential_target[v] < s.potential_source[v]) weights[v] = -weights[v];
+  }
+  return weights;
+}
+
+double reading_of(const std::vector<double>& weights, const std::vector<float>& potential) {
+  double sum = 0;
+  for (std::size_t v = 0; v < weights.size(); ++v) {
+    if (weights[v] != 0) sum += weights[v] * static_cast<double>(potential[v]);
+  }
+  return sum;
+}
+
+std::vector<Vec3d> places_of(const std::vector<double>& weights, const std::vector<Vec3d>& positions) {
+  std::vector<Vec3d> places;
+  for (std::size_t v = 0; v < weights.size(); ++v) {
+    if (weights[v] != 0) places.push_back(positions[v]);
+  }
+  return places;
+}
+
+}  // namespace
+
+void check_readings(const CompareOptions& options) {
+  for (const std::string& text : options.causes) {
+    const ReadingRequest request = parse_reading(text);
+    if (request.of == ReadingOf::kRegion && !options.input.has_region())
+      throw InputError(option("causes", "region") + " needs a region: give " + option("region") + " or " +
+                       option("region-within") + " and " + option("of"));
+    const auto is_it = [&](const PatchRequest& patch) { return patch.name == request.patch; };
+    if (request.of != ReadingOf::kPatch ||
+        std::any_of(options.input.patches.begin(), options.input.patches.end(), is_it))
+      continue;
+    throw InputError(option("causes", text) + ": there is no patch of that name; give " +
+                     option("patch", request.patch + "=SELECTION"));
+  }
+}
+
+void refuse_causes(const CompareOptions& options, const char* of_what) {
+  if (options.causes.empty()) return;
+  throw InputError(option("causes") + " is of one pair, not of " + of_what +
+                   "; compare the two states in question with it");
+}
+
+void check_causes(const CompareOptions& options, const CompareInput& source, const CompareInput& target) {
+  if (options.causes.empty()) return;
+  if (!source.make_map || !target.make_map)
+    throw InputError(option("causes") +
+                     " needs potentials that are computed for both states: a given map does not say which charges it "
+                     "is made of; leave the maps out, and let " +
+                     option("potential") + " be pb, pme or coulomb");
+  for (const std::string& text : options.causes) {
+    const ReadingRequest request = parse_reading(text);
+    if (request.of != ReadingOf::kResidue) continue;
+    const std::vector<Residue>& residues = source.molecule->residues;
+    const auto n = std::count_if(residues.begin(), residues.end(),
+                                 [&](const Residue& residue) { return is_residue(request, residue); });
+    if (n == 1) continue;
+    throw InputError(option("causes", text) + ": " + source.molecule->name + " has " +
+                     (n == 0 ? "no such residue" : std::to_string(n) + " such residues; name the chain"));
+  }
+}
+
+void refuse_nonlinear(const CompareOptions& options, const MapRecipe& recipe) {
+  if (options.causes.empty() || recipe.method != PotentialMethod::kPoissonBoltzmann || !recipe.pb.nonlinear) return;
+  throw InputError(option("causes") +
+                   " with the nonlinear Poisson-Boltzmann equation: its potential is not a sum over charges, so that "
+                   "no charge has a part of its own; take the linearized equation");
+}
+
+void find_causes(Engine& engine, const SideCharges& source, const SideCharges& target, const CompareOptions& options,
+                 const std::vector<MeasuredPart>& parts, const std::vector<std::int32_t>& target_of, MappedStep& step,
+                 const Progress& progress) {
+  CompareResult& result = step.result;
+  const Molecule &source_molecule = *source.side.input.molecule, &target_molecule = *target.side.input.molecule;
+  std::vector<std::vector<double>> weights;
+  for (const std::string& text : options.causes)
+    weights.push_back(weights_of(parse_reading(text), text, result, parts, source_molecule));
+  const float isovalue = static_cast<float>(options.surface.isovalue);
+  const double offset_A = options.offsets_A.front();
+  const auto contributions = [&](const PotentialSide& side, const MeshPtr& mesh) {
+    return engine.contributions(side.map, moved_outside(engine, mesh, side.atoms, isovalue, offset_A), weights,
+                                progress);
+  };
+  const auto of_source = contributions(source.side, step.mapping.source),
+             of_target = contributions(target.side, step.mapping.mapped);
+  auto causes = std::make_shared<Causes>();
+  causes->changes = residue_changes(
+      {source_molecule, target_molecule, target_of, result.pairing, result.protonation, result.source_to_target});
+  causes->knows_places = knows_places(source_molecule) || knows_places(target_molecule);
+  for (const Residue& residue : source_molecule.residues)
+    causes->has_chains = causes->has_chains || residue.chain != source_molecule.residues.front().chain;
+  const MappedSurface& s = result.surface;
+  for (std::size_t r = 0; r < weights.size(); ++r) {
+    add_reading(*causes, options.causes[r],
+                {source_molecule, source.charges, of_source[r], places_of(weights[r], s.source_positions),
+                 reading_of(weights[r], s.potential_source)},
+                {target_molecule, target.charges, of_target[r], places_of(weights[r], s.positions),
+                 reading_of(weights[r], s.potential_target)});
+  }
+  result.causes = causes;
+}
+
+}  // namespace espdiff

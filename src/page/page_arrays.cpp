@@ -1,0 +1,102 @@
+// page_arrays.cpp: numbers for a page in a browser: 16-bit steps, deflated, as base64.
+#include "page/page_arrays.h"
+
+#if defined(ESPDIFF_HAVE_ZLIB)
+#include <zlib.h>
+#endif
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace espdiff {
+namespace {
+
+constexpr int kSteps = 65534;
+constexpr std::uint16_t kNoValue = 65535;
+
+void append_bits(std::string& bytes, std::uint32_t value, int n_bytes) {
+  for (int i = 0; i < n_bytes; ++i) bytes += static_cast<char>((value >> (8 * i)) & 0xffU);
+}
+
+std::string deflated(const std::string& bytes) {
+#if defined(ESPDIFF_HAVE_ZLIB)
+  uLongf n = compressBound(bytes.size());
+  std::string out(n, '\0');
+  if (compress2(reinterpret_cast<Bytef*>(out.data()), &n, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(),
+                Z_BEST_COMPRESSION) != Z_OK)
+    throw Error(ErrorClass::kInternal, "the page's arrays could not be compressed");
+  out.resize(n);
+  return out;
+#else
+  return bytes;
+#endif
+}
+
+}  // namespace
+
+bool PageArrays::is_deflated() {
+#if defined(ESPDIFF_HAVE_ZLIB)
+  return true;
+#else
+  return false;
+#endif
+}
+
+std::size_t PageArrays::begin(std::size_t alignment) {
+  while (bytes_.size() % alignment != 0) bytes_ += '\0';
+  return bytes_.size();
+}
+
+nlohmann::ordered_json PageArrays::add_numbers(const std::vector<double>& values) {
+  double low = 0, high = 0;
+  bool is_first = true;
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    low = is_first ? value : std::min(low, value);
+    high = is_first ? value : std::max(high, value);
+    is_first = false;
+  }
+  const std::size_t offset = begin(2);
+  const double steps = high > low ? kSteps / (high - low) : 0;
+  for (const double value : values)
+    append_bits(bytes_,
+                std::isfinite(value) ? static_cast<std::uint32_t>(std::lround((value - low) * steps)) : kNoValue, 2);
+  return {{"offset", offset}, {"n", values.size()}, {"min", low}, {"max", high}};
+}
+
+nlohmann::ordered_json PageArrays::add_triangles(const std::vector<Triangle>& triangles) {
+  const std::size_t offset = begin(4);
+  std::uint32_t before = 0;
+  for (const Triangle& triangle : triangles) {
+    for (const auto corner : triangle) {
+      append_bits(bytes_, static_cast<std::uint32_t>(corner) - before, 4);
+      before = static_cast<std::uint32_t>(corner);
+    }
+  }
+  return {{"offset", offset}, {"n", triangles.size()}};
+}
+
+nlohmann::ordered_json PageArrays::add_integers(const std::vector<std::int32_t>& values) {
+  const std::size_t offset = begin(4);
+  for (const std::int32_t value : values) append_bits(bytes_, static_cast<std::uint32_t>(value), 4);
+  return {{"offset", offset}, {"n", values.size()}};
+}
+
+std::string PageArrays::base64() const {
+  static const char* const kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  const std::string bytes = deflated(bytes_);
+  std::string text;
+  text.reserve(bytes.size() * 4 / 3 + 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      group = (group << 8) | (k < n ? static_cast<std::uint8_t>(bytes[i + k]) : std::uint8_t{0});
+    for (std::size_t k = 0; k < 4; ++k) text += k <= n ? kDigits[(group >> (18 - 6 * k)) & 63U] : '=';
+  }
+  return text;
+}
+
+}  // namespace espdiff

@@ -1,0 +1,128 @@
+// report_page.cpp: a result as a page: what it holds, that hostile texts stay texts, and that a browser draws it.
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "base/error.h"
+#include "cli/run_espdiff.h"
+#include "page/page_arrays.h"
+#include "page/page_texts.h"
+#include "page/report_page.h"
+
+using namespace espdiff;       // NOLINT: a test
+using namespace espdiff_test;  // NOLINT: a test
+
+namespace {
+
+bool has_three() {
+  const bool found = page_texts().count("three.min.js") > 0;
+  if (!found) MESSAGE("SKIPPED: this build has no three.js");
+  return found;
+}
+
+/// A comparison of two rows of atoms, whose residues have a name.
+struct SmallResult {
+  ScratchFolder folder;
+  std::string prefix = folder.file("pair");
+  explicit SmallResult(const std::string& residue = "ALA") {
+    folder.write("a.pqr", row_of_atoms(8, 0, residue));
+    folder.write("b.pqr", row_of_atoms(8, 0.4, residue));
+    REQUIRE(run_espdiff(folder.file("a.pqr") + " " + folder.file("b.pqr") + " --potential coulomb -q -o " + prefix)
+                .status == 0);
+  }
+};
+
+/// What stands in the script element of that id.
+std::string element(const std::string& page, const std::string& id) {
+  const std::size_t begin = page.find('>', page.find("id=\"" + id + "\"")) + 1;
+  return page.substr(begin, page.find("</script>", begin) - begin);
+}
+
+}  // namespace
+
+TEST_CASE("arrays keep their values to a step of their range, and say what has none") {
+  PageArrays arrays;
+  const auto described = arrays.add_numbers({-1, 0.25, std::nan(""), 3});
+  CHECK(described.at("min") == -1);
+  CHECK(described.at("max") == 3);
+  CHECK(described.at("n") == 4);
+  const auto triangles = arrays.add_triangles({{0, 1, 2}, {2, 1, 3}});
+  CHECK(triangles.at("n") == 2);
+  CHECK(triangles.at("offset") == 8);
+  if (!PageArrays::is_deflated()) CHECK(arrays.base64().substr(0, 8) == "AAAAUP//");
+}
+
+TEST_CASE("a page holds the numbers, the residues and the verdict of its result, and fetches nothing") {
+  if (!has_three()) return;
+  const SmallResult result;
+  const std::string page = report_page(result.prefix, "");
+  const auto record = nlohmann::json::parse(element(page, "record"));
+  const auto json = nlohmann::json::parse(read_file(result.prefix + ".json"));
+  CHECK(record.at("title") == "b.pqr against a.pqr");
+  CHECK(record.at("n_vertices") == json.at("n_vertices"));
+  CHECK(record.at("triangles").at("n") == json.at("n_triangles"));
+  CHECK(record.at("residues").at("rows").size() == 8);
+  CHECK(record.at("verdict").at("trustworthy") == json.at("certificate").at("trustworthy"));
+  CHECK(record.at("numbers").at(0).at("rows").at(0).at("label") == "Mean absolute difference");
+  CHECK(record.at("quantities").at(0).at("name") == "potential_difference");
+  CHECK(contains(page, "default-src 'none'"));
+  for (const char* fetched : {" src=", "<link", "@import", "url("}) {
+    const std::string ours = page_texts().at("report.html") + page_texts().at("report.css");
+    CHECK_MESSAGE(!contains(ours, fetched), fetched);
+  }
+}
+
+TEST_CASE("names in files are texts to the page") {
+  if (!has_three()) return;
+  const SmallResult result("</s");
+  const std::string page = report_page(result.prefix, "</script><script>alert(1)</script>");
+  const std::string record = element(page, "record");
+  CHECK(nlohmann::json::parse(record).at("title") == "</script><script>alert(1)</script>");
+  CHECK(!contains(record, "<"));
+}
+
+TEST_CASE("a result that is not whole, or not a comparison's, is refused with the remedy") {
+  if (!has_three()) return;
+  const SmallResult result;
+  CHECK_THROWS_WITH_AS(report_page(result.folder.file("none"), ""),
+                       doctest::Contains("none.json: cannot be read: No such file or directory"), IoError);
+  result.folder.write("other.json", "{\"matrix\": 1}");
+  CHECK_THROWS_WITH_AS(report_page(result.folder.file("other"), ""),
+                       doctest::Contains("not a record that `espdiff compare` wrote; compare again"), FormatError);
+  std::filesystem::remove(result.prefix + ".residues.csv");
+  CHECK_THROWS_WITH_AS(report_page(result.prefix, ""), doctest::Contains("pair.residues.csv"), IoError);
+}
+
+TEST_CASE("a browser draws the surface, and a click on a residue shows it") {
+  if (!has_three()) return;
+  if (std::system("command -v chromium >/dev/null") != 0) {
+    MESSAGE("SKIPPED: chromium is not installed");
+    return;
+  }
+  const SmallResult result;
+  std::string page = report_page(result.prefix, "");
+  // Behind the page's own script: what a person does, and what the page shows then.
+  const std::string acts =
+      "<script>const wait = setInterval(() => { if (!document.documentElement.dataset.ready) return; "
+      "clearInterval(wait); document.querySelector('#residues tbody tr:nth-child(2)').click(); "
+      "document.getElementById('linked').click(); const gl = document.querySelector('#canvas canvas'); "
+      "const copy = document.createElement('canvas'); copy.width = gl.width; copy.height = gl.height; "
+      "const context = copy.getContext('2d'); context.drawImage(gl, 0, 0); "
+      "const pixels = context.getImageData(0, 0, gl.width, gl.height).data; let drawn = 0; "
+      "for (let i = 3; i < pixels.length; i += 4) drawn += pixels[i] > 0; "
+      "document.documentElement.dataset.seen = [drawn > 1000, document.querySelectorAll('.label').length, "
+      "document.querySelectorAll('.picked').length, document.getElementById('picked').textContent].join('|'); }, "
+      "50);</script></body>";
+  page.replace(page.rfind("</body>"), 7, acts);
+  result.folder.write("page.html", page);
+  const std::string command =
+      "chromium --headless=new --no-sandbox --use-gl=angle --use-angle=swiftshader "
+      "--enable-unsafe-swiftshader --virtual-time-budget=20000 --dump-dom file://" +
+      result.folder.file("page.html") + " 2>/dev/null >" + result.folder.file("dom");
+  REQUIRE(std::system(command.c_str()) == 0);
+  const std::string dom = read_file(result.folder.file("dom"));
+  CHECK_MESSAGE(contains(dom, "data-seen=\"true|3|1|A:ALA"), dom.substr(0, 400));
+}
