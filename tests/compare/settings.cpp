@@ -93,6 +93,11 @@ TEST_CASE("a refused value is named with the accepted ones") {
     CHECK(message(share, "1.5") == std::string(share) + ": '1.5' is not a number from 0 to 1");
     CHECK(message(share, "-0.1") == std::string(share) + ": '-0.1' is not a number from 0 to 1");
   }
+  CHECK(message("max-edge", "0.01") == "max-edge: '0.01' is not a number from 0.25 to 1000");
+  CHECK(message("max-edge", "1e-9") == "max-edge: '1e-9' is not a number from 0.25 to 1000");
+  CHECK(message("grid-spacing", "1e-300") == "grid-spacing: '1e-300' is not a number from 0.001 to 20");
+  CHECK(message("max-step", "1e-5") == "max-step: '1e-5' is not a number of 0.001 or more");
+  CHECK(message("gvf-max-sweeps", "2000000000") == "gvf-max-sweeps: '2000000000' is not a number from 0 to 1e+06");
   CHECK(message("sigmas", "1") == "there is no setting 'sigmas'");
 }
 

@@ -58,6 +58,11 @@ TEST_CASE("pairs go source by source without the diagonal, and shards part them 
   const auto all = espdiff::matrix_pairs(3);
   CHECK(all == std::vector<MatrixPair>{{0, 1}, {0, 2}, {1, 0}, {1, 2}, {2, 0}, {2, 1}});
   CHECK(espdiff::matrix_pairs(1).empty());
+  CHECK(
+      message_of([] {
+        espdiff::matrix_pairs(1000000);
+      }).find("a matrix of 1000000 variants, of whose 999999000000 ordered pairs this run has 999999000000: needs ") ==
+      0);
   for (const int count : {1, 2, 5, 7, 42, 50}) {
     std::vector<MatrixPair> joined;
     std::set<std::size_t> sizes;

@@ -2,15 +2,21 @@
 #include <doctest/doctest.h>
 
 #include <cstdlib>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
+#include "base/progress.h"
 #include "cuda/surface/back_ends.h"
 #include "cuda/surface/shapes.h"
+#include "engine/certificate_stage.h"
+#include "engine/deform_stage.h"
 #include "engine/engine.h"
 #include "engine/morph_stage.h"
+#include "engine/potential_stage.h"
 #include "support/test_data.h"
 
 using namespace espdiff_test;
@@ -48,6 +54,42 @@ TEST_CASE("without a number of threads, OMP_NUM_THREADS is used, otherwise every
     setenv("OMP_NUM_THREADS", kept.c_str(), 1);
   else
     unsetenv("OMP_NUM_THREADS");
+}
+
+TEST_CASE("every call of the CPU engine ends when its thread's request to cancel is made") {
+  const auto engine = espdiff::select_engine(DeviceChoice::kCpu, 2);
+  const AtomSet cloud = random_cloud(150, 3);
+  const auto atoms = upload(*engine, cloud);
+  const auto density = engine->density(atoms, 0.8);
+  const auto rough = engine->isosurface(density, kIsovalue), mesh = engine->project(rough, atoms, kIsovalue, 0.4);
+  const std::vector<float> charges(cloud.size(), 0.5F);
+  const auto map = engine->isolated_charges(cloud.positions, charges, {}, {});
+  const auto values = engine->sample(map, mesh);
+  const auto field = engine->density_field(density, kIsovalue);
+  espdiff::Progress progress;
+  const espdiff::Progress blind;  // passes reports on, and is not asked itself
+  const espdiff::CancelScope scope(progress);
+  CHECK_NOTHROW(engine->sample(map, mesh));
+  progress.request_cancel();
+  const std::vector<std::pair<const char*, std::function<void()>>> calls = {
+      {"density", [&] { engine->density(atoms, 0.8); }},
+      {"isosurface", [&] { engine->isosurface(density, kIsovalue); }},
+      {"project", [&] { engine->project(rough, atoms, kIsovalue, 0.4); }},
+      {"normals", [&] { engine->level_set_normals(mesh, atoms, kIsovalue); }},
+      {"field", [&] { engine->density_field(density, kIsovalue); }},
+      {"sample", [&] { engine->sample(map, mesh); }},
+      {"compare", [&] { engine->compare(mesh, mesh, values, values, nullptr); }},
+      {"fit", [&] { engine->fit(mesh, atoms, kIsovalue); }},
+      {"distances", [&] { engine->distances(mesh, mesh, 5); }},
+      {"gvf", [&] { engine->gvf_field(density, nullptr, kIsovalue, {}, blind, nullptr); }},
+      {"distance field", [&] { engine->distance_field(density, kIsovalue, mesh, 0.75, blind); }},
+      {"deform", [&] { engine->deform(mesh, field, {}, "deform", blind, nullptr); }},
+      {"morph",
+       [&] { engine->morph(mesh, std::vector<espdiff::MovingAtom>(cloud.size()), atoms, atoms, {}, "morph", blind); }}};
+  for (const auto& [name, call] : calls) {
+    INFO(name);
+    CHECK_THROWS_AS(call(), espdiff::Cancelled);
+  }
 }
 
 TEST_CASE("auto uses a GPU if there is one; an explicit cuda without one is an error with a remedy") {
