@@ -261,10 +261,8 @@ Verb add_plot(CLI::App& app) {
   parser->footer(
       "OUT.json of a matrix becomes a heat map, with --source a plot of one variant against all others; a CSV file, "
       "such as "
-      "a
-trajectory's, becomes lines along its frames, and its table of residues a map, a row a residue. A "
-      "comparison's OUT.causes.csv becomes bars.
-Drawn by gnuplot; text stays text in an SVG.");
+      "a\ntrajectory's, becomes lines along its frames, and its table of residues a map, a row a residue. A "
+      "comparison's OUT.causes.csv becomes bars.\nDrawn by gnuplot; text stays text in an SVG.");
   parser->add_option("FILE", a->input, "OUT.json of a matrix, or a CSV file")->required();
   parser->add_option("-o,--output", a->output, "Picture to write (.png or .svg)")->required();
   parser->add_option("--metric", a->metrics,

@@ -402,13 +402,13 @@ TEST_CASE(
   const std::string end = " --grid-spacing 1.5 --device cpu --threads 1 -q ";
   check_linked_outputs(in.folder,
                        "ensemble " + in.groups +
-                           " --potential coulomb --template w1.pqr --frames 0:2:3 --states "
+                           " --potential coulomb --template w1.pqr --states "
                            "--check-template --regress activities.csv:value --charges mutant=m2.pqr -o out" +
                            end,
                        {"w1.pqr", "m4.pqr", "activities.csv", "m2.pqr"}, "--overwrite");
   check_linked_outputs(in.folder, "matrix w1.pqr m1.pqr --potential coulomb --template m2.pqr -o out" + end,
                        {"w1.pqr", "m1.pqr", "m2.pqr"}, "--overwrite");
-  const std::string small = "--group wild w1.pqr w2.pqr --frames 0:1 ";
+  const std::string small = "--group wild w1.pqr w2.pqr ";
   for (const char* shard : {"1/2", "2/2"}) REQUIRE(in.ensemble(small + "-q -o part --shard " + shard).status == 0);
   check_linked_outputs(in.folder, "merge part.shard-1-of-2.h5 part.shard-2-of-2.h5 -q -o all",
                        {"part.shard-1-of-2.h5", "part.shard-2-of-2.h5"}, "--overwrite");
@@ -446,7 +446,7 @@ TEST_CASE("a write that fails once, anywhere, leaves no file, or the right one; 
     return;
   }
   const Runs in;
-  const std::string group = "--group wild w1.pqr w2.pqr --frames 0:1 -q -o ";
+  const std::string group = "--group wild w1.pqr w2.pqr -q -o ";
   REQUIRE(in.ensemble(group + "whole").status == 0);
   for (const char* shard : {"1/2", "2/2"}) REQUIRE(in.ensemble(group + "part --shard " + shard).status == 0);
   const std::string whole = read_file(in.folder.file("whole.h5"));
