@@ -61,7 +61,9 @@ void Lines::add(const std::string& pointer, double recomputed, double tolerance)
   cover(pointer);
   const double recorded = record_.number(pointer).value_or(std::numeric_limits<double>::quiet_NaN());
   if (std::isnan(recorded) && !std::isfinite(recomputed)) return;
-  result_.lines.push_back({pointer, recorded, recomputed, std::max(tolerance, kRelative * std::fabs(recorded))});
+  const double rounding =
+      recomputed == std::floor(recomputed) ? 0 : kRelative * std::fabs(recorded);  // counts have none
+  result_.lines.push_back({pointer, recorded, recomputed, std::max(tolerance, rounding)});
 }
 
 void Lines::add_sum(const std::string& pointer, double recomputed, double tolerance) {
