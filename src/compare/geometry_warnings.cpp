@@ -262,6 +262,8 @@ void check_places(const std::string& role, const ResidueView& view, std::size_t 
 }
 
 /// Amino acids of which only the backbone, with C-beta or without, or less is there; glycine and alanine do not tell.
+
+/// Amino acids of which only the backbone, with C-beta or without, is there; glycine and alanine do not tell.
 void check_side_chains(const std::string& role, const ResidueView& view, std::vector<Warning>& warnings) {
   std::size_t n = 0, n_bare = 0;
   for (std::size_t r = 0; r < view.kinds.size(); ++r) {
