@@ -26,7 +26,13 @@ namespace eval ::espdiff::gui {
     # The commands' word for it; empty for the usual one.
     proc computed_map_word {text} {
         variable computed
-        expr {[dict exists $computed $text] ? [dict get $computed $text] : $text}
+        set word [expr {[dict exists $computed $text] ? [dict get $computed $text] : $text}]
+        if {$word eq "pb"} { return [salt_water_map] }
+        if {$word eq "" && [llength [salt_water_map]] > 1} {
+            error "Settings, Salt water, are changed, which only Poisson-Boltzmann reads: choose it as Potential instead of\
+                $text, or set them back"
+        }
+        return $word
     }
 
     proc build_endpoint {path side title} {
@@ -90,8 +96,8 @@ namespace eval ::espdiff::gui {
         ttk::combobox $path.map -textvariable ::espdiff::gui::form($side,map) -width 12 \
             -postcommand [list ::espdiff::gui::guard ::espdiff::gui::update_endpoint $side]
         form_row $path 6 Potential $path.map "Electrostatic potential: a data set of the molecule, a map file (DX, VTI,\
-            cube), computed from the charges, or none to compare the shapes alone. Automatic: with explicit water in a\
-            periodic cell PME, for other charges Poisson-Boltzmann. Options may be typed: pb ionic_strength 0.05"
+            cube), computed from the charges (in salt water by the values under Settings), or none to compare the shapes alone. Automatic: with explicit water in a\
+            periodic cell PME, for other charges Poisson-Boltzmann."
         bind $path.map <<ComboboxSelected>> [list ::espdiff::gui::guard ::espdiff::gui::update_endpoint $side]
         bind $path.map <FocusOut> [list ::espdiff::gui::guard ::espdiff::gui::update_endpoint $side]
         button $path.browse_map ... [list ::espdiff::gui::browse $side map $map_types]

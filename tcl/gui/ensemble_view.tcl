@@ -58,7 +58,7 @@ namespace eval ::espdiff::gui {
         set output [string trim $form(ensemble,output)]
         if {$output eq ""} { error "Results: no name is given" }
         set options [list -output $output -control [string tolower $form(ensemble,control)]]
-        set map [dict get $computed $form(ensemble,potential)]
+        set map [computed_map_word $form(ensemble,potential)]
         if {$map ne ""} { lappend options -map $map }
         set column [string trim $form(ensemble,regress)]
         if {$column ne ""} { lappend options -regress $column }

@@ -219,7 +219,7 @@ namespace eval ::espdiff::gui {
         set endpoint [dict get $variant endpoint]
         if {$form(matrix,potential) eq $data_set} { return [concat $endpoint {map 0}] }
         if {![dict exists $computed $form(matrix,potential)]} { return [concat $endpoint {map none}] }
-        set word [dict get $computed $form(matrix,potential)]
+        set word [computed_map_word $form(matrix,potential)]
         if {$word ne ""} { return [concat $endpoint [list map $word]] }
         return $endpoint
     }

@@ -8,7 +8,7 @@ namespace eval ::espdiff::gui {
 
     # Small groups of the table share a page.
     variable setting_pages {General {Molecules Potentials Computing} Input {Structures Charges Region} Surface Surface
-        Mapping {Mapping {Mapping by morph}} Deform {{Mapping by deform}} Regularization Regularization}
+        {Salt water} {{Salt water}} Mapping {Mapping {Mapping by morph}} Deform {{Mapping by deform}} Regularization Regularization}
 
     # The core's settings and those of the commands that compute.
     proc all_settings {} {
@@ -17,6 +17,9 @@ namespace eval ::espdiff::gui {
             help "Where to compute: auto takes a GPU if one works"]
         lappend rows {name threads group Computing kind integer choices {} default 0
             help "CPU threads; 0 takes OMP_NUM_THREADS, otherwise all. The result does not depend on it"}
+        foreach row [::espdiff::core::potential_settings] {
+            if {"pb" in [dict get $row of]} { lappend rows [dict merge $row {group "Salt water" potential pb}] }
+        }
         return $rows
     }
 
@@ -51,7 +54,7 @@ namespace eval ::espdiff::gui {
             if {![info exists setting($name)]} { set setting($name) $standard($name) }
         }
         foreach {title groups} $setting_pages {
-            set page [ttk::frame $path.pages.[string tolower $title] -padding 8]
+            set page [ttk::frame $path.pages.[string map {" " _} [string tolower $title]] -padding 8]
             $path.pages add $page -text $title
             build_setting_page $page $groups
         }
@@ -97,7 +100,7 @@ namespace eval ::espdiff::gui {
     # What a setting's field is called; those of the regularization stand on a page of that name.
     proc setting_label {name} {
         regsub {^regularize-} $name "" label
-        return [string totitle [string map {- " "} $label] 0 0]
+        return [string totitle [string map {- " " _ " "} $label] 0 0]
     }
 
     # An option as the window's messages name it: by the label of its field, with the value that is advised.
@@ -143,6 +146,20 @@ namespace eval ::espdiff::gui {
         count_changes
     }
 
+    # Poisson-Boltzmann with the settings that differ from their defaults, as an endpoint's map: pb, or
+    # {pb ionic_strength 0.05}.
+    proc salt_water_map {} {
+        variable setting
+        variable standard
+        set map pb
+        foreach row [all_settings] {
+            set name [dict get $row name]
+            if {![dict exists $row potential] || [string trim $setting($name)] eq $standard($name)} continue
+            lappend map $name [string trim $setting($name)]
+        }
+        return $map
+    }
+
     proc restore_settings {} {
         variable setting
         variable standard
@@ -156,6 +173,7 @@ namespace eval ::espdiff::gui {
         variable standard
         set options {}
         foreach row [all_settings] {
+            if {[dict exists $row potential]} continue
             set name [dict get $row name]
             set of_command [expr {![dict exists $row surface]}]
             if {$of_command ? $wanted eq "preparation" : ![::espdiff::takes_setting $wanted $row]} continue
@@ -168,7 +186,7 @@ namespace eval ::espdiff::gui {
     # The button's title reports changes while the settings are hidden.
     proc count_changes {args} {
         variable widget
-        set n [expr {[llength [setting_options]] / 2}]
+        set n [expr {([llength [setting_options]] + [llength [salt_water_map]] - 1) / 2}]
         set arrow [expr {[winfo manager $widget(settings)] eq "" ? "\u25b8" : "\u25be"}]
         $widget(settings_toggle) configure \
             -text "$arrow Settings[expr {$n == 0 ? " (all at their defaults)" : " ($n changed)"}]"
