@@ -121,7 +121,8 @@ TEST_CASE("a signal at a pipe that nobody writes into, or slowly, ends the run a
   OwnInputs in;
   REQUIRE(::mkfifo(in.folder.file("pipe.pqr").c_str(), 0600) == 0);
   const std::string run = "surface pipe.pqr -o s.vtp --device cpu", where = "cd " + in.folder.file("") + " && ";
-  for (const std::string& writer : {std::string(), std::string("(timeout 5 sh -c 'sleep 3 >pipe.pqr' >/dev/null 2>&1 &) ; ")}) {
+  for (const std::string& writer :
+       {std::string(), std::string("(timeout 5 sh -c 'sleep 3 >pipe.pqr' >/dev/null 2>&1 &) ; ")}) {
     CAPTURE(writer);
     const Outcome outcome = run_espdiff(run, where + writer + "timeout -s TERM 1.5 ");
     CHECK_MESSAGE(contains(outcome.err, "espdiff: cancelled; nothing was written\n"), outcome.err);
