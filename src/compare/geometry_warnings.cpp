@@ -107,7 +107,9 @@ class BackboneBonds {
 
 /// Whether the coordinates of all atoms are wrong, in words; empty if not.
 Message wrong_coordinates(const std::string& role, const ResidueView& view) {
-  if (has_whole_coordinates(*view.molecule))
+  // Points that are no molecule of residues may lie where they like.
+  const bool has_chains = std::any_of(view.kinds.begin(), view.kinds.end(), is_chain_residue);
+  if (has_chains && has_whole_coordinates(*view.molecule))
     return "the coordinates of the " + role + " are rounded to 1 A, which is coarser than bonds";
   const BackboneBonds bonds(view);
   if (!bonds.are_known()) return {};
