@@ -51,7 +51,7 @@ const CLI::App& chosen(const CLI::App& app) {
 
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates) {
   const std::string nearest = nearest_word(word, candidates);
-  return nearest.empty() ? "" : "; did you mean " + nearest + "?";
+  return nearest.empty() ? "" : " (did you mean " + nearest + "?)";
 }
 
 /// Number of letters that are inserted, removed, replaced or exchanged with their neighbour.

@@ -1,6 +1,8 @@
 // round_trip.cpp: the round-trip error of both methods, and what the option changes.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "compare/compare.h"
 #include "compare/made_side.h"
 #include "compare/options.h"
@@ -56,7 +58,8 @@ TEST_CASE("the round trip changes no other result, and is listed as not checked 
   CompareOptions options = quick_options();
   const CompareResult once = compare(*engine, a.input(), b.input(), options, {});
   CHECK_FALSE(once.certificate.round_trip.has_value());
-  CHECK(once.certificate.not_checked == std::vector<std::string>{"round_trip"});
+  const std::vector<std::string>& not_checked = once.certificate.not_checked;
+  CHECK(std::count(not_checked.begin(), not_checked.end(), "round_trip") == 1);
   options.round_trip = true;
   const CompareResult twice = compare(*engine, a.input(), b.input(), options, {});
   CHECK(hash_of(once) == hash_of(twice));
