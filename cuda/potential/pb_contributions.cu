@@ -169,6 +169,7 @@ struct TransposedProblem {
     return wide.unit_contributions(spread_linearly(around, border), step);
   }
 
+ private:
   const MapOrigin& origin_;
   PbConstants constants_;
   Lattice on_lattice_;

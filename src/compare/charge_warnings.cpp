@@ -17,19 +17,19 @@ namespace espdiff {
 namespace {
 
 /// Backbone O and phosphate oxygens have -0.31 to -0.83 e in the force fields that PDB2PQR ships, GROMOS' included.
-constexpr double kLeastOxygen_e = 0.2, kMostOxygen_e = 1.0;
+constexpr double kLeastOxygenCharge = 0.2, kMostOxygenCharge = 1.0;
 /// Amber's files multiply charges by the square root of Coulomb's constant in kcal A/(mol e^2).
 constexpr double kAmberUnit = 18.2223;
-constexpr double kWhole_e = 0.05, kSign_e = 0.1;
+constexpr double kWholeCharge = 0.05, kSignCharge = 0.1;
 /// Nucleotides of Amber are not whole at the ends of a strand: 5' and 3'.
-constexpr std::array<double, 2> kStrandEnds_e{-0.3079, -0.6921};
+constexpr std::array<double, 2> kStrandEndsCharge{-0.3079, -0.6921};
 /// Shares of the residues from which a fault is that of the whole file. A chance fault has one residue.
 constexpr double kMostWrongSigns = 0.2, kMostFractional = 0.2, kMostImpossible = 0.1;
 constexpr std::size_t kLeastFaulty = 3;
 /// The same residue has the same charges in one force field, to the digits that files give.
-constexpr double kSameCharge_e = 0.011, kMostOfTwoFields = 0.5, kRefusedOfTwoFields_e = 0.02;
+constexpr double kSameChargeLimit = 0.011, kMostOfTwoFields = 0.5, kRefusedOfTwoFieldsCharge = 0.02;
 constexpr std::size_t kLeastUnchanged = 5;
-constexpr double kOtherNet_e = 0.5;
+constexpr double kOtherNetCharge = 0.5;
 constexpr std::size_t kNamed = 3;
 
 /// The residues of a fault: how many, and the first ones in words.
@@ -115,14 +115,14 @@ class ChargedPolymer {
   bool has_charged_backbone() const {
     std::size_t n = 0;
     for (const ChargedBackbone& b : backbones_)
-      n += std::fabs(charge(b.n)) + std::fabs(charge(b.c)) + std::fabs(charge(b.o)) > kSign_e / 10 ? 1 : 0;
+      n += std::fabs(charge(b.n)) + std::fabs(charge(b.c)) + std::fabs(charge(b.o)) > kSignCharge / 10 ? 1 : 0;
     return 2 * n > size();
   }
   /// C is positive and O negative in all force fields; N is negative but at the beginning of a chain.
   bool has_wrong_sign(std::size_t k) const {
     const ChargedBackbone& b = backbones_[k];
     const bool is_first = b.begins_chain || k == 0;
-    return charge(b.c) < -kSign_e || charge(b.o) > kSign_e || (!is_first && charge(b.n) > kSign_e);
+    return charge(b.c) < -kSignCharge || charge(b.o) > kSignCharge || (!is_first && charge(b.n) > kSignCharge);
   }
   double share_of_wrong_signs() const {
     double n = 0;
@@ -133,7 +133,7 @@ class ChargedPolymer {
   double share_of_usual_signs(double sign, std::ptrdiff_t shift) const {
     double n = 0;
     for (const ChargedBackbone& b : backbones_)
-      n += sign * charge(b.c, shift) > kSign_e && sign * charge(b.o, shift) < -kSign_e ? 1 : 0;
+      n += sign * charge(b.c, shift) > kSignCharge && sign * charge(b.o, shift) < -kSignCharge ? 1 : 0;
     return n / static_cast<double>(std::max<std::size_t>(1, size()));
   }
   /// Whether the chain begins or ends at a residue: by its atoms, or because its neighbour is another chain's.
@@ -159,10 +159,10 @@ Message wrong_unit_or_place(const std::string& role, const ChargedPolymer& polym
   const double size = std::fabs(oxygen);
   const std::string measured = "the median charge of its backbone oxygens is " + elementary_charges(oxygen) +
                                ", and -0.3 to -0.8 e in every force field";
-  if (size / kAmberUnit > kLeastOxygen_e && size / kAmberUnit < kMostOxygen_e)
+  if (size / kAmberUnit > kLeastOxygenCharge && size / kAmberUnit < kMostOxygenCharge)
     return "the charges of the " + role + " are in Amber's internal unit, of which 18.2223 are 1 e: " + measured +
            "; divide them by 18.2223";
-  if (size > kSign_e / 10 && (size < kLeastOxygen_e || size > kMostOxygen_e))
+  if (size > kSignCharge / 10 && (size < kLeastOxygenCharge || size > kMostOxygenCharge))
     return "the charges of the " + role + " are scaled or in another unit: " + measured;
   const double wrong = polymer.share_of_wrong_signs();
   if (wrong <= kMostWrongSigns || wrong * static_cast<double>(polymer.size()) < kLeastFaulty) return {};
@@ -213,10 +213,10 @@ struct NetCharges {
       ++n_known;
       const double net = polymer.net(k), nearest = std::round(net);
       const bool is_strand_end = view.kinds[r] == ResidueKind::kNucleotide &&
-                                 std::any_of(kStrandEnds_e.begin(), kStrandEnds_e.end(),
-                                             [&](double end) { return std::fabs(net - end) < kWhole_e; });
+                                 std::any_of(kStrandEndsCharge.begin(), kStrandEndsCharge.end(),
+                                             [&](double end) { return std::fabs(net - end) < kWholeCharge; });
       if (is_strand_end) continue;
-      if (std::fabs(net - nearest) > kWhole_e) {
+      if (std::fabs(net - nearest) > kWholeCharge) {
         fractional.add(residue, elementary_charges(net));
       } else if (expected.count(static_cast<int>(nearest)) == 0) {
         impossible.add(residue, elementary_charges(net) + ", not " + in_words(expected));
@@ -265,7 +265,7 @@ void check_ions(const std::string& role, const ResidueView& view, std::vector<Wa
     const double q = static_cast<double>(view.molecule->charges[view.atoms[r].front()]);
     const int usual = *charge_of_group(residue.name);
     // Models of bonded metals give part of the charge to the neighbours; iron and copper have two oxidation states.
-    if (q * usual > 0 && std::fabs(q) < std::abs(usual) + 1 + kWhole_e) continue;
+    if (q * usual > 0 && std::fabs(q) < std::abs(usual) + 1 + kWholeCharge) continue;
     wrong.add(residue, elementary_charges(q) + ", usually " + std::to_string(usual));
   }
   if (wrong.n == 0) return;
@@ -334,13 +334,13 @@ void check_paired_charges(const ResidueView& source, const ResidueView& target, 
     if (source.kinds[r] == ResidueKind::kOther || of_source[r] != of_target[t]) continue;
     if (of.n != source.atoms[r].size() || of.n != target.atoms[t].size()) continue;
     if (!same_residue_name(a.residues[r].name, b.residues[t].name)) continue;
-    if (std::fabs(of.source - of.target) > kOtherNet_e) {
+    if (std::fabs(of.source - of.target) > kOtherNetCharge) {
       charged_otherwise.add(a.residues[r],
                             elementary_charges(of.source) + ", " + elementary_charges(of.target) + " in the target");
       continue;
     }
     ++n_unchanged;
-    n_other += of.largest > kSameCharge_e ? 1 : 0;
+    n_other += of.largest > kSameChargeLimit ? 1 : 0;
     n_atoms += of.n;
     sum += of.sum;
   }
@@ -356,7 +356,7 @@ void check_paired_charges(const ResidueView& source, const ResidueView& target, 
                           std::to_string(n_unchanged) + " unchanged residues they differ, by " +
                           formatted("%.3f", mean) +
                           " e an atom on average, which makes a difference by itself; take the charges of one origin",
-                      mean > kRefusedOfTwoFields_e});
+                      mean > kRefusedOfTwoFieldsCharge});
 }
 
 }  // namespace espdiff

@@ -21,7 +21,7 @@ namespace {
 constexpr double kNear_A = 5;
 /// A group replaces another one whose centre is this near, as pair_by_place() takes a group for the same.
 constexpr double kReplaced_A = 4;
-constexpr double kRecharged_e = 0.3;
+constexpr double kRechargedCharge = 0.3;
 constexpr std::size_t kGroupsNamed = 4;
 
 std::string signed_charge(double q) {
@@ -234,7 +234,7 @@ void check_recharged(const ComposedSide& source, const ComposedSide& target, con
     const auto t = static_cast<std::size_t>(partner[r]);
     const UnpairedGroup own = source.group(r, source.view.atoms[r]);
     const double there = target.charge(t, target.view.atoms[t]);
-    if (std::fabs(own.charge - there) < kRecharged_e) continue;
+    if (std::fabs(own.charge - there) < kRechargedCharge) continue;
     warnings.push_back({own.label + " is charged otherwise in the target: " + described(own, source) + "; there " +
                             signed_charge(there),
                         false});

@@ -47,8 +47,8 @@ struct SettingLimits {
 void check_limits(const SettingLimits& limits, const std::string& text, const std::string& value);
 
 /// Holds the settings of a table that have limits to them. @param name which of a row's names the limits give
-template <typename Row, std::size_t n>
-void set_limits(std::vector<Row>& rows, const SettingLimits (&all)[n], std::string Row::*name) {
+template <typename Row, std::size_t N>
+void set_limits(std::vector<Row>& rows, const SettingLimits (&all)[N], std::string Row::*name) {
   for (Row& row : rows) {
     for (const SettingLimits& limits : all) {
       if (row.*name != limits.name) continue;

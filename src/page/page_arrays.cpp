@@ -85,7 +85,7 @@ nlohmann::ordered_json PageArrays::add_integers(const std::vector<std::int32_t>&
 }
 
 std::string PageArrays::base64() const {
-  static const char* const kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   const std::string bytes = deflated(bytes_);
   std::string text;
   text.reserve(bytes.size() * 4 / 3 + 4);

@@ -72,14 +72,14 @@ PotentialChoice choose_potential(const std::string& asked, const std::string& ce
   choice.because =
       all_solvated ? "explicit water in a periodic cell" : "charges without explicit water in a periodic cell";
   if (!all_solvated || averaged) return choice;
-  constexpr double kWater_M = 55.3;  // of liquid water at 300 K
+  constexpr double kWaterMolar = 55.3;  // of liquid water at 300 K
   choice.own_cell = false;
   choice.ionic_strength = 0;
   std::size_t n_ions = 0;
   for (const PotentialFacts& m : molecules) {
     n_ions += m.n_ions;
-    *choice.ionic_strength +=
-        0.5 * kWater_M * m.ion_squares / static_cast<double>(std::max<std::size_t>(m.n_waters, 1) * molecules.size());
+    *choice.ionic_strength += 0.5 * kWaterMolar * m.ion_squares /
+                              static_cast<double>(std::max<std::size_t>(m.n_waters, 1) * molecules.size());
   }
   choice.because = "a continuum in place of the explicit water of single frames; salt of the " +
                    std::to_string(n_ions / std::max<std::size_t>(molecules.size(), 1)) + " ions counted in it";

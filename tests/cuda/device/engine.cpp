@@ -86,9 +86,9 @@ TEST_CASE("every call of the CPU engine ends when its thread's request to cancel
       {"deform", [&] { engine->deform(mesh, field, {}, "deform", blind, nullptr); }},
       {"morph",
        [&] { engine->morph(mesh, std::vector<espdiff::MovingAtom>(cloud.size()), atoms, atoms, {}, "morph", blind); }}};
-  for (const auto& [name, call] : calls) {
-    INFO(name);
-    CHECK_THROWS_AS(call(), espdiff::Cancelled);
+  for (const auto& named : calls) {
+    INFO(named.first);
+    CHECK_THROWS_AS(named.second(), espdiff::Cancelled);
   }
 }
 
