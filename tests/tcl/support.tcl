@@ -40,12 +40,12 @@ proc read_file {name} {
     return $text
 }
 
-# A molecule of eight atoms, two residues, bent by `bend` Angstrom at its end.
+# A molecule of eight atoms, two residues, bent by `bend` Angstrom at its end; bonds have a backbone's lengths.
 proc atom_positions {bend} {
     set positions {}
     for {set i 0} {$i < 8} {incr i} {
-        set y [expr {0.9 * ($i % 2) + $bend * $i * $i / 49.0}]
-        lappend positions [list [expr {1.5 * $i}] $y [expr {0.3 * ($i % 3)}]]
+        set y [expr {0.74 * ($i % 2) + $bend * $i * $i / 49.0}]
+        lappend positions [list [expr {1.23 * $i}] $y [expr {0.25 * ($i % 3)}]]
     }
     return $positions
 }
