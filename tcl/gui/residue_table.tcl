@@ -45,7 +45,7 @@ namespace eval ::espdiff::gui {
         ttk::frame $path.list
         set columns {}
         foreach {key heading of_potentials decimals factor} $residue_columns { lappend columns $key }
-        ttk::treeview $path.list.table -columns $columns -show headings -height 17 -selectmode extended -style Espdiff.Treeview \
+        ttk::treeview $path.list.table -columns $columns -show headings -height 18 -selectmode extended -style Espdiff.Treeview \
             -yscrollcommand [list $path.list.scroll set]
         foreach {key heading of_potentials decimals factor} $residue_columns {
             $path.list.table heading $key -command [list ::espdiff::gui::guard_in residues ::espdiff::gui::sort_by $key]

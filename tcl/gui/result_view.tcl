@@ -42,7 +42,7 @@ namespace eval ::espdiff::gui {
         build_numbers $path.numbers 3 10 [shown_metrics {superposition shape surface}]
         grid columnconfigure $path.numbers {1 4} -weight 1
         grid columnconfigure $path.numbers 2 -minsize 16
-        pack $path.top $path.verdict $path.numbers -fill x -pady {0 4}
+        pack $path.top $path.verdict $path.numbers -fill x -pady {0 2}
         foreach name {list view table export delete} { set widget(result,$name) $path.top.$name }
     }
 

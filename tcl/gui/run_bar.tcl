@@ -43,7 +43,7 @@ namespace eval ::espdiff::gui {
         grid $path.compare $path.cancel $path.swap $path.bar $path.script $path.help -sticky ew -padx {0 6}
         grid configure $path.help -padx 0
         grid columnconfigure $path 3 -weight 1
-        grid $path.message -columnspan 6 -sticky ew -pady {6 0}
+        grid $path.message -columnspan 6 -sticky ew -pady {2 0}
         foreach name {compare cancel swap bar script message} { set widget($name) $path.$name }
         $path.compare configure -default active
         set_enabled 0 $path.cancel
