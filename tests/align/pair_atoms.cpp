@@ -245,7 +245,7 @@ TEST_CASE("the choice of atoms survives writing and reading") {
         "unknown choice of atoms to align 'CA'; use all, backbone, ca or none");
 }
 
-// hostile/second/chain_order: 9.2 kT/e, trustworthy, since the peptides paired by their order in the file.
+// They paired by their order in the file: 9.2 kT/e, called trustworthy, where nothing differs.
 TEST_CASE("short chains pair by equal names, then by their arrangement, whatever their order in the file") {
   const auto peptides = [](const std::vector<std::pair<std::string, int>>& name_and_place) {
     MadeMolecule made;
