@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <filesystem>
 
 #include "base/error.h"
-#include "io/structure_file.h"
 
 namespace espdiff {
 namespace {
@@ -22,15 +20,7 @@ bool draws_molecules(const Scene& scene) {
 }
 
 Molecule read_molecule(const RunRecord& record, const RecordedInput& input, bool with_water) {
-  const char* const remedy = "; compare again, or draw without the molecule and labels";
-  if (!record.found) throw InputError(record.path + ": no such file; it names the structures" + remedy);
-  std::error_code ignored;
-  if (!std::filesystem::exists(input.path, ignored)) throw InputError(input.path + " no longer exists" + remedy);
-  const StructureFile file(input.path);
-  if (file.sha256() != input.sha256) throw InputError(input.path + " has changed since the comparison" + remedy);
-  StructureOptions options = input.read_with;
-  if (with_water) options.include_hetero = options.include_water = true;
-  return file.read(options);
+  return read_compared(record, input, with_water, "; compare again, or draw without the molecule and labels");
 }
 
 /// A file may hold several models, and older records do not say which was compared, so the surface must fit the model

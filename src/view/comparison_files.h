@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "io/run_record.h"
 #include "view/map_pair.h"
-#include "view/run_record.h"
 #include "view/scene.h"
 #include "view/surface_file.h"
 

@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
+#include "io/run_record.h"
 #include "view/map_pair.h"
-#include "view/run_record.h"
 #include "view/surface_file.h"
 #include "view/surface_mapper.h"
 

@@ -1,10 +1,11 @@
-// run_record.h: the inputs of a comparison from OUT.json, as far as pictures need them.
+// run_record.h: the inputs of a comparison from OUT.json, as far as pictures and other files of a result need them.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "base/structure_options.h"
+#include "base/types.h"
 #include "base/vector.h"
 
 namespace espdiff {
@@ -35,5 +36,11 @@ struct RunRecord {
 /// ran; when the recorded content is not there, from the folder of OUT.json.
 /// @throws FormatError when the file is damaged or is no record of a comparison
 RunRecord read_run_record(const std::string& vtp_path);
+
+/// Reads a structure as it was compared.
+/// @param with_water ligands and water too, whatever was compared
+/// @param remedy     what to do if it cannot be had, such as "; compare again"
+/// @throws InputError (no record, the file is gone or has changed), and as read_structure()
+Molecule read_compared(const RunRecord& record, const RecordedInput& input, bool with_water, const std::string& remedy);
 
 }  // namespace espdiff

@@ -1,5 +1,5 @@
-// run_record.cpp: extracts from OUT.json what pictures need.
-#include "view/run_record.h"
+// run_record.cpp: extracts from OUT.json what pictures and other files of a result need.
+#include "io/run_record.h"
 
 #include <filesystem>
 #include <fstream>
@@ -10,6 +10,7 @@
 #include "io/json_values.h"
 #include "io/read_input.h"
 #include "io/sha256.h"
+#include "io/structure_file.h"
 
 namespace espdiff {
 namespace {
@@ -98,6 +99,18 @@ RunRecord read_run_record(const std::string& vtp_path) {
   }
   record.found = true;
   return record;
+}
+
+Molecule read_compared(const RunRecord& record, const RecordedInput& input, bool with_water,
+                       const std::string& remedy) {
+  if (!record.found) throw InputError(record.path + ": no such file; it names the structures" + remedy);
+  std::error_code ignored;
+  if (!fs::exists(input.path, ignored)) throw InputError(input.path + " no longer exists" + remedy);
+  const StructureFile file(input.path);
+  if (file.sha256() != input.sha256) throw InputError(input.path + " has changed since the comparison" + remedy);
+  StructureOptions options = input.read_with;
+  if (with_water) options.include_hetero = options.include_water = true;
+  return file.read(options);
 }
 
 }  // namespace espdiff
