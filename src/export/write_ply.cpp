@@ -16,6 +16,7 @@ const VtpNumbers* ply_normals(const ExportedResult& result) {
 void write_ply_head(std::ostream& out, const ExportedResult& result, const std::vector<SurfaceQuantity>& quantities) {
   out << "ply\nformat binary_little_endian 1.0\n";
   for (const auto& [name, text] : result.notes) out << "comment " << name << ": " << text << '\n';
+  out << "comment counted_faces " << result.triangles.counted.size() << '\n';
   out << "element vertex " << result.files.surface.positions.size() << '\n';
   std::vector<std::string> names = {"x", "y", "z"};
   if (ply_normals(result) != nullptr) names.insert(names.end(), {"nx", "ny", "nz"});
@@ -25,18 +26,17 @@ void write_ply_head(std::ostream& out, const ExportedResult& result, const std::
   for (const SurfaceQuantity& quantity : quantities)
     out << "property float " << cif_name(quantity.values->name) << '\n';
   out << "element face " << result.triangles.counted.size() + result.triangles.rest.size()
-      << "\nproperty list uchar uint vertex_indices\nproperty uchar counted\nend_header\n";
+      << "\nproperty list uchar uint vertex_indices\nend_header\n";
 }
 
 void append_position(std::string& bytes, Vec3d p) {
   for (const double x : {p.x, p.y, p.z}) append_f32(bytes, x);
 }
 
-void append_faces(std::string& bytes, const std::vector<Triangle>& triangles, bool are_counted) {
+void append_faces(std::string& bytes, const std::vector<Triangle>& triangles) {
   for (const Triangle& triangle : triangles) {
     bytes += '\3';
     for (const auto corner : triangle) append_u32(bytes, corner);
-    bytes += are_counted ? '\1' : '\0';
   }
 }
 
@@ -46,17 +46,21 @@ void write_ply(std::ostream& out, const ExportedResult& result) {
   const std::vector<SurfaceQuantity> quantities = surface_quantities(result.files);
   const VtpNumbers* const normals = ply_normals(result);
   write_ply_head(out, result, quantities);
+  std::vector<std::uint8_t> is_counted(result.source.size(), 0);
+  for (const Triangle& triangle : result.triangles.counted) {
+    for (const auto corner : triangle) is_counted[corner] = 1;
+  }
   std::string bytes;
   for (std::size_t v = 0; v < result.source.size(); ++v) {
     append_position(bytes, result.files.surface.positions[v]);
     for (std::size_t k = 0; normals != nullptr && k < 3; ++k) append_f32(bytes, normals->values[3 * v + k]);
     append_position(bytes, result.source[v]);
-    const Rgb rgb = result.colours[v];
+    const Rgb rgb = is_counted[v] != 0 ? result.colours[v] : kNoValueColour;
     for (const std::uint8_t channel : {rgb.red, rgb.green, rgb.blue}) bytes += static_cast<char>(channel);
     for (const SurfaceQuantity& quantity : quantities) append_f32(bytes, quantity.values->values[v]);
   }
-  append_faces(bytes, result.triangles.counted, true);
-  append_faces(bytes, result.triangles.rest, false);
+  append_faces(bytes, result.triangles.counted);
+  append_faces(bytes, result.triangles.rest);
   out << bytes;
 }
 

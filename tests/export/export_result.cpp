@@ -100,7 +100,7 @@ TEST_CASE("a PLY file has a line for every number of a vertex") {
   CHECK(contains(ply, "element vertex " + std::to_string(files.surface.positions.size()) + "\n"));
   const std::size_t body = ply.find("end_header\n") + 11;
   const std::size_t n_floats = 9 + surface_quantities(files).size();
-  CHECK(ply.size() - body == files.surface.positions.size() * (4 * n_floats + 3) + files.surface.triangles.size() * 14);
+  CHECK(ply.size() - body == files.surface.positions.size() * (4 * n_floats + 3) + files.surface.triangles.size() * 13);
   CHECK(f32(ply, body) == doctest::Approx(files.surface.positions[0].x));
 }
 
