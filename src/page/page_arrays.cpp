@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "base/error.h"
 #include "io/base64.h"
@@ -65,6 +66,17 @@ nlohmann::ordered_json PageArrays::add_numbers(const std::vector<double>& values
     append_bits(bytes_,
                 std::isfinite(value) ? static_cast<std::uint32_t>(std::lround((value - low) * steps)) : kNoValue, 2);
   return {{"offset", offset}, {"n", values.size()}, {"min", low}, {"max", high}};
+}
+
+nlohmann::ordered_json PageArrays::add_singles(const std::vector<double>& values) {
+  const std::size_t offset = begin(4);
+  for (const double value : values) {
+    const auto single = static_cast<float>(value);
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &single, sizeof bits);
+    append_bits(bytes_, bits, 4);
+  }
+  return {{"offset", offset}, {"n", values.size()}, {"single", true}};
 }
 
 nlohmann::ordered_json PageArrays::add_triangles(const std::vector<Triangle>& triangles) {

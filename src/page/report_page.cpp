@@ -6,10 +6,10 @@
 
 #include "base/error.h"
 #include "base/surface_parts.h"
+#include "page/assembled_page.h"
 #include "page/page_arrays.h"
 #include "page/page_texts.h"
 #include "plot/automatic_range.h"
-#include "plot/colour_map.h"
 #include "report/metrics.h"
 #include "report/pair_files.h"
 
@@ -129,53 +129,6 @@ void add_surface(Json& page, PageArrays& arrays, const PairFiles& files) {
   page["residue"] = arrays.add_integers(residues_of_vertices(files));
 }
 
-Json colour(Rgb rgb) { return {rgb.red, rgb.green, rgb.blue}; }
-
-void add_scales(Json& page) {
-  constexpr int kColours = 255;
-  Json names = {"red-blue", "cool-warm", "purple-orange"}, scales = Json::object();
-  for (const Json& name : names) {
-    const DivergingMap& map = diverging_map(name.get<std::string>());
-    Json& scale = scales[name.get<std::string>()] = Json::array();
-    for (int i = 0; i < kColours; ++i) scale.push_back(colour(diverging_colour(i / (kColours - 1.0), map)));
-  }
-  Json& magnitude = scales["magnitude"] = Json::array();
-  for (int i = 0; i < kColours; ++i) magnitude.push_back(colour(sequential_colour(i / (kColours - 1.0))));
-  page["diverging"] = std::move(names);
-  page["scales"] = std::move(scales);
-  page["no_value"] = colour(kNoValueColour);
-}
-
-// ---- page -----------------------------------------------------------------------------------------------------------
-
-/// JSON that cannot end the script element it stands in.
-std::string embedded(const Json& json) {
-  std::string text;
-  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
-    if (c == '<')
-      text += "\\u003c";
-    else
-      text += c;
-  }
-  return text;
-}
-
-std::string assembled(const Json& page, const std::string& arrays) {
-  const auto& files = page_texts();
-  const auto script = [&](const char* name) { return "<script>\n" + files.at(name) + "\n</script>\n"; };
-  return "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
-         "content=\"width=device-width, initial-scale=1\">\n"
-         // Nothing is fetched, whatever the texts of a result hold.
-         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'unsafe-inline'; "
-         "style-src 'unsafe-inline'; img-src data: blob:\">\n<title>espdiff</title>\n<style>\n" +
-         files.at("report.css") + "</style>\n</head>\n<body>\n" + files.at("report.html") +
-         "<noscript>This page draws by JavaScript and WebGL.</noscript>\n"
-         "<script type=\"application/json\" id=\"record\">" +
-         embedded(page) + "</script>\n<script type=\"application/octet-stream\" id=\"arrays\">" + arrays +
-         "</script>\n" + script("three.min.js") + script("TrackballControls.js") + script("report.js") +
-         "</body>\n</html>\n";
-}
-
 }  // namespace
 
 std::string report_page(const std::string& prefix, const std::string& title) {
@@ -192,11 +145,10 @@ std::string report_page(const std::string& prefix, const std::string& title) {
   page["numbers"] = numbers_of(files.record, files.unit);
   page["residues"] = residues_of(files.residues);
   page["provenance"] = provenance_of(files);
-  add_scales(page);
   PageArrays arrays;
   add_surface(page, arrays, files);
-  page["deflated"] = PageArrays::is_deflated();
-  return assembled(page, arrays.base64());
+  return assembled_page(page, arrays, "report.html",
+                        {"three.min.js", "TrackballControls.js", "shared.js", "report.js"});
 }
 
 }  // namespace espdiff
