@@ -72,8 +72,8 @@ TEST_CASE("a trajectory's page has every frame, and its residues") {
 TEST_CASE("a study that is damaged or of another version is refused") {
   const SmallStudy study;
   study.folder.write("rows.json", "{\"variants\": [{\"label\": \"x\"}]}");
-  CHECK_THROWS_WITH_AS(study_page(study.matrix, PageKind::kMatrix, ""),
-                       doctest::Contains("names a variant that " + study.matrix + ".json does not have"), FormatError);
+  CHECK_THROWS_WITH_AS(study_page(study.matrix, PageKind::kMatrix, ""), doctest::Contains("names a variant that "),
+                       FormatError);
   study.folder.write("rows.json", "{\"variants\": [3]}");
   CHECK_THROWS_WITH_AS(study_page(study.matrix, PageKind::kMatrix, ""),
                        doctest::Contains("not a matrix of this version of espdiff; compute it again"), FormatError);
