@@ -205,7 +205,7 @@ void print_next(const CompareArguments& a, const Comparison& first, Engine& engi
   const bool prepared = first.source.state.preparation && first.target.state.preparation;
   const double once_s = total_seconds(first.result);
   std::string tried;
-  for (const WayOn& way : ways_on(first.result, given, prepared)) {
+  for (const WayOn& way : ways_on(first.result, first.source.state.molecule, first.target.state.molecule, given, prepared)) {
     const double spent_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     if (a.no_trials || once_s > kLongestTrial_s || spent_s + once_s > kMostTime_s) break;
     const CompareArguments other = changed(a, way);
@@ -234,6 +234,7 @@ int compare_verb(const CompareArguments& a, const Context& context) {
   check_map_options(a.maps);
   const CompareOptions options = make_options(a.settings);
   check_files(a, options, {});
+  if (!a.overwrite) refuse_existing(a.output);
   // An unwritable output is found before the work.
   for (const char* suffix : {".json", ".vtp", ".residues.csv"}) AtomicFile probe(a.output + suffix);
   if (!options.causes.empty()) AtomicFile probe(a.output + kCausesEnding);

@@ -38,6 +38,13 @@ bool has_result(const std::string& prefix) {
                      [&](const char* ending) { return fs::exists(prefix + ending, ignored); });
 }
 
+void refuse_existing(const std::string& prefix) {
+  if (!has_result(prefix)) return;
+  throw InputError(Message("a result named " + prefix + " exists; " + switched_on("overwrite") +
+                           " replaces it, another " + option("output") + " keeps it")
+                       .set_next({"", {{"overwrite", "", true}}}));
+}
+
 std::string free_prefix(const std::string& prefix) {
   std::string free = prefix;
   for (int n = 2; has_result(free); ++n) free = prefix + '_' + std::to_string(n);
@@ -61,12 +68,7 @@ std::string output_prefix(const std::string& given, bool overwrite, const std::s
     const std::string named = (fs::path(given) / (stem(source) + '_' + stem(target))).string();
     return overwrite ? named : free_prefix(named);
   }
-  const std::string prefix = result_prefix(given);
-  if (!overwrite && has_result(prefix))
-    throw InputError(Message("a result named " + prefix + " exists; " + switched_on("overwrite") +
-                             " replaces it, another " + option("output") + " keeps it")
-                         .set_next({"", {{"overwrite", "", true}}}));
-  return prefix;
+  return result_prefix(given);
 }
 
 std::string surface_of_result(const std::string& given) {

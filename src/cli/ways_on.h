@@ -9,7 +9,8 @@
 
 namespace espdiff {
 struct CompareResult;
-}
+struct Molecule;
+}  // namespace espdiff
 
 namespace espdiff::cli {
 
@@ -20,10 +21,12 @@ struct WayOn {
   std::vector<NamedOption> options;  ///< given in addition, or instead of earlier values
 };
 
-/// The changes that are worth a trial, the most likely one first: one of several equal chains; the mapping in the other
+/// The changes that are worth a trial, the most likely one first: the chains that were compared, without the others;
+/// one pair of chains; the mapping in the other
 /// direction; motions that are chosen by need; one protonation for both states.
 /// @param given    names of the settings that were given
 /// @param prepared whether both states got their charges from PDB2PQR
-std::vector<WayOn> ways_on(const CompareResult& result, const std::vector<std::string>& given, bool prepared);
+std::vector<WayOn> ways_on(const CompareResult& result, const Molecule& source, const Molecule& target,
+                           const std::vector<std::string>& given, bool prepared);
 
 }  // namespace espdiff::cli

@@ -30,6 +30,11 @@ bool is_additive(const std::string& name) {
   return names.count(name) > 0;
 }
 
+bool is_gas(const std::string& name) {
+  static const std::set<std::string_view> names = {"OXY", "CMO", "NO", "NMO", "N2", "XE", "KR", "AR"};
+  return names.count(name) > 0;
+}
+
 bool is_haem(const std::string& name) { return name == "HEM" || name == "HEC"; }
 
 bool is_hydrogen_atom(const Atom& atom) { return atom.element == "H" || atom.element == "D"; }
@@ -142,10 +147,12 @@ void charge_other_ligand(Groups& groups, Molecule& group, const Molecule& molecu
                          std::to_string(ligand.n_hydrogens_added - n_dropped) +
                          " hydrogens added, by Open Babel (Gasteiger's charges, pH " + formatted("%g", ph) + ")");
   const std::optional<int> usual = charge_of_group(group.residues.front().name);
-  if (usual && std::fabs(ligand.net_charge - *usual) > 0.5)
-    groups.warnings.push_back(label + " has " + in_elementary_charges(ligand.net_charge) +
-                              " by Open Babel and usually " + in_elementary_charges(*usual) +
-                              ": bonds were perceived wrongly, or it is protonated otherwise");
+  if (!usual || std::fabs(ligand.net_charge - *usual) <= 0.5) return;
+  const auto n = static_cast<double>(group.size());
+  for (float& q : group.charges) q += static_cast<float>((*usual - ligand.net_charge) / n);
+  groups.warnings.push_back(label + " has " + in_elementary_charges(ligand.net_charge) +
+                            " by the bonds that Open Babel perceives and usually " + in_elementary_charges(*usual) +
+                            ", to which its charges were shifted evenly; a MOL2 file of it would be exact");
 }
 
 bool has_haem_names(const Molecule& molecule, const std::vector<std::size_t>& atoms) {
@@ -167,8 +174,10 @@ std::vector<GroupSource> group_sources(const Molecule& molecule, const std::vect
     if (kinds[r] != ResidueKind::kOther || atoms[r].empty() || ligand_of[r] >= 0 || caps.count(name) > 0) continue;
     if (is_additive(name)) {
       sources[r] = GroupSource::kAdditive;
-    } else if (atoms[r].size() == 1) {
-      if (ion_parameters(name, molecule.atoms[atoms[r].front()].element)) sources[r] = GroupSource::kIon;
+    } else if (is_gas(name)) {
+      sources[r] = GroupSource::kGas;
+    } else if (atoms[r].size() == 1 && ion_parameters(name, molecule.atoms[atoms[r].front()].element)) {
+      sources[r] = GroupSource::kIon;
     } else if (is_haem(name) && has_haem_names(molecule, atoms[r])) {
       sources[r] = GroupSource::kHaem;
     } else if (options.ligands_auto) {
@@ -197,6 +206,8 @@ Groups charge_groups(const Molecule& molecule, const std::vector<GroupSource>& s
       group.charges.front() = static_cast<float>(ion.charge);
       group.radii.front() = static_cast<float>(ion.radius);
       groups.lines.push_back(label + ": " + in_elementary_charges(ion.charge) + " (common oxidation state)");
+    } else if (sources[r] == GroupSource::kGas) {
+      groups.lines.push_back(label + ": a gas, without charges");
     } else if (sources[r] == GroupSource::kHaem) {
       charge_haem(group);
       groups.lines.push_back(label + ": -2 e (iron(II), CHARMM22's charges without hydrogens)");
