@@ -151,7 +151,8 @@ void add_matrix(StudyJson& page, PageArrays& arrays, const std::string& prefix) 
   page["metrics"] = metric_columns(arrays, table, places, n * n);
   add_remarks(page, table, places, n * n);
   add_summary(page, "pairs");
-  provenance.insert(provenance.begin(), {"Program", "espdiff " + record.value("version", "")});
+  const StudyJson program = {"Program", "espdiff " + record.value("version", "")};
+  provenance.insert(provenance.begin(), program);
   provenance.push_back({"Options", record.value("options", StudyJson()).dump()});
   page["provenance"] = std::move(provenance);
   page["states"] = std::to_string(n) + " variants; each row is a source, each column a target";
@@ -186,6 +187,9 @@ StudyJson residue_rows(PageArrays& arrays, const std::string& path, const std::v
   StudyJson json = arrays.add_singles(values);
   json["signed"] = std::any_of(values.begin(), values.end(), [](double x) { return x < 0; });
   json["range"] = automatic_limit({values.begin(), values.end()});
+  const std::size_t bracket = label.find(" [");
+  const Metric* const metric = find_metric_or_null(label.substr(0, bracket));
+  if (metric != nullptr) label = metric->label + (bracket == std::string::npos ? "" : label.substr(bracket));
   json["label"] = label;
   json["names"] = std::move(names);
   return json;

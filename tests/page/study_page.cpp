@@ -55,6 +55,7 @@ TEST_CASE("a matrix' page has every pair at its place, and names stay texts") {
   CHECK(record.at("trust").at(0).is_null());
   CHECK(record.at("trust").at(1).is_boolean());
   CHECK(record.at("order").size() == 3);
+  CHECK(record.at("provenance").at(0).at(0) == "Program");
   for (const auto& metric : record.at("metrics")) CHECK(metric.at("n") == 9);
 }
 
@@ -66,6 +67,7 @@ TEST_CASE("a trajectory's page has every frame, and its residues") {
   CHECK(record.at("labels").size() == 3);
   CHECK(record.at("residues").at("names").at(0) == "A:ALA 1");
   CHECK(record.at("residues").at("n") == 18);
+  CHECK(record.at("residues").at("label") == "Mean absolute difference [kT/e in vacuum]");
   CHECK(contains(record.at("verdict").at("text").get<std::string>(), " of 3 frames are trustworthy"));
 }
 
