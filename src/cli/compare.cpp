@@ -234,11 +234,11 @@ int compare_verb(const CompareArguments& a, const Context& context) {
   check_map_options(a.maps);
   const CompareOptions options = make_options(a.settings);
   check_files(a, options, {});
-  if (!a.overwrite) refuse_existing(a.output);
   // An unwritable output is found before the work.
   for (const char* suffix : {".json", ".vtp", ".residues.csv"}) AtomicFile probe(a.output + suffix);
   if (!options.causes.empty()) AtomicFile probe(a.output + kCausesEnding);
   if (!a.residue_pdb.empty()) AtomicFile probe(a.residue_pdb);
+  if (!a.overwrite) refuse_existing(a.output);
   if (a.residue_pdb.empty() && !a.residue_quantity.empty())
     throw InputError("--residue-quantity needs --residue-pdb FILE");
 

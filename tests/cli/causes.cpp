@@ -39,7 +39,7 @@ struct CausesFiles {
 
   Outcome run(const std::string& options, const std::string& other = "") const {
     return run_espdiff("compare " + source + " " + (other.empty() ? target : other) + " -o " + folder.file("out") +
-                       " --domains none " + options);
+                       " --domains none --exit-zero --overwrite " + options);
   }
   Json json() const { return Json::parse(read_file(folder.file("out.json"))); }
 };

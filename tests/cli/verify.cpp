@@ -36,7 +36,7 @@ struct SmallResult {
     if (!file) return;
     prefix = folder.file("result");
     const Outcome compared =
-        run_espdiff("compare " + *file + " " + *file + " --target-model 5 " + options + " -q -o " + prefix);
+        run_espdiff("compare " + *file + " " + *file + " --target-model 5 " + options + " -q --exit-zero -o " + prefix);
     REQUIRE(compared.status == 0);
   }
   OrderedJson record() const { return OrderedJson::parse(read_file(prefix + ".json")); }
@@ -169,7 +169,7 @@ TEST_CASE("20 real comparisons are verified") {
   const std::string prefix = folder.file("result");
   for (const std::string& pair : pairs) {
     CAPTURE(pair);
-    const Outcome compared = run_espdiff("compare " + pair + " -q -o " + prefix);
+    const Outcome compared = run_espdiff("compare " + pair + " -q --exit-zero --overwrite -o " + prefix);
     REQUIRE(compared.status == 0);
     const Outcome verified = run_espdiff("verify " + prefix);
     CAPTURE(verified.out);
