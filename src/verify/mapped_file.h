@@ -47,6 +47,9 @@ void add_mapped_lines(const MappedFile& file, const ResultRecord& record, Lines&
 /// The residue table against the vertices, and the correlation of its columns.
 void add_residue_lines(const MappedFile& file, const ResultRecord& record, const CsvTable& table, Lines& lines);
 
+/// The causes against OUT.causes.csv, where there are any.
+void add_cause_lines(const std::string& prefix, const ResultRecord& record, Lines& lines);
+
 /// Counts, and arrays that follow from others.
 void add_array_lines(const MappedFile& file, Lines& lines);
 /// Units, label and version, which more than one file has.
