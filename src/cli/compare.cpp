@@ -118,7 +118,7 @@ void check_files(const CompareArguments& a, const CompareOptions& options, const
   std::vector<std::string> inputs = input_files(options.input),
                            outputs = {a.output + ".json", a.output + ".vtp", a.output + ".residues.csv", a.residue_pdb};
   inputs.insert(inputs.end(), {a.source, a.target, a.maps.source_map, a.maps.target_map});
-  if (!options.causes.empty()) outputs.push_back(a.output + kCausesEnding);
+  for (const std::string& ending : cause_endings(options)) outputs.push_back(a.output + ending);
   for (const std::string& ending : kept) outputs.push_back(a.output + ending);
   check_outputs(inputs, outputs);
 }
@@ -144,7 +144,7 @@ int compare_verb(const CompareArguments& a, const Context& context) {
   check_files(a, options, {});
   // An unwritable output is found before the work.
   for (const char* suffix : {".json", ".vtp", ".residues.csv"}) AtomicFile probe(a.output + suffix);
-  if (!options.causes.empty()) AtomicFile probe(a.output + kCausesEnding);
+  for (const std::string& ending : cause_endings(options)) AtomicFile probe(a.output + ending);
   if (!a.residue_pdb.empty()) AtomicFile probe(a.residue_pdb);
   if (a.residue_pdb.empty() && !a.residue_quantity.empty())
     throw InputError("--residue-quantity needs --residue-pdb FILE");
@@ -197,7 +197,8 @@ Verb add_compare(CLI::App& app) {
       "there, and\n"
       "certifies the mapping. Without maps the potentials are computed (--potential).\n\n"
       "Writes result.json (numbers, certificate, provenance), result.vtp (mapped surface, for ParaView) and "
-      "result.residues.csv,\nwith --causes result.causes.csv.\n"
+      "result.residues.csv,\nwith --causes result.causes.csv, with --scan result.scan.csv, with --side-chains "
+      "result.side-chains.csv.\n"
       "Exit status: 0 done, 1 could not compute, 2 wrong usage or input.");
   add_input_options(*parser, *arguments);
   add_structure_options(*parser, arguments->structure);

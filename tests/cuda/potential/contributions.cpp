@@ -45,13 +45,20 @@ double reading_of(Engine& engine, const GridPtr& map, const MeshPtr& mesh, const
   return sum;
 }
 
+/// The probes: each charge again, and a third of them halfway to the next.
+std::vector<espdiff::ProbeCharge> probes_of(const Molecule& m) {
+  std::vector<espdiff::ProbeCharge> probes;
+  for (std::size_t i = 0; i < m.size(); ++i) probes.push_back({m.positions[i], m.radii[i], m.charges[i]});
+  return probes;
+}
+
 /// The contributions to two readings against the readings of each charge alone, and their sums against those of all.
 void check_against_single_charges(Engine& engine, const MapOfCharges& make, const std::vector<float>& charges,
                                   const MeshPtr& mesh) {
   const std::size_t n = engine.n_vertices(mesh);
   const std::vector<std::vector<double>> weights{some_weights(n, 92), some_weights(n, 93)};
   const GridPtr map = make(engine, charges);
-  const auto found = engine.contributions(map, mesh, weights, {});
+  const auto found = engine.contributions(map, mesh, weights, {}, {});
   REQUIRE(found.size() == 2);
   for (std::size_t r = 0; r < 2; ++r) {
     REQUIRE(found[r].size() == charges.size());
@@ -148,7 +155,7 @@ TEST_CASE("contributions have the same bits at 1, 2 and 4 threads") {
       if (engine->back_end() != "cpu") continue;
       const MeshPtr mesh = comparison_surface(*engine, m);
       const GridPtr map = pb_on_device(*engine, m, pb_lattice(m, 1.0, 8), {});
-      const auto found = engine->contributions(map, mesh, {some_weights(engine->n_vertices(mesh), 95)}, {});
+      const auto found = engine->contributions(map, mesh, {some_weights(engine->n_vertices(mesh), 95)}, {}, {});
       if (first.empty()) first = found.front();
       CHECK(std::memcmp(first.data(), found.front().data(), first.size() * sizeof(double)) == 0);
     }
@@ -163,19 +170,19 @@ TEST_CASE("maps that are no sum over charges have no contributions") {
     PoissonBoltzmannOptions options;
     options.nonlinear = true;
     const GridPtr nonlinear = pb_on_device(*engine, m, pb_lattice(m, 1.0, 8), options);
-    CHECK(message_of([&] { engine->contributions(nonlinear, mesh, weights, {}); }) ==
+    CHECK(message_of([&] { engine->contributions(nonlinear, mesh, weights, {}, {}); }) ==
           "the nonlinear Poisson-Boltzmann equation has no causes: its potential is not a sum over charges; take the "
           "linearized equation");
     const GridPtr given = engine->upload_map(engine->download(nonlinear), {});
-    CHECK(message_of([&] { engine->contributions(given, mesh, weights, {}); }) ==
+    CHECK(message_of([&] { engine->contributions(given, mesh, weights, {}, {}); }) ==
           "a given potential map does not say which charges it is made of; let the potential be computed");
     const GridPtr map = engine->isolated_charges(m.positions, m.charges, {}, {});
-    CHECK(message_of([&] { engine->contributions(map, mesh, {{1.0}}, {}); }) ==
+    CHECK(message_of([&] { engine->contributions(map, mesh, {{1.0}}, {}, {}); }) ==
           "a reading needs one weight for each vertex");
     const GridPtr small = pb_on_device(*engine, m, pb_lattice(m, 1.0, 4), {});
     std::vector<Vec3f> far = engine->download_positions(mesh);
     far[0] = far[0] + Vec3f{500, 0, 0};
-    CHECK(message_of([&] { engine->contributions(small, engine->with_positions(mesh, far), weights, {}); }) ==
+    CHECK(message_of([&] { engine->contributions(small, engine->with_positions(mesh, far), weights, {}, {}); }) ==
           "a reading has weight outside the potential map");
   }
 }
