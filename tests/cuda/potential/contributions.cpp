@@ -45,13 +45,6 @@ double reading_of(Engine& engine, const GridPtr& map, const MeshPtr& mesh, const
   return sum;
 }
 
-/// The probes: each charge again, and a third of them halfway to the next.
-std::vector<espdiff::ProbeCharge> probes_of(const Molecule& m) {
-  std::vector<espdiff::ProbeCharge> probes;
-  for (std::size_t i = 0; i < m.size(); ++i) probes.push_back({m.positions[i], m.radii[i], m.charges[i]});
-  return probes;
-}
-
 /// The contributions to two readings against the readings of each charge alone, and their sums against those of all.
 void check_against_single_charges(Engine& engine, const MapOfCharges& make, const std::vector<float>& charges,
                                   const MeshPtr& mesh) {
@@ -144,6 +137,47 @@ TEST_CASE("each charge adds to a reading of Ewald's sum what it makes alone, whe
         check_against_single_charges(*engine, in_bulk, m.charges, mesh);
       }
     }
+  }
+}
+
+TEST_CASE("a probe adds what a charge there would, with the shape kept") {
+  const Molecule m = charged_chain();
+  Random random(96);
+  const espdiff::RigidTransform to_map = random_rigid(random, 20);
+  // A charge without radius inside another atom leaves the dielectric as it is.
+  Molecule more = m;
+  more.positions.push_back(m.positions[4] + Vec3d{0.3, -0.2, 0.4});
+  more.radii.push_back(0);
+  more.charges.assign(more.size(), 0.0F);
+  more.charges.back() = 0.7F;
+  for (const auto& engine : fast_back_ends()) {
+    const MeshPtr mesh = comparison_surface(*engine, m);
+    const std::vector<double> weights = some_weights(engine->n_vertices(mesh), 97);
+    const std::size_t n = m.size();
+    const auto check = [&](const GridPtr& map, const GridPtr& alone, Vec3d place) {
+      const std::vector<espdiff::ProbeCharge> probes{{place, 0, 0.7F}};
+      const std::vector<double> found = engine->contributions(map, mesh, {weights}, probes, {}).front();
+      REQUIRE(found.size() == n + 1);
+      const double wanted = reading_of(*engine, alone, mesh, weights);
+      CHECK(found[n] == doctest::Approx(wanted).epsilon(1e-4));
+      CHECK(std::vector<double>(found.begin(), found.end() - 1) ==
+            engine->contributions(map, mesh, {weights}, {}, {}).front());
+    };
+    for (const auto boundary : {espdiff::FarBoundary::kDebyeHueckel, espdiff::FarBoundary::kFocus}) {
+      PoissonBoltzmannOptions options;
+      options.far_boundary = boundary;
+      const Lattice lattice = pb_lattice(m, 1.0, 8);
+      check(pb_on_device(*engine, m, lattice, options), pb_on_device(*engine, more, lattice, options),
+            more.positions.back());
+    }
+    // Probes are in the mesh's frame, charges in the map's.
+    const Vec3d there = more.positions.back();
+    check(engine->isolated_charges(m.positions, m.charges, {}, to_map),
+          engine->isolated_charges({there}, {0.7F}, {}, to_map), inverse(to_map).apply(there));
+    const GridPtr pb = pb_on_device(*engine, m, pb_lattice(m, 1.0, 8), {});
+    CHECK(message_of([&] {
+            engine->contributions(pb, mesh, {weights}, {{{500, 0, 0}, 0, 1}}, {});
+          }) == "a charge is asked about outside the potential's grid of 12 charges; give the grid a wider padding");
   }
 }
 
