@@ -171,9 +171,9 @@ TEST_CASE("a probe adds what a charge there would, with the shape kept") {
             more.positions.back());
     }
     // Probes are in the mesh's frame, charges in the map's.
-    const Vec3d there = more.positions.back();
+    const Vec3d here = more.positions.back(), there = to_map.apply(here);
     check(engine->isolated_charges(m.positions, m.charges, {}, to_map),
-          engine->isolated_charges({there}, {0.7F}, {}, to_map), inverse(to_map).apply(there));
+          engine->isolated_charges({there}, {0.7F}, {}, to_map), here);
     const GridPtr pb = pb_on_device(*engine, m, pb_lattice(m, 1.0, 8), {});
     CHECK(message_of([&] {
             engine->contributions(pb, mesh, {weights}, {{{500, 0, 0}, 0, 1}}, {});
