@@ -160,6 +160,41 @@ TEST_CASE("causes: side chains in other places give an interval, the same at eac
   }
 }
 
+TEST_CASE("causes: contributions are a quantity of residues, of pairs and along frames") {
+  const CausesFiles files;
+  const std::string reading = " --potential coulomb --region '//A/1-3' --causes region ";
+  const std::string pdb = files.folder.file("c.pdb"), quantity = " --residue-quantity contribution";
+  REQUIRE(files.run(reading + "--residue-pdb " + pdb + quantity).status == 0);
+  CHECK(contains(read_file(pdb), "B FACTOR: contribution [kT/e"));
+  const espdiff::CsvTable of_pair = espdiff::read_csv(files.folder.file("out.causes.csv"));
+  const std::string run = "trajectory " + files.source + " " + files.target + " " + files.source +
+                          " --domains none -o " + files.folder.file("t.csv") + " --overwrite" + reading;
+  const std::string table = files.folder.file("r.csv");
+  const Outcome outcome = run_espdiff(run + "--residues " + table + quantity);
+  REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  const espdiff::CsvTable frames = espdiff::read_csv(table);
+  REQUIRE(frames.rows.size() == 2);
+  const std::size_t difference = of_pair.columns.size() - 10;
+  REQUIRE(contains(of_pair.columns[difference], "difference ["));
+  for (std::size_t row = 0; row < of_pair.rows.size(); ++row) {
+    const std::string residue = "A:" + of_pair.rows[row][4] + " " + of_pair.rows[row][2];
+    const std::size_t column = frames.require(residue == "A:GLU 3" ? "A:SER 3" : residue);
+    CHECK(frames.number(0, column) == doctest::Approx(of_pair.number(row, difference)).epsilon(1e-4));
+    CHECK(std::fabs(frames.number(1, column)) < 1e-4);  // the source itself; charges make up to 80 kT/e
+  }
+  CHECK(contains(run_espdiff(run).err,
+                 "--causes of a trajectory are written as a table of residues: give --residues "
+                 "FILE and --residue-quantity contribution"));
+  CHECK(contains(run_espdiff(run + "--causes whole --residues " + table + quantity).err,
+                 "--causes: a trajectory has those of one reading"));
+  CHECK(contains(run_espdiff(run + "--scan --residues " + table + quantity).err, "--scan is of one pair"));
+  CHECK(contains(run_espdiff(run + "--side-chains 9 --residues " + table + quantity).err,
+                 "--side-chains is of one pair"));
+  const Outcome without = files.run("--potential coulomb --residue-pdb " + pdb + quantity);
+  CHECK(without.status == 2);
+  CHECK(contains(without.err, "contribution is what a residue adds to a reading: give --causes region"));
+}
+
 TEST_CASE("causes: a state compared with itself has none") {
   const CausesFiles files;
   const Outcome outcome =
