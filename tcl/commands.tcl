@@ -74,8 +74,9 @@ namespace eval ::espdiff {
 
     command atoms [dict create arguments {handle} settings none run ::espdiff::atoms options [concat \
         [list [list -quantity choice auto "Value for the atoms of a residue; auto is mean_abs_difference, or without\
-            potentials mean_displacement_A; share: its part of the sum of |difference| times area over all residues"\
-            [concat auto share [metric_names residues]]]] {
+            potentials mean_displacement_A; share: its part of the sum of |difference| times area over all residues;\
+            contribution: what it adds to the first reading of -causes"\
+            [concat auto share contribution [metric_names residues]]]] {
             {-mol text source "Molecule of VMD that gets the values: source, target, or an id"}
             {-field choice user "VMD's field: user to user4 hold one frame, the others all frames" {user
                 user2 user3 user4 beta occupancy}}

@@ -129,7 +129,7 @@ void check_files(const CompareArguments& a, const CompareOptions& options, const
   std::vector<std::string> inputs = input_files(options.input),
                            outputs = {a.output + ".json", a.output + ".vtp", a.output + ".residues.csv", a.residue_pdb};
   inputs.insert(inputs.end(), {a.source, a.target, a.maps.source_map, a.maps.target_map});
-  if (!options.causes.empty()) outputs.push_back(a.output + kCausesEnding);
+  for (const std::string& ending : cause_endings(options)) outputs.push_back(a.output + ending);
   for (const std::string& ending : kept) outputs.push_back(a.output + ending);
   check_outputs(inputs, outputs);
 }
@@ -184,7 +184,8 @@ CompareArguments changed(CompareArguments a, const WayOn& way) {
     std::swap(a.maps.source_map, a.maps.target_map);
     std::swap(a.maps.source_map_unit, a.maps.target_map_unit);
   }
-  for (const NamedOption& option : way.options) a.settings.emplace_back(option.name, option.is_switch ? "1" : option.value);
+  for (const NamedOption& option : way.options)
+    a.settings.emplace_back(option.name, option.is_switch ? "1" : option.value);
   a.residue_pdb.clear();
   return a;
 }
@@ -205,7 +206,8 @@ void print_next(const CompareArguments& a, const Comparison& first, Engine& engi
   const bool prepared = first.source.state.preparation && first.target.state.preparation;
   const double once_s = total_seconds(first.result);
   std::string tried;
-  for (const WayOn& way : ways_on(first.result, first.source.state.molecule, first.target.state.molecule, given, prepared)) {
+  for (const WayOn& way :
+       ways_on(first.result, first.source.state.molecule, first.target.state.molecule, given, prepared)) {
     const double spent_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     if (a.no_trials || once_s > kLongestTrial_s || spent_s + once_s > kMostTime_s) break;
     const CompareArguments other = changed(a, way);
@@ -236,7 +238,7 @@ int compare_verb(const CompareArguments& a, const Context& context) {
   check_files(a, options, {});
   // An unwritable output is found before the work.
   for (const char* suffix : {".json", ".vtp", ".residues.csv"}) AtomicFile probe(a.output + suffix);
-  if (!options.causes.empty()) AtomicFile probe(a.output + kCausesEnding);
+  for (const std::string& ending : cause_endings(options)) AtomicFile probe(a.output + ending);
   if (!a.residue_pdb.empty()) AtomicFile probe(a.residue_pdb);
   if (!a.overwrite) refuse_existing(a.output);
   if (a.residue_pdb.empty() && !a.residue_quantity.empty())
@@ -281,7 +283,8 @@ Verb add_compare(CLI::App& app) {
       "there, and\n"
       "certifies the mapping. Without maps the potentials are computed (--potential).\n\n"
       "Writes result.json (numbers, certificate, provenance), result.vtp (mapped surface, for ParaView) and "
-      "result.residues.csv,\nwith --causes result.causes.csv.\n"
+      "result.residues.csv,\nwith --causes result.causes.csv, with --scan result.scan.csv, with --side-chains "
+      "result.side-chains.csv.\n"
       "Exit status: 0 done, 1 could not compute, 2 wrong usage or input, 3 done, and the result is not trusted (0 with "
       "--exit-zero).");
   add_input_options(*parser, *arguments);
@@ -300,7 +303,8 @@ Verb add_compare(CLI::App& app) {
             {"espdiff compare 1t24.pdb 1t2e.pdb --select '//A;polymer' --region-within 5 --of '(NAD,OXQ)' -o ldh",
              "espdiff compare wild.pqr mutant.pqr --source-map wild.dx --target-map mutant.dx -o result"}});
   return {parser, [arguments](const Context& context) {
-            arguments->output = output_prefix(arguments->output, arguments->overwrite, arguments->source, arguments->target);
+            arguments->output =
+                output_prefix(arguments->output, arguments->overwrite, arguments->source, arguments->target);
             return compare_verb(*arguments, context);
           }};
 }

@@ -76,6 +76,12 @@ void add_context_options(CLI::App& p, SceneArguments& a) {
       ->check(CLI::IsMember({"none", "cartoon", "sticks", "lines"}));
   add<Number>(p, a, "--around", "Ligands, ions and water within this distance of the protein, Angstrom [none]",
               [](Scene& s, Number v) { s.around_A = v; });
+  add<Text>(
+      p, a, "--causes",
+      "A reading of --causes of the comparison, such as region: colour the source's molecule by what its residues "
+      "contribute, outline the reading's patch, and label the five largest [none]",
+      [](Scene& s, const Text& t) { s.causes = t; })
+      ->type_name("READING");
   add<int>(p, a, "--labels", "Label this many residues with the largest mean difference [0]",
            [](Scene& s, int v) { s.n_labels = v; });
   add<Numbers>(p, a, "--isopotential", "Isosurfaces of the potential at these values, such as -2,2",

@@ -65,6 +65,16 @@ void read_superposition(const Json& json, RigidTransform& transform) {
   transform.translation = {shift.at(0), shift.at(1), shift.at(2)};
 }
 
+void read_parts(const Json& json, std::map<std::string, std::vector<int>>& parts) {
+  const auto add = [&](const std::string& name, const Json& part) {
+    if (!part.is_object() || !part.contains("residues")) return;
+    for (const Json& residue : part.at("residues")) parts[name].push_back(integer_of<int>(residue));
+  };
+  if (json.contains("region")) add("region", json.at("region"));
+  if (!json.contains("fixed_patches")) return;
+  for (const auto& [name, part] : json.at("fixed_patches").items()) add("patch " + name, part);
+}
+
 }  // namespace
 
 RunRecord read_run_record(const std::string& vtp_path) {
@@ -92,6 +102,7 @@ RunRecord read_run_record(const std::string& vtp_path) {
       record.potential = json.at("potential").at("label");
     record.trustworthy = json.at("certificate").at("trustworthy");
     json.at("certificate").at("reasons").get_to(record.reasons);
+    read_parts(json, record.parts);
   } catch (const Json::exception& error) {
     throw no_record(record.path, detail_of(error));
   } catch (const std::out_of_range&) {

@@ -1,6 +1,7 @@
 // run_record.h: the inputs of a comparison from OUT.json, as far as pictures and other files of a result need them.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,7 @@ struct RunRecord {
   bool trustworthy = true;
   std::vector<std::string> reasons;  ///< why it is not
   std::string method;
+  std::map<std::string, std::vector<int>> parts;  ///< residues of "region" and of "patch NAME": indices of the source's
 };
 
 /// Reads the OUT.json beside an OUT.vtp. Input paths that are relative are taken from the folder where the comparison

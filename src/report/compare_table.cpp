@@ -326,11 +326,23 @@ void print_warnings(std::ostream& out, const CompareResult& result, const Option
   for (const Warning& warning : result.warnings) item(out, warning.text.spelled(spelling));
 }
 
+/// "; the sign of the difference of region is not known: ..." for readings whose interval spans zero; otherwise empty.
+std::string unknown_signs(const CompareResult& result) {
+  std::string names;
+  if (result.causes == nullptr) return names;
+  for (const CausesOfReading& reading : result.causes->readings) {
+    if (reading.placements && reading.placements->spans_zero()) names += (names.empty() ? "" : ", ") + reading.name;
+  }
+  return names.empty() ? names
+                       : "; the sign of the difference is not known (" + names +
+                             "): with side chains in other places its interval spans zero";
+}
+
 void print_verdict(std::ostream& out, const CompareResult& result, const OptionSpelling& spelling) {
   const Certificate& c = result.certificate;
   out << '\n';
   if (c.trustworthy) {
-    out << "TRUSTWORTHY: the mapping is within every limit that was checked\n";
+    out << "TRUSTWORTHY: the mapping is within every limit that was checked" << unknown_signs(result) << '\n';
   } else {
     out << "NOT TRUSTWORTHY:\n";
     for (const Message& reason : c.reasons) item(out, reason.spelled(spelling));

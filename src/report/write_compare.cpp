@@ -25,6 +25,7 @@
 #include "report/causes_report.h"
 #include "report/metrics.h"
 #include "report/potential_json.h"
+#include "report/probed_causes.h"
 #include "report/provenance.h"
 
 namespace espdiff {
@@ -153,6 +154,17 @@ class FileSet {
   std::deque<AtomicFile> files_;
 };
 
+/// A file about causes.
+struct CauseFile {
+  const char* ending;
+  bool (*is_wanted)(const CompareOptions& options);
+  void (*write)(std::ostream& out, const Causes& causes, const std::string& unit);
+};
+constexpr CauseFile kCauseFiles[] = {
+    {".causes.csv", [](const CompareOptions& o) { return !o.causes.empty(); }, write_causes},
+    {".scan.csv", [](const CompareOptions& o) { return o.scan; }, write_scan},
+    {".side-chains.csv", [](const CompareOptions& o) { return o.side_chains > 0; }, write_side_chains}};
+
 void add_results(FileSet& files, const std::string& output_prefix, const Molecule& source, const Molecule& target,
                  const CompareResult& result, const CompareOptions& options, const Provenance& provenance) {
   // A path need not be UTF-8, JSON must be.
@@ -161,8 +173,11 @@ void add_results(FileSet& files, const std::string& output_prefix, const Molecul
                                      << '\n';
   write_surface_file(files.add(output_prefix + ".vtp"), source, result, provenance);
   write_residue_file(files.add(output_prefix + ".residues.csv"), source, result);
-  if (result.causes != nullptr)
-    write_causes(files.add(output_prefix + kCausesEnding), *result.causes, potential_unit_text(result));
+  if (result.causes == nullptr) return;
+  for (const CauseFile& file : kCauseFiles) {
+    if (file.is_wanted(options))
+      file.write(files.add(output_prefix + file.ending), *result.causes, potential_unit_text(result));
+  }
 }
 
 /// Adds a file whose content is the input of this role from now on.
@@ -178,6 +193,14 @@ void keep(FileSet& files, Provenance& provenance, const std::string& role, const
 }
 
 }  // namespace
+
+std::vector<std::string> cause_endings(const CompareOptions& options) {
+  std::vector<std::string> endings;
+  for (const CauseFile& file : kCauseFiles) {
+    if (file.is_wanted(options)) endings.emplace_back(file.ending);
+  }
+  return endings;
+}
 
 void write_compare(const std::string& output_prefix, const Molecule& source, const Molecule& target,
                    const CompareResult& result, const CompareOptions& options, Provenance provenance,

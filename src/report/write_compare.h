@@ -17,8 +17,9 @@ struct CompareOptions;
 struct CompareResult;
 struct Provenance;
 
-/// Of the file that a comparison with causes writes besides.
-constexpr const char* kCausesEnding = ".causes.csv";
+/// Of the files that a comparison with causes writes besides: ".causes.csv", and with their options ".scan.csv" and
+/// ".side-chains.csv".
+std::vector<std::string> cause_endings(const CompareOptions& options);
 
 /// A file written beside the results that is the input of a role from then on; the original input stays listed under
 /// ROLE_file.

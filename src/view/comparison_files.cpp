@@ -5,6 +5,8 @@
 #include <cstdint>
 
 #include "base/error.h"
+#include "io/read_csv.h"
+#include "io/structure_file.h"
 
 namespace espdiff {
 namespace {
@@ -16,7 +18,7 @@ bool reads_maps(const Scene& scene) {
 }
 
 bool draws_molecules(const Scene& scene) {
-  return scene.molecule != MoleculeStyle::kNone || scene.around_A > 0 || scene.n_labels > 0;
+  return scene.molecule != MoleculeStyle::kNone || scene.around_A > 0 || scene.n_labels > 0 || !scene.causes.empty();
 }
 
 Molecule read_molecule(const RunRecord& record, const RecordedInput& input, bool with_water) {
@@ -64,11 +66,50 @@ void read_molecules(ComparisonFiles& files, const Scene& scene) {
   }
 }
 
+std::string causes_path(const std::string& vtp_path) {
+  return std::filesystem::path(vtp_path).replace_extension(".causes.csv").string();
+}
+
+/// @throws IoError, FormatError; InputError that lists the readings of the file
+ReadingCauses read_causes(const std::string& path, const std::string& reading) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored))
+    throw InputError(path + ": no such file; compare with " + option("causes", reading) + " first");
+  const CsvTable table = read_csv(path);
+  ReadingCauses causes{reading, {}, {}, {}};
+  const std::string word = "difference [";
+  const auto is_difference = [&](const std::string& column) { return column.rfind(word, 0) == 0; };
+  const auto difference = std::find_if(table.columns.begin(), table.columns.end(), is_difference);
+  if (difference == table.columns.end()) throw FormatError(path, 1, "it has no column of differences; compare again");
+  causes.unit = difference->substr(word.size(), difference->size() - word.size() - 1);
+  const auto value = static_cast<std::size_t>(difference - table.columns.begin());
+  const std::size_t name = table.require("reading"), chain = table.require("chain"),
+                    number = table.require("residue_number"), insertion = table.require("insertion_code"),
+                    residue = table.require("residue_name");
+  std::string all;
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    const std::vector<std::string>& cells = table.rows[row];
+    if (row == 0 || cells[name] != table.rows[row - 1][name]) all += (row == 0 ? "" : ", ") + cells[name];
+    if (cells[name] != reading || cells[number].empty()) continue;
+    causes.residues.push_back({cells[residue], cells[chain], static_cast<std::int32_t>(table.number(row, number)),
+                               cells[insertion].empty() ? ' ' : cells[insertion].front()});
+    causes.differences.push_back(table.number(row, value));
+  }
+  if (causes.residues.empty()) throw InputError(path + ": has no reading '" + reading + "'; it has " + all);
+  return causes;
+}
+
 }  // namespace
 
 std::vector<std::string> files_of(const ComparisonFiles& files) {
   const RunRecord& r = files.record;
-  return {files.surface.path, r.path, r.source.path, r.target.path, r.source_map.path, r.target_map.path};
+  return {files.surface.path,
+          r.path,
+          r.source.path,
+          r.target.path,
+          r.source_map.path,
+          r.target_map.path,
+          causes_path(files.surface.path)};
 }
 
 bool shows_potentials(const Scene& scene) {
@@ -110,6 +151,11 @@ void read_missing_files(ComparisonFiles& files, const Scene& scene) {
     throw InputError("isopotential and offset surfaces, field lines and slices need the maps: " + files.maps.why_not);
   }
   if (draws_molecules(scene)) read_molecules(files, scene);
+  if (scene.causes.empty()) {
+    files.causes.reset();
+  } else if (!files.causes || files.causes->reading != scene.causes) {
+    files.causes = read_causes(causes_path(surface.path), scene.causes);
+  }
 }
 
 }  // namespace espdiff

@@ -12,6 +12,13 @@
 
 namespace espdiff {
 
+/// The causes of one reading, of OUT.causes.csv.
+struct ReadingCauses {
+  std::string reading, unit;
+  std::vector<Residue> residues;    ///< largest contribution first
+  std::vector<double> differences;  ///< what each adds to the difference
+};
+
 struct ComparisonFiles {
   SurfaceFile surface;
   RunRecord record;
@@ -20,6 +27,7 @@ struct ComparisonFiles {
   std::optional<Molecule> source_molecule, target_molecule;
   /// The same with water; present if the scene shows the surroundings.
   std::optional<Molecule> source_surroundings, target_surroundings;
+  std::optional<ReadingCauses> causes;  ///< of the scene's reading
 };
 
 /// Reads OUT.vtp, the OUT.json beside it and, if the scene needs them, the maps that it names.

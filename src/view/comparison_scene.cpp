@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "view/camera_view.h"
+#include "view/cause_drawings.h"
 #include "view/map_drawings.h"
 #include "view/molecule_actors.h"
 #include "view/residue_labels.h"
@@ -35,8 +36,9 @@ bool draws_maps(const Scene& scene) {
 bool same_things(const Scene& a, const Scene& b) {
   return a.layout == b.layout && a.n_views == b.n_views && a.width == b.width && a.height == b.height &&
          a.surface == b.surface && a.molecule == b.molecule && a.around_A == b.around_A && a.n_labels == b.n_labels &&
-         a.isopotentials == b.isopotentials && a.offsets_A == b.offsets_A && a.n_field_lines == b.n_field_lines &&
-         a.slice == b.slice && a.legend == b.legend && a.title.empty() == b.title.empty() && a.colours == b.colours;
+         a.causes == b.causes && a.isopotentials == b.isopotentials && a.offsets_A == b.offsets_A &&
+         a.n_field_lines == b.n_field_lines && a.slice == b.slice && a.legend == b.legend &&
+         a.title.empty() == b.title.empty() && a.colours == b.colours;
 }
 
 }  // namespace
@@ -124,6 +126,9 @@ SurfaceLook ComparisonScene::look_of(const Panel& panel, const Sheet& sheet) con
   }
   // Linked views keep the two sides opaque; only the third fades.
   if (scene_.layout == Layout::kLinked && &panel != &panels_.back()) look.opacity.greatest = 1;
+  constexpr double kAboveCauses = 0.4;
+  if (!scene_.causes.empty() && look.opacity.greatest == 1) look.opacity.greatest = kAboveCauses;
+  look.opacity.least = std::min(look.opacity.least, look.opacity.greatest);
   look.fades = sheet.fades;
   look.morph = sheet.morph;
   look.hatch_pixels = 7 * scale_factor_;
@@ -170,6 +175,16 @@ void ComparisonScene::update_looks() {
   }
 }
 
+void ComparisonScene::add_causes(const Panel& panel) {
+  if (!files_.causes || !files_.source_molecule) return;
+  const CauseDrawing drawing{*files_.source_molecule, *files_.causes, diverging_map(scene_.colours),
+                             scene_.height * scale_factor_ / 60};
+  for (const auto& prop : make_causes(drawing, scene_.molecule)) panel.renderer->AddViewProp(prop);
+  const auto outline =
+      make_outline(files_.surface, residues_of_reading(files_.record, drawing), scene_.height * scale_factor_ / 250);
+  if (outline != nullptr) panel.renderer->AddViewProp(outline);
+}
+
 void ComparisonScene::add_molecule(const Panel& panel) {
   const auto add = [&](const Molecule& molecule, const std::vector<bool>& residues, MoleculeStyle style) {
     const double line_pixels = 1.5 * scale_factor_;
@@ -178,7 +193,7 @@ void ComparisonScene::add_molecule(const Panel& panel) {
   };
   const auto& molecule = panel.is_source() ? files_.source_molecule : files_.target_molecule;
   const auto& surroundings = panel.is_source() ? files_.source_surroundings : files_.target_surroundings;
-  if (molecule) add(*molecule, polymer_residues(*molecule), scene_.molecule);
+  if (molecule && scene_.causes.empty()) add(*molecule, polymer_residues(*molecule), scene_.molecule);
   if (scene_.around_A > 0 && surroundings)
     add(*surroundings, residues_around(*surroundings, scene_.around_A), MoleculeStyle::kSticks);
 }
@@ -227,6 +242,7 @@ void ComparisonScene::fill_panels() {
     add_lights(panel.renderer);
     for (std::size_t s = 0; scene_.surface && s < panel.sheets.size(); ++s) add_parts(p, s);
     add_molecule(panel);
+    add_causes(panel);
     add_map_drawings(panel);
     // Labels belong to the compared surface.
     if (scene_.layout == Layout::kTurned || p + 1 == panels_.size()) add_labels(panel);
@@ -256,7 +272,7 @@ void ComparisonScene::aim_camera() {
   for (const std::size_t i : shown_) values.push_back(all.empty() ? 0 : all[i]);
   camera_ = choose_camera(scene_, shown_positions_, values, aspect);
   // The outermost surface must fit too, and the labels beside it.
-  double beside_A = scene_.n_labels > 0 ? 6 : 0;
+  double beside_A = scene_.n_labels > 0 || !scene_.causes.empty() ? 6 : 0;
   for (const double offset : scene_.offsets_A) beside_A = std::max(beside_A, offset);
   if (!scene_.camera) camera_.half_height_A += beside_A * std::max(1.0, aspect) / scene_.zoom;
 }

@@ -54,6 +54,8 @@ class ComparisonScene {
   /// Whether potentials are looked up at every pixel.
   bool per_fragment() const { return files_.maps.complete() && !scene_.per_vertex; }
   const SurfaceGeometry& geometry() const { return geometry_; }
+  /// The causes that are drawn.
+  const std::optional<ReadingCauses>& causes() const { return files_.causes; }
   /// The scale of the drawings of the maps themselves; nullptr if there are none.
   const ColourScale* map_scale() const { return map_scale_ ? &*map_scale_ : nullptr; }
   /// The renderer of the text, above all others.
@@ -78,6 +80,7 @@ class ComparisonScene {
   void add_parts(std::size_t panel, std::size_t sheet);
   void update_looks();
   SurfaceLook look_of(const Panel& panel, const Sheet& sheet) const;
+  void add_causes(const Panel& panel);
   void add_molecule(const Panel& panel);
   void add_labels(const Panel& panel);
   void add_map_drawings(const Panel& panel);

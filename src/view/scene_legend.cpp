@@ -7,6 +7,7 @@
 #include <string>
 
 #include "view/camera_view.h"
+#include "view/cause_drawings.h"
 #include "view/comparison_scene.h"
 #include "view/legend.h"
 
@@ -143,6 +144,11 @@ void add_scene_legend(vtkRenderer* renderer, const ComparisonScene& scene, doubl
   Legend legend(renderer, paper.text_height);
   if (!scene.scene().title.empty()) {
     legend.text(paper.width / 2, paper.height * (1 - kTitleShare / 2), scene.scene().title, Align::kCentre, 1.5);
+  }
+  if (scene.causes()) {
+    constexpr double kBelowTitle = 1.15;
+    legend.text(paper.width / 2, paper.height * (1 - kBelowTitle * kTitleShare), causes_in_words(*scene.causes()),
+                Align::kCentre, 1);
   }
   add_names(legend, scene, paper);
   add_scales(legend, scene, paper);

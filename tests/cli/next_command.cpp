@@ -41,12 +41,13 @@ TEST_CASE("next: a result that exists is replaced by the command that the refusa
   const ScratchFolder folder;
   folder.write("a b.pqr", row_of_atoms(12));
   folder.write("c.pqr", row_of_atoms(12, 0.25));
-  const std::string quoted = "compare '" + folder.file("a b.pqr") + "' " + folder.file("c.pqr") + kCoarse + " -q -o " +
-                             folder.file("pair");
+  const std::string quoted =
+      "compare '" + folder.file("a b.pqr") + "' " + folder.file("c.pqr") + kCoarse + " -q -o " + folder.file("pair");
   REQUIRE(run_espdiff(quoted).status == 0);
   const Outcome refused = run_espdiff(quoted);
   CHECK(refused.status == 2);
-  CHECK(contains(refused.err, "pair exists; --overwrite replaces it, another --output keeps it\nnext: espdiff compare '"));
+  CHECK(contains(refused.err,
+                 "pair exists; --overwrite replaces it, another --output keeps it\nnext: espdiff compare '"));
   const Outcome again = run_espdiff(next_words(refused.err));
   CHECK_MESSAGE(again.status == 0, again.err);
 }
