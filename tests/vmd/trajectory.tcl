@@ -7,7 +7,8 @@ proc read_rows {path} {
     set lines [split [string trim [read $channel]] \n]
     close $channel
     set rows {}
-    foreach line $lines { if {![string match "#*" $line]} { lappend rows $line } }
+    # Without the checksum, which covers the head too: the head names each front end's files.
+    foreach line $lines { if {![string match "#*" $line]} { lappend rows [regsub {,[0-9a-f]{1,16}$} $line ""] } }
     return [lrange $rows 1 end]
 }
 
