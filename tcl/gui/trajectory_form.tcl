@@ -116,10 +116,14 @@ namespace eval ::espdiff::gui {
             offer it below as a map (Metric: By residue)"
         pack $path.options.resume $path.options.skip $path.options.residues -side left -padx {0 10}
         grid $path.options -row 3 -column 2 -columnspan 2 -sticky w -padx {16 0}
-        build_average $path.average
-        grid $path.average -row 4 -column 0 -columnspan 2 -sticky w
         ttk::label $path.note -text "The settings are those of the tab Pair." -foreground gray40
         grid $path.note -row 5 -column 0 -columnspan 4 -sticky w
+        if {[in_vmd]} {
+            build_average $path.average
+            grid $path.average -row 4 -column 0 -columnspan 2 -sticky w
+        } else {
+            grid configure $path.note -row 4 -columnspan 2
+        }
         ttk::checkbutton $path.steps -text "in small steps" -variable ::espdiff::gui::form(trajectory,steps)
         tip $path.steps "Each surface goes on from the frame before, where that is much nearer than the reference:\
             takes half the time, and loses a little more of the surface. A frame that is chosen below is\
@@ -134,7 +138,6 @@ namespace eval ::espdiff::gui {
     # The water of single frames makes most of their potential by PME.
     proc build_average {path} {
         ttk::frame $path
-        if {![in_vmd]} return
         ttk::label $path.over -text "Average over"
         ttk::spinbox $path.n -textvariable ::espdiff::gui::form(trajectory,average) -width 4 -from 1 -to 9999 -increment 1
         ttk::label $path.frames -text "frames"

@@ -84,7 +84,7 @@ namespace eval ::espdiff::gui {
     # Ttk's rows, arrows, marks and margins have fixed sizes in pixels, which are too small for large fonts.
     proc style_for_screen {} {
         set line [font metrics TkDefaultFont -linespace]
-        ttk::style configure Espdiff.Treeview -rowheight [expr {$line + 4}]
+        ttk::style configure Espdiff.Treeview -rowheight [expr {$line + 3}]
         if {$line < 22} return
         set size [expr {round(0.65 * $line)}]
         foreach style {TCombobox TSpinbox TScrollbar} { ttk::style configure $style -arrowsize $size }
