@@ -160,7 +160,15 @@ namespace eval ::espdiff::gui {
                     \u00c5\u00b2."
             }
         }
-        foreach warning [::espdiff::value_or $result warnings {}] { append text "\n\u2022 $warning" }
+        return $text[shown_warnings [::espdiff::value_or $result warnings {}]]
+    }
+
+    # So many that patches and series keep their place.
+    proc shown_warnings {warnings} {
+        set text ""
+        foreach warning [lrange $warnings 0 1] { append text "\n\u2022 $warning" }
+        set more [expr {[llength $warnings] - 2}]
+        if {$more > 0} { append text "\n\u2022 $more more under Table..." }
         return $text
     }
 

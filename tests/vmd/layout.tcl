@@ -58,6 +58,7 @@ test "each tab at five sizes, with short and long texts, settings open and close
 test "a message does not move the window" {
     wm geometry $window ""
     ::espdiff::gui::show_results
+    ::espdiff::gui::show_message ""
     settled "as it was"
     set before [wm geometry $window]
     foreach text {"short" "two lines of text, as the message of a mistake is that names the field, what was found there and what to do"} {
