@@ -25,7 +25,9 @@ void take_averaged_map(DictReader& reader, const std::string& volume, Endpoint& 
     recipe.net_charge += q;
     if (q != 0) ++recipe.n_charges;
   }
-  recipe.pme = make_potential_options(recipe.method, take_potential_settings(reader), PmeOptions().temperature_K).pme;
+  // As `potential` makes it: by default the smooth part.
+  recipe.pme =
+      make_potential_options(recipe.method, take_potential_settings(reader), PmeOptions().temperature_K, true).pme;
   reader.finish();
   std::optional<Grid> mean = take_volume(volume);
   if (!mean) throw InputError(what + ": no volume named '" + volume + "' is in memory");
