@@ -141,7 +141,7 @@ namespace eval ::espdiff {
             the difference of the groups (-color also source, target: means of the groups, and t), faded where it is
             not significant. Parts meet in smooth lines;
             parts without a counterpart are grey and hatched. View, top molecule and colour settings do not change. A
-            drawing is several graphics molecules of one name, which are shown, hidden and deleted together.} \
+            drawing is up to four graphics molecules, which are shown, hidden and deleted together.} \
         returns {the graphics molecules' ids} example {espdiff draw comparison1 -color difference -range {-5 5}}]
 
     command view [dict create arguments {input} settings none run ::espdiff::view options {
@@ -164,7 +164,7 @@ namespace eval ::espdiff {
         } \
         summary {Draws a comparison for print, as VMD shows it: VMD's camera, and the colours, range, fading and legend of the
             handle's drawing. It is drawn by espdiff's own renderer, which looks both maps up at every pixel, in a
-            parallel projection. (VMD's ray tracers draw the legend's letters in another size.)} \
+            parallel projection.} \
         returns {the file} example {espdiff figure comparison1 figure1.png -width 2400}]
 
     command undraw [dict create arguments {{?handle ...?}} options {} settings none run ::espdiff::undraw \
@@ -179,8 +179,8 @@ namespace eval ::espdiff {
             {-reference text {frame 0} "What each frame is compared with: {frame N}, previous (the frame before it in\
                 the run), an endpoint, or an endpoint with `frame same`: frame i with frame i of another trajectory,\
                 such as {mol 1 frame same}"}
-            {-map text auto "Potential of each frame; auto computes the usual one, none compares shapes alone; see\
-                Trajectories"}
+            {-map text auto "Potential of each frame; auto computes the usual one, none compares shapes alone,\
+                {pme average N} is the mean of PME over N frames around it; see Trajectories"}
             {-reference-map text {} "Potential of the reference; without it by the rule of -map for its frame, or\
                 computed as the frames' are"}
             {-unit text {} "Unit of the maps if they do not say: kT/e, mV, V, kcal/mol/e, kJ/mol/e, hartree/e"}

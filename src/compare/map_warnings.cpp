@@ -176,7 +176,7 @@ Kind kind_of(const std::shared_ptr<const MapRecipe>& recipe, const std::shared_p
 }
 
 bool is_water_of_a_frame(const std::shared_ptr<const MapRecipe>& recipe) {
-  return recipe && recipe->method == PotentialMethod::kPme && recipe->has_water;
+  return recipe && recipe->method == PotentialMethod::kPme && recipe->has_water && recipe->n_frames == 1;
 }
 
 }  // namespace
