@@ -1,6 +1,7 @@
 """Results as HTML, for notebooks: verdict, table, picture. Texts of files are escaped."""
 
 import html
+import os
 
 import numpy as np
 
@@ -62,7 +63,7 @@ def _picture(result):
 
 def comparison(result):
     record = result.to_dict()
-    names = {entry["role"]: entry["path"] for entry in record["inputs"]}
+    names = {entry["role"]: os.path.basename(entry["path"]) for entry in record["inputs"]}
     title = " &rarr; ".join(_escaped(names.get(f"{role}_file", names.get(role, role))) for role in ("source", "target"))
     warnings = "".join(f"<li>{_escaped(text)}</li>" for text in result.warnings)
     more = f"<details><summary>{len(result.warnings)} warnings</summary><ul>{warnings}</ul></details>" if warnings else ""

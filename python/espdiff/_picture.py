@@ -9,7 +9,6 @@ import numpy as np
 from ._core import automatic_limit, signed_colours
 
 _GREY = np.array([128, 128, 128])
-_SAMPLES = 4  # points along an edge of a triangle; a triangle is a few pixels wide
 
 
 def _rotated(positions, normals, side):
@@ -22,8 +21,9 @@ def _rotated(positions, normals, side):
 
 
 def _samples(corners):
-    """Weights of points spread over a triangle, (points, 3)."""
-    n = _SAMPLES
+    """Weights of points spread over a triangle, (points, 3), so that each pixel of most triangles has one."""
+    edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
+    n = int(np.clip(np.ceil(1.6 * np.percentile(edges, 98)), 2, 24))
     return np.array([(i, j, n - i - j) for i in range(n + 1) for j in range(n + 1 - i)], float) / n
 
 
@@ -34,11 +34,11 @@ def draw(positions, normals, triangles, colours, width, side=1):
     scale = (width - 8) / (high[0] - low[0])
     height = int(np.ceil((high[1] - low[1]) * scale)) + 8
     light = np.clip(0.45 + 0.55 * np.abs(facing[:, 2]), 0, 1)[:, None]
-    weights = _samples(None)
     depth = np.full(width * height, -np.inf)
     picture = np.full((width * height, 3), 255, np.uint8)
     lit = colours * light
     front = np.asarray(triangles)[facing[np.asarray(triangles)].mean(axis=1)[:, 2] > -0.3]
+    weights = _samples(at[front][:, :, :2] * scale)
     for chosen in np.array_split(front, max(1, len(front) // 20000)):
         points = np.einsum("pk,tkc->tpc", weights, at[chosen]).reshape(-1, 3)
         shades = np.einsum("pk,tkc->tpc", weights, lit[chosen]).reshape(-1, 3)

@@ -56,7 +56,7 @@ def table_of(columns):
     return pandas.DataFrame(columns)
 
 
-def frame_of(columns, **arguments):
+def frame_of(columns, /, **arguments):
     """A pandas.DataFrame, or an error that says how to get pandas."""
     try:
         import pandas

@@ -104,7 +104,7 @@ class Saved:
         label = next(row["label"] for row in _core.metrics() if row["name"] == name)
         unit = self.record["potential_unit"] if self.has_potential else "A"
         return (f"{verdict_of(self.record['certificate'])}: {label[0].lower()}{label[1:]} "
-                f"{self.metrics[name]:.3f} {unit}")
+                f"{self.metrics[name]:.4g} {unit}")
 
     trustworthy = property(lambda self: self.record["certificate"]["trustworthy"])
     has_potential = property(lambda self: self.record["potential_unit"] is not None)
@@ -120,7 +120,7 @@ class Saved:
             self._columns = _columns_of(self.files[".residues.csv"])
         return dict(self._columns)
 
-    def _point(self, name, width=None):
+    def _point(self, name):
         found = self.surface_arrays()["points"].get(name)
         return np.empty(0, np.float32) if found is None else found
 

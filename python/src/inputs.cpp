@@ -49,8 +49,11 @@ LoadedState load_arrays_for(const PotentialRequest& asked, const State& state, S
   request.may_prepare = !is_auto || !find_pdb2pqr().empty();
   try {
     return load_arrays(state, request, request.wants_charges, input, progress);
-  } catch (const UnchargedError& error) {
-    if (!is_auto) throw;
+  } catch (const InputError& error) {
+    if (!is_auto || !request.wants_charges) throw;
+    // Was it the preparation?
+    request.wants_charges = false;
+    load_arrays(state, request, false, input, progress);
     throw InputError(error.message() + "; " + option("potential", "none") + " compares shapes alone");
   }
 }

@@ -47,9 +47,11 @@ nb::list list_settings() {
   nb::list rows;
   const espdiff::CompareOptions defaults;
   const auto add = [&](const std::string& name, const std::string& group, const std::vector<std::string>& choices,
-                       const std::string& value, const std::string& help, const char* kind) {
+                       const std::string& value, const std::string& help, const char* kind,
+                       const std::string& key) {
     nb::dict row;
     row["name"] = name;
+    row["key"] = key;
     row["kind"] = kind;
     row["group"] = group;
     row["choices"] = choices;
@@ -59,10 +61,10 @@ nb::list list_settings() {
   };
   for (const espdiff::Setting& s : espdiff::settings()) {
     const char* const kind = s.is_named ? "named" : s.is_list ? "list" : word_of(s.kind);
-    add(s.name, s.group, s.choices, s.get(defaults), s.help, kind);
+    add(s.name, s.group, s.choices, s.get(defaults), s.help, kind, s.name == espdiff::kThesisSetting ? "" : s.key());
   }
   for (const espdiff::PotentialSetting& s : espdiff::potential_settings())
-    add(s.option, "Potentials", s.choices, "", s.help, word_of(s.kind));
+    add(s.option, "Potentials", s.choices, "", s.help, word_of(s.kind), "");
   return rows;
 }
 
@@ -74,6 +76,7 @@ nb::list list_metrics() {
     row["label"] = m.label;
     row["unit"] = espdiff::unit_of(m, "potential");
     row["help"] = m.help;
+    row["kind"] = m.unit == espdiff::MetricUnit::kCount ? "count" : "number";
     row["json"] = m.json_pointer();
     row["has_result"] = m.has_result();
     const espdiff::ShownUnit shown = espdiff::shown_unit(m, "potential");
@@ -148,7 +151,7 @@ NB_MODULE(_core, module) {
   espdiff::python::add_ensemble(module);
   espdiff::python::add_command_line(module);
   module.def("settings", &list_settings,
-             "Every option of compare() and its like: name, kind, group, choices, default, help.");
+             "Every option of compare() and its like: name, kind, its key in OUT.json, group, choices, default, help.");
   module.def("automatic_limit", &espdiff::automatic_limit, nb::arg("values"), nb::arg("percentile") = 90.0,
              "The end of a colour scale when none is given, as of all pictures.");
   module.def("signed_colours", &signed_colours, nb::arg("n"),

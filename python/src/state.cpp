@@ -149,12 +149,12 @@ StatePtr with_preparation(const State& state, const std::string& json) {
   return copy;
 }
 
-void save_pqr(const State& state, const std::string& path) {
+void save_pqr(const State& state, const std::filesystem::path& path) {
   if (state.molecule.charges.empty() || state.molecule.radii.empty())
     throw InputError(state.molecule.name + ": a PQR file has charges and radii, and the state lacks them; "
                                            "espdiff.prepare(state) adds them");
   const nb::gil_scoped_release unlocked;
-  AtomicFile file(path);
+  AtomicFile file(path.string());
   write_pqr(file.stream(), state.molecule);
   file.commit();
 }
