@@ -34,7 +34,7 @@ bool draws_maps(const Scene& scene) {
 /// Whether two scenes contain the same objects, apart from their look.
 bool same_things(const Scene& a, const Scene& b) {
   return a.layout == b.layout && a.n_views == b.n_views && a.width == b.width && a.height == b.height &&
-         a.surface == b.surface && a.molecule == b.molecule && a.around_A == b.around_A && a.n_labels == b.n_labels &&
+         a.surface == b.surface && a.molecule == b.molecule && a.around_A == b.around_A && a.n_labels == b.n_labels && a.focus == b.focus &&
          a.isopotentials == b.isopotentials && a.offsets_A == b.offsets_A && a.n_field_lines == b.n_field_lines &&
          a.slice == b.slice && a.legend == b.legend && a.title.empty() == b.title.empty() && a.colours == b.colours;
 }
@@ -44,7 +44,7 @@ bool same_things(const Scene& a, const Scene& b) {
 ComparisonScene::ComparisonScene(const ComparisonFiles& files, Scene scene)
     : files_(files),
       scene_(std::move(scene)),
-      geometry_(files.surface, files.record, files.maps),
+      geometry_(files.surface, files.record, files.maps, outlined_residues(files.record, scene_)),
       source_texture_(std::make_shared<MapTexture>(files.maps.source)),
       target_texture_(std::make_shared<MapTexture>(files.maps.target)),
       no_texture_(std::make_shared<MapTexture>(nullptr)) {
@@ -127,6 +127,8 @@ SurfaceLook ComparisonScene::look_of(const Panel& panel, const Sheet& sheet) con
   look.fades = sheet.fades;
   look.morph = sheet.morph;
   look.hatch_pixels = 7 * scale_factor_;
+  look.cuts = geometry_.has(SurfacePart::kUnmatched);
+  look.outlines = !outlined_residues(files_.record, scene_).empty();
   look.splits = sheet.from > 0 || sheet.to < 1;
   look.first_column = width * (panel.left + sheet.from * (panel.right - panel.left));
   look.last_column = width * (panel.left + sheet.to * (panel.right - panel.left));
@@ -161,8 +163,6 @@ void ComparisonScene::update_looks() {
     drawn.mapper->set_look(look);
     drawn.mapper->set_maps(per_fragment() ? source_texture_ : no_texture_,
                            per_fragment() ? target_texture_ : no_texture_);
-    // Unmatched parts exist on the source only.
-    drawn.actor->SetVisibility(drawn.part != SurfacePart::kUnmatched || look.morph == 0);
     if (look.fades || look.opacity.greatest < 1 || drawn.part == SurfacePart::kCorrupt)
       drawn.actor->ForceTranslucentOn();
     else
@@ -179,16 +179,42 @@ void ComparisonScene::add_molecule(const Panel& panel) {
   const auto& molecule = panel.is_source() ? files_.source_molecule : files_.target_molecule;
   const auto& surroundings = panel.is_source() ? files_.source_surroundings : files_.target_surroundings;
   if (molecule) add(*molecule, polymer_residues(*molecule), scene_.molecule);
+  if (molecule && !scene_.focus.empty() && scene_.molecule != MoleculeStyle::kSticks)
+    add(*molecule, focused_side_chains(*molecule, panel.is_source()), MoleculeStyle::kSticks);
   if (scene_.around_A > 0 && surroundings)
     add(*surroundings, residues_around(*surroundings, scene_.around_A), MoleculeStyle::kSticks);
+}
+
+std::vector<bool> ComparisonScene::focused_side_chains(const Molecule& molecule, bool is_source) const {
+  const std::vector<int> focused = focused_residues(files_.record, scene_);
+  std::vector<bool> kept(molecule.residues.size(), false);
+  if (is_source) {
+    for (const int residue : focused) kept.at(static_cast<std::size_t>(residue)) = true;
+    return kept;
+  }
+  // The target's residues that lie where the source's do: the superposed source's nearest within 3 A of an atom.
+  constexpr double kNear_A = 3;
+  const Molecule& source = *files_.source_molecule;
+  std::vector<bool> of_source(source.residues.size(), false);
+  for (const int residue : focused) of_source.at(static_cast<std::size_t>(residue)) = true;
+  for (std::size_t a = 0; a < molecule.size(); ++a) {
+    if (molecule.atoms[a].name != "CA" && molecule.atoms[a].name != "C1'") continue;
+    for (std::size_t b = 0; b < source.size(); ++b) {
+      if (of_source[static_cast<std::size_t>(source.atoms[b].residue)] && source.atoms[b].name == molecule.atoms[a].name &&
+          norm(source.positions[b] - molecule.positions[a]) < kNear_A)
+        kept[static_cast<std::size_t>(molecule.atoms[a].residue)] = true;
+    }
+  }
+  return kept;
 }
 
 void ComparisonScene::add_labels(const Panel& panel) {
   if (scene_.n_labels == 0 || !files_.source_molecule) return;
   for (const ResidueMark& mark : most_different_residues(files_.surface, scene_.n_labels)) {
     const std::string text = residue_name(*files_.source_molecule, mark.residue);
-    for (const auto& prop : make_label(mark, text, scene_.height * scale_factor_ / 60))
-      panel.renderer->AddViewProp(prop);
+    const auto props = make_label(mark, text, scene_.height * scale_factor_ / 60);
+    for (const auto& prop : props) panel.renderer->AddViewProp(prop);
+    labels_.push_back({mark, panel.renderer, props});
   }
 }
 
@@ -212,8 +238,18 @@ void ComparisonScene::add_map_drawings(const Panel& panel) {
   }
 }
 
+void ComparisonScene::place_labels() {
+  for (const PlacedLabel& label : labels_) {
+    const Vec3d toward = camera_of(label.renderer).toward_viewer;
+    const bool is_seen = !is_hidden(files_.surface.triangles, geometry_.cover().positions, label.mark, toward);
+    for (const auto& prop : label.props) prop->SetVisibility(is_seen);
+    lift_label(label.props, label.mark, label.renderer);
+  }
+}
+
 void ComparisonScene::fill_panels() {
   parts_.clear();
+  labels_.clear();
   make_offsets();
   for (std::size_t p = 0; p < panels_.size(); ++p) {
     Panel& panel = panels_[p];
@@ -258,7 +294,33 @@ void ComparisonScene::aim_camera() {
   // The outermost surface must fit too, and the labels beside it.
   double beside_A = scene_.n_labels > 0 ? 6 : 0;
   for (const double offset : scene_.offsets_A) beside_A = std::max(beside_A, offset);
+  if (!scene_.camera && scene_.focus.empty()) {
+    const double all = height_that_fits(camera_, geometry_.cover().positions, aspect) / scene_.zoom;
+    camera_.half_height_A = std::max(camera_.half_height_A, all);
+  }
+  if (!scene_.camera && !scene_.focus.empty()) aim_at_focus(aspect);
   if (!scene_.camera) camera_.half_height_A += beside_A * std::max(1.0, aspect) / scene_.zoom;
+}
+
+void ComparisonScene::aim_at_focus(double aspect) {
+  const std::vector<float> share = share_of_residues(files_.surface, focused_residues(files_.record, scene_));
+  std::vector<Vec3d> places;
+  Vec3d centre{}, outward{};
+  for (std::size_t v = 0; v < share.size(); ++v) {
+    if (share[v] < 0.5F) continue;
+    places.push_back(geometry_.cover().positions[v]);
+    centre += places.back();
+    outward += static_cast<Vec3d>(geometry_.cover().normals[v]);
+  }
+  if (places.empty()) throw InputError(option("focus", scene_.focus) + " has no surface to look at");
+  camera_.centre = (1.0 / static_cast<double>(places.size())) * centre;
+  const double length = norm(outward);
+  if (length > 1e-6) camera_.toward_viewer = (1 / length) * outward;
+  const Vec3d up = camera_.up - dot(camera_.up, camera_.toward_viewer) * camera_.toward_viewer;
+  const Vec3d across = norm(up) > 0.1 ? up : cross(camera_.toward_viewer, Vec3d{1, 0.3, 0.2});
+  camera_.up = (1 / norm(across)) * across;
+  constexpr double kMargin = 1.25;
+  camera_.half_height_A = kMargin * height_that_fits(camera_, places, aspect) / scene_.zoom;
 }
 
 void ComparisonScene::add_to(vtkRenderWindow* window, double scale_factor) {
@@ -289,6 +351,7 @@ void ComparisonScene::write_legend() {
 }
 
 void ComparisonScene::camera_moved() {
+  place_labels();
   gauges_->RemoveAllViewProps();
   add_scene_gauges(gauges_, *this, scale_factor_);
 }

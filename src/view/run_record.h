@@ -1,6 +1,7 @@
 // run_record.h: the inputs of a comparison from OUT.json, as far as pictures need them.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,10 @@ struct RunRecord {
   double temperature_K = 300;
   bool trustworthy = true;
   std::vector<std::string> reasons;  ///< why it is not
+  std::string verdict;               ///< in words: the certificate's own, or TRUSTWORTHY, NOT TRUSTWORTHY
+  /// The region and the fixed patches by name, with their residues of the source; the region is "region".
+  std::map<std::string, std::vector<int>> parts;
+  std::string source_name, target_name;  ///< the structures' files without folders, as they were given
   std::string method;
 };
 

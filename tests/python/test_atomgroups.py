@@ -115,7 +115,7 @@ def test_prepare(pair, tmp_path):
     assert copy.preparation == made.preparation and copy.sha256 == made.sha256
     charged = espdiff.prepare(tmp_path / "wild.pqr")
     assert charged.preparation is None and np.array_equal(charged.charges, made.charges)
-    assert len(espdiff.prepare(pair[0], select="//A/1-10")) < len(made)
+    assert len(espdiff.prepare(tmp_path / "wild.pqr", select="//A/1-10")) < len(made)
     with pytest.raises(espdiff.InputError, match="the state lacks them; espdiff.prepare"):
         espdiff.state(mda.Universe(str(pair[0]))).save(tmp_path / "none.pqr")
 
