@@ -22,6 +22,8 @@ in float slipFS;
 in float uncertaintyFS;
 flat in float residueIndexFS;
 in vec2 bordersFS;
+in vec3 startFS;                // on the source, and where it is drawn
+in vec3 placeFS;
 
 uniform sampler3D sourceMap;
 uniform sampler3D targetMap;
@@ -82,6 +84,14 @@ bool onLine(float share, float pixels)
   return abs(share - 0.5) < 0.5 * pixels * fwidth(share);
 }
 
+/// Whether an unmatched triangle is drawn much larger than it is on the source: it spans a tear, where no surface is.
+bool spansTear()
+{
+  float drawn = length(cross(dFdx(placeFS), dFdy(placeFS)));
+  float source = length(cross(dFdx(startFS), dFdy(startFS)));
+  return drawn > 3.0 * source;  // areas
+}
+
 void main()
 {
   //VTK::Depth::Impl
@@ -90,7 +100,7 @@ void main()
   bool atBorder = cuts && part != 1 && onLine(bordersFS.x, 0.2 * hatchPitch);
   bool atOutline = outlines && onLine(bordersFS.y, 0.4 * hatchPitch);
   if (cuts && part == 0 && bordersFS.x < 0.5) discard;
-  if (cuts && part == 2 && bordersFS.x >= 0.5) discard;
+  if (cuts && part == 2 && (bordersFS.x >= 0.5 || spansTear())) discard;
   vec3 colour = part == 1 ? noValueColour : part == 2 ? (onStripe() ? noValueColour : vec3(0.93)) : surfaceColour();
   if (atBorder) colour = vec3(0.25);
   if (atOutline) colour = vec3(0.05);

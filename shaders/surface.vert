@@ -27,6 +27,8 @@ out float slipFS;
 out float uncertaintyFS;
 flat out float residueIndexFS;
 out vec2 bordersFS;
+out vec3 startFS;
+out vec3 placeFS;
 
 void main()
 {
@@ -42,4 +44,6 @@ void main()
   uncertaintyFS = uncertainty;
   residueIndexFS = residueIndex;
   bordersFS = borders;
+  startFS = startMC;
+  placeFS = placeMC.xyz;
 }

@@ -145,7 +145,7 @@ void add_head(Legend& legend, const ComparisonScene& scene, const Paper& paper) 
   const RunRecord& record = scene.record();
   if (!record.found) return;
   const double y = paper.height * (1 - kHeadShare / 2), letter = 0.52 * paper.text_height;
-  const std::string names = record.source_name + " â " + record.target_name;
+  const std::string names = record.source_name + " to " + record.target_name;
   const std::string full = "TRUSTWORTHY";
   if (record.verdict == full) {
     legend.text(0.015 * paper.width, y, shortened(names, 0.7 * paper.width / letter), Align::kLeft);

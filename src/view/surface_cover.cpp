@@ -11,7 +11,7 @@ namespace espdiff {
 namespace {
 
 constexpr int kSpreadRounds = 400;  // over parts of some 20 triangles across
-constexpr int kBorderRounds = 4;
+constexpr int kBorderRounds = 4, kOutlineRounds = 12;
 
 /// Gauss-Seidel: each free vertex becomes the mean of its neighbours.
 void spread(const std::vector<Triangle>& triangles, const std::vector<bool>& is_free, std::vector<Vec3d>& values) {
@@ -68,11 +68,15 @@ std::vector<bool> unmatched_vertices(const SurfaceFile& surface) {
 SurfaceCover cover_of(const SurfaceFile& surface, const std::vector<Vec3f>& start) {
   SurfaceCover cover{surface.positions, surface.normals, std::vector<float>(surface.positions.size(), 1)};
   const std::vector<bool> is_free = unmatched_vertices(surface);
-  if (std::none_of(is_free.begin(), is_free.end(), [](bool f) { return f; })) return cover;
+  if (surface.unmatched.empty()) return cover;
   std::vector<Vec3d> displacements(surface.positions.size());
   for (std::size_t v = 0; v < displacements.size(); ++v) {
     if (!is_free[v]) displacements[v] = surface.positions[v] - static_cast<Vec3d>(start[v]);
-    if (is_free[v]) cover.matched[v] = 0;
+  }
+  // All corners of unmatched triangles, so that the border lies in matched ones, and no colour beyond it.
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    if (surface.is_matched(t)) continue;
+    for (const std::uint32_t corner : surface.triangles[t]) cover.matched[corner] = 0;
   }
   spread(surface.triangles, is_free, displacements);
   for (std::size_t v = 0; v < displacements.size(); ++v) {
@@ -112,7 +116,7 @@ std::vector<float> share_of_residues(const SurfaceFile& surface, const std::vect
   share.reserve(surface.residue_index.size());
   for (const float residue : surface.residue_index)
     share.push_back(chosen.count(static_cast<int>(residue)) > 0 ? 1.0F : 0.0F);
-  return smoothed_over_neighbours(surface.triangles, std::move(share), kBorderRounds);
+  return smoothed_over_neighbours(surface.triangles, std::move(share), kOutlineRounds);
 }
 
 }  // namespace espdiff
