@@ -136,7 +136,8 @@ nb::object copy_of(const VtpArray& array) {
   const auto copied = [&](auto zero) {
     using T = decltype(zero);
     const auto* const first = static_cast<const T*>(array.values);
-    auto* const values = new std::vector<T>(first, first + array.n_tuples * static_cast<std::size_t>(array.n_components));
+    auto* const values =
+        new std::vector<T>(first, first + array.n_tuples * static_cast<std::size_t>(array.n_components));
     const nb::capsule owner(values, [](void* kept) noexcept { delete static_cast<std::vector<T>*>(kept); });
     const std::size_t shape[2] = {array.n_tuples, static_cast<std::size_t>(array.n_components)};
     return nb::cast(nb::ndarray<nb::numpy, T>(values->data(), array.n_components == 1 ? 1 : 2, shape, owner));

@@ -21,7 +21,8 @@ bool is_of_potential(const std::string& name) {
   return std::any_of(all.begin(), all.end(), [&](const PotentialSetting& s) { return s.option == name; });
 }
 
-/// A state of arrays, selected and charged as a structure file is. Where charges are made, water is dropped, as of files.
+/// A state of arrays, selected and charged as a structure file is. Where charges are made, water is dropped, as of
+/// files.
 LoadedState load_arrays(const State& state, const StateRequest& request, bool drops_water, const InputOptions& input,
                         const Progress& progress) {
   for (const auto& [name, text] : {std::pair("assembly", &input.assembly),

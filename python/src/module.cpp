@@ -47,8 +47,7 @@ nb::list list_settings() {
   nb::list rows;
   const espdiff::CompareOptions defaults;
   const auto add = [&](const std::string& name, const std::string& group, const std::vector<std::string>& choices,
-                       const std::string& value, const std::string& help, const char* kind,
-                       const std::string& key) {
+                       const std::string& value, const std::string& help, const char* kind, const std::string& key) {
     nb::dict row;
     row["name"] = name;
     row["key"] = key;
@@ -157,7 +156,8 @@ NB_MODULE(_core, module) {
   module.def("signed_colours", &signed_colours, nb::arg("n"),
              "n colours (red, green, blue; 0 to 255) from the lowest value to the highest, as pictures have them.");
   module.def(
-      "report_page", [](const std::string& prefix, const std::string& title) {
+      "report_page",
+      [](const std::string& prefix, const std::string& title) {
         const nb::gil_scoped_release unlocked;
         return espdiff::report_page(prefix, title);
       },

@@ -151,8 +151,9 @@ StatePtr with_preparation(const State& state, const std::string& json) {
 
 void save_pqr(const State& state, const std::filesystem::path& path) {
   if (state.molecule.charges.empty() || state.molecule.radii.empty())
-    throw InputError(state.molecule.name + ": a PQR file has charges and radii, and the state lacks them; "
-                                           "espdiff.prepare(state) adds them");
+    throw InputError(state.molecule.name +
+                     ": a PQR file has charges and radii, and the state lacks them; "
+                     "espdiff.prepare(state) adds them");
   const nb::gil_scoped_release unlocked;
   AtomicFile file(path.string());
   write_pqr(file.stream(), state.molecule);

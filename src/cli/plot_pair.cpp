@@ -10,9 +10,7 @@
 
 namespace espdiff::cli {
 
-bool is_pair_table(const CsvTable& table) {
-  return table.find("residue_number") == 1 && table.find("area [A^2]") > 0;
-}
+bool is_pair_table(const CsvTable& table) { return table.find("residue_number") == 1 && table.find("area [A^2]") > 0; }
 
 StatePlot state_plot(const CsvTable& table, bool bars, std::size_t top, const std::string& title) {
   StatePlot plot;
@@ -44,8 +42,9 @@ StatePlot state_plot(const CsvTable& table, bool bars, std::size_t top, const st
     });
     plot.bars.resize(top);
   }
-  plot.title = !title.empty() ? title : bars ? "Bars: target - source, mean of each residue"
-                                              : "Mean potential of each residue";
+  plot.title = !title.empty() ? title
+               : bars         ? "Bars: target - source, mean of each residue"
+                              : "Mean potential of each residue";
   return plot;
 }
 

@@ -85,7 +85,8 @@ std::string state_scatter_script(const StatePlot& plot, PictureFormat format) {
     out << "set label " << gnuplot_string(bar.label) << " at " << gnuplot_number(bar.source) << ','
         << gnuplot_number(bar.target) << " offset 0.6,0.3 noenhanced\n";
   }
-  out << "plot x with lines linecolor rgb '#999999', '-' using 1:2:3 with points pointtype 7 pointsize 0.7 linecolor rgb "
+  out << "plot x with lines linecolor rgb '#999999', '-' using 1:2:3 with points pointtype 7 pointsize 0.7 linecolor "
+         "rgb "
          "variable\n";
   for (const StateBar& bar : plot.bars) {
     out << gnuplot_number(bar.source) << ' ' << gnuplot_number(bar.target) << ' '

@@ -176,8 +176,9 @@ LoadedState load_state(const StructureFile& file, const StateRequest& request, c
 void select_and_charge(LoadedState& state, const StateRequest& request, const InputOptions& options,
                        const Progress& progress) {
   const std::string select = option_of_side(request.role, options, &SideInput::select);
-  const char* const select_option =
-      select == options.both.select ? "select" : request.role == StateRole::kTarget ? "target-select" : "source-select";
+  const char* const select_option = select == options.both.select        ? "select"
+                                    : request.role == StateRole::kTarget ? "target-select"
+                                                                         : "source-select";
   state.whole = state.molecule;
   std::vector<bool> not_dropped(state.whole.size(), true), selected;
   if (!options.leave_out.empty()) {

@@ -75,9 +75,9 @@ void add_text_lines(const MappedFile& file, const ResultRecord& record, Lines& l
   lines.cover("version");
   lines.cover("format");
   lines.cover("format_version");
-  lines.add_deviation("format, other than this version's",
-                      record.text("format") == kComparisonFormat && record.number("format_version") == kFormatVersion ? 0 : 1,
-                      0);
+  lines.add_deviation(
+      "format, other than this version's",
+      record.text("format") == kComparisonFormat && record.number("format_version") == kFormatVersion ? 0 : 1, 0);
   lines.add_deviation("version, against OUT.vtp", text("written_by") == "espdiff " + record.text("version") ? 0 : 1, 0);
   lines.cover("OUT.vtp/potential_unit");
   lines.cover("OUT.vtp/potential");

@@ -34,9 +34,10 @@ bool draws_maps(const Scene& scene) {
 /// Whether two scenes contain the same objects, apart from their look.
 bool same_things(const Scene& a, const Scene& b) {
   return a.layout == b.layout && a.n_views == b.n_views && a.width == b.width && a.height == b.height &&
-         a.surface == b.surface && a.molecule == b.molecule && a.around_A == b.around_A && a.n_labels == b.n_labels && a.focus == b.focus &&
-         a.isopotentials == b.isopotentials && a.offsets_A == b.offsets_A && a.n_field_lines == b.n_field_lines &&
-         a.slice == b.slice && a.legend == b.legend && a.title.empty() == b.title.empty() && a.colours == b.colours;
+         a.surface == b.surface && a.molecule == b.molecule && a.around_A == b.around_A && a.n_labels == b.n_labels &&
+         a.focus == b.focus && a.isopotentials == b.isopotentials && a.offsets_A == b.offsets_A &&
+         a.n_field_lines == b.n_field_lines && a.slice == b.slice && a.legend == b.legend &&
+         a.title.empty() == b.title.empty() && a.colours == b.colours;
 }
 
 }  // namespace
@@ -185,29 +186,6 @@ void ComparisonScene::add_molecule(const Panel& panel) {
     add(*surroundings, residues_around(*surroundings, scene_.around_A), MoleculeStyle::kSticks);
 }
 
-std::vector<bool> ComparisonScene::focused_side_chains(const Molecule& molecule, bool is_source) const {
-  const std::vector<int> focused = focused_residues(files_.record, scene_);
-  std::vector<bool> kept(molecule.residues.size(), false);
-  if (is_source) {
-    for (const int residue : focused) kept.at(static_cast<std::size_t>(residue)) = true;
-    return kept;
-  }
-  // The target's residues that lie where the source's do: the superposed source's nearest within 3 A of an atom.
-  constexpr double kNear_A = 3;
-  const Molecule& source = *files_.source_molecule;
-  std::vector<bool> of_source(source.residues.size(), false);
-  for (const int residue : focused) of_source.at(static_cast<std::size_t>(residue)) = true;
-  for (std::size_t a = 0; a < molecule.size(); ++a) {
-    if (molecule.atoms[a].name != "CA" && molecule.atoms[a].name != "C1'") continue;
-    for (std::size_t b = 0; b < source.size(); ++b) {
-      if (of_source[static_cast<std::size_t>(source.atoms[b].residue)] && source.atoms[b].name == molecule.atoms[a].name &&
-          norm(source.positions[b] - molecule.positions[a]) < kNear_A)
-        kept[static_cast<std::size_t>(molecule.atoms[a].residue)] = true;
-    }
-  }
-  return kept;
-}
-
 void ComparisonScene::add_labels(const Panel& panel) {
   if (scene_.n_labels == 0 || !files_.source_molecule) return;
   for (const ResidueMark& mark : most_different_residues(files_.surface, scene_.n_labels)) {
@@ -235,15 +213,6 @@ void ComparisonScene::add_map_drawings(const Panel& panel) {
     double radius = 0;
     for (const Vec3d& p : shown_positions_) radius = std::max(radius, norm(p - camera_.centre));
     add(make_slice(map, camera_, 1.15 * radius, *scene_.slice, *map_scale_));
-  }
-}
-
-void ComparisonScene::place_labels() {
-  for (const PlacedLabel& label : labels_) {
-    const Vec3d toward = camera_of(label.renderer).toward_viewer;
-    const bool is_seen = !is_hidden(files_.surface.triangles, geometry_.cover().positions, label.mark, toward);
-    for (const auto& prop : label.props) prop->SetVisibility(is_seen);
-    lift_label(label.props, label.mark, label.renderer);
   }
 }
 
@@ -300,27 +269,6 @@ void ComparisonScene::aim_camera() {
   }
   if (!scene_.camera && !scene_.focus.empty()) aim_at_focus(aspect);
   if (!scene_.camera) camera_.half_height_A += beside_A * std::max(1.0, aspect) / scene_.zoom;
-}
-
-void ComparisonScene::aim_at_focus(double aspect) {
-  const std::vector<float> share = share_of_residues(files_.surface, focused_residues(files_.record, scene_));
-  std::vector<Vec3d> places;
-  Vec3d centre{}, outward{};
-  for (std::size_t v = 0; v < share.size(); ++v) {
-    if (share[v] < 0.5F) continue;
-    places.push_back(geometry_.cover().positions[v]);
-    centre += places.back();
-    outward += static_cast<Vec3d>(geometry_.cover().normals[v]);
-  }
-  if (places.empty()) throw InputError(option("focus", scene_.focus) + " has no surface to look at");
-  camera_.centre = (1.0 / static_cast<double>(places.size())) * centre;
-  const double length = norm(outward);
-  if (length > 1e-6) camera_.toward_viewer = (1 / length) * outward;
-  const Vec3d up = camera_.up - dot(camera_.up, camera_.toward_viewer) * camera_.toward_viewer;
-  const Vec3d across = norm(up) > 0.1 ? up : cross(camera_.toward_viewer, Vec3d{1, 0.3, 0.2});
-  camera_.up = (1 / norm(across)) * across;
-  constexpr double kMargin = 1.25;
-  camera_.half_height_A = kMargin * height_that_fits(camera_, places, aspect) / scene_.zoom;
 }
 
 void ComparisonScene::add_to(vtkRenderWindow* window, double scale_factor) {

@@ -36,8 +36,8 @@ std::vector<vtkSmartPointer<vtkProp>> make_label(const ResidueMark& mark, const 
 bool is_hidden(const std::vector<Triangle>& triangles, const std::vector<Vec3d>& positions, const ResidueMark& mark,
                Vec3d toward_viewer);
 
-/// Moves the text of make_label() to the front of a renderer's view, where no surface cuts it. In parallel projection it
-/// stays where it is in the picture.
+/// Moves the text of make_label() to the front of a renderer's view, where no surface cuts it. In parallel projection
+/// it stays where it is in the picture.
 void lift_label(const std::vector<vtkSmartPointer<vtkProp>>& label, const ResidueMark& mark, vtkRenderer* renderer);
 
 }  // namespace espdiff

@@ -173,7 +173,8 @@ void add_scene_legend(vtkRenderer* renderer, const ComparisonScene& scene, doubl
   const Paper paper = paper_of(scene, scale_factor);
   Legend legend(renderer, paper.text_height);
   if (!scene.scene().title.empty()) {
-    legend.text(paper.width / 2, paper.height * (1 - kHeadShare - kTitleShare / 2), scene.scene().title, Align::kCentre, 1.5);
+    legend.text(paper.width / 2, paper.height * (1 - kHeadShare - kTitleShare / 2), scene.scene().title, Align::kCentre,
+                1.5);
   }
   add_head(legend, scene, paper);
   add_names(legend, scene, paper);

@@ -12,8 +12,8 @@ namespace espdiff {
 struct SurfaceCover {
   std::vector<Vec3d> positions;  ///< [vertex] mapped; of vertices without a matched triangle, see cover_of()
   std::vector<Vec3f> normals;    ///< [vertex] unit, outward, at these positions
-  /// [vertex] 1 in matched parts, 0 in unmatched ones, smooth between. The border at 0.5 lies in matched triangles, about
-  /// half a triangle from the unmatched ones.
+  /// [vertex] 1 in matched parts, 0 in unmatched ones, smooth between. The border at 0.5 lies in matched triangles,
+  /// about half a triangle from the unmatched ones.
   std::vector<float> matched;
 };
 

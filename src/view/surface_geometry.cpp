@@ -179,7 +179,7 @@ SurfaceGeometry::SurfaceGeometry(const SurfaceFile& surface, const RunRecord& re
   add_numbers(points_, "uncertainty",
               surface.p_family_wise.empty()
                   ? filled_at_border(surface, drawn_uncertainty(surface.triangles, surface.uncertainty()))
-                                            : surface.p_family_wise,
+                  : surface.p_family_wise,
               -1);
   add_numbers(points_, "residueIndex", surface.residue_index, -1);
   add_borders(points_, cover_.matched, share_of_residues(surface, outlined));

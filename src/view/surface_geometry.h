@@ -32,8 +32,8 @@ StartSurface superposed_start(const SurfaceFile& surface, const RunRecord& recor
 std::unique_ptr<SurfaceFile> moved_outward(const SurfaceFile& surface, const StartSurface& start,
                                            const RigidTransform& source_to_target, double offset_A);
 
-/// The triangles of one part with the point arrays of kSurfaceAttributes. Triangles on the smooth border of an unmatched
-/// part are in both parts, and the shaders draw each half once. Parts with the same `points` share their
+/// The triangles of one part with the point arrays of kSurfaceAttributes. Triangles on the smooth border of an
+/// unmatched part are in both parts, and the shaders draw each half once. Parts with the same `points` share their
 /// memory, on the host and on the GPU.
 class SurfaceGeometry {
  public:
