@@ -75,6 +75,16 @@ void read_parts(const Json& json, std::map<std::string, std::vector<int>>& parts
   for (const auto& [name, part] : json.at("fixed_patches").items()) add("patch " + name, part);
 }
 
+void read_names(const Json& json, RunRecord& record) {
+  for (const Json& input : json.at("inputs")) {
+    const std::string role = input.at("role");
+    std::string* const name = role.rfind("source", 0) == 0 ? &record.source_name : &record.target_name;
+    if (role != "source" && role != "target" && role != "source_file" && role != "target_file") continue;
+    // Of a state that is kept beside the result, the file that it was made of.
+    if (name->empty() || role.size() > 6) *name = fs::path(input.at("path").get<std::string>()).filename().string();
+  }
+}
+
 }  // namespace
 
 RunRecord read_run_record(const std::string& vtp_path) {
@@ -101,8 +111,11 @@ RunRecord read_run_record(const std::string& vtp_path) {
     if (json.contains("potential") && json.at("potential").is_object())
       record.potential = json.at("potential").at("label");
     record.trustworthy = json.at("certificate").at("trustworthy");
-    json.at("certificate").at("reasons").get_to(record.reasons);
+    const Json& certificate = json.at("certificate");
+    certificate.at("reasons").get_to(record.reasons);
+    record.verdict = certificate.value("verdict", record.trustworthy ? "TRUSTWORTHY" : "NOT TRUSTWORTHY");
     read_parts(json, record.parts);
+    read_names(json, record);
   } catch (const Json::exception& error) {
     throw no_record(record.path, detail_of(error));
   } catch (const std::out_of_range&) {

@@ -19,7 +19,8 @@ bool reads_maps(const Scene& scene) {
 }
 
 bool draws_molecules(const Scene& scene) {
-  return scene.molecule != MoleculeStyle::kNone || scene.around_A > 0 || scene.n_labels > 0 || !scene.causes.empty();
+  return scene.molecule != MoleculeStyle::kNone || scene.around_A > 0 || scene.n_labels > 0 || !scene.causes.empty() ||
+         !scene.focus.empty();
 }
 
 Molecule read_molecule(const RunRecord& record, const RecordedInput& input, bool with_water) {
@@ -102,6 +103,28 @@ ReadingCauses read_causes(const std::string& path, const std::string& reading) {
 
 }  // namespace
 
+std::vector<int> focused_residues(const RunRecord& record, const Scene& scene) {
+  if (scene.focus.empty()) return {};
+  const std::string patch = "patch ";
+  for (const std::string& name : {scene.focus, patch + scene.focus}) {
+    const auto found = record.parts.find(name);
+    if (found != record.parts.end() && !found->second.empty()) return found->second;
+  }
+  std::string names;
+  for (const auto& [part, residues] : record.parts) {
+    const std::string name = part.rfind(patch, 0) == 0 ? part.substr(patch.size()) : part;
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  throw InputError(option("focus", scene.focus) + " is no part of the result, which has " +
+                   (names.empty() ? "none; compare with " + option("region", "SELECTION") : names));
+}
+
+std::vector<int> outlined_residues(const RunRecord& record, const Scene& scene) {
+  if (!scene.focus.empty()) return focused_residues(record, scene);
+  const auto found = record.parts.find("region");
+  return found == record.parts.end() ? std::vector<int>() : found->second;
+}
+
 std::vector<std::string> files_of(const ComparisonFiles& files) {
   const RunRecord& r = files.record;
   return {files.surface.path,
@@ -151,6 +174,7 @@ void read_missing_files(ComparisonFiles& files, const Scene& scene) {
   if (reads_maps(scene) && !files.maps.complete()) {
     throw InputError("isopotential and offset surfaces, field lines and slices need the maps: " + files.maps.why_not);
   }
+  focused_residues(files.record, scene);
   if (draws_molecules(scene)) read_molecules(files, scene);
   if (scene.causes.empty()) {
     files.causes.reset();

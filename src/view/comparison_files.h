@@ -39,6 +39,12 @@ ComparisonFiles read_comparison(const std::string& vtp_path, const Scene& scene)
 /// @throws as read_comparison()
 void read_missing_files(ComparisonFiles& files, const Scene& scene);
 
+/// Residues of the source in the part that a scene looks at; none without one.
+/// @throws InputError listing the parts of the result
+std::vector<int> focused_residues(const RunRecord& record, const Scene& scene);
+/// Those whose border is drawn: of the focus, otherwise of the region.
+std::vector<int> outlined_residues(const RunRecord& record, const Scene& scene);
+
 /// Every file that a comparison is read from; pictures must not replace them.
 std::vector<std::string> files_of(const ComparisonFiles& files);
 

@@ -36,7 +36,7 @@ bool draws_maps(const Scene& scene) {
 bool same_things(const Scene& a, const Scene& b) {
   return a.layout == b.layout && a.n_views == b.n_views && a.width == b.width && a.height == b.height &&
          a.surface == b.surface && a.molecule == b.molecule && a.around_A == b.around_A && a.n_labels == b.n_labels &&
-         a.causes == b.causes && a.isopotentials == b.isopotentials && a.offsets_A == b.offsets_A &&
+         a.causes == b.causes && a.focus == b.focus && a.isopotentials == b.isopotentials && a.offsets_A == b.offsets_A &&
          a.n_field_lines == b.n_field_lines && a.slice == b.slice && a.legend == b.legend &&
          a.title.empty() == b.title.empty() && a.colours == b.colours;
 }
@@ -46,7 +46,7 @@ bool same_things(const Scene& a, const Scene& b) {
 ComparisonScene::ComparisonScene(const ComparisonFiles& files, Scene scene)
     : files_(files),
       scene_(std::move(scene)),
-      geometry_(files.surface, files.record, files.maps),
+      geometry_(files.surface, files.record, files.maps, outlined_residues(files.record, scene_)),
       source_texture_(std::make_shared<MapTexture>(files.maps.source)),
       target_texture_(std::make_shared<MapTexture>(files.maps.target)),
       no_texture_(std::make_shared<MapTexture>(nullptr)) {
@@ -132,6 +132,8 @@ SurfaceLook ComparisonScene::look_of(const Panel& panel, const Sheet& sheet) con
   look.fades = sheet.fades;
   look.morph = sheet.morph;
   look.hatch_pixels = 7 * scale_factor_;
+  look.cuts = geometry_.has(SurfacePart::kUnmatched);
+  look.outlines = !outlined_residues(files_.record, scene_).empty();
   look.splits = sheet.from > 0 || sheet.to < 1;
   look.first_column = width * (panel.left + sheet.from * (panel.right - panel.left));
   look.last_column = width * (panel.left + sheet.to * (panel.right - panel.left));
@@ -166,8 +168,6 @@ void ComparisonScene::update_looks() {
     drawn.mapper->set_look(look);
     drawn.mapper->set_maps(per_fragment() ? source_texture_ : no_texture_,
                            per_fragment() ? target_texture_ : no_texture_);
-    // Unmatched parts exist on the source only.
-    drawn.actor->SetVisibility(drawn.part != SurfacePart::kUnmatched || look.morph == 0);
     if (look.fades || look.opacity.greatest < 1 || drawn.part == SurfacePart::kCorrupt)
       drawn.actor->ForceTranslucentOn();
     else
@@ -194,6 +194,8 @@ void ComparisonScene::add_molecule(const Panel& panel) {
   const auto& molecule = panel.is_source() ? files_.source_molecule : files_.target_molecule;
   const auto& surroundings = panel.is_source() ? files_.source_surroundings : files_.target_surroundings;
   if (molecule && scene_.causes.empty()) add(*molecule, polymer_residues(*molecule), scene_.molecule);
+  if (molecule && !scene_.focus.empty() && scene_.molecule != MoleculeStyle::kSticks)
+    add(*molecule, focused_side_chains(*molecule, panel.is_source()), MoleculeStyle::kSticks);
   if (scene_.around_A > 0 && surroundings)
     add(*surroundings, residues_around(*surroundings, scene_.around_A), MoleculeStyle::kSticks);
 }
@@ -202,8 +204,9 @@ void ComparisonScene::add_labels(const Panel& panel) {
   if (scene_.n_labels == 0 || !files_.source_molecule) return;
   for (const ResidueMark& mark : most_different_residues(files_.surface, scene_.n_labels)) {
     const std::string text = residue_name(*files_.source_molecule, mark.residue);
-    for (const auto& prop : make_label(mark, text, scene_.height * scale_factor_ / 60))
-      panel.renderer->AddViewProp(prop);
+    const auto props = make_label(mark, text, scene_.height * scale_factor_ / 60);
+    for (const auto& prop : props) panel.renderer->AddViewProp(prop);
+    labels_.push_back({mark, panel.renderer, props});
   }
 }
 
@@ -229,6 +232,7 @@ void ComparisonScene::add_map_drawings(const Panel& panel) {
 
 void ComparisonScene::fill_panels() {
   parts_.clear();
+  labels_.clear();
   make_offsets();
   for (std::size_t p = 0; p < panels_.size(); ++p) {
     Panel& panel = panels_[p];
@@ -274,6 +278,11 @@ void ComparisonScene::aim_camera() {
   // The outermost surface must fit too, and the labels beside it.
   double beside_A = scene_.n_labels > 0 || !scene_.causes.empty() ? 6 : 0;
   for (const double offset : scene_.offsets_A) beside_A = std::max(beside_A, offset);
+  if (!scene_.camera && scene_.focus.empty()) {
+    const double all = height_that_fits(camera_, geometry_.cover().positions, aspect) / scene_.zoom;
+    camera_.half_height_A = std::max(camera_.half_height_A, all);
+  }
+  if (!scene_.camera && !scene_.focus.empty()) aim_at_focus(aspect);
   if (!scene_.camera) camera_.half_height_A += beside_A * std::max(1.0, aspect) / scene_.zoom;
 }
 
@@ -305,6 +314,7 @@ void ComparisonScene::write_legend() {
 }
 
 void ComparisonScene::camera_moved() {
+  place_labels();
   gauges_->RemoveAllViewProps();
   add_scene_gauges(gauges_, *this, scale_factor_);
 }

@@ -13,6 +13,7 @@
 
 #include "view/comparison_files.h"
 #include "view/panels.h"
+#include "view/residue_labels.h"
 #include "view/scene.h"
 #include "view/surface_geometry.h"
 #include "view/surface_mapper.h"
@@ -51,6 +52,7 @@ class ComparisonScene {
   /// The scale of an array; source and target share one.
   const ColourScale& scale(RenderArray array) const;
   const std::string& unit() const { return unit_; }
+  const RunRecord& record() const { return files_.record; }
   /// Whether potentials are looked up at every pixel.
   bool per_fragment() const { return files_.maps.complete() && !scene_.per_vertex; }
   const SurfaceGeometry& geometry() const { return geometry_; }
@@ -71,6 +73,13 @@ class ComparisonScene {
     vtkSmartPointer<vtkActor> actor;
   };
 
+  /// A label in one view.
+  struct PlacedLabel {
+    ResidueMark mark;
+    vtkSmartPointer<vtkRenderer> renderer;
+    std::vector<vtkSmartPointer<vtkProp>> props;
+  };
+
   void choose_scales(const Scene& scene);
   void lay_out();
   double view_aspect() const;
@@ -84,6 +93,10 @@ class ComparisonScene {
   void add_molecule(const Panel& panel);
   void add_labels(const Panel& panel);
   void add_map_drawings(const Panel& panel);
+  void aim_at_focus(double aspect);
+  /// [residue] those that the scene looks at.
+  std::vector<bool> focused_side_chains(const Molecule& molecule, bool is_source) const;
+  void place_labels();
   void make_offsets();
   void write_legend();
 
@@ -100,6 +113,7 @@ class ComparisonScene {
   std::optional<ColourScale> map_scale_;
   std::vector<Panel> panels_;
   std::vector<DrawnPart> parts_;
+  std::vector<PlacedLabel> labels_;
   CameraView camera_;
   vtkRenderWindow* window_ = nullptr;
   double scale_factor_ = 1;

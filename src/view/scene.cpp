@@ -146,6 +146,7 @@ const std::vector<Entry>& entries() {
       ESPDIFF_ENTRY_OF("molecule", molecule),
       ESPDIFF_ENTRY_OF("around_A", around_A),
       ESPDIFF_ENTRY_OF("causes", causes),
+      ESPDIFF_ENTRY_OF("focus", focus),
       ESPDIFF_ENTRY_OF("labels", n_labels),
       ESPDIFF_ENTRY_OF("isopotentials", isopotentials),
       ESPDIFF_ENTRY_OF("offsets_A", offsets_A),

@@ -17,9 +17,9 @@ namespace espdiff {
 enum class SurfacePart { kTrusted, kCorrupt, kUnmatched };
 
 /// Names of the point arrays that the shaders need besides positions and normals.
-inline constexpr const char* kSurfaceAttributes[] = {"startMC",     "startNormalMC",   "sourcePlace",
-                                                     "targetPlace", "vertexPotential", "displacement",
-                                                     "slip",        "uncertainty",     "residueIndex"};
+inline constexpr const char* kSurfaceAttributes[] = {"startMC",         "startNormalMC", "sourcePlace", "targetPlace",
+                                                     "vertexPotential", "displacement",  "slip",        "uncertainty",
+                                                     "residueIndex",    "borders"};
 
 /// How a surface is drawn; may change between pictures.
 struct SurfaceLook {
@@ -31,6 +31,8 @@ struct SurfaceLook {
   bool splits = false;       ///< draws only these columns of the window
   double first_column = 0, last_column = 0;
   double hatch_pixels = 14;
+  bool cuts = false;        ///< along the smooth borders of unmatched parts
+  bool outlines = false;    ///< the residues that the geometry was given
   bool reads_back = false;  ///< draws the difference as 24 bits instead of a colour, for tests
   bool fetches = false;     ///< looks up as on GPUs, on any renderer, for tests
 };

@@ -53,7 +53,7 @@ const Rooms kAllowed = {
       "trajectory", "matrix", "ensemble"}},
     {"python/src",
      {"base", "align", "engine", "io", "statistics", "compare", "prepare", "potential", "report", "trajectory",
-      "matrix", "ensemble", "cli"}},
+      "matrix", "ensemble", "plot", "page", "cli"}},
 };
 
 std::string quoted_include(const std::string& line) {
