@@ -189,9 +189,8 @@ LoadedState load_state(const StructureFile& file, const StateRequest& request, c
   try {
     select_and_charge(state, request, options, progress);
   } catch (const UnchargedError& error) {
-    const long line = file.line_of(structure.model, error.residue);
-    if (line == 0) throw;
-    throw InputError(state.molecule.name + ":" + std::to_string(line) + ": " + error.text);
+    refuse_uncharged(error, state.molecule.name, file.line_of(structure.model, error.residue), request,
+                     force_field_for(state.molecule, nullptr, options.charges.force_field));
   }
   return state;
 }
@@ -214,14 +213,8 @@ void select_and_charge(LoadedState& state, const StateRequest& request, const In
     state.molecule = keep_atoms(state.molecule, selected);
   }
   state.molecule.left_out = left_out_residues(state.whole, not_dropped, selected, state.molecule);
-  if (request.wants_charges) {
-    try {
-      state.preparation = charge_molecule(state.molecule, options, request, state.charge_files, progress);
-    } catch (const UnchargedError& error) {
-      refuse_uncharged(error, state.molecule.name, file.line_of(structure.model, error.residue), request,
-                       force_field_for(state.molecule, nullptr, options.charges.force_field));
-    }
-  }
+  if (request.wants_charges)
+    state.preparation = charge_molecule(state.molecule, options, request, state.charge_files, progress);
   if (state.preparation) {
     for (const std::string& ligand : state.preparation->ligands) state.charge_files.push_back({"ligand", ligand, {}});
   }
