@@ -7,8 +7,7 @@
 #include "cli/verbs.h"
 #include "io/atomic_file.h"
 #include "io/check_outputs.h"
-#include "page/report_page.h"
-#include "page/study_page.h"
+#include "page/result_page.h"
 
 namespace espdiff::cli {
 namespace {
@@ -27,11 +26,10 @@ std::string report_prefix(const std::string& given) {
 
 int report_verb(const ReportArguments& a, const Context& context) {
   const std::string prefix = report_prefix(a.input), output = a.output.empty() ? prefix + ".html" : a.output;
-  const PageKind kind = page_kind(prefix);
-  check_outputs(page_inputs(prefix, kind), {output});
+  check_outputs(page_inputs(prefix), {output});
   context.progress->report("page", 0.0);
   AtomicFile file(output);
-  file.stream() << (kind == PageKind::kPair ? report_page(prefix, a.title) : study_page(prefix, kind, a.title));
+  file.stream() << result_page(prefix, a.title);
   file.commit();
   return 0;
 }
@@ -41,10 +39,12 @@ int report_verb(const ReportArguments& a, const Context& context) {
 Verb add_report(CLI::App& app) {
   auto a = std::make_shared<ReportArguments>();
   CLI::App* parser = app.add_subcommand("report", "Write a result as one page for any browser, without network");
-  parser->add_option("OUT", a->input, "A result of compare, trajectory or matrix: its prefix, or one of its files")
+  parser
+      ->add_option("OUT", a->input,
+                   "A result of compare, trajectory, matrix or ensemble: its prefix, or one of its files")
       ->required();
   parser->add_option("-o,--output", a->output, "Page to write; default: OUT.html")->type_name("FILE");
-  parser->add_option("--title", a->title, "Heading; default: the names of both structures, or OUT");
+  parser->add_option("--title", a->title, "Heading; default: the names of both structures or groups, or OUT");
   set_help(*parser, {"",
                      {"espdiff report ldh -o ldh.html --title 'LDH, double mutant against wild type'",
                       "espdiff report adk.csv"}});
