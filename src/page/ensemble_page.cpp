@@ -64,8 +64,8 @@ EnsembleFiles read_files(const std::string& prefix) {
       prefix, read_study_json(prefix + ".json"), read_vtp(prefix + ".vtp"), read_csv(prefix + ".residues.csv"), {}};
   if (files.record.value("format", "") != kEnsembleFormat || files.record.value("format_version", 0) != kFormatVersion)
     throw FormatError(prefix + ".json", 0,
-                      "not an ensemble of this version of espdiff; compute its statistics again (`espdiff ensemble "
-                      "--from OUT.h5 -o OUT`)");
+                      "not an ensemble of this version of espdiff; compute its statistics again (ensemble, " +
+                          option("from", prefix + ".h5") + ")");
   const std::size_t n = files.surface.positions.size();
   if (files.record.at("n_vertices").get<std::size_t>() != n)
     throw FormatError(
@@ -170,17 +170,18 @@ EnsembleJson page_of(const EnsembleFiles& files, const std::string& title, PageA
 
 }  // namespace
 
-std::string ensemble_page(const std::string& prefix, const std::string& title) {
+std::string ensemble_page(const std::string& prefix, const std::string& title,
+                          const std::vector<std::string>& range_of) {
   require_three();
   PageArrays arrays;
   try {
-    const EnsembleJson page = page_of(read_files(prefix), title, arrays);
+    EnsembleJson page = page_of(read_files(prefix), title, arrays);
+    share_page_ranges(page, prefix, range_of);
     return assembled_page(page, arrays, "report.html", surface_page_scripts());
   } catch (const EnsembleJson::exception&) {
-    throw FormatError(
-        prefix + ".json", 0,
-        "lacks what an ensemble's record has; compute its statistics again (`espdiff ensemble --from OUT.h5 "
-        "-o OUT`)");
+    throw FormatError(prefix + ".json", 0,
+                      "lacks what an ensemble's record has; compute its statistics again (ensemble, " +
+                          option("from", prefix + ".h5") + ")");
   }
 }
 

@@ -6,6 +6,7 @@
 #include "page/page_texts.h"
 #include "page/report_page.h"
 #include "plot/automatic_range.h"
+#include "plot/shared_range.h"
 
 namespace espdiff {
 
@@ -50,6 +51,16 @@ nlohmann::ordered_json page_quantity(PageArrays& arrays, const VtpNumbers& value
   json["signed"] = is_signed;
   json["range"] = automatic_limit({values.values.begin(), values.values.end()});
   return json;
+}
+
+void share_page_ranges(nlohmann::ordered_json& page, const std::string& prefix, std::vector<std::string> others) {
+  if (others.empty()) return;
+  others.insert(others.begin(), prefix + ".vtp");
+  const std::map<std::string, double> limits = shared_limits(others);
+  for (nlohmann::ordered_json& quantity : page.at("quantities")) {
+    const auto found = limits.find(quantity.at("name").get<std::string>());
+    if (found != limits.end()) quantity["range"] = found->second;
+  }
 }
 
 void add_page_triangles(nlohmann::ordered_json& page, PageArrays& arrays, const std::vector<Triangle>& counted,

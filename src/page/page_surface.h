@@ -31,6 +31,12 @@ std::vector<std::int32_t> page_integers(const VtpContent& surface, const std::st
 nlohmann::ordered_json page_quantity(PageArrays& arrays, const VtpNumbers& values, const std::string& label,
                                      const std::string& unit, bool is_signed);
 
+/// Widens the range of each quantity to the widest of other results.
+/// @param prefix OUT
+/// @param others VTP files; nothing changes without any
+/// @throws IoError, FormatError, InputError; see shared_limits()
+void share_page_ranges(nlohmann::ordered_json& page, const std::string& prefix, std::vector<std::string> others);
+
 /// `triangles` of the record: those that count first, then the rest.
 void add_page_triangles(nlohmann::ordered_json& page, PageArrays& arrays, const std::vector<Triangle>& counted,
                         const std::vector<Triangle>& rest);

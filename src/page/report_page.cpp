@@ -114,7 +114,7 @@ void add_surface(Json& page, PageArrays& arrays, const PairFiles& files) {
 
 }  // namespace
 
-std::string report_page(const std::string& prefix, const std::string& title) {
+std::string report_page(const std::string& prefix, const std::string& title, const std::vector<std::string>& range_of) {
   require_three();
   const PairFiles files = read_pair_files(prefix);
   const Verdict verdict = verdict_of(files);
@@ -128,6 +128,7 @@ std::string report_page(const std::string& prefix, const std::string& title) {
   page["provenance"] = provenance_of(files);
   PageArrays arrays;
   add_surface(page, arrays, files);
+  share_page_ranges(page, prefix, range_of);
   return assembled_page(page, arrays, "report.html", surface_page_scripts());
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "base/error.h"
 #include "page/ensemble_page.h"
 #include "page/report_page.h"
 #include "page/study_page.h"
@@ -32,12 +33,15 @@ std::vector<std::string> page_inputs(const std::string& prefix) {
   }
 }
 
-std::string result_page(const std::string& prefix, const std::string& title) {
-  switch (page_kind(prefix)) {
+std::string result_page(const std::string& prefix, const std::string& title, const std::vector<std::string>& range_of) {
+  const PageKind kind = page_kind(prefix);
+  if (!range_of.empty() && (kind == PageKind::kMatrix || kind == PageKind::kTrajectory))
+    throw InputError(option("range-of") + " is for surfaces, and " + prefix + " is a matrix or a trajectory");
+  switch (kind) {
     case PageKind::kMatrix: return matrix_page(prefix, title);
     case PageKind::kTrajectory: return trajectory_page(prefix, title);
-    case PageKind::kEnsemble: return ensemble_page(prefix, title);
-    default: return report_page(prefix, title);
+    case PageKind::kEnsemble: return ensemble_page(prefix, title, range_of);
+    default: return report_page(prefix, title, range_of);
   }
 }
 

@@ -17,8 +17,11 @@ PageKind page_kind(const std::string& prefix);
 std::vector<std::string> page_inputs(const std::string& prefix);
 
 /// The page of OUT.
-/// @param title heading; empty: the names of structures or groups, or OUT
-/// @throws what report_page(), matrix_page(), trajectory_page() and ensemble_page() throw
-std::string result_page(const std::string& prefix, const std::string& title);
+/// @param title    heading; empty: the names of structures or groups, or OUT
+/// @param range_of VTP files of other results; each scale is then as wide as the widest automatic one of OUT and these
+/// @throws what report_page(), matrix_page(), trajectory_page() and ensemble_page() throw; InputError (`range_of` for a
+///         matrix or a trajectory, whose scales are of other numbers)
+std::string result_page(const std::string& prefix, const std::string& title,
+                        const std::vector<std::string>& range_of = {});
 
 }  // namespace espdiff

@@ -87,8 +87,7 @@ TEST_CASE("an ensemble of another version, or whose files do not belong together
   };
   auto changed = record;
   changed["format_version"] = 99;
-  refused(changed,
-          "not an ensemble of this version of espdiff; compute its statistics again (`espdiff ensemble --from ");
+  refused(changed, "not an ensemble of this version of espdiff; compute its statistics again (ensemble, from ");
   changed = record;
   changed["n_vertices"] = 3;
   refused(changed, "vertices, and not those of ");

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <string>
 
 #include "base/error.h"
@@ -11,6 +12,7 @@
 #include "page/page_arrays.h"
 #include "page/page_texts.h"
 #include "page/report_page.h"
+#include "page/result_page.h"
 
 using namespace espdiff;       // NOLINT: a test
 using namespace espdiff_test;  // NOLINT: a test
@@ -88,6 +90,26 @@ TEST_CASE("a result that is not whole, or not a comparison's, is refused with th
                        doctest::Contains("not a record that `espdiff compare` wrote; compare again"), FormatError);
   std::filesystem::remove(result.prefix + ".residues.csv");
   CHECK_THROWS_WITH_AS(report_page(result.prefix, ""), doctest::Contains("pair.residues.csv"), IoError);
+}
+
+TEST_CASE("pages of a study have the widest range of all its results") {
+  if (!has_three()) return;
+  const SmallResult one;
+  const std::string other = one.folder.file("other");
+  one.folder.write("c.pqr", std::regex_replace(row_of_atoms(8), std::regex(" 0\\.5000"), " -2.000"));
+  REQUIRE(run_espdiff(one.folder.file("a.pqr") + " " + one.folder.file("c.pqr") + " --potential coulomb -q -o " + other)
+              .status == 0);
+  const auto range_in = [](const std::string& page) {
+    return nlohmann::json::parse(element(page, "record")).at("quantities").at(0).at("range").get<double>();
+  };
+  const double alone = range_in(report_page(one.prefix, "")), widest = range_in(report_page(other, ""));
+  REQUIRE(alone < widest);
+  CHECK(range_in(report_page(one.prefix, "", {other + ".vtp"})) == widest);
+  CHECK(range_in(report_page(other, "", {one.prefix + ".vtp"})) == widest);
+  CHECK_THROWS_WITH_AS(result_page(other, "", {one.folder.file("none.vtp")}), doctest::Contains("none.vtp"), IoError);
+  one.folder.write("frames.csv", "frame,rmsd_A\n0,1\n");
+  CHECK_THROWS_WITH_AS(result_page(one.folder.file("frames"), "", {other + ".vtp"}),
+                       doctest::Contains("is for surfaces, and "), InputError);
 }
 
 TEST_CASE("a browser draws the surface, and a click on a residue shows it") {
