@@ -17,17 +17,7 @@
 
   function showTexts() {
     Page.showHead(record.states);
-    for (const table of record.tables || []) {
-      add(byId('tables'), 'h2', table.title);
-      add(byId('tables'), 'p', table.help, 'help');
-      const rows = add(add(byId('tables'), 'div', undefined, 'wide'), 'table'), head = add(add(rows, 'thead'), 'tr');
-      for (const title of table.columns) add(head, 'th', title);
-      const body = add(rows, 'tbody');
-      for (const cells of table.rows) {
-        const line = add(body, 'tr');
-        for (const text of cells) add(line, 'td', text);
-      }
-    }
+    for (const table of record.tables || []) Page.showTable(byId('tables'), table);
     for (const section of record.numbers) {
       const box = add(byId('numbers'), 'div');
       add(box, 'h2', section.title);
@@ -109,6 +99,14 @@
     mesh.light = new THREE.DirectionalLight(0xffffff, 0.35);
     mesh.scene.add(mesh.light);
     mesh.scene.add(mesh.light.target);
+    if (record.backbone) {
+      mesh.ribbon = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshLambertMaterial({ color: 0xc98a1b, side }));
+      // Only the nearest layer of the surface shows: its depth is drawn first, after the ribbon.
+      mesh.depth = new THREE.Mesh(matched, new THREE.MeshBasicMaterial({ colorWrite: false, side, transparent: true }));
+      mesh.depth.renderOrder = 1;
+      mesh.surface.renderOrder = 2;
+      mesh.scene.add(mesh.ribbon, mesh.depth);
+    }
     place(mesh, morph);
     return mesh;
   }
@@ -117,9 +115,21 @@
     const at = mesh.geometry.attributes.position;
     for (let i = 0; i < 3 * n; ++i) at.array[i] = source[i] + morph * (target[i] - source[i]);
     at.needsUpdate = true;
+    mesh.morph = morph;
+    showMolecule(mesh);
     mesh.geometry.computeVertexNormals();
     mesh.surface.geometry.computeBoundingSphere();
     outline(mesh);
+  }
+
+  // The ribbon, and a surface through which it is seen.
+  function showMolecule(mesh) {
+    if (!mesh.ribbon) return;
+    const isShown = byId('molecule').checked;
+    mesh.ribbon.visible = mesh.depth.visible = mesh.surface.material.transparent = isShown;
+    mesh.surface.material.opacity = isShown ? 0.55 : 1;
+    mesh.surface.material.needsUpdate = true;
+    if (isShown) mesh.ribbon.geometry = Page.ribbon(mesh.morph);
   }
 
   let picked = -1, pickedPatch = -1;
@@ -290,6 +300,10 @@
   byId('fades').hidden = !doubt;
   byId('fade-text').textContent = fade ? fade.text : '';
   byId('morphs').hidden = source === target;
+  byId('molecules').hidden = !record.backbone && !record.molecule_because;
+  byId('molecule').disabled = !record.backbone;
+  byId('molecules').title = record.molecule_because || '';
+  byId('molecule').onchange = () => { for (const mesh of [single, ...linked || []]) showMolecule(mesh); draw(); };
   byId('linked').onchange = () => { repaint(); for (const panel of panels()) outline(panel.mesh); draw(); };
   byId('range').onchange = () => {
     const value = Number(byId('range').value), list = panels();

@@ -63,6 +63,18 @@ const Page = (() => {
     }
   }
 
+  function showTable(holder, { title, help, columns, rows }) {
+    add(holder, 'h2', title);
+    add(holder, 'p', help, 'help');
+    const table = add(add(holder, 'div', undefined, 'wide'), 'table'), head = add(add(table, 'thead'), 'tr');
+    for (const column of columns) add(head, 'th', column);
+    const body = add(table, 'tbody');
+    for (const cells of rows) {
+      const line = add(body, 'tr');
+      for (const text of cells) add(line, 'td', text);
+    }
+  }
+
   function showProvenance() {
     const box = byId('provenance');
     add(box, 'h2', 'How it was made');
@@ -79,5 +91,5 @@ const Page = (() => {
     document.documentElement.dataset.theme = dark ? 'dark' : 'light';
   };
 
-  return { byId, record, add, draw, picture, shown, unpack, decode, showHead, showProvenance };
+  return { byId, record, add, draw, picture, shown, unpack, decode, showHead, showTable, showProvenance };
 })();

@@ -23,7 +23,7 @@ void require_page_size(std::size_t n_triangles, const std::string& prefix) {
 }
 
 std::vector<std::string> surface_page_scripts() {
-  return {"three.min.js", "TrackballControls.js", "shared.js", "patches.js", "report.js"};
+  return {"three.min.js", "TrackballControls.js", "shared.js", "ribbon.js", "patches.js", "report.js"};
 }
 
 std::vector<double> page_coordinates(const std::vector<Vec3d>& positions) {

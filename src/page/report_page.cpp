@@ -7,6 +7,7 @@
 #include "base/surface_parts.h"
 #include "page/assembled_page.h"
 #include "page/page_arrays.h"
+#include "page/page_molecule.h"
 #include "page/page_surface.h"
 #include "report/metrics.h"
 #include "report/pair_files.h"
@@ -128,6 +129,7 @@ std::string report_page(const std::string& prefix, const std::string& title, con
   page["provenance"] = provenance_of(files);
   PageArrays arrays;
   add_surface(page, arrays, files);
+  add_backbones(page, arrays, prefix);
   share_page_ranges(page, prefix, range_of);
   return assembled_page(page, arrays, "report.html", surface_page_scripts());
 }
