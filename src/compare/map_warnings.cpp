@@ -188,7 +188,7 @@ std::vector<Warning> kind_warnings(const CompareResult& result) {
         {"the potential of single frames with explicit water is mostly that of the few molecules of "
          "water that touch the surface at that moment (up to hundreds of kT/e): take " +
              option("potential", "pb") +
-             " of the solute, or average maps over frames first (espdiff potential) and compare those",
+             " of the solute, or means over frames (espdiff potential; along a trajectory in VMD: Average over)",
          false});
   const Kind a = kind_of(result.source_recipe, result.source_map_check),
              b = kind_of(result.target_recipe, result.target_map_check);
