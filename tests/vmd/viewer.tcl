@@ -74,7 +74,7 @@ test "a figure is as large as on the screen, fades to the same grey, and names t
     rotate y by 50
     # All of it coloured, so that both pictures have the same outline.
     foreach {surface view title} {mapped single "" source single Title mapped linked ""} {
-        espdiff draw $h -range {-0.001 0.001} -uncertain plain -surface $surface -view $view
+        espdiff draw $h -range {-0.001 0.001} -potential-range {-0.001 0.001} -uncertain plain -surface $surface -view $view
         display update
         render snapshot $scratch/screen.tga
         espdiff figure $h $scratch/large.png -width 900 -title $title
