@@ -100,7 +100,7 @@ namespace eval ::espdiff {
         set is_surface [expr {[dict get [core::status $handle] kind] eq "surface"}]
         set color [drawn_quantity $handle [dict get $options color] $is_surface]
         set range [dict create low -1 high 1 unit ""]
-        if {$color ne "none"} { set range [drawn_range $handle $color [dict get $options range]] }
+        if {$color ne "none"} { set range [drawn_range $handle $color [shared_range $options $handle $color]] }
         set side [expr {[dict get $options surface] eq "mapped" ? "target" : "source"}]
         set core [dict create color $color low [dict get $range low] high [dict get $range high] \
             corrupt [dict get $options corrupt] plain $plain_color marked $marked_color \

@@ -71,7 +71,7 @@ namespace eval ::espdiff {
         lappend words {*}[list --color $color --colors [dict get $drawn colors] --width $width --height $height \
             --molecule [dict get $options molecule]]
         if {$color ni {sign plain}} {
-            set range [drawn_range $handle $color [dict get $drawn range]]
+            set range [drawn_range $handle $color [shared_range $drawn $handle $color]]
             lappend words --range [dict get $range low]:[dict get $range high]
         }
         if {[dict get $drawn uncertain] eq "plain"} {

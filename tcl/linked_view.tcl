@@ -47,7 +47,7 @@ namespace eval ::espdiff {
         set quantity [drawn_quantity $handle [dict get $options color] 0]
         set has_potentials [expr {![catch { core::range $handle source }]}]
         set range [dict get $options potential-range]
-        if {$has_potentials && $range eq "auto"} { set range [common_range $handle] }
+        if {$has_potentials && $range eq "auto"} { set range [common_range $options $handle] }
         set plans [dict create]
         foreach {panel surface} {source source target mapped} {
             set own [dict create color [expr {$has_potentials ? $panel : "none"}] surface $surface range $range \
@@ -58,11 +58,12 @@ namespace eval ::espdiff {
         return $plans
     }
 
-    # The wider of both ranges, symmetric about 0.
-    proc common_range {handle} {
+    # The widest range of both sides and of the results that share the scale, symmetric about 0.
+    proc common_range {options handle} {
         set high 0
         foreach side {source target} {
-            set high [expr {max($high, [dict get [drawn_range $handle $side auto] high])}]
+            set range [shared_range [dict replace $options range auto] $handle $side]
+            set high [expr {max($high, [dict get [drawn_range $handle $side $range] high])}]
         }
         return [list [expr {-$high}] $high]
     }

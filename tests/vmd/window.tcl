@@ -28,6 +28,13 @@ test "TIM: molecules and maps are chosen already; compared" {
     check "a difference" {[espdiff result $comparison mean_abs_difference] > 0.5}
 }
 
+test "a page for a browser" {
+    check "can be pressed" {![[widget result,report] instate disabled]}
+    ::espdiff::gui::report_to $scratch/page.html
+    check "written" {[file size $scratch/page.html] > 200000}
+    check "told" {[string match "Written: $scratch/page.html; any browser opens it." [message_line]]}
+}
+
 test "drawn, side by side, and undrawn" {
     set before [molinfo num]
     press draw
