@@ -68,6 +68,7 @@ void ComparisonScene::choose_scales(const Scene& scene) {
   unit_ = scene.unit.empty() ? files_.surface.potential_unit : scene.unit;
   std::vector<ColourScale> scales;
   const ScaleRange automatic{0, scene.range.percentile, false, 0, 0};
+  const ScaleRange of_potentials{scene.potential_limit, scene.range.percentile, false, 0, 0};
   const DivergingMap& map = diverging_map(scene.colours);
   for (const Panel& panel : panels_of(scene, false)) {
     for (const Sheet& sheet : panel.sheets) {
@@ -78,7 +79,10 @@ void ComparisonScene::choose_scales(const Scene& scene) {
       // A given range applies only to the array it was given for.
       const bool is_asked_for = scene.layout == Layout::kLinked ? sheet.array == compared_array(scene.array) : true;
       scales.emplace_back(sheet.array, shares ? both_potentials(files_.surface) : files_.surface.values(sheet.array),
-                          is_asked_for ? scene.range : automatic, map);
+                          is_asked_for ? scene.range
+                          : shares     ? of_potentials
+                                       : automatic,
+                          map);
     }
   }
   std::optional<ColourScale> map_scale;
