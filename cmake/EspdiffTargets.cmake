@@ -1,11 +1,12 @@
 # EspdiffTargets.cmake: flags shared by all targets of the project.
 
 add_library(espdiff_flags INTERFACE)
-target_include_directories(espdiff_flags INTERFACE ${PROJECT_SOURCE_DIR}/src)
+target_include_directories(espdiff_flags INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:include/espdiff>)
+target_compile_features(espdiff_flags INTERFACE cxx_std_17)
 # No contraction and no fast-math, so that the same source gives the same bits on every instruction set.
 target_compile_options(espdiff_flags INTERFACE
-  $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off -fvisibility=hidden -Wall -Wextra -Wpedantic -Wshadow>
-  $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<BOOL:${ESPDIFF_WERROR}>>:-Werror>)
+  $<BUILD_INTERFACE:$<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off -fvisibility=hidden -Wall -Wextra -Wpedantic -Wshadow>>
+  $<BUILD_INTERFACE:$<$<AND:$<COMPILE_LANGUAGE:CXX>,$<BOOL:${ESPDIFF_WERROR}>>:-Werror>>)
 
 # espdiff_add_library(name SOURCES ... [LIBRARIES ...]): a static library for one room.
 function(espdiff_add_library name)

@@ -6,15 +6,18 @@
   showTexts();
   const arrays = await Page.unpack();
   const n = record.n_vertices;
-  const target = decode(record.positions.target), source = decode(record.positions.source);
+  const target = decode(record.positions.target), source = record.positions.source ? decode(record.positions.source) : target;
   const triangles = decodeTriangles(), residueOf = new Int32Array(arrays, record.residue.offset, n);
-  const values = record.quantities.map(decode), slip = values[record.quantities.findIndex((q) => q.name === 'slip')];
+  const patchOf = record.patch ? new Int32Array(arrays, record.patch.offset, n) : null;  // 0: in none
+  const values = record.quantities.map(decode), fade = record.fade;
+  const doubt = fade ? values[record.quantities.findIndex((q) => q.name === fade.name)] : undefined;  // of the values, at each vertex
   byId('waiting').remove();
 
   // ---- texts ----------------------------------------------------------------------------------------------------
 
   function showTexts() {
-    Page.showHead('Source: ' + record.source + '. Target: ' + record.target + '. Differences are target - source.');
+    Page.showHead(record.states);
+    for (const table of record.tables || []) Page.showTable(byId('tables'), table);
     for (const section of record.numbers) {
       const box = add(byId('numbers'), 'div');
       add(box, 'h2', section.title);
@@ -54,7 +57,7 @@
     const quantity = record.quantities[index], scale = scaleOf(quantity), colours = mesh.colours, column = values[index];
     for (let v = 0; v < n; ++v) {
       const rgb = colourOf(quantity, column[v], range, scale);
-      const s = slip && column !== slip && byId('fade').checked ? Math.max(0, Math.min(1, (slip[v] - 1) / 2)) * 0.75 : 0;
+      const s = doubt && column !== doubt && byId('fade').checked ? Math.max(0, Math.min(1, (doubt[v] - fade.from) / (fade.to - fade.from))) * 0.75 : 0;
       for (let k = 0; k < 3; ++k) colours[3 * v + k] = ((1 - s) * rgb[k] + s * 190) / 255;
     }
     mesh.geometry.attributes.color.needsUpdate = true;
@@ -96,6 +99,14 @@
     mesh.light = new THREE.DirectionalLight(0xffffff, 0.35);
     mesh.scene.add(mesh.light);
     mesh.scene.add(mesh.light.target);
+    if (record.backbone) {
+      mesh.ribbon = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshLambertMaterial({ color: 0xc98a1b, side }));
+      // Only the nearest layer of the surface shows: its depth is drawn first, after the ribbon.
+      mesh.depth = new THREE.Mesh(matched, new THREE.MeshBasicMaterial({ colorWrite: false, side, transparent: true }));
+      mesh.depth.renderOrder = 1;
+      mesh.surface.renderOrder = 2;
+      mesh.scene.add(mesh.ribbon, mesh.depth);
+    }
     place(mesh, morph);
     return mesh;
   }
@@ -104,18 +115,33 @@
     const at = mesh.geometry.attributes.position;
     for (let i = 0; i < 3 * n; ++i) at.array[i] = source[i] + morph * (target[i] - source[i]);
     at.needsUpdate = true;
+    mesh.morph = morph;
+    showMolecule(mesh);
     mesh.geometry.computeVertexNormals();
     mesh.surface.geometry.computeBoundingSphere();
     outline(mesh);
   }
 
-  let picked = -1;
+  // The ribbon, and a surface through which it is seen.
+  function showMolecule(mesh) {
+    if (!mesh.ribbon) return;
+    const isShown = byId('molecule').checked;
+    mesh.ribbon.visible = mesh.depth.visible = mesh.surface.material.transparent = isShown;
+    mesh.surface.material.opacity = isShown ? 0.55 : 1;
+    mesh.surface.material.needsUpdate = true;
+    if (isShown) mesh.ribbon.geometry = Page.ribbon(mesh.morph);
+  }
+
+  let picked = -1, pickedPatch = -1;
   function outline(mesh) {
     const lines = [], at = mesh.geometry.attributes.position.array;
     const push = (a, b) => lines.push(at[3 * a], at[3 * a + 1], at[3 * a + 2], at[3 * b], at[3 * b + 1], at[3 * b + 2]);
-    for (let t = 0; picked >= 0 && t < triangles.length; t += 3) {
-      const corners = [triangles[t], triangles[t + 1], triangles[t + 2]], own = corners.filter((v) => residueOf[v] === picked);
-      if (own.length === 2) push(own[0], own[1]);
+    const isPicked = (v) => residueOf[v] === picked, isInPatch = (v) => patchOf[v] === pickedPatch + 1;
+    for (const isInside of [picked >= 0 && isPicked, patchOf && pickedPatch >= 0 && isInPatch]) {
+      for (let t = 0; isInside && t < triangles.length; t += 3) {
+        const own = [triangles[t], triangles[t + 1], triangles[t + 2]].filter(isInside);
+        if (own.length === 2) push(own[0], own[1]);
+      }
     }
     mesh.outline.geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(lines), 3));
     mesh.outline.geometry.computeBoundingSphere();
@@ -127,8 +153,7 @@
     if (!byId('linked').checked) return [{ mesh: single, index: Number(byId('quantity').value), label: '' }];
     const find = (name) => record.quantities.findIndex((q) => q.name === name);
     if (!linked) linked = [makeMesh(0), makeMesh(1), makeMesh(1)];
-    return [['potential_source', 'source'], ['potential_target', 'target'], ['potential_difference', 'difference']].map(
-      ([name, label], i) => ({ mesh: linked[i], index: find(name), label }));
+    return record.linked.map(([name, label], i) => ({ mesh: linked[i], index: find(name), label }));
   }
 
   // Both states have one scale, so that they can be compared by eye.
@@ -225,16 +250,24 @@
     byId('picked').textContent = record.residues.names[residue] + ': ' + texts.join(', ');
     const line = byId('residues').querySelector('.picked');
     if (line && !fly) line.scrollIntoView({ block: 'center' });
-    if (fly) lookAt(residue);
+    if (fly) lookAt((v) => residueOf[v] === residue);
     draw();
   }
 
-  // Turns the residue's surface to the front, at the present distance.
-  function lookAt(residue) {
+  function pickPatch(patch, fly) {
+    pickedPatch = patch;
+    for (const panel of panels()) outline(panel.mesh);
+    Page.patches.show(patch);
+    if (fly) lookAt((v) => patchOf[v] === patch + 1);
+    draw();
+  }
+
+  // Turns a part of the surface to the front, at the present distance.
+  function lookAt(isInside) {
     const sum = new THREE.Vector3(), at = single.geometry.attributes.position.array;
     let count = 0;
     for (let v = 0; v < n; ++v) {
-      if (residueOf[v] !== residue) continue;
+      if (!isInside(v)) continue;
       sum.add(corner.set(at[3 * v], at[3 * v + 1], at[3 * v + 2]));
       ++count;
     }
@@ -245,13 +278,14 @@
     controls.update();
   }
 
-  function residueAt(event) {
+  // A vertex under the mouse, or -1.
+  function vertexAt(event) {
     const box = renderer.domElement.getBoundingClientRect(), list = panels(), width = box.width / list.length;
     const x = event.clientX - box.left, i = Math.min(list.length - 1, Math.floor(x / width));
     const ray = new THREE.Raycaster();
     ray.setFromCamera({ x: 2 * (x - i * width) / width - 1, y: 1 - 2 * (event.clientY - box.top) / box.height }, camera);
     const hit = ray.intersectObject(list[i].mesh.surface)[0];
-    return hit ? residueOf[hit.face.a] : -1;
+    return hit ? hit.face.a : -1;
   }
 
   // ---- what the user does ---------------------------------------------------------------------------------------
@@ -260,8 +294,17 @@
   for (const name of record.diverging) add(byId('colours'), 'option', name).value = name;
   record.residues.columns.forEach((c, i) => { add(byId('column'), 'option', c.label).value = i; });
   byId('quantity').onchange = byId('colours').onchange = byId('fade').onchange = repaint;
-  byId('linked').disabled = !['potential_source', 'potential_target', 'potential_difference'].every((name) => record.quantities.some((q) => q.name === name));
-  byId('linked').onchange = () => { repaint(); if (picked >= 0) pick(picked, false); };
+  const has = (name) => record.quantities.some((q) => q.name === name);
+  byId('links').hidden = !record.linked || !record.linked.every(([name]) => has(name));
+  byId('link-text').textContent = (record.linked || []).map(([, label]) => label).join(', ');
+  byId('fades').hidden = !doubt;
+  byId('fade-text').textContent = fade ? fade.text : '';
+  byId('morphs').hidden = source === target;
+  byId('molecules').hidden = !record.backbone && !record.molecule_because;
+  byId('molecule').disabled = !record.backbone;
+  byId('molecules').title = record.molecule_because || '';
+  byId('molecule').onchange = () => { for (const mesh of [single, ...linked || []]) showMolecule(mesh); draw(); };
+  byId('linked').onchange = () => { repaint(); for (const panel of panels()) outline(panel.mesh); draw(); };
   byId('range').onchange = () => {
     const value = Number(byId('range').value), list = panels();
     if (value > 0) ranges[list[list.length - 1].index] = value;
@@ -282,8 +325,9 @@
   renderer.domElement.addEventListener('mousedown', (event) => { down = [event.clientX, event.clientY]; });
   renderer.domElement.addEventListener('click', (event) => {
     if (down && Math.hypot(event.clientX - down[0], event.clientY - down[1]) > 3) return;
-    const residue = residueAt(event);
+    const vertex = vertexAt(event), residue = vertex < 0 ? -1 : residueOf[vertex];
     if (residue >= 0 && residue < rows.length) pick(residue, false);
+    if (vertex >= 0 && patchOf && patchOf[vertex] > 0) pickPatch(patchOf[vertex] - 1, false);
   });
   controls.addEventListener('change', draw);
   window.addEventListener('resize', () => { controls.handleResize(); draw(); });
@@ -293,5 +337,9 @@
   fillTable();
   wholeView();
   repaint();
+  if (patchOf) {
+    Page.patches.showTable((k) => pickPatch(k, true));
+    if (record.patches.length) pickPatch(0, true);
+  }
   document.documentElement.dataset.ready = 'yes';
 })();

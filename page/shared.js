@@ -12,6 +12,21 @@ const Page = (() => {
     return element;
   }
 
+  const svgSpace = 'http://www.w3.org/2000/svg';
+  function draw(parent, tag, attributes, text) {
+    const element = parent.appendChild(document.createElementNS(svgSpace, tag));
+    for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+    if (text !== undefined) element.textContent = text;
+    return element;
+  }
+
+  function picture(holder, width, height, label) {
+    holder.textContent = '';
+    const svg = draw(holder, 'svg', { viewBox: '0 0 ' + width + ' ' + height, role: 'img', 'aria-label': label });
+    draw(svg, 'title', {}, label);
+    return svg;
+  }
+
   const shown = (value) => (value === null || !isFinite(value) ? '-' : Number(value.toPrecision(4)).toString());
 
   async function unpack() {
@@ -48,6 +63,18 @@ const Page = (() => {
     }
   }
 
+  function showTable(holder, { title, help, columns, rows }) {
+    add(holder, 'h2', title);
+    add(holder, 'p', help, 'help');
+    const table = add(add(holder, 'div', undefined, 'wide'), 'table'), head = add(add(table, 'thead'), 'tr');
+    for (const column of columns) add(head, 'th', column);
+    const body = add(table, 'tbody');
+    for (const cells of rows) {
+      const line = add(body, 'tr');
+      for (const text of cells) add(line, 'td', text);
+    }
+  }
+
   function showProvenance() {
     const box = byId('provenance');
     add(box, 'h2', 'How it was made');
@@ -64,5 +91,5 @@ const Page = (() => {
     document.documentElement.dataset.theme = dark ? 'dark' : 'light';
   };
 
-  return { byId, record, add, shown, unpack, decode, showHead, showProvenance };
+  return { byId, record, add, draw, picture, shown, unpack, decode, showHead, showTable, showProvenance };
 })();

@@ -1,7 +1,7 @@
 // study.js: the page of a trajectory or a matrix: plots in which a click selects a frame or a pair.
 'use strict';
 (async function () {
-  const { byId, record, add, shown, decode } = Page;
+  const { byId, record, add, shown, decode, draw, picture } = Page;
   const isMatrix = record.kind === 'matrix', n = record.labels.length;
   await Page.unpack();
   const columns = record.metrics.map(decode), residues = record.residues ? decode(record.residues) : null;
@@ -11,21 +11,6 @@
   Page.showProvenance();
 
   // ---- plots ----------------------------------------------------------------------------------------------------
-
-  const svgSpace = 'http://www.w3.org/2000/svg';
-  function draw(parent, tag, attributes, text) {
-    const element = parent.appendChild(document.createElementNS(svgSpace, tag));
-    for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
-    if (text !== undefined) element.textContent = text;
-    return element;
-  }
-
-  function picture(holder, width, height, label) {
-    holder.textContent = '';
-    const svg = draw(holder, 'svg', { viewBox: '0 0 ' + width + ' ' + height, role: 'img', 'aria-label': label });
-    draw(svg, 'title', {}, label);
-    return svg;
-  }
 
   const scaleOf = (of) => record.scales[of.signed ? byId('colours').value : 'magnitude'];
   function colourOf(of, value) {

@@ -61,6 +61,17 @@ namespace eval ::espdiff {
             PREFIX.residues.csv; for a surface only PREFIX.vtp. All files appear together or not at all.} \
         returns {the files written} example {espdiff export comparison1 wild_mutant}]
 
+    command report [dict create arguments {result} settings none run ::espdiff::report options {
+            {-output file {} "Page to write; default: the result's name with .html"}
+            {-title text {} "Heading; default: the names of both structures or groups, or of the result"}
+            {-range-of text {} "One scale for a study: other results, handles or prefixes, whose automatic ranges count\
+                too; the widest of all is taken"}
+        } \
+        summary {Writes a result as one page for any browser, without network or other files: the surface to be turned,
+            residues, numbers, verdict, provenance. The result is the handle of a comparison, matrix or ensemble, or the
+            files of a result (prefix OUT, or OUT.csv of a trajectory).} \
+        returns {the file} example {espdiff report comparison1 -output wild_mutant.html -title "Mutant"}]
+
     command map [dict create arguments {handle} settings none run ::espdiff::map options {
             {-quantity choice difference "Quantity of the map" {difference source target sign slip
                 displacement path_length}}
@@ -117,6 +128,8 @@ namespace eval ::espdiff {
                 {auto difference sign source target potential slip displacement path_length none}}
             {-range range auto "Values at the ends of the colour scale; auto is symmetric about 0 and covers 90 % of\
                 the surface's points, as in the viewer and in pictures"}
+            {-range-of text {} "One scale for a study: handles whose automatic ranges count too, so that -range auto is\
+                the widest of all; with -view linked also for the potentials"}
             {-colors choice red-blue "Colours of signed values, from negative to positive; colour-blind\
                 readers can tell the ends of each apart. cool-warm: blue to red, paler; purple-orange: where red and\
                 blue stand for something else" {red-blue cool-warm purple-orange}}
@@ -141,7 +154,7 @@ namespace eval ::espdiff {
             the difference of the groups (-color also source, target: means of the groups, and t), faded where it is
             not significant. Parts meet in smooth lines;
             parts without a counterpart are grey and hatched. View, top molecule and colour settings do not change. A
-            drawing is up to four graphics molecules, which are shown, hidden and deleted together.} \
+            drawing is up to four graphics molecules (eight in linked views), which are shown, hidden and deleted together.} \
         returns {the graphics molecules' ids} example {espdiff draw comparison1 -color difference -range {-5 5}}]
 
     command view [dict create arguments {input} settings none run ::espdiff::view options {

@@ -47,7 +47,7 @@ namespace eval ::espdiff {
         set quantity [drawn_quantity $handle [dict get $options color] 0]
         set has_potentials [expr {![catch { core::range $handle source }]}]
         set range [dict get $options potential-range]
-        if {$has_potentials && $range eq "auto"} { set range [common_range $handle] }
+        if {$has_potentials && $range eq "auto"} { set range [common_range $options $handle] }
         set plans [dict create]
         foreach {panel surface} {source source target mapped} {
             set own [dict create color [expr {$has_potentials ? $panel : "none"}] surface $surface range $range \
@@ -58,11 +58,12 @@ namespace eval ::espdiff {
         return $plans
     }
 
-    # The wider of both ranges, symmetric about 0.
-    proc common_range {handle} {
+    # The widest range of both sides and of the results that share the scale, symmetric about 0.
+    proc common_range {options handle} {
         set high 0
         foreach side {source target} {
-            set high [expr {max($high, [dict get [drawn_range $handle $side auto] high])}]
+            set range [shared_range [dict replace $options range auto] $handle $side]
+            set high [expr {max($high, [dict get [drawn_range $handle $side $range] high])}]
         }
         return [list [expr {-$high}] $high]
     }
@@ -79,12 +80,9 @@ namespace eval ::espdiff {
         set titles [dict create]
         dict for {panel place} $panels {
             set title [expr {$panel eq "difference" ? [dict get $plans difference color] : [lindex $place 1]}]
-            dict set titles $panel [panel_title $handle $panel $title]
+            dict set titles [lindex $place 0] [panel_title $handle $panel $title]
         }
-        set size [panel_title_size [dict values $titles]]
-        dict for {panel title} $titles {
-            dict lappend made fixed [draw_panel_title $handle [lindex [dict get $panels $panel] 0] $title $size]
-        }
+        dict lappend made fixed [draw_panel_titles $handle $titles]
         dict set plans target title Potential  ;# of both
         if {[dict get $plans difference color] eq "difference"} { dict set plans difference title "Target - source" }
         foreach {panel middle room} {target -0.3333 0.6 difference 0.6667 0.3} {

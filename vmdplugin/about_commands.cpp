@@ -20,6 +20,7 @@
 #include "potential/choose_potential.h"
 #include "potential/potential_settings.h"
 #include "prepare/pdb2pqr.h"
+#include "page/page_texts.h"
 #include "report/metrics.h"
 #include "system/this_process.h"
 #include "tcl_values.h"
@@ -47,6 +48,7 @@ Tcl_Obj* build(const Call&) {
                   {"vtk", to_obj(vtk)},
                   {"gemmi", to_obj(gemmi)},
                   {"hdf5", to_obj(hdf5)},
+                  {"pages", to_obj(page_texts().count("three.min.js") > 0)},
                   {"pdb2pqr", to_obj(find_pdb2pqr())},
                   {"pdb2pqr_remedy", to_obj(kPdb2pqrRemedy)},
                   {"compiler", to_obj("g++ " __VERSION__)},

@@ -1,4 +1,4 @@
-// result_commands.cpp: result, residues, table, range, export: results as values and as files.
+// result_commands.cpp: result, residues, table, range, export, report: results as values and as files.
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -7,9 +7,11 @@
 #include "compare/result.h"
 #include "compare/surface.h"
 #include "ensemble_views.h"
+#include "io/atomic_file.h"
 #include "io/check_outputs.h"
 #include "matrix/write_matrix.h"
 #include "option_spelling.h"
+#include "page/result_page.h"
 #include "plot/automatic_range.h"
 #include "report/metrics.h"
 #include "report/preparation_json.h"
@@ -197,6 +199,18 @@ Tcl_Obj* export_files(const Call& call) {
   return to_list(written);
 }
 
+/// PREFIX FILE TITLE SURFACES: the page of a result's files, its scales as wide as those of other surfaces (VTP files).
+Tcl_Obj* report_page(const Call& call) {
+  const std::string prefix = call.text(0), path = call.text(1);
+  std::vector<std::string> surfaces;
+  for (Tcl_Obj* const surface : to_vector(call.arguments[3], "surfaces")) surfaces.push_back(to_string(surface));
+  check_outputs(page_inputs(prefix), {path});
+  AtomicFile file(path);
+  file.stream() << result_page(prefix, call.text(2), surfaces);
+  file.commit();
+  return to_obj(path);
+}
+
 /// Names of metrics that Tcl offers.
 Tcl_Obj* check_output_files(const Call& call) {
   std::vector<std::string> lists[2];
@@ -234,7 +248,8 @@ std::vector<Command> result_commands() {
           {"table", 1, 1, "handle", table},
           {"range", 2, 2, "handle quantity", range},
           {"check_outputs", 2, 2, "inputs outputs", check_output_files},
-          {"export", 3, 3, "handle prefix inputs", export_files}};
+          {"export", 3, 3, "handle prefix inputs", export_files},
+          {"report", 4, 4, "prefix file title surfaces", report_page}};
 }
 
 }  // namespace espdiff::vmdplugin

@@ -16,7 +16,7 @@
 #include "frames.h"
 #include "io/read_vtp.h"
 #include "matrix.h"
-#include "page/report_page.h"
+#include "page/result_page.h"
 #include "plot/automatic_range.h"
 #include "plot/colour_map.h"
 #include "potential.h"
@@ -159,9 +159,9 @@ NB_MODULE(_core, module) {
       "report_page",
       [](const std::string& prefix, const std::string& title) {
         const nb::gil_scoped_release unlocked;
-        return espdiff::report_page(prefix, title);
+        return espdiff::result_page(prefix, title);
       },
-      nb::arg("prefix"), nb::arg("title"), "PREFIX.json, .vtp and .residues.csv as one page for any browser.");
+      nb::arg("prefix"), nb::arg("title"), "The files of a result as one page for any browser.");
   module.def("read_surface", &read_surface, nb::arg("path"),
              "What a VTP file holds: positions, triangles, points, cells, texts. Raises IoError, FormatError.");
   module.def("metrics", &list_metrics, "Every number of a comparison: name, label, unit, help.");

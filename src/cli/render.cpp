@@ -35,7 +35,7 @@ void require_png(const std::string& path) {
 
 int render_verb(RenderArguments& a, const Context& context) {
   require_png(a.output);
-  const Scene scene = scene_of(a.scene);
+  const Scene scene = scene_of(a.scene, a.input);
   check_outputs({a.input, a.scene.scene_file}, {a.output, a.scene.saved_scene});
   const std::unique_ptr<AtomicFile> saved = saved_scene_of(a.scene, scene);
   context.progress->report("render", 0.0);

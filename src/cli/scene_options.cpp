@@ -4,8 +4,10 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "cli/output_prefix.h"
 #include "io/atomic_file.h"
 #include "io/text_cursor.h"
+#include "plot/shared_range.h"
 
 namespace espdiff::cli {
 namespace {
@@ -53,6 +55,12 @@ void add_colour_options(CLI::App& p, SceneArguments& a) {
   add<Text>(p, a, "--range",
             "End of the colour scale, for signed values both ends, or LOW:HIGH; 0: by --percentile [0]", set_range)
       ->type_name("NUMBER");
+  p.add_option("--range-of", a.range_of,
+               "One scale for a study: the widest automatic range of this result and of these, by prefix or OUT.vtp")
+      ->delimiter(',')
+      ->type_name("RESULT,...");
+  add<Number>(p, a, "--potential-range", "End of the scale of both potentials in the layout linked; 0: automatic [0]",
+              [](Scene& s, Number v) { s.potential_limit = v; });
   add<Number>(p, a, "--percentile", "Percentage of the values that an automatic scale covers, 50 to 100 [90]",
               [](Scene& s, Number v) { s.range.percentile = v; });
   add<Text>(p, a, "--colours,--colors", "Colour map of signed values [red-blue]", [](Scene& s, const Text& t) {
@@ -63,6 +71,8 @@ void add_colour_options(CLI::App& p, SceneArguments& a) {
   add_flag(p, a, "--per-vertex", "Interpolate vertex values instead of looking up the maps at every pixel",
            [](Scene& s) { s.per_vertex = true; });
   add_flag(p, a, "--opaque", "Do not fade by slip", [](Scene& s) { s.fade = false; });
+  add_flag(p, a, "--fade-to-grey", "Fade to dark grey by slip, instead of becoming transparent",
+           [](Scene& s) { s.opacity.to_grey = true; });
   add<Number>(p, a, "--opaque-below", "Displacement up to which the surface is opaque, Angstrom [0.5]",
               [](Scene& s, Number v) { s.opacity.opaque_below_A = v; });
   add<Number>(p, a, "--faint-above", "Displacement from which it is faintest, Angstrom [3]",
@@ -129,6 +139,25 @@ void add_layout_options(CLI::App& p, SceneArguments& a) {
   add<Number>(p, a, "--zoom", "Magnification relative to the fitted size [1]", [](Scene& s, Number v) { s.zoom = v; });
 }
 
+/// Sets the scene's ranges to the widest of all results, that of `surface` among them.
+void share_ranges(Scene& scene, const std::string& surface, const std::vector<std::string>& others) {
+  if (scene.range.given_ends || scene.range.limit > 0)
+    throw InputError("--range-of and --range exclude each other: one of them sets the scale");
+  std::vector<std::string> surfaces = {surface};
+  for (const std::string& other : others) surfaces.push_back(surface_of_result(other));
+  const std::map<std::string, double> limits = shared_limits(surfaces, scene.range.percentile);
+  const auto limit_of = [&](RenderArray array) {
+    const auto found = limits.find(array_name(array));
+    return found == limits.end() ? 0.0 : found->second;
+  };
+  const double of_potentials = std::max(limit_of(RenderArray::kSource), limit_of(RenderArray::kTarget));
+  const bool is_one_side = scene.array == RenderArray::kSource || scene.array == RenderArray::kTarget;
+  const bool is_beside_them = scene.layout == Layout::kLinked && is_one_side;
+  const RenderArray array = is_beside_them ? RenderArray::kDifference : scene.array;
+  scene.range.limit = scene.layout == Layout::kSplit ? of_potentials : limit_of(array);
+  if (scene.layout == Layout::kLinked && !(scene.potential_limit > 0)) scene.potential_limit = of_potentials;
+}
+
 }  // namespace
 
 void add_scene_options(CLI::App& parser, SceneArguments& a) {
@@ -139,11 +168,12 @@ void add_scene_options(CLI::App& parser, SceneArguments& a) {
   parser.add_option("--save-scene", a.saved_scene, "Write the scene to this file");
 }
 
-Scene scene_of(const SceneArguments& a, const Scene& defaults) {
+Scene scene_of(const SceneArguments& a, const std::string& surface, const Scene& defaults) {
   Scene scene = defaults;
   if (!a.scene_file.empty()) scene = read_scene(a.scene_file, scene);
   for (const auto& change : a.changes) change(scene);
   check(scene);
+  if (!a.range_of.empty()) share_ranges(scene, surface, a.range_of);
   return scene;
 }
 

@@ -26,7 +26,7 @@ int view_verb(ViewArguments& a, const Context&) {
   Scene window;
   window.width = 1280;
   window.height = 860;
-  const Scene scene = scene_of(a.scene, window);
+  const Scene scene = scene_of(a.scene, a.input, window);
   if (a.prefix.empty()) a.prefix = std::filesystem::path(a.input).stem().string() + "-view";
   check_outputs({a.input, a.scene.scene_file}, {a.scene.saved_scene});
   if (const auto saved = saved_scene_of(a.scene, scene)) saved->commit();

@@ -4,12 +4,11 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "base/error.h"
 #include "base/surface_parts.h"
 #include "page/assembled_page.h"
 #include "page/page_arrays.h"
-#include "page/page_texts.h"
-#include "plot/automatic_range.h"
+#include "page/page_molecule.h"
+#include "page/page_surface.h"
 #include "report/metrics.h"
 #include "report/pair_files.h"
 
@@ -90,56 +89,39 @@ Json residues_of(const CsvTable& table) {
 
 // ---- surface --------------------------------------------------------------------------------------------------------
 
-std::vector<double> coordinates(const std::vector<Vec3d>& positions) {
-  std::vector<double> all;
-  for (const Vec3d& p : positions) all.insert(all.end(), {p.x, p.y, p.z});
-  return all;
-}
-
 Json quantities_json(PageArrays& arrays, const PairFiles& files) {
   Json list = Json::array();
   for (const SurfaceQuantity& quantity : surface_quantities(files)) {
-    const std::vector<double>& values = quantity.values->values;
-    Json json = arrays.add_numbers(values);
-    json["name"] = quantity.values->name;
-    json["label"] = quantity.label;
-    json["unit"] = quantity.unit;
-    json["signed"] = quantity.is_signed;
-    json["range"] = automatic_limit({values.begin(), values.end()});
-    list.push_back(std::move(json));
+    list.push_back(page_quantity(arrays, *quantity.values, quantity.label, quantity.unit, quantity.is_signed));
   }
   return list;
 }
 
 void add_surface(Json& page, PageArrays& arrays, const PairFiles& files) {
   const VtpContent& surface = files.surface;
-  if (surface.triangles.size() > kMaxPageTriangles)
-    throw InputError(files.prefix + ".vtp: " + std::to_string(surface.triangles.size()) +
-                     " triangles; a page takes at most " + std::to_string(kMaxPageTriangles) +
-                     ": compare with a larger " + option("grid-spacing"));
+  require_page_size(surface.triangles.size(), files.prefix);
   page["n_vertices"] = surface.positions.size();
-  page["positions"]["target"] = arrays.add_numbers(coordinates(surface.positions));
-  page["positions"]["source"] = arrays.add_numbers(coordinates(superposed_source(files)));
+  page["positions"]["target"] = arrays.add_numbers(page_coordinates(surface.positions));
+  page["positions"]["source"] = arrays.add_numbers(page_coordinates(superposed_source(files)));
   page["quantities"] = quantities_json(arrays, files);
-  CountedTriangles triangles = counted_triangles(surface);
-  const std::size_t n_counted = triangles.counted.size();
-  triangles.counted.insert(triangles.counted.end(), triangles.rest.begin(), triangles.rest.end());
-  page["triangles"] = arrays.add_triangles(triangles.counted);
-  page["triangles"]["n_counted"] = n_counted;
+  const CountedTriangles triangles = counted_triangles(surface);
+  add_page_triangles(page, arrays, triangles.counted, triangles.rest);
   page["residue"] = arrays.add_integers(residues_of_vertices(files));
+  page["fade"] = {{"name", "slip"}, {"from", 1}, {"to", 3}, {"text", "fainter where the mapping slips"}};
+  page["linked"] = Json::array();
+  for (const char* label : {"source", "target", "difference"})
+    page["linked"].push_back(Json::array({std::string("potential_") + label, label}));
 }
 
 }  // namespace
 
-std::string report_page(const std::string& prefix, const std::string& title) {
-  if (page_texts().count("three.min.js") == 0)
-    throw DeviceError(
-        "this build cannot write pages: three.js was not found when it was configured (Debian: libjs-three)");
+std::string report_page(const std::string& prefix, const std::string& title, const std::vector<std::string>& range_of) {
+  require_three();
   const PairFiles files = read_pair_files(prefix);
   const Verdict verdict = verdict_of(files);
   Json page = {{"title", title.empty() ? title_of(files) : title},
-               {"source", name_of_input(files, "source")},
-               {"target", name_of_input(files, "target")}};
+               {"states", "Source: " + name_of_input(files, "source") + ". Target: " + name_of_input(files, "target") +
+                              ". Differences are target - source."}};
   page["verdict"] = {{"trustworthy", verdict.trustworthy}, {"text", verdict.text}, {"reasons", verdict.reasons}};
   page["warnings"] = verdict.warnings;
   page["numbers"] = numbers_of(files.record, files.unit);
@@ -147,8 +129,9 @@ std::string report_page(const std::string& prefix, const std::string& title) {
   page["provenance"] = provenance_of(files);
   PageArrays arrays;
   add_surface(page, arrays, files);
-  return assembled_page(page, arrays, "report.html",
-                        {"three.min.js", "TrackballControls.js", "shared.js", "report.js"});
+  add_backbones(page, arrays, prefix);
+  share_page_ranges(page, prefix, range_of);
+  return assembled_page(page, arrays, "report.html", surface_page_scripts());
 }
 
 }  // namespace espdiff

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace espdiff {
 
@@ -9,11 +10,13 @@ namespace espdiff {
 /// Everything in it comes from OUT.json, OUT.vtp and OUT.residues.csv; texts of the result are data to the page, never
 /// markup or script.
 /// @param prefix OUT
-/// @param title  heading; empty: the names of the structures
+/// @param title    heading; empty: the names of the structures
+/// @param range_of VTP files of other results; see result_page()
 /// @throws IoError, FormatError (missing or damaged files, another version's result), InputError (a surface of more
 /// than
 ///         kMaxPageTriangles triangles), DeviceError (this build has no library that draws)
-std::string report_page(const std::string& prefix, const std::string& title);
+std::string report_page(const std::string& prefix, const std::string& title,
+                        const std::vector<std::string>& range_of = {});
 
 /// Browsers turn a larger surface slowly.
 constexpr std::size_t kMaxPageTriangles = 500000;

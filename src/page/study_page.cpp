@@ -26,14 +26,6 @@ bool exists(const std::string& path) {
   return std::filesystem::exists(path, ignored);
 }
 
-StudyJson read_study_json(const std::string& path) {
-  const FileContent file = read_input(path);
-  require_memory_for_json(file.content, path);
-  StudyJson json = StudyJson::parse(file.content, nullptr, false);
-  if (!json.is_object()) throw FormatError(path, 0, "not a record that espdiff wrote");
-  return json;
-}
-
 /// The cell of a column that may be missing.
 std::string cell(const CsvTable& table, std::size_t row, const char* column) {
   const int c = table.find(column);
@@ -221,40 +213,38 @@ void add_trajectory(StudyJson& page, PageArrays& arrays, const std::string& pref
   page["states"] = std::to_string(frames.size()) + " frames, each compared with one structure";
 }
 
+StudyJson head_of(const char* kind, const std::string& prefix, const std::string& title) {
+  return {{"kind", kind}, {"title", title.empty() ? std::filesystem::path(prefix).filename().string() : title}};
+}
+
+std::vector<std::string> study_scripts() { return {"shared.js", "study.js"}; }
+
 }  // namespace
 
-PageKind page_kind(const std::string& prefix) {
-  const std::string json = prefix + ".json", csv = prefix + ".csv";
-  if (!exists(json)) {
-    if (exists(csv)) return PageKind::kTrajectory;
-    return PageKind::kPair;  // whose reader says what is missing
-  }
-  const StudyJson record = read_study_json(json);
-  if (record.contains("variants") && record.at("variants").is_array()) return PageKind::kMatrix;
-  if (record.contains("plan") && record.contains("noise_floor"))
-    throw InputError(json + ": an ensemble has no page yet; draw it by `espdiff render`, or open OUT.vtp in ParaView");
-  return PageKind::kPair;
+nlohmann::ordered_json read_study_json(const std::string& path) {
+  const FileContent file = read_input(path);
+  require_memory_for_json(file.content, path);
+  StudyJson json = StudyJson::parse(file.content, nullptr, false);
+  if (!json.is_object()) throw FormatError(path, 0, "not a record that espdiff wrote");
+  return json;
 }
 
-std::vector<std::string> page_inputs(const std::string& prefix, PageKind kind) {
-  if (kind == PageKind::kMatrix) return {prefix + ".json", prefix + ".csv"};
-  if (kind == PageKind::kTrajectory) return {prefix + ".csv", prefix + ".residues.csv"};
-  return {prefix + ".json", prefix + ".vtp", prefix + ".residues.csv"};
-}
-
-std::string study_page(const std::string& prefix, PageKind kind, const std::string& title) {
+std::string matrix_page(const std::string& prefix, const std::string& title) {
   PageArrays arrays;
-  StudyJson page = {{"kind", kind == PageKind::kMatrix ? "matrix" : "trajectory"},
-                    {"title", title.empty() ? std::filesystem::path(prefix).filename().string() : title}};
+  StudyJson page = head_of("matrix", prefix, title);
   try {
-    if (kind == PageKind::kMatrix)
-      add_matrix(page, arrays, prefix);
-    else
-      add_trajectory(page, arrays, prefix);
+    add_matrix(page, arrays, prefix);
   } catch (const StudyJson::exception&) {
     throw FormatError(prefix + ".json", 0, "not a matrix of this version of espdiff; compute it again");
   }
-  return assembled_page(page, arrays, "study.html", {"shared.js", "study.js"});
+  return assembled_page(page, arrays, "study.html", study_scripts());
+}
+
+std::string trajectory_page(const std::string& prefix, const std::string& title) {
+  PageArrays arrays;
+  StudyJson page = head_of("trajectory", prefix, title);
+  add_trajectory(page, arrays, prefix);
+  return assembled_page(page, arrays, "study.html", study_scripts());
 }
 
 }  // namespace espdiff

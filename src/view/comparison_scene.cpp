@@ -12,7 +12,6 @@
 
 #include "base/error.h"
 #include "view/camera_view.h"
-#include "view/cause_drawings.h"
 #include "view/map_drawings.h"
 #include "view/molecule_actors.h"
 #include "view/residue_labels.h"
@@ -36,9 +35,9 @@ bool draws_maps(const Scene& scene) {
 bool same_things(const Scene& a, const Scene& b) {
   return a.layout == b.layout && a.n_views == b.n_views && a.width == b.width && a.height == b.height &&
          a.surface == b.surface && a.molecule == b.molecule && a.around_A == b.around_A && a.n_labels == b.n_labels &&
-         a.causes == b.causes && a.focus == b.focus && a.isopotentials == b.isopotentials && a.offsets_A == b.offsets_A &&
-         a.n_field_lines == b.n_field_lines && a.slice == b.slice && a.legend == b.legend &&
-         a.title.empty() == b.title.empty() && a.colours == b.colours;
+         a.causes == b.causes && a.focus == b.focus && a.isopotentials == b.isopotentials &&
+         a.offsets_A == b.offsets_A && a.n_field_lines == b.n_field_lines && a.slice == b.slice &&
+         a.legend == b.legend && a.title.empty() == b.title.empty() && a.colours == b.colours;
 }
 
 }  // namespace
@@ -69,6 +68,7 @@ void ComparisonScene::choose_scales(const Scene& scene) {
   unit_ = scene.unit.empty() ? files_.surface.potential_unit : scene.unit;
   std::vector<ColourScale> scales;
   const ScaleRange automatic{0, scene.range.percentile, false, 0, 0};
+  const ScaleRange of_potentials{scene.potential_limit, scene.range.percentile, false, 0, 0};
   const DivergingMap& map = diverging_map(scene.colours);
   for (const Panel& panel : panels_of(scene, false)) {
     for (const Sheet& sheet : panel.sheets) {
@@ -79,7 +79,10 @@ void ComparisonScene::choose_scales(const Scene& scene) {
       // A given range applies only to the array it was given for.
       const bool is_asked_for = scene.layout == Layout::kLinked ? sheet.array == compared_array(scene.array) : true;
       scales.emplace_back(sheet.array, shares ? both_potentials(files_.surface) : files_.surface.values(sheet.array),
-                          is_asked_for ? scene.range : automatic, map);
+                          is_asked_for ? scene.range
+                          : shares     ? of_potentials
+                                       : automatic,
+                          map);
     }
   }
   std::optional<ColourScale> map_scale;
@@ -173,16 +176,6 @@ void ComparisonScene::update_looks() {
     else
       drawn.actor->ForceTranslucentOff();
   }
-}
-
-void ComparisonScene::add_causes(const Panel& panel) {
-  if (!files_.causes || !files_.source_molecule) return;
-  const CauseDrawing drawing{*files_.source_molecule, *files_.causes, diverging_map(scene_.colours),
-                             scene_.height * scale_factor_ / 60};
-  for (const auto& prop : make_causes(drawing, scene_.molecule)) panel.renderer->AddViewProp(prop);
-  const auto outline =
-      make_outline(files_.surface, residues_of_reading(files_.record, drawing), scene_.height * scale_factor_ / 250);
-  if (outline != nullptr) panel.renderer->AddViewProp(outline);
 }
 
 void ComparisonScene::add_molecule(const Panel& panel) {

@@ -121,6 +121,7 @@ const std::vector<Entry>& entries() {
       ESPDIFF_ENTRY_OF("colour_by", array),
       ESPDIFF_ENTRY_OF("range", range),
       ESPDIFF_ENTRY_OF("percentile", range.percentile),
+      ESPDIFF_ENTRY_OF("potential_range", potential_limit),
       ESPDIFF_ENTRY_OF("colours", colours),
       ESPDIFF_ENTRY_OF("unit", unit),
       ESPDIFF_ENTRY_OF("per_vertex", per_vertex),
@@ -129,6 +130,7 @@ const std::vector<Entry>& entries() {
       ESPDIFF_ENTRY_OF("faint_above_A", opacity.faint_above_A),
       ESPDIFF_ENTRY_OF("least_opacity", opacity.least),
       ESPDIFF_ENTRY_OF("opacity", opacity.greatest),
+      ESPDIFF_ENTRY_OF("fade_to_grey", opacity.to_grey),
       ESPDIFF_ENTRY_OF("layout", layout),
       ESPDIFF_ENTRY_OF("width", width),
       ESPDIFF_ENTRY_OF("height", height),
@@ -228,6 +230,8 @@ void check(const Scene& s) {
                 " is out of range; each side must be " + std::to_string(kMinSize) + " to " + std::to_string(kMaxSize) +
                 " pixels");
   }
+  require(s.potential_limit >= 0 && std::isfinite(s.potential_limit),
+          "the potentials' range " + formatted(s.potential_limit) + " is not a number from 0 on (0: automatic)");
   require(s.n_views >= 1 && s.n_views <= 4, std::to_string(s.n_views) + " views cannot be drawn; use 1 to 4");
   require(
       is_share(s.opacity.least) && s.opacity.opaque_below_A >= 0 && s.opacity.faint_above_A > s.opacity.opaque_below_A,

@@ -25,6 +25,8 @@ struct CameraView {
 struct Scene {
   RenderArray array = RenderArray::kDifference;
   ScaleRange range;
+  /// > 0: end of the scale of both potentials in the layout `linked`; 0: automatic, over both
+  double potential_limit = 0;
   std::string colours = "red-blue";  ///< or cool-warm, purple-orange
   std::string unit;                  ///< of the potential; the file's when empty
   bool per_vertex = false;           ///< interpolate the vertices' values instead of looking up the maps

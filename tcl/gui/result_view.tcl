@@ -24,13 +24,15 @@ namespace eval ::espdiff::gui {
         button $path.top.table Table... ::espdiff::gui::show_table 0
         button $path.top.view Viewer ::espdiff::gui::view_result 0
         button $path.top.export Export... ::espdiff::gui::export 0
+        button $path.top.report Report... ::espdiff::gui::report 0
         button $path.top.delete Delete ::espdiff::gui::delete_result 2
         tip $path.top.table "All numbers, as the command line prints them"
         tip $path.top.view "Open the result in espdiff's viewer: both maps at every pixel, cartoon, field lines,\
             pictures for print"
         tip $path.top.export "Write numbers (.json), mapped surface (.vtp) and residues (.csv)"
+        tip $path.top.report "Write one page for any browser: the surface to be turned, residues, numbers, verdict"
         tip $path.top.delete "Free this result and its drawing"
-        grid $path.top.list $path.top.view $path.top.table $path.top.export $path.top.delete -sticky ew -padx {0 6}
+        grid $path.top.list $path.top.view $path.top.table $path.top.export $path.top.report $path.top.delete -sticky ew -padx {0 6}
         grid configure $path.top.delete -padx 0
         grid columnconfigure $path.top 0 -weight 1
         # What the result came from: the form above may have changed since.
@@ -43,7 +45,7 @@ namespace eval ::espdiff::gui {
         grid columnconfigure $path.numbers {1 4} -weight 1
         grid columnconfigure $path.numbers 2 -minsize 16
         pack $path.top $path.verdict $path.numbers -fill x -pady {0 2}
-        foreach name {list view table export delete} { set widget(result,$name) $path.top.$name }
+        foreach name {list view table export report delete} { set widget(result,$name) $path.top.$name }
     }
 
     # A coloured band: one bold line, and reasons if there are any.
@@ -151,7 +153,7 @@ namespace eval ::espdiff::gui {
         show_verdict
         show_numbers
         set_enabled [expr {$shown ne ""}] $widget(result,list) $widget(result,view) $widget(result,table) \
-            $widget(result,export) $widget(result,delete)
+            $widget(result,export) $widget(result,report) $widget(result,delete)
         show_residues
         if {[in_vmd]} { update_draw }
     }
@@ -233,6 +235,21 @@ namespace eval ::espdiff::gui {
         set names {}
         foreach path $files { lappend names [file tail $path] }
         show_message "Written to [file dirname [file normalize $prefix]]: [join $names {, }]"
+    }
+
+    proc report {} {
+        variable window
+        variable shown
+        set path [tk_getSaveFile -parent $window -title "Page of $shown" -initialfile $shown.html \
+            -defaultextension .html -filetypes {{"Pages" .html} {"All files" *}}]
+        if {$path ne ""} { report_to $path }
+    }
+
+    proc report_to {path} {
+        variable shown
+        espdiff report $shown -output $path
+        remember $shown report [list report -output $path]
+        show_message "Written: $path; any browser opens it."
     }
 
     # Results that a script deleted are not shown any more.

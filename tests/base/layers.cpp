@@ -50,7 +50,7 @@ const Rooms kAllowed = {
       "page", "export", "verify", "report", "trajectory", "matrix", "ensemble"}},
     {"vmdplugin",
      {"system", "base", "align", "engine", "io", "statistics", "compare", "prepare", "potential", "plot", "report",
-      "trajectory", "matrix", "ensemble"}},
+      "page", "trajectory", "matrix", "ensemble"}},
     {"python/src",
      {"base", "align", "engine", "io", "statistics", "compare", "prepare", "potential", "report", "trajectory",
       "matrix", "ensemble", "plot", "page", "cli"}},

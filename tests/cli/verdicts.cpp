@@ -15,7 +15,8 @@ namespace {
 
 /// Compares, and expects a trustworthy result that verify confirms.
 Json trusted(const ScratchFolder& folder, const std::string& pair) {
-  const Outcome compared = run_espdiff("compare " + pair + " --device cpu -q --exit-zero --overwrite -o " + folder.file("out"));
+  const Outcome compared =
+      run_espdiff("compare " + pair + " --device cpu -q --exit-zero --overwrite -o " + folder.file("out"));
   REQUIRE_MESSAGE(compared.status == 0, compared.err);
   CHECK_MESSAGE(compared.out.rfind("TRUSTWORTHY", 0) == 0, compared.out);
   Json json = Json::parse(read_file(folder.file("out.json")));
@@ -47,7 +48,7 @@ TEST_CASE("a right pair is trustworthy by every kind of potential, computed or g
   for (const auto& [method, kind] : maps) {
     CAPTURE(method);
     for (const auto& [state, map] : {std::pair(*a, source_map), std::pair(*b, target_map)})
-      REQUIRE(run_espdiff("potential " + state + " --method " + method + " -q --overwrite -o " + map).status == 0);
+      REQUIRE(run_espdiff("potential " + state + " --method " + method + " -q -o " + map).status == 0);
     const Json json = trusted(folder, *a + " " + *b + " --source-map " + source_map + " --target-map " + target_map);
     for (const char* side : {"source", "target"}) CHECK(json["given_maps"][side]["kind"] == kind);
     CHECK((json["potential_unit"] == "kT/e in vacuum") == (std::string(kind) != "salt water"));

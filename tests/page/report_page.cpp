@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <string>
 
 #include "base/error.h"
@@ -11,6 +12,7 @@
 #include "page/page_arrays.h"
 #include "page/page_texts.h"
 #include "page/report_page.h"
+#include "page/result_page.h"
 
 using namespace espdiff;       // NOLINT: a test
 using namespace espdiff_test;  // NOLINT: a test
@@ -69,6 +71,21 @@ TEST_CASE("a page holds the numbers, the residues and the verdict of its result,
   }
 }
 
+TEST_CASE("a page has the backbones, or says why not") {
+  if (!has_three()) return;
+  const SmallResult result;
+  const auto with = nlohmann::json::parse(element(report_page(result.prefix, ""), "record"));
+  for (const char* side : {"source", "target"}) {
+    CHECK(with.at("backbone").at(side).at("chains") == nlohmann::json({8}));
+    CHECK(with.at("backbone").at(side).at("points").at("n") == 24);
+  }
+  result.folder.write("a.pqr", row_of_atoms(7));
+  const auto without = nlohmann::json::parse(element(report_page(result.prefix, ""), "record"));
+  CHECK(!without.contains("backbone"));
+  CHECK(contains(without.at("molecule_because").get<std::string>(), "no molecule: "));
+  CHECK(contains(without.at("molecule_because").get<std::string>(), "a.pqr"));
+}
+
 TEST_CASE("names in files are texts to the page") {
   if (!has_three()) return;
   const SmallResult result("</s");
@@ -90,6 +107,26 @@ TEST_CASE("a result that is not whole, or not a comparison's, is refused with th
   CHECK_THROWS_WITH_AS(report_page(result.prefix, ""), doctest::Contains("pair.residues.csv"), IoError);
 }
 
+TEST_CASE("pages of a study have the widest range of all its results") {
+  if (!has_three()) return;
+  const SmallResult one;
+  const std::string other = one.folder.file("other");
+  one.folder.write("c.pqr", std::regex_replace(row_of_atoms(8), std::regex(" 0\\.5000"), " -2.000"));
+  REQUIRE(run_espdiff(one.folder.file("a.pqr") + " " + one.folder.file("c.pqr") + " --potential coulomb -q -o " + other)
+              .status == 0);
+  const auto range_in = [](const std::string& page) {
+    return nlohmann::json::parse(element(page, "record")).at("quantities").at(0).at("range").get<double>();
+  };
+  const double alone = range_in(report_page(one.prefix, "")), widest = range_in(report_page(other, ""));
+  REQUIRE(alone < widest);
+  CHECK(range_in(report_page(one.prefix, "", {other + ".vtp"})) == widest);
+  CHECK(range_in(report_page(other, "", {one.prefix + ".vtp"})) == widest);
+  CHECK_THROWS_WITH_AS(result_page(other, "", {one.folder.file("none.vtp")}), doctest::Contains("none.vtp"), IoError);
+  one.folder.write("frames.csv", "frame,rmsd_A\n0,1\n");
+  CHECK_THROWS_WITH_AS(result_page(one.folder.file("frames"), "", {other + ".vtp"}),
+                       doctest::Contains("is for surfaces, and "), InputError);
+}
+
 TEST_CASE("a browser draws the surface, and a click on a residue shows it") {
   if (!has_three()) return;
   const SmallResult result;
@@ -99,10 +136,16 @@ TEST_CASE("a browser draws the surface, and a click on a residue shows it") {
       "document.getElementById('linked').click(); const gl = document.querySelector('#canvas canvas'); "
       "const copy = document.createElement('canvas'); copy.width = gl.width; copy.height = gl.height; "
       "const context = copy.getContext('2d'); context.drawImage(gl, 0, 0); "
-      "const pixels = context.getImageData(0, 0, gl.width, gl.height).data; let drawn = 0; "
+      "const pixels = context.getImageData(0, 0, gl.width, gl.height).data; let drawn = 0, changed = 0; "
       "for (let i = 3; i < pixels.length; i += 4) drawn += pixels[i] > 0; "
-      "document.documentElement.dataset.seen = [drawn > 1000, document.querySelectorAll('.label').length, "
+      "document.getElementById('molecule').click(); context.clearRect(0, 0, gl.width, gl.height); "
+      "context.drawImage(gl, 0, 0); const after = context.getImageData(0, 0, gl.width, gl.height).data; "
+      "for (let i = 0; i < pixels.length; ++i) changed += pixels[i] !== after[i]; "
+      "document.documentElement.dataset.seen = [drawn > 1000, changed > 1000, "
+      "document.querySelectorAll('.label').length, "
       "document.querySelectorAll('.picked').length, document.getElementById('picked').textContent].join('|');",
       result.folder);
-  if (dom) CHECK_MESSAGE(contains(*dom, "data-seen=\"true|3|1|A:ALA"), dom->substr(0, 400));
+  if (!dom) return;
+  CHECK(!contains(*dom, "data-failed"));
+  CHECK_MESSAGE(contains(*dom, "data-seen=\"true|true|3|1|A:ALA"), dom->substr(0, 400));
 }

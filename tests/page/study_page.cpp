@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "cli/run_espdiff.h"
 #include "page/browser.h"
+#include "page/result_page.h"
 
 using namespace espdiff;       // NOLINT: a test
 using namespace espdiff_test;  // NOLINT: a test
@@ -41,13 +42,15 @@ TEST_CASE("the kind of a page follows from the files of the result") {
   CHECK(page_kind(study.trajectory) == PageKind::kTrajectory);
   CHECK(page_kind(study.folder.file("none")) == PageKind::kPair);
   study.folder.write("many.json", "{\"plan\": {}, \"noise_floor\": {}}");
-  CHECK_THROWS_WITH_AS(page_kind(study.folder.file("many")), doctest::Contains("an ensemble has no page yet"),
-                       InputError);
+  CHECK(page_kind(study.folder.file("many")) == PageKind::kEnsemble);
+  study.folder.write("list.json", "[]");
+  CHECK_THROWS_WITH_AS(page_kind(study.folder.file("list")), doctest::Contains("not a record that espdiff wrote"),
+                       FormatError);
 }
 
 TEST_CASE("a matrix' page has every pair at its place, and names stay texts") {
   const SmallStudy study;
-  const std::string page = study_page(study.matrix, PageKind::kMatrix, "");
+  const std::string page = matrix_page(study.matrix, "");
   CHECK(!contains(element(page, "record"), "<"));
   const auto record = nlohmann::json::parse(element(page, "record"));
   CHECK(record.at("labels") == nlohmann::json({"a<b>", "b<b>", "c<b>"}));
@@ -61,8 +64,7 @@ TEST_CASE("a matrix' page has every pair at its place, and names stay texts") {
 
 TEST_CASE("a trajectory's page has every frame, and its residues") {
   const SmallStudy study;
-  const auto record =
-      nlohmann::json::parse(element(study_page(study.trajectory, PageKind::kTrajectory, "Three"), "record"));
+  const auto record = nlohmann::json::parse(element(trajectory_page(study.trajectory, "Three"), "record"));
   CHECK(record.at("title") == "Three");
   CHECK(record.at("labels").size() == 3);
   CHECK(record.at("residues").at("names").at(0) == "A:ALA 1");
@@ -74,23 +76,21 @@ TEST_CASE("a trajectory's page has every frame, and its residues") {
 TEST_CASE("a study that is damaged or of another version is refused") {
   const SmallStudy study;
   study.folder.write("rows.json", "{\"variants\": [{\"label\": \"x\"}]}");
-  CHECK_THROWS_WITH_AS(study_page(study.matrix, PageKind::kMatrix, ""), doctest::Contains("names a variant that "),
-                       FormatError);
+  CHECK_THROWS_WITH_AS(matrix_page(study.matrix, ""), doctest::Contains("names a variant that "), FormatError);
   study.folder.write("rows.json", "{\"variants\": [3]}");
-  CHECK_THROWS_WITH_AS(study_page(study.matrix, PageKind::kMatrix, ""),
+  CHECK_THROWS_WITH_AS(matrix_page(study.matrix, ""),
                        doctest::Contains("not a matrix of this version of espdiff; compute it again"), FormatError);
   study.folder.write("frames.csv", "frame,other\n0,1\n");
-  CHECK_THROWS_WITH_AS(study_page(study.trajectory, PageKind::kTrajectory, ""),
+  CHECK_THROWS_WITH_AS(trajectory_page(study.trajectory, ""),
                        doctest::Contains("no column holds a metric of this version"), FormatError);
   study.folder.write("frames.csv", "frame,rmsd_A\n");
-  CHECK_THROWS_WITH_AS(study_page(study.trajectory, PageKind::kTrajectory, ""), doctest::Contains("there are no rows"),
-                       FormatError);
+  CHECK_THROWS_WITH_AS(trajectory_page(study.trajectory, ""), doctest::Contains("there are no rows"), FormatError);
 }
 
 TEST_CASE("a click in a browser selects a pair, and a frame with a residue") {
   const SmallStudy study;
   const auto matrix = shown_in_browser(
-      study_page(study.matrix, PageKind::kMatrix, ""),
+      matrix_page(study.matrix, ""),
       "document.querySelector('rect[data-place=\"5\"]').dispatchEvent(new MouseEvent('click', {bubbles: true})); "
       "document.documentElement.dataset.seen = [document.querySelectorAll('rect').length, "
       "document.getElementById('chosen').textContent, document.querySelectorAll('rect.picked').length].join('|');",
@@ -99,7 +99,7 @@ TEST_CASE("a click in a browser selects a pair, and a frame with a residue") {
   CHECK_MESSAGE(contains(*matrix, "data-seen=\"6|b&lt;b&gt; to c&lt;b&gt;|1\""), matrix->substr(0, 400));
   CHECK(!contains(*matrix, "data-failed"));
   const auto frames = shown_in_browser(
-      study_page(study.trajectory, PageKind::kTrajectory, ""),
+      trajectory_page(study.trajectory, ""),
       "const map = document.querySelector('#residues canvas'), box = map.getBoundingClientRect(); "
       "map.dispatchEvent(new MouseEvent('click', {clientX: box.left + 0.9 * box.width, clientY: box.top + 1})); "
       "document.documentElement.dataset.seen = [document.getElementById('chosen').textContent, "

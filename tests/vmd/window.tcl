@@ -28,6 +28,13 @@ test "TIM: molecules and maps are chosen already; compared" {
     check "a difference" {[espdiff result $comparison mean_abs_difference] > 0.5}
 }
 
+test "a page for a browser" {
+    check "can be pressed" {![[widget result,report] instate disabled]}
+    ::espdiff::gui::report_to $scratch/page.html
+    check "written" {[file size $scratch/page.html] > 200000}
+    check "told" {[string match "Written: $scratch/page.html; any browser opens it." [message_line]]}
+}
+
 test "drawn, side by side, and undrawn" {
     set before [molinfo num]
     press draw
@@ -96,6 +103,11 @@ test "AdK's trajectory: rows come, and the plot with them" {
     check_equal "points while it runs" [llength [[widget trajectory,plot] find withtag good||bad]] 2
     wait_until {$::espdiff::gui::trajectory_running eq ""}
     check "message" {[string match "4 rows in * s; * trustworthy*" [[widget trajectory,message] cget -text]]}
+    set warned [lsearch -all -not -exact [lmap row $::espdiff::gui::trajectory_rows { dict get $row warnings }] ""]
+    check "warnings of rows are said" {$warned ne "" && [string match "*. [llength $warned] with a warning: *" \
+        [[widget trajectory,message] cget -text]]}
+    check_equal "and what to do, in the window's words" [::espdiff::gui::option_label potential pb 0] \
+        "Potential Poisson-Boltzmann"
     set texts {}
     foreach item [[widget trajectory,plot] find all] {
         if {[[widget trajectory,plot] type $item] eq "text"} { lappend texts [[widget trajectory,plot] itemcget $item -text] }

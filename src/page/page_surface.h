@@ -1,0 +1,44 @@
+// page_surface.h: what pages with a surface share: its arrays, its limit, its scripts.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "io/read_vtp.h"
+#include "page/page_arrays.h"
+
+namespace espdiff {
+
+/// @throws DeviceError (this build has no three.js)
+void require_three();
+
+/// @param prefix OUT, for the message
+/// @throws InputError (more than kMaxPageTriangles)
+void require_page_size(std::size_t n_triangles, const std::string& prefix);
+
+/// Embedded files, in the order in which they run.
+std::vector<std::string> surface_page_scripts();
+
+/// [3 * vertex]
+std::vector<double> page_coordinates(const std::vector<Vec3d>& positions);
+
+/// [vertex] an array of whole numbers; -1 where there is none.
+/// @throws FormatError (OUT.vtp has no such array)
+std::vector<std::int32_t> page_integers(const VtpContent& surface, const std::string& name, const std::string& prefix);
+
+/// A quantity of the record: its array, name, label, unit, and the range that covers 90 % of the values.
+nlohmann::ordered_json page_quantity(PageArrays& arrays, const VtpNumbers& values, const std::string& label,
+                                     const std::string& unit, bool is_signed);
+
+/// Widens the range of each quantity to the widest of other results.
+/// @param prefix OUT
+/// @param others VTP files; nothing changes without any
+/// @throws IoError, FormatError, InputError; see shared_limits()
+void share_page_ranges(nlohmann::ordered_json& page, const std::string& prefix, std::vector<std::string> others);
+
+/// `triangles` of the record: those that count first, then the rest.
+void add_page_triangles(nlohmann::ordered_json& page, PageArrays& arrays, const std::vector<Triangle>& counted,
+                        const std::vector<Triangle>& rest);
+
+}  // namespace espdiff
