@@ -8,6 +8,7 @@ const bool perFragment = PER_FRAGMENT;  // otherwise interpolated between the ve
 const int part = PART;                  // 0 trusted, 1 corrupt, 2 unmatched
 const int colourBy = COLOUR_BY;         // the numbers of RenderArray
 const bool fades = FADES;
+const bool toGrey = TO_GREY;  // fades to grey, and stays opaque
 const bool split = SPLIT;
 const bool cuts = CUTS;          // along smooth borders of unmatched parts
 const bool outlines = OUTLINES;  // residues, by a dark line
@@ -63,13 +64,17 @@ vec3 surfaceColour()
   return scaleColour(value);
 }
 
+/// 0 where the correspondence is certain, 1 where it is least certain.
+float fadedHere()
+{
+  return uncertaintyFS < 0.0 ? 1.0 : clamp((uncertaintyFS - fade.x) / (fade.y - fade.x), 0.0, 1.0);
+}
+
 float opacityHere()
 {
   if (part == 1) return 0.3;
   if (part == 2) return 1.0;
-  if (!fades) return fade.w;
-  if (uncertaintyFS < 0.0) return fade.z;
-  return mix(fade.w, fade.z, clamp((uncertaintyFS - fade.x) / (fade.y - fade.x), 0.0, 1.0));
+  return fades && !toGrey ? mix(fade.w, fade.z, fadedHere()) : fade.w;
 }
 
 /// Diagonal stripes, fixed to the picture.
@@ -102,6 +107,7 @@ void main()
   if (cuts && part == 0 && bordersFS.x < 0.5) discard;
   if (cuts && part == 2 && (bordersFS.x >= 0.5 || spansTear())) discard;
   vec3 colour = part == 1 ? noValueColour : part == 2 ? (onStripe() ? noValueColour : vec3(0.93)) : surfaceColour();
+  if (toGrey && part == 0) colour = mix(colour, vec3(0.35), fadedHere());
   if (atBorder) colour = vec3(0.25);
   if (atOutline) colour = vec3(0.05);
   if (colourBy == kReadBack) gl_FragData[0] = vec4(colour, 1.0);

@@ -41,19 +41,24 @@ namespace eval ::espdiff {
             [dict get $residue ${prefix}insertion]
     }
 
-    # "A:TRP90", "A:TRP90->SER" where it is mutated, "A:TRP90->TRP91" where its partner has another number.
+    # "A:TRP90", "A:TRP90->SER" where it is mutated, "A:TRP90->B:TRP91" where its partner has another chain or number.
     proc residue_name {row} {
+        lassign [list [chain_prefix $row ""] [chain_prefix $row target_]] own other
         set name "[dict get $row name][dict get $row number][dict get $row insertion]"
-        if {[dict get $row chain] ni {"" X " "}} { set name "[dict get $row chain]:$name" }
-        set other [dict get $row target_name]
-        if {$other eq ""} { return $name }
+        set partner [dict get $row target_name]
+        if {$partner eq ""} { return $own$name }
         set number "[dict get $row target_number][dict get $row target_insertion]"
-        if {$number ne "[dict get $row number][dict get $row insertion]"} {
-            append name "->$other$number"
-        } elseif {$other ne [dict get $row name]} {
-            append name "->$other"
+        if {$other eq $own} { set other "" }
+        if {$other ne "" || $number ne "[dict get $row number][dict get $row insertion]"} {
+            return "$own$name->$other$partner$number"
         }
-        return $name
+        return $own$name[expr {$partner eq [dict get $row name] ? "" : "->$partner"}]
+    }
+
+    # VMD names a chain that the file does not name X.
+    proc chain_prefix {row side} {
+        set chain [dict get $row ${side}chain]
+        expr {$chain in {"" X " "} ? "" : "$chain:"}
     }
 
     # Whose residues a molecule has: target, source, or both of them; those of the source for a molecule that was not

@@ -154,7 +154,7 @@ namespace eval ::espdiff {
             the difference of the groups (-color also source, target: means of the groups, and t), faded where it is
             not significant. Parts meet in smooth lines;
             parts without a counterpart are grey and hatched. View, top molecule and colour settings do not change. A
-            drawing is up to four graphics molecules, which are shown, hidden and deleted together.} \
+            drawing is up to four graphics molecules (eight in linked views), which are shown, hidden and deleted together.} \
         returns {the graphics molecules' ids} example {espdiff draw comparison1 -color difference -range {-5 5}}]
 
     command view [dict create arguments {input} settings none run ::espdiff::view options {

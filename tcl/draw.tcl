@@ -72,26 +72,6 @@ namespace eval ::espdiff {
         foreach other [dict keys $drawings] { if {$other ne $handle} { forget_drawing $other } }
     }
 
-    # Legends name their comparison while several are drawn.
-    proc name_legends {} {
-        variable drawings
-        variable drawn_plans
-        set several [expr {[dict size $drawn_plans] > 1}]
-        dict for {handle plan} $drawn_plans {
-            set old [lindex [drawing_of $handle] end]
-            if {[dict exists $plan name] == $several || $old ni [molinfo list]} continue
-            set plan [expr {$several ? [dict set plan name [comparison_name $handle]] : [dict remove $plan name]}]
-            dict set drawn_plans $handle $plan
-            keep_view {
-                with_color_scale [dict get $plan colors] { build_list [set mol [draw_legend $plan]] }
-                if {![molinfo $old get displayed]} { mol off $mol }
-                dict set drawings $handle [lreplace [drawing_of $handle] end end $mol]
-                delete_molecules [list $old]
-            }
-        }
-        place_legends
-    }
-
     # Without another molecule, VMD has made the legend the top molecule, and the view is of nothing.
     proc show_alone {molecules} {
         variable legends

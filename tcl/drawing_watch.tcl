@@ -1,9 +1,11 @@
-# drawing_watch.tcl: keeps drawings in step with VMD: shown, hidden and deleted as one, and a note when their molecule
-# shows another frame.
+# drawing_watch.tcl: keeps drawings in step with VMD: shown, hidden and deleted as one, legends as wide as its window, and a
+# note when their molecule shows another frame.
 
 namespace eval ::espdiff {
     variable frame_notes [dict create]  ;# by handle: the graphics molecule of the note, molecule and frame of the surface
     variable syncing 0                  ;# we are hiding or showing molecules ourselves
+    variable size_watch ""              ;# the `after` script that looks at the size of VMD's window
+    variable sizes {}                   ;# of the window: the one that legends are drawn for, and the last one seen
 
     # Called when drawings have come or gone.
     proc watch_drawings {} {
@@ -13,6 +15,40 @@ namespace eval ::espdiff {
             if {[dict size $drawings] > 0} { trace add variable $name write $action }
         }
         watch_save_state
+        if {[dict size $drawings] > 0} {
+            variable sizes
+            set sizes [list [display get size] [display get size]]
+            watch_size
+        }
+    }
+
+    # VMD tells nobody that its window was resized. Legends follow once the size stays.
+    proc watch_size {} {
+        variable drawings
+        variable size_watch
+        variable sizes
+        after cancel $size_watch
+        if {[dict size $drawings] == 0} return
+        lassign $sizes fitted last
+        set now [display get size]
+        set sizes [list $fitted $now]
+        if {$now ne $fitted && $now eq $last && [catch { fit_drawings } message]} { say $message }
+        set size_watch [after 400 ::espdiff::watch_size]
+    }
+
+    # Draws for the current size of the window: a linked view as a whole, otherwise the legends.
+    proc fit_drawings {} {
+        variable linked
+        variable drawn_options
+        variable drawn_plans
+        variable sizes
+        set sizes [list [display get size] [display get size]]
+        if {$linked ne ""} {
+            set handle [dict get $linked handle]
+            draw_linked [dict get $drawn_options $handle] $handle
+        }
+        dict for {handle plan} $drawn_plans { replace_legend $handle $plan }
+        place_legends
     }
 
     # `mol on N`, `mol off N` and `mol delete N`, by which VMD logs what its own window does too.

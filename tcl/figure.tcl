@@ -2,7 +2,7 @@
 
 namespace eval ::espdiff {
     # Shares of a picture's height that `espdiff render` keeps for them.
-    variable figure_margins {legend 0.19 title 0.09}  ;# as scene_legend.cpp has them
+    variable figure_margins {legend 0.19 head 0.045 title 0.075 names 0.03}  ;# as scene_legend.cpp has them
     variable figure_quantities {difference source target sign slip displacement}
 
     proc figure {options handle path} {
@@ -30,8 +30,8 @@ namespace eval ::espdiff {
         finally {
             set surface [export_for_viewer $folder $handle]
             set scene [file join $folder scene.json]
-            write_text $scene [camera_json $handle]
-            run_to_end $program [concat [list render $surface -o [file normalize $path] --scene $scene --views 1] \
+            write_text $scene [camera_json $handle [dict get $drawn surface]]
+            run_to_end $program [concat [list render $surface -o [file normalize $path] --scene $scene] \
                 [figure_words $handle $color $drawn $options]]
         } { file delete -force $folder }
         return $path
@@ -54,7 +54,8 @@ namespace eval ::espdiff {
         lassign [display get size] width height
         set view 1.0
         if {[dict get $drawn legend]} {
-            set view [expr {$view - [dict get $figure_margins legend]}]
+            set view [expr {$view - [dict get $figure_margins legend] - [dict get $figure_margins head]}]
+            if {[dict get $drawn view] eq "linked"} { set view [expr {$view - [dict get $figure_margins names]}] }
             if {[dict get $options title] ne ""} { set view [expr {$view - [dict get $figure_margins title]}] }
         }
         set wide [dict get $options width]
@@ -65,7 +66,9 @@ namespace eval ::espdiff {
     # What is drawn how, as options of `espdiff render`.
     proc figure_words {handle color drawn options} {
         lassign [figure_size $options $drawn] width height
-        set words [list --color $color --colors [dict get $drawn colors] --width $width --height $height \
+        set words [expr {[dict get $drawn view] eq "linked" ? {--layout linked} : {--views 1}}]
+        if {[dict get $drawn surface] eq "source"} { lappend words --morph 0 }
+        lappend words {*}[list --color $color --colors [dict get $drawn colors] --width $width --height $height \
             --molecule [dict get $options molecule]]
         if {$color ni {sign plain}} {
             set range [drawn_range $handle $color [shared_range $drawn $handle $color]]
@@ -76,19 +79,21 @@ namespace eval ::espdiff {
         } else {
             set limit [dict get $drawn uncertainty-limit]
             lappend words --opaque-below [expr {0.5 * $limit}] --faint-above $limit
+            if {[dict get $drawn uncertain] eq "fade"} { lappend words --fade-to-grey }
         }
         if {![dict get $drawn legend]} { lappend words --no-legend }
         if {[dict get $options title] ne ""} { lappend words --title [dict get $options title] }
         return $words
     }
 
-    # VMD's camera in the frame of the target, as the scene file of `espdiff render` has it. VMD centres a point,
-    # rotates, scales and moves it; it looks along -z.
-    proc camera_json {handle} {
-        set mol [molecule_of $handle target]
+    # VMD's camera in the frame of the target, as the scene file of `espdiff render` has it, from the molecule whose surface
+    # is drawn (mapped or source). VMD centres a point, rotates, scales and moves it; it looks along -z.
+    proc camera_json {handle surface} {
+        set is_source [expr {$surface eq "source"}]
+        set mol [molecule_of $handle [expr {$is_source ? "source" : "target"}]]
         if {$mol eq ""} { set mol [lindex [drawing_of $handle] 0] }
         if {$mol eq "" || $mol ni [molinfo list]} {
-            fail "espdiff figure: neither the target's molecule nor a drawing of $handle is in VMD; draw it first"
+            fail "espdiff figure: neither the surface's molecule nor a drawing of $handle is in VMD; draw it first"
         }
         lassign [molinfo $mol get {center_matrix rotate_matrix scale_matrix global_matrix}] center rotation scale global
         foreach axis {0 1 2} {
@@ -102,8 +107,19 @@ namespace eval ::espdiff {
         lassign $shift x y z
         set centre [vecsub $centre [vecscale [expr {1.0 / $factor}] [vecadd [vecscale $x $right] [vecscale $y $up]]]]
         set half [expr {[half_window $z] / $factor}]
+        if {$is_source} {
+            set superposition [dict get [core::result $handle] superposition]
+            foreach name {centre toward up} { set $name [rotated [dict get $superposition rotation_row_major] [set $name]] }
+            set centre [vecadd $centre [dict get $superposition translation_A]]
+        }
         return "{\"camera\": {\"centre_A\": [json_list $centre], \"toward_viewer\": [json_list $toward],\
             \"up\": [json_list $up], \"half_height_A\": $half}}"
+    }
+
+    # A vector rotated by a matrix of nine entries, row by row.
+    proc rotated {matrix vector} {
+        list [vecdot [lrange $matrix 0 2] $vector] [vecdot [lrange $matrix 3 5] $vector] \
+            [vecdot [lrange $matrix 6 8] $vector]
     }
 
     # Half the window's height in VMD's coordinates at depth z.

@@ -41,11 +41,13 @@ namespace eval ::espdiff {
         return $mol
     }
 
-    # Draws the name of a panel at the window's top.
-    proc draw_panel_title {handle middle text size} {
-        set mol [new_legend $handle [graphics_name $handle title] $middle]
+    # Draws the names of panels at the window's top; `titles` has their places, in half widths of it, and texts.
+    proc draw_panel_titles {handle titles} {
+        set mol [new_legend $handle [graphics_name $handle titles] 0]
         graphics $mol color [legend_text_color]
-        draw_text $mol $text 0 0.9 $size
+        set size [panel_title_size [dict values $titles]]
+        set aspect [lindex [legend_screen] 2]
+        dict for {middle text} $titles { draw_text $mol $text [expr {$middle * $aspect}] 0.9 $size }
         build_list $mol
         return $mol
     }
@@ -101,11 +103,39 @@ namespace eval ::espdiff {
         dict for {mol place} $legends {
             if {$mol ni [molinfo list]} { dict unset legends $mol; dict unset ::espdiff::drawn_texts $mol; continue }
             lassign $place handle middle
-            if {[regexp { (title|note)$} [lindex [molinfo $mol get name] 0]]} { place_legend $mol $middle 0; continue }
+            if {[regexp { (titles|note)$} [lindex [molinfo $mol get name] 0]]} { place_legend $mol $middle 0; continue }
             if {$handle ni $rows} { lappend rows $handle }
             place_legend $mol $middle [lsearch -exact $rows $handle]
         }
         if {[dict size $legends] == 0} { trace remove variable ::vmd_logfile write ::espdiff::on_vmd_command }
+    }
+
+    # Legends name their comparison while several are drawn.
+    proc name_legends {} {
+        variable drawn_plans
+        set several [expr {[dict size $drawn_plans] > 1}]
+        dict for {handle plan} $drawn_plans {
+            set old [lindex [drawing_of $handle] end]
+            if {[dict exists $plan name] == $several || $old ni [molinfo list]} continue
+            replace_legend $handle [expr {$several ? [dict set plan name [comparison_name $handle]]
+                : [dict remove $plan name]}]
+        }
+        place_legends
+    }
+
+    # Draws the legend of a drawing again, which is its last molecule.
+    proc replace_legend {handle plan} {
+        variable drawings
+        variable drawn_plans
+        set old [lindex [drawing_of $handle] end]
+        if {$old ni [molinfo list]} return
+        dict set drawn_plans $handle $plan
+        keep_view {
+            with_color_scale [dict get $plan colors] { build_list [set mol [draw_legend $plan]] }
+            if {![molinfo $old get displayed]} { mol off $mol }
+            dict set drawings $handle [lreplace [drawing_of $handle] end end $mol]
+            delete_molecules [list $old]
+        }
     }
 
     # VMD writes each command that changed something into ::vmd_logfile. Resetting the view centres even fixed molecules

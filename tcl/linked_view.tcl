@@ -80,12 +80,9 @@ namespace eval ::espdiff {
         set titles [dict create]
         dict for {panel place} $panels {
             set title [expr {$panel eq "difference" ? [dict get $plans difference color] : [lindex $place 1]}]
-            dict set titles $panel [panel_title $handle $panel $title]
+            dict set titles [lindex $place 0] [panel_title $handle $panel $title]
         }
-        set size [panel_title_size [dict values $titles]]
-        dict for {panel title} $titles {
-            dict lappend made fixed [draw_panel_title $handle [lindex [dict get $panels $panel] 0] $title $size]
-        }
+        dict lappend made fixed [draw_panel_titles $handle $titles]
         dict set plans target title Potential  ;# of both
         if {[dict get $plans difference color] eq "difference"} { dict set plans difference title "Target - source" }
         foreach {panel middle room} {target -0.3333 0.6 difference 0.6667 0.3} {

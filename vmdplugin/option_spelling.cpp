@@ -40,6 +40,8 @@ std::string spelled_option(const NamedOption& option) {
     if (option.name == key.option) return key.words;
   }
   const std::string value = option.is_switch ? "1" : option.value;
+  // The key of an endpoint, and `-map` of trajectories.
+  if (option.name == "potential" && !value.empty()) return "map " + value;
   return "-" + option.name + (value.empty() ? "" : " " + value);
 }
 

@@ -7,7 +7,9 @@
 //     y = A_ii^-1 g_i,    contribution of charge j = q_j (S^t y + B^t (g_b - A_bi y))_j
 //
 // and the contributions add up to the reading. With a border from a wider grid, B^t is that grid's own transpose.
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "base/error.h"
 #include "cuda/potential/conjugate_gradients.h"
@@ -20,32 +22,37 @@
 namespace espdiff::ESPDIFF_BACKEND {
 namespace {
 
+/// A residual of ten times the map's leaves contributions that are off by 1e-6 of the largest (bench/causes_brute_force).
+constexpr double kOfTolerance = 10;
+
+using AfterCycle = std::function<void(double)>;
+
 /// The transposes on one grid, for several readings. All is public: nvcc takes no device lambdas in private members.
 struct TransposedProblem {
-  TransposedProblem(const MapOrigin& origin, const std::vector<ProbeCharge>& probes, const Lattice& on_lattice,
+  TransposedProblem(const MapOrigin& origin, const std::vector<PbAtom>& atoms, const Lattice& on_lattice,
                     const CubicLattice& lattice)
       : origin_(origin),
-        probes_(probes),
+        atoms_(atoms),
         constants_(pb_constants(origin.pb)),
-        on_lattice_(on_lattice),
         lattice_(lattice),
-        grid_size_{lattice.size[0], lattice.size[1], lattice.size[2]},
-        work_(lattice.n_points()),
-        y_(lattice.n_points(), 0.0F),
-        g_(lattice.n_points(), 0.0F) {
-    for (std::size_t i = 0; i < origin.positions.size(); ++i)
-      atoms_.push_back({origin.positions[i], origin.radii[i], origin.charges[i]});
-    for (const ProbeCharge& probe : probes) atoms_.push_back({probe.position, probe.radius, probe.charge});
+        grid_size_{lattice.size[0], lattice.size[1], lattice.size[2]} {
+    // First, since it needs memory of its own for a while.
     fill_pb_operator(sorted_atoms(origin.positions, origin.radii, origin.charges), lattice_, constants_, origin.pb,
                      on_grid_);
     add_faces_to_diagonal(on_grid_);
     multigrid_ = std::make_unique<Multigrid>(on_grid_);
+    work_ = std::make_unique<SolverWork>(lattice.n_points());
+    solution_.lattice = on_lattice;
+    solution_.values.assign(lattice.n_points(), 0.0F);
+    solution_.periodic = true;  // splines are of periodic maps; charges lie far from the border
+    solution_.spline_order = 4;
+    g_.assign(lattice.n_points(), 0.0F);
   }
 
-  /// [atom, then probe] contribution of a unit charge. @param reading g, on this grid's points
-  std::vector<double> unit_contributions(const SparseValues& reading, const std::function<void(double)>& step) {
-    std::vector<double> sums(atoms_.size(), 0.0);
-    if (reading.point.empty()) return sums;
+  /// Adds S^t y to the sums of unit charges, and leaves the gradient on the border in g_.
+  /// @param reading g, on this grid's points
+  /// @param sums    [charge]
+  void add_inner(const SparseValues& reading, const AfterCycle& step, std::vector<double>& sums) {
     SparseValues inner, border;
     for (std::size_t n = 0; n < reading.point.size(); ++n) {
       SparseValues& part = is_border(reading.point[n]) ? border : inner;
@@ -55,12 +62,13 @@ struct TransposedProblem {
     solve(inner, step);
     add_charges(sums);
     set_border_gradient(border);
+  }
+
+  /// Adds B^t g_ of Debye-Hueckel values on the border.
+  void add_border(std::vector<double>& sums) {
     const std::vector<double> far =
-        origin_.pb.far_boundary == FarBoundary::kDebyeHueckel
-            ? debye_hueckel_transposed(atoms_, lattice_, border_law(constants_, origin_.pb), g_)
-            : of_wider_grid(step);
+        debye_hueckel_transposed(atoms_, lattice_, border_law(constants_, origin_.pb), g_);
     for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += far[i];
-    return sums;
   }
 
   bool is_border(std::size_t point) const {
@@ -82,27 +90,22 @@ struct TransposedProblem {
     for_each_index(points.size(), [=] ESPDIFF_HD(std::size_t n) { g[point[n]] += value[n]; });
   }
 
-  /// y_ = A_ii^-1 g.
-  void solve(const SparseValues& inner, const std::function<void(double)>& step) {
+  /// y = A_ii^-1 g.
+  void solve(const SparseValues& inner, const AfterCycle& step) {
     g_.assign(g_.size(), 0.0F);
-    y_.assign(y_.size(), 0.0F);
+    solution_.values.assign(g_.size(), 0.0F);
     add_to_g(inner);
     SolverOptions solver;
-    solver.tolerance = origin_.pb.tolerance;
+    solver.tolerance = kOfTolerance * origin_.pb.tolerance;
     solver.max_cycles = origin_.pb.max_cycles;
     solver.norm = std::sqrt(dot_product(g_, g_));
     if (solver.norm == 0) return;
-    const SolverReport solved = conjugate_gradients(on_grid_, *multigrid_, g_, solver, work_, y_, step);
+    const SolverReport solved = conjugate_gradients(on_grid_, *multigrid_, g_, solver, *work_, solution_.values, step);
     require_converged(origin_.pb, solved, 0);
   }
 
   /// S^t y: the spline of each charge over y.
   void add_charges(std::vector<double>& sums) const {
-    MapGrid solution;
-    solution.lattice = on_lattice_;
-    solution.values = y_;
-    solution.periodic = true;  // splines are of periodic maps; charges lie far from the border
-    solution.spline_order = 4;
     std::vector<Vec3d> places;
     const double h = static_cast<double>(lattice_.spacing);
     for (const PbAtom& atom : atoms_) {
@@ -111,7 +114,7 @@ struct TransposedProblem {
         u[axis] = (atom.position[axis] - static_cast<double>(lattice_.origin[axis])) / h;
       places.push_back(u);
     }
-    const std::vector<float> found = values_at(solution, places);
+    const std::vector<float> found = values_at(solution_, places);
     const double scale = charge_scale(lattice_, constants_.coulomb);
     for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += scale * static_cast<double>(found[i]);
   }
@@ -122,7 +125,7 @@ struct TransposedProblem {
     const float* const ex = raw(on_grid_.ex);
     const float* const ey = raw(on_grid_.ey);
     const float* const ez = raw(on_grid_.ez);
-    const float* const y = raw(y_);
+    const float* const y = raw(solution_.values);
     float* const g = raw(g_);
     for_each_index(size.points(), [=] ESPDIFF_HD(std::size_t p) {
       const int n[3] = {size.nx, size.ny, size.nz};
@@ -146,45 +149,62 @@ struct TransposedProblem {
     add_to_g(border);
   }
 
-  /// The transpose of the border's samples of a wider grid, and of that grid's potential.
-  std::vector<double> of_wider_grid(const std::function<void(double)>& step) {
-    MapGrid around;
-    around.lattice = twice_as_wide(on_lattice_);
-    set_index_transform(around.lattice, {}, "the coarse grid", around.to_index);
-    const std::vector<float> gradient = to_host(g_);
+  std::vector<float> values_of_g(const std::vector<std::size_t>& points) const {
+    const Buffer<std::size_t> on_device = to_device(points);
+    Buffer<float> values(points.size());
+    const std::size_t* const point = raw(on_device);
+    const float* const g = raw(g_);
+    float* const value = raw(values);
+    for_each_index(points.size(), [=] ESPDIFF_HD(std::size_t n) { value[n] = g[point[n]]; });
+    return to_host(values);
+  }
+
+  /// The transpose of samples on the border of a grid that lies within `around`: g_ as weights of places in it.
+  WeightedPlaces border_in(const MapGrid& around) const {
+    std::vector<std::size_t> points;
+    for (std::size_t p = 0; p < g_.size(); ++p) {
+      if (is_border(p)) points.push_back(p);
+    }
+    const std::vector<float> gradient = values_of_g(points);
+    const Lattice& own = solution_.lattice;
     WeightedPlaces border;
-    for (std::size_t p = 0; p < gradient.size(); ++p) {
-      if (gradient[p] == 0 || !is_border(p)) continue;
-      const Vec3d at = on_lattice_.origin + static_cast<double>(p % grid_size_.row()) * on_lattice_.step[0] +
-                       static_cast<double>(p % grid_size_.plane() / grid_size_.row()) * on_lattice_.step[1] +
-                       static_cast<double>(p / grid_size_.plane()) * on_lattice_.step[2];
+    for (std::size_t n = 0; n < points.size(); ++n) {
+      const std::size_t p = points[n];
+      if (gradient[n] == 0) continue;
+      const Vec3d at = own.origin + static_cast<double>(p % grid_size_.row()) * own.step[0] +
+                       static_cast<double>(p % grid_size_.plane() / grid_size_.row()) * own.step[1] +
+                       static_cast<double>(p / grid_size_.plane()) * own.step[2];
       Vec3d place;
       for (int axis = 0; axis < 3; ++axis) {
         const double* const row = around.to_index + std::ptrdiff_t{4} * axis;
         place[axis] = row[0] * at.x + row[1] * at.y + row[2] * at.z + row[3];
       }
       border.place.push_back(place);
-      border.weight.push_back(static_cast<double>(gradient[p]));
+      border.weight.push_back(static_cast<double>(gradient[n]));
     }
-    MapOrigin with_sum = origin_;
-    with_sum.pb.far_boundary = FarBoundary::kDebyeHueckel;
-    TransposedProblem wide(with_sum, probes_, around.lattice, twice_as_wide(lattice_, around.lattice));
-    return wide.unit_contributions(spread_linearly(around, border), step);
+    return border;
   }
 
  private:
   const MapOrigin& origin_;
-  const std::vector<ProbeCharge>& probes_;
+  const std::vector<PbAtom>& atoms_;  ///< that are charged, in the order of the input; then the probes
   PbConstants constants_;
-  Lattice on_lattice_;
   CubicLattice lattice_;
   GridSize grid_size_;
-  std::vector<PbAtom> atoms_;  ///< in the order of the input, then the probes
   GridOperator on_grid_;
   std::unique_ptr<Multigrid> multigrid_;
-  SolverWork work_;
-  Buffer<float> y_, g_;
+  std::unique_ptr<SolverWork> work_;
+  MapGrid solution_;  ///< y
+  Buffer<float> g_;
 };
+
+std::vector<PbAtom> atoms_and_probes(const MapOrigin& origin, const std::vector<ProbeCharge>& probes) {
+  std::vector<PbAtom> all;
+  for (std::size_t i = 0; i < origin.positions.size(); ++i)
+    all.push_back({origin.positions[i], origin.radii[i], origin.charges[i]});
+  for (const ProbeCharge& probe : probes) all.push_back({probe.position, probe.radius, probe.charge});
+  return all;
+}
 
 void require_probes_inside(const MapOrigin& origin, const CubicLattice& lattice,
                            const std::vector<ProbeCharge>& probes) {
@@ -212,17 +232,44 @@ std::vector<std::vector<double>> pb_contributions(const MapGrid& map, const std:
   const CubicLattice lattice = checked_pb_lattice(map.lattice, origin.positions, origin.pb);
   require_probes_inside(origin, lattice, probes);
   progress.report("causes", 0.0);
-  TransposedProblem problem(origin, probes, map.lattice, lattice);
-  std::vector<std::vector<double>> result;
-  for (const WeightedPlaces& reading : readings) {
-    const auto step = [&](double residual) {
+  const std::vector<PbAtom> all = atoms_and_probes(origin, probes);
+  std::vector<PbAtom> atoms;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(atoms), [](const PbAtom& a) { return a.charge != 0; });
+  const bool has_wider = origin.pb.far_boundary != FarBoundary::kDebyeHueckel;
+  // Readings on the map's own grid first, then on the wider one: only one grid's arrays are there at a time.
+  const double n_solutions = static_cast<double>(readings.size()) * (has_wider ? 2 : 1);
+  std::vector<std::vector<double>> result(readings.size(), std::vector<double>(atoms.size(), 0.0));
+  const auto step_of = [&](std::size_t solution) {
+    return [&, solution](double residual) {
       const double part = std::log(residual) / std::log(origin.pb.tolerance);
-      progress.report("causes", (static_cast<double>(result.size()) + std::min(1.0, std::max(0.0, part))) /
-                                    static_cast<double>(readings.size()));
+      progress.report("causes", (static_cast<double>(solution) + std::min(1.0, std::max(0.0, part))) / n_solutions);
     };
-    std::vector<double> of_atom = problem.unit_contributions(spread_linearly(map, reading), step);
-    scale_by_charges(origin, probes, of_atom);
-    result.push_back(std::move(of_atom));
+  };
+  MapGrid around;
+  around.lattice = twice_as_wide(map.lattice);
+  set_index_transform(around.lattice, {}, "the coarse grid", around.to_index);
+  std::vector<WeightedPlaces> borders;
+  {
+    TransposedProblem problem(origin, atoms, map.lattice, lattice);
+    for (std::size_t r = 0; r < readings.size(); ++r) {
+      problem.add_inner(spread_linearly(map, readings[r]), step_of(r), result[r]);
+      if (has_wider) borders.push_back(problem.border_in(around));
+      if (!has_wider) problem.add_border(result[r]);
+    }
+  }
+  if (has_wider) {
+    TransposedProblem problem(origin, atoms, around.lattice, twice_as_wide(lattice, around.lattice));
+    for (std::size_t r = 0; r < readings.size(); ++r) {
+      problem.add_inner(spread_linearly(around, borders[r]), step_of(readings.size() + r), result[r]);
+      problem.add_border(result[r]);
+    }
+  }
+  for (std::vector<double>& of_charge : result) {
+    std::vector<double> of_atom(all.size(), 0.0);
+    for (std::size_t i = 0, charge = 0; i < all.size(); ++i) {
+      if (all[i].charge != 0) of_atom[i] = static_cast<double>(all[i].charge) * of_charge[charge++];
+    }
+    of_charge = std::move(of_atom);
   }
   return result;
 }

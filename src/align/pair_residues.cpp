@@ -372,7 +372,8 @@ void pair_by_arrangement(const ResidueView& source, const ResidueView& target, S
   pairing.pairs = std::move(pairs);
 }
 
-/// Residues of the polymer with the same chain, number, insertion code and name, where only one has them on each side.
+/// Residues of the polymer with the same chain, number and insertion code, where only one has them on each side, and the
+/// same name, or a substituted one.
 IndexPairs pair_by_names(const ResidueView& source, const ResidueView& target) {
   using Key = std::tuple<std::string, std::int32_t, char>;
   const auto keys = [](const ResidueView& view) {
@@ -384,14 +385,16 @@ IndexPairs pair_by_names(const ResidueView& source, const ResidueView& target) {
     return all;
   };
   const auto of_source = keys(source), of_target = keys(target);
-  IndexPairs pairs;
+  IndexPairs pairs, substituted;
   for (const auto& [key, residues] : of_source) {
     const auto same = of_target.find(key);
     if (same == of_target.end() || residues.size() > 1 || same->second.size() > 1) continue;
     const std::size_t a = residues.front(), b = same->second.front();
-    if (same_residue_name(source.molecule->residues[a].name, target.molecule->residues[b].name))
-      pairs.emplace_back(a, b);
+    const bool equal = same_residue_name(source.molecule->residues[a].name, target.molecule->residues[b].name);
+    if (equal || source.kinds[a] == target.kinds[b]) (equal ? pairs : substituted).emplace_back(a, b);
   }
+  // Where most names agree, the numbers are those of one numbering.
+  if (pairs.size() > substituted.size()) pairs.insert(pairs.end(), substituted.begin(), substituted.end());
   return pairs;
 }
 
@@ -427,7 +430,7 @@ ResiduePairing pair_residues(const ResidueView& source, const ResidueView& targe
   while (pair_chains(source_chains, target_chains, scores, pairing.pairs)) {
   }
   IndexPairs by_names = pair_by_names(source, target);
-  pairing.by_names = static_cast<double>(by_names.size()) >
+  pairing.by_names = static_cast<double>(n_same_names(source, target, by_names)) >
                      kMoreByNames * static_cast<double>(n_same_names(source, target, pairing.pairs)) + kMinLeftover;
   if (pairing.by_names) {
     pairing.pairs = std::move(by_names);

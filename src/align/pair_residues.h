@@ -37,7 +37,7 @@ enum class PairOthers { kByPlace, kByNumber };
 /// score; the same chain name is preferred if scores are close. Stretches that remain on both sides are tried again, so
 /// a file without chain names can pair with one that has them. Chains whose score could be chance stay unpaired. Among
 /// equal chains, their arrangement decides; see assign_chains(). Files that list the same residues in different orders
-/// pair by chain, number and name.
+/// pair by chain, number and name; a residue whose name alone differs is a substituted one.
 ///
 /// Ligands, ions, sugars, caps and waters pair by place; see pair_by_place(). By number, and where no polymer pairs,
 /// they pair by name with the closest number, in corresponding chains first, and waters do not pair.

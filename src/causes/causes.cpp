@@ -15,46 +15,6 @@ namespace {
 using Key = std::tuple<std::string, std::int32_t, char, std::string>;
 Key key_of(const Residue& r) { return {r.chain, r.number, r.insertion_code, r.name}; }
 
-/// What the charges of one state add, by residue.
-struct StateSums {
-  std::vector<double> of_residue;  ///< [residue of the compared molecule]
-  /// Of residues that are not compared, by name: sum and number.
-  std::map<std::string, std::pair<double, std::size_t>> of_others;
-  double all = 0;
-};
-
-StateSums sum_state(const StateReading& state) {
-  StateSums sums;
-  sums.of_residue.assign(state.molecule.residues.size(), 0.0);
-  std::map<Key, std::size_t> index;
-  for (std::size_t r = 0; r < state.molecule.residues.size(); ++r) index.emplace(key_of(state.molecule.residues[r]), r);
-  std::vector<std::ptrdiff_t> compared;  // [residue of the charges]
-  for (const Residue& residue : state.charges.residues) {
-    const auto found = index.find(key_of(residue));
-    compared.push_back(found == index.end() ? -1 : static_cast<std::ptrdiff_t>(found->second));
-    if (found == index.end()) ++sums.of_others[residue.name].second;
-  }
-  // Charges alone, without names, are the molecule's own, or of nobody.
-  const bool same_atoms = state.charges.atoms.empty() && state.charges.size() == state.molecule.size();
-  for (std::size_t i = 0; i < state.contributions.size(); ++i) {
-    const double c = state.contributions[i];
-    sums.all += c;
-    const Molecule& named = same_atoms ? state.molecule : state.charges;
-    if (named.atoms.empty()) {
-      sums.of_others["charges"].first += c;
-      continue;
-    }
-    const auto residue = static_cast<std::size_t>(named.atoms[i].residue);
-    const std::ptrdiff_t r = same_atoms ? static_cast<std::ptrdiff_t>(residue) : compared[residue];
-    if (r >= 0) {
-      sums.of_residue[static_cast<std::size_t>(r)] += c;
-    } else {
-      sums.of_others[named.residues[residue].name].first += c;
-    }
-  }
-  return sums;
-}
-
 /// [residue] the distance of its nearest atom from the nearest of the points; NaN without points.
 std::vector<double> distances(const Molecule& molecule, const std::vector<Vec3d>& points) {
   // A thinner set of points is near enough: the distance is for a reader.
@@ -127,12 +87,45 @@ double ScannedResidue::largest() const {
   return size;
 }
 
+ResidueSums sum_by_residue(const Molecule& molecule, const Molecule& charges, const std::vector<double>& contributions) {
+  ResidueSums sums;
+  sums.of_residue.assign(molecule.residues.size(), 0.0);
+  std::map<Key, std::size_t> index;
+  for (std::size_t r = 0; r < molecule.residues.size(); ++r) index.emplace(key_of(molecule.residues[r]), r);
+  std::vector<std::ptrdiff_t> compared;  // [residue of the charges]
+  for (const Residue& residue : charges.residues) {
+    const auto found = index.find(key_of(residue));
+    compared.push_back(found == index.end() ? -1 : static_cast<std::ptrdiff_t>(found->second));
+    if (found == index.end()) ++sums.of_others[residue.name].second;
+  }
+  // Charges alone, without names, are the molecule's own, or of nobody.
+  const bool same_atoms = charges.atoms.empty() && charges.size() == molecule.size();
+  for (std::size_t i = 0; i < contributions.size(); ++i) {
+    const double c = contributions[i];
+    sums.all += c;
+    const Molecule& named = same_atoms ? molecule : charges;
+    if (named.atoms.empty()) {
+      sums.of_others["charges"].first += c;
+      continue;
+    }
+    const auto residue = static_cast<std::size_t>(named.atoms[i].residue);
+    const std::ptrdiff_t r = same_atoms ? static_cast<std::ptrdiff_t>(residue) : compared[residue];
+    if (r >= 0) {
+      sums.of_residue[static_cast<std::size_t>(r)] += c;
+    } else {
+      sums.of_others[named.residues[residue].name].first += c;
+    }
+  }
+  return sums;
+}
+
 void add_reading(Causes& causes, const std::string& name, const StateReading& source, const StateReading& target) {
   CausesOfReading reading;
   reading.name = name;
   reading.source = source.reading;
   reading.target = target.reading;
-  const StateSums a = sum_state(source), b = sum_state(target);
+  const ResidueSums a = sum_by_residue(source.molecule, source.charges, source.contributions),
+                    b = sum_by_residue(target.molecule, target.charges, target.contributions);
   reading.sum_of_source = a.all;
   reading.sum_of_target = b.all;
   const std::vector<double> source_distances = distances(source.molecule, source.surface),

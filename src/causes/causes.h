@@ -6,8 +6,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/pairing.h"
@@ -156,6 +158,17 @@ std::vector<ResidueChange> residue_changes(const ComparedResidues& compared);
 
 /// Whether the molecule's atoms have B factors that are not all the same.
 bool knows_places(const Molecule& molecule);
+
+/// What the charges of one state add, by residue.
+struct ResidueSums {
+  std::vector<double> of_residue;  ///< [residue of the compared molecule]
+  /// Of residues that are not compared, by name: sum and number.
+  std::map<std::string, std::pair<double, std::size_t>> of_others;
+  double all = 0;
+};
+/// @param charges       whose charges made the potential; residues of the same name, chain and number are the molecule's
+/// @param contributions [atom of `charges`]
+ResidueSums sum_by_residue(const Molecule& molecule, const Molecule& charges, const std::vector<double>& contributions);
 
 /// One state of a reading.
 struct StateReading {

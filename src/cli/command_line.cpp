@@ -21,6 +21,7 @@
 #include "cli/spelling.h"
 #include "cli/terminal_progress.h"
 #include "cli/verbs.h"
+#include "cli/verdict_status.h"
 #include "cli/words.h"
 #include "system/standard_streams.h"
 
@@ -67,7 +68,7 @@ int with_output_written(int status) {
   const std::string reason = errno != 0 ? ": " + espdiff::system_message(errno) : std::string();
   std::fprintf(stderr, "espdiff: the standard output cannot be written%s; files that were asked for are complete\n",
                reason.c_str());
-  return status == 0 ? 1 : status;
+  return status == 0 || status == espdiff::cli::kNotTrustedStatus ? 1 : status;
 }
 
 int run(int argc, char** argv) {

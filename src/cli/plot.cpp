@@ -1,11 +1,13 @@
 // plot.cpp: `espdiff plot FILE -o OUT.svg`.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <tuple>
 
 #include "base/error.h"
 #include "base/formatted.h"
 #include "cli/help.h"
+#include "cli/output_prefix.h"
 #include "cli/plot_pair.h"
 #include "cli/verbs.h"
 #include "io/check_outputs.h"
@@ -26,7 +28,7 @@ struct PlotArguments {
   int top = 20;
   std::vector<std::string> metrics;
   std::vector<double> range;
-  bool both_ways = false, normalize = false, no_marks = false;
+  bool both_ways = false, normalize = false, no_marks = false, causes = false;
 };
 
 constexpr const char* kAngstrom = "\u00C5";
@@ -220,8 +222,19 @@ std::vector<CausePanel> cause_panels(const CsvTable& table) {
   return panels;
 }
 
+/// The table of a result's causes, whichever of its files is given.
+std::string cause_table_of(const std::string& given) {
+  const std::string ending = ".causes.csv";
+  const bool is_table = given.size() > ending.size() && given.compare(given.size() - ending.size(), ending.size(), ending) == 0;
+  const std::string path = is_table ? given : result_prefix(given) + ending;
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored))
+    throw InputError(path + ": no such file; compare with --causes first, such as --causes whole");
+  return path;
+}
+
 int plot_verb(PlotArguments& a, const Context&) {
-  a.input = file_to_plot(a.input);
+  a.input = a.causes ? cause_table_of(a.input) : file_to_plot(a.input);
   const PictureFormat format = picture_format(a.output);
   check_outputs({a.input}, {a.output});
   const bool is_json = lower_case(a.input).size() > 5 && lower_case(a.input).substr(a.input.size() - 5) == ".json";
@@ -273,7 +286,8 @@ Verb add_plot(CLI::App& app) {
       "OUT.json of a matrix becomes a heat map, with --source a plot of one variant against all others; a CSV file, "
       "such as "
       "a\ntrajectory's, becomes lines along its frames, and its table of residues a map, a row a residue. A "
-      "comparison's OUT.causes.csv becomes bars.\nDrawn by gnuplot; text stays text in an SVG.");
+      "comparison becomes bars\nof its residues, with --causes of those whose charges make the difference. "
+      "Drawn by gnuplot; text stays text in an SVG.");
   parser->add_option("FILE", a->input, "A result: its prefix OUT, OUT.json, OUT.vtp, or a CSV file")->required();
   parser->add_option("-o,--output", a->output, "Picture to write (.png or .svg)")->required();
   parser->add_option("--metric", a->metrics,
@@ -287,6 +301,10 @@ Verb add_plot(CLI::App& app) {
   parser->add_option("--top", a->top, "Number of residues as bars, those that differ most; 0 for all, in file order")
       ->check(CLI::Range(0, 100000))
       ->capture_default_str()
+      ->group("Comparison");
+  parser
+      ->add_flag("--causes", a->causes,
+                 "The residues that make a comparison's difference, as bars for each of its readings (compare --causes)")
       ->group("Comparison");
   parser->add_option("--order", a->order, "Order of a heat map; dendrogram draws the clustering too")
       ->check(CLI::IsMember({"given", "dendrogram"}))
@@ -307,7 +325,7 @@ Verb add_plot(CLI::App& app) {
                       "espdiff plot ubiquitin.json --order dendrogram -o map.svg",
                       "espdiff plot ubiquitin.json --source m00 --metric mean_abs_difference --normalize -o m00.png",
                       "espdiff plot adk.csv --metric mean_displacement_A --metric rmsd_A -o adk.svg",
-                      "espdiff plot adk.residues.csv -o residues.png", "espdiff plot ldh.causes.csv -o causes.svg"}});
+                      "espdiff plot adk.residues.csv -o residues.png", "espdiff plot ldh --causes -o causes.svg"}});
   return {parser, [a](const Context& context) { return plot_verb(*a, context); }};
 }
 

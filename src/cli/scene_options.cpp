@@ -71,6 +71,8 @@ void add_colour_options(CLI::App& p, SceneArguments& a) {
   add_flag(p, a, "--per-vertex", "Interpolate vertex values instead of looking up the maps at every pixel",
            [](Scene& s) { s.per_vertex = true; });
   add_flag(p, a, "--opaque", "Do not fade by slip", [](Scene& s) { s.fade = false; });
+  add_flag(p, a, "--fade-to-grey", "Fade to dark grey by slip, instead of becoming transparent",
+           [](Scene& s) { s.opacity.to_grey = true; });
   add<Number>(p, a, "--opaque-below", "Displacement up to which the surface is opaque, Angstrom [0.5]",
               [](Scene& s, Number v) { s.opacity.opaque_below_A = v; });
   add<Number>(p, a, "--faint-above", "Displacement from which it is faintest, Angstrom [3]",

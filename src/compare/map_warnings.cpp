@@ -185,10 +185,11 @@ std::vector<Warning> kind_warnings(const CompareResult& result) {
   std::vector<Warning> warnings;
   if (is_water_of_a_frame(result.source_recipe) || is_water_of_a_frame(result.target_recipe))
     warnings.push_back(
-        {"the potential of single frames with explicit water is mostly that of the few molecules of "
-         "water that touch the surface at that moment (up to hundreds of kT/e): take " +
+        {"the potential of single frames with explicit water is mostly that of the water at the surface at that "
+         "moment: "
+         "take " +
              option("potential", "pb") +
-             " of the solute, or average maps over frames first (espdiff potential) and compare those",
+             " of the solute, or means over frames (espdiff potential; in VMD: Average over)",
          false});
   const Kind a = kind_of(result.source_recipe, result.source_map_check),
              b = kind_of(result.target_recipe, result.target_map_check);

@@ -117,6 +117,14 @@ std::vector<double> take_probes(std::vector<double>& values, std::size_t n_charg
   return of_probes;
 }
 
+/// @param text the reading as it was given
+void require_patch(const CompareOptions& options, const std::string& text, const std::string& name) {
+  const auto is_it = [&](const PatchRequest& patch) { return patch.name == name; };
+  if (std::any_of(options.input.patches.begin(), options.input.patches.end(), is_it)) return;
+  throw InputError(option("causes", text) + ": there is no patch of that name; give " +
+                   option("patch", name + "=SELECTION"));
+}
+
 }  // namespace
 
 void check_readings(const CompareOptions& options) {
@@ -135,12 +143,9 @@ void check_readings(const CompareOptions& options) {
     if (request.of == ReadingOf::kRegion && !options.input.has_region())
       throw InputError(option("causes", "region") + " needs a region: give " + option("region") + " or " +
                        option("region-within") + " and " + option("of"));
-    const auto is_it = [&](const PatchRequest& patch) { return patch.name == request.patch; };
-    if (request.of != ReadingOf::kPatch ||
-        std::any_of(options.input.patches.begin(), options.input.patches.end(), is_it))
-      continue;
-    throw InputError(option("causes", text) + ": there is no patch of that name; give " +
-                     option("patch", request.patch + "=SELECTION"));
+    // A number may be that of a patch which an ensemble finds.
+    const bool is_number = request.patch.find_first_not_of("0123456789") == std::string::npos;
+    if (request.of == ReadingOf::kPatch && !is_number) require_patch(options, text, request.patch);
   }
 }
 
@@ -159,6 +164,7 @@ void check_causes(const CompareOptions& options, const CompareInput& source, con
                      option("potential") + " be pb, pme or coulomb");
   for (const std::string& text : options.causes) {
     const ReadingRequest request = parse_reading(text);
+    if (request.of == ReadingOf::kPatch) require_patch(options, text, request.patch);
     if (request.of != ReadingOf::kResidue) continue;
     const std::vector<Residue>& residues = source.molecule->residues;
     const auto n = std::count_if(residues.begin(), residues.end(),

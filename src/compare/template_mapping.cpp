@@ -1,11 +1,13 @@
 // template_mapping.cpp: the stages of a frame, in order.
 #include "compare/template_mapping.h"
 
+#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "align/superpose.h"
 #include "base/error.h"
+#include "causes/causes.h"
 #include "compare/atom_paths.h"
 #include "compare/build_surface.h"
 #include "compare/certificate.h"
@@ -56,6 +58,7 @@ struct TemplateMapping::Parts {
   std::size_t n_vertices = 0;
   GridPtr map{};
   TemplateSurface described{};
+  std::vector<std::vector<double>> reading_weights{};  ///< [reading][vertex of the template]
 
   float isovalue() const { return static_cast<float>(options.surface.isovalue); }
 
@@ -80,11 +83,11 @@ struct TemplateMapping::Parts {
     described.summary = surface.summary;
   }
 
-  GridPtr frame_map(const CompareInput& frame, const RigidTransform& to_map, const Progress& progress) {
+  MadeMap frame_map(const CompareInput& frame, const RigidTransform& to_map, const Progress& progress) {
     const PotentialUnit unit = unit_of(frame);
     if (map == nullptr && source.make_map)
       map = device_map(engine, source, inverse(to_common), nullptr, unit, options.temperature_K, progress).map;
-    return device_map(engine, frame, to_map, frame.make_map ? map : nullptr, unit, options.temperature_K, progress).map;
+    return device_map(engine, frame, to_map, frame.make_map ? map : nullptr, unit, options.temperature_K, progress);
   }
 
   /// A frame's given map against its charges.
@@ -148,6 +151,40 @@ struct TemplateMapping::Parts {
                               paired_residues(*source.molecule, *frame.molecule, result.pairing));
   }
 
+  /// @param potential [vertex of the template] of the frame
+  std::vector<FrameReading> readings_of(const CompareInput& frame, const MadeMap& made, const Mapping& mapping,
+                                        const Surface& target, const AtomPairing& pairing,
+                                        const std::vector<float>& potential, const Progress& progress) const {
+    std::vector<FrameReading> readings;
+    std::vector<std::vector<double>> shares;
+    for (const std::vector<double>& weights : reading_weights) {
+      FrameReading reading;
+      double area = 0;
+      shares.emplace_back(engine.n_vertices(mapping.mapped), 0.0);
+      for (std::size_t v = 0; v < weights.size(); ++v) {
+        if (weights[v] == 0 || !std::isfinite(potential[v])) continue;
+        area += shares.back()[v] = weights[v];
+        reading.mean += weights[v] * static_cast<double>(potential[v]);
+      }
+      for (double& share : shares.back()) share = area > 0 ? share / area : 0;
+      reading.mean /= area;  // NaN where nothing of it has a value
+      readings.push_back(std::move(reading));
+    }
+    const MeshPtr points =
+        moved_outside(engine, mapping.mapped, target.atoms, isovalue(), options.offsets_A.front());
+    const auto found = engine.contributions(made.map, points, shares, {}, progress);
+    const std::vector<std::int32_t> partner = paired_residues(*source.molecule, *frame.molecule, pairing);
+    for (std::size_t r = 0; r < readings.size(); ++r) {
+      const ResidueSums sums = sum_by_residue(*frame.molecule, *made.charges, found[r]);
+      readings[r].others = sums.all;
+      for (const std::int32_t residue : partner) {
+        readings[r].of_residue.push_back(residue < 0 ? 0 : sums.of_residue[static_cast<std::size_t>(residue)]);
+        readings[r].others -= readings[r].of_residue.back();
+      }
+    }
+    return readings;
+  }
+
   /// The slip of the mapping, and of each residue. Displacements are not of interest here.
   void measure_slip(const Mapping& mapping, const Surface& target, const std::vector<MovingAtom>& paths,
                     CompareResult& result) const {
@@ -177,6 +214,10 @@ TemplateMapping::~TemplateMapping() = default;
 
 const TemplateSurface& TemplateMapping::surface() const { return parts_->described; }
 
+void TemplateMapping::take_apart(std::vector<std::vector<double>> weights) {
+  parts_->reading_weights = std::move(weights);
+}
+
 TemplateFrame TemplateMapping::map(const CompareInput& frame, bool check_slip, const Progress& progress) {
   Parts& p = *parts_;
   TemplateFrame out;
@@ -185,7 +226,7 @@ TemplateFrame TemplateMapping::map(const CompareInput& frame, bool check_slip, c
   const CommonFrame common = align(*p.source.molecule, *frame.molecule, p.options, result);
   result.warnings = input_warnings(*p.source.molecule, *frame.molecule, result);
   clock.lap("align");
-  const GridPtr map = p.frame_map(frame, inverse(common.from_target), progress);
+  const MadeMap made = p.frame_map(frame, inverse(common.from_target), progress);
   clock.lap("potential");
   const Surface target =
       build_surface(p.engine, *frame.molecule, common.from_target, p.options.surface, progress, clock);
@@ -200,7 +241,9 @@ TemplateFrame TemplateMapping::map(const CompareInput& frame, bool check_slip, c
   result.certificate.same_residue_area_fraction = p.same_residue(frame, mapping, target, result);
   if (check_slip) p.measure_slip(mapping, target, paths, result);
   clock.lap("certificate");
-  out.potential = p.sample(map, frame, mapping, target, result.surface.triangles, result.certificate.outside_maps);
+  out.potential = p.sample(made.map, frame, mapping, target, result.surface.triangles, result.certificate.outside_maps);
+  if (!p.reading_weights.empty())
+    out.readings = p.readings_of(frame, made, mapping, target, result.pairing, out.potential, progress);
   judge(result, *p.source.molecule);
   out.unit = unit_of(frame);
   out.rmsd_A = result.rmsd_A;

@@ -27,6 +27,13 @@ struct TemplateSurface {
   SurfaceSummary summary;
 };
 
+/// A mean of one frame's potential, and what the charges of each residue add to it, kT/e.
+struct FrameReading {
+  double mean = 0;
+  std::vector<double> of_residue;  ///< [residue of the template] its partner's; 0 for none
+  double others = 0;               ///< of what has no partner on the template: other residues, water, ions
+};
+
 /// One frame, seen from the template.
 struct TemplateFrame {
   /// [vertex of the template] potential of the frame where the vertex is mapped to; NaN if the vertex is unmatched or
@@ -39,6 +46,7 @@ struct TemplateFrame {
   double same_residue_area_fraction = 0;
   bool trustworthy = false;
   std::string reason;  ///< the first reason why not
+  std::vector<FrameReading> readings;  ///< those of take_apart()
   std::vector<std::pair<std::string, double>> time_ms;
 };
 
@@ -55,9 +63,12 @@ class TemplateMapping {
   ~TemplateMapping();
 
   const TemplateSurface& surface() const;
+  /// Means of each frame that is mapped from now on, whose causes are found as well; see Engine::contributions().
+  /// @param weights [reading][vertex of the template] area; a vertex without a value in a frame does not count there
+  void take_apart(std::vector<std::vector<double>> weights);
   /// @param frame      has a map
   /// @param check_slip is part of the verdict then; it changes no value
-  /// @throws as compare()
+  /// @throws as compare(), Engine::contributions()
   TemplateFrame map(const CompareInput& frame, bool check_slip, const Progress& progress);
 
  private:

@@ -34,7 +34,8 @@ EnsembleInputs::EnsembleInputs(const EnsembleRequest& request, const CompareOpti
     : request_(request), options_(options), progress_(progress), replicates_(request.replicates) {
   plan_.version = kVersion;
   for (auto& [name, text] : setting_texts(options)) {
-    if (name != "patch") plan_.settings.emplace_back(std::move(name), std::move(text));  // changes no value
+    const bool changes_values = name != "patch" && name != "causes";
+    if (changes_values) plan_.settings.emplace_back(std::move(name), std::move(text));
   }
   plan_.settings.emplace_back("frames", request_.frames);
   name_replicates();

@@ -166,6 +166,7 @@ Json ensemble_json(const EnsembleFile& file, const EnsembleResult& result) {
     if (patch.placement != nullptr) entry["placement"] = placement_json(*patch.placement);
     json["fixed_patches"][patch.name] = std::move(entry);
   }
+  if (!result.causes.empty()) json["causes"] = ensemble_causes_json(result);
   if (result.states) {
     json["states"] = {{"n", result.states->size()}, {"area_fraction", result.states->area_fraction}};
     json["states"]["component_shares"] = Json::array();

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "ensemble/ensemble_causes.h"
 #include "ensemble/ensemble_columns.h"
 #include "ensemble/regression_column.h"
 #include "ensemble/states.h"
@@ -107,6 +108,7 @@ struct EnsembleResult {
   std::vector<TemplateCheck> template_checks;    ///< where they were asked for; see check_template()
   std::optional<StateTable> states;              ///< where they were asked for; see compare_states()
   std::optional<EnsembleRegression> regression;  ///< of the options' column
+  std::vector<EnsembleCauses> causes;            ///< where they were asked for; see find_ensemble_causes()
   /// Why the replicates are not samples of states in equilibrium; empty where nothing speaks against it.
   std::vector<std::string> not_equilibrium;
   std::vector<std::string> warnings;

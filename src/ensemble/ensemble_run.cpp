@@ -12,7 +12,6 @@
 #include "base/not_a_number.h"
 #include "base/residue_label.h"
 #include "compare/options.h"
-#include "compare/readings.h"
 #include "compare/template_mapping.h"
 #include "ensemble/ensemble_file.h"
 #include "io/check_outputs.h"
@@ -101,7 +100,6 @@ std::string ensemble_path(const std::string& prefix, const Shard& shard) { retur
 EnsembleReport run_ensemble(Engine& engine, EnsemblePlan plan, const CompareInput& source,
                             const CompareOptions& options, const EnsembleRun& run,
                             const std::function<CompareInput(std::size_t)>& read, const Progress& progress) {
-  refuse_causes(options, "an ensemble");
   for (const Residue& residue : source.molecule->residues) plan.residues.push_back(residue_label(residue));
   TemplateMapping mapping(engine, source, options, progress);
   const MeshGraph graph = make_mesh_graph(mapping.surface().positions, mapping.surface().triangles);

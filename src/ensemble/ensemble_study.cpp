@@ -30,7 +30,7 @@ std::vector<std::string> inputs_of(const EnsembleStudy& study, std::vector<std::
 
 /// Results of one group are fewer.
 std::vector<std::string> outputs_of(const EnsembleStudy& study) {
-  return ensemble_outputs(study.run.output, {true, !study.regress.empty(), study.states});
+  return ensemble_outputs(study.run.output, {true, !study.regress.empty(), study.states, !study.options.causes.empty()});
 }
 
 std::string output_of_check(const EnsembleStudy& study, const std::string& group) {
@@ -64,6 +64,7 @@ class Study {
     EnsembleOptions statistics = study_.statistics;
     statistics.regression = regression_;
     inputs_.choose_template(study_.inputs.template_text, study_.run.skip_errors, progress_);
+    check_ensemble_causes(study_.options, inputs_.source(), is_nonlinear());
     // A wrong selection is refused before the work. Patches are of the first template.
     statistics.fixed_patches = fixed_patches(study_.options, *inputs_.source().molecule);
     map(engine, study_.run, answer);
@@ -71,10 +72,21 @@ class Study {
     answer.file = std::make_unique<EnsembleFile>(answer.reports.back().path, false);
     progress_.report("statistics", 1.0);
     answer.result = std::make_unique<EnsembleResult>(analyse_ensemble(*answer.file, statistics));
+    EnsembleResult& result = *answer.result;
+    if (!study_.options.causes.empty()) {
+      result.causes = find_ensemble_causes(
+          engine, inputs_.source(), study_.options, *answer.file, result,
+          [this](std::size_t frame) { return inputs_.frame(frame); }, progress_);
+    }
     if (study_.check_template) check_templates(engine, answer);
   }
 
  private:
+  bool is_nonlinear() const {
+    const auto& given = study_.inputs.potential.given;
+    return std::any_of(given.begin(), given.end(), [](const auto& setting) { return setting.second == "nonlinear"; });
+  }
+
   void map(Engine& engine, const EnsembleRun& run, EnsembleAnswer& answer) {
     EnsemblePlan plan = inputs_.plan();
     plan.device = engine.back_end();
@@ -104,6 +116,10 @@ class Study {
 };
 
 void open_earlier(const EnsembleStudy& study, const Progress& progress, EnsembleAnswer& answer) {
+  if (!study.options.causes.empty())
+    throw InputError(option("causes") + " solves the frames again, and " + option("from") +
+                     " has none of their files: repeat the command that mapped them with " + switched_on("resume") +
+                     " and " + option("causes"));
   check_outputs(inputs_of(study, {study.from}), outputs_of(study));
   answer.file = std::make_unique<EnsembleFile>(study.from, false);
   if (!study.inputs.replicates.empty()) relabel(*answer.file, study.inputs.replicates);

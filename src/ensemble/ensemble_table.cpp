@@ -223,6 +223,7 @@ void print_ensemble(std::ostream& out, const EnsembleFile& file, const EnsembleR
     print_template_checks(out, result);
   }
   print_fixed_patches(out, result, unit);
+  print_ensemble_causes(out, result, unit);
   print_regression(out, result, unit);
   print_states(out, file, result);
   for (const std::string& warning : result.warnings) out << "\nwarning: " << warning << '\n';

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "compare/input_settings.h"
 #include "compare/map_recipe.h"
+#include "compare/readings.h"
 #include "compare/settings.h"
 #include "engine/engine.h"
 #include "ensemble/ensemble_file.h"
@@ -142,6 +143,7 @@ Progress part_of(const Progress& progress, double begin, double end) {
 
 MatrixReport run_template_matrix(Engine& engine, const std::vector<Variant>& variants, const CompareOptions& options,
                                  const TemplateRequest& request, const MatrixRun& run, const Progress& progress) {
+  refuse_causes(options, "a matrix");
   check_request(variants, options, run);
   const std::string path = ensemble_path(run.output, run.shard), state = state_path(run.output, run.shard);
   MatrixRun files = run;

@@ -174,13 +174,14 @@ std::vector<std::string> ensemble_outputs(const std::string& prefix, const Ensem
   if (parts.compares) paths.insert(paths.end(), {prefix + ".patches.csv", prefix + ".patch_series.csv"});
   if (parts.has_states) paths.insert(paths.end(), {prefix + ".states.csv", prefix + ".components.csv"});
   if (parts.regresses) paths.push_back(prefix + ".regression.csv");
+  if (parts.has_causes) paths.push_back(prefix + ".causes.csv");
   return paths;
 }
 
 std::vector<std::string> write_ensemble(const std::string& prefix, const EnsembleFile& file,
                                         const EnsembleResult& result) {
   const std::vector<std::string> paths =
-      ensemble_outputs(prefix, {result.compares, result.regression.has_value(), result.states.has_value()});
+      ensemble_outputs(prefix, {result.compares, result.regression.has_value(), result.states.has_value(), !result.causes.empty()});
   std::vector<std::unique_ptr<AtomicFile>> files;
   std::vector<AtomicFile*> all;
   for (const std::string& path : paths) {
@@ -201,6 +202,7 @@ std::vector<std::string> write_ensemble(const std::string& prefix, const Ensembl
     write_components(next(), file, *result.states);
   }
   if (result.regression) write_regression(next(), file, *result.regression);
+  if (!result.causes.empty()) write_ensemble_causes(next(), result);
   commit_all(all);
   return paths;
 }

@@ -16,10 +16,12 @@ struct EnsembleOutputs {
   bool compares = true;    ///< two groups
   bool regresses = false;  ///< on a value of each replicate
   bool has_states = false;
+  bool has_causes = false;
 };
 
 /// OUT.json, OUT.vtp, OUT.residues.csv, with two groups OUT.patches.csv and OUT.patch_series.csv, with a regression
-/// OUT.regression.csv, with states OUT.states.csv and OUT.components.csv.
+/// OUT.regression.csv, with states OUT.states.csv and OUT.components.csv, with causes
+/// OUT.causes.csv.
 std::vector<std::string> ensemble_outputs(const std::string& output_prefix, const EnsembleOutputs& parts);
 
 /// Writes all outputs, or none. The bytes depend on the file's columns and the options only.

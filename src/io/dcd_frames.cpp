@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "io/read_input.h"
 
 namespace espdiff {
 namespace {
@@ -40,7 +41,8 @@ bool is_dcd_name(const std::string& path) {
 
 DcdFrames::DcdFrames(std::string path, std::size_t n_atoms)
     : path_(std::move(path)), file_(path_, FileAccess::kReadPipe) {
-  if (!file_) throw IoError(path_, "cannot be read; check the path");
+  require_regular_file(path_);
+  if (!file_) throw IoError(path_, "cannot be read; check its permissions");
   const std::optional<DcdHead> head = read_dcd_head(path_);
   if (!head)
     throw FormatError(path_, 0, "this does not begin as a DCD; copy the file again, or give its format's ending");

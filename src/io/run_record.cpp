@@ -1,6 +1,7 @@
 // run_record.cpp: extracts from OUT.json what pictures and other files of a result need.
 #include "io/run_record.h"
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -75,13 +76,23 @@ void read_parts(const Json& json, std::map<std::string, std::vector<int>>& parts
   for (const auto& [name, part] : json.at("fixed_patches").items()) add("patch " + name, part);
 }
 
+/// A state's file without its folder; of VMD's molecules, written as mol 0 "adk.psf" frame 97 sel "protein", also the
+/// frame if it is not the first.
+std::string name_of_state(const std::string& path) {
+  const std::size_t begin = path.find('"'), end = path.find("\" frame ");
+  if (path.rfind("mol ", 0) != 0 || begin >= end || end == std::string::npos) return fs::path(path).filename().string();
+  const std::string name = fs::path(path.substr(begin + 1, end - begin - 1)).filename().string();
+  const long frame = std::strtol(path.c_str() + end + 8, nullptr, 10);
+  return frame == 0 ? name : name + " frame " + std::to_string(frame);
+}
+
 void read_names(const Json& json, RunRecord& record) {
   for (const Json& input : json.at("inputs")) {
     const std::string role = input.at("role");
     std::string* const name = role.rfind("source", 0) == 0 ? &record.source_name : &record.target_name;
     if (role != "source" && role != "target" && role != "source_file" && role != "target_file") continue;
     // Of a state that is kept beside the result, the file that it was made of.
-    if (name->empty() || role.size() > 6) *name = fs::path(input.at("path").get<std::string>()).filename().string();
+    if (name->empty() || role.size() > 6) *name = name_of_state(input.at("path"));
   }
 }
 

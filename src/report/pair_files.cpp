@@ -58,10 +58,10 @@ RecordJson read_record(const std::string& path) {
   return record;
 }
 
-const VtpNumbers& required_array(const PairFiles& files, const std::string& name, int n_components) {
+const VtpNumbers& required_array(const PairFiles& files, const char* name, int n_components) {
   const VtpNumbers* const array = find_array(files.surface.point_arrays, name);
   if (array == nullptr || array->n_components != n_components)
-    throw FormatError(files.prefix + ".vtp", 0, "has no point array '" + name + "'" + kCompareAgain);
+    throw FormatError(files.prefix + ".vtp", 0, "has no point array '" + std::string(name) + "'" + kCompareAgain);
   return *array;
 }
 

@@ -202,6 +202,20 @@ void keep(FileSet& files, Provenance& provenance, const std::string& role, const
   }
 }
 
+/// What the input of a role was before its file was kept: by the role of the same name and "_file".
+void remember_original(Provenance& provenance, const std::optional<InputFile>& original) {
+  if (!original) return;
+  provenance.inputs.push_back(*original);
+  provenance.inputs.back().role += "_file";
+}
+
+std::optional<InputFile> input_of(const Provenance& provenance, const std::string& role) {
+  for (const InputFile& input : provenance.inputs) {
+    if (input.role == role) return input;
+  }
+  return {};
+}
+
 }  // namespace
 
 std::vector<std::string> cause_endings(const CompareOptions& options) {
@@ -217,14 +231,9 @@ void write_compare(const std::string& output_prefix, const Molecule& source, con
                    const std::vector<KeptFile>& kept, AtomicFile* beside) {
   FileSet files;
   for (const KeptFile& file : kept) {
-    std::optional<InputFile> original;
-    for (const InputFile& input : provenance.inputs) {
-      if (input.role == file.role) original = input;
-    }
+    const std::optional<InputFile> original = input_of(provenance, file.role);
     keep(files, provenance, file.role, output_prefix + file.ending, file.content);
-    if (!original) continue;
-    original->role += "_file";
-    provenance.inputs.push_back(*original);
+    remember_original(provenance, original);
   }
   add_results(files, output_prefix, source, target, result, options, provenance);
   files.commit(beside);
@@ -245,7 +254,9 @@ std::vector<std::string> write_compare_with_inputs(const std::string& output_pre
   for (const auto& [role, molecule] : {std::pair("source", &source), std::pair("target", &target)}) {
     std::ostringstream content;
     write_pqr(content, *molecule);
+    const std::optional<InputFile> original = input_of(provenance, role);
     keep(files, provenance, role, output_prefix + "." + role + ".pqr", content.str());
+    remember_original(provenance, original);
   }
   for (const auto& [role, map] : {std::pair("source_map", kept.source_map), std::pair("target_map", kept.target_map)}) {
     if (map == nullptr) continue;

@@ -41,6 +41,15 @@ std::vector<int> places_of(const CauseDrawing& d) {
   return places;
 }
 
+/// Indices of the largest causes that the molecule has.
+std::vector<std::size_t> labelled(const std::vector<int>& places) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < places.size() && found.size() < kMostLabels; ++i) {
+    if (places[i] >= 0) found.push_back(i);
+  }
+  return found;
+}
+
 /// [residue] by contribution; those without one are grey.
 std::vector<Rgb> residue_colours(const CauseDrawing& d, const std::vector<int>& places) {
   std::vector<Rgb> colours(d.molecule.residues.size(), kNoValueColour);
@@ -141,17 +150,22 @@ std::vector<vtkSmartPointer<vtkProp>> make_causes(const CauseDrawing& drawing, M
   } else {
     for (std::size_t r = 0; r < colours.size(); ++r) add_sticks(static_cast<int>(r));
   }
-  std::size_t n_labels = 0;
-  for (std::size_t i = 0; i < places.size() && n_labels < kMostLabels; ++i) {
-    if (places[i] < 0) continue;
-    ++n_labels;
+  for (const std::size_t i : labelled(places)) {
     if (has_cartoon) add_sticks(places[i]);
-    const std::string text =
-        residue_name(drawing.molecule, places[i]) + " " + formatted("%+.2g", drawing.causes.differences[i]);
-    for (const auto& prop : make_label(mark_of(drawing.molecule, places[i]), text, drawing.text_pixels))
-      props.push_back(prop);
   }
   return props;
+}
+
+std::vector<CauseLabel> make_cause_labels(const CauseDrawing& drawing) {
+  const std::vector<int> places = places_of(drawing);
+  std::vector<CauseLabel> labels;
+  for (const std::size_t i : labelled(places)) {
+    const std::string text =
+        residue_name(drawing.molecule, places[i]) + " " + formatted("%+.2g", drawing.causes.differences[i]);
+    const ResidueMark mark = mark_of(drawing.molecule, places[i]);
+    labels.push_back({mark, make_label(mark, text, drawing.text_pixels)});
+  }
+  return labels;
 }
 
 std::vector<int> residues_of_reading(const RunRecord& record, const CauseDrawing& drawing) {

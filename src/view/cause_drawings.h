@@ -10,6 +10,7 @@
 #include "base/types.h"
 #include "plot/colour_map.h"
 #include "view/comparison_files.h"
+#include "view/residue_labels.h"
 
 namespace espdiff {
 
@@ -26,9 +27,15 @@ double largest_contribution(const ReadingCauses& causes);
 /// "molecule: contributions to the difference of region, -0.36 to 0.36 kT/e"
 std::string causes_in_words(const ReadingCauses& causes);
 
-/// Cartoon, with the five largest as sticks, or sticks of all; and the labels of the five largest. Residues that the
-/// source lacks are left out.
+/// Cartoon, with the five largest as sticks, or sticks of all. Residues that the source lacks are left out.
 std::vector<vtkSmartPointer<vtkProp>> make_causes(const CauseDrawing& drawing, MoleculeStyle style);
+
+struct CauseLabel {
+  ResidueMark mark;
+  std::vector<vtkSmartPointer<vtkProp>> props;  ///< make_label()'s
+};
+/// "LYS 118 -0.36": of the five largest.
+std::vector<CauseLabel> make_cause_labels(const CauseDrawing& drawing);
 
 /// Indices of the source's residues whose surface a reading is of; empty for the whole.
 std::vector<int> residues_of_reading(const RunRecord& record, const CauseDrawing& drawing);

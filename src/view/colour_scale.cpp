@@ -136,10 +136,14 @@ std::vector<Rgb> ColourScale::table(std::size_t n) const {
   return colours;
 }
 
+double OpacityScale::faded(double displacement_A) const {
+  if (std::isnan(displacement_A) || displacement_A >= faint_above_A) return 1;
+  if (displacement_A <= opaque_below_A) return 0;
+  return (displacement_A - opaque_below_A) / (faint_above_A - opaque_below_A);
+}
+
 double OpacityScale::opacity(double displacement_A) const {
-  if (std::isnan(displacement_A) || displacement_A >= faint_above_A) return least;
-  if (displacement_A <= opaque_below_A) return greatest;
-  return greatest - (greatest - least) * (displacement_A - opaque_below_A) / (faint_above_A - opaque_below_A);
+  return greatest - (greatest - least) * faded(displacement_A);
 }
 
 }  // namespace espdiff

@@ -80,7 +80,9 @@ struct OpacityScale {
   double faint_above_A = 3.0;   ///< displacement from which it has the least opacity; linear between
   double least = 0.25;          ///< 0 to 1
   double greatest = 1;          ///< opacity of certain parts, 0 to 1
+  bool to_grey = false;         ///< fades to dark grey instead, and stays opaque
 
+  double faded(double displacement_A) const;  ///< 0 to 1; NaN is as uncertain as can be
   double opacity(double displacement_A) const;
 };
 

@@ -12,7 +12,6 @@
 
 #include "base/error.h"
 #include "view/camera_view.h"
-#include "view/cause_drawings.h"
 #include "view/map_drawings.h"
 #include "view/molecule_actors.h"
 #include "view/residue_labels.h"
@@ -177,16 +176,6 @@ void ComparisonScene::update_looks() {
     else
       drawn.actor->ForceTranslucentOff();
   }
-}
-
-void ComparisonScene::add_causes(const Panel& panel) {
-  if (!files_.causes || !files_.source_molecule) return;
-  const CauseDrawing drawing{*files_.source_molecule, *files_.causes, diverging_map(scene_.colours),
-                             scene_.height * scale_factor_ / 60};
-  for (const auto& prop : make_causes(drawing, scene_.molecule)) panel.renderer->AddViewProp(prop);
-  const auto outline =
-      make_outline(files_.surface, residues_of_reading(files_.record, drawing), scene_.height * scale_factor_ / 250);
-  if (outline != nullptr) panel.renderer->AddViewProp(outline);
 }
 
 void ComparisonScene::add_molecule(const Panel& panel) {

@@ -78,6 +78,7 @@ class ComparisonScene {
     ResidueMark mark;
     vtkSmartPointer<vtkRenderer> renderer;
     std::vector<vtkSmartPointer<vtkProp>> props;
+    bool is_inside = false;  ///< of a residue inside the molecule, shown from all sides
   };
 
   void choose_scales(const Scene& scene);

@@ -249,13 +249,17 @@ void Legend::length(double x, double y, double max_pixels, double pixels_per_A) 
 }
 
 void Legend::opacity(const PixelBox& bar, const OpacityScale& scale) {
-  text((bar.left + bar.right) / 2, bar.top + text_height_, "faint: far from its own atoms", Align::kCentre);
+  text((bar.left + bar.right) / 2, bar.top + text_height_,
+       scale.to_grey ? "grey: far from its own atoms" : "faint: far from its own atoms", Align::kCentre);
   const double highest_A = scale.faint_above_A * 1.2;
   constexpr int kSteps = 64;
   std::vector<double> opacities;
   opacities.reserve(kSteps);
-  for (int i = 0; i < kSteps; ++i) opacities.push_back(scale.opacity(highest_A * (i + 0.5) / kSteps));
-  strip(bar, std::vector<Rgb>(kSteps, {110, 110, 110}), opacities);
+  for (int i = 0; i < kSteps; ++i) {
+    const double value = highest_A * (i + 0.5) / kSteps;
+    opacities.push_back(scale.to_grey ? scale.faded(value) : scale.opacity(value));
+  }
+  strip(bar, std::vector<Rgb>(kSteps, scale.to_grey ? Rgb{90, 90, 90} : Rgb{110, 110, 110}), opacities);
   frame(bar);
   for (const double value : {scale.opaque_below_A, scale.faint_above_A}) {
     const double x = bar.left + bar.width() * std::clamp(value / highest_A, 0.0, 1.0);

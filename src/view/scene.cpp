@@ -130,6 +130,7 @@ const std::vector<Entry>& entries() {
       ESPDIFF_ENTRY_OF("faint_above_A", opacity.faint_above_A),
       ESPDIFF_ENTRY_OF("least_opacity", opacity.least),
       ESPDIFF_ENTRY_OF("opacity", opacity.greatest),
+      ESPDIFF_ENTRY_OF("fade_to_grey", opacity.to_grey),
       ESPDIFF_ENTRY_OF("layout", layout),
       ESPDIFF_ENTRY_OF("width", width),
       ESPDIFF_ENTRY_OF("height", height),

@@ -1,6 +1,7 @@
-// scene_focus.cpp: the part that a scene looks at, and labels in front of the surface.
+// scene_focus.cpp: the part that a scene looks at, the causes of its difference, and labels in front of the surface.
 #include "base/error.h"
 #include "view/camera_view.h"
+#include "view/cause_drawings.h"
 #include "view/comparison_scene.h"
 #include "view/residue_labels.h"
 #include "view/surface_cover.h"
@@ -30,10 +31,25 @@ std::vector<bool> ComparisonScene::focused_side_chains(const Molecule& molecule,
   return kept;
 }
 
+void ComparisonScene::add_causes(const Panel& panel) {
+  if (!files_.causes || !files_.source_molecule) return;
+  const CauseDrawing drawing{*files_.source_molecule, *files_.causes, diverging_map(scene_.colours),
+                             scene_.height * scale_factor_ / 60};
+  for (const auto& prop : make_causes(drawing, scene_.molecule)) panel.renderer->AddViewProp(prop);
+  for (const CauseLabel& label : make_cause_labels(drawing)) {
+    for (const auto& prop : label.props) panel.renderer->AddViewProp(prop);
+    labels_.push_back({label.mark, panel.renderer, label.props, true});
+  }
+  const auto outline =
+      make_outline(files_.surface, residues_of_reading(files_.record, drawing), scene_.height * scale_factor_ / 250);
+  if (outline != nullptr) panel.renderer->AddViewProp(outline);
+}
+
 void ComparisonScene::place_labels() {
   for (const PlacedLabel& label : labels_) {
     const Vec3d toward = camera_of(label.renderer).toward_viewer;
-    const bool is_seen = !is_hidden(files_.surface.triangles, geometry_.cover().positions, label.mark, toward);
+    const bool is_seen =
+        label.is_inside || !is_hidden(files_.surface.triangles, geometry_.cover().positions, label.mark, toward);
     for (const auto& prop : label.props) prop->SetVisibility(is_seen);
     lift_label(label.props, label.mark, label.renderer);
   }

@@ -73,6 +73,7 @@ std::map<std::string, std::string> shader_definitions(const SurfaceLook& look, S
           {"FILTERED_IN_FLOATS", truth(lookup == Lookup::kFiltered)},
           {"SOME_OUTSIDE", truth(!look.inside_maps)},
           {"FADES", truth(look.fades)},
+          {"TO_GREY", truth(look.fades && look.opacity.to_grey)},
           {"SPLIT", truth(look.splits)},
           {"PARALLEL", truth(parallel_projection)}};
 }

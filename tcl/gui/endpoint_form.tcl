@@ -130,10 +130,18 @@ namespace eval ::espdiff::gui {
         foreach name {unit label_unit} { show_if $has_map $parent.$name }
         update_prepare_row $side
         show_if [expr {!$has_map}] $parent.choice
-        set choice [expr {$map eq "automatic" ? [automatic_choice $side] : ""}]
+        foreach one {source target} { show_choice $one }
+        foreach name {file map} { $widget($side,$name) xview [$widget($side,$name) index end] }
+    }
+
+    # What is automatic on one side depends on both.
+    proc show_choice {side} {
+        variable form
+        variable widget
+        if {![info exists widget($side,choice)] || ![winfo exists $widget($side,choice)]} return
+        set choice [expr {[string trim $form($side,map)] eq "automatic" ? [automatic_choice $side] : ""}]
         $widget($side,choice) configure -text $choice
         set ::espdiff::gui::tips($widget($side,choice)) $choice
-        foreach name {file map} { $widget($side,$name) xview [$widget($side,$name) index end] }
     }
 
     # What `automatic` takes for the molecules chosen now, as "Poisson-Boltzmann: charges without explicit water"; of shapes

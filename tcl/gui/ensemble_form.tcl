@@ -49,7 +49,7 @@ namespace eval ::espdiff::gui {
     proc build_replicate_row {path} {
         variable widget
         ttk::frame $path
-        ttk::combobox $path.group -textvariable ::espdiff::gui::form(ensemble,group) -width 8
+        ttk::combobox $path.group -textvariable ::espdiff::gui::form(ensemble,group) -width 7
         tip $path.group "Group of the next replicate, and of the selected ones: two groups are compared, one is\
             described"
         foreach event {<KeyRelease> <<ComboboxSelected>>} {
@@ -59,8 +59,8 @@ namespace eval ::espdiff::gui {
         if {[in_vmd]} {
             ttk::combobox $path.mol -textvariable ::espdiff::gui::form(ensemble,mol) -state readonly -width 11 \
                 -postcommand {::espdiff::gui::guard_in ensemble ::espdiff::gui::update_ensemble}
-            ttk::entry $path.frames -textvariable ::espdiff::gui::form(ensemble,frames) -width 7
-            ttk::entry $path.sel -textvariable ::espdiff::gui::form(ensemble,sel) -width 9
+            ttk::entry $path.frames -textvariable ::espdiff::gui::form(ensemble,frames) -width 6
+            ttk::entry $path.sel -textvariable ::espdiff::gui::form(ensemble,sel) -width 8
             button $path.add "Add molecule" ::espdiff::gui::add_replicate_of_molecule
             tip $path.mol "A molecule that is loaded in VMD, with the frames of one simulation"
             tip $path.frames "Frames: all, begin:end or begin:step:end, such as 0:10:end for every tenth"

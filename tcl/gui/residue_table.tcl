@@ -57,6 +57,7 @@ namespace eval ::espdiff::gui {
         grid columnconfigure $path.list 0 -weight 1
         grid rowconfigure $path.list 0 -weight 1
         build_residue_buttons $path.buttons
+        build_causes $path.causes
         # As high as its longest text, so that the buttons above do not move.
         ttk::frame $path.space -height [expr {3 * [font metrics TkDefaultFont -linespace] + 4}]
         pack propagate $path.space 0
@@ -72,6 +73,7 @@ namespace eval ::espdiff::gui {
         pack $path.list -fill both -expand 1 -padx 8
         bind $path.list.table <<TreeviewSelect>> {::espdiff::gui::guard_in residues ::espdiff::gui::highlight_chosen}
         set widget(residues,table) $path.list.table
+        set widget(residues,buttons) $path.buttons
         set widget(residues,message) $path.message
         set widget(residues,title) $path.title
         foreach name {sort falling} { set widget(residues,$name) $path.top.$name }
@@ -113,6 +115,7 @@ namespace eval ::espdiff::gui {
             $widget(residues,table) selection set {}
             tell_in residues [residue_hint]
             fill_residues
+            show_causes
             select_residues $chosen
         }
         $widget(residues,title) configure -text [expr {$shown eq "" ? "No comparison yet" : $chosen_result}]
@@ -210,6 +213,7 @@ namespace eval ::espdiff::gui {
         }
         append text "[expr {$unit eq "" ? ";" : ","}] Moved the mean displacement."
         if {[in_vmd]} { append text " A click on a row highlights the residue in VMD." }
+        if {[shown_causes] ne ""} { append text " A click on a cause below goes to its residue." }
         return $text
     }
 
@@ -335,8 +339,9 @@ namespace eval ::espdiff::gui {
         variable shown
         variable widget
         variable highlighted
-        if {![in_vmd] || $shown eq ""} return
         set chosen [$widget(residues,table) selection]
+        choose_reading_of $chosen
+        if {![in_vmd] || $shown eq ""} return
         if {$chosen eq ""} {
             if {$highlighted ne ""} { remove_highlight; tell_in residues [residue_hint] }
             return

@@ -19,11 +19,13 @@ namespace eval ::espdiff::gui {
         return $path.view.page
     }
 
-    # The view is as high as the page, if the screen permits; the bar appears only when needed.
+    # The view is as high as the page, if the screen permits; the bar appears only when needed. A page is at least as high as
+    # its view, so that plots grow with the window.
     proc fit_page {path} {
         set width [winfo reqwidth $path.view.page]
         set height [winfo reqheight $path.view.page]
-        $path.view itemconfigure page -width [expr {max($width, [winfo width $path.view])}]
+        $path.view itemconfigure page -width [expr {max($width, [winfo width $path.view])}] \
+            -height [expr {max($height, [winfo height $path.view])}]
         $path.view configure -width $width -height [expr {min($height, [winfo screenheight $path] - 180)}] \
             -scrollregion [list 0 0 $width $height]
         if {[winfo height $path.view] > 1 && $height > [winfo height $path.view]} {
@@ -37,6 +39,7 @@ namespace eval ::espdiff::gui {
     proc fit_page_of {path} {
         update idletasks
         fit_page [page_of $path]
+        grow_in_width
     }
 
     # The page that contains a widget, as the frame given to `scrolled`; empty if there is none.

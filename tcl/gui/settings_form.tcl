@@ -108,6 +108,10 @@ namespace eval ::espdiff::gui {
         set labels {source-map "the source's Potential" target-map "the target's Potential"
             source-map-unit "the source's Unit" target-map-unit "the target's Unit"}
         if {[dict exists $labels $name]} { return [dict get $labels $name] }
+        if {$name eq "potential"} {
+            variable computed
+            return "Potential [::espdiff::value_or [lreverse $computed] $value $value]"
+        }
         set label -$name
         foreach row [all_settings] {
             if {[dict get $row name] ne $name} continue

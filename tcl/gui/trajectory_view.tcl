@@ -146,11 +146,16 @@ namespace eval ::espdiff::gui {
             tell_in trajectory $result [expr {$cancelled ? "note" : "error"}]
         } else {
             set bad 0
-            foreach row $trajectory_rows { if {![row_is_good $row]} { incr bad } }
+            set warned {}
+            foreach row $trajectory_rows {
+                if {![row_is_good $row]} { incr bad }
+                if {[dict get $row warnings] ne ""} { lappend warned [dict get $row warnings] }
+            }
+            set about [expr {$warned eq "" ? "" : " [llength $warned] with a warning: [lindex $warned end]"}]
             set there [expr {[dict get $result resumed] == 0 ? "" : ", [dict get $result resumed] were there already"}]
             tell_in trajectory "[dict get $result rows] rows in [format %.1f [dict get $result seconds]] s$there;\
                 [expr {$bad == 0 ? "all" : [llength $trajectory_rows] - $bad}] trustworthy. Written:\
-                [file tail [dict get $result csv]]"
+                [file tail [dict get $result csv]].$about"
         }
         espdiff delete $handle
         show_trajectory_running

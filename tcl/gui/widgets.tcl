@@ -223,7 +223,9 @@ namespace eval ::espdiff::gui {
         tip $path.script "The Tcl commands that repeat this"
         grid $path.$start $path.cancel $path.bar $path.script -sticky ew -padx {0 6}
         grid configure $path.script -padx 0
-        grid $path.message -columnspan 4 -sticky ew -pady {4 0}
+        grid $path.message -columnspan 4 -sticky new -pady {4 0}
+        # Room for three lines, so that the window does not move with each message.
+        grid rowconfigure $path 1 -minsize [expr {3 * [font metrics TkDefaultFont -linespace] + 4}]
         grid columnconfigure $path 2 -weight 1
         foreach name [list $start cancel bar script message] { set widget($tab,$name) $path.$name }
     }

@@ -9,11 +9,12 @@ namespace eval ::espdiff::gui {
     variable pending_update ""  ;# the `after` script that updates VMD's molecules
     variable hide_command ""    ;# VMD's command that closes a window of its menu; empty if opened by `espdiff gui`
     variable known_molecules ""
+    variable fitted_width 0     ;# width that the window was given on a small screen; 0: none was
     variable is_hidden 0        ;# the window was closed by VMD's menu, which keeps it
 
     foreach part {widgets scrolled endpoint_form prepare_form presets settings_form run_bar result_view draw_form session_script
-        help_window matrix_form matrix_view heat_map residue_table trajectory_form trajectory_view trajectory_point residue_map
-        line_plot ensemble_form ensemble_view ensemble_series remembered} {
+        help_window matrix_form matrix_view heat_map residue_table cause_view trajectory_form trajectory_view trajectory_point
+        residue_map line_plot ensemble_form ensemble_view ensemble_series remembered} {
         source [file join [file dirname [info script]] $part.tcl]
     }
     unset part
@@ -59,7 +60,9 @@ namespace eval ::espdiff::gui {
         ttk::notebook::enableTraversal $window.tabs
         foreach {name title build} {pair Pair build_pair residues Residues build_residues
             trajectory Trajectory build_trajectory matrix Matrix build_matrix ensemble Ensembles build_ensemble} {
-            $build [ttk::frame $window.tabs.$name]
+            # The page of Pair scrolls above its buttons, the residues' list by itself.
+            set tab $window.tabs.$name
+            $build [expr {$name in {pair residues} ? [ttk::frame $tab] : [scrolled $tab]}]
             $window.tabs add $window.tabs.$name -text $title
         }
         pack $window.tabs -fill both -expand 1
@@ -99,9 +102,31 @@ namespace eval ::espdiff::gui {
     # On a small screen the window is lower than it asks for; its page scrolls.
     proc fit_screen {} {
         variable window
+        variable fitted_width
         update idletasks
+        # Pages that were not shown yet have not asked for their width.
+        foreach name {trajectory matrix ensemble} { fit_page $window.tabs.$name }
+        update idletasks
+        set fitted_width 0
         set most [expr {[winfo screenheight $window] - 60}]
-        if {[winfo reqheight $window] > $most} { wm geometry $window [winfo reqwidth $window]x$most }
+        if {[winfo reqheight $window] > $most} { set_width $most }
+    }
+
+    # A window whose size was set does not grow by itself when its contents do.
+    proc grow_in_width {} {
+        variable window
+        variable fitted_width
+        update idletasks
+        if {$fitted_width > 0 && [winfo width $window] == $fitted_width && [winfo reqwidth $window] > $fitted_width} {
+            set_width [winfo height $window]
+        }
+    }
+
+    proc set_width {height} {
+        variable window
+        variable fitted_width
+        set fitted_width [expr {min([winfo reqwidth $window], [winfo screenwidth $window])}]
+        wm geometry $window ${fitted_width}x$height
     }
 
     proc build_pair {outer} {

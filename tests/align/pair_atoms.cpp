@@ -79,6 +79,19 @@ TEST_CASE("a substituted residue pairs backbone and C-beta only") {
   CHECK_FALSE(has_pair(pairing, a.molecule, b.molecule, "A34:CG=A34:CG"));
 }
 
+TEST_CASE("a substituted residue pairs by its number where the files list their residues in different orders") {
+  const std::vector<int> order = {7, 2, 11, 0, 9, 4, 13, 6, 1, 8, 3, 10, 5, 12, 14};
+  const std::string sequence = "MKTAYIAKQRQISFV", mutant = "MKTAYIAWQRQISFV";
+  MadeMolecule a, b;
+  a.peptide("A", 1, sequence);
+  for (const int place : order) b.peptide("A", 1 + place, mutant.substr(static_cast<std::size_t>(place), 1));
+  const AtomPairing pairing = pair_atoms(a.molecule, b.molecule);
+  CHECK(pairing.method == "names of residues");
+  CHECK(pairing.n_aligned_residues == 15);
+  CHECK(pairing.n_substituted_residues == 1);
+  CHECK(has_pair(pairing, a.molecule, b.molecule, "A8:CB=A8:CB"));
+}
+
 TEST_CASE("pairs ascend in the source atom and use each atom once") {
   MadeMolecule a, b;
   a.peptide("A", 1, "MKTAYIAKQRQ");

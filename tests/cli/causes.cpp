@@ -99,6 +99,22 @@ TEST_CASE("causes: contributions add up to the metric, in JSON, CSV and the tabl
   }
 }
 
+TEST_CASE("causes: bars are drawn of any file of the result; one without causes says how to get them") {
+  const CausesFiles files;
+  REQUIRE(files.run("--potential coulomb --region '//A/1-3' --causes region --causes whole").status == 0);
+  const std::string svg = files.folder.file("bars.svg");
+  for (const char* name : {"out", "out.json", "out.vtp", "out.causes.csv"}) {
+    const Outcome outcome = run_espdiff("plot " + files.folder.file(name) + " --causes -o " + svg);
+    REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    const std::string text = read_file(svg);
+    for (const char* word : {"region: ", "whole: ", "SER 3 A, substituted", "kT/e"})
+      CHECK_MESSAGE(contains(text, word), word);
+  }
+  const Outcome without = run_espdiff("plot " + files.source + " --causes -o " + svg);
+  CHECK(without.status == 2);
+  CHECK(contains(without.err, "a.pqr.causes.csv: no such file; compare with --causes first, such as --causes whole"));
+}
+
 TEST_CASE("causes: a scan says what residues' charges do to the reading, and writes a table") {
   const CausesFiles files;
   const std::string options = "--potential pb --pb-spacing 0.8 --region '//A/1-3' --causes region --causes whole";
@@ -132,10 +148,10 @@ TEST_CASE("causes: side chains in other places give an interval, the same at eac
   const std::string source = files.folder.write("long.pqr", files.with_lysine(0)),
                     target = files.folder.write("turned.pqr", files.with_lysine(1));
   for (const std::string potential : {"--potential pb --pb-spacing 0.8", "--potential coulomb"}) {
-    const std::string command =
-        "compare " + source + " " + target + " -o " + files.folder.file("out") +
-        " --domains none --region '//A/3' --causes region --causes whole --side-chains 200 --exit-zero --overwrite " +
-        potential;
+    const std::string command = "compare " + source + " " + target + " -o " + files.folder.file("out") +
+                                " --domains none --exit-zero --overwrite --region '//A/3' --causes region "
+                                "--causes whole --side-chains 200 " +
+                                potential;
     const Outcome outcome = run_espdiff(command);
     REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
     const Json reading = files.json()["causes"][0], chains = reading["side_chains"];

@@ -93,6 +93,42 @@ TEST_CASE("the mutant's charge is found at the mutant's residue, with its sign")
     CHECK(std::filesystem::exists(in.folder.file(std::string("out") + ending)));
 }
 
+TEST_CASE("the mutant's charge makes the difference of a patch, fixed or found, with an interval by replicate") {
+  const Runs in;
+  const std::string run = in.groups + " --patch end=//A/7-8 -o out";
+  REQUIRE(in.ensemble(run).status == 0);
+  // The complete file gets causes: frames are solved again, none is mapped anew.
+  const Outcome out = in.ensemble(run + " --resume --causes 'patch end' --causes 'patch 1'");
+  REQUIRE_MESSAGE(out.status == 0, out.err);
+  CHECK(contains(out.out, "0 frames mapped"));
+  CHECK(contains(out.out, "whose charges make the difference of patch end"));
+  const auto json = nlohmann::json::parse(read_file(in.folder.file("out.json")));
+  REQUIRE(json["causes"].size() == 2);
+  for (const auto& reading : json["causes"]) {
+    CAPTURE(reading["reading"]);
+    CHECK(reading["n_frames"] == 8 * kFrames);
+    CHECK(reading["largest_deviation_of_sum"].get<double>() < 1e-4);
+    const auto& largest = reading["largest"][0];
+    CHECK(largest["residue"] == "ALA 8 of chain A");
+    CHECK(largest["low"].get<double>() < largest["difference"].get<double>());
+    CHECK(largest["high"].get<double>() < 0);
+    CHECK(largest["p_false_discovery"].get<double>() < 0.05);
+  }
+  // The contributions' sums are the patches' means.
+  for (const char* group : {"wild", "mutant"})
+    CHECK(json["causes"][0]["means"][group].get<double>() ==
+          doctest::Approx(json["fixed_patches"]["end"]["means"][group].get<double>()).epsilon(1e-3));
+  const std::string table = read_file(in.folder.file("out.causes.csv"));
+  CHECK(contains(first_line(table), "reading,residue,mean_wild,mean_mutant,difference,low,high,t,p,p_false_discovery"));
+  const auto refused = [&](const std::string& options) { return in.ensemble(in.groups + " -o other " + options).err; };
+  CHECK(contains(refused("--causes whole"), "--causes whole: an ensemble's causes are of a patch; give --causes 'patch NAME'"));
+  CHECK(contains(refused("--scan --causes 'patch 1'"), "--scan is of one pair, not of an ensemble"));
+  CHECK(contains(refused("--causes 'patch lid'"), "--causes 'patch lid': there is no patch of that name; give --patch"));
+  CHECK(contains(in.run("ensemble --from out.h5 -o again --causes 'patch 1'").err,
+                 "--causes solves the frames again, and --from has none of their files: repeat the command that mapped "
+                 "them with --resume and --causes"));
+}
+
 TEST_CASE("kill -9 at any time: the run resumes to the same bytes; shards merge to them") {
   const Runs in;
   const std::string run = in.groups + " -q -o ";

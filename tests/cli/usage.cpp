@@ -31,6 +31,19 @@ TEST_CASE("help and version exit 0 and say what there is") {
   CHECK(run_espdiff("compare -h").out == brief.out);
 }
 
+TEST_CASE("help starts the program once, and a computation a second time, so that its threads sleep while they wait") {
+  const auto n_starts = [](const std::string& arguments) {
+    const std::string statistics = run_espdiff(arguments, "unset OMP_WAIT_POLICY GOMP_SPINCOUNT; LD_DEBUG=statistics").err;
+    int n = 0;
+    for (std::size_t at = 0; (at = statistics.find("total startup time", at)) != std::string::npos; ++at) ++n;
+    return n;
+  };
+  const int n_doctor = n_starts("doctor");
+  if (n_doctor == 0) return;  // not the GNU C library
+  CHECK(n_doctor == 2);
+  for (const char* arguments : {"--help", "compare -h", "--version"}) CHECK(n_starts(arguments) == 1);
+}
+
 TEST_CASE("wrong usage exits 2 with one line that says what and where to look") {
   struct Case {
     const char* arguments;

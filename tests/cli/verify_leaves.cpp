@@ -59,7 +59,7 @@ struct RowResult : SmallResult {
     std::string potentials = " --potential coulomb ";
     for (const std::string& state : {a, b}) {
       if (!with_maps) break;
-      REQUIRE(run_espdiff("potential " + state + " --method coulomb -q --overwrite -o " + state + ".dx").status == 0);
+      REQUIRE(run_espdiff("potential " + state + " --method coulomb -q -o " + state + ".dx").status == 0);
       potentials = " --source-map " + a + ".dx --target-map " + b + ".dx ";
     }
     const Outcome compared = run_espdiff("compare " + a + " " + b + potentials + options +

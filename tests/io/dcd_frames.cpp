@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <filesystem>
+
 #include "base/error.h"
 #include "io/made_dcd.h"
 #include "support/test_data.h"
@@ -66,6 +68,10 @@ TEST_CASE("DcdFrames: another number of atoms, another file, a damaged frame") {
   CHECK(contains(refused_dcd(folder.write("a.dcd", whole), 5), "a.dcd: has 4 atoms, and the structure 5"));
   CHECK(contains(refused_dcd(folder.write("b.dcd", "no trajectory"), 4), "b.dcd: this does not begin as a DCD"));
   CHECK(contains(refused_dcd(folder.file("none.dcd"), 4), "none.dcd: cannot be read"));
+  if (std::filesystem::exists("/dev/null")) {
+    std::filesystem::create_symlink("/dev/null", folder.file("device.dcd"));
+    CHECK(contains(refused_dcd(folder.file("device.dcd"), 4), "device.dcd: is a pipe or a device"));
+  }
   std::string damaged = whole;
   damaged[read_dcd_head(folder.file("a.dcd"))->begin] = 99;
   CHECK(contains(refused_dcd(folder.write("c.dcd", damaged), 4), "c.dcd: frame 0 is damaged"));

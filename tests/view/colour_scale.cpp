@@ -126,4 +126,7 @@ TEST_CASE("a transparent surface fades from its own opacity") {
   CHECK(scale.opacity(0) == doctest::Approx(0.6));
   CHECK(scale.opacity(1.5) == doctest::Approx(0.4));
   CHECK(scale.opacity(9) == doctest::Approx(0.2));
+  CHECK(scale.faded(0.4) == 0);
+  CHECK(scale.faded(1.5) == doctest::Approx(0.5));
+  CHECK(scale.faded(kNan) == 1);
 }

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "base/error.h"
@@ -90,6 +91,25 @@ TEST_CASE("a record gives inputs, superposition and verdict, also after the fold
   CHECK_FALSE(record.maps_computed);
   const Vec3d image = record.source_to_target.rotate({0, 0, 2});
   CHECK(norm(image) == doctest::Approx(2));
+}
+
+TEST_CASE("states of VMD are named by their file and frame, kept ones by what they were made of") {
+  const ScratchFolder scratch;
+  const std::string vtp = copied(scratch);
+  auto json = nlohmann::json::parse(espdiff_test::read_file(scratch.file("pair.json")));
+  for (auto& input : json.at("inputs")) {
+    if (input.at("role") == "source") input["path"] = R"(mol 0 "in/adk.psf" frame 97 sel "name \"CA\"")";
+    if (input.at("role") == "target") input["path"] = R"(mol 1 "open.pqr" frame 0 sel "protein")";
+  }
+  scratch.write("pair.json", json.dump());
+  CHECK(read_run_record(vtp).source_name == "adk.psf frame 97");
+  CHECK(read_run_record(vtp).target_name == "open.pqr");
+  auto original = json.at("inputs").at(0);
+  original["role"] = "source_file";
+  original["path"] = "folder/1abc.pdb";
+  json["inputs"].push_back(original);
+  scratch.write("pair.json", json.dump());
+  CHECK(read_run_record(vtp).source_name == "1abc.pdb");
 }
 
 TEST_CASE("a file that is not a record is refused") {

@@ -14,6 +14,7 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkXMLPolyDataWriter.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -162,6 +163,23 @@ TEST_CASE("each array has its colours") {
   const Picture sign = drawn_sphere(scratch, {}, small_picture(RenderArray::kSign));
   CHECK(sign.count(0, 0.25, 1, 0.9, is_red) > 1000);
   CHECK(sign.count(0, 0.25, 1, 0.9, [](int r, int g, int b) { return b > r + 15 && b > g; }) > 1000);
+}
+
+TEST_CASE("large displacements can fade to dark grey instead, which no difference has") {
+  if (!can_draw()) return;
+  const ScratchFolder scratch;
+  Paint far, none;
+  far.displacement = [](Vec3d) { return 9.0; };
+  none.difference = [](Vec3d) { return 0.0; };
+  Scene options = small_picture();
+  options.opacity.to_grey = true;
+  const auto is_dark_grey = [](int r, int g, int b) { return r == g && g == b && r < 150; };
+  const auto is_bright = [](int r, int g, int b) { return std::min({r, g, b}) > 150 && !is_white(r, g, b); };
+  const Picture grey = drawn_sphere(scratch, far, options);
+  const int n_grey = grey.count(0, 0.25, 1, 0.85, is_dark_grey);
+  CHECK(n_grey > 5000);
+  CHECK(grey.count(0, 0.25, 1, 0.85, is_blue) + grey.count(0, 0.25, 1, 0.85, is_red) == 0);
+  CHECK(drawn_sphere(scratch, none, options).count(0, 0.25, 1, 0.85, is_bright) > n_grey / 2);
 }
 
 TEST_CASE("large displacements and corrupt triangles are paler than trusted parts") {

@@ -119,6 +119,44 @@ test "texts are triangles of their own size, within the window" {
     check "height of the title" {[lindex $title end] - [lindex $title 0] < 0.06}
 }
 
+# VMD learns of its window's new size from the window.
+proc resized {width height} {
+    display resize $width $height
+    for {set i 0} {$i < 25} {incr i} { display update ui; pause 60 }
+}
+proc widest {mol} {
+    set wide 0
+    foreach item [graphics $mol list] {
+        set words [graphics $mol info $item]
+        if {[lindex $words 0] ni {triangle tricolor}} continue
+        foreach corner [lrange $words 1 3] { set wide [expr {max($wide, abs([lindex $corner 0]))}] }
+    }
+    return $wide
+}
+
+test "the legend follows the size of VMD's window" {
+    set before [::espdiff::drawing_of $comparison]
+    resized 250 500
+    set legend [lindex [::espdiff::drawing_of $comparison] end]
+    check_equal "the surface stays" [lrange [::espdiff::drawing_of $comparison] 0 end-1] [lrange $before 0 end-1]
+    lassign [display get size] width height
+    set wide [widest $legend]
+    check "within the window" {$wide < double($width) / $height}
+    resized 600 500
+    check "wider again" {[widest [lindex [::espdiff::drawing_of $comparison] end]] > $wide}
+    espdiff draw $comparison -view linked
+    proc apart {} {
+        lassign [dict values [dict get $::espdiff::linked panels]] source target
+        expr {[lindex [molinfo [lindex $target 0] get global_matrix] 0 0 3]
+            - [lindex [molinfo [lindex $source 0] get global_matrix] 0 0 3]}
+    }
+    set before [apart]
+    resized 900 400
+    check_close "panels" [apart] [expr {$before * (900.0 / 400) / (600.0 / 500)}] 0.02
+    resized 600 500
+    espdiff draw $comparison
+}
+
 test "every renderer of this VMD takes a drawing with its legend" {
     foreach renderer [render list] {
         # VMD's Wavefront writer makes its material file's name from this ending.

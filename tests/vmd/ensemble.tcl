@@ -14,8 +14,11 @@ foreach state {wild mutant} {
 exec $env(ESPDIFF) ensemble {*}$words --frames 0:20:99 -o $scratch/cli -q --grid-spacing 1.6 --potential coulomb 2>@1
 set box [input box_tz2/tz2.truncoct.parm7]
 set frames [input box_tz2/tz2.truncoct_from_nc.dcd]
-exec $env(ESPDIFF) ensemble --group tz2 $box $frames --frames 0:3:9 --template 0 --radii element -o $scratch/box -q \
-    --grid-spacing 1.6 2>@1
+# The program reads parm7 by VMD's plugins, which are files of their own in some VMDs and built into others.
+catch { exec $env(ESPDIFF) ensemble --group tz2 $box $frames --frames 0:3:9 --template 0 --radii element -o $scratch/box -q \
+    --grid-spacing 1.6 2>@1 } said
+set has_plugins [expr {![string match "*plugin*of VMD*" $said]}]
+if {!$has_plugins} { note "    SKIPPED: pme of files: $said" }
 foreach state {wild mutant} {
     foreach number {1 2 3 4} { lappend runs($state) [list mol [load_run $state $number]] }
 }
@@ -34,6 +37,7 @@ test "molecules with frames: the difference that files give, at the mutant's res
     check "sign" {[espdiff result $h test mean_abs_difference] > 0}
 }
 
+if {$has_plugins} {
 test "pme with the water of VMD's molecule, in the cell of each frame: as from the files" {
     set mol [mol new $box type parm7 waitfor all]
     mol addfile $frames type dcd first 0 last 9 step 3 waitfor all $mol
@@ -49,6 +53,7 @@ test "pme with the water of VMD's molecule, in the cell of each frame: as from t
     check_close area [espdiff result $water area_A2] [espdiff result $files area_A2] 1e-4
     espdiff delete $water $files
     mol delete $mol
+}
 }
 
 test "it is drawn: the difference, faded where it is not significant" {

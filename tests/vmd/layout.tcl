@@ -68,6 +68,32 @@ test "a message does not move the window" {
     }
 }
 
+test "nor does one of the other tabs" {
+    foreach name {trajectory matrix ensemble} {
+        tab $name
+        ::espdiff::gui::tell_in $name ""
+        settled $name
+        set before [wm geometry $window]
+        ::espdiff::gui::tell_in $name [string repeat "a message of two lines and more " 8]
+        settled "$name, a message"
+        check_equal $name [wm geometry $window] $before
+    }
+    tab pair
+}
+
+test "after a deletion both sides say what is automatic" {
+    set other [mol new [input $folder/m01.pqr] type pqr waitfor all]
+    wait_until {[llength [[widget target,mol] cget -values]] == 2}
+    form target,mol "$other: m01.pqr"
+    ::espdiff::gui::update_endpoint target
+    mol delete $other
+    wait_until {[llength [[widget target,mol] cget -values]] == 1}
+    foreach side {source target} {
+        check_equal "$side's molecule" $::espdiff::gui::form($side,mol) "$mol: m00.pqr"
+        check "$side's choice" {[string match "Poisson-Boltzmann: *" [[widget $side,choice] cget -text]]}
+    }
+}
+
 test "no callback failed" { check_equal errors $background {} }
 
 espdiff delete all

@@ -25,6 +25,7 @@ test "a row names its partner" {
     check_equal number [dict get $row target_number] [expr {[dict get $row number] + 1}]
     check_equal chain [dict get $row target_chain] B
     check_equal "a mutation" [dict get $row target_name] ALA
+    check "named: [::espdiff::residue_name $row]" {[regexp {^A:\w+26->B:ALA27$} [::espdiff::residue_name $row]]}
 }
 
 test "a highlight is of the residue and of its partner" {

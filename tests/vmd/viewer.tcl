@@ -27,7 +27,7 @@ test "molecules and maps from memory, written and compared again by the command 
     check_close rms_difference $again [espdiff result $h rms_difference] 1e-6
 }
 
-# The horizontal place of the coloured pixels' mean, from 0 to 1, and their number.
+# The horizontal place of the coloured pixels' mean, from 0 to 1, their number, and the width that they take.
 proc picture_of {path} {
     exec convert $path -resize 300x -depth 8 $path.ppm
     set channel [open $path.ppm rb]
@@ -39,10 +39,15 @@ proc picture_of {path} {
     set n 0
     set i 0
     foreach {r g b} $values {
-        if {max($r, $g, $b) - min($r, $g, $b) > 60 && $i < 0.75 * $width * $height} { set sum [expr {$sum + $i % $width}]; incr n }
+        if {max($r, $g, $b) - min($r, $g, $b) > 60 && $i < 0.75 * $width * $height} {
+            set sum [expr {$sum + $i % $width}]
+            incr n
+            lappend columns [expr {$i % $width}]
+        }
         incr i
     }
-    return [list [expr {$n ? $sum / $n / $width : 0}] $n]
+    set columns [lsort -integer $columns]
+    return [list [expr {$sum / $n / $width}] $n [expr {double([lindex $columns end] - [lindex $columns 0]) / $width}]]
 }
 
 test "a figure for print in VMD's view: the surface is where VMD shows it" {
@@ -57,6 +62,37 @@ test "a figure for print in VMD's view: the surface is where VMD shows it" {
     note "    from $middle to $right of the width"
     check "it moved to the right" {$right > $middle + 0.1}
     check_refused {espdiff figure $h $scratch/a.gif} {ESPDIFF INPUT} "a.gif" ".png"
+    espdiff undraw
+}
+
+test "a figure is as large as on the screen, fades to the same grey, and names the molecules" {
+    color Display Background white
+    axes location off
+    display projection Orthographic
+    display resetview
+    foreach mol [list $source $target] { mol off $mol }
+    rotate y by 50
+    # All of it coloured, so that both pictures have the same outline.
+    foreach {surface view title} {mapped single "" source single Title mapped linked ""} {
+        espdiff draw $h -range {-0.001 0.001} -potential-range {-0.001 0.001} -uncertain plain -surface $surface -view $view
+        display update
+        render snapshot $scratch/screen.tga
+        espdiff figure $h $scratch/large.png -width 900 -title $title
+        lassign [picture_of $scratch/screen.tga] middle - screen
+        lassign [picture_of $scratch/large.png] place - figure
+        note "    $surface, $view: $screen of the screen's width about $middle, $figure of the figure's about $place"
+        check "the same size" {abs($screen / $figure - 1) < 0.03}
+        # Of the panels of potentials less is coloured in the figure, which has its own range there.
+        check "in the same place" {$view eq "linked" || abs($middle - $place) < 0.02}
+    }
+    check "to grey" {"--fade-to-grey" in [::espdiff::figure_words $h difference \
+        [dict merge [::espdiff::drawn_as $h] {uncertain fade}] {width 900 title "" molecule none}]}
+    set channel [open $scratch/tim.json]
+    set json [read $channel]
+    close $channel
+    foreach side {source target} name {scTIM dTIM} {
+        check "$side in the record" {[regexp "\"path\": \"\[^\n\]*${name}_chainA.pqr\[^\n\]*\n\[^\}\]*\"role\": \"${side}_file\"" $json]}
+    }
     espdiff undraw
 }
 

@@ -103,6 +103,11 @@ test "AdK's trajectory: rows come, and the plot with them" {
     check_equal "points while it runs" [llength [[widget trajectory,plot] find withtag good||bad]] 2
     wait_until {$::espdiff::gui::trajectory_running eq ""}
     check "message" {[string match "4 rows in * s; * trustworthy*" [[widget trajectory,message] cget -text]]}
+    set warned [lsearch -all -not -exact [lmap row $::espdiff::gui::trajectory_rows { dict get $row warnings }] ""]
+    check "warnings of rows are said" {$warned ne "" && [string match "*. [llength $warned] with a warning: *" \
+        [[widget trajectory,message] cget -text]]}
+    check_equal "and what to do, in the window's words" [::espdiff::gui::option_label potential pb 0] \
+        "Potential Poisson-Boltzmann"
     set texts {}
     foreach item [[widget trajectory,plot] find all] {
         if {[[widget trajectory,plot] type $item] eq "text"} { lappend texts [[widget trajectory,plot] itemcget $item -text] }
