@@ -20,6 +20,8 @@ class Options(TypedDict, total=False):
     force_field: str
     ph: float
     ligand: Union[str, List[str]]
+    # files, auto
+    ligands: str
     same_protonation: bool
     cache: bool
     topology: str
@@ -31,6 +33,9 @@ class Options(TypedDict, total=False):
     of: str
     patches: Dict[str, str]
     causes: Union[str, List[str]]
+    scan: bool
+    side_chains: int
+    side_chain_seed: int
     offset: str
     temperature: float
     trust_maps: bool

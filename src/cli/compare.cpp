@@ -6,6 +6,7 @@
 #include "cli/map_options.h"
 #include "cli/next_command.h"
 #include "cli/output_prefix.h"
+#include "cli/picture.h"
 #include "cli/spelling.h"
 #include "cli/verbs.h"
 #include "cli/verdict_status.h"
@@ -31,7 +32,7 @@ namespace espdiff::cli {
 namespace {
 
 struct CompareArguments {
-  std::string source, target, output;
+  std::string source, target, output, typed_output, picture;
   MapArguments maps;
   std::string residue_pdb, residue_quantity;
   int source_model = 1, target_model = 1;
@@ -45,8 +46,9 @@ void add_input_options(CLI::App& p, CompareArguments& a) {
   p.add_option("SOURCE", a.source, "Structure of the first state: PQR, PDB or mmCIF")->required();
   p.add_option("TARGET", a.target, "Structure of the second state")->required();
   p.add_option("-o,--output", a.output,
-               "Prefix of the results OUT.json, OUT.vtp and OUT.residues.csv, or a folder for them; default: the names "
-               "of both structures, with a number behind them where such a result exists")
+               "Prefix of the results OUT.json, OUT.vtp and OUT.residues.csv, or a folder for them; OUT.png draws a "
+               "picture, too; default: the names of both structures, with a number behind them where such a result "
+               "exists")
       ->type_name("OUT");
   add_map_options(p, a.maps);
   p.add_option(
@@ -127,7 +129,8 @@ std::string add_maps(const CompareArguments& a, Side& source, Side& target, doub
 /// @param kept endings of structures that are written as well
 void check_files(const CompareArguments& a, const CompareOptions& options, const std::vector<std::string>& kept) {
   std::vector<std::string> inputs = input_files(options.input),
-                           outputs = {a.output + ".json", a.output + ".vtp", a.output + ".residues.csv", a.residue_pdb};
+                           outputs = {a.output + ".json", a.output + ".vtp", a.output + ".residues.csv", a.residue_pdb,
+                                      a.picture};
   inputs.insert(inputs.end(), {a.source, a.target, a.maps.source_map, a.maps.target_map});
   for (const std::string& ending : cause_endings(options)) outputs.push_back(a.output + ending);
   for (const std::string& ending : kept) outputs.push_back(a.output + ending);
@@ -217,6 +220,8 @@ void print_next(const CompareArguments& a, const Comparison& first, Engine& engi
       tried += (tried.empty() ? "" : "; ") + way.what;
       if (!again.result.certificate.trustworthy) continue;
       TypedWords words = with_options(context.words, way.options);
+      if (!a.overwrite && output_prefix(a.typed_output, false, a.source, a.target) == a.output)
+        words = with_options(words, {{"overwrite", "", true}});
       if (way.exchanges) words = exchanged(words, a.source, a.target);
       context.progress->report("write", 1.0);
       std::cout << "\nnext: " << as_typed(words) << "\n      tried, " << way.what << ": ";
@@ -240,7 +245,8 @@ int compare_verb(const CompareArguments& a, const Context& context) {
   for (const char* suffix : {".json", ".vtp", ".residues.csv"}) AtomicFile probe(a.output + suffix);
   for (const std::string& ending : cause_endings(options)) AtomicFile probe(a.output + ending);
   if (!a.residue_pdb.empty()) AtomicFile probe(a.residue_pdb);
-  if (!a.overwrite) refuse_existing(a.output);
+  if (!a.overwrite) refuse_existing(a.output, a.picture);
+  if (!a.picture.empty()) require_drawing(a.picture);
   if (a.residue_pdb.empty() && !a.residue_quantity.empty())
     throw InputError("--residue-quantity needs --residue-pdb FILE");
 
@@ -262,6 +268,7 @@ int compare_verb(const CompareArguments& a, const Context& context) {
                       a.residue_quantity.empty() ? usual_residue_quantity(result) : a.residue_quantity);
   }
   write_compare(a.output, source_molecule, target_molecule, result, options, provenance, comparison.kept, pdb.get());
+  if (!a.picture.empty()) draw_result(a.output, a.picture);
   context.progress->report("write", 1.0);
   if (a.quiet) {
     print_verdict_line(std::cout, result);
@@ -303,6 +310,8 @@ Verb add_compare(CLI::App& app) {
             {"espdiff compare 1t24.pdb 1t2e.pdb --select '//A;polymer' --region-within 5 --of '(NAD,OXQ)' -o ldh",
              "espdiff compare wild.pqr mutant.pqr --source-map wild.dx --target-map mutant.dx -o result"}});
   return {parser, [arguments](const Context& context) {
+            arguments->typed_output = arguments->output;
+            if (is_picture(arguments->output)) arguments->picture = arguments->output;
             arguments->output =
                 output_prefix(arguments->output, arguments->overwrite, arguments->source, arguments->target);
             return compare_verb(*arguments, context);

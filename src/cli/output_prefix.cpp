@@ -15,12 +15,17 @@ namespace fs = std::filesystem;
 
 /// Of the files that a result always has.
 constexpr const char* kResultEndings[] = {".json", ".vtp", ".residues.csv"};
+constexpr const char* kPictureEnding = ".png";
 
 /// A file's name without its folder and its endings: "1ake" of data/1ake.pdb.gz.
 std::string stem(const std::string& path) {
   fs::path name = fs::path(path).filename();
   if (name.extension() == ".gz") name = name.stem();
   return name.stem().string();
+}
+
+bool ends_with(const std::string& text, const std::string& ending) {
+  return text.size() > ending.size() && text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
 }
 
 /// @throws IoError
@@ -38,8 +43,9 @@ bool has_result(const std::string& prefix) {
                      [&](const char* ending) { return fs::exists(prefix + ending, ignored); });
 }
 
-void refuse_existing(const std::string& prefix) {
-  if (!has_result(prefix)) return;
+void refuse_existing(const std::string& prefix, const std::string& picture) {
+  std::error_code ignored;
+  if (!has_result(prefix) && (picture.empty() || !fs::exists(picture, ignored))) return;
   throw InputError(Message("a result named " + prefix + " exists; " + switched_on("overwrite") +
                            " replaces it, another " + option("output") + " keeps it")
                        .set_next({"", {{"overwrite", "", true}}}));
@@ -53,8 +59,7 @@ std::string free_prefix(const std::string& prefix) {
 
 std::string result_prefix(const std::string& given) {
   for (const std::string ending : kResultEndings) {
-    if (given.size() > ending.size() && given.compare(given.size() - ending.size(), ending.size(), ending) == 0)
-      return given.substr(0, given.size() - ending.size());
+    if (ends_with(given, ending)) return given.substr(0, given.size() - ending.size());
   }
   return given;
 }
@@ -68,7 +73,8 @@ std::string output_prefix(const std::string& given, bool overwrite, const std::s
     const std::string named = (fs::path(given) / (stem(source) + '_' + stem(target))).string();
     return overwrite ? named : free_prefix(named);
   }
-  return result_prefix(given);
+  const std::string picture = kPictureEnding;
+  return ends_with(given, picture) ? given.substr(0, given.size() - picture.size()) : result_prefix(given);
 }
 
 std::string surface_of_result(const std::string& given) {

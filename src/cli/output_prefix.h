@@ -8,14 +8,15 @@ namespace espdiff::cli {
 /// Whether a result lies at a prefix, or a part of one.
 bool has_result(const std::string& prefix);
 
-/// @throws InputError (a result lies there), with `--overwrite` as the next command
-void refuse_existing(const std::string& prefix);
+/// @throws InputError (a result lies there, or the picture, if one is named), with `--overwrite` as the next command
+void refuse_existing(const std::string& prefix, const std::string& picture = "");
 
 /// A prefix that no result has: the given one, or PREFIX_2, PREFIX_3, ...
 std::string free_prefix(const std::string& prefix);
 
 /// The prefix of OUT.json, OUT.vtp and OUT.residues.csv.
-/// @param given  as typed: a prefix, one of the files that will be written (`x.json` is x), a folder (an existing one,
+/// @param given  as typed: a prefix, one of the files that will be written (x of `x.json`, `x.png`), a folder (an
+/// existing one,
 ///               or a name with a slash at its end), which is made if it is missing; or empty for the working folder
 /// @param overwrite  whether a result of this name may be replaced; otherwise a name that was not typed is
 /// free_prefix()

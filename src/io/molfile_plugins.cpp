@@ -38,13 +38,20 @@ std::string ending_of(const std::string& path) {
   return ending.empty() ? ending : ending.substr(1);
 }
 
+/// A VMD whose plugins are part of its program has the folder without libraries.
+bool has_libraries(const fs::path& folder) {
+  std::error_code ignored;
+  const fs::directory_iterator files(folder, ignored);
+  return std::any_of(begin(files), end(files), [](const auto& file) { return file.path().extension() == ".so"; });
+}
+
 /// VMD's folder of plugins below its own folder; empty if there is none.
 std::string plugins_below(const fs::path& vmd) {
   std::error_code ignored;
   std::vector<std::string> found;
   for (const auto& architecture : fs::directory_iterator(vmd / "plugins", ignored)) {
     const fs::path folder = architecture.path() / "molfile";
-    if (fs::is_directory(folder, ignored)) found.push_back(folder.string());
+    if (has_libraries(folder)) found.push_back(folder.string());
   }
   std::sort(found.begin(), found.end());
   return found.empty() ? std::string() : found.front();

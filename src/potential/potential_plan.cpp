@@ -20,7 +20,9 @@ LoadedState load_for(const PotentialRequest& asked, bool wants_charges, const St
     // Was it the preparation?
     request.wants_charges = false;
     load_state(file, request, options, progress);
-    throw InputError(error.message() + "; " + option("potential", "none") + " compares shapes alone");
+    Message text = error.message() + "; " + option("potential", "none") + " compares shapes alone";
+    if (text.next().empty()) text.set_next({"", {{"potential", "none"}}});
+    throw InputError(text);
   }
 }
 

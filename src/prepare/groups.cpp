@@ -14,6 +14,7 @@
 #include "base/not_a_number.h"
 #include "base/residue_label.h"
 #include "prepare/ion_table.h"
+#include "prepare/modified_residues.h"
 #include "prepare/open_babel.h"
 
 namespace espdiff {
@@ -58,33 +59,6 @@ std::optional<HaemAtom> haem_atom(std::string name) {
   if (two == "CG") return HaemAtom{0.62, 2.0};
   if (two == "O1" || two == "O2") return HaemAtom{-0.76, 1.70};
   return std::nullopt;
-}
-
-/// A residue of the molecule as a molecule of its own, without charges.
-Molecule alone(const Molecule& molecule, std::size_t residue, const std::vector<std::size_t>& atoms) {
-  Molecule one;
-  one.name = molecule.name;
-  one.residues = {molecule.residues[residue]};
-  for (const std::size_t i : atoms) {
-    one.atoms.push_back(molecule.atoms[i]);
-    one.atoms.back().residue = 0;
-    one.positions.push_back(molecule.positions[i]);
-    one.radii.push_back(molecule.radii[i]);
-    one.charges.push_back(0);
-  }
-  return one;
-}
-
-void append_group(Molecule& all, const Molecule& one) {
-  const auto residue = static_cast<std::int32_t>(all.residues.size());
-  all.residues.push_back(one.residues.front());
-  for (std::size_t i = 0; i < one.size(); ++i) {
-    all.atoms.push_back(one.atoms[i]);
-    all.atoms.back().residue = residue;
-    all.positions.push_back(one.positions[i]);
-    all.radii.push_back(one.radii[i]);
-    all.charges.push_back(one.charges[i]);
-  }
 }
 
 std::size_t nearest_heavy_atom(const Molecule& group, const Vec3d& place) {
@@ -144,14 +118,16 @@ void charge_other_ligand(Groups& groups, Molecule& group, const Molecule& molecu
   group = std::move(ligand.molecule);
   const std::size_t n_dropped = drop_hydrogens_at_bonds(group, n_given, molecule, residue);
   const std::string label = residue_label(group.residues.front());
-  groups.lines.push_back(label + ": " + in_elementary_charges(ligand.net_charge) + ", " +
+  groups.lines.push_back(label + ": " + in_elementary_charges(std::round(ligand.net_charge)) + ", " +
                          std::to_string(ligand.n_hydrogens_added - n_dropped) +
                          " hydrogens added, by Open Babel (Gasteiger's charges, pH " + formatted("%g", ph) + ")");
   const std::optional<int> usual = charge_of_group(group.residues.front().name);
-  if (!usual || std::fabs(ligand.net_charge - *usual) <= 0.5) return;
+  // Gasteiger's charges of phosphates do not sum up to the whole number.
+  const double whole = usual ? *usual : std::round(ligand.net_charge);
   const auto n = static_cast<double>(group.size());
-  for (float& q : group.charges) q += static_cast<float>((*usual - ligand.net_charge) / n);
-  groups.warnings.push_back(label + " has " + in_elementary_charges(ligand.net_charge) +
+  for (float& q : group.charges) q += static_cast<float>((whole - ligand.net_charge) / n);
+  if (!usual || std::fabs(ligand.net_charge - *usual) <= 0.5) return;
+  groups.warnings.push_back(label + " has " + in_elementary_charges(std::round(ligand.net_charge)) +
                             " by the bonds that Open Babel perceives and usually " + in_elementary_charges(*usual) +
                             ", to which its charges were shifted evenly; a MOL2 file of it would be exact");
 }
@@ -160,6 +136,14 @@ bool has_haem_names(const Molecule& molecule, const std::vector<std::size_t>& at
   return std::all_of(atoms.begin(), atoms.end(), [&](std::size_t i) {
     return is_hydrogen_atom(molecule.atoms[i]) || haem_atom(molecule.atoms[i].name).has_value();
   });
+}
+
+/// A chain of which more than a tenth is torn has no ends to leave out: PDB2PQR says what it lacks.
+void keep_torn_chains(const std::vector<ResidueKind>& kinds, std::vector<GroupSource>& sources) {
+  constexpr std::ptrdiff_t kLeastWhole = 10;
+  const auto n_torn = std::count(sources.begin(), sources.end(), GroupSource::kTorn);
+  if (n_torn * kLeastWhole <= std::count(kinds.begin(), kinds.end(), ResidueKind::kAminoAcid)) return;
+  std::replace(sources.begin(), sources.end(), GroupSource::kTorn, GroupSource::kNone);
 }
 
 }  // namespace
@@ -172,7 +156,10 @@ std::vector<GroupSource> group_sources(const Molecule& molecule, const std::vect
   std::vector<GroupSource> sources(kinds.size(), GroupSource::kNone);
   for (std::size_t r = 0; r < kinds.size(); ++r) {
     const std::string& name = molecule.residues[r].name;
-    if (kinds[r] != ResidueKind::kOther || atoms[r].empty() || ligand_of[r] >= 0 || caps.count(name) > 0) continue;
+    if (atoms[r].empty() || ligand_of[r] >= 0 || caps.count(name) > 0) continue;
+    if (kinds[r] == ResidueKind::kAminoAcid)
+      sources[r] = amino_acid_source(molecule, r, atoms[r], options.ligands_auto);
+    if (kinds[r] != ResidueKind::kOther) continue;
     if (is_additive(name)) {
       sources[r] = GroupSource::kAdditive;
     } else if (is_gas(name)) {
@@ -185,6 +172,7 @@ std::vector<GroupSource> group_sources(const Molecule& molecule, const std::vect
       sources[r] = GroupSource::kOpenBabel;
     }
   }
+  keep_torn_chains(kinds, sources);
   return sources;
 }
 
@@ -194,10 +182,22 @@ Groups charge_groups(const Molecule& molecule, const std::vector<GroupSource>& s
   const auto atoms = atoms_of_residues(molecule);
   for (std::size_t r = 0; r < sources.size(); ++r) {
     if (sources[r] == GroupSource::kNone) continue;
-    Molecule group = alone(molecule, r, atoms[r]);
+    Molecule group = residue_alone(molecule, r, atoms[r]);
     const Residue& residue = molecule.residues[r];
     const std::string label = residue_label(residue);
-    if (sources[r] == GroupSource::kAdditive) {
+    if (sources[r] == GroupSource::kPhosphate) {
+      groups.lines.push_back(label + ": a phosphate of -2 e (CHARMM's charges)");
+      continue;
+    }
+    if (sources[r] == GroupSource::kModified) {
+      int net_charge = 0;
+      append_residue(groups.modified, charge_modified_residue(molecule, r, options.ph, net_charge, progress));
+      groups.lines.push_back(label + ": " + in_elementary_charges(net_charge) +
+                             ", in its chain, by Open Babel (Gasteiger's charges, pH " + formatted("%g", options.ph) +
+                             ")");
+      continue;
+    }
+    if (sources[r] == GroupSource::kAdditive || sources[r] == GroupSource::kTorn) {
       const std::optional<int> charge = charge_of_group(residue.name);
       groups.additives.push_back({residue, group.atoms, group.positions, charge ? *charge : kNaN});
       continue;
@@ -206,7 +206,8 @@ Groups charge_groups(const Molecule& molecule, const std::vector<GroupSource>& s
       const IonParameters ion = *ion_parameters(residue.name, group.atoms.front().element);
       group.charges.front() = static_cast<float>(ion.charge);
       group.radii.front() = static_cast<float>(ion.radius);
-      groups.lines.push_back(label + ": " + in_elementary_charges(ion.charge) + " (common oxidation state)");
+      groups.lines.push_back(label + ": " + in_elementary_charges(ion.charge) +
+                             (residue.name == "OH" ? " (hydroxide)" : " (common oxidation state)"));
     } else if (sources[r] == GroupSource::kGas) {
       groups.lines.push_back(label + ": a gas, without charges");
     } else if (sources[r] == GroupSource::kHaem) {
@@ -215,7 +216,7 @@ Groups charge_groups(const Molecule& molecule, const std::vector<GroupSource>& s
     } else {
       charge_other_ligand(groups, group, molecule, r, options.ph, progress);
     }
-    append_group(groups.charged, group);
+    append_residue(groups.charged, group);
   }
   return groups;
 }

@@ -13,12 +13,14 @@ namespace espdiff {
 struct ChargeOptions;
 
 /// Where the charges of a group come from that no force field of PDB2PQR has.
-enum class GroupSource { kNone, kIon, kGas, kHaem, kAdditive, kOpenBabel };
+/// (beside the chains), or that it does not know or could not complete (in them).
+enum class GroupSource { kNone, kIon, kGas, kHaem, kAdditive, kOpenBabel, kPhosphate, kModified, kTorn };
 
 /// [residue] of the groups beside the chains: ions of one atom by ion_parameters(); gases (O2, CO, NO,
 /// Xe, Kr, Ar), which get no charge; haem (HEM, HEC); additives by a list
 /// of names, which are left out; every other group by Open Babel, if asked for. kNone for all that PDB2PQR charges or
-/// that gets no charge: chains, caps, ligands with a MOL2 file.
+/// that gets no charge: chains, caps, ligands with a MOL2 file. Amino acids by amino_acid_source(), of which torn ones
+/// are left out as additives are, unless they are more than a tenth.
 /// @param ligand_of [residue] nonnegative where a MOL2 file has its charges
 std::vector<GroupSource> group_sources(const Molecule& molecule, const std::vector<std::int32_t>& ligand_of,
                                        const ChargeOptions& options);
@@ -26,9 +28,10 @@ std::vector<GroupSource> group_sources(const Molecule& molecule, const std::vect
 /// Groups with charges, and those that were left out.
 struct Groups {
   Molecule charged;
-  std::vector<LeftOutResidue> additives;
-  std::vector<std::string> lines;     ///< each charged group in words: "ZN 301 of chain A: +2 e"
-  std::vector<std::string> warnings;  ///< net charges that are not the usual ones
+  Molecule modified;                      ///< residues of chains
+  std::vector<LeftOutResidue> additives;  ///< and torn residues
+  std::vector<std::string> lines;         ///< each charged group in words: "ZN 301 of chain A: +2 e"
+  std::vector<std::string> warnings;      ///< net charges that are not the usual ones
 };
 
 /// Charges the groups of the sources. Haem gets CHARMM22's charges as PDB2PQR ships them (Kuczera, Kuriyan and Karplus,

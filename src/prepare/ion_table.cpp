@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "align/residue_charges.h"
+#include "io/elements.h"
 
 namespace espdiff {
 namespace {
@@ -40,6 +41,8 @@ std::string capitals(std::string text) {
 
 std::optional<IonParameters> ion_parameters(const std::string& residue_name, const std::string& element) {
   const std::string symbol = capitals(element);
+  // Hydroxide, whose hydrogen no crystal shows.
+  if (residue_name == "OH" && symbol == "O") return IonParameters{-1, element_radius("O")};
   const IonRow* usual = nullptr;
   const std::optional<int> named = is_ion_name(residue_name) ? charge_of_group(residue_name) : std::nullopt;
   for (const IonRow& row : kIonRows) {

@@ -29,6 +29,7 @@
 #include "io/write_pdb.h"
 #include "prepare/cache.h"
 #include "prepare/ligand.h"
+#include "prepare/modified_residues.h"
 
 namespace espdiff {
 
@@ -154,39 +155,6 @@ Molecule with_left_out_groups(const Molecule& molecule) {
   return whole;
 }
 
-/// Selenomethionine becomes methionine.
-void replace_selenomethionine(Molecule& molecule, Preparation& preparation) {
-  for (Residue& residue : molecule.residues) {
-    if (residue.name != "MSE") continue;
-    const std::string code = residue.insertion_code == ' ' ? "" : std::string(1, residue.insertion_code);
-    preparation.renamed.push_back("MSE " + std::to_string(residue.number) + code +
-                                  (residue.chain.empty() ? "" : " of chain " + residue.chain) + " as MET");
-    residue.name = "MET";
-  }
-  for (Atom& atom : molecule.atoms) {
-    if (molecule.residues[static_cast<std::size_t>(atom.residue)].name != "MET") continue;
-    atom.hetero = false;
-    if (atom.name == "SE") {
-      atom.name = "SD";
-      atom.element = "S";
-    }
-  }
-}
-
-/// Deoxynucleotides under the names of RNA, as in files of before 2007, get those of DNA: PDB2PQR would add O2'.
-void name_deoxynucleotides(Molecule& molecule, Preparation& preparation) {
-  const auto atoms = atoms_of_residues(molecule);
-  for (std::size_t r = 0; r < atoms.size(); ++r) {
-    Residue& residue = molecule.residues[r];
-    if (residue.name != "A" && residue.name != "C" && residue.name != "G" && residue.name != "T") continue;
-    const auto is_oxygen = [&](std::size_t i) { return normalized_atom_name(molecule.atoms[i].name) == "O2'"; };
-    if (std::any_of(atoms[r].begin(), atoms[r].end(), is_oxygen)) continue;
-    const std::string old = residue_in_words(residue);
-    residue.name.insert(0, "D");
-    preparation.renamed.push_back(old + " as " + residue.name);
-  }
-}
-
 /// The PDB file that PDB2PQR reads.
 std::string pdb_text(Molecule molecule, const Renumbering& renumbering, const std::vector<std::string>& states) {
   molecule.residues = renumbering.residues();
@@ -233,10 +201,17 @@ std::string identity_of(const std::string& program) {
          std::to_string(fs::last_write_time(program, ignored).time_since_epoch().count());
 }
 
+/// PROPKA takes no such chain.
+struct PropkaError : InputError {
+  using InputError::InputError;
+};
+
+constexpr const char* kPropkaMark = "does not seem to contain any";
+
 /// The reason in a log: its last error, in our words where they are known.
 std::string reason_in(const std::string& log) {
   static const std::vector<std::pair<const char*, const char*>> known = {
-      {"does not seem to contain any", "PROPKA cannot use it, such as a peptide of few residues"},
+      {kPropkaMark, "PROPKA cannot use it, such as a peptide of few residues"},
       // Its message of that cannot be formatted.
       {"Unknown format code 'i'", "more than a tenth of the heavy atoms of its residues are missing"},
       {"missing too many", "more than a tenth of the heavy atoms of its residues are missing"},
@@ -288,10 +263,13 @@ std::string run_pdb2pqr(const std::string& program, const std::string& name, con
   const ProgramResult result = run_program(call);
   std::error_code ignored;
   const std::string log = result.output + result.messages;
-  if (result.status != 0 || !std::filesystem::exists(folder.file("output.pqr"), ignored))
-    throw InputError(name + ": has no charges, and PDB2PQR cannot prepare it: " + reason_in(log) +
-                     "; complete or mend the structure, leave atoms out (" + option("leave-out", "(...)") +
-                     "), or give charges (" + option("topology", "FILE") + " of a PSF or prmtop, or a PQR)");
+  if (result.status != 0 || !std::filesystem::exists(folder.file("output.pqr"), ignored)) {
+    const Message text = name + ": has no charges, and PDB2PQR cannot prepare it: " + reason_in(log) +
+                         "; complete or mend the structure, leave atoms out (" + option("leave-out", "(...)") +
+                         "), or give charges (" + option("topology", "FILE") + " of a PSF or prmtop, or a PQR)";
+    if (log.find(kPropkaMark) != std::string::npos) throw PropkaError(text);
+    throw InputError(text);
+  }
   return "REMARK " + version_in(log) + "\n" + read_input(folder.file("output.pqr")).content;
 }
 
@@ -380,6 +358,8 @@ class Run {
     version_ = output->substr(begin, output->find('\n') - begin);
     return read_output(*output, molecule, renumbering);
   }
+  /// The runs that follow give residues their usual states.
+  void drop_propka(const std::string& force_field) { words_ = arguments(options_, force_field, false); }
   bool all_from_cache() const { return all_from_cache_; }
   const std::string& version() const { return version_; }
 
@@ -469,19 +449,23 @@ Molecule without_sources(const Molecule& molecule, const std::vector<GroupSource
   return keep_atoms(molecule, keep);
 }
 
-Molecule without_additives(const Molecule& molecule, const std::vector<GroupSource>& sources) {
-  return without_sources(molecule, sources, [](GroupSource s) { return s == GroupSource::kAdditive; });
+/// Additives and torn residues.
+bool is_left_out(GroupSource source) { return source == GroupSource::kAdditive || source == GroupSource::kTorn; }
+
+bool is_in_chain(GroupSource source) {
+  return source == GroupSource::kNone || source == GroupSource::kPhosphate || source == GroupSource::kModified;
 }
 
 /// What PDB2PQR charges. The groups that get charges otherwise become left out, so that PROPKA sees them.
 /// @param states [residue] or empty; those of the groups are taken out
 Molecule set_aside(const Molecule& molecule, const std::vector<GroupSource>& sources,
                    std::vector<std::string>& states) {
-  Molecule chains = without_sources(molecule, sources, [](GroupSource s) { return s != GroupSource::kNone; });
+  Molecule chains =
+      without_sources(with_known_residues(molecule, sources), sources, [](GroupSource s) { return !is_in_chain(s); });
   const auto atoms = atoms_of_residues(molecule);
   std::vector<std::string> kept;
   for (std::size_t r = 0; r < sources.size(); ++r) {
-    if (sources[r] == GroupSource::kNone) {
+    if (is_in_chain(sources[r])) {
       if (!states.empty()) kept.push_back(states[r]);
       continue;
     }
@@ -501,8 +485,7 @@ Molecule set_aside(const Molecule& molecule, const std::vector<GroupSource>& sou
 void require_charges(const Molecule& molecule, const ChargeOptions& options) {
   Molecule before = without_water(molecule, false);
   Preparation unused;
-  replace_selenomethionine(before, unused);
-  name_deoxynucleotides(before, unused);
+  rename_residues(before, unused);
   std::vector<Mol2File> ligands;
   for (const std::string& path : options.ligands) ligands.push_back(read_mol2(path));
   const std::vector<std::int32_t> ligand_of = ligands_of_residues(before, ligands);
@@ -543,8 +526,7 @@ Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options
   for (std::size_t r = 0; r < states.size(); ++r) {
     if (!is_water_name(molecule.residues[r].name)) kept_states.push_back(states[r]);
   }
-  replace_selenomethionine(before, done);
-  name_deoxynucleotides(before, done);
+  rename_residues(before, done);
   std::vector<Mol2File> ligands;
   for (const std::string& path : options.ligands) ligands.push_back(read_mol2(path));
   const std::vector<std::int32_t> ligand_of = ligands_of_residues(before, ligands);
@@ -554,17 +536,25 @@ Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options
   Run run(program, options, done.force_field, with_propka, progress);
   const Molecule chains = set_aside(before, sources, kept_states);
   const Molecule given = add_ligand_hydrogens(chains, ligands, ligands_of_residues(chains, ligands));
-  prepared.molecule = run_with_ligands(run, given, kept_states, ligands);
+  try {
+    prepared.molecule = run_with_ligands(run, given, kept_states, ligands);
+  } catch (const PropkaError&) {
+    run.drop_propka(done.force_field);
+    done.propka = false;
+    done.notes.emplace_back("no PROPKA, which cannot use so short a chain: residues have their usual states at pH 7");
+    prepared.molecule = run_with_ligands(run, given, kept_states, ligands);
+  }
+  restore_residues(prepared.molecule, before, sources, groups.modified);
   append(prepared.molecule, groups.charged);
   prepared.molecule.name = molecule.name;
   take_knowledge(before, prepared.molecule);
   const std::size_t n_seen = with_left_out_groups(before).residues.size() - before.residues.size();
-  before = without_additives(before, sources);
+  before = without_sources(before, sources, is_left_out);
   prepared.molecule.left_out = molecule.left_out;
   prepared.molecule.left_out.insert(prepared.molecule.left_out.end(), groups.additives.begin(), groups.additives.end());
   done.groups = std::move(groups.lines);
   done.warnings = std::move(groups.warnings);
-  if (with_propka && n_seen > 0)
+  if (with_propka && done.propka && n_seen > 0)
     done.notes.push_back("PROPKA saw " + std::to_string(n_seen) + (n_seen == 1 ? " group" : " groups") +
                          " beside the chains that the molecule leaves out");
   done.program = run.version();

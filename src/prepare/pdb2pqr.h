@@ -42,7 +42,8 @@ struct Prepared {
 /// (Molecule::left_out) are in the file, so that PROPKA sees them, and get no charges; so are ions, haem and ligands
 /// that get charges otherwise (charge_groups()), which follow the chains in the result. Additives of the
 /// crystallization become left out. PROPKA is not run without amino
-/// acids. Names that the force field lacks are refused before the program runs.
+/// acids, nor where it refuses a chain as too short. Phosphorylated and other modified residues are those of
+/// restore_residues(). Names that the force field lacks are refused before the program runs.
 /// @param states [residue] the protonation state to give a residue, as protonation_states() names it; empty strings
 ///               and an empty list leave the choice to PROPKA, which is not run if any state is given
 /// @throws DeviceError (no PDB2PQR, it failed), InputError (nothing it could charge, atoms without charge, a MOL2 file

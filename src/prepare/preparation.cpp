@@ -10,6 +10,7 @@
 #include "align/residue_charges.h"
 #include "align/residue_names.h"
 #include "base/error.h"
+#include "prepare/modified_residues.h"
 #include "prepare/open_babel.h"
 
 namespace espdiff {
@@ -99,6 +100,7 @@ std::string name_selection(const std::vector<std::string>& names) {
 void add_protonation(const Molecule& after, Preparation& preparation) {
   const std::vector<std::string> states = protonation_states(after);
   for (std::size_t r = 0; r < states.size(); ++r) {
+    if (!is_known_amino_acid(after.residues[r].name)) continue;
     const std::string meaning = describe_protonation(states[r]);
     const bool is_histidine = states[r] == "HID" || states[r] == "HIE";
     if (meaning.empty() && !is_histidine) continue;
@@ -114,9 +116,10 @@ Message uncharged_remedy(const std::vector<Residue>& residues, const std::string
   bool all_nucleotides = !has_nucleotides(force_field);
   for (const Residue& residue : residues) {
     const char letter = residue_letter(residue.name);
-    const bool can_be_made = letter == '?' && !is_ion_name(residue.name);
+    const bool is_nucleotide = letter >= 'a' && letter <= 'z';
+    const bool can_be_made = !is_nucleotide && !is_known_amino_acid(residue.name) && !is_ion_name(residue.name);
     (can_be_made ? ligands : of_chains).insert(residue.name);
-    all_nucleotides = all_nucleotides && letter >= 'a' && letter <= 'z';
+    all_nucleotides = all_nucleotides && is_nucleotide;
   }
   if (all_nucleotides) {
     const Message amber = option("force-field", "amber");
@@ -183,6 +186,8 @@ void require_known_names(const Molecule& before, const std::vector<GroupSource>&
     const std::string& name = before.residues[r].name;
     const bool is_known = kinds[r] == ResidueKind::kOther
                               ? ligand_of[r] >= 0 || caps.count(name) > 0 || sources[r] != GroupSource::kNone
+                          : kinds[r] == ResidueKind::kAminoAcid
+                              ? sources[r] != GroupSource::kNone || ligand_of[r] >= 0 || is_known_amino_acid(name)
                               : kinds[r] != ResidueKind::kNucleotide || has_nucleotides(force_field) ||
                                     (force_field == "parse" && name.front() != 'D' && name.front() != 'T');
     if (is_known || atoms[r].empty()) continue;

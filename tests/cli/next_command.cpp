@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <cstdlib>
+#include <sstream>
 #include <string>
 
 #include "cli/run_espdiff.h"
@@ -70,8 +71,8 @@ TEST_CASE("next: a chain more in one state is left out by the command that was t
   const Outcome outcome = run_espdiff(run);
   CHECK(outcome.status == 3);
   CHECK(contains(outcome.out, "tried, chain A alone: TRUSTWORTHY"));
-  const Outcome next = run_espdiff(next_words(outcome.out) + " --overwrite");
-  CHECK(next.status == 0);
+  const Outcome next = run_espdiff(next_words(outcome.out));
+  CHECK_MESSAGE(next.status == 0, next.err);
   CHECK(run_espdiff(run + " --overwrite --exit-zero -q").status == 0);
   const Outcome no_trials = run_espdiff(run + " --overwrite --no-trials");
   CHECK(no_trials.status == 3);
@@ -114,4 +115,39 @@ TEST_CASE("next: a trajectory that only VMD's readers read is handed to Python, 
   CHECK(refused.status != 0);
   if (contains(refused.err, "none were found"))
     CHECK(contains(refused.err, "\nnext: python3 -m espdiff trajectory " + folder.file("a.pqr")));
+}
+
+TEST_CASE("next: what PDB2PQR cannot prepare is compared by its shapes") {
+  const auto path = real_input("t4l/3lzm_from_bcif.pdb");
+  if (!path || !has_pdb2pqr()) return;
+  const ScratchFolder folder;
+  std::string trace;
+  std::istringstream lines(read_file(*path));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("ATOM", 0) == 0 && line.substr(12, 4) == " CA ") trace += line + "\n";
+  }
+  const std::string file = folder.write("trace.pdb", trace);
+  const Outcome refused = run_espdiff(file + " " + file + " --device cpu -q -o " + folder.file("out"));
+  CHECK(refused.status == 2);
+  CHECK(contains(refused.err, "PDB2PQR cannot prepare it"));
+  REQUIRE(contains(next_words(refused.err), "--potential none"));
+  const Outcome next = run_espdiff(next_words(refused.err));
+  CHECK_MESSAGE(next.status == 0, next.err);
+}
+
+TEST_CASE("compare -o OUT.png draws the picture with the answer, or says before the work why it cannot") {
+  const ScratchFolder folder;
+  const std::string run = folder.write("a.pqr", row_of_atoms(12)) + " " +
+                          folder.write("b.pqr", row_of_atoms(12, 0.25)) + kCoarse + " -q -o " + folder.file("pair.png");
+  const Outcome outcome = run_espdiff(run);
+  const bool has_picture = read_file(folder.file("pair.png")).rfind("\x89PNG", 0) == 0;
+  const bool has_result = !read_file(folder.file("pair.json")).empty();
+  CHECK(has_picture == (outcome.status == 0));
+  CHECK(has_result == (outcome.status == 0));
+  if (outcome.status != 0) {
+    CHECK(contains(outcome.err, "pair.png: "));
+    return;
+  }
+  CHECK(contains(run_espdiff(run).err, "pair exists; --overwrite replaces it"));
+  CHECK(run_espdiff(run + " --overwrite").status == 0);
 }

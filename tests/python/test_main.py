@@ -32,7 +32,7 @@ def run(tmp_path):
 
 def test_it_is_the_command_line(run, program, data, tmp_path):
     pair = [data / "series19_ubq_2k39" / f"m0{i}.pqr" for i in (1, 2)]
-    arguments = [*pair, "--grid-spacing", "1.5", "--potential", "coulomb"]
+    arguments = [*pair, "--grid-spacing", "1.5", "--potential", "coulomb", "--overwrite", "--exit-zero"]
     ours = run("compare", *arguments, "-o", tmp_path / "same")
     contents = {}
     for writer in ("python", "program"):

@@ -1,0 +1,202 @@
+// modified_residues.cpp: residues that PDB2PQR does not know keep their atoms, their place and their net charge.
+#include "prepare/modified_residues.h"
+
+#include <doctest/doctest.h>
+
+#include <sstream>
+
+#include "align/residue_names.h"
+#include "base/input_options.h"
+#include "io/read_structure.h"
+#include "prepare/open_babel.h"
+#include "prepare/pdb2pqr.h"
+#include "support/test_data.h"
+
+using namespace espdiff;       // NOLINT: a test
+using namespace espdiff_test;  // NOLINT: a test
+
+namespace {
+
+std::string record(int serial, const std::string& name, const std::string& residue, int number, const Vec3d& p,
+                   const std::string& element) {
+  char line[128];
+  std::snprintf(line, sizeof line, "ATOM  %5d %-4s %3s A%4d    %8.3f%8.3f%8.3f  1.00  0.00          %2s\n", serial,
+                name.c_str(), residue.c_str(), number, p[0], p[1], p[2], element.c_str());
+  return line;
+}
+
+/// An amino acid's atoms, 1.5 Angstrom apart in a row.
+std::string row_of_names(const std::string& residue, int number, const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const bool has_digit_first = names[i].size() > 3;
+    text += record(static_cast<int>(i), has_digit_first ? names[i] : " " + names[i], residue, number,
+                   {1.5 * static_cast<double>(i), 0, 3.0 * number}, names[i].substr(0, 1));
+  }
+  return text;
+}
+
+Molecule molecule_from(const std::string& text) {
+  const ScratchFolder folder;
+  return read_structure(folder.write("in.pdb", text), {});
+}
+
+GroupSource source_of(const std::string& residue, const std::vector<std::string>& names, bool ligands_auto = false) {
+  const Molecule molecule = molecule_from(row_of_names(residue, 1, names));
+  return amino_acid_source(molecule, 0, atoms_of_residues(molecule)[0], ligands_auto);
+}
+
+const std::vector<std::string> kPhosphoserine = {"N", "CA", "CB", "OG", "C", "O", "P", "O1P", "O2P", "O3P"};
+
+double net_charge(const Molecule& molecule) {
+  double total = 0;
+  for (const float q : molecule.charges) total += static_cast<double>(q);
+  return total;
+}
+
+/// Residues 1 to 60 of T4 lysozyme; empty without the file or PDB2PQR, which it says.
+std::string lysozyme_piece() {
+  const auto path = real_input("t4l/3lzm_from_bcif.pdb");
+  if (!path) return {};
+  if (find_pdb2pqr().empty()) {
+    MESSAGE("SKIPPED: no PDB2PQR; ", kPdb2pqrRemedy);
+    return {};
+  }
+  std::string text;
+  std::istringstream lines(read_file(*path));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("ATOM", 0) == 0 && std::stoi(line.substr(22, 4)) <= 60) text += line + "\n";
+  }
+  return text;
+}
+
+/// The text with a residue's name changed.
+std::string renamed(const std::string& text, int number, const std::string& name) {
+  std::string out;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (std::stoi(line.substr(22, 4)) == number) line.replace(17, 3, name);
+    out += line + "\n";
+  }
+  return out;
+}
+
+Prepared prepared(const Molecule& molecule, bool ligands_auto = false) {
+  ChargeOptions options;
+  options.use_cache = false;
+  options.ligands_auto = ligands_auto;
+  return prepare_molecule(molecule, options, {}, Progress());
+}
+
+std::vector<std::size_t> atoms_of(const Molecule& molecule, int number) {
+  const auto atoms = atoms_of_residues(molecule);
+  for (std::size_t r = 0; r < atoms.size(); ++r) {
+    if (molecule.residues[r].number == number) return atoms[r];
+  }
+  return {};
+}
+
+double charge_of(const Molecule& molecule, int number) {
+  double total = 0;
+  for (const std::size_t i : atoms_of(molecule, number)) total += static_cast<double>(molecule.charges[i]);
+  return total;
+}
+
+constexpr int kSerine = 38;
+
+}  // namespace
+
+TEST_CASE("amino_acid_source: a phosphate needs its atoms, a modified name needs Open Babel, a torn end is left out") {
+  CHECK(source_of("SER", {"N", "CA", "C", "O"}) == GroupSource::kNone);
+  CHECK(source_of("ASH", {"N", "CA", "C", "O"}) == GroupSource::kNone);
+  CHECK(source_of("SEP", kPhosphoserine) == GroupSource::kPhosphate);
+  CHECK(source_of("SEP", {"N", "CA", "CB", "OG", "C", "O", "P"}) == GroupSource::kNone);
+  CHECK(source_of("CME", {"N", "CA", "C", "O"}) == GroupSource::kNone);
+  CHECK(source_of("CME", {"N", "CA", "C", "O"}, true) == GroupSource::kModified);
+  CHECK(source_of("SER", {"N", "CA"}) == GroupSource::kTorn);
+  CHECK(source_of("SER", {"N"}, true) == GroupSource::kTorn);
+}
+
+TEST_CASE("restore_residues: a phosphate takes the place of the hydroxyl hydrogen and brings -2 e") {
+  const Molecule before = molecule_from(row_of_names("SEP", 7, kPhosphoserine));
+  const std::vector<GroupSource> sources = {GroupSource::kPhosphate};
+  Molecule known = with_known_residues(before, sources);
+  CHECK(known.residues[0].name == "SER");
+  CHECK(known.size() == 6);
+  // A hydrogen 1 Angstrom from OG, the fourth atom.
+  known.atoms.push_back({"HG", "H", 0, false});
+  known.positions.push_back(known.positions[3] + Vec3d{0, 1, 0});
+  known.radii.assign(7, 1);
+  known.charges = {-0.4F, 0, 0, -0.49F, 0.55F, -0.15F, 0.49F};
+  restore_residues(known, before, sources, {});
+  CHECK(known.residues[0].name == "SEP");
+  REQUIRE(known.size() == 10);
+  CHECK(net_charge(known) == doctest::Approx(-2).epsilon(1e-5));
+  for (const Atom& atom : known.atoms) CHECK(atom.name != "HG");
+  CHECK(known.charges[6] == doctest::Approx(1.099));
+  CHECK(known.charges[2] == doctest::Approx(0.005).epsilon(1e-3));
+}
+
+TEST_CASE("prepare_molecule: phosphoserine has -2 e more than serine; other residues keep their charges") {
+  const std::string text = lysozyme_piece();
+  if (text.empty()) return;
+  const Prepared plain = prepared(molecule_from(text));
+  const Molecule given = molecule_from(text);
+  Vec3d og{}, cb{};
+  for (const std::size_t i : atoms_of(given, kSerine)) {
+    if (given.atoms[i].name == "OG") og = given.positions[i];
+    if (given.atoms[i].name == "CB") cb = given.positions[i];
+  }
+  const Vec3d p = og + 1.6 / norm(og - cb) * (og - cb);
+  const std::string with_phosphate = renamed(text, kSerine, "SEP") + record(901, " P", "SEP", kSerine, p, "P") +
+                                     record(902, " O1P", "SEP", kSerine, p + Vec3d{1.5, 0, 0}, "O") +
+                                     record(903, " O2P", "SEP", kSerine, p + Vec3d{0, 1.5, 0}, "O") +
+                                     record(904, " O3P", "SEP", kSerine, p + Vec3d{0, 0, 1.5}, "O");
+  const Prepared modified = prepared(molecule_from(with_phosphate));
+  CHECK(net_charge(modified.molecule) == doctest::Approx(net_charge(plain.molecule) - 2).epsilon(1e-5));
+  CHECK(charge_of(modified.molecule, kSerine) == doctest::Approx(-2).epsilon(1e-5));
+  CHECK(charge_of(modified.molecule, kSerine + 1) == doctest::Approx(charge_of(plain.molecule, kSerine + 1)));
+  CHECK(modified.preparation.groups ==
+        std::vector<std::string>{"SEP 38 of chain A: a phosphate of -2 e (CHARMM's charges)"});
+}
+
+TEST_CASE("prepare_molecule: a residue under an unknown name gets its charges in the chain, by --ligands auto") {
+  const std::string text = lysozyme_piece();
+  if (text.empty()) return;
+  const Molecule unknown = molecule_from(renamed(text, kSerine, "XSR"));
+  CHECK(message_of([&] { prepared(unknown); }).find("XSR 38 of chain A (first atom N); let Open Babel make them") !=
+        std::string::npos);
+  if (find_open_babel().empty()) {
+    MESSAGE("SKIPPED: no Open Babel on PATH");
+    return;
+  }
+  const Prepared plain = prepared(molecule_from(text)), modified = prepared(unknown, true);
+  CHECK(net_charge(modified.molecule) == doctest::Approx(net_charge(plain.molecule)).epsilon(1e-4));
+  CHECK(atoms_of(modified.molecule, kSerine).size() == atoms_of(plain.molecule, kSerine).size());
+  CHECK(modified.molecule.residues[kSerine - 1].name == "XSR");
+  for (const int neighbour : {kSerine - 1, kSerine + 1})
+    CHECK(charge_of(modified.molecule, neighbour) == doctest::Approx(charge_of(plain.molecule, neighbour)));
+}
+
+TEST_CASE("prepare_molecule: a residue of one atom is left out and listed") {
+  const std::string text = lysozyme_piece();
+  if (text.empty()) return;
+  const std::string torn = row_of_names("SER", 61, {"N"});
+  const Prepared whole = prepared(molecule_from(text)), with_end = prepared(molecule_from(text + torn));
+  CHECK(with_end.molecule.size() == whole.molecule.size());
+  REQUIRE(with_end.molecule.left_out.size() == 1);
+  CHECK(with_end.molecule.left_out[0].residue.number == 61);
+  CHECK(with_end.molecule.left_out[0].atoms.size() == 1);
+}
+
+TEST_CASE("prepare_molecule: a chain too short for PROPKA gets its usual states, and a note says so") {
+  std::string text = lysozyme_piece();
+  if (text.empty()) return;
+  text.resize(text.find(" A  13 ") - 20);
+  text.resize(text.rfind('\n') + 1);
+  const Prepared brief = prepared(molecule_from(text));
+  CHECK_FALSE(brief.preparation.propka);
+  REQUIRE_FALSE(brief.preparation.notes.empty());
+  CHECK(brief.preparation.notes.back().find("no PROPKA, which cannot use so short a chain") == 0);
+  CHECK(brief.molecule.size() > molecule_from(text).size());
+}
