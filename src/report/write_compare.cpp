@@ -71,7 +71,8 @@ void write_surface_file(std::ostream& out, const Molecule& source, const Compare
                        {"normal", s.normals},
                        {"source_normal", s.source_normals},
                        {"residue_number", derived.residue_number},
-                       {"residue_index", s.residue}};
+                       {"residue_index", s.residue},
+                       {"target_residue_index", s.target_residue}};
   file.active_normals = "normal";
   file.active_scalars = "displacement";
   if (result.has_potential) {
@@ -85,7 +86,9 @@ void write_surface_file(std::ostream& out, const Molecule& source, const Compare
     if (!label.empty()) file.texts.emplace_back("potential", label);
   }
   const std::vector<std::uint8_t> everywhere(s.triangles.size(), 0);
-  file.cell_arrays = {{"corrupt", s.corrupt}, {"no_counterpart", s.unmatched.empty() ? everywhere : s.unmatched}};
+  file.cell_arrays = {{"corrupt", s.corrupt},
+                      {"no_counterpart", s.unmatched.empty() ? everywhere : s.unmatched},
+                      {"why", s.why}};
   file.texts.emplace_back("length_unit", "Angstrom");
   file.texts.emplace_back("written_by", "espdiff " + provenance.version);
   write_vtp(out, file);
