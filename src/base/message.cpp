@@ -14,6 +14,12 @@ Message::Message(NamedOption option) { parts_.push_back({"", std::move(option)})
 Message& Message::operator+=(const Message& more) {
   const std::vector<Part> added = more.parts_;  // `more` may be this
   parts_.insert(parts_.end(), added.begin(), added.end());
+  if (next_.empty()) next_ = more.next_;
+  return *this;
+}
+
+Message& Message::set_next(NextCommand next) {
+  next_ = std::move(next);
   return *this;
 }
 

@@ -17,6 +17,14 @@ struct NamedOption {
 /// How a front end writes an option: the command line `--align none`, Tcl `-align none`, the window by its label.
 using OptionSpelling = std::function<std::string(const NamedOption&)>;
 
+/// The one command that most likely helps: the one that was typed, with other options.
+struct NextCommand {
+  std::string before;                ///< what stands before it: "apt install X && ", or ""
+  std::vector<NamedOption> options;  ///< given besides, or instead of their earlier values
+
+  bool empty() const { return before.empty() && options.empty(); }
+};
+
 /// A line of text whose options are not spelled yet. It is put together like a string:
 ///   "use a larger " + option("grid-spacing") + " or fewer atoms"
 class Message {
@@ -31,6 +39,10 @@ class Message {
   friend Message operator+(Message a, const Message& b) { return a += b; }
 
   bool empty() const { return parts_.empty(); }
+  /// What to type next; front ends that have a command line show it behind the text. Stays with the message when it
+  /// becomes a part of another one.
+  Message& set_next(NextCommand next);
+  const NextCommand& next() const { return next_; }
   /// The text as files and other programs get it: options by their bare names, "align none".
   std::string plain() const;
   std::string spelled(const OptionSpelling& spelling) const;
@@ -42,6 +54,7 @@ class Message {
     NamedOption option;
   };
   std::vector<Part> parts_;
+  NextCommand next_;
 };
 
 /// Names an option, with a value that is advised or was given.

@@ -1,4 +1,4 @@
-// command_line.cpp: parses the command line, runs the command, and turns errors into one line and an exit status.
+// command_line.cpp: parses the command line, runs the command, and turns errors into a line, the next command, and an exit status.
 #include "cli/command_line.h"
 
 #include <algorithm>
@@ -16,6 +16,7 @@
 #include "base/translate.h"
 #include "base/version.h"
 #include "cli/help.h"
+#include "cli/next_command.h"
 #include "cli/spelling.h"
 #include "cli/terminal_progress.h"
 #include "cli/verbs.h"
@@ -30,8 +31,8 @@ std::string joined(int argc, char** argv) {
   return line;
 }
 
-/// Runs the chosen command; errors become one line on standard error.
-int run_verb(const espdiff::cli::Verb& verb, const std::string& command_line) {
+/// Runs the chosen command; errors become a line on standard error, with the command that most likely helps below.
+int run_verb(const espdiff::cli::Verb& verb, const std::string& command_line, const std::vector<std::string>& words) {
   espdiff::cli::TerminalProgress terminal;
   const auto fail = [&](const char* message, int status) {
     terminal.clear();
@@ -41,11 +42,16 @@ int run_verb(const espdiff::cli::Verb& verb, const std::string& command_line) {
   try {
     espdiff::cli::Context context;
     context.command_line = command_line;
+    context.words = words;
     context.progress = &terminal.progress();
     return verb.run(context);
   } catch (const std::exception& error) {
     const espdiff::Error ours = espdiff::translated(error);
-    return fail(espdiff::cli::spelled(ours.message()).c_str(), ours.exit_status());
+    const int status = fail(espdiff::cli::spelled(ours.message()).c_str(), ours.exit_status());
+    const espdiff::NextCommand& next = ours.message().next();
+    if (!next.empty())
+      std::fprintf(stderr, "next: %s\n", espdiff::printable(espdiff::cli::next_command(words, next)).c_str());
+    return status;
   } catch (...) {
     return fail("internal error: an exception of unknown type; please report it with the command", 1);
   }
@@ -74,8 +80,8 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version,-v", std::string("espdiff ") + espdiff::kVersion, "Print the version");
   app.require_subcommand(0, 1);
   espdiff::cli::set_help(app, {"",
-                               {"espdiff wild.pdb mutant.pdb", "espdiff render wild_mutant.vtp -o difference.png",
-                                "espdiff help compare"}});
+                               {"espdiff wild.pdb mutant.pdb", "espdiff render wild_mutant -o difference.png"},
+                               "merge plot surface potential verify completion man"});
   std::vector<espdiff::cli::Verb> verbs = {
       espdiff::cli::add_compare(app),   espdiff::cli::add_trajectory(app), espdiff::cli::add_matrix(app),
 
@@ -97,7 +103,7 @@ int run(int argc, char** argv) {
     return 2;
   }
   for (const auto& verb : verbs) {
-    if (verb.parser->parsed()) return run_verb(verb, joined(argc, argv));
+    if (verb.parser->parsed()) return run_verb(verb, joined(argc, argv), {argv + 1, argv + argc});
   }
   std::fputs("espdiff: nothing to do: give two structures to compare, or a command; see espdiff --help\n", stderr);
   return 2;

@@ -1,11 +1,15 @@
 // compare.cpp: `espdiff compare SOURCE TARGET -o OUT`.
+#include <chrono>
 #include <iostream>
 
 #include "cli/help.h"
 #include "cli/map_options.h"
+#include "cli/next_command.h"
 #include "cli/output_prefix.h"
 #include "cli/spelling.h"
 #include "cli/verbs.h"
+#include "cli/verdict_status.h"
+#include "cli/ways_on.h"
 #include "compare/compare.h"
 #include "compare/options.h"
 #include "compare/result.h"
@@ -31,7 +35,7 @@ struct CompareArguments {
   MapArguments maps;
   std::string residue_pdb, residue_quantity;
   int source_model = 1, target_model = 1;
-  bool quiet = false;
+  bool quiet = false, overwrite = false, exit_zero = false, no_trials = false;
   StructureOptions structure;
   DeviceArguments device;
   GivenSettings settings;
@@ -42,7 +46,7 @@ void add_input_options(CLI::App& p, CompareArguments& a) {
   p.add_option("TARGET", a.target, "Structure of the second state")->required();
   p.add_option("-o,--output", a.output,
                "Prefix of the results OUT.json, OUT.vtp and OUT.residues.csv, or a folder for them; default: the names "
-               "of both structures")
+               "of both structures, with a number behind them where such a result exists")
       ->type_name("OUT");
   add_map_options(p, a.maps);
   p.add_option(
@@ -89,6 +93,13 @@ Side read_side(const CompareArguments& a, const std::string& role, const InputOp
   const StructureFile file(path);
   StateRequest request{structure_options(a, role), is_source ? StateRole::kSource : StateRole::kTarget};
   request.source = source;
+  if (is_source) {
+    request.check_partner = [&] {
+      StateRequest other{structure_options(a, "target"), StateRole::kTarget};
+      other.only_checks = true;
+      load_state(StructureFile(a.target), other, options, progress);
+    };
+  }
   Side side{role, load_for(a.maps, !has_given_maps(a.maps), file, request, options, progress), {}, {}};
   const auto inputs = state_inputs(role, {role, path, file.sha256(), nullptr, request.structure}, side.state);
   provenance.inputs.insert(provenance.inputs.end(), inputs.begin(), inputs.end());
@@ -138,10 +149,92 @@ std::vector<KeptFile> kept_structures(const CompareArguments& a, const CompareOp
   return kept;
 }
 
+/// Both states, and their comparison.
+struct Comparison {
+  Side source, target;
+  CompareResult result;
+  std::vector<KeptFile> kept;
+};
+
+/// Reads, prepares and compares the two states.
+Comparison compared(const CompareArguments& a, const CompareOptions& options, Engine& engine, Provenance& provenance,
+                    const Progress& progress) {
+  progress.report("read", 0.0);
+  Side source = read_side(a, "source", options.input, nullptr, provenance, progress);
+  Side target = read_side(a, "target", options.input, &source.state.molecule, provenance, progress);
+  check_left_out(options.input, {&source.state, &target.state});
+  const std::string because = add_maps(a, source, target, options.temperature_K, provenance.inputs);
+  std::vector<KeptFile> kept = kept_structures(a, options, source, target);
+  const std::string radii_note =
+      set_surface_radii({&source.state.molecule, &target.state.molecule}, options.input.radii);
+  CompareInput source_input = source.input();
+  source_input.parts =
+      source_parts(source.state.molecule, source.state.whole, target.state.molecule, target.state.whole, options.input);
+  CompareResult result = compare(engine, source_input, target.input(), options, progress);
+  note_states(result, source.state, target.state, radii_note);
+  if (!result.has_potential) result.shapes_because = because;
+  return {std::move(source), std::move(target), std::move(result), std::move(kept)};
+}
+
+/// The arguments of a change.
+CompareArguments changed(CompareArguments a, const WayOn& way) {
+  if (way.exchanges) {
+    std::swap(a.source, a.target);
+    std::swap(a.source_model, a.target_model);
+    std::swap(a.maps.source_map, a.maps.target_map);
+    std::swap(a.maps.source_map_unit, a.maps.target_map_unit);
+  }
+  for (const NamedOption& option : way.options) a.settings.emplace_back(option.name, option.is_switch ? "1" : option.value);
+  a.residue_pdb.clear();
+  return a;
+}
+
+double total_seconds(const CompareResult& result) {
+  for (const auto& [stage, ms] : result.time_ms) {
+    if (stage == "total") return ms / 1000;
+  }
+  return 0;
+}
+
+/// Tries what may help until an answer can be trusted, where a trial takes seconds, and prints the command.
+void print_next(const CompareArguments& a, const Comparison& first, Engine& engine, const Context& context) {
+  constexpr double kLongestTrial_s = 30, kMostTime_s = 60;
+  const auto begun = std::chrono::steady_clock::now();
+  std::vector<std::string> given;
+  for (const auto& setting : a.settings) given.push_back(setting.first);
+  const bool prepared = first.source.state.preparation && first.target.state.preparation;
+  const double once_s = total_seconds(first.result);
+  std::string tried;
+  for (const WayOn& way : ways_on(first.result, first.source.state.molecule, first.target.state.molecule, given, prepared)) {
+    const double spent_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    if (a.no_trials || once_s > kLongestTrial_s || spent_s + once_s > kMostTime_s) break;
+    const CompareArguments other = changed(a, way);
+    try {
+      Provenance unused;
+      const Comparison again = compared(other, make_options(other.settings), engine, unused, *context.progress);
+      tried += (tried.empty() ? "" : "; ") + way.what;
+      if (!again.result.certificate.trustworthy) continue;
+      TypedWords words = with_options(context.words, way.options);
+      if (way.exchanges) words = exchanged(words, a.source, a.target);
+      context.progress->report("write", 1.0);
+      std::cout << "\nnext: " << as_typed(words) << "\n      tried, " << way.what << ": ";
+      print_verdict_line(std::cout, again.result);
+      return;
+    } catch (const Cancelled&) {
+      break;
+    } catch (const Error&) {  // the change does not suit these states
+    }
+  }
+  std::cout << "\nnext: " << as_typed({"render", a.output, "-o", a.output + ".png"}) << "\n      shows where";
+  if (!tried.empty()) std::cout << "; tried without success: " << tried;
+  std::cout << '\n';
+}
+
 int compare_verb(const CompareArguments& a, const Context& context) {
   check_map_options(a.maps);
   const CompareOptions options = make_options(a.settings);
   check_files(a, options, {});
+  if (!a.overwrite) refuse_existing(a.output);
   // An unwritable output is found before the work.
   for (const char* suffix : {".json", ".vtp", ".residues.csv"}) AtomicFile probe(a.output + suffix);
   if (!options.causes.empty()) AtomicFile probe(a.output + kCausesEnding);
@@ -149,41 +242,32 @@ int compare_verb(const CompareArguments& a, const Context& context) {
   if (a.residue_pdb.empty() && !a.residue_quantity.empty())
     throw InputError("--residue-quantity needs --residue-pdb FILE");
 
-  context.progress->report("read", 0.0);
   Provenance provenance;
   provenance.command_line = context.command_line;
-  Side source = read_side(a, "source", options.input, nullptr, provenance, *context.progress);
-  Side target = read_side(a, "target", options.input, &source.state.molecule, provenance, *context.progress);
-  check_left_out(options.input, {&source.state, &target.state});
-  const std::string because = add_maps(a, source, target, options.temperature_K, provenance.inputs);
-  const std::vector<KeptFile> kept = kept_structures(a, options, source, target);
-  const std::string radii_note =
-      set_surface_radii({&source.state.molecule, &target.state.molecule}, options.input.radii);
-  CompareInput source_input = source.input();
-  source_input.parts =
-      source_parts(source.state.molecule, source.state.whole, target.state.molecule, target.state.whole, options.input);
   const std::unique_ptr<Engine> engine = make_engine(a.device);
   provenance.device = engine->back_end();
   provenance.device_description = engine->description();
   provenance.threads = engine->n_threads();
-  CompareResult result = compare(*engine, source_input, target.input(), options, *context.progress);
-  note_states(result, source.state, target.state, radii_note);
-  if (!result.has_potential) result.shapes_because = because;
+  const Comparison comparison = compared(a, options, *engine, provenance, *context.progress);
+  const CompareResult& result = comparison.result;
   context.progress->report("write", 0.0);
-  const Molecule &source_molecule = source.state.molecule, &target_molecule = target.state.molecule;
+  const Molecule &source_molecule = comparison.source.state.molecule,
+                 &target_molecule = comparison.target.state.molecule;
   std::unique_ptr<AtomicFile> pdb;
   if (!a.residue_pdb.empty()) {
     pdb = std::make_unique<AtomicFile>(a.residue_pdb);
     write_residue_pdb(*pdb, source_molecule, result,
                       a.residue_quantity.empty() ? usual_residue_quantity(result) : a.residue_quantity);
   }
-  write_compare(a.output, source_molecule, target_molecule, result, options, provenance, kept, pdb.get());
+  write_compare(a.output, source_molecule, target_molecule, result, options, provenance, comparison.kept, pdb.get());
   context.progress->report("write", 1.0);
-  if (a.quiet)
+  if (a.quiet) {
     print_verdict_line(std::cout, result);
-  else
+  } else {
     print_table(std::cout, source_molecule, target_molecule, result, spelled_option);
-  return 0;
+    if (!result.certificate.trustworthy) print_next(a, comparison, *engine, context);
+  }
+  return verdict_status(result, a.exit_zero);
 }
 
 }  // namespace
@@ -198,19 +282,25 @@ Verb add_compare(CLI::App& app) {
       "certifies the mapping. Without maps the potentials are computed (--potential).\n\n"
       "Writes result.json (numbers, certificate, provenance), result.vtp (mapped surface, for ParaView) and "
       "result.residues.csv,\nwith --causes result.causes.csv.\n"
-      "Exit status: 0 done, 1 could not compute, 2 wrong usage or input.");
+      "Exit status: 0 done, 1 could not compute, 2 wrong usage or input, 3 done, and the result is not trusted (0 with "
+      "--exit-zero).");
   add_input_options(*parser, *arguments);
   add_structure_options(*parser, arguments->structure);
   add_settings(*parser, arguments->settings, SettingsFor::kPair);
   add_device_options(*parser, arguments->device);
   parser->add_flag("-q,--quiet", arguments->quiet, "Print the verdict and the main number only");
+  parser->add_flag("--overwrite", arguments->overwrite, "Replace a result of this name, if there is one");
+  parser->add_flag("--exit-zero", arguments->exit_zero, "Exit status 0, not 3, for a result that is not trusted");
+  parser->add_flag("--no-trials", arguments->no_trials,
+                   "Do not try other commands after a result that is not trusted; without it those that take seconds "
+                   "are tried, and the one that helps is printed");
   set_help(*parser,
-           {"--output --select --leave-out --ligand --ph --same-protonation --region --region-within --of --potential "
-            "--source-map --target-map --offset --domains --threads --quiet",
+           {"--output --overwrite --select --leave-out --ligands --ph --same-protonation --region --region-within --of "
+            "--potential --source-map --target-map --offset --domains --threads --quiet",
             {"espdiff compare 1t24.pdb 1t2e.pdb --select '//A;polymer' --region-within 5 --of '(NAD,OXQ)' -o ldh",
              "espdiff compare wild.pqr mutant.pqr --source-map wild.dx --target-map mutant.dx -o result"}});
   return {parser, [arguments](const Context& context) {
-            arguments->output = output_prefix(arguments->output, arguments->source, arguments->target);
+            arguments->output = output_prefix(arguments->output, arguments->overwrite, arguments->source, arguments->target);
             return compare_verb(*arguments, context);
           }};
 }

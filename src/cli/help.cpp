@@ -98,13 +98,17 @@ class HelpText : public CLI::FormatterBase {
   explicit HelpText(ShortHelp help) : help_(std::move(help)) {}
 
   std::string make_help(const CLI::App* app, std::string /*name*/, CLI::AppFormatMode mode) const override {
-    const bool is_short = mode != CLI::AppFormatMode::All && !help_.options.empty();
+    const bool is_whole = mode == CLI::AppFormatMode::All, is_short = !is_whole && !help_.options.empty();
     std::string text = wrapped(app->get_description(), 0) + "\n\nUsage: " + usage_line(*app) + '\n' + arguments(*app);
-    text += is_short ? some_options(*app) : all_options(*app);
-    text += commands(*app);
+    const bool has_commands = !help_.rare.empty();
+    if (has_commands)
+      text += is_whole ? all_options(*app) + commands(*app) : usual_commands(*app);
+    else
+      text += is_short ? some_options(*app) : all_options(*app);
     if (!is_short && !app->get_footer().empty()) text += '\n' + app->get_footer() + '\n';
     if (!help_.examples.empty()) text += "\nExamples:\n";
     for (const std::string& example : help_.examples) text += "  " + example + '\n';
+    if (has_commands && !is_whole) text += "\nOptions: espdiff COMMAND --help; version: espdiff -v\n";
     if (is_short) text += "\nAll options: " + usage_name(*app) + " --help-all\n";
     return text;
   }
@@ -121,6 +125,17 @@ class HelpText : public CLI::FormatterBase {
     std::istringstream names(help_.options);
     for (std::string name; names >> name;) text += option_entry(*app.get_option(name), true);
     return text;
+  }
+
+  /// A line for each command, and one for the names of the others.
+  std::string usual_commands(const CLI::App& app) const {
+    std::string text = "\nCommands:\n", others = help_.rare;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+      if ((' ' + help_.rare + ' ').find(' ' + command->get_name() + ' ') != std::string::npos) continue;
+      text += entry(command->get_name(), first_statement(command->get_description()));
+    }
+    for (std::size_t at = 0; (at = others.find(' ', at)) != std::string::npos; at += 2) others.insert(at, 1, ',');
+    return text + entry("and", others);
   }
 
   static std::string commands(const CLI::App& app) {

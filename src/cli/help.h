@@ -11,6 +11,7 @@ namespace espdiff::cli {
 struct ShortHelp {
   std::string options;                ///< names as they are typed, separated by blanks; empty: all options
   std::vector<std::string> examples;  ///< whole commands, one a line
+  std::string rare{};                 ///< commands that are named in one line, separated by blanks
 };
 
 /// Gives a command its help. `--help` prints `help`; `--help-all` every option in its group, and the command's footer.

@@ -1,7 +1,9 @@
 // output_prefix.cpp: where the results of a pair go, and how they are found again.
 #include "cli/output_prefix.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 
 #include "base/error.h"
 #include "base/system_message.h"
@@ -10,6 +12,9 @@ namespace espdiff::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Of the files that a result always has.
+constexpr const char* kResultEndings[] = {".json", ".vtp", ".residues.csv"};
 
 /// A file's name without its folder and its endings: "1ake" of data/1ake.pdb.gz.
 std::string stem(const std::string& path) {
@@ -27,20 +32,41 @@ void make_folder(const std::string& folder) {
 
 }  // namespace
 
+bool has_result(const std::string& prefix) {
+  std::error_code ignored;
+  return std::any_of(std::begin(kResultEndings), std::end(kResultEndings),
+                     [&](const char* ending) { return fs::exists(prefix + ending, ignored); });
+}
+
+void refuse_existing(const std::string& prefix) {
+  if (!has_result(prefix)) return;
+  throw InputError(Message("a result named " + prefix + " exists; " + switched_on("overwrite") +
+                           " replaces it, another " + option("output") + " keeps it")
+                       .set_next({"", {{"overwrite", "", true}}}));
+}
+
+std::string free_prefix(const std::string& prefix) {
+  std::string free = prefix;
+  for (int n = 2; has_result(free); ++n) free = prefix + '_' + std::to_string(n);
+  return free;
+}
+
 std::string result_prefix(const std::string& given) {
-  for (const std::string ending : {".json", ".vtp", ".residues.csv"}) {
+  for (const std::string ending : kResultEndings) {
     if (given.size() > ending.size() && given.compare(given.size() - ending.size(), ending.size(), ending) == 0)
       return given.substr(0, given.size() - ending.size());
   }
   return given;
 }
 
-std::string output_prefix(const std::string& given, const std::string& source, const std::string& target) {
+std::string output_prefix(const std::string& given, bool overwrite, const std::string& source,
+                          const std::string& target) {
   std::error_code ignored;
   const bool is_folder = given.empty() || given.back() == '/' || fs::is_directory(given, ignored);
   if (is_folder) {
     if (!given.empty()) make_folder(given);
-    return (fs::path(given) / (stem(source) + '_' + stem(target))).string();
+    const std::string named = (fs::path(given) / (stem(source) + '_' + stem(target))).string();
+    return overwrite ? named : free_prefix(named);
   }
   return result_prefix(given);
 }

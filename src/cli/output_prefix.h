@@ -5,11 +5,22 @@
 
 namespace espdiff::cli {
 
+/// Whether a result lies at a prefix, or a part of one.
+bool has_result(const std::string& prefix);
+
+/// @throws InputError (a result lies there), with `--overwrite` as the next command
+void refuse_existing(const std::string& prefix);
+
+/// A prefix that no result has: the given one, or PREFIX_2, PREFIX_3, ...
+std::string free_prefix(const std::string& prefix);
+
 /// The prefix of OUT.json, OUT.vtp and OUT.residues.csv.
 /// @param given  as typed: a prefix, one of the files that will be written (`x.json` is x), a folder (an existing one,
 ///               or a name with a slash at its end), which is made if it is missing; or empty for the working folder
+/// @param overwrite  whether a result of this name may be replaced; otherwise a name that was not typed is free_prefix()
 /// @param source, target  the structures, whose names without folder and ending make SOURCE_TARGET in a folder
-std::string output_prefix(const std::string& given, const std::string& source, const std::string& target);
+std::string output_prefix(const std::string& given, bool overwrite, const std::string& source,
+                          const std::string& target);
 
 /// The prefix of a result that is named by it or by one of its files: OUT of OUT, OUT.json, OUT.vtp.
 std::string result_prefix(const std::string& given);

@@ -3,18 +3,16 @@
 
 namespace espdiff::cli {
 
-namespace {
-
-/// The value as a shell takes it: parentheses, blanks and the like in quotes.
-std::string quoted(const std::string& value) {
-  const bool plain = value.find_first_of(" ()*;&|<>?[]$\"\\!") == std::string::npos;
-  return plain || value.find('\'') != std::string::npos ? value : "'" + value + "'";
+std::string shell_quoted(const std::string& word) {
+  const bool is_plain = !word.empty() && word.find_first_of(" ()*;&|<>?[]$\"\\!'`#~\t\n") == std::string::npos;
+  if (is_plain) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
 }
 
-}  // namespace
-
 std::string spelled_option(const NamedOption& option) {
-  return "--" + option.name + (option.value.empty() ? "" : " " + quoted(option.value));
+  return "--" + option.name + (option.value.empty() ? "" : " " + shell_quoted(option.value));
 }
 
 }  // namespace espdiff::cli

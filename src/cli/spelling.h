@@ -9,6 +9,8 @@ namespace espdiff::cli {
 
 /// "--align none"; a switch as "--overwrite".
 std::string spelled_option(const NamedOption& option);
+/// A word as a shell takes it: in quotes where it has parentheses, blanks and the like.
+std::string shell_quoted(const std::string& word);
 /// The message as shown on the command line.
 inline std::string spelled(const Message& message) { return message.spelled(spelled_option); }
 

@@ -140,6 +140,12 @@ void add_charge_rows(std::vector<Setting>& all) {
       "ph", group, 0, 14, "a pH from 0 to 14", [](auto& o) -> auto& { return o.charges.ph; },
       "pH at which PROPKA chooses protonation states")));
   all.push_back(of_surface(ligand_row()));
+  all.push_back(of_surface(choice_row(
+      "ligands", group, {"files", "auto"},
+      [](InputOptions& o, const std::string& text) { o.charges.ligands_auto = text == "auto"; },
+      [](const InputOptions& o) { return o.charges.ligands_auto ? "auto" : "files"; },
+      "Ligands that no force field has: those with a MOL2 file (files), or the others too, with hydrogens and charges "
+      "by Open Babel (auto)")));
   all.push_back(boolean_row(
       "same-protonation", group, [](auto& o) -> auto& { return o.charges.same_protonation; },
       "Residues of the target take the protonation states of the source's residues they pair with"));

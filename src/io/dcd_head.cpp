@@ -61,6 +61,9 @@ class DcdReader {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(bits));
   }
 
+  std::uint64_t at() const { return at_; }
+  std::size_t mark_bytes() const { return mark_; }
+  bool is_swapped() const { return is_swapped_; }
   std::uint64_t n_left() const { return n_bytes_ > at_ ? n_bytes_ - at_ : 0; }
   /// Bytes of a record with its marks.
   std::uint64_t with_marks(std::uint64_t n) const { return n + 2 * mark_; }
@@ -85,6 +88,18 @@ class DcdReader {
   std::size_t mark_ = 4;
   bool is_swapped_ = false;
 };
+
+/// From 0; the file counts from 1.
+std::vector<std::size_t> moving_atoms(DcdReader& reader, std::int64_t n_atoms, std::int64_t n_fixed) {
+  const std::string numbers = reader.record(4 * static_cast<std::uint64_t>(n_atoms));
+  std::vector<std::size_t> moving;
+  for (std::int64_t i = 0; i < n_atoms - n_fixed; ++i) {
+    const std::int64_t atom = reader.integer(numbers, static_cast<std::size_t>(i));
+    if (atom < 1 || atom > n_atoms) reader.fail("lists the moving atom " + std::to_string(atom));
+    moving.push_back(static_cast<std::size_t>(atom - 1));
+  }
+  return moving;
+}
 
 }  // namespace
 
@@ -111,7 +126,7 @@ std::optional<DcdHead> read_dcd_head(const std::string& path) {
   const std::int64_t n_fixed = reader.integer(numbers, kFixedAtoms);
   if (head.n_atoms <= 0 || n_fixed < 0 || n_fixed >= head.n_atoms)
     reader.fail("has " + std::to_string(head.n_atoms) + " atoms, of which " + std::to_string(n_fixed) + " are fixed");
-  if (n_fixed > 0) reader.skip_record();  // which atoms move
+  if (n_fixed > 0) head.moving = moving_atoms(reader, head.n_atoms, n_fixed);
   const bool is_charmm = reader.integer(numbers, kCharmmVersion) != 0;
   const bool has_cell = is_charmm && reader.integer(numbers, kHasCell) != 0;
   const std::uint64_t n_records = is_charmm && reader.integer(numbers, kHasFourth) != 0 ? 4 : 3;
@@ -120,6 +135,12 @@ std::optional<DcdHead> read_dcd_head(const std::string& path) {
            n_records * reader.with_marks(sizeof(float) * static_cast<std::uint64_t>(n_atoms));
   };
   const std::uint64_t n_first = frame_of(head.n_atoms), n_left = reader.n_left();
+  head.begin = reader.at();
+  head.n_first = n_first;
+  head.mark_bytes = reader.mark_bytes();
+  head.is_swapped = reader.is_swapped();
+  head.has_cell = has_cell;
+  head.n_fixed = n_fixed;
   head.n_frame = n_left < n_first ? n_first : frame_of(head.n_atoms - n_fixed);
   if (n_left < n_first) {
     head.n_rest = n_left;

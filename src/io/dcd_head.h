@@ -1,9 +1,11 @@
 // dcd_head.h: what the head of a DCD trajectory promises, and how many whole frames the file's size has room for.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace espdiff {
 
@@ -15,6 +17,12 @@ struct DcdHead {
   std::int64_t n_whole = 0;     ///< frames that the file's size has room for
   std::uint64_t n_rest = 0;     ///< bytes after them
   std::uint64_t n_frame = 0;    ///< bytes of a frame that would follow
+  // For who reads the frames.
+  std::uint64_t begin = 0, n_first = 0;  ///< where the first frame lies, and its bytes
+  std::size_t mark_bytes = 4;
+  bool is_swapped = false, has_cell = false;
+  std::int64_t n_fixed = 0;
+  std::vector<std::size_t> moving{};  ///< indices of the atoms that move; empty where all do
 
   /// What of the file is missing, in words: the end of a frame, or promised frames. Empty for a whole file. A file may
   /// have more frames than its head promises: not every program that adds some rewrites it.

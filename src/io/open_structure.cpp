@@ -1,9 +1,10 @@
-// open_structure.cpp: which reader opens a file: ours for structures, VMD's for everything else.
+// open_structure.cpp: which reader opens a file: ours for structures, VMD's for everything else, ours for DCD without VMD.
 #include "io/open_structure.h"
 
 #include <utility>
 
 #include "base/error.h"
+#include "io/dcd_frames.h"
 #include "io/frame_reader.h"
 #include "io/molfile_file.h"
 #include "io/molfile_plugins.h"
@@ -16,6 +17,13 @@ namespace {
 FrameReader& the_frame_reader() {
   static FrameReader reader;
   return reader;
+}
+
+/// How to do without VMD: in Python as it is there, or by another front end.
+std::string without_plugins(const std::string& path) {
+  if (!frame_reader_remedy().empty()) return frame_reader_remedy();
+  return "; without VMD, Python's espdiff reads it by MDAnalysis (in its repository: pip install '.[mda]'), and " +
+         std::string(is_dcd_name(path) ? "DCD needs its atoms from a PDB or PQR" : "DCD is read without either");
 }
 
 }  // namespace
@@ -41,8 +49,9 @@ const FrameReader* TrajectoryOpener::other_reader() {
 const MolfileReader& TrajectoryOpener::reader_of(const std::string& path) {
   plugins_ = find_molfile_folder(plugins_);
   if (plugins_.empty())
-    throw DeviceError(path + ": is read by VMD's molfile plugins, and none were found; " + kMolfileRemedy + " as " +
-                      option("plugins") + frame_reader_remedy());
+    throw DeviceError((path + ": is read by VMD's molfile plugins, and none were found; " + kMolfileRemedy + " as " +
+                       option("plugins") + without_plugins(path))
+                          .set_next({frame_reader_remedy().empty() ? "python3 -m " : "", {}}));
   const MolfileReader* const reader = find_molfile_reader(plugins_, path);
   if (reader == nullptr)
     throw InputError(path + ": no plugin of VMD in " + plugins_ +
@@ -73,6 +82,10 @@ std::unique_ptr<StructureFile> TrajectoryOpener::open(const std::string& path) {
   if (const FrameReader* const other = other_reader(); other != nullptr) {
     const std::shared_ptr<const Molecule> all = atoms();
     return std::make_unique<StructureFile>(other->open(path, all->size()), all);
+  }
+  if (plugins_.empty() && is_dcd_name(path)) {
+    const std::shared_ptr<const Molecule> all = atoms();
+    return std::make_unique<StructureFile>(std::make_unique<DcdFrames>(path, all->size()), all);
   }
   const MolfileReader& reader = reader_of(path);
   const std::shared_ptr<const Molecule> all = atoms();

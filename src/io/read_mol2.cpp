@@ -67,6 +67,8 @@ Mol2File read_mol2(const std::string& path) {
                        " atoms, which is the most that are read");
     atom.name = words[1];
     atom.element = words[5].substr(0, words[5].find('.'));
+    constexpr std::size_t kChargeColumn = 8;
+    if (words.size() > kChargeColumn && !parse_number(words[kChargeColumn], atom.charge)) atom.charge = 0;
     file.atoms.push_back(std::move(atom));
   }
   if (file.atoms.empty()) throw InputError(path + ": has no @<TRIPOS>ATOM section; give a MOL2 file with atoms");

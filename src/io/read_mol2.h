@@ -12,6 +12,7 @@ struct Mol2Atom {
   std::string name;
   std::string element;  ///< from the atom type: "C" of "C.ar"
   Vec3d position;       ///< Angstrom
+  double charge = 0;    ///< elementary charges; 0 where the file has none
 };
 
 struct Mol2File {

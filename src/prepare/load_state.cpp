@@ -97,6 +97,25 @@ std::vector<std::string> forced_states(const Molecule& source, const Molecule& r
   return states;
 }
 
+/// The error of a state with the line of its first residue, and with the residues of the other state.
+[[noreturn]] void refuse_uncharged(const UnchargedError& error, const std::string& name, long line,
+                                   const StateRequest& request, const std::string& force_field) {
+  const std::string place = line == 0 ? name : name + ":" + std::to_string(line);
+  Message lack = error.text, remedy = error.remedy;
+  std::vector<Residue> residues = error.residues;
+  if (request.check_partner && !residues.empty()) {
+    try {
+      request.check_partner();
+    } catch (const UnchargedError& other) {
+      lack += "; " + other.text;
+      residues.insert(residues.end(), other.residues.begin(), other.residues.end());
+      remedy = uncharged_remedy(residues, force_field);
+    }
+  }
+  if (request.only_checks) throw UnchargedError(place, place + ": " + lack, remedy, error.residue, residues);
+  throw InputError(place + ": " + lack + remedy);
+}
+
 }  // namespace
 
 const char* to_string(StateRole role) {
@@ -122,6 +141,10 @@ std::optional<Preparation> charge_molecule(Molecule& molecule, const InputOption
     return std::nullopt;
   }
   if (!request.may_prepare) return std::nullopt;
+  if (request.only_checks) {
+    require_charges(molecule, options.charges);
+    return std::nullopt;
+  }
   progress.report("prepare " + molecule.name, 0.0);
   ChargeOptions charges = options.charges;
   charges.force_field = force_field_for(molecule, request.source, charges.force_field);
@@ -181,9 +204,8 @@ LoadedState load_state(const StructureFile& file, const StateRequest& request, c
     try {
       state.preparation = charge_molecule(state.molecule, options, request, state.charge_files, progress);
     } catch (const UnchargedError& error) {
-      const long line = file.line_of(structure.model, error.residue);
-      if (line == 0) throw;
-      throw InputError(state.molecule.name + ":" + std::to_string(line) + ": " + error.text);
+      refuse_uncharged(error, state.molecule.name, file.line_of(structure.model, error.residue), request,
+                       force_field_for(state.molecule, nullptr, options.charges.force_field));
     }
   }
   if (state.preparation) {

@@ -1,6 +1,7 @@
 // load_state.h: one state of a comparison from a structure file: read, selected, and given charges.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -49,6 +50,9 @@ struct StateRequest {
   bool wants_charges = true;         ///< structures without charges get some
   bool may_prepare = true;           ///< also from PDB2PQR
   const Molecule* source = nullptr;  ///< the loaded source, for a target with its protonation states
+  bool only_checks = false;          ///< charges are not made; what could get none is refused, as far as names tell
+  /// The other state, which is loaded later; its residues without charges are in the error of this one's.
+  std::function<void()> check_partner{};
 };
 
 /// Reads a state: builds the assembly, takes charges from a topology, drops and selects atoms, then takes charges from

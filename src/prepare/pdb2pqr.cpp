@@ -336,8 +336,8 @@ void require_residues(const Molecule& molecule) {
     names += (residue.name.empty() ? "an unnamed residue" : "") + residue_in_words(residue);
   }
   throw UnchargedError(molecule.name,
-                       "has no charges, and no amino acids or nucleotides that PDB2PQR could charge, only " + names +
-                           "; give a PQR, or charges (" + option("topology", "FILE") + " or " +
+                       "has no charges, and no amino acids or nucleotides that PDB2PQR could charge, only " + names,
+                       "; give a PQR, or charges (" + option("topology", "FILE") + " or " +
                            option("charges-from", "FILE") + ")",
                        molecule.residues.front());
 }
@@ -462,7 +462,54 @@ void take_knowledge(const Molecule& before, Molecule& after) {
   }
 }
 
+/// The molecule without the residues of some sources.
+Molecule without_sources(const Molecule& molecule, const std::vector<GroupSource>& sources,
+                         const std::function<bool(GroupSource)>& drops) {
+  std::vector<bool> keep;
+  for (const Atom& atom : molecule.atoms) keep.push_back(!drops(sources[static_cast<std::size_t>(atom.residue)]));
+  return keep_atoms(molecule, keep);
+}
+
+Molecule without_additives(const Molecule& molecule, const std::vector<GroupSource>& sources) {
+  return without_sources(molecule, sources, [](GroupSource s) { return s == GroupSource::kAdditive; });
+}
+
+/// What PDB2PQR charges. The groups that get charges otherwise become left out, so that PROPKA sees them.
+/// @param states [residue] or empty; those of the groups are taken out
+Molecule set_aside(const Molecule& molecule, const std::vector<GroupSource>& sources,
+                   std::vector<std::string>& states) {
+  Molecule chains = without_sources(molecule, sources, [](GroupSource s) { return s != GroupSource::kNone; });
+  const auto atoms = atoms_of_residues(molecule);
+  std::vector<std::string> kept;
+  for (std::size_t r = 0; r < sources.size(); ++r) {
+    if (sources[r] == GroupSource::kNone) {
+      if (!states.empty()) kept.push_back(states[r]);
+      continue;
+    }
+    LeftOutResidue group{molecule.residues[r], {}, {}, 0};
+    for (const std::size_t i : atoms[r]) {
+      group.atoms.push_back(molecule.atoms[i]);
+      group.positions.push_back(molecule.positions[i]);
+    }
+    chains.left_out.push_back(std::move(group));
+  }
+  states = std::move(kept);
+  return chains;
+}
+
 }  // namespace
+
+void require_charges(const Molecule& molecule, const ChargeOptions& options) {
+  Molecule before = without_water(molecule, false);
+  Preparation unused;
+  replace_selenomethionine(before, unused);
+  name_deoxynucleotides(before, unused);
+  std::vector<Mol2File> ligands;
+  for (const std::string& path : options.ligands) ligands.push_back(read_mol2(path));
+  const std::vector<std::int32_t> ligand_of = ligands_of_residues(before, ligands);
+  require_known_names(before, group_sources(before, ligand_of, options), ligand_of,
+                      force_field_for(molecule, nullptr, options.force_field));
+}
 
 std::string force_field_for(const Molecule& molecule, const Molecule* source, const std::string& asked) {
   if (asked != "auto") return asked;
@@ -502,14 +549,22 @@ Prepared prepare_molecule(const Molecule& molecule, const ChargeOptions& options
   std::vector<Mol2File> ligands;
   for (const std::string& path : options.ligands) ligands.push_back(read_mol2(path));
   const std::vector<std::int32_t> ligand_of = ligands_of_residues(before, ligands);
-  require_known_names(before, ligand_of, done.force_field);
+  const std::vector<GroupSource> sources = group_sources(before, ligand_of, options);
+  require_known_names(before, sources, ligand_of, done.force_field);
+  Groups groups = charge_groups(before, sources, options, progress);
   Run run(program, options, done.force_field, with_propka, progress);
-  const Molecule given = add_ligand_hydrogens(before, ligands, ligand_of);
+  const Molecule chains = set_aside(before, sources, kept_states);
+  const Molecule given = add_ligand_hydrogens(chains, ligands, ligands_of_residues(chains, ligands));
   prepared.molecule = run_with_ligands(run, given, kept_states, ligands);
+  append(prepared.molecule, groups.charged);
   prepared.molecule.name = molecule.name;
   take_knowledge(before, prepared.molecule);
-  prepared.molecule.left_out = molecule.left_out;
   const std::size_t n_seen = with_left_out_groups(before).residues.size() - before.residues.size();
+  before = without_additives(before, sources);
+  prepared.molecule.left_out = molecule.left_out;
+  prepared.molecule.left_out.insert(prepared.molecule.left_out.end(), groups.additives.begin(), groups.additives.end());
+  done.groups = std::move(groups.lines);
+  done.warnings = std::move(groups.warnings);
   if (with_propka && n_seen > 0)
     done.notes.push_back("PROPKA saw " + std::to_string(n_seen) + (n_seen == 1 ? " group" : " groups") +
                          " beside the chains that the molecule leaves out");

@@ -24,6 +24,10 @@ extern const char* const kPdb2pqrRemedy;
 /// @throws InputError (auto, and only the target has nucleotides, so that the source has charges of PARSE)
 std::string force_field_for(const Molecule& molecule, const Molecule* source, const std::string& asked);
 
+/// Whether every residue can get charges, as far as names tell; runs nothing.
+/// @throws UnchargedError, and as read_mol2()
+void require_charges(const Molecule& molecule, const ChargeOptions& options);
+
 /// A molecule with charges, and what was done to it.
 struct Prepared {
   Molecule molecule;
@@ -35,7 +39,9 @@ struct Prepared {
 /// 7, 525 (2011)). It gets the molecule as a PDB file of one conformation without water. Chains and residue numbers
 /// that its columns or PROPKA's keys cannot hold (long names, insertion codes, more than four digits) are renumbered
 /// for it and restored afterwards. Selenomethionine is charged as methionine. Groups that the molecule leaves out
-/// (Molecule::left_out) are in the file, so that PROPKA sees them, and get no charges; PROPKA is not run without amino
+/// (Molecule::left_out) are in the file, so that PROPKA sees them, and get no charges; so are ions, haem and ligands
+/// that get charges otherwise (charge_groups()), which follow the chains in the result. Additives of the
+/// crystallization become left out. PROPKA is not run without amino
 /// acids. Names that the force field lacks are refused before the program runs.
 /// @param states [residue] the protonation state to give a residue, as protonation_states() names it; empty strings
 ///               and an empty list leave the choice to PROPKA, which is not run if any state is given

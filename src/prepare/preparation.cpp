@@ -7,8 +7,10 @@
 #include <tuple>
 
 #include "align/protonation.h"
+#include "align/residue_charges.h"
 #include "align/residue_names.h"
 #include "base/error.h"
+#include "prepare/open_babel.h"
 
 namespace espdiff {
 namespace {
@@ -58,19 +60,15 @@ std::vector<std::string> missing_in(const ResidueAtoms& a, const ResidueAtoms& b
 
 /// Atoms without charge, by residue.
 struct Uncharged {
-  std::vector<std::string> residues;  ///< in words
-  std::set<std::string> names;        ///< of residues
+  std::vector<std::string> in_words;
+  std::vector<Residue> residues;
   std::size_t n_atoms = 0;
   std::string first_atom;
-  Residue first;
 
   void add(const Residue& residue, const std::vector<std::string>& atoms) {
-    if (n_atoms == 0) {
-      first_atom = atoms.front();
-      first = residue;
-    }
-    residues.push_back(residue_in_words(residue));
-    names.insert(residue.name);
+    if (n_atoms == 0) first_atom = atoms.front();
+    in_words.push_back(residue_in_words(residue));
+    residues.push_back(residue);
     n_atoms += atoms.size();
   }
 };
@@ -81,24 +79,21 @@ bool has_nucleotides(const std::string& force_field) {
 }
 
 [[noreturn]] void refuse(const Molecule& before, const std::string& force_field, const Uncharged& uncharged) {
-  std::string names;
-  bool all_nucleotides = !has_nucleotides(force_field);
-  for (const std::string& name : uncharged.names) {
-    names += (names.empty() ? "" : ",") + name;
-    const char letter = residue_letter(name);
-    all_nucleotides = all_nucleotides && letter >= 'a' && letter <= 'z';
-  }
-  const Message remedy = all_nucleotides
-                             ? "take a force field that has nucleotides (" + option("force-field", "amber") + ")"
-                             : "give a MOL2 file of it with hydrogens (" + option("ligand", "FILE") +
-                                   "), charges for all atoms (" + option("topology", "FILE") + ", " +
-                                   option("charges-from", "FILE") + " or a PQR)";
-  throw UnchargedError(
-      before.name,
-      std::to_string(uncharged.n_atoms) + (uncharged.n_atoms == 1 ? " atom gets no charge" : " atoms get no charges") +
-          " from PDB2PQR's force field " + force_field + ": " + joined(uncharged.residues) + " (first atom " +
-          uncharged.first_atom + "); " + remedy + ", or drop it (" + option("leave-out", "(" + names + ")") + ")",
-      uncharged.first);
+  // All of them, so that one command can be right for all.
+  constexpr std::size_t kMostNamed = 12;
+  const Message lack = std::to_string(uncharged.n_atoms) +
+                       (uncharged.n_atoms == 1 ? " atom gets no charge" : " atoms get no charges") +
+                       " from PDB2PQR's force field " + force_field + ": " + joined(uncharged.in_words, kMostNamed) +
+                       " (first atom " + uncharged.first_atom + ")";
+  throw UnchargedError(before.name, lack, uncharged_remedy(uncharged.residues, force_field),
+                       uncharged.residues.front(), uncharged.residues);
+}
+
+/// "(AP5,SO4)"
+std::string name_selection(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "(" : ",") + name;
+  return text + ")";
 }
 
 void add_protonation(const Molecule& after, Preparation& preparation) {
@@ -113,6 +108,43 @@ void add_protonation(const Molecule& after, Preparation& preparation) {
 }
 
 }  // namespace
+
+Message uncharged_remedy(const std::vector<Residue>& residues, const std::string& force_field) {
+  std::set<std::string> ligands, of_chains;
+  bool all_nucleotides = !has_nucleotides(force_field);
+  for (const Residue& residue : residues) {
+    const char letter = residue_letter(residue.name);
+    const bool can_be_made = letter == '?' && !is_ion_name(residue.name);
+    (can_be_made ? ligands : of_chains).insert(residue.name);
+    all_nucleotides = all_nucleotides && letter >= 'a' && letter <= 'z';
+  }
+  if (all_nucleotides) {
+    const Message amber = option("force-field", "amber");
+    return Message("; take a force field that has nucleotides (" + amber + "), or drop them (" +
+                   option("leave-out", name_selection({of_chains.begin(), of_chains.end()})) + ")")
+        .set_next({"", {{"force-field", "amber"}}});
+  }
+  std::vector<std::string> all(ligands.begin(), ligands.end());
+  all.insert(all.end(), of_chains.begin(), of_chains.end());
+  NextCommand next;
+  Message remedy = "; ";
+  const bool has_open_babel = !find_open_babel().empty();
+  if (!ligands.empty()) {
+    remedy += "let Open Babel make them" +
+              (has_open_babel ? std::string() : ", which is not there: " + std::string(kOpenBabelRemedy)) + " (" +
+              option("ligands", "auto") + "), give a MOL2 file of each with hydrogens (" + option("ligand", "FILE") +
+              "), ";
+    if (!has_open_babel) next.before = "apt install openbabel && ";
+    next.options.push_back({"ligands", "auto"});
+  } else {
+    remedy += "give ";
+  }
+  if (!of_chains.empty())
+    next.options.push_back({"leave-out", name_selection({of_chains.begin(), of_chains.end()})});
+  remedy += "charges for all atoms (" + option("topology", "FILE") + ", " + option("charges-from", "FILE") +
+            " or a PQR), or drop them (" + option("leave-out", name_selection(all)) + ")";
+  return remedy.set_next(next);
+}
 
 std::vector<std::string> chain_gaps(const Molecule& molecule) {
   constexpr double kLongest_A = 2.5;
@@ -140,12 +172,11 @@ std::vector<std::string> chain_gaps(const Molecule& molecule) {
   return gaps;
 }
 
-void require_known_names(const Molecule& before, const std::vector<std::int32_t>& ligand_of,
-                         const std::string& force_field) {
+void require_known_names(const Molecule& before, const std::vector<GroupSource>& sources,
+                         const std::vector<std::int32_t>& ligand_of, const std::string& force_field) {
   // CHARMM's list has more than chains; what it lacks is found afterwards.
   if (force_field == "charmm") return;
-  static const std::set<std::string> caps{"ACE", "NME", "NHE", "NH2", "N-M"},
-      ions_of_tyl06{"CL-", "CS+", "K+", "LI+", "MG2", "NA+", "RB+", "Cl-", "Cs+", "Li+", "Na+", "Rb+"};
+  static const std::set<std::string> caps{"ACE", "NME", "NHE", "NH2", "N-M"};
   const auto atoms = atoms_of_residues(before);
   const std::vector<ResidueKind> kinds = residue_kinds(before, atoms);
   Uncharged uncharged;
@@ -153,7 +184,7 @@ void require_known_names(const Molecule& before, const std::vector<std::int32_t>
     const std::string& name = before.residues[r].name;
     const bool is_known =
         kinds[r] == ResidueKind::kOther
-            ? ligand_of[r] >= 0 || caps.count(name) > 0 || (force_field == "tyl06" && ions_of_tyl06.count(name) > 0)
+            ? ligand_of[r] >= 0 || caps.count(name) > 0 || sources[r] != GroupSource::kNone
             : kinds[r] != ResidueKind::kNucleotide || has_nucleotides(force_field) ||
                   (force_field == "parse" && name.front() != 'D' && name.front() != 'T');
     if (is_known || atoms[r].empty()) continue;

@@ -37,6 +37,8 @@ nlohmann::ordered_json preparation_json(const Preparation& p) {
   json["removed"] = p.removed;
   json["renamed"] = p.renamed;
   json["protonation"] = p.protonation;
+  json["groups"] = p.groups;
+  json["warnings"] = p.warnings;
   json["notes"] = p.notes;
   json["gaps"] = p.gaps;
   json["from_cache"] = p.from_cache;
@@ -55,6 +57,8 @@ void print_preparation(std::ostream& out, const Preparation& p) {
   list(out, "removed", p.removed);
   list(out, "renamed", p.renamed);
   list(out, "protonation", p.protonation);
+  list(out, "beside chains", p.groups);
+  list(out, "warning", p.warnings);
   list(out, "note", p.notes);
   list(out, "missing", p.gaps);
   labelled_line(out, "net charge", formatted("%.4f", p.net_charge) + " e");

@@ -1,6 +1,7 @@
 // state_report.cpp: preparations in words.
 #include "report/state_report.h"
 
+#include <algorithm>
 #include <sstream>
 
 #include "base/formatted.h"
@@ -32,6 +33,12 @@ void note_state(CompareResult& result, const std::string& role, const LoadedStat
   if (!p.added.empty())
     text += ", " + std::to_string(p.added.size()) + (p.added.size() == 1 ? " residue" : " residues") + " repaired";
   result.input_lines.emplace_back(label, text);
+  constexpr std::size_t kMostGroups = 8;
+  for (std::size_t i = 0; i < std::min(p.groups.size(), kMostGroups); ++i)
+    result.input_lines.emplace_back(i == 0 ? "Beside the chains, " + role : "", p.groups[i]);
+  if (p.groups.size() > kMostGroups)
+    result.input_lines.emplace_back("", "and " + std::to_string(p.groups.size() - kMostGroups) + " more");
+  for (const std::string& warning : p.warnings) result.warnings.push_back({"of the " + role + ", " + warning});
   if (!p.gaps.empty())
     result.warnings.push_back({"the " + role + " lacks residues " + joined(p.gaps, 4) +
                                "; they are not modelled, and chain ends there stay uncharged"});

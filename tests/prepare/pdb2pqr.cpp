@@ -171,7 +171,7 @@ TEST_CASE("prepare_molecule: selenomethionine is charged as methionine, and said
   CHECK(prepared.preparation.renamed == std::vector<std::string>{"MSE 1 of chain A as MET", "MSE 6 of chain A as MET"});
 }
 
-TEST_CASE("prepare_molecule: a phosphorylated residue, a ligand and an ion get no charge; three ways on") {
+TEST_CASE("prepare_molecule: a phosphorylated residue and a ligand get no charge; the ways on") {
   const std::string text = lysozyme(1, 20);
   if (text.empty() || !has_pdb2pqr()) return;
   const ScratchFolder folder;
@@ -179,10 +179,13 @@ TEST_CASE("prepare_molecule: a phosphorylated residue, a ligand and an ion get n
       "HETATM 9000  PA  ATP A 301      60.000  60.000  60.000  1.00  0.00           P\n"
       "HETATM 9001 CA    CA A 302      70.000  60.000  60.000  1.00  0.00          CA\n";
   const Molecule molecule = read(folder, text + ligand);
+  setenv("ESPDIFF_OBABEL", "/nowhere/obabel", 1);
   CHECK(message_of([&] { prepare(molecule); }) ==
-        "in.pdb: 2 atoms get no charges from PDB2PQR's force field parse: ATP 301 of chain A, CA 302 of chain A (first "
-        "atom PA); give a MOL2 file of it with hydrogens (ligand FILE), charges for all atoms (topology FILE, "
-        "charges-from FILE or a PQR), or drop it (leave-out (ATP,CA))");
+        "in.pdb: 1 atom gets no charge from PDB2PQR's force field parse: ATP 301 of chain A (first atom PA); let Open "
+        "Babel make them, which is not there: install it (Debian: openbabel) (ligands auto), give a MOL2 file of each "
+        "with hydrogens (ligand FILE), charges for all atoms (topology FILE, charges-from FILE or a PQR), or drop them "
+        "(leave-out (ATP))");
+  unsetenv("ESPDIFF_OBABEL");
   const std::string phosphorylated = replaced(text, "TYR A", "PTR A");
   CHECK(message_of([&] { prepare(read(folder, phosphorylated, "ptr.pdb")); }).find("PTR") != std::string::npos);
   InputOptions options;
@@ -370,14 +373,14 @@ TEST_CASE("prepare_molecule: a name without charges is found before the program 
   const std::string program = folder.write("program", "#!/bin/sh\ntouch '" + folder.file("ran") + "'\nexit 1\n");
   std::filesystem::permissions(program, std::filesystem::perms::owner_all);
   setenv("ESPDIFF_PDB2PQR", program.c_str(), 1);
-  const std::string ion = "HETATM 9001 ZN    ZN A 302      70.000  60.000  60.000  1.00  0.00          ZN\n";
-  CHECK(message_of([&] { prepare(read(folder, text + ion)); }).find("in.pdb: 1 atom gets no charge") == 0);
+  const std::string ligand = "HETATM 9001  C1  LIG A 302      70.000  60.000  60.000  1.00  0.00           C\n";
+  CHECK(message_of([&] { prepare(read(folder, text + ligand)); }).find("in.pdb: 1 atom gets no charge") == 0);
   const std::string dna = "ATOM   9001  P    DA B   1      70.000  60.000  60.000  1.00  0.00           P\n";
   ChargeOptions parse = without_cache();
   parse.force_field = "parse";
   CHECK(message_of([&] { prepare_molecule(read(folder, text + dna), parse, {}, Progress()); }) ==
         "in.pdb: 1 atom gets no charge from PDB2PQR's force field parse: DA 1 of chain B (first atom P); take a force "
-        "field that has nucleotides (force-field amber), or drop it (leave-out (DA))");
+        "field that has nucleotides (force-field amber), or drop them (leave-out (DA))");
   unsetenv("ESPDIFF_PDB2PQR");
   CHECK_FALSE(std::filesystem::exists(folder.file("ran")));
 }

@@ -1,0 +1,26 @@
+// next_command.h: the one command that most likely helps after an error or an answer that is not trusted.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/message.h"
+
+namespace espdiff::cli {
+
+/// What was typed behind the program's name, word by word.
+using TypedWords = std::vector<std::string>;
+
+/// The words with other options: those that were typed earlier get the new values.
+TypedWords with_options(TypedWords words, const std::vector<NamedOption>& options);
+
+/// The two words in each other's place, such as source and target; unchanged if one of them was not typed.
+TypedWords exchanged(TypedWords words, const std::string& a, const std::string& b);
+
+/// "espdiff a.pdb b.pdb --ligands auto", as a shell takes it.
+std::string as_typed(const TypedWords& words);
+
+/// What NextCommand::before says, and the words: "apt install openbabel && espdiff a.pdb b.pdb --ligands auto"
+std::string next_command(const TypedWords& words, const NextCommand& next);
+
+}  // namespace espdiff::cli

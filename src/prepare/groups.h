@@ -1,0 +1,43 @@
+// groups.h: what stands beside the chains of a structure: ions, haem, additives of the crystallization, ligands.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "base/types.h"
+
+namespace espdiff {
+
+struct ChargeOptions;
+
+/// Where the charges of a group come from that no force field of PDB2PQR has.
+enum class GroupSource { kNone, kIon, kGas, kHaem, kAdditive, kOpenBabel };
+
+/// [residue] of the groups beside the chains: ions of one atom by ion_parameters(); gases (O2, CO, NO,
+/// Xe, Kr, Ar), which get no charge; haem (HEM, HEC); additives by a list
+/// of names, which are left out; every other group by Open Babel, if asked for. kNone for all that PDB2PQR charges or
+/// that gets no charge: chains, caps, ligands with a MOL2 file.
+/// @param ligand_of [residue] nonnegative where a MOL2 file has its charges
+std::vector<GroupSource> group_sources(const Molecule& molecule, const std::vector<std::int32_t>& ligand_of,
+                                       const ChargeOptions& options);
+
+/// Groups with charges, and those that were left out.
+struct Groups {
+  Molecule charged;
+  std::vector<LeftOutResidue> additives;
+  std::vector<std::string> lines;     ///< each charged group in words: "ZN 301 of chain A: +2 e"
+  std::vector<std::string> warnings;  ///< net charges that are not the usual ones
+};
+
+/// Charges the groups of the sources. Haem gets CHARMM22's charges as PDB2PQR ships them (Kuczera, Kuriyan and Karplus,
+/// J. Mol. Biol. 213, 351 (1990)), hydrogens folded into their carbons: iron(II), propionates ionized, -2 e.
+/// Hydrogens of Open Babel that lie where another residue is bound (within 1.6 Angstrom of its heavy atoms) are dropped
+/// and their charge goes to the atom they are bound to. Where charge_of_group() knows another net charge than Open Babel
+/// found, every atom of the ligand gets an equal share of the difference.
+/// @throws as charge_by_open_babel()
+Groups charge_groups(const Molecule& molecule, const std::vector<GroupSource>& sources, const ChargeOptions& options,
+                     const Progress& progress);
+
+}  // namespace espdiff

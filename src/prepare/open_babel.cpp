@@ -1,0 +1,110 @@
+// open_babel.cpp: writes a ligand as PDB, runs Open Babel on it, and takes atoms and charges from its MOL2.
+#include "prepare/open_babel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/formatted.h"
+#include "base/residue_label.h"
+#include "io/elements.h"
+#include "io/read_mol2.h"
+#include "io/run_program.h"
+#include "io/temporary_folder.h"
+#include "io/write_pdb.h"
+
+namespace espdiff {
+
+const char* const kOpenBabelRemedy = "install it (Debian: openbabel)";
+
+namespace {
+
+constexpr double kLigandTimeLimitSeconds = 300;
+/// PDB and MOL2 have three and four decimals.
+constexpr double kReturnedPlace_A = 0.01;
+
+/// A name for the n-th added hydrogen that the residue does not have.
+std::string hydrogen_name(std::set<std::string>& taken) {
+  for (int n = 1;; ++n) {
+    std::string name = "H" + std::to_string(n);
+    if (taken.insert(name).second) return name;
+  }
+}
+
+/// The ligand under a name and a number that fit the columns of PDB.
+std::string ligand_as_pdb(Molecule ligand) {
+  ligand.residues.front() = {"LIG", "A", 1, ' '};
+  for (Atom& atom : ligand.atoms) atom.hetero = true;
+  std::ostringstream text;
+  write_pdb(text, ligand, std::vector<double>(ligand.size(), 0), {});
+  return text.str();
+}
+
+Mol2File run_open_babel(const std::string& program, const Molecule& ligand, double ph, const std::string& what,
+                        const Progress& progress) {
+  const TemporaryFolder folder;
+  ProgramCall call;
+  call.words = {program, "-ipdb", folder.write("ligand.pdb", ligand_as_pdb(ligand)), "-omol2", "-O",
+                folder.file("ligand.mol2"), "-p", formatted("%g", ph), "--partialcharge", "gasteiger"};
+  call.folder = folder.path();
+  call.time_limit_s = kLigandTimeLimitSeconds;
+  call.while_running = [&] { progress.check_cancelled(); };
+  const ProgramResult result = run_program(call);
+  std::error_code ignored;
+  const auto n_bytes = std::filesystem::file_size(folder.file("ligand.mol2"), ignored);
+  if (result.status != 0 || ignored || n_bytes == 0)
+    throw DeviceError(what + ": Open Babel cannot prepare it (status " + std::to_string(result.status) +
+                      "); give a MOL2 file of it with hydrogens (" + option("ligand", "FILE") + ")");
+  return read_mol2(folder.file("ligand.mol2"));
+}
+
+}  // namespace
+
+std::string find_open_babel() {
+  const char* const named = std::getenv("ESPDIFF_OBABEL");
+  return find_program(named != nullptr && *named != '\0' ? named : "obabel");
+}
+
+ChargedLigand charge_by_open_babel(const Molecule& ligand, double ph, const std::string& name,
+                                   const Progress& progress) {
+  const std::string what = name + ": " + residue_label(ligand.residues.front());
+  const std::string program = find_open_babel();
+  if (program.empty())
+    throw DeviceError(what + ": Open Babel, which makes its hydrogens and charges, is not there; " + kOpenBabelRemedy);
+  const Mol2File mol2 = run_open_babel(program, ligand, ph, what, progress);
+  ChargedLigand charged;
+  Molecule& molecule = charged.molecule;
+  molecule = ligand;
+  molecule.charges.clear();
+  molecule.radii.clear();
+  std::set<std::string> taken;
+  for (const Atom& atom : ligand.atoms) taken.insert(atom.name);
+  for (std::size_t i = 0; i < mol2.atoms.size(); ++i) {
+    const Mol2Atom& atom = mol2.atoms[i];
+    if (i >= ligand.size()) {
+      molecule.atoms.push_back({hydrogen_name(taken), atom.element, 0, true});
+      molecule.positions.push_back(atom.position);
+    }
+    molecule.radii.push_back(static_cast<float>(element_radius(molecule.atoms[i].element)));
+    molecule.charges.push_back(static_cast<float>(atom.charge));
+    charged.net_charge += atom.charge;
+  }
+  const auto is_same = [&](std::size_t i) {
+    return norm(mol2.atoms[i].position - ligand.positions[i]) <= kReturnedPlace_A &&
+           (mol2.atoms[i].element == "H") == (ligand.atoms[i].element == "H" || ligand.atoms[i].element == "D");
+  };
+  bool all_same = mol2.atoms.size() >= ligand.size();
+  for (std::size_t i = 0; all_same && i < mol2.atoms.size(); ++i)
+    all_same = i < ligand.size() ? is_same(i) : mol2.atoms[i].element == "H";
+  if (!all_same)
+    throw InputError(what + ": Open Babel returned other atoms than it got; give a MOL2 file of it with hydrogens (" +
+                     option("ligand", "FILE") + ")");
+  charged.n_hydrogens_added = mol2.atoms.size() - ligand.size();
+  return charged;
+}
+
+}  // namespace espdiff

@@ -1,0 +1,33 @@
+// open_babel.h: hydrogens and charges of a ligand from Open Babel, which is run as a program.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "base/types.h"
+
+namespace espdiff {
+
+/// The path of Open Babel: $ESPDIFF_OBABEL, otherwise obabel on PATH; empty where there is none.
+std::string find_open_babel();
+/// What to do where there is none: "install it (Debian: openbabel)".
+extern const char* const kOpenBabelRemedy;
+
+/// What Open Babel made of a ligand: its heavy atoms as given, followed by the hydrogens, with charges and radii.
+struct ChargedLigand {
+  Molecule molecule;  ///< one residue
+  std::size_t n_hydrogens_added = 0;
+  double net_charge = 0;  ///< elementary charges; the sum over its atoms, whole but for the digits of the file
+};
+
+/// Perceives bonds from the distances of heavy atoms, adds hydrogens for a pH, and assigns Gasteiger's charges (O'Boyle
+/// et al., J. Cheminform. 3, 33 (2011); Gasteiger and Marsili, Tetrahedron 36, 3219 (1980)). Radii are by element
+/// (element_radius()). What is wrong in the geometry makes bonds, and so protons, wrong: compare the net charge.
+/// @param ligand one residue
+/// @param name   of its molecule, for messages
+/// @throws DeviceError (no Open Babel, or it failed), InputError (it returned other atoms than it got), Cancelled
+ChargedLigand charge_by_open_babel(const Molecule& ligand, double ph, const std::string& name,
+                                   const Progress& progress);
+
+}  // namespace espdiff

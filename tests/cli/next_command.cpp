@@ -1,0 +1,115 @@
+// next_command.cpp: the command that a stop prints is run, and gives what it promises.
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "cli/run_espdiff.h"
+
+using namespace espdiff_test;  // NOLINT: a test
+
+namespace {
+
+/// Behind "next: espdiff " at the beginning of a line; empty without one.
+std::string next_words(const std::string& printed) {
+  const std::string mark = "next: espdiff ";
+  const std::size_t at = ("\n" + printed).find("\n" + mark);
+  if (at == std::string::npos) return {};
+  const std::size_t begin = at + mark.size();
+  return printed.substr(begin, printed.find('\n', begin) - begin);
+}
+
+std::string row_of_chain(char chain, double y) {
+  std::string text = row_of_atoms(24), out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = text.find('\n', at);
+    std::string line = text.substr(at, end - at);
+    line[21] = chain;
+    char place[16];
+    std::snprintf(place, sizeof place, "%8.3f", std::atof(line.substr(38, 8).c_str()) + y);
+    out += line.replace(38, 8, place) + '\n';
+    at = end + 1;
+  }
+  return out;
+}
+
+constexpr const char* kCoarse = " --potential none --grid-spacing 1 --device cpu";
+
+}  // namespace
+
+TEST_CASE("next: a result that exists is replaced by the command that the refusal prints") {
+  const ScratchFolder folder;
+  folder.write("a b.pqr", row_of_atoms(12));
+  folder.write("c.pqr", row_of_atoms(12, 0.25));
+  const std::string quoted = "compare '" + folder.file("a b.pqr") + "' " + folder.file("c.pqr") + kCoarse + " -q -o " +
+                             folder.file("pair");
+  REQUIRE(run_espdiff(quoted).status == 0);
+  const Outcome refused = run_espdiff(quoted);
+  CHECK(refused.status == 2);
+  CHECK(contains(refused.err, "pair exists; --overwrite replaces it, another --output keeps it\nnext: espdiff compare '"));
+  const Outcome again = run_espdiff(next_words(refused.err));
+  CHECK_MESSAGE(again.status == 0, again.err);
+}
+
+TEST_CASE("without -o, a second run gets a name of its own") {
+  const ScratchFolder folder;
+  folder.write("a.pqr", row_of_atoms(12));
+  folder.write("b.pqr", row_of_atoms(12, 0.25));
+  const std::string in_folder = "cd " + folder.file("") + " &&";
+  for (int i = 0; i < 2; ++i) REQUIRE(run_espdiff("a.pqr b.pqr -q" + std::string(kCoarse), in_folder).status == 0);
+  CHECK_FALSE(read_file(folder.file("a_b.json")).empty());
+  CHECK_FALSE(read_file(folder.file("a_b_2.json")).empty());
+  CHECK(folder.n_files() == 8);
+}
+
+TEST_CASE("next: a chain more in one state is left out by the command that was tried, which is trusted") {
+  const ScratchFolder folder;
+  const std::string run = "compare " + folder.write("two.pqr", row_of_chain('A', 0) + row_of_chain('B', 40)) + " " +
+                          folder.write("one.pqr", row_of_chain('A', 0)) + kCoarse + " -o " + folder.file("out");
+  const Outcome outcome = run_espdiff(run);
+  CHECK(outcome.status == 3);
+  CHECK(contains(outcome.out, "tried, chain A alone: TRUSTWORTHY"));
+  const Outcome next = run_espdiff(next_words(outcome.out) + " --overwrite");
+  CHECK(next.status == 0);
+  CHECK(run_espdiff(run + " --overwrite --exit-zero -q").status == 0);
+  const Outcome no_trials = run_espdiff(run + " --overwrite --no-trials");
+  CHECK(no_trials.status == 3);
+  CHECK(next_words(no_trials.out) == "render " + folder.file("out") + " -o " + folder.file("out.png"));
+  CHECK(run_espdiff("render --help").status == 0);
+}
+
+TEST_CASE("next: ligands of both files are named at once, and made by the command of the error") {
+  const auto source = real_input("pairs/1ake.pdb"), target = real_input("pairs/4ake.pdb");
+  if (!source || !has_pdb2pqr()) return;
+  const ScratchFolder folder;
+  std::string with_ligand = read_file(*target);
+  const std::string group = "HETATM 9990  C1  LIG A 901      60.000  60.000  60.000  1.00  0.00           C\n"
+                            "HETATM 9991  C2  LIG A 901      61.520  60.000  60.000  1.00  0.00           C\n";
+  with_ligand.insert(with_ligand.find("HETATM"), group);
+  const std::string run = "compare " + *source + " " + folder.write("t.pdb", with_ligand) +
+                          " --select //A --grid-spacing 2 --pb-spacing 1.5 --device cpu -q --exit-zero -o " +
+                          folder.file("out");
+  const Outcome refused = run_espdiff(run);
+  CHECK(refused.status == 2);
+  CHECK(contains(refused.err, "AP5 215 of chain A"));
+  CHECK(contains(refused.err, "LIG 901 of chain A"));
+  CHECK(contains(refused.err, "--leave-out '(AP5,LIG)'"));
+  if (next_words(refused.err).empty()) {
+    CHECK(contains(refused.err, "\nnext: apt install openbabel && espdiff compare "));
+    return;
+  }
+  CHECK(contains(next_words(refused.err), " --ligands auto"));
+  const Outcome next = run_espdiff(next_words(refused.err));
+  CHECK_MESSAGE(next.status == 0, next.err);
+  CHECK(contains(read_file(folder.file("out.json")), "AP5 215 of chain A: -"));
+}
+
+TEST_CASE("next: a trajectory that only VMD's readers read is handed to Python, DCD is read") {
+  const ScratchFolder folder;
+  const std::string run = "trajectory " + folder.write("a.pqr", row_of_atoms(12)) + " " +
+                          folder.write("a.xtc", "no trajectory") + " --potential none -q -o " + folder.file("t.csv");
+  const Outcome refused = run_espdiff(run, "PATH=/usr/bin:/bin VMDDIR=");
+  CHECK(refused.status != 0);
+  if (contains(refused.err, "none were found"))
+    CHECK(contains(refused.err, "\nnext: python3 -m espdiff trajectory " + folder.file("a.pqr")));
+}

@@ -1,0 +1,138 @@
+// groups.cpp: ions, haem, additives and ligands: which charges they get, and from where.
+#include "prepare/groups.h"
+
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+
+#include "align/residue_names.h"
+#include "base/input_options.h"
+#include "io/read_structure.h"
+#include "prepare/ion_table.h"
+#include "prepare/open_babel.h"
+#include "prepare/pdb2pqr.h"
+#include "support/test_data.h"
+#include "support/text.h"
+
+using namespace espdiff;       // NOLINT: a test
+using namespace espdiff_test;  // NOLINT: a test
+
+namespace {
+
+std::string hetatm(int serial, const std::string& name, const std::string& residue, int number, double x, double y,
+                   double z, const std::string& element) {
+  char line[128];
+  std::snprintf(line, sizeof line, "HETATM%5d %-4s %3s A%4d    %8.3f%8.3f%8.3f  1.00  0.00          %2s\n", serial,
+                name.c_str(), residue.c_str(), number, x, y, z, element.c_str());
+  return line;
+}
+
+/// Ethanol's heavy atoms under the name of a ligand.
+std::string ethanol(const std::string& residue, int number, double x) {
+  return hetatm(1, " C1", residue, number, x, 0, 0, "C") + hetatm(2, " C2", residue, number, x + 1.52, 0, 0, "C") +
+         hetatm(3, " O1", residue, number, x + 2.0, 1.34, 0, "O");
+}
+
+Molecule molecule_of(const std::string& text) {
+  const ScratchFolder folder;
+  return read_structure(folder.write("in.pdb", text), {});
+}
+
+Groups charged(const Molecule& molecule, const ChargeOptions& options) {
+  const std::vector<std::int32_t> no_files(molecule.residues.size(), -1);
+  return charge_groups(molecule, group_sources(molecule, no_files, options), options, Progress());
+}
+
+double sum(const std::vector<float>& charges) {
+  double total = 0;
+  for (const float q : charges) total += static_cast<double>(q);
+  return total;
+}
+
+}  // namespace
+
+TEST_CASE("ion_parameters: names that say a state, elements in their common one, none for carbon") {
+  CHECK(ion_parameters("ZN", "Zn")->charge == 2);
+  CHECK(ion_parameters("ZN", "ZN")->radius == doctest::Approx(1.271));
+  CHECK(ion_parameters("FE2", "Fe")->charge == 2);
+  CHECK(ion_parameters("FE", "Fe")->charge == 3);
+  CHECK(ion_parameters("CU1", "Cu")->charge == 1);
+  CHECK(ion_parameters("CU", "Cu")->charge == 2);
+  CHECK(ion_parameters("3CO", "Co")->charge == 3);
+  CHECK(ion_parameters("CL", "Cl")->charge == -1);
+  CHECK(ion_parameters("HO3", "Ho")->charge == 3);
+  CHECK_FALSE(ion_parameters("LIG", "C"));
+}
+
+TEST_CASE("charge_groups: an ion gets its charge, glycerol is left out, a ligand waits for its file") {
+  const Molecule molecule = molecule_of(hetatm(1, "ZN", "ZN", 1, 0, 0, 0, "ZN") + ethanol("GOL", 2, 9) +
+                                        ethanol("LIG", 3, 20));
+  const std::vector<std::int32_t> no_files(3, -1);
+  CHECK(group_sources(molecule, no_files, {}) ==
+        std::vector<GroupSource>{GroupSource::kIon, GroupSource::kAdditive, GroupSource::kNone});
+  CHECK(group_sources(molecule, {-1, 0, 0}, {})[1] == GroupSource::kNone);
+  const Groups groups = charged(molecule, {});
+  REQUIRE(groups.charged.size() == 1);
+  CHECK(groups.charged.charges[0] == 2);
+  CHECK(groups.lines == std::vector<std::string>{"ZN 1 of chain A: +2 e (common oxidation state)"});
+  REQUIRE(groups.additives.size() == 1);
+  CHECK(groups.additives[0].positions.size() == 3);
+  CHECK(groups.additives[0].charge == 0);
+}
+
+TEST_CASE("charge_groups: haem has iron(II) and two propionates, -2 e") {
+  std::string text;
+  int serial = 0;
+  for (const char* name :
+       {"FE",  "NA",  "NB",  "NC",  "ND",  "C1A", "C2A", "C3A", "C4A", "C1B", "C2B", "C3B", "C4B", "C1C", "C2C",
+        "C3C", "C4C", "C1D", "C2D", "C3D", "C4D", "CHA", "CHB", "CHC", "CHD", "CMA", "CAA", "CBA", "CGA", "O1A",
+        "O2A", "CMB", "CAB", "CBB", "CMC", "CAC", "CBC", "CMD", "CAD", "CBD", "CGD", "O1D", "O2D"}) {
+    const bool is_iron = std::string(name) == "FE";
+    text += hetatm(serial, is_iron ? "FE" : std::string(" ") + name, "HEM", 1, 2.0 * serial, 0, 0,
+                   is_iron ? "FE" : std::string(1, name[0]));
+    ++serial;
+  }
+  const Groups groups = charged(molecule_of(text), {});
+  REQUIRE(groups.charged.size() == 43);
+  CHECK(sum(groups.charged.charges) == doctest::Approx(-2).epsilon(1e-5));
+  for (const float radius : groups.charged.radii) CHECK(radius > 0.5F);
+}
+
+TEST_CASE("charge_groups: Open Babel makes a ligand's hydrogens and charges; without it the error names it") {
+  ChargeOptions options;
+  options.ligands_auto = true;
+  const Molecule molecule = molecule_of(ethanol("LIG", 1, 0));
+  setenv("ESPDIFF_OBABEL", "/nowhere/obabel", 1);
+  std::string message;
+  try {
+    charged(molecule, options);
+  } catch (const DeviceError& error) {
+    message = error.what();
+  }
+  unsetenv("ESPDIFF_OBABEL");
+  CHECK(contains(message, "LIG 1 of chain A: Open Babel, which makes its hydrogens and charges, is not there; install"));
+  if (find_open_babel().empty()) {
+    MESSAGE("SKIPPED: no Open Babel on PATH");
+    return;
+  }
+  const Groups groups = charged(molecule, options);
+  REQUIRE(groups.charged.size() == 9);
+  CHECK(std::fabs(sum(groups.charged.charges)) < 1e-3);
+  CHECK(groups.charged.charges[2] < -0.3F);
+  for (std::size_t i = 0; i < 3; ++i) CHECK(norm(groups.charged.positions[i] - molecule.positions[i]) < 1e-9);
+  for (std::size_t i = 3; i < 9; ++i) CHECK(groups.charged.atoms[i].element == "H");
+  CHECK(groups.warnings.empty());
+  REQUIRE(groups.lines.size() == 1);
+  CHECK(contains(groups.lines[0], "LIG 1 of chain A: +0 e, 6 hydrogens added, by Open Babel"));
+}
+
+TEST_CASE("charge_groups: a net charge other than the usual one is set to it, with a warning") {
+  ChargeOptions options;
+  options.ligands_auto = true;
+  if (find_open_babel().empty()) return;
+  // Ethanol under the name of AMP, which usually has -2 e.
+  const Groups groups = charged(molecule_of(ethanol("AMP", 1, 0)), options);
+  CHECK(sum(groups.charged.charges) == doctest::Approx(-2).epsilon(1e-3));
+  REQUIRE(groups.warnings.size() == 1);
+  CHECK(contains(groups.warnings[0], "usually -2 e"));
+}
