@@ -25,7 +25,7 @@ namespace eval ::espdiff {
 
     variable scale_first 33   ;# the first id of VMD's colour scale
     variable plain_color 2    ;# gray: no quantity, and points outside a map
-    variable marked_color 4   ;# yellow: corrupt parts with -corrupt mark
+    variable marked_color 4   ;# yellow: parts that are not trusted, with -corrupt mark
     variable said_rendermode 0  ;# whether the user was told that transparency needs GLSL
 
     proc draw {options handle} {

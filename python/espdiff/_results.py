@@ -24,7 +24,7 @@ class Certificate:
         return dict(self._values)
 
     def __repr__(self):
-        verdict = "trustworthy" if self.trustworthy else "NOT trustworthy: " + "; ".join(self.reasons)
+        verdict = self.verdict if self.trustworthy else self.verdict + ": " + "; ".join(self.reasons)
         return f"<espdiff.Certificate {verdict}>"
 
 
@@ -71,7 +71,7 @@ class Comparison(EngineResult):
 
     def __repr__(self):
         metrics = self.metrics
-        verdict = "trustworthy" if self._core.trustworthy else "NOT trustworthy"
+        verdict = self._core.verdict
         if self.has_potential:
             return f"<espdiff.Comparison mean |difference| {metrics['mean_abs_difference']:.3g} {self.unit}, {verdict}>"
         return f"<espdiff.Comparison of shapes, {verdict}>"

@@ -1,4 +1,5 @@
-// command_line.cpp: parses the command line, runs the command, and turns errors into a line, the next command, and an exit status.
+// command_line.cpp: parses the command line, runs the command, and turns errors into a line, the next command, and an
+// exit status.
 #include "cli/command_line.h"
 
 #include <algorithm>

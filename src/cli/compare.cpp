@@ -184,7 +184,8 @@ CompareArguments changed(CompareArguments a, const WayOn& way) {
     std::swap(a.maps.source_map, a.maps.target_map);
     std::swap(a.maps.source_map_unit, a.maps.target_map_unit);
   }
-  for (const NamedOption& option : way.options) a.settings.emplace_back(option.name, option.is_switch ? "1" : option.value);
+  for (const NamedOption& option : way.options)
+    a.settings.emplace_back(option.name, option.is_switch ? "1" : option.value);
   a.residue_pdb.clear();
   return a;
 }
@@ -205,7 +206,8 @@ void print_next(const CompareArguments& a, const Comparison& first, Engine& engi
   const bool prepared = first.source.state.preparation && first.target.state.preparation;
   const double once_s = total_seconds(first.result);
   std::string tried;
-  for (const WayOn& way : ways_on(first.result, first.source.state.molecule, first.target.state.molecule, given, prepared)) {
+  for (const WayOn& way :
+       ways_on(first.result, first.source.state.molecule, first.target.state.molecule, given, prepared)) {
     const double spent_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     if (a.no_trials || once_s > kLongestTrial_s || spent_s + once_s > kMostTime_s) break;
     const CompareArguments other = changed(a, way);
@@ -300,7 +302,8 @@ Verb add_compare(CLI::App& app) {
             {"espdiff compare 1t24.pdb 1t2e.pdb --select '//A;polymer' --region-within 5 --of '(NAD,OXQ)' -o ldh",
              "espdiff compare wild.pqr mutant.pqr --source-map wild.dx --target-map mutant.dx -o result"}});
   return {parser, [arguments](const Context& context) {
-            arguments->output = output_prefix(arguments->output, arguments->overwrite, arguments->source, arguments->target);
+            arguments->output =
+                output_prefix(arguments->output, arguments->overwrite, arguments->source, arguments->target);
             return compare_verb(*arguments, context);
           }};
 }

@@ -17,7 +17,8 @@ std::string free_prefix(const std::string& prefix);
 /// The prefix of OUT.json, OUT.vtp and OUT.residues.csv.
 /// @param given  as typed: a prefix, one of the files that will be written (`x.json` is x), a folder (an existing one,
 ///               or a name with a slash at its end), which is made if it is missing; or empty for the working folder
-/// @param overwrite  whether a result of this name may be replaced; otherwise a name that was not typed is free_prefix()
+/// @param overwrite  whether a result of this name may be replaced; otherwise a name that was not typed is
+/// free_prefix()
 /// @param source, target  the structures, whose names without folder and ending make SOURCE_TARGET in a folder
 std::string output_prefix(const std::string& given, bool overwrite, const std::string& source,
                           const std::string& target);

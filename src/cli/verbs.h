@@ -13,7 +13,7 @@ namespace espdiff::cli {
 
 /// Given to every command.
 struct Context {
-  std::string command_line;  ///< as typed, for the provenance of a result
+  std::string command_line;        ///< as typed, for the provenance of a result
   std::vector<std::string> words;  ///< the same behind the program's name, word by word
   Progress* progress = nullptr;
 };

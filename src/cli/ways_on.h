@@ -16,8 +16,8 @@ namespace espdiff::cli {
 
 /// A change of a comparison.
 struct WayOn {
-  std::string what;                 ///< "source and target exchanged"
-  bool exchanges = false;           ///< source and target
+  std::string what;                  ///< "source and target exchanged"
+  bool exchanges = false;            ///< source and target
   std::vector<NamedOption> options;  ///< given in addition, or instead of earlier values
 };
 

@@ -89,8 +89,7 @@ std::vector<PotentialSamples> sample_potentials(Engine& engine, const PotentialS
                                                 PotentialUnit unit, MappedStep& step) {
   std::vector<PotentialSamples> all;
   for (const double offset_A : options.offsets_A)
-    all.push_back(
-        sample_both(engine, source, target, static_cast<float>(options.surface.isovalue), offset_A, step));
+    all.push_back(sample_both(engine, source, target, static_cast<float>(options.surface.isovalue), offset_A, step));
   CompareResult& result = step.result;
   const PotentialSamples& first = all.front();
   result.unit = unit;

@@ -68,8 +68,7 @@ void describe(Engine& engine, const Molecule& source, const Molecule& target, co
   }
   s.target_residue = engine.vertex_residues(mapping.mapped, target_surface.atoms);
   const std::vector<std::int32_t> target_of = paired_residues(source, target, step.result.pairing);
-  step.result.certificate.same_residue_area_fraction =
-      same_residue_share(s, s.residue, s.target_residue, target_of);
+  step.result.certificate.same_residue_area_fraction = same_residue_share(s, s.residue, s.target_residue, target_of);
   s.why = why_of_mapping(s, target_of);
   step.result.residues = residue_rows(s, source.residues.size(), false);
 }

@@ -60,8 +60,8 @@ struct CompareOptions {
   bool round_trip = false;          ///< also map back, which doubles the time, and measure the round-trip error
   /// Share of the source's surface, and of the target's, that has to be trusted; below it a result is not trustworthy.
   double required_share = 0.5;
-  bool trust_maps = false;          ///< given maps are taken as they are: what speaks against them does not refuse
-  double temperature_K = 300;       ///< for converting between kT/e and other units
+  bool trust_maps = false;     ///< given maps are taken as they are: what speaks against them does not refuse
+  double temperature_K = 300;  ///< for converting between kT/e and other units
 };
 
 /// The thesis' original iteration, for comparing with its results.

@@ -59,9 +59,10 @@ std::vector<double> weights_of(const ReadingRequest& request, const std::string&
   double all = 0;
   for (const double w : weights) all += w;
   if (!(all > 0))
-    throw InputError(option("causes", name) +
-                     ": none of its surface is trusted, so that there is no difference to explain; take a part of the surface "
-                     "that is");
+    throw InputError(
+        option("causes", name) +
+        ": none of its surface is trusted, so that there is no difference to explain; take a part of the surface "
+        "that is");
   for (std::size_t v = 0; v < weights.size(); ++v) {
     weights[v] /= all;
     if (request.of == ReadingOf::kWhole && s.potential_target[v] < s.potential_source[v]) weights[v] = -weights[v];

@@ -29,10 +29,8 @@ struct MapRecipe;
 /// Per-residue averages over the trusted mapped surface, source residues. Area-weighted; NaN if a residue has none. The
 /// slip is that of all matched surface, since what slipped is not trusted.
 struct ResidueRow {
-  std::size_t residue = 0;           ///< index into the source's residues
-  double area_A2 = 0;                ///< of trusted mapped surface
-  double matched_area_A2 = 0;        ///< of matched mapped surface that is not corrupt
-  double trusted_area_fraction = 0;  ///< of its surface on the source; NaN if it has none
+  std::size_t residue = 0;  ///< index into the source's residues
+  double area_A2 = 0;       ///< of trusted mapped surface
   double mean_abs_difference = 0;
   double mean_signed_difference = 0;  ///< target - source
   double mean_source = 0;
@@ -40,10 +38,12 @@ struct ResidueRow {
   double sign_change_area_fraction = 0;
   double mean_displacement_A = 0;
   double mean_path_length_A = 0;
-  double mean_slip_A = 0;         ///< NaN if no atom of the residue has a partner
-  double slip_area_fraction = 0;  ///< farther than kLargeSlip_A
-  double own_difference = 0;      ///< of the residue's potentials on its own surfaces; see set_own_differences()
-  double own_area_A2 = 0;         ///< of these surfaces
+  double mean_slip_A = 0;            ///< NaN if no atom of the residue has a partner
+  double slip_area_fraction = 0;     ///< farther than kLargeSlip_A
+  double own_difference = 0;         ///< of the residue's potentials on its own surfaces; see set_own_differences()
+  double own_area_A2 = 0;            ///< of these surfaces
+  double matched_area_A2 = 0;        ///< of matched mapped surface that is not corrupt
+  double trusted_area_fraction = 0;  ///< of its surface on the source; NaN if it has none
 };
 
 /// Slip beyond these is medium, and large: a side chain's width, and the distance between neighbouring residues.
@@ -118,7 +118,7 @@ struct Certificate {
   std::vector<std::string> untrusted_parts;  ///< by name, largest first
   bool trustworthy = false;                  ///< on the trusted area; see verdict_of()
   std::vector<Message> reasons;              ///< why not trustworthy
-  std::vector<std::string> not_checked;  ///< names of the checks that were not made
+  std::vector<std::string> not_checked;      ///< names of the checks that were not made
 };
 
 /// Per-vertex arrays of the mapped surface.
@@ -135,9 +135,10 @@ struct MappedSurface {
   /// [vertex] path length from the start of the mapping, at least the displacement; NaN if unmatched
   std::vector<float> path_length;
   std::vector<float> slip;  ///< [vertex] Angstrom; NaN if unmatched or without partner; empty if no atoms pair
-  std::vector<std::int32_t> residue;         ///< [vertex] index of the source residue, -1 for none
-  std::vector<std::int32_t> target_residue;  ///< [vertex] index of the target residue where it is mapped to, -1 for none
-  std::vector<std::uint8_t> corrupt;         ///< [triangle]
+  std::vector<std::int32_t> residue;  ///< [vertex] index of the source residue, -1 for none
+  std::vector<std::int32_t>
+      target_residue;                 ///< [vertex] index of the target residue where it is mapped to, -1 for none
+  std::vector<std::uint8_t> corrupt;  ///< [triangle]
   /// [triangle] nonzero if unmatched: the mapped positions there are meaningless; empty if all are matched.
   std::vector<std::uint8_t> unmatched;
   std::vector<std::uint8_t> why;  ///< [triangle] Why it is not trusted, 0 where it is
@@ -195,7 +196,7 @@ struct CompareResult {
   std::shared_ptr<const MapCheck> source_map_check, target_map_check;  ///< of given maps; null where not checked
   Metrics metrics;                                                     ///< over trusted triangles
   Metrics metrics_all;                                                 ///< over all triangles with samples
-  std::size_t n_outside_source_map = 0, n_outside_target_map = 0;  ///< vertices
+  std::size_t n_outside_source_map = 0, n_outside_target_map = 0;      ///< vertices
   SurfaceSummary source_surface, target_surface;
   double area_mapped_A2 = 0;
   Certificate certificate;

@@ -18,9 +18,10 @@ double share_outside(const MappedSurface& surface, const std::vector<double>& ar
 /// @param areas from matched_areas()
 SlipSummary summarize_slip(const MappedSurface& surface, const std::vector<double>& areas);
 
-/// A mapping that slips by more is tried again by local motions: limits of the area beyond kLargeSlip_A. Easy pairs (below 2 A RMSD) have at most 6 %; pairs whose differences by
-/// residue do not agree with the residues' own potentials have 10 % and more. Local motions leave less slip: of ten
-/// such pairs of ubiquitin, those whose differences do not agree have 5 % and more.
+/// A mapping that slips by more is tried again by local motions: limits of the area beyond kLargeSlip_A. Easy pairs
+/// (below 2 A RMSD) have at most 6 %; pairs whose differences by residue do not agree with the residues' own potentials
+/// have 10 % and more. Local motions leave less slip: of ten such pairs of ubiquitin, those whose differences do not
+/// agree have 5 % and more.
 constexpr double kMostSlippedArea = 0.08, kMostSlippedAreaOfLocalMotions = 0.04;
 
 /// Which limits of the slip a mapping exceeds, so that it is tried again (choose_motions.h): over the whole area (the

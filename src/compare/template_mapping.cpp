@@ -189,8 +189,7 @@ TemplateFrame TemplateMapping::map(const CompareInput& frame, bool check_slip, c
   result.certificate = certify(p.engine, mapping, target.mesh);
   result.certificate.converged = true;
   p.describe_mapped(mapping, target, result.surface);
-  const std::vector<std::int32_t> target_of =
-      paired_residues(*p.source.molecule, *frame.molecule, result.pairing);
+  const std::vector<std::int32_t> target_of = paired_residues(*p.source.molecule, *frame.molecule, result.pairing);
   MappedSurface& s = result.surface;
   result.certificate.same_residue_area_fraction = same_residue_share(s, s.residue, s.target_residue, target_of);
   if (check_slip) p.measure_slip(mapping, target, paths, result);

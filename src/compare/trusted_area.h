@@ -48,7 +48,7 @@ struct TrustedArea {
   std::array<double, kNumberOfWhys> by_why{};  ///< of the source's area, by Why
 
   /// The smaller of the two, by which verdicts are given; NaN without surface.
-  double share() const { return source < target ? source : target; }
+  double share() const { return source < target || source != source ? source : target; }
 };
 
 /// [triangle] Why, as far as the mapping shows it: all but kDisagrees and kNoPotential.

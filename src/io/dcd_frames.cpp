@@ -42,7 +42,8 @@ DcdFrames::DcdFrames(std::string path, std::size_t n_atoms)
     : path_(std::move(path)), file_(path_, FileAccess::kReadPipe) {
   if (!file_) throw IoError(path_, "cannot be read; check the path");
   const std::optional<DcdHead> head = read_dcd_head(path_);
-  if (!head) throw FormatError(path_, 0, "this does not begin as a DCD; copy the file again, or give its format's ending");
+  if (!head)
+    throw FormatError(path_, 0, "this does not begin as a DCD; copy the file again, or give its format's ending");
   head_ = *head;
   if (static_cast<std::size_t>(head_.n_atoms) != n_atoms)
     throw InputError(path_ + ": has " + std::to_string(head_.n_atoms) + " atoms, and the structure " +
@@ -66,8 +67,9 @@ std::vector<char> DcdFrames::record(int number, std::uint64_t& at, std::size_t n
   };
   const bool is_whole = read(mark) && length() == n_bytes && read(content) && read(mark) && length() == n_bytes;
   if (!is_whole)
-    throw FormatError(path_, 0, "frame " + std::to_string(number) + " is damaged: a record of " +
-                                    std::to_string(n_bytes) + " bytes was expected; copy or write the file again");
+    throw FormatError(path_, 0,
+                      "frame " + std::to_string(number) + " is damaged: a record of " + std::to_string(n_bytes) +
+                          " bytes was expected; copy or write the file again");
   return content;
 }
 
@@ -86,7 +88,8 @@ const CoordinateFrame& DcdFrames::frame(int number) {
   held_ = -1;
   const auto n_atoms = static_cast<std::size_t>(head_.n_atoms);
   const std::uint64_t begin = head_.begin;
-  std::uint64_t at = number == 0 ? begin : begin + head_.n_first + static_cast<std::uint64_t>(number - 1) * head_.n_frame;
+  std::uint64_t at =
+      number == 0 ? begin : begin + head_.n_first + static_cast<std::uint64_t>(number - 1) * head_.n_frame;
   frame_.cell.reset();
   if (head_.has_cell) {
     const std::vector<char> bytes = record(number, at, kCellBytes);

@@ -1,4 +1,5 @@
-// open_structure.cpp: which reader opens a file: ours for structures, VMD's for everything else, ours for DCD without VMD.
+// open_structure.cpp: which reader opens a file: ours for structures, VMD's for everything else, ours for DCD without
+// VMD.
 #include "io/open_structure.h"
 
 #include <utility>

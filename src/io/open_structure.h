@@ -20,8 +20,8 @@ using OpenStructure = std::function<std::unique_ptr<StructureFile>(const std::st
 /// A structure file: PQR, PDB or mmCIF. @throws as StructureFile
 std::unique_ptr<StructureFile> open_structure(const std::string& path);
 
-/// Opens what VMD's readers read as well, or where they are absent frame_reader() and DcdFrames. Trajectories get the atoms of a
-/// structure or topology.
+/// Opens what VMD's readers read as well, or where they are absent frame_reader() and DcdFrames. Trajectories get the
+/// atoms of a structure or topology.
 class TrajectoryOpener {
  public:
   /// @param topology a structure file, or a topology that VMD reads (PSF, prmtop, GRO, ...)

@@ -224,14 +224,16 @@ const VtpNumbers& required_array(const VtpContent& surface, const std::string& n
   return *array;
 }
 
-/// The counted triangles, then those that are corrupt or unmatched.
+/// The trusted triangles, then the others.
 std::vector<Triangle> counted_first(const VtpContent& surface, std::size_t& n_counted) {
   std::vector<Triangle> counted, rest;
+  const VtpNumbers* const why = find_array(surface.cell_arrays, "why");
   const VtpNumbers* const corrupt = find_array(surface.cell_arrays, "corrupt");
   const VtpNumbers* const unmatched = find_array(surface.cell_arrays, "no_counterpart");
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    const bool is_counted =
-        (corrupt == nullptr || corrupt->values[t] == 0) && (unmatched == nullptr || unmatched->values[t] == 0);
+    const bool is_counted = (why == nullptr || why->values[t] == 0) &&
+                            (corrupt == nullptr || corrupt->values[t] == 0) &&
+                            (unmatched == nullptr || unmatched->values[t] == 0);
     (is_counted ? counted : rest).push_back(surface.triangles[t]);
   }
   n_counted = counted.size();
@@ -327,10 +329,10 @@ std::string report_page(const std::string& prefix, const std::string& title) {
   const std::string source = name_of_input(record, "source"), target = name_of_input(record, "target");
   Json page = {
       {"title", title.empty() ? target + " against " + source : title}, {"source", source}, {"target", target}};
-  page["verdict"] = {
-      {"trustworthy", trustworthy},
-      {"text", trustworthy ? "TRUSTWORTHY: the mapping is within every limit that was checked" : "NOT TRUSTWORTHY"},
-      {"reasons", texts_of(certificate.value("reasons", Json::array()))}};
+  page["verdict"] = {{"trustworthy", trustworthy},
+                     {"text", certificate.value("verdict", trustworthy ? "TRUSTWORTHY" : "NOT TRUSTWORTHY")},
+                     {"parts", texts_of(certificate.value("untrusted_parts", Json::array()))},
+                     {"reasons", texts_of(certificate.value("reasons", Json::array()))}};
   page["warnings"] = texts_of(record.value("warnings", Json::array()));
   page["numbers"] = numbers_of(record, unit);
   page["residues"] = residues_of(prefix + ".residues.csv");

@@ -22,11 +22,11 @@ namespace {
 /// Buffers, cryoprotectants, precipitants and reducing agents, by their names in the Chemical Component Dictionary.
 bool is_additive(const std::string& name) {
   static const std::set<std::string_view> names = {
-      "GOL", "EDO", "PGO", "PGR", "PDO", "BU1", "BU3", "MPD", "MRD", "HEZ", "IPA", "EOH", "MOH", "POL", "TBU", "DIO",
-      "DMS", "DMF", "ACN", "PEG", "PGE", "PG4", "1PE", "2PE", "P6G", "PE4", "PE5", "PE8", "PEU", "P33", "P4C",
-      "12P", "15P", "7PE", "XPE", "1PG", "PG0", "PG5", "PG6", "SO4", "SUL", "PO4", "NO3", "ACT", "ACY", "FMT",
-      "CIT", "FLC", "TLA", "TAR", "SRT", "MLI", "MLA", "SCN", "AZI", "CAC", "TRS", "BTB", "MES", "EPE", "PIN",
-      "CXS", "BCN", "BME", "DTT", "DTV", "DTU", "IMD", "URE", "GAI", "NH4", "UNX", "UNL"};
+      "GOL", "EDO", "PGO", "PGR", "PDO", "BU1", "BU3", "MPD", "MRD", "HEZ", "IPA", "EOH", "MOH", "POL", "TBU",
+      "DIO", "DMS", "DMF", "ACN", "PEG", "PGE", "PG4", "1PE", "2PE", "P6G", "PE4", "PE5", "PE8", "PEU", "P33",
+      "P4C", "12P", "15P", "7PE", "XPE", "1PG", "PG0", "PG5", "PG6", "SO4", "SUL", "PO4", "NO3", "ACT", "ACY",
+      "FMT", "CIT", "FLC", "TLA", "TAR", "SRT", "MLI", "MLA", "SCN", "AZI", "CAC", "TRS", "BTB", "MES", "EPE",
+      "PIN", "CXS", "BCN", "BME", "DTT", "DTV", "DTU", "IMD", "URE", "GAI", "NH4", "UNX", "UNL"};
   return names.count(name) > 0;
 }
 
@@ -108,7 +108,8 @@ std::size_t drop_hydrogens_at_bonds(Molecule& group, std::size_t n_given, const 
     const Vec3d place = group.positions[i];
     bool is_bond = false;
     for (std::size_t j = 0; j < molecule.size() && !is_bond; ++j) {
-      if (static_cast<std::size_t>(molecule.atoms[j].residue) == residue || is_hydrogen_atom(molecule.atoms[j])) continue;
+      if (static_cast<std::size_t>(molecule.atoms[j].residue) == residue || is_hydrogen_atom(molecule.atoms[j]))
+        continue;
       is_bond = norm(molecule.positions[j] - place) < kBond_A;
     }
     if (!is_bond) continue;

@@ -34,8 +34,8 @@ struct Groups {
 /// Charges the groups of the sources. Haem gets CHARMM22's charges as PDB2PQR ships them (Kuczera, Kuriyan and Karplus,
 /// J. Mol. Biol. 213, 351 (1990)), hydrogens folded into their carbons: iron(II), propionates ionized, -2 e.
 /// Hydrogens of Open Babel that lie where another residue is bound (within 1.6 Angstrom of its heavy atoms) are dropped
-/// and their charge goes to the atom they are bound to. Where charge_of_group() knows another net charge than Open Babel
-/// found, every atom of the ligand gets an equal share of the difference.
+/// and their charge goes to the atom they are bound to. Where charge_of_group() knows another net charge than Open
+/// Babel found, every atom of the ligand gets an equal share of the difference.
 /// @throws as charge_by_open_babel()
 Groups charge_groups(const Molecule& molecule, const std::vector<GroupSource>& sources, const ChargeOptions& options,
                      const Progress& progress);

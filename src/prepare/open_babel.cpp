@@ -48,8 +48,16 @@ Mol2File run_open_babel(const std::string& program, const Molecule& ligand, doub
                         const Progress& progress) {
   const TemporaryFolder folder;
   ProgramCall call;
-  call.words = {program, "-ipdb", folder.write("ligand.pdb", ligand_as_pdb(ligand)), "-omol2", "-O",
-                folder.file("ligand.mol2"), "-p", formatted("%g", ph), "--partialcharge", "gasteiger"};
+  call.words = {program,
+                "-ipdb",
+                folder.write("ligand.pdb", ligand_as_pdb(ligand)),
+                "-omol2",
+                "-O",
+                folder.file("ligand.mol2"),
+                "-p",
+                formatted("%g", ph),
+                "--partialcharge",
+                "gasteiger"};
   call.folder = folder.path();
   call.time_limit_s = kLigandTimeLimitSeconds;
   call.while_running = [&] { progress.check_cancelled(); };

@@ -335,11 +335,10 @@ void require_residues(const Molecule& molecule) {
     if (!names.empty()) names += ", ";
     names += (residue.name.empty() ? "an unnamed residue" : "") + residue_in_words(residue);
   }
-  throw UnchargedError(molecule.name,
-                       "has no charges, and no amino acids or nucleotides that PDB2PQR could charge, only " + names,
-                       "; give a PQR, or charges (" + option("topology", "FILE") + " or " +
-                           option("charges-from", "FILE") + ")",
-                       molecule.residues.front());
+  throw UnchargedError(
+      molecule.name, "has no charges, and no amino acids or nucleotides that PDB2PQR could charge, only " + names,
+      "; give a PQR, or charges (" + option("topology", "FILE") + " or " + option("charges-from", "FILE") + ")",
+      molecule.residues.front());
 }
 
 }  // namespace

@@ -85,8 +85,8 @@ bool has_nucleotides(const std::string& force_field) {
                        (uncharged.n_atoms == 1 ? " atom gets no charge" : " atoms get no charges") +
                        " from PDB2PQR's force field " + force_field + ": " + joined(uncharged.in_words, kMostNamed) +
                        " (first atom " + uncharged.first_atom + ")";
-  throw UnchargedError(before.name, lack, uncharged_remedy(uncharged.residues, force_field),
-                       uncharged.residues.front(), uncharged.residues);
+  throw UnchargedError(before.name, lack, uncharged_remedy(uncharged.residues, force_field), uncharged.residues.front(),
+                       uncharged.residues);
 }
 
 /// "(AP5,SO4)"
@@ -139,8 +139,7 @@ Message uncharged_remedy(const std::vector<Residue>& residues, const std::string
   } else {
     remedy += "give ";
   }
-  if (!of_chains.empty())
-    next.options.push_back({"leave-out", name_selection({of_chains.begin(), of_chains.end()})});
+  if (!of_chains.empty()) next.options.push_back({"leave-out", name_selection({of_chains.begin(), of_chains.end()})});
   remedy += "charges for all atoms (" + option("topology", "FILE") + ", " + option("charges-from", "FILE") +
             " or a PQR), or drop them (" + option("leave-out", name_selection(all)) + ")";
   return remedy.set_next(next);
@@ -182,11 +181,10 @@ void require_known_names(const Molecule& before, const std::vector<GroupSource>&
   Uncharged uncharged;
   for (std::size_t r = 0; r < kinds.size(); ++r) {
     const std::string& name = before.residues[r].name;
-    const bool is_known =
-        kinds[r] == ResidueKind::kOther
-            ? ligand_of[r] >= 0 || caps.count(name) > 0 || sources[r] != GroupSource::kNone
-            : kinds[r] != ResidueKind::kNucleotide || has_nucleotides(force_field) ||
-                  (force_field == "parse" && name.front() != 'D' && name.front() != 'T');
+    const bool is_known = kinds[r] == ResidueKind::kOther
+                              ? ligand_of[r] >= 0 || caps.count(name) > 0 || sources[r] != GroupSource::kNone
+                              : kinds[r] != ResidueKind::kNucleotide || has_nucleotides(force_field) ||
+                                    (force_field == "parse" && name.front() != 'D' && name.front() != 'T');
     if (is_known || atoms[r].empty()) continue;
     std::vector<std::string> names;
     for (const std::size_t i : atoms[r]) {

@@ -17,7 +17,10 @@ struct UnchargedError : InputError {
   /// @param name of the molecule
   UnchargedError(const std::string& name, const Message& lack, const Message& advice, Residue first,
                  std::vector<Residue> all = {})
-      : InputError(name + ": " + lack + advice), text(lack), remedy(advice), residue(std::move(first)),
+      : InputError(name + ": " + lack + advice),
+        text(lack),
+        remedy(advice),
+        residue(std::move(first)),
         residues(std::move(all)) {}
 
   Message text;    ///< without the molecule's name and the remedy

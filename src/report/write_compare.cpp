@@ -86,9 +86,8 @@ void write_surface_file(std::ostream& out, const Molecule& source, const Compare
     if (!label.empty()) file.texts.emplace_back("potential", label);
   }
   const std::vector<std::uint8_t> everywhere(s.triangles.size(), 0);
-  file.cell_arrays = {{"corrupt", s.corrupt},
-                      {"no_counterpart", s.unmatched.empty() ? everywhere : s.unmatched},
-                      {"why", s.why}};
+  file.cell_arrays = {
+      {"corrupt", s.corrupt}, {"no_counterpart", s.unmatched.empty() ? everywhere : s.unmatched}, {"why", s.why}};
   file.texts.emplace_back("length_unit", "Angstrom");
   file.texts.emplace_back("written_by", "espdiff " + provenance.version);
   write_vtp(out, file);

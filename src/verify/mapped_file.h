@@ -60,8 +60,8 @@ void add_residue_lines(const MappedFile& file, const ResultRecord& record, const
 
 /// Where the result is trusted, by reasons found again.
 /// @param partner_of by source residue; empty where the atoms were not read
-void add_trust_lines(const MappedFile& file, const CsvTable& table, const std::map<std::int32_t, std::int32_t>& partner_of,
-                     Lines& lines);
+void add_trust_lines(const MappedFile& file, const CsvTable& table,
+                     const std::map<std::int32_t, std::int32_t>& partner_of, Lines& lines);
 
 /// Counts, and arrays that follow from others.
 void add_array_lines(const MappedFile& file, Lines& lines);

@@ -53,8 +53,8 @@ void add_areas(const MappedFile& file, Lines& lines) {
   }
 }
 
-constexpr const char* kReasons[kNumberOfReasons] = {"trusted",       "unmatched", "corrupt",     "unpaired", "slipped",
-                                                    "other_residue", "disagrees", "no_potential"};
+constexpr const char* kReasons[kNumberOfReasons] = {"trusted", "unmatched",     "corrupt",   "unpaired",
+                                                    "slipped", "other_residue", "disagrees", "no_potential"};
 
 /// The shares of both surfaces that are trusted, and those of the source that are not.
 void add_trusted_shares(const MappedFile& file, const ResultRecord& record, Lines& lines) {
@@ -299,7 +299,8 @@ void add_residue_lines(const MappedFile& file, const ResultRecord& record, const
     lines.add_deviation("OUT.residues.csv, " + name, deviation(table, at, expected), 1e-4);
   };
   check("area", sums.area);
-  for (std::size_t r = 0; r < n; ++r) sums.trusted[r] = sums.own_area[r] > 0 ? sums.trusted[r] / sums.own_area[r] : kNaN;
+  for (std::size_t r = 0; r < n; ++r)
+    sums.trusted[r] = sums.own_area[r] > 0 ? sums.trusted[r] / sums.own_area[r] : kNaN;
   check("trusted_area_fraction", sums.trusted);
   for (auto& [name, values] : sums.of) {
     const bool of_shape = name == "mean_displacement" || name == "mean_path_length";

@@ -139,7 +139,7 @@ void ComparisonScene::add_parts(std::size_t panel, std::size_t sheet) {
   for (std::size_t i = 0; i < offsets_.size(); ++i) {
     if (offset == scene_.offsets_A[i]) geometry = offsets_[i].second.get();
   }
-  for (const SurfacePart part : {SurfacePart::kTrusted, SurfacePart::kCorrupt, SurfacePart::kUnmatched}) {
+  for (const SurfacePart part : {SurfacePart::kTrusted, SurfacePart::kUntrusted, SurfacePart::kUnmatched}) {
     if (!geometry->has(part)) continue;
     auto mapper = vtkSmartPointer<SurfaceMapper>::New();
     mapper->SetInputData(geometry->part(part));
@@ -163,7 +163,7 @@ void ComparisonScene::update_looks() {
                            per_fragment() ? target_texture_ : no_texture_);
     // Unmatched parts exist on the source only.
     drawn.actor->SetVisibility(drawn.part != SurfacePart::kUnmatched || look.morph == 0);
-    if (look.fades || look.opacity.greatest < 1 || drawn.part == SurfacePart::kCorrupt)
+    if (look.fades || look.opacity.greatest < 1 || drawn.part == SurfacePart::kUntrusted)
       drawn.actor->ForceTranslucentOn();
     else
       drawn.actor->ForceTranslucentOff();

@@ -90,6 +90,7 @@ RunRecord read_run_record(const std::string& vtp_path) {
     if (json.contains("potential") && json.at("potential").is_object())
       record.potential = json.at("potential").at("label");
     record.trustworthy = json.at("certificate").at("trustworthy");
+    record.verdict = json.at("certificate").value("verdict", record.trustworthy ? "TRUSTWORTHY" : "NOT TRUSTWORTHY");
     json.at("certificate").at("reasons").get_to(record.reasons);
   } catch (const Json::exception& error) {
     throw no_record(record.path, detail_of(error));

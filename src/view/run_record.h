@@ -27,7 +27,8 @@ struct RunRecord {
   RigidTransform source_to_target;
   double temperature_K = 300;
   bool trustworthy = true;
-  std::vector<std::string> reasons;  ///< why it is not
+  std::string verdict = "trustworthy";  ///< in words
+  std::vector<std::string> reasons;     ///< why it is not
   std::string method;
 };
 

@@ -100,19 +100,20 @@ void add_keys(Legend& legend, const ComparisonScene& scene, const Paper& paper) 
   const bool shows_start =
       std::any_of(scene.panels().begin(), scene.panels().end(), [](const Panel& p) { return p.is_source(); });
   const bool no_value = scene.scale(sheets.front().array).has_missing();
-  const bool corrupt = scene.geometry().has(SurfacePart::kCorrupt);
+  const bool untrusted = scene.geometry().has(SurfacePart::kUntrusted);
   const bool unmatched = shows_start && scene.geometry().has(SurfacePart::kUnmatched);
   const auto needed = [&](bool drawn, const char* meaning) {
     return drawn ? legend.key_width(meaning) + paper.text_height : 0.0;
   };
-  const double all = needed(no_value, "no value") + needed(corrupt, "corrupt") + needed(unmatched, "no counterpart");
+  const double all =
+      needed(no_value, "no value") + needed(untrusted, "not trusted") + needed(unmatched, "no counterpart");
   const double y = paper.height * 0.02 + paper.text_height / 2;
   double x = std::min(paper.width * left, paper.width - all);
   const auto key = [&](double opacity, const std::string& meaning) {
     x += legend.key(x, y, kNoValueColour, opacity, meaning) + paper.text_height;
   };
   if (no_value) key(1, "no value");
-  if (corrupt) key(0.3, "corrupt");
+  if (untrusted) key(0.3, "not trusted");
   if (unmatched) legend.hatched_key(x, y, "no counterpart");
 }
 

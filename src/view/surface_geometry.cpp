@@ -165,7 +165,7 @@ SurfaceGeometry::SurfaceGeometry(const SurfaceFile& surface, const RunRecord& re
 
 SurfacePart SurfaceGeometry::part_of(std::size_t triangle) const {
   if (!surface_.is_matched(triangle)) return SurfacePart::kUnmatched;
-  return surface_.is_corrupt(triangle) ? SurfacePart::kCorrupt : SurfacePart::kTrusted;
+  return surface_.is_untrusted(triangle) ? SurfacePart::kUntrusted : SurfacePart::kTrusted;
 }
 
 bool SurfaceGeometry::has(SurfacePart part) const {

@@ -14,7 +14,7 @@
 namespace espdiff {
 
 /// The triangles that a mapper draws; the numbers are those of shaders/surface.frag.
-enum class SurfacePart { kTrusted, kCorrupt, kUnmatched };
+enum class SurfacePart { kTrusted, kUntrusted, kUnmatched };
 
 /// Names of the point arrays that the shaders need besides positions and normals.
 inline constexpr const char* kSurfaceAttributes[] = {"startMC",     "startNormalMC",   "sourcePlace",

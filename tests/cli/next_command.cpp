@@ -41,12 +41,13 @@ TEST_CASE("next: a result that exists is replaced by the command that the refusa
   const ScratchFolder folder;
   folder.write("a b.pqr", row_of_atoms(12));
   folder.write("c.pqr", row_of_atoms(12, 0.25));
-  const std::string quoted = "compare '" + folder.file("a b.pqr") + "' " + folder.file("c.pqr") + kCoarse + " -q -o " +
-                             folder.file("pair");
+  const std::string quoted =
+      "compare '" + folder.file("a b.pqr") + "' " + folder.file("c.pqr") + kCoarse + " -q -o " + folder.file("pair");
   REQUIRE(run_espdiff(quoted).status == 0);
   const Outcome refused = run_espdiff(quoted);
   CHECK(refused.status == 2);
-  CHECK(contains(refused.err, "pair exists; --overwrite replaces it, another --output keeps it\nnext: espdiff compare '"));
+  CHECK(contains(refused.err,
+                 "pair exists; --overwrite replaces it, another --output keeps it\nnext: espdiff compare '"));
   const Outcome again = run_espdiff(next_words(refused.err));
   CHECK_MESSAGE(again.status == 0, again.err);
 }
@@ -83,8 +84,9 @@ TEST_CASE("next: ligands of both files are named at once, and made by the comman
   if (!source || !has_pdb2pqr()) return;
   const ScratchFolder folder;
   std::string with_ligand = read_file(*target);
-  const std::string group = "HETATM 9990  C1  LIG A 901      60.000  60.000  60.000  1.00  0.00           C\n"
-                            "HETATM 9991  C2  LIG A 901      61.520  60.000  60.000  1.00  0.00           C\n";
+  const std::string group =
+      "HETATM 9990  C1  LIG A 901      60.000  60.000  60.000  1.00  0.00           C\n"
+      "HETATM 9991  C2  LIG A 901      61.520  60.000  60.000  1.00  0.00           C\n";
   with_ligand.insert(with_ligand.find("HETATM"), group);
   const std::string run = "compare " + *source + " " + folder.write("t.pdb", with_ligand) +
                           " --select //A --grid-spacing 2 --pb-spacing 1.5 --device cpu -q --exit-zero -o " +

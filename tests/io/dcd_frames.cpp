@@ -21,8 +21,7 @@ std::vector<DcdAxes> shifted_frames(int n) {
   for (int f = 0; f < n; ++f) {
     DcdAxes axes;
     for (int axis = 0; axis < 3; ++axis) {
-      for (int i = 0; i < 4; ++i)
-        axes[static_cast<std::size_t>(axis)].push_back(static_cast<float>(10 * axis + i + f));
+      for (int i = 0; i < 4; ++i) axes[static_cast<std::size_t>(axis)].push_back(static_cast<float>(10 * axis + i + f));
     }
     frames.push_back(axes);
   }

@@ -65,8 +65,8 @@ TEST_CASE("ion_parameters: names that say a state, elements in their common one,
 }
 
 TEST_CASE("charge_groups: an ion gets its charge, glycerol is left out, a ligand waits for its file") {
-  const Molecule molecule = molecule_of(hetatm(1, "ZN", "ZN", 1, 0, 0, 0, "ZN") + ethanol("GOL", 2, 9) +
-                                        ethanol("LIG", 3, 20));
+  const Molecule molecule =
+      molecule_of(hetatm(1, "ZN", "ZN", 1, 0, 0, 0, "ZN") + ethanol("GOL", 2, 9) + ethanol("LIG", 3, 20));
   const std::vector<std::int32_t> no_files(3, -1);
   CHECK(group_sources(molecule, no_files, {}) ==
         std::vector<GroupSource>{GroupSource::kIon, GroupSource::kAdditive, GroupSource::kNone});
@@ -110,7 +110,8 @@ TEST_CASE("charge_groups: Open Babel makes a ligand's hydrogens and charges; wit
     message = error.what();
   }
   unsetenv("ESPDIFF_OBABEL");
-  CHECK(contains(message, "LIG 1 of chain A: Open Babel, which makes its hydrogens and charges, is not there; install"));
+  CHECK(
+      contains(message, "LIG 1 of chain A: Open Babel, which makes its hydrogens and charges, is not there; install"));
   if (find_open_babel().empty()) {
     MESSAGE("SKIPPED: no Open Babel on PATH");
     return;

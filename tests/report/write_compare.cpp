@@ -75,7 +75,9 @@ CompareResult made_result() {
   s.displacement = {1, 1, 1, 1};
   s.path_length = {1.5, 1, 2, 1};
   s.residue = {0, 1, 2, -1};
+  s.target_residue = {0, 2, 2, -1};
   s.corrupt = {0, 0, 1, 0};
+  s.why = {0, 7, 2, 4};
   result.time_ms = {{"align", 1.5}, {"total", 20}};
   return result;
 }
@@ -120,7 +122,7 @@ TEST_CASE("OUT.json has every key of the contract, with its type") {
   }
   for (const char* key : {"potential_unit", "device", "version"}) CHECK_MESSAGE(json.at(key).is_string(), key);
   for (const char* key : {"area_A2", "certificate", "time_ms", "options"}) CHECK_MESSAGE(json.at(key).is_object(), key);
-  for (const char* key : {"source", "mapped", "valid"}) CHECK_MESSAGE(json.at("area_A2").at(key).is_number(), key);
+  for (const char* key : {"source", "mapped", "trusted"}) CHECK_MESSAGE(json.at("area_A2").at(key).is_number(), key);
   const Json& certificate = json.at("certificate");
   for (const char* key : {"corrupt_area_fraction", "flipped_area_fraction", "irregularity_A"}) {
     CHECK_MESSAGE(certificate.at(key).is_number(), key);
@@ -132,6 +134,10 @@ TEST_CASE("OUT.json has every key of the contract, with its type") {
   CHECK(certificate.at("no_counterpart_area_fraction").at("target").is_number());
   CHECK(certificate.at("converged").is_boolean());
   CHECK(certificate.at("trustworthy").is_boolean());
+  CHECK(certificate.at("verdict").is_string());
+  CHECK(certificate.at("untrusted_parts").is_array());
+  CHECK(certificate.at("trusted_area_fraction").at("source").is_number());
+  CHECK(certificate.at("not_trusted").size() == espdiff::kNumberOfWhys - 1);
   CHECK(certificate.at("reasons").is_array());
 }
 
@@ -142,7 +148,7 @@ TEST_CASE("OUT.json has the result's values") {
   CHECK(json["potential_unit"] == "kT/e");
   CHECK(json["mean_signed_difference"] == -0.5);
   CHECK(json["hodgkin_index"] == 0.75);
-  CHECK(json["area_A2"] == Json({{"source", 11}, {"target", 12}, {"mapped", 12}, {"valid", 10}}));
+  CHECK(json["area_A2"] == Json({{"source", 11}, {"target", 12}, {"mapped", 12}, {"trusted", 10}}));
   CHECK(json["mean_displacement_A"] == 1.25);
   CHECK(json["mean_path_length_A"] == 1.75);
   CHECK(json["metrics_all_triangles"]["mean_abs_difference"] == 1.6);
@@ -233,7 +239,7 @@ TEST_CASE("what has no value is null") {
     CHECK_MESSAGE(json.at(key).is_null(), key);
   }
   // Shapes are compared all the same: (6 * 1 + 4 * 1.5) / 10.
-  CHECK(json["area_A2"]["valid"] == 10);
+  CHECK(json["area_A2"]["trusted"] == 10);
   CHECK(json["mean_displacement_A"].get<double>() == doctest::Approx(1.2));
   CHECK(json["mean_path_length_A"].get<double>() == doctest::Approx(2.4));
 }
